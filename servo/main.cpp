@@ -24,8 +24,9 @@
 #include "servo/servo_handover.h"
 #include "servo/watchdog.h"
 
-// touchafm-servo: the process that holds the hand. Its main thread is the servo; a second thread watches the renderer,
-// a third, which is not real-time, builds what a visitor changes. The same program is its watchdog, a second process.
+// touchafm-servo: the process that holds the hand. Its main thread is the servo; a second thread watches the renderer;
+// a third, which is not real-time, prepares the changes that visitors make. The same program is also its own watchdog,
+// as a second process.
 namespace {
 
 using namespace std::string_view_literals;
@@ -34,7 +35,7 @@ using afm::core::ExitCode;
 struct Options {
   int segment = -1;
   int parent_socket = -1;
-  int watched_servo = -1;  // this process is the watchdog of the servo behind this socket
+  int watched_servo = -1;  // set: this process is the watchdog of the servo behind this socket
   afm::haptics::ServoSettings settings;
   int dead_man = 0;  // 0 or 1
   std::string_view haptics = "sim";
@@ -68,7 +69,7 @@ std::optional<Options> parse_options(int count, char** arguments) {
   return options;
 }
 
-// SIGINT and SIGTERM become readable events; every thread that is made from here on inherits the mask.
+// Turns SIGINT and SIGTERM into readable events; every thread created from here on inherits the mask.
 afm::core::FileDescriptor catch_signals() {
   sigset_t ending;
   ::sigemptyset(&ending);
@@ -81,7 +82,7 @@ afm::core::FileDescriptor catch_signals() {
 ExitCode watch(const Options& options) {
   const afm::core::FileDescriptor servo(options.watched_servo);
   auto segment = afm::scene::SharedSegment::attach(afm::core::FileDescriptor(options.segment));
-  if (!segment) return ExitCode::RunFailed;  // the servo cannot either, and says so
+  if (!segment) return ExitCode::RunFailed;  // the servo fails for the same reason, and reports it
   afm::servo::watch_servo(servo, *segment);
   return ExitCode::Done;
 }
@@ -140,7 +141,7 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  // a reader of stderr that died with the renderer must not end the servo
+  // a closed stderr, whose reader died with the renderer, must not end the servo
   ::signal(SIGPIPE, SIG_IGN);
   const auto options = parse_options(count, arguments);
   if (!options) {

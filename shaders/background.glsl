@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies behind everything, linear: a mid-dark gradient that belongs to directions of the room, so that it goes on from
-// tile to tile and around a corner. Projectors leak one eye into the other: nothing here is black or bright. `place` is 0..1
-// across an eye image, y down. Seen from between the eyes, it is the same in both: it lies in the wall's plane, and no eye
-// disagrees with the other.
+// Background behind everything, linear: a mid-dark gradient that depends on directions in the room, so that it
+// continues from tile to tile and around a corner. Projectors leak one eye into the other, so nothing here is black or
+// bright. `place` is 0..1 across an eye image, y down. Computed from between the eyes, the gradient is the same in
+// both: it lies in the wall's plane, without disparity.
 vec3 background_color(FrameBlock frame, vec2 place) {
   vec3 direction = normalize(frame.screen[0].xyz + place.x * frame.screen[1].xyz + place.y * frame.screen[2].xyz);
   vec3 top = vec3(0.020, 0.026, 0.040);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shape of an end-loaded, clamped beam: w(x)/w(L) = (3 xi^2 - xi^3)/2 with xi = x/L (Euler-Bernoulli; Gere and
-// Timoshenko, "Mechanics of Materials", table of cantilever deflections). Beyond the load the beam is straight, before the
-// clamp it does not move. Displacement along +z of the node; `bend` as in DrawBlock. The same as physics/beam_shape.h: a test
-// compiles this file as C++ and compares.
+// Shape of an end-loaded, clamped beam: w(x)/w(L) = (3 xi^2 - xi^3)/2 with xi = x/L (Euler-Bernoulli; Gere and
+// Timoshenko, "Mechanics of Materials", table of cantilever deflections). Beyond the load the beam is straight; before
+// the clamp it does not move. Displacement along +z of the node; `bend` as in DrawBlock. Same as physics/beam_shape.h:
+// a test compiles this file as C++ and compares.
 
 float beam_deflection(vec4 bend, float x) {
   float xi = clamp(x * bend.x, 0.0, 1.0);

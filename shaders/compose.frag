@@ -4,9 +4,10 @@
 #include "interface.glsl.h"
 #include "tone.glsl"
 
-// Both eyes' images as one picture, every stereo mode: scene/display/stereo_layout.h says which pixel shows what, and a test compares
-// the two for each. The eye images hold sRGB values in a UNORM format: bytes go through unchanged where one pixel is one
-// pixel. What is scaled is so in linear light, through views of the same images that decode them, and so is what is mixed.
+// Both eyes' images as one picture, in every stereo mode. scene/display/stereo_layout.h defines the source of each
+// pixel, and a test compares the two for each mode. The eye images contain sRGB values in a UNORM format: unscaled
+// pixels pass through unchanged. Scaling and mixing happen in linear light, through views of the same images that
+// decode them.
 layout(constant_id = 0) const uint kVariant = 0;
 
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2DArray eyes;
@@ -17,21 +18,21 @@ layout(set = 1, binding = AFM_BINDING_BLEND) uniform Blending { BlendBlock blend
 layout(push_constant) uniform Compose { ComposeBlock compose; };
 layout(location = 0) out vec4 out_color;
 
-// the cases of scene::EyeArrangement, in its order; what shows one eye from corner to corner needs none
+// cases of scene::EyeArrangement, in its order, except those that show one eye from corner to corner
 const int kRightEye = 1, kSideBySide = 3, kTopBottom = 4, kRows = 5, kColumns = 6, kCheckerboard = 7, kFramePacked = 9;
 
 const int kLeft = 0;
 const int kRight = 1;
 const int kBlank = 2;
 
-// A pixel of a region that one eye's image fills.
+// Pixel of a region covered by one eye's image.
 struct Source {
   int eye;
   ivec2 pixel;
   ivec2 region;
 };
 
-// The first of two regions beside each other along one axis, and the second; what is left over stays blank.
+// First and second of two regions side by side along one axis; leftover pixels stay blank.
 Source shared_by_two(ivec2 pixel, ivec2 picture, int axis) {
   ivec2 region = picture;
   region[axis] = max(1, picture[axis] / 2);
@@ -40,7 +41,7 @@ Source shared_by_two(ivec2 pixel, ivec2 picture, int axis) {
   return Source(min(index, kBlank), pixel, region);
 }
 
-// Whole lines; a picture of another size shows the nearest of them.
+// Integer lines; a picture of another size shows the nearest of them.
 Source frame_packed(ivec2 pixel, ivec2 picture) {
   ivec2 eye = ivec2(textureSize(eyes, 0).x, compose.screen.z);
   int right_begins = eye.y + compose.screen.w;
@@ -76,20 +77,20 @@ Source source_of_pixel(ivec2 pixel, ivec2 picture) {
 
 int layer_of(int eye) { return eye == kRight && compose.drawn.z == 0.0 ? 1 : 0; }
 
-// Whether the pixel shows its own place in the picture: neither mesh nor keystone moves it.
+// True if the pixel shows its own position in the picture: neither mesh nor keystone moves it.
 bool unmoved() { return (kVariant & AFM_FEATURE_WARPED) == 0u && compose.mode.z == 0; }
 
-// Whether one pixel of the picture is one of the eye's image.
+// True if a pixel of the picture equals one of the eye's image.
 bool unscaled(Source source) {
   return unmoved() && source.region == textureSize(eyes, 0).xy && compose.drawn.xy == vec2(1.0);
 }
 
-// What an output's pixel shows: a place in the eyes' pictures, from 0,0 to 1,1, or nothing.
+// Content of an output's pixel: a position in the eyes' pictures, from 0,0 to 1,1, or nothing.
 struct Place {
   vec2 uv;
   bool shown;
-  float intensity;  // of the encoded colour
-  float line_px;    // to the nearest line of the warp mesh
+  float intensity;  // factor for the encoded colour
+  float line_px;    // distance to the nearest line of the warp mesh
 };
 
 Place place_of(Source source) {
@@ -107,37 +108,37 @@ Place place_of(Source source) {
   return place;
 }
 
-// The pixel itself, encoded.
+// Unfiltered pixel, encoded.
 vec3 eye_texel(int eye, ivec2 pixel) { return texelFetch(eyes, ivec3(pixel, layer_of(eye)), 0).rgb; }
 
-// Exactly; the device's own decoding may be off by a step of 8 bits.
+// Exact; the device's own decoding may be off by an 8-bit step.
 vec3 linear_from_srgb(vec3 c) {
   return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
 }
 
-// The pixel whose middle a warped place meets, as far as a device's filter could tell; negative if there is none.
+// Pixel whose centre a warped position hits, within the resolution of a device's filter; negative if there is none.
 ivec2 met_by_warp(Place place) {
-  const float kFilterSteps = 512.0;  // half a step of a filter that has 8 bits
+  const float kFilterSteps = 512.0;  // half a step of an 8-bit filter
   vec2 at = place.uv * compose.drawn.xy * vec2(textureSize(eyes, 0).xy) - 0.5;
   vec2 nearest = round(at);
   bool met = (kVariant & AFM_FEATURE_WARPED) != 0u && all(lessThan(abs(at - nearest), vec2(1.0 / kFilterSteps)));
   return met ? ivec2(nearest) : ivec2(-1);
 }
 
-// Linear light: bilinear within what is drawn of the image.
+// Linear light: bilinear within the drawn part of the image.
 vec3 filtered_light(int eye, Place place) {
   vec2 uv = place.uv * compose.drawn.xy;
   uv = min(uv, compose.drawn.xy - (0.5 + compose.drawn.w) / vec2(textureSize(eyes, 0).xy));
   return textureLod(linear_eyes, vec3(uv, layer_of(eye)), 0.0).rgb;
 }
 
-// Linear light: of the pixel itself where nothing is scaled.
+// Linear light; unfiltered if nothing is scaled.
 vec3 eye_light(int eye, Source source, Place place) {
   ivec2 met = unscaled(source) ? source.pixel : met_by_warp(place);
   return met.x >= 0 ? linear_from_srgb(eye_texel(eye, met)) : filtered_light(eye, place);
 }
 
-// As it is shown, encoded.
+// Encoded colour for display.
 vec3 eye_color(int eye, Source source, Place place) {
   ivec2 met = unscaled(source) ? source.pixel : met_by_warp(place);
   return met.x >= 0 ? eye_texel(eye, met) : srgb_from_linear(filtered_light(eye, place));
@@ -155,7 +156,7 @@ float risen(float distance, float begin, float width) {
 
 vec3 light_of(vec3 encoded) { return blend.light.y > 0.0 ? pow(encoded, vec3(blend.light.y)) : linear_from_srgb(encoded); }
 
-// Exactly: the outputs' roundings add up.
+// Exact, because the outputs' rounding errors add up.
 vec3 encoded_from(vec3 light) {
   if (blend.light.y > 0.0) {
     return pow(light, vec3(1.0 / blend.light.y));
@@ -163,7 +164,7 @@ vec3 encoded_from(vec3 light) {
   return mix(light * 12.92, 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, greaterThan(light, vec3(0.0031308)));
 }
 
-// This output's share of the colour at a place, and of the light that makes black there as bright as it is where most
+// This output's share of the colour at a position, plus the light that raises black there to its level where most
 // projectors overlap.
 vec3 blended(vec3 color, vec2 uv) {
   float own = 1.0, all_of_them = 0.0, black = 0.0;
@@ -188,14 +189,14 @@ vec3 blended(vec3 color, vec2 uv) {
   return encoded_from(share * (lift + blend.light.w * light_of(color)));
 }
 
-// The lines of the warp mesh in the picture for setting up.
+// Adds the lines of the warp mesh to the picture, for setting up.
 vec3 marked(vec3 color, Place place) {
   const float kHalfWidthPx = 0.75;
   const vec3 kLine = vec3(1.0, 0.35, 0.75);
   return compose.picture_from_output[0].w > 0.0 && place.line_px <= kHalfWidthPx ? kLine : color;
 }
 
-// Beside the picture nothing is lit.
+// Black outside the picture.
 vec3 corrected(vec3 color, Place place) {
   if (!place.shown) {
     return vec3(0.0);

@@ -3,20 +3,20 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl.h"
 
-// Least and greatest depth of both eyes' images. Depths are positive floats, whose order is that of their bits.
+// Smallest and largest depth of both eyes' images. Depths are positive floats, which sort like their bits.
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2D left_depth;
 layout(set = 0, binding = AFM_BINDING_RIGHT_EYE) uniform sampler2D right_depth;
 layout(set = 0, binding = AFM_BINDING_DEPTH_RANGE, std430) buffer Range { uint range[2]; };
-layout(push_constant) uniform Drawn { ivec4 drawn; };  // xy: pixels that are drawn of each image
+layout(push_constant) uniform Drawn { ivec4 drawn; };  // xy: drawn pixels of each image
 
-const int kTile = 8;  // pixels each way that one invocation reads
+const int kTile = 8;  // pixels in each direction per invocation
 
 shared uint least;
 shared uint greatest;
 
 void look(float depth, inout uint low, inout uint high) {
-  if (depth > 0.0) {  // 0: nothing is drawn there
+  if (depth > 0.0) {  // 0: nothing drawn
     low = min(low, floatBitsToUint(depth));
     high = max(high, floatBitsToUint(depth));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared by the shaders and render/. Blocks hold vectors of four and 4x4 matrices only, so that std140, std430 and C++
-// lay them out alike; render/src/device/shader_interface.h asserts sizes and offsets. Lengths are metres in the room.
+// Shared by the shaders and render/. Blocks contain only vectors of four and 4x4 matrices, so that std140, std430 and
+// C++ have the same layout; render/src/device/shader_interface.h asserts sizes and offsets. Lengths are metres in the
+// room.
 #ifndef AFM_INTERFACE_GLSL_H
 #define AFM_INTERFACE_GLSL_H
 
@@ -9,7 +10,7 @@
 #define AFM_BINDING_DRAW 1
 #define AFM_BINDING_SHADOW 2
 
-// before everything; depth is reversed
+// in front of everything; depth is reversed
 #define AFM_FRONT_DEPTH 0.9999
 
 // set 1 of materials with textures or extensions
@@ -18,8 +19,8 @@
 
 #define AFM_MOST_LIGHTS 16
 
-// What a pipeline of such materials does. The bits 1 << slot: it samples these textures. From AFM_FIRST_PBR_FEATURE on:
-// the features of scene::kPbrFields, in their order.
+// Features of a pipeline for such materials. The bits 1 << slot: samples these textures. From AFM_FIRST_PBR_FEATURE:
+// the features of scene::kPbrFields, in order.
 #define AFM_FIRST_PBR_FEATURE 18
 #define AFM_MOST_PBR_FEATURES 8
 #define AFM_FEATURE_TANGENTS 0x04000000u  // the vertices have tangents
@@ -28,31 +29,31 @@
 #define AFM_FEATURE_BLEND 0x20000000u   // alphaMode BLEND
 #define AFM_FEATURE_LIGHTS 0x40000000u  // the scene has lights of its own
 
-// Of plain materials too: the shadow on a back is looked up a step off the back, not off the front.
+// Plain materials too: looks up the shadow on a back a step off the back instead of the front.
 #define AFM_FEATURE_DOUBLE_SIDED 0x80000000u
 
-// What a pipeline of plain materials does: dissolve what is far; with AFM_FEATURE_UNLIT, leave the light out. A CPU
-// device computes what a branch leaves out, too.
+// Features of a pipeline for plain materials: fog and, with AFM_FEATURE_UNLIT, no lighting. A CPU device executes
+// skipped branches too, so they are separate pipelines.
 #define AFM_FEATURE_FOG 0x1u
 
-// Half the soft edge of what a surface of that roughness reflects, radians.
+// Half the width of the soft edge in the reflection of a surface of that roughness, radians.
 #define AFM_LOBE_BORDER(roughness) (0.04 + 0.9 * (roughness) * (roughness) + 0.25 * (roughness))
 
 // texels each way
 #define AFM_SHADOW_MAP_SIZE 2048
 
-// set 1 of the panels, set 0 of the canvas and of the compose pass: what they sample
+// set 1 of the panels, set 0 of the canvas and of the compose pass: textures to sample
 #define AFM_BINDING_TEXTURE 0
 #define AFM_BINDING_RIGHT_EYE 1
 #define AFM_BINDING_ANAGLYPH 2
 #define AFM_BINDING_LINEAR 3
 #define AFM_BINDING_DEPTH_RANGE 2
 
-// set 1 of the compose pass: what corrects an output's projector
+// set 1 of the compose pass: corrections for an output's projector
 #define AFM_BINDING_WARP 0
 #define AFM_BINDING_BLEND 1
 
-// one per frame; what has two elements belongs to the views
+// one per frame; arrays of two elements are indexed by view
 struct FrameBlock {
   mat4 clip_from_room[2];
   vec4 eye_position[2];   // xyz; w: 0 left, 1 right
@@ -61,21 +62,21 @@ struct FrameBlock {
   vec4 light_side;        // xyz: unit, horizontal, across the light's direction
   vec4 light_radiance;    // rgb, linear; a: metres that one texel of the shadow map covers
   vec4 target_size;       // width, height of an eye image in pixels, and their reciprocals
-  vec4 contact;           // xyz: where the tip meets the sample; w: 1 / radius of the shade there; far away without one
+  vec4 contact;           // xyz: contact of tip and sample; w: 1 / radius of the shade there; far away without one
   vec4 contact_ring;      // rgb: linear radiance, 0 without a ring; a: its radius in radii of the shade
   vec4 fog;               // x: begin, y: 1 / (end - begin), 0 without a range; z: veil; w: 1 with a range
-  vec4 screen[3];       // xyz: the direction in which the upper left corner of the eye images is seen from between the
-                        // eyes, and what takes it to the upper right and to the lower left one
-  vec4 fog_axis;        // what lies behind the fog's origin by its units is dot(axis, (place, 1))
-  vec4 punctual_count;  // x: how many of the lights below there are
+  vec4 screen[3];         // xyz: direction from between the eyes to the upper left corner of the eye images, and the
+                          // vectors from there to the upper right and to the lower left corner
+  vec4 fog_axis;          // distance beyond the fog's origin, in its units: dot(axis, (place, 1))
+  vec4 punctual_count;    // x: number of the lights below
   vec4 punctual_position[AFM_MOST_LIGHTS];   // xyz; w: 1 / range, 0 without end
   vec4 punctual_direction[AFM_MOST_LIGHTS];  // xyz: unit, along the rays; w: 0 directional, 1 all others
   vec4 punctual_intensity[AFM_MOST_LIGHTS];  // rgb
   vec4 punctual_cone[AFM_MOST_LIGHTS];       // x scale and y offset of the cosine to the direction; 0, 1: all around
 };
 
-// One per primitive that a node shows: a uniform block with a dynamic offset. lavapipe reads a storage buffer that is
-// indexed in the shader lane by lane, which made a frame three times as long.
+// One per primitive of a node: a uniform block with a dynamic offset. lavapipe reads a storage buffer indexed in the
+// shader lane by lane, which tripled the frame time.
 struct DrawBlock {
   mat4 room_from_node;
   vec4 normal_column[3];  // xyz: columns of the normal matrix, scaled so that the longest has length 1
@@ -87,7 +88,7 @@ struct DrawBlock {
 
 // push constants of a panel: the rectangle in the room
 struct PanelBlock {
-  vec4 lower_left;  // w: 0 or 1: in the left or the right eye's picture alone, -1: in both
+  vec4 lower_left;  // w: 0 or 1: only in the left or the right eye's picture, -1: in both
   vec4 right;
   vec4 up;
 };
@@ -97,20 +98,20 @@ struct CanvasBlock {
   vec4 scale;  // xy
 };
 
-// push constants of the compose pass; sizes and places in pixels
+// push constants of the compose pass; sizes and positions in pixels
 struct ComposeBlock {
-  ivec4 mode;  // x: scene::EyeArrangement, y: 1 swaps the eyes, z: 1 for a keystone, w: which of the anaglyphs
-  vec4 drawn;  // xy: share of the eye images, from their upper left corner, that is drawn; z: 1: the right eye sees the
-               // left one's; w: so many pixels before the last one's middle nothing more is blended
-  ivec4 place;   // xy: where the picture begins in the target, zw: its size
-  ivec4 screen;  // xy: where the target's first pixel lies on its screen; z: lines of a packed eye, w: lines between
+  ivec4 mode;    // x: scene::EyeArrangement, y: 1 swaps the eyes, z: 1 for a keystone, w: index of the anaglyph
+  vec4 drawn;    // xy: drawn share of the eye images, from their upper left corner; z: 1: the right eye sees the left
+                 // image; w: pixels between the last pixel's centre and the end of blending
+  ivec4 place;   // xy: first pixel of the picture in the target, zw: its size
+  ivec4 screen;  // xy: screen position of the target's first pixel; z: lines of a packed eye, w: lines between
   vec4 picture_from_output[3];  // xyz: columns of the keystone; w of the first: 1 shows the lines of the warp mesh
 };
 
-// What a pipeline of the compose pass does beside copying pixels; modes are not: they change while it runs.
-#define AFM_FEATURE_SCALED 0x1u  // pictures of another size than the eyes', and keystones
+// Features of a pipeline of the compose pass. Modes are not among them, because they change at run time.
+#define AFM_FEATURE_SCALED 0x1u  // pictures with a size other than the eyes', and keystones
 #define AFM_FEATURE_MIXED 0x2u   // anaglyphs
-#define AFM_FEATURE_WARPED 0x4u  // places come from the warp map, not from the pixel
+#define AFM_FEATURE_WARPED 0x4u  // positions come from the warp map, not from the pixel
 #define AFM_FEATURE_BLENDED 0x8u
 #define AFM_COMPOSE_VARIANTS 16
 
@@ -118,9 +119,9 @@ struct ComposeBlock {
 #define AFM_MOST_BLENDED 9
 struct BlendBlock {
   vec4 box[AFM_MOST_BLENDED];    // xy: low, zw: high corner
-  vec4 begin[AFM_MOST_BLENDED];  // of the ramps, inwards from the edges
+  vec4 begin[AFM_MOST_BLENDED];  // ramp starts, inwards from the edges
   vec4 width[AFM_MOST_BLENDED];
-  vec4 black[AFM_MOST_BLENDED];  // x: light of the projector's black
+  vec4 black[AFM_MOST_BLENDED];  // x: luminance of the projector's black
   vec4 light;  // x: number of boxes, the output's own first; y: gamma, 0: sRGB; z: brightest black; w: picture's share
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface and the studio that it stands in. The studio is analytic (a gradient sky and three softboxes), because texture
-// filtering, not arithmetic, is what costs time on a CPU device.
+// Surfaces and the studio around them. The studio is analytic (a gradient sky and three softboxes), because on a CPU
+// device texture filtering, not arithmetic, costs time.
 
 const float kPi = 3.14159265;
 
@@ -12,10 +12,10 @@ struct Surface {
   float roughness;  // perceptual, as in glTF
 };
 
-// What roughness makes of the softboxes: a wider lobe sees a wider, dimmer rectangle.
+// Effect of roughness on the softboxes: a wider lobe sees a wider, dimmer rectangle.
 struct Lobe {
   float border;  // half the width of a rectangle's soft edge
-  vec3 spread;   // how bright the key's, the rim's and the fill's stay
+  vec3 spread;   // brightness of the key's, the rim's and the fill's rectangle
 };
 
 const vec2 kKeyHalfSize = vec2(0.75, 0.42);
@@ -33,7 +33,7 @@ Lobe lobe_of(float roughness) {
                            spread_of(kFillHalfSize, border)));
 }
 
-// A rectangle of light far away, upright about its axis: brightness of it in `direction`.
+// Distant rectangle of light, upright about its axis: its brightness in `direction`.
 float softbox(vec3 direction, vec3 axis, vec3 side, vec2 half_size, float border) {
   vec3 top = cross(axis, side);
   float facing = dot(direction, axis);
@@ -51,15 +51,15 @@ const vec3 kKeyTint = vec3(1.00, 0.94, 0.85);
 const vec3 kRimTint = vec3(0.88, 0.94, 1.00);
 const vec3 kFillTint = vec3(1.00, 0.97, 0.93);
 
-// The key light and its softbox: where it is, and how much of it is seen from the surface. A shadow takes most of the
-// softbox away too, which gives depth to what lies in it.
+// Key light and its softbox: position, and the share visible from the surface. A shadow also blocks most of the
+// softbox, which gives depth to shadowed areas.
 struct Key {
   vec3 axis;
   vec3 side;  // horizontal, unit, across the axis
   float visibility;
 };
 
-// Radiance that arrives from `direction`, averaged over the lobe of a surface of that roughness.
+// Radiance from `direction`, averaged over the lobe of a surface of that roughness.
 vec3 studio_radiance(vec3 direction, Key key, float roughness, Lobe lobe) {
   float blur = 0.10 + 0.8 * roughness;
   vec3 sky = mix(vec3(0.78, 0.72, 0.66), vec3(0.20, 0.22, 0.26), smoothstep(-0.1, 0.75, direction.y));
@@ -117,7 +117,7 @@ vec3 studio_reflection(Surface s, Key key, Lobe lobe) {
          specular_albedo(s.specular, s.roughness, n_dot_v) * studio_radiance(reflected, key, s.roughness, lobe);
 }
 
-// A chosen thing must be seen from the last row: warm body, bright rim.
+// Makes a selected object visible from the last row: warm body, bright rim.
 vec3 highlight_glow(Surface s, float amount) {
   float rim = 1.0 - max(dot(s.normal, s.to_eye), 0.0);
   return amount * (vec3(1.0, 0.55, 0.12) * (0.16 + 1.6 * rim * rim));

@@ -26,8 +26,8 @@ const int kTextureSlots = 12;
 // the features of scene::kPbrFields, in their order
 const int kClearcoatFeature = 0, kIridescenceFeature = 1;
 
-// What scene::PbrMaterial says beyond the DrawBlock: the fields of scene::kPbrFields that are not Plain, in their order,
-// and two rows a slot: xyz maps (u, v, 1); w of the first row: set 0 or 1.
+// Properties of scene::PbrMaterial not in DrawBlock: the fields of scene::kPbrFields that are not Plain, in order, and
+// two rows per slot: xyz maps (u, v, 1); w of the first row: set 0 or 1.
 layout(set = 1, binding = AFM_BINDING_MATERIAL, std140) uniform Material {
   vec4 alpha_cutoff;
   vec4 normal_scale;
@@ -40,7 +40,7 @@ layout(set = 1, binding = AFM_BINDING_MATERIAL, std140) uniform Material {
   vec4 clearcoat_normal_scale;
   vec4 iridescence;
   vec4 iridescence_ior;
-  vec4 iridescence_thickness_nm;  // at a texture's 0 and 1
+  vec4 iridescence_thickness_nm;  // at texture values 0 and 1
   vec4 uv_rows[2 * kTextureSlots];
 } material;
 layout(set = 1, binding = AFM_BINDING_TEXTURES) uniform sampler2D textures[kTextureSlots];
@@ -62,7 +62,7 @@ vec3 shadow_place;
 bool enabled(uint bit) { return (kVariant & bit) != 0u; }
 bool has(int feature) { return enabled(1u << (AFM_FIRST_PBR_FEATURE + feature)); }
 
-// Reflectance at normal incidence; KHR_materials_ior lets 0 stand for a mirror.
+// Reflectance at normal incidence; in KHR_materials_ior, 0 means a mirror.
 float reflectance(float ior) {
   float ratio = (ior - 1.0) / (ior + 1.0);
   return ratio * ratio;
@@ -74,11 +74,11 @@ vec2 place_in(int slot) {
   return vec2(dot(row.xyz, uv), dot(material.uv_rows[2 * slot + 1].xyz, uv));
 }
 
-// White, where the material has no such texture. Every access is constant, so that the compiler leaves the others out.
+// White if the material has no such texture. Every index is constant, so that the compiler removes the others.
 #define AFM_TEXEL(slot) (enabled(1u << slot) ? texture(textures[slot], place_in(slot)) : vec4(1.0))
 
-// The normal that a texture gives, in the frame of the vertices' tangents, or else of the texture's own coordinates across
-// the pixel: dP/du, and its perpendicular on the side where v decreases.
+// Normal from a texture, in the frame of the vertices' tangents or, without them, of the texture's own coordinates
+// across the pixel: dP/du, and its perpendicular on the side of decreasing v.
 vec3 mapped_normal(vec3 normal, vec3 texel, float scale, vec2 uv) {
   vec3 tangent = room_tangent.xyz;
   float side = room_tangent.w;
@@ -118,7 +118,7 @@ vec3 punctual_light(int i, out vec3 to_light) {
   return frame.punctual_intensity[i].rgb * strength;
 }
 
-// All light that a surface sends to the eye.
+// Total light from a surface to the eye.
 vec3 lit(Surface s, Key key, float occlusion) {
   vec3 radiance = occlusion * studio_reflection(s, key, lobe_of(s.roughness)) +
                   key_reflection(s, key.axis) * frame.light_radiance.rgb * key.visibility;
@@ -132,7 +132,8 @@ vec3 lit(Surface s, Key key, float occlusion) {
   return radiance;
 }
 
-// Premultiplied. What a mask leaves out goes last: its neighbours' textures are filtered by its place too.
+// Writes a premultiplied colour. Discards masked pixels last, because their derivatives are used to filter the
+// neighbours' textures.
 void put(vec3 shown, float coverage) {
   if (enabled(AFM_FEATURE_MASK) && coverage < material.alpha_cutoff.x) {
     discard;

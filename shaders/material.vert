@@ -13,7 +13,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 color;
 layout(location = 3) in vec4 tangent;      // w: the bitangent's sign
-layout(location = 4) in vec4 coordinates;  // of both sets
+layout(location = 4) in vec4 coordinates;  // both sets
 
 layout(location = 0) out vec3 room_position;
 layout(location = 1) centroid out vec3 room_normal;
@@ -28,7 +28,7 @@ layout(location = 5) out vec4 texture_coordinates;
 void main() {
   room_position = (draw.room_from_node * vec4(bent_position(position), 1.0)).xyz;
   room_normal = normal_in_room(position, normal);
-  // a node that mirrors turns the cross product of normal and tangent about, but not the bitangent
+  // a mirrored node reverses the cross product of normal and tangent, but not the bitangent
   mat3 linear = mat3(draw.room_from_node);
   room_tangent = vec4(linear * tangent.xyz, determinant(linear) < 0.0 ? -tangent.w : tangent.w);
   vertex_color = color * draw.base_color;

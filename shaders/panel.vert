@@ -15,7 +15,7 @@ void main() {
   texture_place = vec2(corner.x, 1.0 - corner.y);
   vec3 place = panel.lower_left.xyz + corner.x * panel.right.xyz + corner.y * panel.up.xyz;
   gl_Position = view_clip_from_room(frame) * vec4(place, 1.0);
-  // what is read stays in sight where things larger than the room stand before it
+  // text stays visible in front of objects larger than the room
   if (frame.fog.w > 0.0) gl_Position.z = AFM_FRONT_DEPTH * gl_Position.w;
   if (panel.lower_left.w >= 0.0 && panel.lower_left.w != view_eye(frame)) {
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);  // no area

@@ -9,8 +9,8 @@
 #include "tone.glsl"
 #include "view.glsl"
 
-// Opaque surfaces whose triangles are about as small as pixels are shaded at their vertices: a device shades at least a few
-// pixels of every triangle, so that each pixel would be shaded several times.
+// Shades opaque surfaces at their vertices if their triangles are about as small as pixels. A device shades at least a
+// few pixels of every triangle, so each pixel would otherwise be shaded several times.
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the vertex shaders of the room do alike. Needs the blocks `frame` and `draw`.
+// Code shared by the vertex shaders of the room. Needs the blocks `frame` and `draw`.
 
 vec3 bent_position(vec3 position) { return position + vec3(0.0, 0.0, beam_deflection(draw.bend, position.x)); }
 

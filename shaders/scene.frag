@@ -43,7 +43,7 @@ void main() {
     shown = shaded(room_position, s, Lobe(lobe.x, lobe.yzw), key_light_visibility());
   }
 
-  // what has dissolved is the background
+  // fully fogged pixels show the background
   if ((kVariant & AFM_FEATURE_FOG) != 0u) {
     shown = mix(shown, background_color(frame, gl_FragCoord.xy * frame.target_size.zw), fog(frame, room_position));
   }

@@ -15,7 +15,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 color;
 
 layout(location = 0) out vec3 room_position;
-layout(location = 1) centroid out vec3 room_normal;  // a thin triangle seldom covers the pixel's middle
+layout(location = 1) centroid out vec3 room_normal;  // a thin triangle rarely covers the pixel's centre
 layout(location = 2) out vec4 vertex_color;
 layout(location = 3) out vec3 shadow_place;
 layout(location = 4) flat out vec4 lobe;  // border, spread
@@ -31,6 +31,6 @@ void main() {
   Lobe its = lobe_of(draw.surface.y);
   lobe = vec4(its.border, its.spread);
   gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
-  // the ruler is not lit, and stays in sight
+  // the ruler is unlit, and stays visible
   if (frame.fog.w * draw.surface.z > 0.0) gl_Position.z = AFM_FRONT_DEPTH * gl_Position.w;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a place of a plain surface looks like, display-linear: by fragment, or by vertex where triangles are about as small as pixels.
-// Needs the blocks `frame` and `draw`, contact.glsl and lighting.glsl. `normal` is a unit vector towards the viewer.
+// Colour of a point on a plain surface, display-linear: per fragment, or per vertex where triangles are about as small
+// as pixels. Needs the blocks `frame` and `draw`, contact.glsl and lighting.glsl. `normal` is a unit vector towards the
+// viewer.
 
 Surface surface_at(vec3 place, vec3 normal, vec3 color) {
   float metallic = draw.surface.x;
@@ -10,7 +11,7 @@ Surface surface_at(vec3 place, vec3 normal, vec3 color) {
 
 vec3 own_light(Surface s) { return draw.emissive.rgb + highlight_glow(s, draw.emissive.a); }
 
-// Of the studio and of the key light, so much of which arrives.
+// Radiance from the studio and the visible share of the key light.
 vec3 radiance(Surface s, Lobe lobe, float visibility) {
   Key key = Key(frame.light_direction.xyz, frame.light_side.xyz, visibility);
   return studio_reflection(s, key, lobe) + key_reflection(s, key.axis) * frame.light_radiance.rgb * key.visibility;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a place of the room lies in the shadow map. Needs the block `frame`.
+// Position of a point of the room in the shadow map. Needs the block `frame`.
 
-// The light is far away, so that this is linear across a triangle. A step off the surface by about a texel of the map, more
-// where light grazes, keeps it from shadowing itself.
+// Linear across a triangle, because the light is far away. A step off the surface by about a texel of the map, more at
+// grazing light, keeps it from shadowing itself.
 vec3 place_in_shadow_map(vec3 place, vec3 normal) {
   float grazing = 1.0 - max(dot(normal, frame.light_direction.xyz), 0.0);
   vec3 from = place + normal * frame.light_radiance.w * (0.5 + 1.5 * grazing);

@@ -9,8 +9,9 @@
 #include "tone.glsl"
 #include "view.glsl"
 
-// Rough surfaces that turn little from vertex to vertex, such as the floor: the light on them changes slowly, so that it is worked out
-// at the vertices, once with the key light and once without. The shadows' edges and the shade at the contact are sharp: smooth.frag.
+// Computes the light on rough surfaces with small turns from vertex to vertex, such as the floor, at the vertices: it
+// varies slowly there. Computed once with the key light and once without. The edges of shadows and the shade at the
+// contact are sharp: smooth.frag.
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 
@@ -22,7 +23,7 @@ layout(location = 0) out vec3 room_position;
 layout(location = 1) out vec3 shadow_place;
 layout(location = 2) out vec3 radiance_in_shadow;
 layout(location = 3) out vec3 radiance_in_light;
-layout(location = 4) out vec4 own;  // light of its own, and alpha
+layout(location = 4) out vec4 own;  // emitted light, and alpha
 
 #include "placing.glsl"
 #include "shadow_place.glsl"

@@ -5,7 +5,7 @@
 
 float film_squared(float x) { return x * x; }
 
-// The eye's response to an interference of this path difference, in linear sRGB.
+// The eye's response to interference with this path difference, in linear sRGB.
 vec3 film_sensitivity(float path_m, vec3 shift) {
   float phase = 2.0 * 3.14159265 * path_m;
   const vec3 value = vec3(5.4856e-13, 4.4201e-13, 5.2481e-13);

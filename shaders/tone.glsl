@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Khronos PBR Neutral tone mapping: base colours up to 0.76 stay as they are, so that gold looks like its samples; what
-// is brighter rolls off to white (Khronos Group, "PBR Neutral Tone Mapper", 2024). Linear in, display-linear 0..1 out.
+// Khronos PBR Neutral tone mapping: base colours up to 0.76 are unchanged, so that gold looks like its samples;
+// brighter ones roll off to white (Khronos Group, "PBR Neutral Tone Mapper", 2024). Linear in, display-linear 0..1 out.
 vec3 tone_map(vec3 color) {
   const float compression_start = 0.76;
   const float desaturation = 0.15;
@@ -17,9 +17,10 @@ vec3 tone_map(vec3 color) {
   return mix(color, vec3(new_peak), whiteness);
 }
 
-// The sRGB curve (IEC 61966-2-1). The eye images hold encoded values in a UNORM format, so that the samples of a pixel and
-// blended primitives mix as the viewer sees them, and a CPU device encodes once a pixel and not once a sample.
-// The power 1/2.4 is a least-squares fit in square roots, which are cheaper, within 0.2 of an 8-bit step for 0..1.
+// The sRGB curve (IEC 61966-2-1). The eye images contain encoded values in a UNORM format, so that a pixel's samples
+// and blended primitives mix as the viewer sees them, and a CPU device encodes once per pixel instead of once per
+// sample. The power 1/2.4 is a least-squares fit in square roots, which are cheaper, within 0.2 of an 8-bit step for
+// 0..1.
 vec3 srgb_from_linear(vec3 c) {
   vec3 root = sqrt(max(c, 0.0));
   vec3 curve = -0.0770821 - 0.0555908 * c + 0.8330840 * root + 0.2989871 * sqrt(root);

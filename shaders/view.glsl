@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What belongs to the view that is being drawn. Chosen instead of indexed: lavapipe reads an indexed uniform lane by lane.
-// With AFM_ONE_VIEW the code has one view and asks nothing of the device that multiview does.
+// Values for the current view. Selected instead of indexed: lavapipe reads an indexed uniform lane by lane. With
+// AFM_ONE_VIEW the code has one view, and does not require multiview of the device.
 #ifdef AFM_ONE_VIEW
 #define AFM_FIRST_VIEW true
 #else

@@ -16,7 +16,7 @@ namespace afm::cluster {
 
 namespace {
 
-// Of the domain's ports, and not bound to an address.
+// True for a socket on one of the domain's ports that is not bound to an address.
 bool is_receiver(int descriptor, std::uint32_t domain) {
   int type = 0;
   socklen_t length = sizeof(type);

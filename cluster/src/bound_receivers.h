@@ -9,8 +9,8 @@
 
 namespace afm::cluster {
 
-// Binds this process's UDP sockets that DDS receives with to the named interface, and counts them. Cyclone DDS before
-// 11 opens them for every interface of the machine, whatever its configuration says. Failed: the kernel refuses.
+// Binds the UDP sockets on which this process receives DDS data to the named interface, and returns their number.
+// Cyclone DDS before 11 opens them on all interfaces, whatever its configuration. Failed: the kernel refuses.
 core::Result<std::size_t> bind_receivers(const ClusterNetwork& network);
 
 }  // namespace afm::cluster

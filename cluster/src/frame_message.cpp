@@ -7,7 +7,7 @@ namespace afm::cluster {
 
 namespace {
 
-// Without the bytes of a character that would be cut in two.
+// Length of at most `most` bytes that does not cut a character in two.
 std::size_t whole_characters(std::string_view text, std::size_t most) {
   if (text.size() <= most) return text.size();
   while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;

@@ -19,10 +19,10 @@ namespace afm::cluster {
 namespace {
 
 constexpr std::uint64_t kFramesOfCount = 16;
-constexpr int kIdleMs = 100;                 // the thread looks whether it is to end
+constexpr int kIdleMs = 100;                 // interval at which the thread checks for its end
 constexpr std::size_t kRecordsRing = 16384;  // 16 s of the servo
-constexpr std::size_t kPiecesRing = 1024;    // of a history
-constexpr std::size_t kPiecesAtOnce = 32;    // then other messages have their turn
+constexpr std::size_t kPiecesRing = 1024;    // pieces of a history
+constexpr std::size_t kPiecesAtOnce = 32;    // limit before other messages get their turn
 constexpr std::size_t kBatchesAtOnce = 64;
 
 }  // namespace
@@ -45,8 +45,8 @@ struct MasterLink::Parts {
   const core::Clock& clock;
   std::uint64_t session = 0;
   Doorbell for_thread, for_frames;
-  std::unique_ptr<Transport> transport;  // the thread's
-  std::vector<DocumentPiece> model;      // likewise
+  std::unique_ptr<Transport> transport;  // used by the thread only
+  std::vector<DocumentPiece> model;      // used by the thread only
 
   // from the frame loop to the thread
   core::LatestValue<FrameMessage> frame;
@@ -58,15 +58,15 @@ struct MasterLink::Parts {
   std::atomic<std::uint64_t> refused{0}, unwritten{0}, resent{0};
   std::atomic<std::uint64_t> other_session{0};
 
-  // the frame loop's
+  // frame loop only
   std::uint64_t recorded = 0, documents = 0;
-  std::vector<DocumentPiece> pieces;  // of a history, which have not found room yet
+  std::vector<DocumentPiece> pieces;  // pieces of a history that have found no room yet
   std::size_t next_piece = 0;
 
-  // the thread's
+  // thread only
   std::uint64_t seen_frame = 0, seen_swap = 0, written_records = 0;
 
-  std::jthread thread;  // last: it ends before what it uses
+  std::jthread thread;  // last member: it ends before the members it uses
 };
 
 void MasterLink::Parts::run(const std::stop_token& stop) {

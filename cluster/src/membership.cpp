@@ -31,7 +31,7 @@ const Membership::Sent* Membership::sent(std::uint64_t number) const {
   return number != 0 && slot.number == number ? &slot : nullptr;
 }
 
-// A node that is not awaited answers after its frame was shown, and may leave out frames.
+// Counts the answers of a node that is not awaited: they arrive after the frame was shown, and may skip frames.
 void Membership::count_in_time(Node& node, const Sent& frame, std::int64_t came_ns) {
   const bool in_time = frame.drawn_ns == 0 || came_ns - frame.drawn_ns <= frame.patience_ns(kPatienceNs);
   node.in_time = in_time ? node.in_time + 1 : 0;

@@ -13,9 +13,9 @@ namespace afm::cluster {
 
 namespace {
 
-constexpr double kLargestSent = 1e9;         // as in the shared scene
-constexpr double kUnitTolerance = 1e-3;      // of an orientation
-constexpr std::int32_t kFarthestStep = 100;  // of a parameter, from what was loaded
+constexpr double kLargestSent = 1e9;         // same limit as in the shared scene
+constexpr double kUnitTolerance = 1e-3;      // deviation of an orientation's length from 1
+constexpr std::int32_t kFarthestStep = 100;  // steps between an edited and the loaded value
 
 bool sound(double value) { return std::isfinite(value) && std::abs(value) <= kLargestSent; }
 template <std::integral Integer>
@@ -38,7 +38,7 @@ bool sound(const Block& block) {
   return all;
 }
 
-// What bounds the materials of a block: as many as there can be.
+// Limit for material numbers in a block: the largest possible model.
 const scene::SharedModel& most_materials() {
   static const std::unique_ptr<const scene::SharedModel> model = [] {
     auto most = std::make_unique<scene::SharedModel>();

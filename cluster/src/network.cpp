@@ -76,7 +76,7 @@ core::Result<std::string> interface_towards(const std::string& host_address) {
   const core::FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   sockaddr_in own{};
   socklen_t length = sizeof(own);
-  // no datagram is sent: the kernel says which way one would go
+  // sends no datagram: the kernel reports the route
   if (!socket.is_open() || ::inet_pton(AF_INET, host_address.c_str(), &to.sin_addr) != 1 ||
       ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&to), sizeof(to)) != 0 ||
       ::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&own), &length) != 0) {

@@ -16,7 +16,7 @@ namespace afm::cluster {
 
 namespace {
 
-constexpr int kPauseMs = 100;  // the thread looks whether it is to end
+constexpr int kPauseMs = 100;  // interval at which the thread checks for its end
 
 }  // namespace
 
@@ -37,14 +37,14 @@ struct NodeLink::Parts {
     });
   }
 
-  // Puts together what came of a document; the thread that calls it is the main one.
+  // Reassembles the received pieces of a document; main thread only.
   static std::optional<Document> read(core::SpscRing<DocumentPiece, 2048>& pieces, DocumentReader& reader);
 
   const core::Clock& clock;
   Doorbell for_thread, for_frames;
-  std::unique_ptr<Transport> transport;  // the thread's
+  std::unique_ptr<Transport> transport;  // used by the thread only
 
-  // from the thread to the main one
+  // from the thread to the main thread
   core::LatestValue<Came> frame;
   core::LatestValue<SwapMessage> swap;
   core::SpscRing<Numbered, 16384> records;
@@ -53,13 +53,13 @@ struct NodeLink::Parts {
   // and back
   core::LatestValue<ReadyMessage> answer;
 
-  // the main thread's
+  // main thread only
   DocumentReader model_reader, history_reader;
   std::uint64_t seen_frame = 0;
-  // the thread's
+  // thread only
   std::uint64_t seen_answer = 0;
 
-  std::jthread thread;  // last: it ends before what it uses
+  std::jthread thread;  // last member: it ends before the members it uses
 };
 
 void NodeLink::Parts::run(const std::stop_token& stop) {

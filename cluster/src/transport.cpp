@@ -21,17 +21,17 @@ namespace {
 
 constexpr dds_duration_t kLongestWrite = DDS_MSECS(20);
 
-enum class Keeps { Late, Now };  // whether a reader that comes late gets what was written before
+enum class Keeps { Late, Now };  // Late: a late reader gets earlier data
 
 struct TopicRow {
   Transport::Topic topic;
   const char* name;
   ClusterRole writer;
   Keeps keeps;
-  int depth;  // newest of each key; no writer waits for a reader that is slower
+  int depth;  // newest values kept per key; no writer waits for a slow reader
 };
 
-// In the order of Transport::Topic.
+// Rows in the order of Transport::Topic.
 constexpr std::array<TopicRow, Transport::kTopics> kTopicRows{
     {{Transport::Topic::Model, "wall/model", ClusterRole::Master, Keeps::Late, 1},
      {Transport::Topic::Frame, "wall/frame", ClusterRole::Master, Keeps::Now, 1},
@@ -80,7 +80,7 @@ core::Result<Doorbell> Doorbell::create() {
 
 void Doorbell::ring() const noexcept {
   const std::uint64_t one = 1;
-  // a full counter has been rung before
+  // a full counter has already been rung
   [[maybe_unused]] const auto written = ::write(event_.get(), &one, sizeof(one));
 }
 
@@ -99,9 +99,9 @@ core::Result<std::unique_ptr<Transport>> Transport::open(const ClusterNetwork& n
 }
 
 core::Result<void> Transport::create(const ClusterNetwork& network, ClusterRole role, const Doorbell& doorbell) {
-  // the configuration is ours: no environment variable changes it
+  // the configuration is complete: environment variables do not change it
   domain_ = dds_create_domain(network.domain, dds_configuration(network).c_str());
-  // one process may play both roles, with the configuration of the first
+  // a process may play both roles, with the configuration of the first
   if (domain_ == DDS_RETCODE_PRECONDITION_NOT_MET) domain_ = 0;
   if (domain_ < 0) return dds_refused("its configuration", std::exchange(domain_, 0), network);
   if (domain_ > 0) {
@@ -117,7 +117,7 @@ core::Result<void> Transport::create(const ClusterNetwork& network, ClusterRole 
     const auto qos = qos_of(row);
     const dds_entity_t topic = dds_create_topic(participant_, &afm_wire_Datagram_desc, row.name, qos.get(), nullptr);
     if (topic < 0) return dds_refused(row.name, topic, network);
-    // a master sees another one by its frames
+    // a master detects another one by its frames
     const bool reads = row.writer != role || row.topic == Topic::Frame;
     if (reads) readers_[index] = dds_create_reader(participant_, topic, qos.get(), listener.get());
     if (row.writer == role) writers_[index] = dds_create_writer(participant_, topic, qos.get(), nullptr);

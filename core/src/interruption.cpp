@@ -23,11 +23,11 @@ constexpr auto kBeforeTheEnd = std::chrono::seconds(5);
 constexpr auto kTwice = std::chrono::seconds(1);  // timeout(1) and others signal a process and its group
 
 struct Interruptions {
-  std::recursive_mutex undoing;  // guards `undos`; locked while they run, and by Uninterrupted
+  std::recursive_mutex undoing;  // guards `undos`; held while they run, and by Uninterrupted
   std::map<int, std::function<void()>> undos;
   int next_number = 0;
 
-  std::mutex asking;  // of what follows
+  std::mutex asking;  // guards the members below
   std::condition_variable heard;
   ExitCode code = ExitCode::RunFailed;
   bool orderly = false;
@@ -36,7 +36,7 @@ struct Interruptions {
   bool asked_since = false;
 };
 
-// Never destroyed: the signals' thread outlives main's statics.
+// Never destroyed: the signal thread outlives main's statics.
 Interruptions& interruptions() {
   static auto* const all = new Interruptions;
   return *all;
@@ -77,13 +77,13 @@ void take_interruptions() {
   ::sigaddset(&ending, SIGINT);
   ::sigaddset(&ending, SIGTERM);
   ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);
-  ::signal(SIGXFSZ, SIG_IGN);  // a file over the limit is an error of write(), as a full disk is
+  ::signal(SIGXFSZ, SIG_IGN);  // a file over the limit becomes an error of write(), like a full disk
   std::thread([ending] {
     for (int signal = 0; ::sigwait(&ending, &signal) == 0;) interrupt();
   }).detach();
 }
 
-// With the lock, so that nothing begins that would have to be undone.
+// Takes the lock, so that no step begins that would have to be undone.
 void end_at_once(ExitCode code, std::string_view line) {
   const std::lock_guard lock(interruptions().undoing);
   undo_all();

@@ -13,7 +13,7 @@ void log_line(std::string_view text) {
   std::string line = "touchafm: ";
   line += printable_line(text);
   line += '\n';
-  // a closed stderr is nothing that a log line could report
+  // a closed stderr cannot be reported
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
 }
 

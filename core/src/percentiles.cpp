@@ -30,7 +30,7 @@ Percentiles percentiles(std::span<const std::uint32_t> bins, std::uint32_t max_u
     const std::uint64_t wanted = rank(fraction, total) + 1;
     for (std::size_t i = 0; i < bins.size(); ++i) {
       seen += bins[i];
-      // the last bin holds all that is longer, and says nothing but the maximum
+      // the last bin holds all longer values, so only the maximum is known
       if (seen >= wanted) return i + 1 == bins.size() ? double(max_us) : std::min(double(max_us), double(i + 1));
     }
     return double(max_us);

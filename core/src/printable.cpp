@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-// Of a sequence: its first byte under a mask, and the least character that needs so many bytes.
+// UTF-8 sequence of one length: its first byte under a mask, and the smallest character that needs that many bytes.
 struct Form {
   std::size_t bytes;
   unsigned char mask, first;
@@ -25,7 +25,7 @@ bool is_control(std::uint32_t character) {
   return (character < 0x20 && character != '\n' && character != '\t') || (character >= 0x7F && character < 0xA0);
 }
 
-// How many bytes of a character that may be shown stand at the beginning; 0: none.
+// Length in bytes of the first character if it may be shown; 0 otherwise.
 std::size_t shown_bytes(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   for (const Form& form : kForms) {

@@ -22,7 +22,7 @@ int report_exceptions(const std::function<int()>& run) noexcept {
     return fail(ExitCode::RunFailed,
                 "out of memory: use fewer samples or a smaller picture, or raise the limit (ulimit -v)");
   } catch (const std::system_error& error) {
-    const bool limited = error.code() == std::errc::resource_unavailable_try_again;  // as pthread_create says
+    const bool limited = error.code() == std::errc::resource_unavailable_try_again;  // reported by pthread_create
     return fail(ExitCode::RunFailed,
                 limited ? "cannot start another thread: raise the limits on processes and memory (ulimit -u, ulimit -v)"
                         : error.what());
@@ -33,8 +33,8 @@ int report_exceptions(const std::function<int()>& run) noexcept {
 
 namespace {
 
-// A library that promises not to throw, and has no memory, ends here: toml++ 3.0 does. A core dump would be left for
-// that.
+// Reached when a noexcept library function runs out of memory, as in toml++ 3.0, which would otherwise leave a core
+// dump.
 [[noreturn]] void end_in_good_order() {
   end_at_once(ExitCode::RunFailed,
               "error: out of memory or an internal fault (std::terminate): use fewer samples or a smaller picture, or "

@@ -27,24 +27,25 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestFileBytes = std::uintmax_t{1} << 30U;
 constexpr std::size_t kReadAtOnce = std::size_t{1} << 16U;
-constexpr int kMostLinks = 40;  // one after the other, as Linux follows
+constexpr int kMostLinks = 40;  // length of a chain of links, the limit of Linux
 constexpr mode_t kNewFileMode = 0666;
 constexpr mode_t kPermissions = 07777;
 constexpr auto kReaderPatience = std::chrono::seconds(5);
 constexpr auto kReaderPause = std::chrono::milliseconds(20);
 
-// "a folder": what is no regular file.
+// Name of a file type other than a regular file, such as "a folder".
 const char* kind_of(mode_t mode) {
   if (S_ISDIR(mode)) return "a folder";
   if (S_ISFIFO(mode)) return "a pipe";
   return S_ISSOCK(mode) ? "a socket" : "a device";
 }
 
-// Devices, pipes and what a process already has open: written into, never replaced. 0, or errno.
+// Writes directly into devices, pipes and files already open in a process, which must not be replaced. Returns 0 or
+// errno.
 int write_into(const std::string& path, std::string_view bytes) {
   const auto end = std::chrono::steady_clock::now() + kReaderPatience;
   FileDescriptor file;
-  // a pipe without a reader refuses instead of waiting
+  // opening a pipe without a reader fails instead of blocking
   while (!(file = FileDescriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK))).is_open()) {
     if (errno != ENXIO || std::chrono::steady_clock::now() > end) return errno;
     std::this_thread::sleep_for(kReaderPause);
@@ -53,12 +54,13 @@ int write_into(const std::string& path, std::string_view bytes) {
   return write_all(file.get(), bytes);
 }
 
-// Beside `path`, under a name that nobody can guess and hold ready as a link. 0, or errno.
+// Writes a temporary file next to `path` and renames it. Its random name cannot be guessed and prepared as a link.
+// Returns 0 or errno.
 int replace(const fs::path& path, std::string_view bytes, std::optional<mode_t> permissions) {
   std::uint64_t random = 0;
   if (::getrandom(&random, sizeof(random), 0) != sizeof(random)) return errno;
   const std::string part = (path.parent_path() / (".touchafm-" + std::to_string(random) + ".part")).string();
-  const OnInterruption undo([part] { ::unlink(part.c_str()); });  // before there is a file: it may find no memory
+  const OnInterruption undo([part] { ::unlink(part.c_str()); });  // before the file exists: it may run out of memory
   FileDescriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kNewFileMode));
   if (!file.is_open()) return errno;
   int error = write_all(file.get(), bytes);
@@ -69,20 +71,20 @@ int replace(const fs::path& path, std::string_view bytes, std::optional<mode_t> 
   return error;
 }
 
-// What `path` is after all links; `path` itself where a link ends in another process's or our own open files.
+// Target of `path` after all links; nothing if a link ends in the open files of a process (/proc).
 std::optional<fs::path> follow_links(const std::string& path) {
   fs::path target = path;
   for (int links = 0; links < kMostLinks; ++links) {
     std::error_code error;
     const fs::path next = fs::read_symlink(target, error);
     if (error) return target;
-    target = target.parent_path() / next;  // next alone, if it begins at the root
+    target = target.parent_path() / next;  // `next` alone if it is absolute
     if (target.string().starts_with("/proc/")) return std::nullopt;
   }
   return target;
 }
 
-// The kind and the permissions of what is at `path`; nothing where a file can be made. Or errno, also for a folder.
+// Type and permissions of the file at `path`; nothing if it does not exist. Returns errno on failure, and for a folder.
 tl::expected<std::optional<mode_t>, int> mode_of_target(const std::string& path) {
   struct stat now{};
   if (::stat(path.c_str(), &now) == 0) {
@@ -107,16 +109,16 @@ int write_file_or_errno(const std::string& path, std::string_view bytes) {
   if (!mode) return mode.error();
   const auto target = follow_links(path);
   if (!target || (*mode && !S_ISREG(**mode))) return write_into(path, bytes);
-  if (*mode && ::access(path.c_str(), W_OK) != 0) return errno;  // a rename would not ask
+  if (*mode && ::access(path.c_str(), W_OK) != 0) return errno;  // a rename would not check it
   return replace(*target, bytes, *mode ? std::optional(**mode & kPermissions) : std::nullopt);
 }
 
-// The whole file, or somewhat more than `most` bytes of it.
+// Reads the whole file, or slightly more than `most` bytes of it.
 Result<std::string> read_up_to(const std::string& path, std::uintmax_t most) {
   const auto bad = [&](const std::string& why) {
     return core::failure(core::ErrorCategory::BadInputFile, "cannot read " + path + ": " + why);
   };
-  // what is no file is not waited for
+  // pipes and devices must not block
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
   if (!file.is_open()) return bad(errno == ENOENT ? "there is no such file" : system_error(errno));
   struct stat now{};
@@ -160,7 +162,7 @@ Result<void> check_writable(const std::string& path) {
   const auto mode = mode_of_target(path);
   if (!mode) return unwritable(path, mode.error());
   const auto target = follow_links(path);
-  // a pipe's reader may come later
+  // a pipe's reader may open it later
   if (!target || (*mode && !S_ISREG(**mode))) return {};
   if (*mode && ::access(path.c_str(), W_OK) != 0) return unwritable(path, errno);
   const fs::path folder = target->has_parent_path() ? target->parent_path() : fs::path(".");

@@ -22,8 +22,8 @@ using json = nlohmann::ordered_json;
 
 // One line of the report and one key of the JSON.
 struct Figure {
-  const char* key;    // with the unit
-  const char* title;  // for people
+  const char* key;    // includes the unit
+  const char* title;  // text for users
   std::optional<double> (*si)(const CurveFeatures& features);
   std::string (*text)(double si);
 };

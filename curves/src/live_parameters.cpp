@@ -22,7 +22,7 @@ namespace {
 using physics::Law;
 
 constexpr double kOctavesOfStep = 0.25;
-constexpr physics::Pressure kStiffestModulus{1e12};  // where a step down from "rigid" begins
+constexpr physics::Pressure kStiffestModulus{1e12};  // first value of a step down from "rigid"
 constexpr int kDigits = 3;
 constexpr int kMostSteps = 200;  // far beyond any law
 constexpr double kPointsOfCycle = 400.0;

@@ -15,9 +15,9 @@ namespace afm::curves {
 
 namespace {
 
-constexpr double kNarrowestScanM = 1e-10;  // an atom
+constexpr double kNarrowestScanM = 1e-10;  // size of an atom
 constexpr double kWidestScanM = 1e-3, kHighestM = 1e-3;
-constexpr double kSquarePixels = 1e-3;  // of their sides, by how much they may differ
+constexpr double kSquarePixels = 1e-3;  // largest relative difference of the sides
 
 std::string length_text(double length_m) {
   return physics::format_quantity(physics::Length(length_m), physics::kLengthUnits);
@@ -32,7 +32,7 @@ std::string value_text(const MeasuredTopography& topography, double value) {
 // Heights row by row from the top, with pixels of any size.
 struct PixelGrid {
   std::size_t columns, rows;
-  double width_m, height_m;  // of a pixel
+  double width_m, height_m;  // size of a pixel
   std::vector<double> heights;
 };
 

@@ -31,7 +31,7 @@ struct Comparison {
   physics::LawChoice choice;
   physics::CycleFigures paper;
   physics::CycleFigures chosen;
-  double contact_zero_m;  // of the chosen law; the paper's is 0
+  double contact_zero_m;  // contact point of the selected law; 0 in the paper's
 };
 
 Comparison compare(const scene::MaterialEntry& material) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLeft = 92;
 constexpr double kRight = 28;
-constexpr double kTitle = 48;  // the height of what stands above the legend
+constexpr double kTitle = 48;  // height above the legend
 constexpr double kLegendRow = 26;
 constexpr double kBottom = 68;
 constexpr double kTolerancePx = 0.1;
@@ -132,7 +132,7 @@ constexpr double kLegendSample = 34;
 
 // Rows as long as the plot is wide; at least one.
 std::vector<LegendEntry> legend_entries(const SvgPlot& plot) {
-  constexpr double kCharacter = 8.3;  // a little more than the mean advance of the font at its size
+  constexpr double kCharacter = 8.3;  // slightly more than the font's mean advance
   const double width = plot.width - kLeft - kRight;
   std::vector<LegendEntry> entries;
   double x = 0;

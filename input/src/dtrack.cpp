@@ -16,9 +16,9 @@ namespace {
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr std::uint32_t kLargestId = 63;
 constexpr std::uint32_t kMostButtons = 32;
-constexpr double kRotationTolerance = 1e-2;  // the wire has six digits
+constexpr double kRotationTolerance = 1e-2;  // the protocol has six digits
 
-// The rest of a line. Every take() fails harmlessly on unexpected text.
+// Remainder of a line. Every take() fails harmlessly on unexpected text.
 class Line {
  public:
   explicit Line(std::string_view text) : rest_(text) {}
@@ -63,7 +63,7 @@ class Line {
   std::string_view rest_;
 };
 
-// `[b0 ... b8]`: the columns of tracker_from_body, one after the other.
+// `[b0 ... b8]`: tracker_from_body, column by column.
 bool take_rotation(Line& line, DtrackBody& body) {
   std::array<double, 9> b{};
   if (!line.take_bracket('[') || !line.take_finite(b) || !line.take_bracket(']')) return false;
@@ -73,12 +73,12 @@ bool take_rotation(Line& line, DtrackBody& body) {
     if (std::abs(glm::length(rotation[i]) - 1.0) > kRotationTolerance) return false;
     if (std::abs(glm::dot(rotation[i], rotation[(i + 1) % 3])) > kRotationTolerance) return false;
   }
-  if (glm::dot(glm::cross(rotation[0], rotation[1]), rotation[2]) < 0.0) return false;  // a mirror
+  if (glm::dot(glm::cross(rotation[0], rotation[1]), rotation[2]) < 0.0) return false;  // a reflection
   body.tracker_from_body = glm::normalize(glm::dquat(rotation));
   return true;
 }
 
-// `id quality`, of which a negative quality says that there is no pose.
+// `id quality`; a negative quality means that there is no pose.
 bool take_head(Line& line, DtrackBody& body) {
   double quality = 0.0;
   if (!line.take(body.id) || body.id > kLargestId || !line.take(quality) || !std::isfinite(quality)) return false;

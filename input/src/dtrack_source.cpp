@@ -87,7 +87,7 @@ bool DtrackSource::receive(int patience_ms) {
   if (!frame) {
     ++now_.bad_packets;
   } else if (!is_silent() && static_cast<std::int32_t>(frame->frame - now_.frame.frame) <= 0) {
-    ++now_.old_packets;  // the number comes round after its last
+    ++now_.old_packets;  // frame numbers wrap around
   } else {
     if (!is_silent()) count_lost(frame->frame - now_.frame.frame);
     now_.frame = *frame;

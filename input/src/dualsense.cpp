@@ -16,7 +16,7 @@ constexpr std::size_t kBluetoothSize = 78;
 constexpr std::uint8_t kInputSeed = 0xA1;
 constexpr std::uint8_t kCalibrationReport = 0x05;
 constexpr std::size_t kCalibrationSize = 41;
-constexpr double kNominalGyroCountsPerDegree = 16.0;  // 2048 degrees a second in 15 bits
+constexpr double kNominalGyroCountsPerDegree = 16.0;  // 2048 degrees per second in 15 bits
 constexpr double kNominalCountsPerG = 8192.0;
 
 double stick(std::uint8_t raw) { return std::fmax(-1.0, (raw - 128.0) / 127.0); }
@@ -77,7 +77,7 @@ std::uint32_t sony_crc32(std::uint8_t seed, Bytes bytes) {
 
 std::optional<DualSenseReport> parse_dualsense(Bytes report) {
   if (report.empty()) return std::nullopt;
-  Bytes r;  // as over USB
+  Bytes r;  // bytes as over USB
   if (report[0] == kUsbReport && report.size() == kUsbSize) {
     r = report;
   } else if (report[0] == kBluetoothReport && report.size() == kBluetoothSize) {

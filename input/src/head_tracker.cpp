@@ -11,9 +11,9 @@ namespace afm::input {
 
 namespace {
 
-constexpr double kVelocityMemoryS = 0.03;  // over which the velocity is averaged
-constexpr double kLongestGapS = 0.1;       // after which two poses say nothing about a velocity
-constexpr double kFastestHeadMPerS = 3.0;  // beyond it the tracker has swapped its markers
+constexpr double kVelocityMemoryS = 0.03;  // averaging time of the velocity
+constexpr double kLongestGapS = 0.1;       // longer gaps between two poses give no velocity
+constexpr double kFastestHeadMPerS = 3.0;  // above this, the tracker has confused its markers
 
 bool finite(const scene::HeadPose& head) {
   const auto& p = head.position_m;
@@ -21,7 +21,7 @@ bool finite(const scene::HeadPose& head) {
   return std::isfinite(p.x + p.y + p.z) && std::abs(glm::length(q) - 1.0) < 1e-3;
 }
 
-// Starts and ends without a jerk.
+// Smooth step: starts and ends with zero slope.
 double eased(double share) { return share * share * (3.0 - 2.0 * share); }
 
 }  // namespace

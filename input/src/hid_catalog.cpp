@@ -15,7 +15,7 @@ namespace afm::input {
 
 namespace {
 
-// 3Dconnexion's as in FreeSpacenav's spacenavd, src/dev.c, with its deny-list; the others from Linux' drivers.
+// 3Dconnexion's devices from FreeSpacenav's spacenavd, src/dev.c, with its deny-list; the others from Linux' drivers.
 constexpr std::array kModels{
     HidModel{0x046d, 0xc603, "SpaceMouse Plus XT", spacemouse_driver},
     HidModel{0x046d, 0xc605, "CADman", spacemouse_driver},
@@ -64,7 +64,7 @@ constexpr std::uint16_t k3Dconnexion = 0x256f;
 constexpr std::uint16_t kGenericDesktop = 1;
 constexpr std::uint16_t kMultiAxisController = 8;
 
-// A receiver shows itself as a keyboard and a mouse too.
+// True for the keyboard or mouse interface of a receiver.
 bool beside_the_cap(const HidIdentity& device) {
   return device.vendor == k3Dconnexion && device.usage_page != 0 &&
          !(device.usage_page == kGenericDesktop && device.usage == kMultiAxisController);
@@ -86,7 +86,7 @@ std::optional<KnownHid> identify(const HidIdentity& device, std::span<const HidM
     }
     return KnownHid{.name = std::string(model.name), .make = model.make};
   }
-  // what 3Dconnexion builds next
+  // future 3Dconnexion devices
   if (device.vendor == k3Dconnexion && device.usage_page == kGenericDesktop && device.usage == kMultiAxisController) {
     return KnownHid{.name = "SpaceMouse", .make = spacemouse_driver};
   }

@@ -20,7 +20,7 @@ std::optional<double> raw_value(const HidMapping::Axis& axis, Bytes report) {
   return negative ? magnitude - std::ldexp(1.0, static_cast<int>(axis.bits)) : magnitude;
 }
 
-// 0 within the dead zone, and from there on evenly up to full deflection.
+// 0 within the dead zone, then linear up to full deflection.
 double deflection(double share, double dead_zone) {
   const double beyond = std::max(0.0, std::abs(share) - dead_zone) / (1.0 - dead_zone);
   return std::copysign(std::min(1.0, beyond), share);
@@ -54,7 +54,7 @@ class MappedWand final : public HidDriver {
   }
 
   bool steered() const override {
-    if (mapping_.axes.empty()) return false;  // a pedal points nowhere
+    if (mapping_.axes.empty()) return false;  // a pedal does not point
     return std::none_of(mapping_.axes.begin(), mapping_.axes.end(), [](const HidMapping::Axis& axis) {
       return axis.quantity == HidMapping::Quantity::Gyro || axis.quantity == HidMapping::Quantity::Acceleration;
     });

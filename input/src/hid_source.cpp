@@ -23,12 +23,12 @@ constexpr std::int64_t kFirstOpenPauseNs = 100'000'000;
 constexpr std::int64_t kLongestOpenPauseNs = 6'400'000'000;
 constexpr int kReadPatienceMs = 10;
 constexpr int kMostReportsAPoll = 64;
-constexpr auto kSetUpPause = std::chrono::milliseconds(20);  // between output reports: a Wii Remote drops the next one
+constexpr auto kSetUpPause = std::chrono::milliseconds(20);  // a Wii Remote drops an output report sent sooner
 constexpr std::size_t kLongestReport = 256;
 constexpr const char* kRule =
     "copy assets/wands/70-touchafm-wands.rules to /etc/udev/rules.d, run sudo udevadm control --reload, replug it";
 
-// Printable ASCII: what a device says of itself is not to be trusted with a terminal.
+// Reduces a text to printable ASCII, since a device's own name may contain terminal codes.
 std::string plain(const wchar_t* text) {
   std::string result;
   for (; text != nullptr && *text != L'\0'; ++text) {
@@ -43,7 +43,7 @@ struct Seen {
   std::optional<KnownHid> known;
 };
 
-// Each device once, though it is listed once for every usage that it has.
+// Lists each device once, although hidapi lists it once per usage.
 std::vector<Seen> enumerate(const std::vector<HidMapping>& mappings) {
   std::vector<Seen> seen;
   hid_device_info* const first = hid_enumerate(0, 0);
@@ -87,7 +87,7 @@ struct HidSource::Device {
   Device& operator=(const Device&) = delete;
   ~Device() { hid_close(handle); }
 
-  // Asks for the calibration and sends what makes the device talk. False if it does not take that.
+  // Requests the calibration and sends the set-up reports. False if the device rejects them.
   bool set_up(HidDriver& driver) const {
     if (const auto request = driver.calibration()) {
       std::vector<std::vector<std::uint8_t>> reports;
@@ -95,7 +95,7 @@ struct HidSource::Device {
         std::vector<std::uint8_t> report(request->size);
         report[0] = request->id;
         const int got = hid_get_feature_report(handle, report.data(), report.size());
-        if (got < 0) continue;  // nominal numbers will do
+        if (got < 0) continue;  // falls back to nominal numbers
         report.resize(static_cast<std::size_t>(got));
         reports.push_back(std::move(report));
       }
@@ -104,7 +104,7 @@ struct HidSource::Device {
     return write(driver.set_up());
   }
 
-  // False if it does not take one of them.
+  // False if the device rejects one of them.
   bool write(const std::vector<std::vector<std::uint8_t>>& reports) const {
     for (const std::vector<std::uint8_t>& report : reports) {
       if (hid_write(handle, report.data(), report.size()) < 0) return false;

@@ -15,12 +15,12 @@ namespace {
 constexpr double kSteerRadPerS = 1.0;
 constexpr double kLargestYawRad = 1.3;
 constexpr double kLargestPitchRad = 1.0;
-constexpr double kLongestStepS = 0.1;           // after a pause the ray does not jump
-constexpr std::int64_t kTwiceNs = 400'000'000;  // two presses within this are one sign
+constexpr double kLongestStepS = 0.1;           // longest step, so that the ray does not jump after a pause
+constexpr std::int64_t kTwiceNs = 400'000'000;  // longest time between the presses of a double press
 constexpr double kShortestMotionS = 1e-4;
 constexpr double kFirstMotionS = 0.01;
 constexpr double kDeadZone = 0.1;
-constexpr double kSharpness = 2.5;  // of the exponential response
+constexpr double kSharpness = 2.5;  // exponent of the response
 
 }  // namespace
 
@@ -39,7 +39,7 @@ HidWand::HidWand(std::unique_ptr<HidDriver> driver, const HandPlace& place)
 }
 
 bool HidWand::take(Bytes report, std::int64_t now_ns) {
-  if (driver_->steered()) steer(now_ns);  // with what was pushed until now
+  if (driver_->steered()) steer(now_ns);  // uses the deflection up to now
   const auto input = driver_->read(report);
   if (!input) return false;
   state_.time_ns = now_ns;
@@ -62,7 +62,7 @@ void HidWand::press(std::uint32_t buttons, std::int64_t now_ns) {
   if ((down & bit(WandButton::Stop)) != 0) ++state_.stops;
   const bool grab = (buttons & bit(WandButton::Grab)) != 0;
   if (driver_->steered()) {
-    // two quick presses of Grab: a cap has no button to spare for Home
+    // double press of Grab, because a cap has no button to spare for Home
     if ((down & bit(WandButton::Grab)) != 0 && !home_held_) {
       home_held_ = grabbed_ns_ != 0 && now_ns - grabbed_ns_ < kTwiceNs;
       grabbed_ns_ = home_held_ ? 0 : now_ns;
@@ -80,7 +80,7 @@ void HidWand::recenter() {
   heading_offset_rad_ = -filter_.heading_rad();
 }
 
-// Twisting, tilting and shifting the cap all steer, whichever a person tries first.
+// Twisting, tilting and shifting the cap all steer, whichever the user tries first.
 void HidWand::steer(std::int64_t now_ns) {
   const double step_s = std::clamp(core::seconds(now_ns - steered_ns_), 0.0, kLongestStepS);
   steered_ns_ = now_ns;

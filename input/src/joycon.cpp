@@ -66,7 +66,7 @@ class JoyCon final : public HidDriver {
     return input;
   }
 
-  // Subcommands 0x03 (full reports) and 0x40 (motion sensor on), each behind the neutral rumble of both motors.
+  // Subcommands 0x03 (full reports) and 0x40 (motion sensor on), each after the neutral rumble of both motors.
   std::vector<std::vector<std::uint8_t>> set_up() const override {
     const auto subcommand = [](std::uint8_t count, std::uint8_t command, std::uint8_t argument) {
       return std::vector<std::uint8_t>{0x01, count, 0x00, 0x01, 0x40, 0x40, 0x00, 0x01, 0x40, 0x40, command, argument};
@@ -75,7 +75,7 @@ class JoyCon final : public HidDriver {
   }
 
  private:
-  // The sensor of a right Joy-Con is turned by half a turn about the pointing axis against that of a left one.
+  // The sensor of a right Joy-Con is rotated by 180 degrees about the pointing axis relative to a left one.
   glm::dvec3 in_wand(const std::array<std::int16_t, 3>& raw) const {
     const double flip = side_ == JoyConSide::Right ? -1.0 : 1.0;
     return {-flip * raw[1], flip * raw[2], -raw[0]};

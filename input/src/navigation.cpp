@@ -14,10 +14,10 @@ namespace {
 constexpr double kFlyMPerS = 0.6;
 constexpr double kTurnRadPerS = 1.2;
 constexpr double kDampingS = 0.1;     // time constant of starting and stopping
-constexpr double kScaleMetres = 0.3;  // of the hand along the ray, for a factor of e
-constexpr double kScaleRad = 0.35;    // of a wand that is tilted instead
-constexpr double kScalePerS = 1.0;    // of a cap at its stop, in powers of e
-constexpr double kHeldForceN = 0.05;  // below what a hand notices
+constexpr double kScaleMetres = 0.3;  // motion of the hand along the ray for a factor of e
+constexpr double kScaleRad = 0.35;    // tilt of the wand for a factor of e
+constexpr double kScalePerS = 1.0;    // cap at its stop, in powers of e
+constexpr double kHeldForceN = 0.05;  // below the threshold of perception
 
 bool finite(const WandState& wand) {
   const auto& p = wand.position_m;
@@ -29,8 +29,8 @@ glm::dvec3 response(const glm::dvec3& deflection) {
   return {rate_response(deflection.x), rate_response(deflection.y), rate_response(deflection.z)};
 }
 
-// The exact way of a speed that approaches `target` with the time constant kDampingS: the sum over any division of the
-// time is the same.
+// Exact displacement for a speed that approaches `target` with the time constant kDampingS: any division of the time
+// gives the same sum.
 glm::dvec3 way_of(glm::dvec3& speed, const glm::dvec3& target, double frame_s) {
   const double rest = std::exp(-frame_s / kDampingS);
   const glm::dvec3 way = target * frame_s + (speed - target) * kDampingS * (1.0 - rest);
@@ -44,7 +44,7 @@ double elevation(const glm::dvec3& direction) { return std::asin(std::clamp(dire
 
 bool navigation_locked(const scene::TipState& tip) {
   const double force_n = glm::length(glm::dvec3(tip.hand.force_n[0], tip.hand.force_n[1], tip.hand.force_n[2]));
-  // what is no number locks too
+  // NaN locks too
   return tip.phase == physics::Phase::Attached || !(force_n <= kHeldForceN);
 }
 
@@ -88,8 +88,7 @@ void Navigation::let_go() {
   velocity_m_per_s_ = turn_rate_rad_per_s_ = glm::dvec3(0.0);
 }
 
-// Vrui's six-degrees-of-freedom dragger: what the wand saw of the scene when it was grabbed is what it sees from then
-// on.
+// Vrui's six-degrees-of-freedom dragger: keeps the scene fixed relative to the wand from the moment of grabbing.
 void Navigation::follow_grab(const WandState& wand) {
   const glm::dquat& q = wand.room_from_wand;
   if (!grab_) {
@@ -117,7 +116,7 @@ void Navigation::follow_scale(const WandState& wand, double frame_s) {
   }
 }
 
-// To a new scale; `from_m` is where the middle was at the scale that `center_m` keeps its place from.
+// Changes the scale about `center_m`; `from_m` is the position of the centre at the scale for which `center_m` is kept.
 void Navigation::scale_about(const glm::dvec3& center_m, double scale, const glm::dvec3& from_m) {
   const double before = scaling_ ? scaling_->scale : scale_;
   scale_ = std::clamp(scale, kSmallestScale, kLargestScale);

@@ -11,13 +11,13 @@ namespace afm::input {
 
 namespace {
 
-constexpr double kGravityGainPerS = 0.8;      // how fast the tilt follows gravity beside the gyroscope
-constexpr double kGravityAlonePerS = 10.0;    // and without one
-constexpr double kGravityToleranceG = 0.15;   // a hand that shakes more than this does not show where down is
-constexpr double kRestS = 0.5;                // so long still is at rest
+constexpr double kGravityGainPerS = 0.8;      // rate at which the tilt follows gravity, next to a gyroscope
+constexpr double kGravityAlonePerS = 10.0;    // rate without a gyroscope
+constexpr double kGravityToleranceG = 0.15;   // larger accelerations do not indicate the vertical
+constexpr double kRestS = 0.5;                // shortest stillness that counts as rest
 constexpr double kRestRateRadPerS = 0.05;     // peak to peak: above a gyroscope's noise, below a hand's tremor
-constexpr double kRestPullG = 0.05;           // likewise
-constexpr double kLargestBiasRadPerS = 0.35;  // 20 degrees a second: more is a steady turn, not a bias
+constexpr double kRestPullG = 0.05;           // peak to peak: above an accelerometer's noise, below a hand's tremor
+constexpr double kLargestBiasRadPerS = 0.35;  // 20 degrees per second: more is a steady turn, not a bias
 
 glm::dquat turned_by(const glm::dvec3& angle) {
   const double length = glm::length(angle);
@@ -52,7 +52,7 @@ double OrientationFilter::heading_rad() const {
   return std::atan2(-forward.x, -forward.z);
 }
 
-// The shortest turn that brings the measured up to +y, and then the heading to zero.
+// Starts with the shortest rotation that brings the measured direction to +y, then zeroes the heading.
 void OrientationFilter::start(const glm::dvec3& up) {
   level_from_wand_ = glm::rotation(up, kUp);
   level_from_wand_ = glm::angleAxis(-heading_rad(), kUp) * level_from_wand_;

@@ -19,7 +19,7 @@ constexpr std::size_t kBlockHeader = 2;
 constexpr std::uint8_t kTriggerPressed = 100;
 constexpr double kMoveCountsPerG = 4326.0;  // RPCS3's estimate
 constexpr double kRadPerSPerRpm = 2.0 * std::numbers::pi / 60.0;
-constexpr double kNominalGyroGain = 80.0 * kRadPerSPerRpm / 8192.0;  // within a factor of 1.5 of any device
+constexpr double kNominalGyroGain = 80.0 * kRadPerSPerRpm / 8192.0;  // within a factor of 1.5 for any device
 
 // ZCM1 counts from 0x8000, ZCM2 from zero.
 std::int32_t number(PsMoveModel model, Bytes bytes, std::size_t at) {
@@ -30,10 +30,10 @@ std::array<std::int32_t, 3> triple(PsMoveModel model, Bytes bytes, std::size_t a
   return {number(model, bytes, at), number(model, bytes, at + 2), number(model, bytes, at + 4)};
 }
 
-// From the device's axes to the wand's, which points along -z.
+// Transforms the device's axes to the wand's, which points along -z.
 glm::dvec3 in_wand(const glm::dvec3& device) { return {device.x, device.z, -device.y}; }
 
-// The blocks of the calibration laid behind each other, each but the first without its header; empty if one is missing.
+// Joins the blocks of the calibration, each except the first without its header; empty if one is missing.
 std::vector<std::uint8_t> joined(std::span<const std::uint8_t> order,
                                  std::span<const std::vector<std::uint8_t>> reports) {
   std::vector<std::uint8_t> all;
@@ -47,7 +47,7 @@ std::vector<std::uint8_t> joined(std::span<const std::uint8_t> order,
   return all;
 }
 
-// Where the calibration of an axis lies: readings at +1 g and -1 g, and of the gyroscope at a known speed forwards and
+// Offsets of an axis in the calibration: readings at +1 g and -1 g, and of the gyroscope at a known speed forwards and
 // at rest or backwards.
 struct AxisPlaces {
   std::size_t one_g;
@@ -98,7 +98,7 @@ class PsMove final : public HidDriver {
  private:
   static std::uint32_t wand_buttons(const PsMoveReport& report) {
     std::uint32_t buttons = 0;
-    // the Move button of either reading
+    // Move button of either reading
     if ((report.buttons[2] & 0x08) != 0 || (report.buttons[3] & 0x40) != 0) buttons |= bit(WandButton::Select);
     if (report.trigger >= kTriggerPressed) buttons |= bit(WandButton::Grab);
     if ((report.buttons[1] & 0x40) != 0) buttons |= bit(WandButton::Scale);

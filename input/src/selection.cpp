@@ -10,14 +10,14 @@ namespace afm::input {
 
 namespace {
 
-// Angle from the ray to the target's silhouette, negative inside it; empty where the ray starts inside the target, or
-// where there is no number.
+// Angle from the ray to the target's silhouette, negative inside it; empty if the ray starts inside the target, or for
+// NaN.
 std::optional<double> angle_to_silhouette(const Ray& ray, const Target& target) {
   const glm::dvec3 to_center = target.center_m - ray.origin_m;
   const double distance = glm::length(to_center);
   if (!(distance > target.radius_m)) return std::nullopt;
 
-  // atan2 of cross and dot stays exact at small angles, where acos of the dot product does not
+  // atan2 of cross and dot stays exact at small angles, unlike acos of the dot product
   const double angle =
       std::atan2(glm::length(glm::cross(ray.direction, to_center)), glm::dot(ray.direction, to_center));
   return angle - std::asin(target.radius_m / distance);
@@ -76,7 +76,7 @@ Selector::Result Selector::update(const WandState& wand, const glm::dvec3& eye_m
   }
   hovered_ = result.hovered;
 
-  // a button that stays down while the pose is lost is no new press
+  // a button held while the pose is lost is not a new press
   const bool pressed = wand.pressed(WandButton::Select);
   if (pressed && !was_pressed_) result.chosen = result.hovered;
   was_pressed_ = pressed;

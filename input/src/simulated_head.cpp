@@ -18,10 +18,10 @@ namespace afm::input {
 namespace {
 
 constexpr double kUnitLengthTolerance = 1e-3;
-constexpr double kFarthestM = 100.0;  // from the room's origin: beyond it millimetres were written
+constexpr double kFarthestM = 100.0;  // from the room's origin; larger numbers are probably millimetres
 constexpr double kLongestScriptS = 86'400.0;
 
-// The numbers of a line, separated by commas or spaces; empty: there is something else.
+// Numbers of a line, separated by commas or spaces; empty if it contains anything else.
 std::optional<std::vector<double>> numbers_of(std::string_view line) {
   std::vector<double> numbers;
   for (;;) {
@@ -37,7 +37,7 @@ std::optional<std::vector<double>> numbers_of(std::string_view line) {
   }
 }
 
-// What is wrong with a line, or nothing.
+// Parses a line; returns an error message, or nothing.
 std::string take_key(const std::vector<double>& v, std::vector<HeadKey>& keys) {
   if (v.size() != 4 && v.size() != 8) return "must be seconds, x, y, z or seconds, x, y, z, qx, qy, qz, qw";
   HeadKey key{.time_s = v[0], .pose = {.position_m = {v[1], v[2], v[3]}}};
@@ -91,7 +91,7 @@ void SimulatedHead::home() {
   if (target_m_) target_m_ = start_.position_m;
 }
 
-// Between two places evenly; after the last, from the first again.
+// Interpolates linearly between two poses; repeats after the last one.
 scene::HeadPose SimulatedHead::at_script_time(double time_s) const {
   const double within_s = std::fmod(time_s, script_.back().time_s);
   const auto after = std::upper_bound(script_.begin() + 1, script_.end() - 1, within_s,

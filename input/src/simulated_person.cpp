@@ -6,11 +6,11 @@ namespace afm::input {
 namespace {
 
 constexpr double kAimSeconds = 0.9;
-constexpr double kReadSeconds = 0.5;  // looking at what has been pointed at, before pressing
+constexpr double kReadSeconds = 0.5;  // look at the target before pressing
 constexpr double kPressSeconds = 0.25;
 constexpr std::int64_t kButtonNs = 250'000'000;
 constexpr double kLiftSeconds = 0.8;
-constexpr double kRestSeconds = 0.7;  // looking at the finished curve
+constexpr double kRestSeconds = 0.7;  // look at the finished curve
 
 }  // namespace
 
@@ -68,7 +68,7 @@ void SimulatedPerson::update(std::int64_t now_ns, const scene::TipState& tip) {
         move_hand(path_.lift_m, kLiftSeconds);
         enter(Step::Lift, now_ns);
       } else if (path_finished && tip.phase == physics::Phase::Attached) {
-        move_hand(path_.lift_m, stroke_seconds());  // a tip that holds on keeps its sample
+        move_hand(path_.lift_m, stroke_seconds());  // lift first: an attached tip keeps its material
       }
       break;
     case Step::Lift:
@@ -85,7 +85,7 @@ void SimulatedPerson::update(std::int64_t now_ns, const scene::TipState& tip) {
         enter(Step::MoveDown, now_ns);
       } else if ((tip.servo_state == scene::ServoState::Disarmed || tip.servo_state == scene::ServoState::Fault) &&
                  now_ns - button_change_ns_ > kButtonNs) {
-        // the hand still swung, or there was a fault, when the button went down: let go and press again
+        // the hand was still moving, or there was a fault, at the press: release and press again
         hand_.turn_on_pressed = 1 - hand_.turn_on_pressed;
         button_change_ns_ = now_ns;
       }

@@ -11,7 +11,7 @@ namespace afm::input {
 
 namespace {
 
-// Physiological tremor of a pointing hand, 8 to 12 Hz (research, powerwall.md section 4.4), of a steady person.
+// Physiological tremor of a steady person's pointing hand, 8 to 12 Hz (research, powerwall.md section 4.4).
 constexpr double kTremorRad = 0.0015;
 constexpr double kTremorHz = 9.0;
 constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
@@ -20,7 +20,7 @@ std::int64_t later(std::int64_t now_ns, double duration_s) {
   return now_ns + static_cast<std::int64_t>(duration_s * 1e9);
 }
 
-// Flash and Hogan (1985): position along the path of least jerk, for 0 <= t <= 1.
+// Flash and Hogan (1985): position along the minimum-jerk path, for 0 <= t <= 1.
 double minimum_jerk(double t) { return t * t * t * (10.0 + t * (-15.0 + 6.0 * t)); }
 
 glm::dquat looking_along(const glm::dvec3& direction) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFullDeflection = 350.0;  // some reach 500
 
-// From the device's axes (x right, y towards the user, z down) to the room's.
+// Transforms the device's axes (x right, y towards the user, z down) to the room's.
 glm::dvec3 in_room(const std::array<std::int16_t, 3>& raw) {
   return glm::clamp(glm::dvec3(raw[0], -raw[2], raw[1]) / kFullDeflection, -1.0, 1.0);
 }

@@ -96,7 +96,7 @@ class Table {
     return glm::normalize(q);
   }
 
-  // As lsusb prints it.
+  // Format of lsusb.
   std::uint16_t hexadecimal(std::string_view key) const {
     const std::string digits = text(key);
     std::uint16_t value = 0;

@@ -14,17 +14,17 @@ namespace {
 constexpr std::uint16_t kButtonBits = 0x9F1F;
 constexpr double kRestCount = 512.0;
 constexpr double kWiimoteCountsPerG = 104.0;
-// the camera sees 33 degrees across its 1024 columns (WiiBrew)
+// the camera's field of view is 33 degrees across 1024 columns (WiiBrew)
 constexpr double kRadPerColumn = 33.0 / 1024.0 * std::numbers::pi / 180.0;
 constexpr double kMiddleColumn = 511.5;
 constexpr double kGyroRestCount = 8192.0;
-constexpr double kSlowRadPerS = 440.0 / 8192.0 * std::numbers::pi / 180.0;  // a count, in the finer range
+constexpr double kSlowRadPerS = 440.0 / 8192.0 * std::numbers::pi / 180.0;  // per count, in the finer range
 constexpr double kFastRadPerS = 2000.0 / 8192.0 * std::numbers::pi / 180.0;
 constexpr std::uint16_t kExtensionIdentifier = 0x00FA;
 
 using Reports = std::vector<std::vector<std::uint8_t>>;
 
-// Into the registers of what lies at `space`, 0xb0 the camera, 0xa6 a MotionPlus that sleeps.
+// Writes to the registers at `space`: 0xb0 is the camera, 0xa6 an inactive MotionPlus.
 std::vector<std::uint8_t> write_register(std::uint8_t space, std::uint16_t address, std::vector<std::uint8_t> data) {
   std::vector<std::uint8_t> report{0x16,
                                    0x04,
@@ -37,9 +37,9 @@ std::vector<std::uint8_t> write_register(std::uint8_t space, std::uint16_t addre
   return report;
 }
 
-// Wakes a MotionPlus, which then takes the extension's place, asks the extension what it is, and for report 0x37 all
-// the time: the remote stops reporting when the extension changes. With none, the remote answers that it could not
-// write.
+// Activates a MotionPlus, which then replaces the extension, reads the extension's type, and requests report 0x37
+// continuously: the remote stops reporting when the extension changes. Without a MotionPlus, the remote reports a
+// failed write.
 Reports wake_motion_plus() {
   return {write_register(0xa6, 0x00f0, {0x55}),
           write_register(0xa6, 0x00fe, {0x04}),
@@ -71,7 +71,7 @@ std::array<std::uint16_t, 3> acceleration_of(Bytes r) {
   return {ten_bits(r[3], (r[1] >> 5) & 3U), ten_bits(r[4], (r[2] >> 4) & 2U), ten_bits(r[5], (r[2] >> 5) & 2U)};
 }
 
-// Two high bits of each coordinate, y above x; all ones is no dot.
+// Two high bits of each coordinate, y above x; all ones means no dot.
 std::optional<WiimoteReport::Dot> dot_of(unsigned x_low, unsigned y_low, unsigned high) {
   const auto x = static_cast<std::uint16_t>(x_low | ((high & 3U) << 8));
   const auto y = static_cast<std::uint16_t>(y_low | ((high & 12U) << 6));
@@ -85,7 +85,7 @@ std::array<std::uint8_t, 6> extension_at(Bytes report, std::size_t at) {
   return bytes;
 }
 
-// Byte 3: how many less one in its upper half, an error in its lower one; then the address, high byte first.
+// Byte 3: size minus one in its upper half, an error in its lower one; then the address, high byte first.
 WiimoteReport::Memory memory_of(Bytes report) {
   WiimoteReport::Memory memory;
   memory.address = static_cast<std::uint16_t>((report[4] << 8) | report[5]);
@@ -106,7 +106,7 @@ class Wiimote final : public HidDriver {
     follow_extension(*parsed);
     const bool has_gyro = motion_plus_ && parsed->extension;
     const auto turn = has_gyro ? parse_motion_plus(*parsed->extension) : std::nullopt;
-    // what comes from behind a MotionPlus says nothing of the turn since the report before
+    // reports from behind a MotionPlus contain no rotation since the previous report
     if (parsed->acceleration && turn.has_value() == has_gyro) {
       input.imu[0] = sample_of(*parsed->acceleration, turn);
       input.imu_count = 1;
@@ -123,7 +123,7 @@ class Wiimote final : public HidDriver {
     return input;
   }
 
-  // Switches the camera on, in the order of WiiBrew, for the dots of report 0x37.
+  // Switches the camera on, in the order given by WiiBrew, with the dot format of report 0x37.
   Reports set_up() const override {
     Reports reports{
         {0x11, 0x10},
@@ -142,7 +142,8 @@ class Wiimote final : public HidDriver {
   Reports take_answers() override { return std::exchange(answers_, {}); }
 
  private:
-  // A MotionPlus that wakes is a change, too; one that is awake does not answer to waking, so that it ends there.
+  // An activated MotionPlus counts as a change of extension. Once active, it ignores activation, which ends the
+  // sequence.
   void follow_extension(const WiimoteReport& report) {
     if (report.plug_changed) {
       motion_plus_ = false;
@@ -162,7 +163,7 @@ class Wiimote final : public HidDriver {
     return buttons;
   }
 
-  bool motion_plus_ = false;  // it is awake
+  bool motion_plus_ = false;  // active
   Reports answers_;
 };
 
@@ -218,7 +219,7 @@ std::optional<MotionPlusReport> parse_motion_plus(Bytes e) {
   const auto rate = [&](std::size_t axis) {
     return static_cast<std::uint16_t>(e[axis] | ((e[axis + 3] & 0xFCU) << 6));
   };
-  // sent as yaw, roll, pitch
+  // sent in the order yaw, roll, pitch
   return MotionPlusReport{.rates = {rate(2), rate(1), rate(0)},
                           .slow = {(e[3] & 1U) != 0, (e[4] & 2U) != 0, (e[3] & 2U) != 0}};
 }

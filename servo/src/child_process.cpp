@@ -27,7 +27,7 @@ core::Error spawn_error(const std::string& program, int error) {
                                                    program, core::system_error(error))};
 }
 
-// What posix_spawn needs, freed in any case.
+// Owns the attributes and actions of posix_spawn.
 class SpawnPlan {
  public:
   SpawnPlan() {
@@ -59,7 +59,7 @@ class SpawnPlan {
   posix_spawnattr_t attributes{};
 };
 
-// A copy whose number does not collide with those that the child will use.
+// Copies a descriptor to a number that does not collide with the child's.
 core::FileDescriptor out_of_the_way(int descriptor) {
   return core::FileDescriptor(::fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstClosed));
 }
@@ -89,7 +89,7 @@ bool child_ended_within(pid_t child, int milliseconds, int& status) noexcept {
     const pid_t ended = ::waitpid(child, &status, WNOHANG);
     if (ended == child) return true;
     if (ended < 0 && errno == ECHILD) {
-      status = W_EXITCODE(1, 0);  // somebody else has reaped it
+      status = W_EXITCODE(1, 0);  // already reaped elsewhere
       return true;
     }
     if (waited >= milliseconds) return false;

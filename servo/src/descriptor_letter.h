@@ -12,13 +12,13 @@
 
 #include "core/file_descriptor.h"
 
-// Messages between processes of one user, over a SOCK_SEQPACKET socket, that can bring descriptors with them.
+// Messages between processes of one user over a SOCK_SEQPACKET socket, with attached descriptors.
 namespace afm::servo {
 
 inline constexpr std::size_t kMostLetterBytes = 4096;
 inline constexpr std::size_t kMostLetterDescriptors = 2;
 
-// Room for one message. Neither sending nor reading allocates.
+// Buffer for one message. Neither sending nor reading allocates.
 class Letter {
  public:
   Letter();
@@ -26,11 +26,12 @@ class Letter {
   Letter& operator=(const Letter&) = delete;
   ~Letter() = default;
 
-  // False: too long, the other side is gone, or does not read and the socket is full. Waits for nobody.
+  // Returns false if the text is too long, the other side is gone, or the socket is full because the other side does
+  // not read. Never waits.
   bool send(int socket, std::string_view text, std::span<const int> descriptors = {});
 
-  // The next letter, without waiting; the text is valid until the next call. Empty, with errno EAGAIN: nothing yet;
-  // EPIPE: the other side is gone; EBADMSG: more or fewer descriptors than `descriptors` has room for, and not none.
+  // Reads the next letter without waiting; the text is valid until the next call. Empty with errno EAGAIN: nothing yet;
+  // EPIPE: the other side is gone; EBADMSG: some descriptors, but not as many as `descriptors` has room for.
   std::optional<std::string_view> read(int socket, std::span<core::FileDescriptor> descriptors);
 
  private:

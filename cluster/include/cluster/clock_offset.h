@@ -8,12 +8,12 @@
 
 namespace afm::cluster {
 
-// How far the clock of a node is ahead of this machine's, from the four times of a round trip (RFC 5905, section 8).
-// The shortest round trip decides: half of its length is the most by which it can be wrong.
+// Offset of a node's clock from this machine's, from the four times of a round trip (RFC 5905, section 8). The shortest
+// round trip wins: the error is at most half its length.
 class ClockOffset {
  public:
-  // An answer to a frame, and when it came, in this machine's time. Returns the length of the round trip, without the
-  // time that the node took.
+  // Adds an answer to a frame, received at `came_ns` on this machine's clock. Returns the length of the round trip
+  // without the node's own time.
   std::int64_t add(const ReadyMessage& ready, std::int64_t came_ns) {
     const std::int64_t there_ns = ready.frame_came_ns - ready.frame_sent_ns;
     const std::int64_t back_ns = came_ns - ready.ready_sent_ns;

@@ -11,17 +11,17 @@
 
 namespace afm::cluster {
 
-// The pieces of a document; `header.number` names it among those of the session.
+// Pieces of a document; `header.number` identifies it within the session.
 std::vector<DocumentPiece> pieces_of(std::span<const std::byte> document, const ClusterHeader& header);
 
-// Puts documents together again. Pieces of an earlier document of the session, or for which there is no room, are
-// ignored; those of a later one, or of another session, replace it.
+// Reassembles documents. Pieces of an earlier document of the session, or pieces without room, are ignored; those of a
+// later document or of another session replace it.
 class DocumentReader {
  public:
-  // The document, once its last piece has come.
+  // Returns the document after its last piece.
   std::optional<std::vector<std::byte>> add(const DocumentPiece& piece);
 
-  // Of the document that is read.
+  // Header of the document being received.
   const ClusterHeader& header() const { return header_; }
 
  private:

@@ -12,7 +12,7 @@
 #include "cluster/messages.h"
 #include "scene/display/wall.h"
 
-// The inputs of a frame, from which every machine of a wall builds the same frame.
+// Inputs of a frame, from which every machine of a wall builds the same frame.
 namespace afm::cluster {
 
 struct ShownPose {
@@ -27,7 +27,7 @@ constexpr void for_each_field(Visit&& visit, const Record&... pose) {
 }
 static_assert(scene::all_fields_described<ShownPose>());
 
-// The part of scene::TipState that the wall shows.
+// Part of scene::TipState that the wall shows.
 struct ShownTip {
   std::int64_t time_ns = 0;
   scene::Tip tip{};
@@ -58,16 +58,16 @@ constexpr void for_each_field(Visit&& visit, const Record&... tip) {
 }
 static_assert(scene::all_fields_described<ShownTip>());
 
-// Which panels of the live window are shown, and what is pointed at on them.
+// Panels shown in the live window, and the targets pointed at on them.
 struct ShownPanels {
   static constexpr std::uint32_t kKeys = 1, kHidden = 2, kKeysKnown = 4, kMarking = 8, kUnattended = 16, kTab = 32,
                                  kControl = 64, kAllFlags = 127;
   static constexpr std::uint32_t kMostRows = 64;
 
   std::uint32_t flags = 0;
-  std::uint32_t right = 0;   // the panel in the place of the sample's data, below kMostRight
+  std::uint32_t right = 0;   // panel in the place of the sample's data, below kMostRight
   std::uint32_t marked = 0;  // row
-  std::uint32_t hand = 0;    // whose keys are listed, below kMostHands
+  std::uint32_t hand = 0;    // hand whose keys are listed, below kMostHands
   std::uint32_t control_kind = 0;
   std::uint32_t control_index = 0;
 
@@ -85,17 +85,17 @@ constexpr void for_each_field(Visit&& visit, const Record&... panels) {
 }
 static_assert(scene::all_fields_described<ShownPanels>());
 
-// For whom and how the picture is drawn.
+// Viewer and drawing options of the picture.
 struct ShownView {
   static constexpr std::uint32_t kSwapped = 1, kCalibration = 2, kDepth = 4, kHardDepth = 8, kAllFlags = 15;
 
   ShownPose head{};
-  double ipd_m = 0.063;        // the viewer's
-  double drawn_ipd_m = 0.063;  // or less, for comfort
+  double ipd_m = 0.063;        // eye distance of the viewer
+  double drawn_ipd_m = 0.063;  // eye distance drawn; smaller for comfort
   std::array<double, 2> depth_range_m{};
   std::array<double, 2> nearest{};  // scene::Disparity
   std::array<double, 2> farthest{};
-  std::int32_t mode = -1;  // of scene::kStereoModes; -1: each output's own
+  std::int32_t mode = -1;  // index into scene::kStereoModes; -1: each output's own
   std::uint32_t flags = 0;
   std::uint32_t relief = 0;
   std::uint32_t padding = 0;
@@ -116,9 +116,9 @@ constexpr void for_each_field(Visit&& visit, const Record&... view) {
 }
 static_assert(scene::all_fields_described<ShownView>());
 
-// The rest of an exhibit::Moment.
+// Other fields of exhibit::Moment.
 struct ShownMoment {
-  static constexpr std::uint32_t kMostCenterpieces = 4, kNoCenterpiece = 1;  // the latter is a film's alone
+  static constexpr std::uint32_t kMostCenterpieces = 4, kNoCenterpiece = 1;  // kNoCenterpiece is used by films only
   static constexpr double kLongestCueS = 0.5;
   static constexpr std::uint32_t kRetracting = 1, kWand = 2, kWandOriented = 4, kWandPlaced = 8, kWandConnected = 16,
                                  kCue = 32, kBlank = 64, kScan = 128, kTruth = 256, kAllFlags = 511;
@@ -156,20 +156,21 @@ constexpr void for_each_field(Visit&& visit, const Record&... moment) {
 }
 static_assert(scene::all_fields_described<ShownMoment>());
 
-// The texts of a frame, one after the other, each ended by a zero. What has no room is cut, for every machine alike.
+// Texts of a frame, one after the other, each terminated by a zero byte. Texts that do not fit are cut, the same on
+// every machine.
 struct ShownTexts {
   static constexpr std::size_t kBytes = 736;
   std::array<char, kBytes> bytes{};
 
-  std::vector<std::string> list() const;  // empty ones at the end are left out
+  std::vector<std::string> list() const;  // without empty ones at the end
   void set(std::span<const std::string> texts);
 };
 
 struct FrameMessage {
   ClusterHeader header{};
-  std::int64_t sent_ns = 0;   // the master's clock
-  std::uint64_t journal = 0;  // how many records precede the frame
-  std::uint64_t missing = 0;  // a bit for each node that is not there
+  std::int64_t sent_ns = 0;   // master's clock
+  std::uint64_t journal = 0;  // number of records that precede the frame
+  std::uint64_t missing = 0;  // one bit per absent node
   ShownTip tip{};
   ShownMoment moment{};
   ShownView view{};

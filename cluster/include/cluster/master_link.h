@@ -14,12 +14,12 @@
 
 namespace afm::cluster {
 
-// The master's end of a wall of several machines. DDS runs in a separate thread; every call but
-// wait() is wait-free. Frame loop only.
+// Master's end of a wall of several machines. DDS runs in a separate thread; every call except wait() is wait-free.
+// Frame loop only.
 class MasterLink {
  public:
-  // Listens for `listen_ms` first. WrongUsage: another master drives the wall. `model` is a document for every node
-  // that comes.
+  // Listens for `listen_ms` first. WrongUsage: another master drives the wall. `model` is a document sent to every node
+  // that joins.
   static core::Result<std::unique_ptr<MasterLink>> open(const ClusterNetwork& network, std::span<const std::byte> model,
                                                         int listen_ms, const core::Clock& clock);
   MasterLink(const MasterLink&) = delete;
@@ -28,31 +28,31 @@ class MasterLink {
 
   std::uint64_t session() const;
 
-  // Sets header and time.
+  // Sets the header and the time, and sends the frame.
   void send(std::uint64_t number, FrameMessage& frame);
   void swap(std::uint64_t number);
 
-  // The next record for all. One that finds no room is lost: every node notices it, and asks for the history.
+  // Sends the next record to all nodes. A record without room is lost: every node notices, and requests the history.
   void record(const JournalRecord& record);
-  std::uint64_t recorded() const;  // how many until now
+  std::uint64_t recorded() const;  // number of records so far
 
-  // What all that was recorded until now amounts to, for a node that lacks it.
+  // Sends the combined effect of all records so far, for a node that lacks them.
   void send_history(std::span<const std::byte> history);
-  bool sending_history() const;  // the last one is still on its way
+  bool sending_history() const;  // true while the last history is being sent
 
-  // The next answer of a node, and when it came; or nothing.
+  // A node's next answer and its time of arrival; nothing if there is none.
   struct Answer {
     ReadyMessage ready;
     std::int64_t came_ns = 0;
   };
   std::optional<Answer> answer();
 
-  // Until an answer comes, at most so long.
+  // Waits for an answer, at most `timeout_ms`.
   void wait(int timeout_ms);
 
-  std::uint64_t refused() const;       // datagrams that were no valid message
-  std::uint64_t lost() const;          // records and writes that found no room
-  std::uint64_t resent_bytes() const;  // what a node had lost was sent again; counted every sixteenth frame
+  std::uint64_t refused() const;       // invalid datagrams
+  std::uint64_t lost() const;          // records and writes without room
+  std::uint64_t resent_bytes() const;  // sent again because a node had lost them; updated every sixteenth frame
 
  private:
   struct Parts;

@@ -11,12 +11,12 @@
 
 namespace afm::cluster {
 
-// Which nodes of a wall are waited for before a frame is shown. A node that misses three frames in a row is given up;
-// one that answers three in a row in time is awaited again. Frame loop of the master only.
+// Nodes of a wall that must be ready before a frame is shown. A node that misses three frames in a row is given up; one
+// that answers three in a row in time is awaited again. Frame loop of the master only.
 class Membership {
  public:
-  // For a node that has been in time until now, and for one that missed the frame before: a refresh. Where the master
-  // itself takes longer to draw, as without a GPU, a node may take as much longer, up to three times.
+  // Patience with a node that has been in time so far, and with one that missed the previous frame: one refresh. If the
+  // master itself takes longer to draw, as without a GPU, a node gets the same time, at most tripled.
   static constexpr std::int64_t kPatienceNs = 50'000'000, kShortPatienceNs = 16'700'000;
   static constexpr std::int64_t kMostTimes = 3;
   static constexpr int kMostMissed = 3, kLeastInTime = 3;
@@ -24,35 +24,35 @@ class Membership {
   struct Node {
     std::string name;
     bool awaited = false;
-    bool ready = false;  // with the current frame
-    bool heard = false;  // ever
+    bool ready = false;  // current frame drawn
+    bool heard = false;  // at least one answer received
     NodeState state = NodeState::Loading;
     int missed = 0;                  // in a row
-    int in_time = 0;                 // likewise, while it is not awaited
-    std::uint64_t last_ready = 0;    // the newest frame that it has drawn
-    std::uint64_t timeouts = 0;      // frames that were shown without it although it was awaited
-    std::uint64_t other_frames = 0;  // that it built otherwise than the master
+    int in_time = 0;                 // in a row, while not awaited
+    std::uint64_t last_ready = 0;    // newest frame it has drawn
+    std::uint64_t timeouts = 0;      // frames shown without it although it was awaited
+    std::uint64_t other_frames = 0;  // frames it built differently from the master
     ReadyMessage newest{};
   };
 
   explicit Membership(std::vector<std::string> names);
 
-  // The next frame: its number, the digest of what the master has built, and when it begins to draw.
+  // Begins the next frame, with its number, the digest of the master's frame, and the time at which drawing starts.
   void begin(std::uint64_t number, std::uint64_t digest, std::int64_t now_ns);
 
-  // The master has drawn it: from now on it waits.
+  // Starts the patience: the master has drawn the frame.
   void drawn(std::int64_t now_ns);
 
-  // Of this wall, with when it came; a node that there is none of is ignored.
+  // Handles an answer of this wall that arrived at `came_ns`; answers from unknown nodes are ignored.
   void answer(const ReadyMessage& ready, std::int64_t came_ns);
 
-  // The waiting may end: all are ready that are awaited, or the patience with those that are not is over.
+  // True if waiting may end: all awaited nodes are ready, or the patience with the others is over.
   bool complete(std::int64_t now_ns) const;
 
-  // The waiting has ended. Lines for the log: who is given up, is back, or builds other frames.
+  // Ends the waiting. Returns lines for the log: nodes given up, back, or building different frames.
   std::vector<std::string> end();
 
-  std::uint64_t missing() const;  // a bit for each node that is not awaited
+  std::uint64_t missing() const;  // one bit per node that is not awaited
   std::span<const Node> nodes() const { return nodes_; }
 
  private:
@@ -63,7 +63,7 @@ class Membership {
 
     std::int64_t patience_ns(std::int64_t least_ns) const;
   };
-  static constexpr std::size_t kRemembered = 8;  // frames
+  static constexpr std::size_t kRemembered = 8;  // number of frames
 
   const Sent* sent(std::uint64_t number) const;
   void count_in_time(Node& node, const Sent& frame, std::int64_t came_ns);

@@ -12,22 +12,23 @@
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/tip_blocks.h"
 
-// The messages between the machines of a wall: trivially copyable blocks, each in one datagram. What comes from the
-// network is used only after decode() has checked all of it. No message leads to the servo.
+// Messages between the machines of a wall: trivially copyable blocks, each in one datagram. Data from the network is
+// used only after decode() has checked all of it. No message leads to the servo.
 namespace afm::cluster {
 
-// With the headers of UDP, IP and DDS it stays below the 1500 bytes of an Ethernet frame: every fragment could be lost.
+// Keeps a datagram with the headers of UDP, IP and DDS below the 1500 bytes of an Ethernet frame: every fragment could
+// be lost.
 inline constexpr std::size_t kMostDatagramBytes = 1300;
 
-// Raised whenever the meaning of a message changes.
+// Increase whenever the meaning of a message changes.
 inline constexpr std::uint32_t kClusterVersion = 1;
 
-// Of every message. `session` is drawn by each master when it starts.
+// Header of every message. Each master draws a random `session` when it starts.
 struct ClusterHeader {
   std::uint32_t version = kClusterVersion;
-  std::uint32_t node = 0;  // of Wall::nodes: who sends a ReadyMessage
+  std::uint32_t node = 0;  // index into Wall::nodes: sender of a ReadyMessage
   std::uint64_t session = 0;
-  std::uint64_t number = 0;  // of the frame, of a batch's first record, or of a document
+  std::uint64_t number = 0;  // number of the frame, of a batch's first record, or of a document
 
   bool operator==(const ClusterHeader&) const = default;
 };
@@ -41,21 +42,21 @@ constexpr void for_each_field(Visit&& visit, const Record&... header) {
 }
 static_assert(scene::all_fields_described<ClusterHeader>());
 
-// A node has drawn a frame, or says where it stands; the master counts times in its own clock.
+// State of a node that has drawn a frame or reports its progress; the master measures times on its own clock.
 enum class NodeState : std::uint32_t { Loading = 0, Drawing = 1, OtherBuild = 2, OtherScene = 3 };
 
 struct ReadyMessage {
   ClusterHeader header{};
   NodeState state = NodeState::Loading;
-  std::uint32_t wants_history = 0;  // 1: it lacks what was felt before, or a part of it
-  std::uint64_t digest = 0;         // of the frame as it was built; of its scene or its build where those differ
-  std::int64_t frame_sent_ns = 0;   // as in FrameMessage, the master's clock
-  std::int64_t frame_came_ns = 0;   // the node's clock
-  std::int64_t ready_sent_ns = 0;   // likewise
-  std::int64_t swapped_ns = 0;      // likewise: when the frame before was let go
-  std::uint64_t lost_records = 0;   // holes of the journal until now
+  std::uint32_t wants_history = 0;  // 1: earlier records, or some of them, are missing
+  std::uint64_t digest = 0;         // digest of the frame as built, or of the scene or the build if those differ
+  std::int64_t frame_sent_ns = 0;   // copied from FrameMessage, master's clock
+  std::int64_t frame_came_ns = 0;   // node's clock
+  std::int64_t ready_sent_ns = 0;   // node's clock
+  std::int64_t swapped_ns = 0;      // node's clock: display of the previous frame
+  std::uint64_t lost_records = 0;   // gaps in the journal so far
   std::uint32_t draw_us = 0;
-  std::uint32_t late_swaps = 0;  // frames that were shown although no word to show them came
+  std::uint32_t late_swaps = 0;  // frames shown although no SwapMessage arrived
 
   bool operator==(const ReadyMessage&) const = default;
 };
@@ -76,7 +77,7 @@ constexpr void for_each_field(Visit&& visit, const Record&... ready) {
 }
 static_assert(scene::all_fields_described<ReadyMessage>());
 
-// All that are awaited have drawn the frame: show it.
+// Command to show the frame: all awaited nodes have drawn it.
 struct SwapMessage {
   ClusterHeader header{};
 };
@@ -87,7 +88,7 @@ constexpr void for_each_field(Visit&& visit, const Record&... swap) {
 }
 static_assert(scene::all_fields_described<SwapMessage>());
 
-// The parameters of a material as a person has set them: curves::LiveParameters::State, and the servo's revision.
+// Parameters of a material as set by a person: curves::LiveParameters::State, and the servo's revision.
 struct EditRecord {
   std::uint32_t material = 0;
   std::uint32_t revision = 0;
@@ -108,10 +109,10 @@ constexpr void for_each_field(Visit&& visit, const Record&... edit) {
 }
 static_assert(scene::all_fields_described<EditRecord>());
 
-// A scan on the wall begins, or its settings change: exhibit::ScanChange, with the part that the hand has in it.
+// Start of a scan on the wall, or a change of its settings: exhibit::ScanChange, with the hand's part of it.
 struct ScanRecord {
   std::uint32_t material = 0;
-  std::uint32_t frame = 0;  // from which pixel on
+  std::uint32_t frame = 0;  // first pixel
   std::uint32_t pixel = 0;
   std::uint32_t has_hand = 0;  // 1: a HandPart follows
   std::uint32_t paints = 0;
@@ -151,20 +152,20 @@ enum class JournalKind : std::uint32_t {
 
 class JournalRecord {
  public:
-  JournalRecord() = default;  // Forget: all curves are empty again
+  JournalRecord() = default;  // Forget: clears all curves
   explicit JournalRecord(const scene::TipSample& sample) : kind_(JournalKind::Sample) { set(sample); }
   explicit JournalRecord(const scene::TipEvent& event) : kind_(JournalKind::Event) { set(event); }
   explicit JournalRecord(const EditRecord& edit) : kind_(JournalKind::Edit) { set(edit); }
-  JournalRecord(JournalKind kind, const ScanRecord& scan) : kind_(kind) { set(scan); }  // of the last three
+  JournalRecord(JournalKind kind, const ScanRecord& scan) : kind_(kind) { set(scan); }  // last three kinds
 
   JournalKind kind() const { return kind_; }
-  // Of that kind alone.
+  // Valid only for records of that kind.
   scene::TipSample sample() const { return get<scene::TipSample>(); }
   scene::TipEvent event() const { return get<scene::TipEvent>(); }
   EditRecord edit() const { return get<EditRecord>(); }
   ScanRecord scan() const { return get<ScanRecord>(); }
 
-  // Enumerators known, numbers finite, materials below scene::kMaxMaterials.
+  // True if enumerators are known, numbers finite, and materials below scene::kMaxMaterials.
   bool valid() const;
 
  private:
@@ -186,7 +187,7 @@ class JournalRecord {
   alignas(8) std::array<std::byte, sizeof(scene::TipSample)> body_{};
 };
 
-// The records header.number to header.number + count - 1; only those are sent.
+// Records header.number to header.number + count - 1; only these are sent.
 struct JournalBatch {
   static constexpr std::size_t kMost = (kMostDatagramBytes - sizeof(ClusterHeader) - 8) / sizeof(JournalRecord);
 
@@ -196,8 +197,8 @@ struct JournalBatch {
   std::array<JournalRecord, kMost> records{};
 };
 
-// A piece of a document that is longer than a datagram: the model of the wall, or what was felt before. All pieces but
-// the last are full.
+// Piece of a document longer than a datagram: the model of the wall, or the history. All pieces except the last are
+// full.
 struct DocumentPiece {
   static constexpr std::size_t kBytes = 1200;
 
@@ -214,11 +215,11 @@ static_assert(std::is_trivially_copyable_v<SwapMessage> && sizeof(SwapMessage) <
 static_assert(std::is_trivially_copyable_v<JournalBatch> && sizeof(JournalBatch) <= kMostDatagramBytes);
 static_assert(std::is_trivially_copyable_v<DocumentPiece> && sizeof(DocumentPiece) <= kMostDatagramBytes);
 
-// The message of a datagram, if all of it is valid: its length, its version, every number and enumerator.
+// Decodes a datagram if all of it is valid: its length, its version, every number and enumerator.
 template <class Message>
 std::optional<Message> decode(std::span<const std::byte> datagram);
 
-// Of the bytes that encode(message) sends.
+// Number of bytes that encode(message) sends.
 std::size_t encoded_bytes(const JournalBatch& batch);
 template <class Message>
 constexpr std::size_t encoded_bytes(const Message& /*any*/) {

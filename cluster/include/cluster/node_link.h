@@ -15,7 +15,7 @@
 
 namespace afm::cluster {
 
-// A node's end. DDS runs in a separate thread; every call but wait() is wait-free. Main thread only.
+// Node's end of a wall. DDS runs in a separate thread; every call except wait() is wait-free. Main thread only.
 class NodeLink {
  public:
   static core::Result<std::unique_ptr<NodeLink>> open(const ClusterNetwork& network, const core::Clock& clock);
@@ -27,10 +27,10 @@ class NodeLink {
     FrameMessage frame;
     std::int64_t came_ns = 0;
   };
-  // The newest frame, if it came since the last call.
+  // Newest frame, if it arrived since the last call.
   std::optional<Came> frame();
 
-  // The newest frame that may be shown, of whatever session; its number, 0 before the first.
+  // Newest frame that may be shown: its session and its number, 0 before the first.
   std::pair<std::uint64_t, std::uint64_t> swapped() const;
 
   struct Numbered {
@@ -43,16 +43,16 @@ class NodeLink {
     ClusterHeader header;
     std::vector<std::byte> bytes;
   };
-  std::optional<Document> model();    // a new one
-  std::optional<Document> history();  // likewise
+  std::optional<Document> model();    // model received since the last call
+  std::optional<Document> history();  // history received since the last call
 
-  // Sets the version and when it was sent.
+  // Sends an answer, with the version and the time set.
   void answer(ReadyMessage ready);
 
-  // Until something comes, at most so long.
+  // Waits until something arrives, at most `timeout_ms`.
   void wait(int timeout_ms);
 
-  std::uint64_t refused() const;  // datagrams that were no valid message
+  std::uint64_t refused() const;  // invalid datagrams
 
  private:
   struct Parts;

@@ -8,7 +8,7 @@ namespace afm::core {
 
 }  // namespace afm::core
 
-// Our own bugs, in every build type. Never for bad input, and never inside a servo tick. The name of the file goes
-// without its folder: an installed program holds no path of the machine that built it.
+// Checks for our own bugs, active in every build type; never for bad input, and never inside a servo tick. The file
+// name is printed without its folder, so that an installed program contains no path of the build machine.
 #define AFM_CHECK(expression) \
   (static_cast<bool>(expression) ? void(0) : ::afm::core::check_failed(#expression, __FILE_NAME__, __LINE__))

@@ -18,7 +18,7 @@ class Clock {
   virtual std::int64_t now_ns() const noexcept = 0;
 };
 
-// CLOCK_MONOTONIC, which is the same clock in every process of the machine. Any thread.
+// CLOCK_MONOTONIC, the same clock in every process of the machine. Any thread.
 class MonotonicClock final : public Clock {
  public:
   std::int64_t now_ns() const noexcept override;

@@ -8,13 +8,13 @@
 #include <type_traits>
 #include <utility>
 
-// The enumerators of an enum class, counted by the compiler, so that no bound has to be written beside the enum and a
-// table with a row for each can be tied to it. Values from 0 to kMostEnumerators - 1 are seen, gaps are allowed.
+// Enumerators of an enum class, counted by the compiler. No count has to be kept next to the enum, and a static_assert
+// can tie a table with one row each to it. Finds values from 0 to kMostEnumerators - 1; gaps are allowed.
 namespace afm::core {
 
 inline constexpr std::size_t kMostEnumerators = 32;
 
-// Both compilers spell a value without a name as a cast, "(Color)7". Clang leaves the value out of a source_location.
+// Both compilers print an unnamed value as a cast, "(Color)7". Clang omits the value from a source_location.
 template <auto value>
 consteval bool has_name() {
   const std::string_view function = __PRETTY_FUNCTION__;
@@ -43,24 +43,24 @@ consteval auto find_enumerators() {
   return found;
 }
 
-// In rising order of their values.
+// Sorted by value.
 template <class Enum>
 inline constexpr auto kEnumerators = find_enumerators<Enum>();
 
-// False for a value from outside that is no enumerator.
+// False for an outside value without an enumerator.
 template <class Enum>
 constexpr bool is_enumerator(Enum value) {
   return std::find(kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(), value) != kEnumerators<Enum>.end();
 }
 
-// Its place in kEnumerators and in a table that has_row_for_each(); of an enumerator alone.
+// Position in kEnumerators, and in any table that satisfies has_row_for_each(). Valid for enumerators only.
 template <class Enum>
 constexpr std::size_t index_of(Enum value) {
   return static_cast<std::size_t>(std::find(kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(), value) -
                                   kEnumerators<Enum>.begin());
 }
 
-// True if a table has one row for each enumerator, in their order. `key` is the member that holds it.
+// True if a table has one row for each enumerator, in the same order. `key` is the member with the enumerator.
 template <class Rows, class Row, class Enum>
 constexpr bool has_row_for_each(const Rows& rows, Enum Row::* key) {
   return std::equal(rows.begin(), rows.end(), kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(),

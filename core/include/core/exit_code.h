@@ -5,7 +5,7 @@
 
 namespace afm::core {
 
-// The exit codes of every command; scripts rely on them.
+// Exit codes of every command; scripts rely on them.
 enum class ExitCode : int { Done = 0, RunFailed = 1, WrongUsage = 2, BadInputFile = 3, DeviceMissing = 4 };
 
 inline ExitCode exit_code(core::ErrorCategory category) {

@@ -6,21 +6,21 @@
 
 #include "core/exit_code.h"
 
-// SIGINT and SIGTERM. A thread of their own takes them, so that they end a run at once whatever it is doing: what it
-// would leave behind is undone, and the process is over.
+// SIGINT and SIGTERM. A dedicated thread receives them, so that they end a run at once whatever it is doing: it runs
+// the registered clean-ups and ends the process.
 namespace afm::core {
 
-// Once, at the beginning of main, before there is any other thread: a signal undoes what is registered, the newest
-// first, logs "interrupted", and ends the process with RunFailed or CodeOfInterruption. A limit on the size of files
-// ends nothing any more: write() fails. Throws std::system_error if no thread can be started.
+// Call once, at the beginning of main, before any other thread exists. A signal then runs the registered clean-ups,
+// newest first, logs "interrupted", and ends the process with RunFailed or CodeOfInterruption. Exceeding the file size
+// limit no longer ends the process: write() fails. Throws std::system_error if no thread can be started.
 void take_interruptions();
 
-// Ends the process as an interruption does, but with `line` as its last words: for what would be waited for without
-// end. Any thread.
+// Ends the process like an interruption, with `line` as the last line of the log. Used where waiting would never end.
+// Any thread.
 [[noreturn]] void end_at_once(ExitCode code, std::string_view line);
 
-// Registers the clean-up of an interruption for the lifetime of this object. `undo` is called by the signals' thread
-// while this one runs on; it must be quick, and what it touches must not belong to one thread alone.
+// Registers the clean-up of an interruption for the lifetime of this object. The signal thread calls `undo` while the
+// calling thread runs on, so it must be quick and must not touch data owned by one thread.
 class OnInterruption {
  public:
   explicit OnInterruption(std::function<void()> undo);
@@ -32,7 +32,7 @@ class OnInterruption {
   int number_;
 };
 
-// No interruption takes effect while this lives: some milliseconds, for steps that belong together.
+// Holds back interruptions during its lifetime. Keep it to a few milliseconds, for steps that belong together.
 class Uninterrupted {
  public:
   Uninterrupted();
@@ -41,7 +41,7 @@ class Uninterrupted {
   ~Uninterrupted();
 };
 
-// While this lives, an interruption ends the process with `code`.
+// Sets the exit code of an interruption to `code` during its lifetime.
 class CodeOfInterruption {
  public:
   explicit CodeOfInterruption(ExitCode code);
@@ -50,9 +50,9 @@ class CodeOfInterruption {
   ~CodeOfInterruption();
 };
 
-// While this lives, a run ends by itself: it asks interrupted() often, and ends in good order once that is true. If it
-// has not asked within 400 ms, what is registered is undone; within 5 s more, or at a signal that comes more than a
-// second after the first, the process is ended as above.
+// Lets a run end by itself during its lifetime: the run polls interrupted() and ends in good order once it returns
+// true. If it has not polled within 400 ms, the registered clean-ups run. After 5 s more, or at a signal more than a
+// second after the first, the process ends as above.
 class OrderlyEnd {
  public:
   OrderlyEnd();
@@ -61,7 +61,7 @@ class OrderlyEnd {
   ~OrderlyEnd();
 };
 
-// True after a signal. For a run with an OrderlyEnd; any thread.
+// True after a signal. Used by a run with an OrderlyEnd; any thread.
 bool interrupted();
 
 }  // namespace afm::core

@@ -5,8 +5,8 @@
 
 namespace afm::core {
 
-// One line to stderr, "touchafm: <text>", written by a single write() so that lines of the two processes never mix.
-// What no terminal should get is replaced (core/printable.h). Any thread, never the servo tick.
+// Writes "touchafm: <text>" to stderr with a single write(), so that lines of the two processes never mix. Replaces
+// characters that are unsafe for a terminal (core/printable.h). Any thread, never the servo tick.
 void log_line(std::string_view text);
 
 }  // namespace afm::core

@@ -13,8 +13,8 @@ struct Percentiles {
 
 Percentiles percentiles(std::vector<double> values);
 
-// Of a histogram of 1 us bins, microseconds: the upper edge of the bin that the percentile falls into, or the maximum
-// if that is less.
+// Percentiles of a histogram with 1 us bins, in microseconds: the upper edge of the percentile's bin, or the maximum if
+// that is less.
 Percentiles percentiles(std::span<const std::uint32_t> bins, std::uint32_t max_us);
 
 }  // namespace afm::core

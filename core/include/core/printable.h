@@ -6,11 +6,11 @@
 
 namespace afm::core {
 
-// Text of a device, a driver or a file as a terminal and a JSON file may be given it: what is no UTF-8 (RFC 3629), and
-// every control character but the end of a line and the tab, becomes U+FFFD.
+// Makes text from a device, a driver or a file safe for a terminal and a JSON file: invalid UTF-8 (RFC 3629) and every
+// control character except newline and tab become U+FFFD.
 std::string printable(std::string_view text);
 
-// The same for what must be one line: ends of lines and tabs become spaces.
+// Same for text that must be one line: newlines and tabs become spaces.
 std::string printable_line(std::string_view text);
 
 }  // namespace afm::core

@@ -7,8 +7,8 @@
 
 namespace afm::core {
 
-// A failure of the outside world. The category determines the program's exit code (core/exit_code.h); the message says
-// what was tried, with what, and what to do: one line, lower case, no full stop.
+// Failure of the outside world. The category determines the program's exit code (core/exit_code.h); the message says
+// what was tried, with what, and what to do, on one line, in lower case, without a full stop.
 enum class ErrorCategory { Failed, WrongUsage, BadInputFile, DeviceMissing };
 
 struct Error {

@@ -8,13 +8,14 @@
 
 namespace afm::core {
 
-// Logs "error: <message>" and gives the exit code that says so.
+// Logs "error: <message>" and returns `code` as an int.
 int fail(ExitCode code, const std::string& message);
 
-// The value of `run`; an exception is one line and RunFailed: no memory, no threads, Vulkan's own failures.
+// Returns the value of `run`, or logs an exception on one line and returns RunFailed: no memory, no threads, Vulkan's
+// own failures.
 int report_exceptions(const std::function<int()>& run) noexcept;
 
-// Body of main(): handles interruptions, runs `run`, whose value is the exit code, and reports exceptions.
+// Body of main(): handles interruptions, calls `run`, whose value is the exit code, and reports exceptions.
 int run_main(const std::function<int()>& run) noexcept;
 
 }  // namespace afm::core

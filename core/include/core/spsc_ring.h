@@ -10,9 +10,9 @@
 
 namespace afm::core {
 
-// Every value of a trivially copyable T from one producer to one consumer, or a counted drop: no locks, no pointers, so
-// that it may lie in memory shared by two processes. Indices only count up and are masked on access, so that garbage in
-// them can spoil values but never reach outside the array.
+// Passes every value of a trivially copyable T from one producer to one consumer, or counts it as dropped. It has no
+// locks and no pointers, so that it can be placed in memory shared by two processes. Indices only count up and are
+// masked on access: corrupt indices can spoil values but never lead outside the array.
 template <class T, std::size_t Capacity>
 class SpscRing {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -20,7 +20,8 @@ class SpscRing {
   static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0, "capacity must be a power of two");
 
  public:
-  // The single producer's thread. Wait-free. False, and one more drop, when the consumer has fallen Capacity behind.
+  // Called by the single producer's thread. Wait-free. Returns false and counts a drop if the consumer is Capacity
+  // values behind.
   bool push(const T& value) noexcept {
     const std::uint64_t head = head_.load(std::memory_order_relaxed);
     if (head - tail_.load(std::memory_order_acquire) >= Capacity) {
@@ -32,13 +33,13 @@ class SpscRing {
     return true;
   }
 
-  // The single consumer's thread. Wait-free. Empty when there is nothing new.
+  // Called by the single consumer's thread. Wait-free. Empty if there is nothing new.
   std::optional<T> pop() noexcept {
     const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
     const std::uint64_t head = head_.load(std::memory_order_acquire);
     if (tail == head) return std::nullopt;
     if (head - tail > Capacity) {
-      // no producer can be that far ahead: indices are garbage, and draining them might never end
+      // no producer can be that far ahead: the indices are corrupt, and draining them might never end
       tail_.store(head, std::memory_order_release);
       return std::nullopt;
     }

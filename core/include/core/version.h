@@ -3,6 +3,6 @@
 
 namespace afm::core {
 
-extern const char* const kVersion;  // of the project() in CMakeLists.txt
+extern const char* const kVersion;  // project version in CMakeLists.txt
 
 }  // namespace afm::core

@@ -8,22 +8,22 @@
 
 namespace afm::core {
 
-// The whole file, bytes unchanged, at most 1 GiB. BadInputFile names the path and the reason; a folder, a device or a
-// pipe is none, and is not waited for.
+// Reads a whole file, bytes unchanged, at most 1 GiB. BadInputFile names the path and the reason. Folders, devices and
+// pipes are errors and never block.
 core::Result<std::string> read_file(const std::string& path);
 
-// As read_file(), but no more than the first `most` bytes of a file of any size.
+// Like read_file(), but returns only the first `most` bytes of a file of any size.
 Result<std::string> read_beginning(const std::string& path, std::size_t most);
 
 // Replaces a regular file as a whole: the new contents stay in a temporary file in the same folder until they are on
-// the disk. It keeps its permissions, and links to it stay links. Devices and pipes are written into; a pipe's reader
-// is waited for 5 s. Failed names the path and the reason; nothing partial is left.
+// the disk. The file keeps its permissions, and links to it stay links. Devices and pipes are written directly; a
+// pipe's reader has 5 s to open it. Failed names the path and the reason; no partial file is left.
 core::Result<void> write_file(const std::string& path, std::string_view bytes);
 
-// Before long work: whether write_file() would find a folder and the rights to write there. Changes nothing.
+// Checks before long work that write_file() would find a folder and write permission. Changes nothing.
 Result<void> check_writable(const std::string& path);
 
-// "a folder", "a pipe", "a socket" or "a device"; empty for a regular file and for nothing.
+// "a folder", "a pipe", "a socket" or "a device"; empty for a regular file or a missing one.
 std::string kind_of_no_file(const std::string& path);
 
 }  // namespace afm::core

@@ -5,7 +5,7 @@
 
 namespace afm::core {
 
-// All of `bytes`, however many calls that takes. 0, or errno. Any thread; allocates nothing.
+// Writes all of `bytes`, with as many calls as needed. Returns 0 or errno. Any thread; allocates nothing.
 int write_all(int descriptor, std::string_view bytes) noexcept;
 
 }  // namespace afm::core

@@ -19,9 +19,9 @@ namespace afm::curves {
 // mass.
 struct ModelName {
   std::string text;
-  bool automatic = false;       // the law that suits the contact
-  bool direction_rule = false;  // the paper's flow chart
-  bool dynamic = false;         // with the lever's mass, damping and heat
+  bool automatic = false;       // selects the law that suits the contact
+  bool direction_rule = false;  // selects the law by the paper's flow chart
+  bool dynamic = false;         // includes the lever's mass, damping and heat
   physics::Law law = physics::Law::Paper;
 
   static std::optional<ModelName> parse(std::string_view text);
@@ -35,10 +35,10 @@ std::string known_models(ModelUse use);
 
 // One tip, lever, sample and medium, and how its curve is to be computed.
 struct ContactSetup {
-  scene::MaterialEntry material;  // with probe and overrides in its numbers, and their sources
+  scene::MaterialEntry material;  // includes probe and overrides in its numbers, with their sources
   physics::LawOptions law_options;
   ModelName model;
-  physics::FrictionLaw friction = physics::FrictionLaw::None;  // that is felt; no curve of a force knows it
+  physics::FrictionLaw friction = physics::FrictionLaw::None;  // friction to be felt; force curves do not use it
 
   // The chosen law with the material's numbers; Amontons' where atoms were asked for that lie in no lattice.
   physics::FrictionParameters felt_friction() const;
@@ -60,7 +60,7 @@ struct ContactSetup {
 struct ContactParameter {
   std::string_view option;                        // "tip-radius"
   std::string_view json_key;                      // "tip_radius_m"
-  std::span<const std::string_view> source_keys;  // in material files; the first is that of the number itself
+  std::span<const std::string_view> source_keys;  // keys in material files; the first one is that of the number itself
   std::string help;
   std::string_view sort;                 // "a length"
   std::span<const physics::Unit> units;  // empty for a plain number

@@ -13,7 +13,7 @@
 namespace afm::curves {
 
 enum class CurveFormat {
-  TouchAfmCsv,     // what `touchafm curve` prints
+  TouchAfmCsv,     // output of `touchafm curve`
   Tab,             // afmformats, text
   Hdf5,            // afmformats, HDF5
   AfmWorkshop,     // AFM Workshop's .csv; Gwyddion reads it too
@@ -36,7 +36,7 @@ std::optional<CurveFormat> writable_format(std::string_view name);
 struct CurveReading {
   std::optional<physics::Stiffness> spring_constant;
   std::optional<double> sensitivity_m_per_v;
-  std::size_t index = 0;  // of the curve, in an .h5 that holds several
+  std::size_t index = 0;  // index of the curve, in an .h5 with several
   bool confined = true;   // formats of others in a process that can open nothing; false: here, so that a fuzzer sees
 };
 

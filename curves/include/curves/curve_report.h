@@ -14,7 +14,7 @@ namespace afm::curves {
 
 // A curve with what its analysis found (physics/curve_analysis.h).
 struct AnalysedCurve {
-  std::string name;  // what legends and messages call it
+  std::string name;  // name in legends and messages
   RecordedCurve curve;
   physics::CurveFeatures features;
 };

@@ -20,24 +20,24 @@ struct PathOptions {
   std::string to{};  // empty: -5 nm, or deeper where the sample is still pulling there
   std::string step{};        // empty: 0.01 nm, or a twenty-thousandth of a longer way
   std::string speed{};       // empty: 1 um/s; acts on dynamic models only
-  std::string seed{};        // of the noise, a whole number; empty: the usual one; acts on dynamic models only
-  bool events_only = false;  // the samples are not asked for: models at rest need few
+  std::string seed{};        // integer seed of the noise; empty: the usual one; dynamic models only
+  bool events_only = false;  // no samples requested: models at rest need few
 };
 
 // How a dynamic model moved.
 struct Motion {
   physics::Velocity speed;
-  double slow_motion = 1.0;  // how much longer than its physics a servo of 1 kHz needs for it
-  std::uint64_t seed = 0;    // of the noise
+  double slow_motion = 1.0;  // time stretch that a 1 kHz servo needs for its physics
+  std::uint64_t seed = 0;    // seed of the noise
 };
 
 // One cycle with everything that it was made from.
 struct CurveRun {
   ContactSetup setup;
-  std::string model;                        // what was computed: "dmt"
-  std::optional<physics::LawChoice> place;  // on the adhesion map; none where the work of adhesion is not known
+  std::string model;                        // computed model: "dmt"
+  std::optional<physics::LawChoice> place;  // position on the adhesion map; none if the work of adhesion is unknown
   physics::SweepPlan plan;
-  physics::CycleFigures figures;  // of the law at rest, without noise and inertia
+  physics::CycleFigures figures;  // law at rest, without noise and inertia
   physics::ForceCurve curve;
   std::optional<Motion> motion;
 };

@@ -34,14 +34,14 @@ std::optional<ImageFormat> image_format_of(std::string_view bytes);
 bool is_image_file(const std::string& path);
 
 struct ImageReading {
-  std::string channel;   // by its name, in any case of letters; empty: the first height, the trace before the retrace
-  bool confined = true;  // in a process that can open nothing; false: here, so that a fuzzer sees it
+  std::string channel;   // name in upper or lower case; empty: the first height channel, trace before retrace
+  bool confined = true;  // reads in a process that can open nothing; false: in this process, visible to a fuzzer
 };
 
 // An image as the file has it: nothing is levelled, and a number that is not finite is a NaN.
 struct LoadedImage {
   ImageFormat format = ImageFormat::Gsf;
-  physics::ScanImage image;           // the channels on the grid of the chosen one
+  physics::ScanImage image;           // all channels on the grid of the selected one
   std::size_t chosen = 0;             // index of the channel that was asked for
   std::vector<std::string> left_out;  // channels on other grids, by name
 };

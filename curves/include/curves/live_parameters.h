@@ -38,7 +38,7 @@ class LiveParameters {
   // All that it is, beyond what was loaded: so that another machine has the same.
   struct State {
     std::array<int, kRows> steps{};
-    std::optional<Row> refused;  // the row whose step changed nothing last
+    std::optional<Row> refused;  // row whose last step changed nothing
     int refused_direction = 0;
 
     bool operator==(const State&) const = default;
@@ -50,8 +50,8 @@ class LiveParameters {
   // As it would be felt now; its parameters are what the servo is to get.
   const SampleModel& model() const { return now_; }
 
-  std::string value(Row row) const;                                           // with its unit
-  bool automatic_law() const { return !law_after(steps_[index(Row::Law)]); }  // the adhesion map's
+  std::string value(Row row) const;                                           // includes the unit
+  bool automatic_law() const { return !law_after(steps_[index(Row::Law)]); }  // law from the adhesion map
   bool changed(Row row) const { return steps_[index(row)] != 0; }
   bool changed() const { return steps_ != Steps{}; }
 

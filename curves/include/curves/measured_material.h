@@ -14,7 +14,7 @@ namespace afm::curves {
 struct MeasuredMaterial {
   scene::MaterialEntry entry;  // named "measured"; titled as its file
   scene::SharedMeasuredCurve curve;
-  physics::CurveFeatures features;  // as `touchafm analyse` prints them
+  physics::CurveFeatures features;  // as printed by `touchafm analyse`
 };
 
 // Reads any format of curves/curve_file.h. Lever and tip are those of `like` but for the spring constant, which the

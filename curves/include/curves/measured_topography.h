@@ -18,9 +18,9 @@ struct TopographyReading {
 
 // An image of a file as it was measured, and levelled. The raw values stay in `file`.
 struct MeasuredTopography {
-  std::string name;  // of the file
+  std::string name;  // name of the file
   LoadedImage file;
-  physics::HeightStatistics raw;  // of the chosen channel
+  physics::HeightStatistics raw;  // statistics of the selected channel
   physics::Levelling levelling = physics::Levelling::Plane;
   physics::LevelledHeights level;
   physics::HeightStatistics levelled;

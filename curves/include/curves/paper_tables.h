@@ -15,7 +15,7 @@ namespace afm::curves {
 
 // Something that the paper prints and its own equations do not give, or that a reader of its numbers must know.
 struct Erratum {
-  std::string_view name;  // one word or two, as tables refer to it
+  std::string_view name;  // one or two words, used by tables
   std::string_view text;
 };
 
@@ -30,9 +30,9 @@ struct TableCell {
   std::string quantity;              // "D_attr"
   std::string unit;                  // "nm", as the table prints it
   double per_si = 1.0;               // units in one SI unit
-  std::string printed;               // as the paper prints it
-  double exact = 0.0;                // by the paper's equations
-  std::optional<double> measured;    // in the run; no run measures D_attr and delta_c
+  std::string printed;               // as printed in the paper
+  double exact = 0.0;                // computed by the paper's equations
+  std::optional<double> measured;    // measured in the run, except for D_attr and delta_c
   std::optional<double> experiment;  // Table 2 only
   std::string printed_simulation;    // Table 2 only
   std::string_view erratum;          // empty where printed and exact agree
@@ -41,14 +41,14 @@ struct TableCell {
 // A row of Table 1 that is given, not computed: as the material file writes it.
 struct InputRow {
   std::string name;
-  std::vector<std::string> values;  // by material
+  std::vector<std::string> values;  // one per material
 };
 
 struct PaperTables {
   std::vector<std::string> materials;  // titles, in the order of the columns
   std::vector<InputRow> inputs;
-  std::vector<TableCell> table1;  // by quantity, then by material
-  std::vector<TableCell> table2;  // by material, then by quantity
+  std::vector<TableCell> table1;  // ordered by quantity, then by material
+  std::vector<TableCell> table2;  // ordered by material, then by quantity
 };
 
 // What a demo measured: magnitudes in SI by quantity ("F_attr") for each material.

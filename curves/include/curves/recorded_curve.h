@@ -16,7 +16,7 @@ namespace afm::curves {
 // What a file says about how its curve was made; an empty text or optional is what it does not say.
 struct CurveMetadata {
   std::optional<physics::Stiffness> spring_constant;
-  std::optional<double> sensitivity_m_per_v;  // of the optical lever: deflection per volt ("InvOLS")
+  std::optional<double> sensitivity_m_per_v;  // optical lever: deflection per volt ("InvOLS")
   std::optional<physics::Velocity> approach_speed;
   std::optional<physics::Velocity> retract_speed;
   std::optional<physics::Force> setpoint;
@@ -35,7 +35,7 @@ struct CurveMetadata {
 // before all of the retract, every number finite, at most kMostCurvePoints.
 struct RecordedCurve {
   std::vector<physics::CurvePoint> points;
-  std::vector<double> time_s;  // of each point since the first, or empty if unknown
+  std::vector<double> time_s;  // each point's time since the first, or empty if unknown
   CurveMetadata metadata;
 };
 

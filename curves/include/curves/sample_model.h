@@ -19,10 +19,10 @@ namespace afm::curves {
 // A material as it is felt and shown: what the files and the command line say of it, the parameters that hold now, the
 // law that they are given, and what that comes to. Made again for other parameters; cheap to copy.
 struct SampleModel {
-  ContactSetup setup;                                // as it was loaded
-  scene::SharedContact parameters;                   // what the servo gets
+  ContactSetup setup;                                // as loaded
+  scene::SharedContact parameters;                   // parameters for the servo
   physics::LawChoice contact;                        // its place on the adhesion map, and the law that suits it
-  std::shared_ptr<const physics::LawTables> tables;  // of a dynamic lever, the same lever at rest
+  std::shared_ptr<const physics::LawTables> tables;  // for a dynamic lever, those of the same lever at rest
   haptics::Scaling scaling;                          // Fit, on the simulated hand
 
   const physics::CycleFigures& figures() const { return tables->figures; }

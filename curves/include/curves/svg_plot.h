@@ -17,10 +17,10 @@ struct SvgPoint {
 enum class LineStyle { Solid, Dashed };
 
 struct SvgLine {
-  std::string label;  // in the legend; empty for none
-  std::string color;  // as CSS writes it
+  std::string label;  // legend entry; empty: none
+  std::string color;  // CSS colour
   LineStyle style = LineStyle::Solid;
-  std::vector<SvgPoint> points;  // one that is not finite breaks the line
+  std::vector<SvgPoint> points;  // a point that is not finite breaks the line
 };
 
 // A dot on the plot with a text beside it, or a text alone.
@@ -35,11 +35,11 @@ enum class AxisScale { Linear, Logarithmic };
 
 struct SvgPlot {
   std::string title;
-  std::string x_label;  // with its unit
-  std::string y_label;  // with its unit
+  std::string x_label;  // includes the unit
+  std::string y_label;  // includes the unit
   std::vector<SvgLine> lines;
   std::vector<SvgMark> marks;
-  AxisScale x_scale = AxisScale::Linear;  // on a logarithmic axis what is not positive breaks the line
+  AxisScale x_scale = AxisScale::Linear;  // on a logarithmic axis, values <= 0 break the line
   AxisScale y_scale = AxisScale::Linear;
   char decimal_mark = '.';
   int width = 960;

@@ -8,8 +8,8 @@
 
 #include "scene/shared/shared_blocks.h"
 
-// The servo's interface to a haptic device. The device frame is right +x, up +y, towards the user +z, in metres; its
-// axes are parallel to the room's.
+// Interface between the servo and a haptic device. The device frame is right +x, up +y, towards the user +z, in metres;
+// its axes are parallel to the room's.
 namespace afm::haptics {
 
 struct DeviceSpec {
@@ -17,22 +17,23 @@ struct DeviceSpec {
   double max_force_n = 0;                                              // nominal peak
   double max_continuous_force_n = 0;                                   // continuous rating of the motors
   double max_stiffness_n_per_m = 0;                                    // stable at the servo's rate
-  double max_slew_n_per_s = std::numeric_limits<double>::infinity();   // beyond it the driver cuts the force
-  double max_speed_m_per_s = std::numeric_limits<double>::infinity();  // likewise
-  double force_lasts_s = std::numeric_limits<double>::infinity();  // not renewed for so long, its driver takes it away
-  bool measures = false;     // sensors tell where the hand is: they flicker, and what they tell can be wrong
-  bool has_own_hand = true;  // false: it goes where follow() says
+  double max_slew_n_per_s = std::numeric_limits<double>::infinity();   // above this, the driver cuts the force
+  double max_speed_m_per_s = std::numeric_limits<double>::infinity();  // above this, the driver cuts the force
+  double force_lasts_s = std::numeric_limits<double>::infinity();      // the driver drops an older force
+  bool measures = false;     // sensors measure the position: it flickers, and can be wrong
+  bool has_own_hand = true;  // false: moved by follow()
   glm::dvec3 workspace_min_m{0.0};
   glm::dvec3 workspace_max_m{0.0};
-  glm::dvec3 contact_point_m{0.0};  // where the hand is when the tip touches the undeformed sample (Z = 0)
+  glm::dvec3 contact_point_m{0.0};  // position of the hand when the tip touches the undeformed sample (Z = 0)
 };
 
-// An Omni, whose vendor's sheet most devices of this class follow: what the simulated and the recorded hand hold. 60 mm
-// above and 40 mm below the contact point are for use, the uppermost 20 mm for the recoil after pull-off. Z = 0 lies at
-// the origin.
+// An Omni, whose data sheet most devices of this class follow; used for the simulated and the recorded hand. The
+// workspace extends 60 mm above and 40 mm below the contact point; its top 20 mm are for the recoil after pull-off. Z =
+// 0 is at the origin.
 DeviceSpec omni_like(std::string name);
 
-// The same device, its places from the contact point, which is then the origin: what a recording can keep of it.
+// The same device with positions relative to the contact point, which is then the origin: the part that a recording can
+// keep.
 DeviceSpec from_contact(DeviceSpec spec);
 
 // Description of a device in the shared segment. For a spec that is from_contact(), the round trip changes nothing
@@ -40,32 +41,33 @@ DeviceSpec from_contact(DeviceSpec spec);
 scene::SharedDevice shared(const DeviceSpec& spec);
 DeviceSpec spec_of(const scene::SharedDevice& device);
 
-// The force that the servo lets a device have at most: 2.0 N, the default of careful drivers for hands
-// (sawSensablePhantom), and less for a device whose nominal peak leaves no reserve of a tenth.
+// Largest force that the servo lets a device apply: 2.0 N, the default of careful drivers for hands
+// (sawSensablePhantom), or less for a device whose nominal peak leaves no reserve of 10 %.
 double force_cap_n(const DeviceSpec& spec);
 
-// The same device for an operator who wants less: its nominal peak is such that force_cap_n() is not above `max_n`.
+// The same device, limited by the operator: its nominal peak is reduced until force_cap_n() is at most `max_n`.
 inline constexpr double kLeastForceLimitN = 0.1;
 DeviceSpec limited_to(DeviceSpec spec, double max_n);
 
-// Usable share of a device's slew and speed limits: a driver cuts the force when its own limit is exceeded.
+// Fraction of a device's slew and speed limits that TouchAFM uses, because a driver cuts the force when its own limit
+// is exceeded.
 inline constexpr double kUsableLimitShare = 0.8;
 
-// `wanted`, or what the device leaves for use where that is less.
+// `wanted_n_per_s`, limited to the usable share of the device's slew limit.
 double usable_slew_n_per_s(const DeviceSpec& spec, double wanted_n_per_s);
 
-// Finite and not absurdly far: what a hand's position must be before anything is computed from it.
+// True if a position is finite and plausible, which must be checked before any computation with it.
 bool is_within_reach(const glm::dvec3& position_m) noexcept;
 
 struct DeviceSample {
   glm::dvec3 position_m{0.0};
-  bool turn_on = false;               // the button that enables the force, held down
-  bool healthy = true;                // false: the device failed, the rest is not to be used
-  double motor_heat = 0;              // as the device measures it: 1 is as hot as its motors may become, 0 if unknown
-  std::uint32_t finished_script = 0;  // revision of the newest HandScript that was played to its end
+  bool turn_on = false;               // button that enables the force, held down
+  bool healthy = true;                // false: the device failed, the other fields are invalid
+  double motor_heat = 0;              // as measured by the device: 1 is the limit of its motors, 0 if unknown
+  std::uint32_t finished_script = 0;  // revision of the newest HandScript played to its end
 };
 
-// A force for a hand. Only SafetyGovernor can make one, so no other code can push a device.
+// Force for a hand. Only SafetyGovernor can create one, so no other code can move a device.
 class ForceCommand {
  public:
   const glm::dvec3& force_n() const noexcept { return force_n_; }
@@ -77,8 +79,8 @@ class ForceCommand {
   glm::dvec3 force_n_;
 };
 
-// A haptic device, used by the servo's thread alone. read() and write() are called in turn, once per tick, and neither
-// waits, allocates nor throws.
+// Haptic device, used only by the servo's thread. read() and write() are called in turn, once per tick; neither waits,
+// allocates nor throws.
 class HapticDevice {
  public:
   HapticDevice() = default;

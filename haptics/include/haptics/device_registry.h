@@ -15,15 +15,15 @@
 #include "haptics/device.h"
 #include "haptics/release_path.h"
 
-// The haptic devices that TouchAFM can use, what each is called, and how a person gets one.
+// Haptic devices that TouchAFM supports, their names, and how to set them up.
 namespace afm::haptics {
 
-// The value of an environment variable, empty if it is not set. A lab names libraries and ports by them.
+// Value of an environment variable, empty if it is not set. The variables name libraries and ports.
 using Environment = std::function<std::string(const char* variable)>;
 inline constexpr const char* kHdLibraryVariable = "TOUCHAFM_HD_LIBRARY";  // path or name of the vendor's library
-inline constexpr const char* kHdDeviceVariable = "TOUCHAFM_HD_DEVICE";    // the device's name in the vendor's set-up
+inline constexpr const char* kHdDeviceVariable = "TOUCHAFM_HD_DEVICE";    // name of the device in the vendor's set-up
 
-// One thing that was looked for and what came of it: lower case, no full stop.
+// Item that was looked for, and the result: lower case, no full stop.
 struct ProbeLine {
   std::string subject;
   bool usable = false;
@@ -35,11 +35,11 @@ class ProbeLog {
  public:
   explicit ProbeLog(std::string_view subject) : subject_(subject) {}
 
-  // The device itself.
+  // Records that the device itself was found.
   void found(std::string said) { tried(subject_, true, std::move(said)); }
   void missing(std::string said) { tried(subject_, false, std::move(said)); }
 
-  // Requirement of the device.
+  // Records the result for a requirement of the device.
   void tried(std::string subject, bool usable, std::string said) {
     lines_.push_back({std::move(subject), usable, std::move(said)});
   }
@@ -51,58 +51,58 @@ class ProbeLog {
   std::vector<ProbeLine> lines_;
 };
 
-// A device that nobody has named may be one that a person does not mean to use.
+// Automatic selection must not take a device that the user may not want to use.
 enum class DeviceChoice { ByName, Automatic };
 
 struct DeviceRequest {
   const Environment& environment;
-  const core::Clock& clock;  // outlives the device
+  const core::Clock& clock;  // must outlive the device
   DeviceChoice choice = DeviceChoice::ByName;
-  OfferReleasePath offer{};  // may be empty; for a device that another process can be let into
+  OfferReleasePath offer{};  // may be empty; for a device that another process can write to
 };
 
-// A kind of device: one row of the registry (docs/adding-a-device.md).
+// Kind of device: one row of the registry (docs/adding-a-device.md).
 struct DeviceKind {
-  std::string_view word;     // after --haptics
-  std::string_view subject;  // of its ProbeLine; begins with the word
-  std::string_view meaning;  // in the help: "an Inverse3 through its maker's service"
-  bool renders_force;        // in the hand itself
-  std::string_view remedy;   // where its driver is installed but it does not answer; empty if a probe cannot tell
+  std::string_view word;     // value of --haptics
+  std::string_view subject;  // subject of its ProbeLine; begins with the word
+  std::string_view meaning;  // text in the help: "an Inverse3 through its maker's service"
+  bool renders_force;        // the hand itself feels the force
+  std::string_view remedy;   // advice for a silent device with an installed driver; empty: a probe cannot detect that
 
-  // Both tell what they tried, the device itself last.
+  // Both functions log what they tried, the device itself last.
   core::Result<std::unique_ptr<HapticDevice>> (*open)(const DeviceRequest& request, ProbeLog& log);
-  void (*probe)(const Environment& environment, ProbeLog& log);  // starts nothing
+  void (*probe)(const Environment& environment, ProbeLog& log);  // must not start anything
 };
 
-// The best first; the last one, the simulated hand, is always there.
+// Kinds in order of preference; the last one, the simulated hand, is always available.
 std::span<const DeviceKind> device_kinds();
 
-// The last one.
+// Last kind.
 const DeviceKind& simulated_kind();
 
-// Null if there is none of that word.
+// Null if no kind has that word.
 const DeviceKind* find_device_kind(std::string_view word);
 
 struct OpenedDevice {
   std::unique_ptr<HapticDevice> device;
-  std::vector<ProbeLine> lines;  // what was tried, in order; the last one was taken
+  std::vector<ProbeLine> lines;  // attempts in order; the last one succeeded
 };
 
-// Longer than any driver takes that works. One that takes longer to open a device, or to look for one, hangs in its
-// maker's library: the process ends with DeviceMissing and a line that names the kind.
+// Longer than any working driver takes. A driver that takes longer to open or probe a device hangs in the vendor's
+// library: the process then ends with DeviceMissing and a line that names the kind.
 inline constexpr std::chrono::milliseconds kOpeningPatience{10'000};
 
-// DeviceMissing: it is not there; the message has all that was tried. `clock` outlives the device. Takes up to some
+// DeviceMissing: it is not connected; the message lists all attempts. `clock` must outlive the device. Takes up to some
 // seconds.
 core::Result<OpenedDevice> open_device(const DeviceKind& kind, const Environment& environment, const core::Clock& clock,
                                        const OfferReleasePath& offer = {},
                                        std::chrono::milliseconds patience = kOpeningPatience);
 
-// The first one that opens.
+// Opens the first device that works.
 OpenedDevice open_best_device(const Environment& environment, const core::Clock& clock,
                               const OfferReleasePath& offer = {});
 
-// Looks for every kind of device without starting any.
+// Probes every kind of device without starting any.
 std::vector<ProbeLine> probe_devices(const Environment& environment,
                                      std::chrono::milliseconds patience = kOpeningPatience);
 

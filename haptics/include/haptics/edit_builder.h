@@ -14,12 +14,12 @@
 
 namespace afm::haptics {
 
-// Makes contact models of the edits that arrive while the servo runs, and offers them to it. One thread, which is not
-// the servo's: building allocates and takes milliseconds.
+// Builds contact models for the edits that arrive while the servo runs, and offers them to it. One thread, but not the
+// servo's: building allocates and takes milliseconds.
 class EditBuilder {
  public:
-  // Curves, surfaces and the topography as those of the segment; `common` as for the contact models that are there;
-  // `exchange` must outlive it.
+  // Curves, surfaces and the topography are those of the segment; `common` is that of the existing contact models;
+  // `exchange` must outlive this object.
   EditBuilder(scene::EditSide edits, std::vector<scene::SharedMeasuredCurve> curves,
               std::vector<scene::SharedHeightField> surfaces, scene::Topography topography, const CommonScale& common,
               const DeviceSpec& device, std::int64_t period_ns, ModelSwap& exchange)
@@ -32,7 +32,7 @@ class EditBuilder {
         period_ns_(period_ns),
         exchange_(exchange) {}
 
-  // Builds what is new and frees what the servo has put aside. An edit that cannot be felt is logged and refused.
+  // Builds new models and frees those that the servo has retired. An edit that cannot be felt is logged and refused.
   void build();
 
   // Revision of the newest edit that cannot be felt, 0 for none. Any thread, wait-free.
@@ -52,8 +52,8 @@ class EditBuilder {
   std::atomic<std::uint32_t> refused_{0};
 };
 
-// A thread that builds as long as this lives. It has the scheduling of the thread that makes it: make it before that
-// one becomes real-time.
+// Thread that builds during its lifetime. It inherits the scheduling of its creator, so create it before that thread
+// becomes real-time.
 class EditThread {
  public:
   explicit EditThread(EditBuilder& builder);

@@ -15,44 +15,44 @@
 
 namespace afm::haptics {
 
-// The friction of one material, as the hand meets it: sideways forces that take energy, beside the law's that keep it.
+// Friction of one material, as felt by the hand: lateral forces that dissipate energy, added to the law's conservative
+// ones.
 //
-// - The load is what the attached branch of the law pulls or pushes at the tip's Z, and the strongest pull of that
-//   branch: a function of Z alone, zero where contact is lost. A lever that swings rubs with its mean load.
+// - The load is the pull or push of the law's attached branch at the tip's Z, plus the strongest pull of that branch: a
+//   function of Z only, zero where contact is lost. An oscillating lever rubs with its mean load.
 // - Forces and slips on the tip are those of physics/friction/lateral_contact.h on every scale. On the hand they have
-// the gain of
-//   the law's force, or less, so that the lateral spring is at most kShareOfStiffness of what the device can be given
-//   (Scaling::kMaxStiffnessNPerM): a loop at 1 kHz holds it still.
-// - A lattice whose depth follows the load pushes along the normal too, by what the rise of the load has to pay; so the
-//   force is the gradient of what is stored, and no path gains energy.
-// - Off the sample there is no force, and nothing is remembered.
+//   the gain of the law's force, or less, so that the lateral spring is at most kShareOfStiffness of the largest
+//   renderable stiffness (Scaling::kMaxStiffnessNPerM), which a 1 kHz loop keeps stable.
+// - A lattice whose depth follows the load also pushes along the normal, by the energy that a rising load adds. The
+//   force is thus the gradient of the stored energy, and no path gains energy.
+// - Off the sample there is no force and no memory.
 //
-// create() allocates; the rest is for a tick of the servo.
+// create() allocates; everything else may be called in a tick of the servo.
 class FeltFriction {
  public:
-  // Where a surface bends, its force takes the other half.
+  // The force on a curved surface takes the other half.
   static constexpr double kShareOfStiffness = 0.5;
 
-  // `material` has friction and is valid; `tables` are its own. Throws std::invalid_argument as LateralContact does.
+  // `material` has friction and is valid; `tables` are its own. Throws std::invalid_argument like LateralContact.
   FeltFriction(const scene::SharedContact& material, std::shared_ptr<const physics::LawTables> tables,
                const DeviceSpec& device);
 
-  // What one step gave. Frames as in Touch.
+  // Result of one step. Frames as in Touch.
   struct Step {
-    physics::Sideways<physics::Force> lateral;  // on the tip's holder, by the sample
+    physics::Sideways<physics::Force> lateral;  // force of the sample on the holder of the tip
     glm::dvec3 hand_force_n{0.0};
-    double given_j = 0.0;  // on the hand: stored by a touch-down, which a jump has paid
+    double given_j = 0.0;  // stored by a touch-down and paid for by the jump to contact; on the hand
     physics::LateralContact::Step events;
   };
 
-  // The tip is at `xy_m` and `z_m` above the surface `below` it, in the phase and after the jumps of `response`.
+  // Moves the tip to `xy_m`, `z_m` above the surface `below` it, in the phase and after the jumps of `response`.
   Step step(const glm::dvec2& xy_m, double z_m, const SampleSurface::Place& below, const physics::TipResponse& response,
             const Scaling& scaling) noexcept;
   void lift() noexcept { contact_.lift(); }
 
   double stored_j(const Scaling& scaling) const noexcept;  // on the hand
   double stiffness_n_per_m(const Scaling& scaling) const noexcept;
-  double gain(const Scaling& scaling) const noexcept;  // N on the hand for a lateral newton on the tip
+  double gain(const Scaling& scaling) const noexcept;  // N on the hand per lateral newton on the tip
 
  private:
   physics::Force load(double z_m) const noexcept;

@@ -11,12 +11,13 @@ namespace afm::haptics {
 class HandMotion {
  public:
   static constexpr double kCutoffHz = 30.0;
-  static constexpr std::int64_t kTripNs = 5'000'000;  // one wild sample is no flying hand
+  static constexpr std::int64_t kTripNs = 5'000'000;  // one bad sample does not mean that the hand flies off
 
-  // `trip_speed_m_per_s`: faster than this is too fast.
+  // `trip_speed_m_per_s` is the limit of the velocity trip.
   explicit HandMotion(double trip_speed_m_per_s);
 
-  // The hand is here `elapsed_ns` after the call before; a first call sets the place. Finite, within reach.
+  // Records the position of the hand, `elapsed_ns` after the previous call; the first call sets the initial position.
+  // Must be finite and within reach.
   void move(const glm::dvec3& position_m, std::int64_t elapsed_ns) noexcept;
   void forget() noexcept;
 
@@ -30,7 +31,7 @@ class HandMotion {
   glm::dvec3 position_m_{0.0};
   glm::dvec3 moved_m_{0.0};
   glm::dvec3 velocity_m_per_s_{0.0};
-  std::int64_t fast_ns_ = 0;  // since the tick that first saw it too fast
+  std::int64_t fast_ns_ = 0;  // since the tick that first exceeded the trip speed
   bool fast_ = false;
 };
 

@@ -10,8 +10,8 @@
 
 namespace afm::haptics {
 
-// The contact model of every material, and how another takes its place while the servo runs. Two threads use it: the
-// servo's, which neither waits nor frees, and the builder's, which makes and frees contact models.
+// Contact models of all materials, each replaceable while the servo runs. Used by two threads: the servo's, which
+// neither waits nor frees, and the builder's, which creates and frees contact models.
 //
 //   builder --offer()--> offered --adopt()--> current --adopt()--> retired --reclaim()--> freed by the builder
 class ModelSwap {
@@ -23,19 +23,19 @@ class ModelSwap {
 
   std::size_t size() const noexcept { return slots_.size(); }
 
-  // ---- the servo's thread; index < size() ----
+  // ---- servo's thread; index < size() ----
 
   ContactModel& current(std::size_t index) noexcept { return *slots_[index].current; }
 
-  // True if a new contact model is ready and the one before the current has been reclaimed, which leaves a free slot.
+  // True if a new contact model is ready and the previously retired one has been reclaimed, which leaves a free slot.
   bool has_offer(std::size_t index) const noexcept;
 
-  // Puts the offer in the place of the current one, which must not be used any more. Only after has_offer().
+  // Replaces the current model with the offer; the old one must not be used any more. Call only after has_offer().
   void adopt(std::size_t index) noexcept;
 
-  // ---- the builder's thread ----
+  // ---- builder's thread ----
 
-  // An offer that has not been adopted yet is replaced.
+  // Replaces an offer that has not been adopted yet.
   void offer(std::size_t index, std::unique_ptr<ContactModel> model) noexcept;
   void reclaim() noexcept;
 

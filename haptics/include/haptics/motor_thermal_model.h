@@ -5,13 +5,13 @@ namespace afm::haptics {
 
 // Temperature of a device's motors, and the share of the force that keeps them below their rating.
 //
-// The heat is that of one thermal mass, which a force warms by its square (I^2 R) and the air cools:
+// Models one thermal mass, heated by the square of the force (I^2 R) and cooled by the air:
 //
 //   dh/dt = ((F / F_continuous)^2 - h) / tau
 //
-// so that a continuous force at the rating settles at h = 1. A device that measures its motors (HDAPI: 0 cold, 1 too
-// hot) is believed where it says more. Above kWarm the force falls in a straight line, to kRestShare of the rating at h
-// = 1: a person who holds the cap settles just below the rating, along a slope that nobody feels as a step.
+// so that a continuous force at the rating settles at h = 1. A device's own measurement (HDAPI: 0 cold, 1 too hot)
+// takes precedence where it is higher. Above kWarm the force decreases linearly, to kRestShare of the rating at h = 1:
+// under a sustained force at the cap it settles just below the rating, without a perceptible step.
 //
 // tau lies between the values for small ironless DC motors, about ten seconds for the winding and about ten minutes for
 // the housing, nearer to the winding, which burns first. It is an assumption: no vendor publishes it for a haptic
@@ -20,14 +20,14 @@ class MotorThermalModel {
  public:
   static constexpr double kTimeConstantS = 30.0;
   static constexpr double kWarm = 0.8;
-  static constexpr double kHot = 1.0;  // the force is removed; the simulated heat alone never gets there
+  static constexpr double kHot = 1.0;  // removes the force; the simulated heat alone never reaches it
   static constexpr double kRestShare = 0.9;
 
-  // `continuous_force_n`: continuous rating of the motors; 0 if unknown, then only the device's own measurement counts.
-  // `cap_n`: the strongest force that can be wanted.
+  // `continuous_force_n` is the continuous rating of the motors; if 0 (unknown), only the device's own measurement
+  // counts. `cap_n` is the strongest force that can be requested.
   MotorThermalModel(double continuous_force_n, double cap_n);
 
-  // `force_n` was on the motors for `elapsed_s`; `measured_heat` is the device's, 0 if it has none.
+  // `force_n` was applied for `elapsed_s`; `measured_heat` is the device's measurement, 0 if it has none.
   void update(double force_n, double elapsed_s, double measured_heat) noexcept;
 
   double heat() const noexcept;

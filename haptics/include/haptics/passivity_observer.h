@@ -7,51 +7,51 @@ namespace afm::haptics {
 
 // A time-domain passivity observer and controller (Hannaford & Ryu 2002), in the units of the hand.
 //
-// A force law that is felt may hand out what it holds and no more. What it holds is U, the potential of the branch
-// under the tip at the hand's height (haptics/potential_energy.h): U far away is the free energy that pulls the tip in,
-// for the paper's law 1/2 K z_jtc^2. Over each tick of a passive law, with F held while the hand moves by dx,
+// A force law may give the hand the energy it stores, and no more. The stored energy is U, the potential of the branch
+// under the tip at the hand's height (haptics/potential_energy.h). Far away, U is the free energy that pulls the tip
+// in, for the paper's law 1/2 K z_jtc^2. In each tick of a passive law, with F held while the hand moves by dx,
 //
 //   F . dx + dU <= 1/2 K |dx|^2
 //
-// where the right-hand side is what a spring K that is sampled gives too much. The observer sums left less right; a sum
-// above zero is energy that came from nowhere, and one below zero is forgotten: a passive law needs no surplus, and a
-// faulty one could hide behind what a jump off contact has lost. A textbook observer, which starts at zero and knows no
-// U, would take the snap-in itself for a fault; one that only compares the work with U far away would see a fault when
-// all that was stored has been given. This one sees it in the tick in which it happens.
+// where the right-hand side is the excess energy of a sampled spring K. The observer sums left minus right. A positive
+// sum is energy without a source. A negative one is reset to zero: a passive law needs no surplus, and a faulty one
+// could hide behind the energy lost in a jump off contact. A textbook observer, which starts at zero and does not know
+// U, would mistake the snap-in itself for a fault; one that compares the work only with U far away would detect a fault
+// only after all stored energy has been given out. This one detects it in the tick in which it happens.
 //
-// - Of the commanded force and of the one that law and end-stop wanted, the work of the lesser counts. So damping pays
-//   back, and what clamp, slew limit and fades do on their own account is not blamed on the law.
-// - U, force and K are taken with the gain of their tick: a gain that changes gives or takes storage, not work.
+// - Between the commanded force and the force requested by law and end-stop, the smaller work counts. Damping thus pays
+//   back, and the effects of clamp, slew limit and fades are not attributed to the law.
+// - U, force and K are taken with the gain of their tick: a changing gain changes the stored energy, without work.
 //
-// A lever with dynamics and thermal noise (physics/dynamic_model.h) gives more or less than its table, and heat or its
-// own motion pays for it. By how much is known in every tick, before anything could spoil it; that much along the way
-// is granted, and a tick in which the branch changes does not count.
+// A lever with dynamics and thermal noise (physics/dynamic_model.h) gives more or less than its table; heat or its own
+// motion pays for the difference. That difference is known in every tick, before anything could corrupt it. Its amount
+// along the path is granted, and a tick in which the branch changes does not count.
 //
-// The controller damps by what would pay the excess back within a tick, kMostDampingNSPerM at most. Beyond kLimitJ that
-// did not suffice, and the force has to go.
+// The controller adds the damping that would pay back the excess within a tick, kMostDampingNSPerM at most. Beyond
+// kLimitJ that was not sufficient, and the force must be removed.
 class PassivityObserver {
  public:
   static constexpr double kToleranceJ = 5e-6;  // above the interpolation error of U
   static constexpr double kMostDampingNSPerM = 4.0;
   static constexpr double kLimitJ = 1e-3;  // a hand of 0.12 kg at 0.13 m/s
 
-  // Quantities of a law at one position that the observer needs, on the hand's scale.
+  // Properties of a law at one position that the observer needs, on the hand's scale.
   struct Law {
     double stored_j = 0;           // U
-    double stiffness_n_per_m = 0;  // K: no spring in the law is stiffer
-    double oscillation_n = 0;      // by how much the lever's own force is off its table's
-    bool is_dynamic = false;       // a lever that is never at rest
-    double given_j = 0;            // of U: stored in this tick by a touch-down, which the jump to contact has paid
+    double stiffness_n_per_m = 0;  // K: upper limit of the law's stiffness
+    double oscillation_n = 0;      // difference between the lever's own force and its table
+    bool is_dynamic = false;       // lever that is never at rest
+    double given_j = 0;            // part of U stored in this tick by a touch-down and paid for by the jump to contact
   };
 
-  // One tick that has passed; device frame.
+  // A completed tick; device frame.
   struct Tick {
     glm::dvec3 moved_m{0.0};
-    glm::dvec3 wanted_n{0.0};      // of law and end-stop, with their gains
-    glm::dvec3 commanded_n{0.0};   // what the device was given
-    double stored_rise_j = 0;      // of U and the end-stop, with their gains
-    double stiffness_n_per_m = 0;  // likewise
-    double oscillation_n = 0;      // likewise
+    glm::dvec3 wanted_n{0.0};      // requested by law and end-stop, with their gains
+    glm::dvec3 commanded_n{0.0};   // sent to the device
+    double stored_rise_j = 0;      // increase of U and of the end-stop's energy, with their gains
+    double stiffness_n_per_m = 0;  // with its gain
+    double oscillation_n = 0;      // with its gain
   };
 
   void integrate(const Tick& tick) noexcept;

@@ -10,23 +10,23 @@ namespace afm::haptics {
 
 // Checks that a sensor's positions can be those of a hand, before any force is computed from them.
 //
-// - A place that no hand can have reached since the last one that was believed is passed over: that one holds for some
-//   ticks. If the next places are impossible too, the device is not healthy.
-// - A place that is the same to the last bit for kStuckNs while there is force: a sensor under a living hand flickers.
-//   The device is not healthy then.
+// - Skips a position that no hand can have reached since the last accepted one, which then stays in use for some ticks.
+//   If the next positions are impossible too, the device is not healthy.
+// - Detects a position that stays the same to the last bit for kStuckNs under force, where a sensor held by a living
+//   hand would flicker. The device is then not healthy.
 //
-// Only of devices that measure. The servo's thread: never throws, allocates nothing.
+// Applies only to devices that measure. Servo's thread: never throws, allocates nothing.
 class PositionCheck {
  public:
-  static constexpr double kFastestMPerS = 2.0;              // a hand that flies trips at 0.8 m/s
-  static constexpr double kSlackM = 0.5e-3;                 // encoders and clocks
-  static constexpr std::int64_t kLongestGapNs = 8'000'000;  // between two places of a device that works
+  static constexpr double kFastestMPerS = 2.0;              // the velocity trip is at 0.8 m/s
+  static constexpr double kSlackM = 0.5e-3;                 // for encoders and clocks
+  static constexpr std::int64_t kLongestGapNs = 8'000'000;  // between two positions of a working device
   static constexpr std::int64_t kStuckNs = 1'000'000'000;
   static constexpr double kStuckForceN = 0.05;
 
   explicit PositionCheck(bool measured) : measured_(measured) {}
 
-  // The sample to go on with. `elapsed_ns` since the call before; `force_n` is what the hand was sent then.
+  // Sample to continue with. `elapsed_ns` is the time since the previous call; `force_n` is the force sent then.
   DeviceSample checked(DeviceSample sample, std::int64_t elapsed_ns, const glm::dvec3& force_n) noexcept;
 
  private:
@@ -38,7 +38,7 @@ class PositionCheck {
   bool started_ = false;
   glm::dvec3 read_m_{0.0};
   glm::dvec3 believed_m_{0.0};
-  std::int64_t forced_ns_ = 0;    // since the place that was read last changed, under force
+  std::int64_t forced_ns_ = 0;    // since the last change of the position, under force
   std::int64_t believed_ns_ = 0;  // since the device last reported a plausible position
   int doubt_ = 0;
 };

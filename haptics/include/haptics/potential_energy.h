@@ -8,19 +8,17 @@
 
 namespace afm::haptics {
 
-// The most energy that a hand can get from a force law, at every height and on both branches: the potential U of the
-// felt force, in joules of the hand. On each branch dU/dh = -F, up to a constant. Where the tip jumps to contact the
-// branches meet, U_free(h_in) = U_attached(h_in): the most that a latch without work can hold there. And U is zero at
-// its lowest place, so that U far away is E0, the free energy that one approach can give: the work of the free branch
-// down to h_in and of the attached one from there to where it pulls no more. For the paper's law, on a scale that makes
-// it a spring K, E0 = 1/2 K h_in^2. A force that is bent by a monotone map of itself (haptics/scaling.h) has such a
-// potential like any other, because force and height are one-dimensional; over a height field it is that of the height
-// above the surface.
+// Largest energy that a hand can get from a force law, at every height and on both branches: the potential U of the
+// felt force, in joules of the hand. On each branch dU/dh = -F, up to a constant. The branches meet at the jump to
+// contact, U_free(h_in) = U_attached(h_in): the most that a latch without work can store there. U is zero at its
+// minimum, so that U far away is E0, the free energy that one approach can give: the work of the free branch down to
+// h_in, plus that of the attached one from there to where it stops pulling. For the paper's law, on a scale that makes
+// it a spring K, E0 = 1/2 K h_in^2. A force mapped by a monotone function (haptics/scaling.h) has such a potential too,
+// because force and height are one-dimensional; over a height field it depends on the height above the surface.
 //
-// A law is passive if it jumps off contact where U_attached >= U_free: the difference is what its loop loses.
+// A law is passive if it jumps off contact where U_attached >= U_free: the difference is the loss of its loop.
 //
-// Built once, with the contact model; read in a tick, which is a look-up in a table with straight lines between its
-// nodes.
+// Built once, with the contact model. In a tick it only interpolates a table linearly.
 class PotentialEnergy {
  public:
   // Force on the hand along the normal at a height of the hand, positive away from the sample.
@@ -31,7 +29,7 @@ class PotentialEnergy {
     double highest_m;
   };
 
-  // For heights within `range`; beyond, U goes on along its last line. Allocates, and takes some 0.2 ms.
+  // For heights within `range`; outside, U continues linearly. Allocates, and takes about 0.2 ms.
   PotentialEnergy(const ForceOverHeight& free_n, const ForceOverHeight& attached_n, double jump_in_m, Range range);
 
   // U; zero in WaitForLift, where there is no force.
@@ -40,7 +38,7 @@ class PotentialEnergy {
   // E0.
   double credit_j() const noexcept { return free_j_.back(); }
 
-  // The steepest rise of the force on the way down, of either branch where the tip can be on it; over some 0.1 mm.
+  // Steepest rise of the force on the way down, of either branch where the tip can be on it; over about 0.1 mm.
   double stiffness_n_per_m() const noexcept { return stiffness_n_per_m_; }
 
  private:

@@ -10,31 +10,31 @@
 namespace afm::haptics {
 
 inline constexpr int kServoPriority = 80;    // below the kernel's own threads at 99
-inline constexpr int kMonitorPriority = 79;  // hears of the renderer's death even when both cores draw
+inline constexpr int kMonitorPriority = 79;  // notices the renderer's death even while both cores are drawing
 
-// Locking reaches every page of the process, so a thread inside the renderer leaves them alone.
+// Locking affects every page of the process, so a thread inside the renderer must not lock.
 enum class PageLock { Lock, Leave };
 
 struct RealtimeGrant {
-  int priority = 0;  // SCHED_FIFO, 0: refused
+  int priority = 0;  // SCHED_FIFO; 0: refused
   bool pages_locked = false;
-  std::vector<std::string> notes;  // what was refused, why, and what to do; for the log
+  std::vector<std::string> notes;  // each refusal, with reason and remedy, for the log
 
   bool realtime() const { return priority > 0 && pages_locked; }
 };
 
-// Asks for SCHED_FIFO at `priority` for the calling thread, a timer slack of 1 ns, locked pages, and a stack whose next
-// pages are there already. Everything that is refused is noted; nothing is fatal.
+// Requests SCHED_FIFO at `priority` for the calling thread, a timer slack of 1 ns, locked pages, and a prefaulted
+// stack. Refusals are noted; none is fatal.
 RealtimeGrant enter_realtime(int priority, PageLock lock);
 
-// The line that raises a limit of /etc/security/limits.d for the person who runs it.
+// Line of /etc/security/limits.d that raises a limit for the current user.
 std::string limit_fix(const char* item, const char* value);
 
-// Until this time of CLOCK_MONOTONIC, signals or not.
+// Sleeps until this time of CLOCK_MONOTONIC, despite signals.
 void sleep_until(std::int64_t deadline_ns) noexcept;
 
-// The same, with the last `spin_ns` spent awake: the wake-up from the sleep, some tens of microseconds, then lies
-// before the deadline. The processor is busy for as long.
+// Same, but spins for the last `spin_ns`: the wake-up from sleep, some tens of microseconds, is then over before the
+// deadline. The processor is busy meanwhile.
 void sleep_then_spin_until(std::int64_t deadline_ns, std::int64_t spin_ns, const core::Clock& clock) noexcept;
 
 }  // namespace afm::haptics

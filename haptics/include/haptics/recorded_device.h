@@ -15,17 +15,16 @@ namespace afm::haptics {
 
 // State of the hand in one tick of a recording.
 struct RecordedHand {
-  glm::dvec3 from_contact_m{0.0};  // device frame, from the place where Z = 0
+  glm::dvec3 from_contact_m{0.0};  // device frame, from the position of Z = 0
   bool turn_on = false;
 };
 
-// A hand that was recorded, played again one entry a read, whatever the time: the tip's force is then the same bit for
-// bit, and the hand's too if the ticks come at the same times. Its contact point is the origin. It feels nothing; after
-// the last entry it rests there with the button released.
+// Recorded hand, replayed one entry per read, whatever the time: the tip's force is then the same bit for bit, and so
+// is the hand's if the ticks come at the same times. Its contact point is the origin. It ignores forces; after the last
+// entry it rests there with the button released.
 class RecordedDevice final : public HapticDevice {
  public:
-  // BadInputFile if there is no entry, or one that is no number or out of reach. `name` is what the
-  // recording is called.
+  // BadInputFile if there is no entry, or one that is not finite or out of reach. `name` is the name of the recording.
   static core::Result<std::unique_ptr<RecordedDevice>> create(const std::string& name, std::vector<RecordedHand> hand);
 
   const DeviceSpec& spec() const noexcept override { return spec_; }

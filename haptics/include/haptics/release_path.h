@@ -6,15 +6,15 @@
 
 namespace afm::haptics {
 
-// Means by which another process releases the hand when the servo cannot: it writes `zero` in one piece to a duplicate
-// of `descriptor`, a stream socket.
+// Means by which another process releases the hand if the servo cannot: it writes `zero` in one piece to a duplicate of
+// `descriptor`, a stream socket.
 struct ReleasePath {
   int descriptor = -1;
   std::string zero;
 };
 
-// Called by a driver's own thread whenever its way to the device has changed; the descriptor is open during the call
-// only. Must not throw or block.
+// Called by a driver's own thread whenever its connection to the device has changed; the descriptor is open during the
+// call only. Must not throw or block.
 using OfferReleasePath = std::function<void(const ReleasePath&)>;
 
 }  // namespace afm::haptics

@@ -20,48 +20,48 @@ using scene::RendererLink;
 // Limits that protect a hand, a device and its motors.
 struct SafetyLimits {
   std::int64_t period_ns = 1'000'000;
-  double force_cap_n = 2.0;  // the longest vector
+  double force_cap_n = 2.0;  // longest vector
   double slew_n_per_s = 500.0;
   double trip_speed_m_per_s = 0.8;  // a relaxed hand reaches 0.6 m/s after pull-off
   double continuous_force_n = 0;    // 0: unknown
-  double release_height_m = 0.050;  // hand height at which the tip lets go
+  double release_height_m = 0.050;  // hand height at which the tip detaches
   glm::dvec3 workspace_min_m{0.0};  // from the contact point
   glm::dvec3 workspace_max_m{0.0};
   bool dead_man = false;
 };
 
-// Those of a device, whose own limits are used to kUsableLimitShare, or less where TouchAFM wants less.
+// Limits for a device: its own limits reduced to kUsableLimitShare, or TouchAFM's where those are lower.
 SafetyLimits safety_limits(const DeviceSpec& device, std::int64_t period_ns, double release_height_m, bool dead_man);
 
-// One tick as the governor sees it; hand's values in the device frame, from the contact point.
+// One tick as the governor sees it; the hand's values in the device frame, from the contact point.
 struct GovernorInput {
   std::int64_t time_ns = 0;
   glm::dvec3 hand_position_m{0.0};
-  glm::dvec3 wanted_force_n{0.0};  // of the scaled model, before any limit
-  double hand_height_m = 0;        // over the surface below the tip, counted as the release height
+  glm::dvec3 wanted_force_n{0.0};  // force of the scaled model, before any limit
+  double hand_height_m = 0;        // above the surface below the tip, on the scale of the release height
   physics::Phase phase = physics::Phase::WaitForLift;
   bool pulled_off = false;  // in this tick
   bool turn_on = false;
   bool device_healthy = true;
-  double motor_heat = 0;  // as DeviceSample has it
+  double motor_heat = 0;  // as in DeviceSample
   RendererLink renderer = RendererLink::Absent;
   PassivityObserver::Law law_energy;  // at this height in this phase
-  bool sample_moved = false;          // since the tick before, by another hand, whose work is not this one's
-  bool led = false;                   // by a scan (haptics/scan_guide.h); the law of force is silent then
-  double damping_n_s_per_m = 0;       // that is asked for
+  bool sample_moved = false;          // moved since the previous tick, by the work of another hand
+  bool led = false;                   // led by a scan (haptics/scan_guide.h), during which the force law is silent
+  double damping_n_s_per_m = 0;       // requested damping
 };
 
-// The last thing between a force law and a hand. Owns the servo's state (haptics/safety_states.h) and is the only maker
-// of ForceCommand, which goes through haptics/force_limiter.h. For the servo's thread: wait-free, never throws.
+// Last stage between a force law and a hand. Owns the servo's state (haptics/safety_states.h), and is the only creator
+// of ForceCommand, after haptics/force_limiter.h. Servo's thread: wait-free, never throws.
 class SafetyGovernor {
  public:
   static constexpr double kSlewNPerS = 500.0;
-  static constexpr double kGuardSlewNPerS = 100.0;  // for kGuardNs after a tick that came more than two periods late
+  static constexpr double kGuardSlewNPerS = 100.0;  // for kGuardNs after a tick more than two periods late
   static constexpr std::int64_t kGuardNs = 100'000'000;
-  static constexpr std::int64_t kLateNs = 20'000'000;   // a tick after this pause disarms
-  static constexpr std::int64_t kHangNs = 250'000'000;  // with kSlowFadeNs less than 350 ms from heartbeat to zero
+  static constexpr std::int64_t kLateNs = 20'000'000;   // a tick after such a pause disarms
+  static constexpr std::int64_t kHangNs = 250'000'000;  // with kSlowFadeNs, less than 350 ms from heartbeat to zero
   static constexpr std::int64_t kArmingNs = 500'000'000;
-  static constexpr double kArmingMarginM = 0.005;  // above the height at which the tip lets go
+  static constexpr double kArmingMarginM = 0.005;  // above the height at which the tip detaches
   static constexpr double kArmingForceN = 0.05;
   static constexpr double kArmingSpeedMPerS = 0.1;
   static constexpr double kTripSpeedMPerS = 0.8;
@@ -70,26 +70,26 @@ class SafetyGovernor {
 
   struct Output {
     ForceCommand command;
-    bool dropped = false;  // the force was just removed: the model has to wait for a lift
+    bool dropped = false;  // the force was just removed: the model must wait for a lift
   };
 
   explicit SafetyGovernor(const SafetyLimits& limits);
 
   Output step(const GovernorInput& input) noexcept;
 
-  // Takes the force away in kQuickFadeNs; a new Turn-On is needed. For a change of material.
+  // Removes the force within kQuickFadeNs; a new Turn-On is needed. Used for a change of material.
   void disarm() noexcept { state_ = begin_fade(state_, kQuickFadeNs, scene::FaultCode::None); }
 
-  // For another material or scale. Only while released().
+  // Used for another material or scale. Call only while released().
   void set_release_height(double release_height_m) noexcept { release_height_m_ = release_height_m; }
 
-  // Discards the past motion, but keeps the state and the heat: for a change of material, so that the following ticks
-  // depend only on what their recording contains. Only while released().
+  // Discards the past motion but keeps the state and the heat, for a change of material: the following ticks then
+  // depend only on the contents of their recording. Call only while released().
   void forget_motion() noexcept;
 
   scene::ServoState state() const noexcept { return state_.state; }
   scene::FaultCode fault() const noexcept { return state_.fault; }
-  bool released() const noexcept;  // no force, and none to come without a new Turn-On
+  bool released() const noexcept;  // no force, and none without a new Turn-On
 
   double force_cap_n() const noexcept { return output_.cap_n(); }
   double slew_limit_n_per_s() const noexcept { return slew_n_per_s_; }  // in this tick
@@ -122,7 +122,7 @@ class SafetyGovernor {
   bool dead_man_;
 
   SafetyState state_;
-  double gain_ = 0;  // of arming
+  double gain_ = 0;  // arming gain
   bool fade_under_way_ = false;
   ForceLimiter output_;
   HandMotion motion_;
@@ -135,7 +135,7 @@ class SafetyGovernor {
   std::int64_t guard_until_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t damping_until_ns_ = std::numeric_limits<std::int64_t>::min();
   bool started_ = false;
-  bool turn_on_before_ = true;  // a button that is held from the beginning is no press
+  bool turn_on_before_ = true;  // a button held from the beginning is not a press
   std::int64_t time_ns_ = 0;
 };
 

@@ -7,11 +7,11 @@
 
 namespace afm::haptics {
 
-// Orientation of the sample relative to the device, whose axes are parallel to the room's. Position and size in the
-// picture do not count: they do not move the contact point in the hand's workspace.
+// Orientation of the sample relative to the device, whose axes are parallel to the room's. Its position and size in the
+// picture do not matter: they do not move the contact point in the hand's workspace.
 class SampleAxes {
  public:
-  // Takes the orientation of a node's transform, column-major; its scale is left out. False, and nothing changes, if
+  // Sets the orientation from a node's transform, column-major, without its scale. Returns false and changes nothing if
   // the direction of its z or x axis is undefined.
   bool set_orientation(const std::array<double, 16>& room_from_sample) noexcept;
 
@@ -24,7 +24,7 @@ class SampleAxes {
   glm::dvec3 in_sample(const glm::dvec3& in_device) const noexcept { return in_device * device_from_sample_; }
 
  private:
-  // orthonormal; a sample that lies on a table, its x to the right
+  // orthonormal; initially a sample on a table, its x to the right
   glm::dmat3 device_from_sample_{1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0};
 };
 

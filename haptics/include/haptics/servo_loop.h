@@ -26,49 +26,48 @@ namespace afm::haptics {
 // Settings of the servo, from touchafm's options.
 struct ServoSettings {
   double rate_hz = 1000.0;                                       // 100 Hz to 10 kHz
-  double max_force_n = std::numeric_limits<double>::infinity();  // what an operator allows, kLeastForceLimitN or more
-  bool dead_man = false;                                         // the force lasts only as long as Turn-On is held
-  std::int64_t spin_ns = 0;  // the end of every wait that is spent awake, for a punctual tick; 0 to half a period
-  double linger_s = 0;       // how long touchafm-servo keeps the device for another renderer after one has died
+  double max_force_n = std::numeric_limits<double>::infinity();  // operator's limit, at least kLeastForceLimitN
+  bool dead_man = false;                                         // the force lasts only while Turn-On is held
+  std::int64_t spin_ns = 0;  // time spent spinning at the end of every wait, for a punctual tick; 0 to half a period
+  double linger_s = 0;       // time for which touchafm-servo keeps the device for another renderer after one has died
 };
 
 enum class ServoExit { RendererLeft, RendererDied, Stopped };
 
-// The servo: hand's position in, force out, once a period, and a record of it in the shared segment. It reads what the
-// renderer shares but never waits for it.
+// The servo: once per period it turns the hand's position into a force, and records both in the shared segment. It
+// reads the renderer's data but never waits for the renderer.
 //
 // tick() and run() belong to one thread; they do not allocate, lock, log, throw or make a system call except to read
-// the clock and, in run(), to sleep. renderer_...() and stop() may be called from any thread. Edits take effect as
-// long as an EditThread serves edits().
+// the clock and, in run(), to sleep. renderer_...() and stop() may be called from any thread. Edits take effect only
+// while an EditThread serves edits().
 class ServoLoop {
  public:
-  // Builds the force law and the scaling of every material, so that a tick never has to. Fails on materials without
-  // a force law, on a device that cannot show them, and on settings out of range. The segment and the device
-  // must outlive the loop.
+  // Builds the force law and the scaling of every material in advance. Fails on materials without a force law, on a
+  // device that cannot render them, and on settings out of range. The segment and the device must outlive the loop.
   static core::Result<std::unique_ptr<ServoLoop>> create(scene::SharedSegment& segment, HapticDevice& device,
                                                          const ServoSettings& settings);
 
-  // One period. `now_ns` grows from tick to tick; `wake_us` is how late it came and is only recorded.
+  // Runs one period. `now_ns` increases from tick to tick; `wake_us` is the lateness of the tick and is only recorded.
   void tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
 
-  // Ticks at absolute deadlines until the renderer is gone or stop() was called, and the hand is released. A deadline
-  // that has passed is skipped and counted, never caught up.
+  // Ticks at absolute deadlines until the renderer is gone or stop() was called, and the hand is released. A missed
+  // deadline is skipped and counted, never made up.
   ServoExit run(const core::MonotonicClock& clock) noexcept;
 
-  // Both release the hand. With renderer_lost() the loop goes on without one, until renderer_returned() or
-  // renderer_died(), which ends it.
+  // Both functions release the hand. After renderer_lost() the loop continues without a renderer, until
+  // renderer_returned() or renderer_died(), which ends it.
   void renderer_lost() noexcept { presence_.store(Presence::Lost, std::memory_order_relaxed); }
   void renderer_died() noexcept { presence_.store(Presence::Died, std::memory_order_relaxed); }
 
-  // Another renderer writes the same segment.
+  // Call when another renderer writes the same segment.
   void renderer_returned() noexcept { presence_.store(Presence::Here, std::memory_order_relaxed); }
 
   void stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
 
-  // For one thread beside the servo's (EditThread), as long as the loop is there.
+  // Used by one thread other than the servo's (EditThread), during the lifetime of the loop.
   EditBuilder& edits() noexcept { return edits_; }
 
-  // Stores the result of enter_realtime() for the report. Before run().
+  // Stores the result of enter_realtime() for the report. Call before run().
   void note_grant(const RealtimeGrant& grant) noexcept;
 
   std::int64_t period_ns() const noexcept { return period_ns_; }
@@ -79,7 +78,7 @@ class ServoLoop {
             HapticDevice& device, const ServoSettings& settings, std::vector<std::unique_ptr<ContactModel>> models,
             const CommonScale& common);
 
-  // What sample and scan want to do with the hand in this tick.
+  // Force requested by sample and scan in this tick.
   struct Wanted {
     glm::dvec3 force_n{0.0};  // device frame
     double hand_height_m = 0;
@@ -99,7 +98,7 @@ class ServoLoop {
 
   scene::ServoSide shared_;
   HapticDevice& device_;
-  const DeviceSpec spec_;  // of the device, within what the operator allows
+  const DeviceSpec spec_;  // device's own, within the operator's limits
   ServoSettings settings_;
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
@@ -107,8 +106,8 @@ class ServoLoop {
   EditBuilder edits_;
   SafetyGovernor governor_;
 
-  ContactModel* model_ = nullptr;  // of the material under the tip, null before the first choice
-  scene::Selection chosen_;        // the newest choice, perhaps not in effect yet
+  ContactModel* model_ = nullptr;  // model of the material under the tip, null before the first selection
+  scene::Selection chosen_;        // newest selection, possibly not in effect yet
   scene::ScanLead newest_scan_;
   scene::ScanLead scan_;  // in effect in this tick
   ScanGuide guide_;
@@ -119,13 +118,13 @@ class ServoLoop {
   glm::dvec3 hand_from_contact_m_{0.0};
   bool turn_on_ = false;
   bool device_healthy_ = true;
-  bool changing_ = false;  // the force was removed for a change of material, scale or parameters
+  bool changing_ = false;  // force removed for a change of material, scale or parameters
   RendererLink renderer_ = RendererLink::Absent;
-  Touch touch_;  // of this tick
+  Touch touch_;  // in this tick
   scene::TipState state_;
   std::int64_t previous_ns_ = 0;
 
-  std::optional<scene::RendererHeartbeat> heartbeat_;  // the newest
+  std::optional<scene::RendererHeartbeat> heartbeat_;  // newest
   bool leaving_ = false;
   std::int64_t heartbeat_seen_ns_ = 0;
   std::uint32_t refused_transforms_ = 0;

@@ -16,29 +16,29 @@ struct HandImpedance {
   double grip_stiffness_n_per_m = 200.0;
 };
 
-// Imperfections of a real device; none by default. An Omni's encoders step by 0.055 mm, and its joints rub with up to
-// 0.26 N (according to its data sheet).
+// Imperfections of a real device; none by default. An Omni's encoders have steps of 0.055 mm, and its joints a friction
+// of up to 0.26 N (according to its data sheet).
 struct DeviceFlaws {
-  double quantum_m = 0;       // of the place that is reported
-  std::int64_t delay_ns = 0;  // of that place, 16 ms at most; what lies between two ticks is not reported
-  double friction_n = 0;      // Coulomb's, on each axis
+  double quantum_m = 0;       // step of the reported position
+  std::int64_t delay_ns = 0;  // delay of that position, 16 ms at most; nothing between two ticks is reported
+  double friction_n = 0;      // Coulomb friction, on each axis
 };
 
 inline constexpr DeviceFlaws kOmniFlaws{.quantum_m = 55e-6, .delay_ns = 1'000'000, .friction_n = 0.26};
 
-// A person at an Omni: the hand hangs by its grip's stiffness on an aim that moves along minimum-jerk paths (Flash &
-// Hogan 1985), and the force of the device moves the hand. So attraction really pulls it down, and pull-off lets it
-// fly.
+// Person at an Omni: the grip is a spring between the hand and an aim that moves along minimum-jerk paths (Flash &
+// Hogan 1985), and the force of the device moves the hand. Attraction thus really pulls the hand down, and pull-off
+// lets it recoil.
 //
-// Between two reads the force is constant and the aim is taken as straight, and the motion is solved in closed form:
-// deterministic given the times of the ticks, exact at any tick length, bounded in cost. The workspace ends in
-// inelastic stops. Friction acts against the motion with which a tick begins; a hand that it stops rests until the
-// next.
+// Between two reads the force is constant, the aim is assumed to move linearly, and the motion is solved in closed
+// form: deterministic given the times of the ticks, exact at any tick length, bounded in cost. The workspace ends in
+// inelastic stops. Friction opposes the motion at the beginning of a tick; a hand that it stops rests until the next
+// tick.
 //
-// A person who tears at 2 N must aim 10 mm above the place where the tip lets go (2 N / 200 N/m).
+// A person who pulls with 2 N must aim 10 mm above the height at which the tip detaches (2 N / 200 N/m).
 class SimulatedDevice final : public HapticDevice {
  public:
-  // The hand rests where it is put. The impedance must be oscillatory: c^2 < 4 m k.
+  // The hand rests at `start_m`. The impedance must be oscillatory: c^2 < 4 m k.
   explicit SimulatedDevice(const glm::dvec3& start_m = glm::dvec3(0.0, 0.060, 0.0), const HandImpedance& hand = {},
                            const DeviceFlaws& flaws = {});
 
@@ -59,9 +59,9 @@ class SimulatedDevice final : public HapticDevice {
   DeviceSpec spec_;
   HandImpedance hand_;
   DeviceFlaws flaws_;
-  scene::HandScript next_;  // the newest that was heard, possibly the one under way
+  scene::HandScript next_;  // newest script received, possibly the current one
 
-  // the path under way, and where the aim was at the last read
+  // current path, and the aim at the last read
   std::int64_t path_begin_ns_ = 0;
   double path_duration_s_ = 0;
   glm::dvec3 path_from_m_;
@@ -76,7 +76,7 @@ class SimulatedDevice final : public HapticDevice {
   std::int64_t time_ns_ = 0;
   bool started_ = false;
 
-  // the places of the last ticks, the newest at `newest_`
+  // positions of the last ticks, the newest at `newest_`
   struct Passed {
     std::int64_t time_ns = 0;
     glm::dvec3 position_m{0.0};

@@ -20,7 +20,7 @@ namespace {
 
 tl::unexpected<core::Error> refusal(const scene::SharedContact& material, core::ErrorCategory category,
                                     std::string_view why) {
-  // a name that came without its end is cut, and nothing in it may command a terminal
+  // an unterminated name is cut, and control characters must not reach a terminal
   std::string name(material.name.data(), ::strnlen(material.name.data(), material.name.size()));
   std::replace_if(name.begin(), name.end(), [](char byte) { return byte < ' ' || byte > '~'; }, '?');
   return core::failure(category, fmt::format("cannot build the contact model for {}: {}", name, why));
@@ -42,7 +42,7 @@ physics::DynamicModel dynamic_model(const scene::SharedContact& material, std::i
                                physics::Time(1e-9 * static_cast<double>(period_ns)), scene::law_options(material));
 }
 
-// For every height at which a hand can be, however the sample is turned.
+// Covers every height that the hand can reach, for any orientation of the sample.
 PotentialEnergy stored_energy_of(const physics::LawTables& tables, const Scaling& scaling, const DeviceSpec& device) {
   const auto felt = [&scaling](const physics::BranchTable& branch) {
     return [&scaling, &branch](double height_m) {
@@ -55,11 +55,11 @@ PotentialEnergy stored_energy_of(const physics::LawTables& tables, const Scaling
                          {-reach_m, reach_m});
 }
 
-// For a validation that knows no segment: there is a topography.
+// Stands in for the segment's topography in a validation without a segment.
 constexpr scene::SharedTopography kAnyTopography{.columns = 2, .rows = 2, .spacing_m = 1};
 
-// What a recorded contact that was pressed down to `lowest` gives the hand on its way up from z beyond what the
-// attached branch gives, until it has gone over to that branch or lets go.
+// Additional energy that a recorded contact pressed down to `lowest` gives the hand on its way up from z, compared with
+// the attached branch, until it has joined that branch or detaches.
 double turn_energy_j(const physics::LawTables& tables, const Scaling& scaling, physics::Length z,
                      physics::Length lowest) {
   const physics::Length way = std::min(lowest + tables.turn, tables.figures.z_joc) - z;
@@ -158,7 +158,7 @@ Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback)
   const glm::dvec3 gradient(-below.slope * scale.flattening(), 1.0);
   touch.hand_force_n = scale.hand_force_n(touch.response.force.si) * gradient;
   if (friction_) {
-    // the loop keeps the load
+    // the loop keeps the load constant
     const double load_z_m = level_ ? scale.z_m(hand_m.z) : touch.z_m;
     touch.friction = friction_->step(touch.tip_xy_m, load_z_m, below, touch.response, scale);
     touch.hand_force_n += touch.friction.hand_force_n;
@@ -166,14 +166,14 @@ Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback)
   return touch;
 }
 
-// Nothing is felt when the tip is off the sample before and after.
+// True if the change is not felt, because the tip is off the sample before and after.
 bool ContactModel::may_change_level(double hand_z_m, double height_m, const ScanFeedback& feedback) const noexcept {
   const double release_z_m = scaling().release_z_m();
   const bool off = phase() == physics::Phase::Free && hand_z_m > release_z_m && hand_z_m - height_m > release_z_m;
   return feedback.without_force || off || phase() == physics::Phase::WaitForLift;
 }
 
-// The loop follows the surface while the tip is on it; elsewhere it is where the surface is.
+// Moves the loop after the surface while the tip is on it; otherwise sets it to the surface.
 void ContactModel::follow_surface(double hand_z_m, double height_m, const ScanFeedback& feedback,
                                   Touch& touch) noexcept {
   if (phase() != physics::Phase::Attached) {
@@ -196,20 +196,21 @@ void ContactModel::follow_surface(double hand_z_m, double height_m, const ScanFe
   touch.z_m = hand_z_m - residual_m_;
 }
 
-// The potential on the attached branch, on the hand.
+// Potential on the attached branch, on the hand.
 double ContactModel::attached_j(double z_m) const noexcept {
   const double stored_j = stored_energy().at(physics::Phase::Attached, scaling().hand_height_m(z_m));
   const auto* model = std::get_if<physics::ApproachRetractModel>(&model_);
   if (model == nullptr) return stored_j;
-  // the potential is that of the attached branch, and where the tip jumps to contact all is that of the free one
+  // the potential is that of the attached branch, but at a jump to contact all of it is that of the free branch
   const physics::Length in = tables_->figures.z_jtc;
   return stored_j + (turn_energy_j(*tables_, scaling(), physics::Length(z_m), model->lowest_z()) -
                      turn_energy_j(*tables_, scaling(), in, in));
 }
 
-// Of F (-slope, 1): the law's stiffness along the steepest way, and the strongest force on the most bent place.
+// Stiffness of F (-slope, 1): the law's stiffness along the steepest path, plus the strongest force at the largest
+// curvature.
 double ContactModel::stiffness_n_per_m() const noexcept {
-  // a recorded contact's turn adds at most the stiffness that it has on average
+  // a recorded contact's turn adds at most its mean stiffness
   const double turning = tables_->turn.si > 0.0 ? 2.0 : 1.0;
   return turning * stored_energy().stiffness_n_per_m() * (1.0 + steepest_slope_ * steepest_slope_) +
          force_cap_n_ * largest_curvature_per_m_ / scaling().hand_m_per_m() +

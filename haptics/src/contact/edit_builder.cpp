@@ -11,7 +11,7 @@
 namespace afm::haptics {
 
 namespace {
-// Soon enough for a hand that turns a knob; a look costs less than a microsecond.
+// Short enough for a hand that turns a knob; a check costs less than a microsecond.
 constexpr auto kLookEvery = std::chrono::milliseconds(5);
 }  // namespace
 

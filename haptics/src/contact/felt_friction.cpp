@@ -8,13 +8,13 @@ namespace afm::haptics {
 
 namespace {
 
-constexpr double kSlopeWayM = 1e-12;  // of Z: far below what a tick moves
+constexpr double kSlopeWayM = 1e-12;  // step in Z, far below the motion in a tick
 
 physics::Sideways<physics::Length> place_of(const glm::dvec2& xy_m) {
   return {physics::Length(xy_m.x), physics::Length(xy_m.y)};
 }
 
-// The strongest pull of the attached branch, on its way from Z_joc down.
+// Strongest pull of the attached branch, from Z_joc down.
 physics::Force strongest_adhesion(const physics::LawTables& tables) {
   physics::Force strongest = -tables.figures.force_before_joc;
   const double radius_m = tables.contact.tip_radius.si;
@@ -57,7 +57,7 @@ FeltFriction::Step FeltFriction::step(const glm::dvec2& xy_m, double z_m, const 
   }
   const double energy_scale = gain(scaling) * scaling.lateral_m_per_m();
   if (!contact_.touching()) {
-    // where it jumped to contact, or here where contact began without a jump
+    // point of the jump to contact, or the current point if contact began without a jump
     const double share = response.event_count > 0 ? response.events[response.event_count - 1].fraction : 1.0;
     const auto landed = contact_.touch_down(place_of(from_m + share * (xy_m - from_m)), load(z_m));
     step.given_j = energy_scale * landed.given.si;

@@ -7,7 +7,7 @@
 namespace afm::haptics {
 
 namespace {
-constexpr double kParallel = 1e-6;  // rad: x and z of a transform that is no use
+constexpr double kParallel = 1e-6;  // rad: smallest angle between x and z of a usable transform
 }  // namespace
 
 bool SampleAxes::set_orientation(const std::array<double, 16>& room_from_sample) noexcept {

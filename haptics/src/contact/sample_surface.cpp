@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMostSmoothings = 400;
 
-// Heights of one line across the grid, `stride` apart.
+// Heights along one line of the grid, `stride` apart.
 struct Line {
   double* first;
   std::size_t stride;
@@ -26,7 +26,7 @@ struct Line {
   double& operator[](std::size_t i) const { return first[i * stride]; }
 };
 
-// Every row, then every column: what is separable needs no more.
+// Applies a separable operation: to every row, then to every column.
 template <class Change>
 void change_lines(std::vector<double>& heights_m, std::size_t columns, std::size_t rows, const Change& change) {
   for (std::size_t row = 0; row < rows; ++row) change(Line{&heights_m[row * columns], 1, columns});
@@ -42,7 +42,7 @@ void smooth(const Line& line) {
   }
 }
 
-// The mean over `half_width` rows to either side; what lies beyond the rim is as high as the rim.
+// Mean over `half_width` rows on either side; beyond the edge, the height of the edge continues.
 void box_over_rows(std::span<const double> from, std::size_t columns, std::size_t rows, std::size_t half_width,
                    std::vector<double>& sums, std::span<double> to) {
   const auto row_at = [&](std::ptrdiff_t row) {
@@ -67,7 +67,7 @@ void box_over_rows(std::span<const double> from, std::size_t columns, std::size_
   }
 }
 
-// Rows become columns, by squares that stay in the cache.
+// Transposes in squares that fit into the cache.
 void transpose(std::span<const double> from, std::size_t columns, std::size_t rows, std::span<double> to) {
   constexpr std::size_t kSquare = 32;
   for (std::size_t top = 0; top < rows; top += kSquare) {
@@ -81,7 +81,7 @@ void transpose(std::span<const double> from, std::size_t columns, std::size_t ro
   }
 }
 
-// Three means over a box, along both axes, are nearly a bell curve and cost the same for every width.
+// Three box averages along both axes: nearly a bell curve, at the same cost for every width.
 void smooth_by_boxes(std::vector<double>& heights_m, std::size_t columns, std::size_t rows, std::size_t half_width) {
   std::vector<double> other(heights_m.size()), sums;
   for (int axis = 0; axis < 2; ++axis) {
@@ -93,7 +93,7 @@ void smooth_by_boxes(std::vector<double>& heights_m, std::size_t columns, std::s
   }
 }
 
-// Of a uniform quadratic B-spline, at `offset` from the middle control point, in spacings, in [-0.5, 0.5].
+// Weights of a uniform quadratic B-spline at `offset` from the middle control point, in spacings, in [-0.5, 0.5].
 struct Weights {
   std::array<double, 3> value;
   std::array<double, 3> slope;
@@ -113,7 +113,7 @@ SampleSurface::SampleSurface(const scene::FeltHeights& drawn, double tip_radius_
   if (columns_ == 0) return;
   controls_m_.assign(drawn.height_m.begin(), drawn.height_m.end());
   for (double& control_m : controls_m_) control_m *= drawn.height_factor;
-  // the origin lies on a grid point, or in the middle between some
+  // the origin is on a grid point, or midway between points
   const int left = (columns_ - 1) / 2, right = columns_ / 2, below = (rows_ - 1) / 2, above = rows_ / 2;
   const double drawn_m =
       0.25 * (control_m(left, below) + control_m(right, below) + control_m(left, above) + control_m(right, above));
@@ -145,7 +145,7 @@ void SampleSurface::trace(double tip_radius_m, double largest_curvature_per_m) {
   }
 }
 
-// The narrowest bell curve that does: half widths that double, then the interval halved.
+// Finds the narrowest sufficient bell curve: doubles the half width, then bisects.
 void SampleSurface::smooth_widely(double largest_curvature_per_m) {
   if (is_gentle(largest_curvature_per_m)) return;
   const auto columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_);
@@ -155,7 +155,7 @@ void SampleSurface::smooth_widely(double largest_curvature_per_m) {
     smooth_by_boxes(controls_m_, columns, rows, half_width);
     return is_gentle(largest_curvature_per_m);
   };
-  // three boxes that are wider than the grid leave a plane
+  // three boxes wider than the grid leave a plane
   const std::size_t widest = 2 * std::max(columns, rows);
   std::size_t enough = 1;
   while (enough < widest && !is_gentle_with(enough)) enough *= 2;
@@ -202,7 +202,7 @@ double SampleSurface::control_m(int column, int row) const noexcept {
 
 SampleSurface::Place SampleSurface::at(const glm::dvec2& xy_m) const noexcept {
   if (columns_ == 0) return {};
-  // two spacings beyond the rim it is level; what is no number goes there too
+  // level from two spacings beyond the edge; NaN goes there too
   const auto along = [this](double place_m, int count) {
     return std::max(-2.0, std::min(place_m / spacing_m_ + 0.5 * (count - 1), count + 1.0));
   };
@@ -224,7 +224,8 @@ SampleSurface::Place SampleSurface::at(const glm::dvec2& xy_m) const noexcept {
   return place;
 }
 
-// The slopes of a spline are averages of its controls' differences, and their derivatives of second differences.
+// Uses that the slopes of a spline are averages of its controls' differences, and their derivatives of second
+// differences.
 bool SampleSurface::covers(const glm::dvec2& xy_m) const noexcept {
   return columns_ == 0 ||
          (std::abs(xy_m.x) <= 0.5 * spacing_m_ * (columns_ - 1) && std::abs(xy_m.y) <= 0.5 * spacing_m_ * (rows_ - 1));

@@ -13,17 +13,17 @@ namespace {
 
 constexpr double kKneeShare = 0.75;
 constexpr double kPushShareOfRadius = 0.1;
-constexpr double kLeastShareOfDepth = 0.25;  // of a recording's, that the stroke fills
+constexpr double kLeastShareOfDepth = 0.25;  // fraction of a recording's depth that the stroke fills
 constexpr double kRounding = 1e-9;           // relative
 
-// Where compression begins, in shares of the snap-in, or of the strongest pull without one; and where it is so weak
-// that it is left out.
+// Start of compression, as a fraction of the snap-in, or of the strongest pull without one; and the limit above which
+// compression is too weak and is omitted.
 constexpr double kBendShareOfSnap = 0.5;
 constexpr double kBendShareOfPull = 0.1;
-constexpr double kLargestBend = 30.0;       // of the strongest pull
+constexpr double kLargestBend = 30.0;       // multiple of the strongest pull
 constexpr double kFaintAtReleaseN = 0.045;  // on the hand; the governor arms below 0.05 N
 
-// What a hand at 50 mm/s passes in a tick: over less than that, the slope of a curve is not felt.
+// Motion of a hand at 50 mm/s in a tick: the slope of a curve over shorter distances is not felt.
 constexpr double kHandStepM = 50e-6;
 
 auto refusal(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
@@ -32,7 +32,7 @@ using Branch = physics::BranchTable;
 
 double force_n(const Branch& branch, double z_m) { return branch.force(physics::Length(z_m)).si; }
 
-// Where the attraction before contact falls below this magnitude, from Z_jtc upwards.
+// Position above which the attraction before contact is below this magnitude, from Z_jtc upwards.
 double faint_above_m(const physics::LawTables& tables, double faint_n) {
   const auto faint = [&](double z_m) { return !(force_n(tables.free, z_m) < -faint_n); };
   double near_m = tables.figures.z_jtc.si;
@@ -46,21 +46,21 @@ double faint_above_m(const physics::LawTables& tables, double faint_n) {
   return far_m;
 }
 
-// What of a material a scale has to make room for.
+// Properties of a material that a scale must accommodate.
 struct Extent {
-  double reach_m = 0;   // Z that the stroke fills
-  double strong_n = 0;  // on the tip: what becomes as strong as the device may be
-  double felt_n = 0;    // on the tip: what must stay strong enough to be felt
+  double reach_m = 0;   // Z range that the stroke fills
+  double strong_n = 0;  // on the tip: becomes the largest force on the device
+  double felt_n = 0;    // on the tip: must stay strong enough to be felt
 };
 
 Extent extent_of(const physics::LawTables& tables) {
   const double pull_n = strongest_pull_n(tables);
   const double push_n = tables.turn.si > 0.0 ? force_n(tables.pressed, tables.pressed_to.si) : 0.0;
   if (pull_n > Scaling::kFaintShare * push_n) {
-    // a recorded curve may let go close to its contact point, or below it
+    // a recorded curve may detach close to its contact point, or below it
     const double least_m = tables.turn.si > 0.0 ? -kLeastShareOfDepth * tables.pressed_to.si : 0.0;
     const double reach_m = std::max(tables.figures.z_joc.si, faint_above_m(tables, Scaling::kFaintShare * pull_n));
-    // of one that hardly pulls, the push is what is felt
+    // the push is felt if the material hardly pulls
     return {std::max(reach_m, least_m), pull_n, std::max(pull_n, push_n)};
   }
   if (tables.turn.si > 0.0) {
@@ -73,7 +73,7 @@ Extent extent_of(const physics::LawTables& tables) {
   return {push_m * Scaling::kStrokeM / Scaling::kPushM, strong_n, strong_n};
 }
 
-// The steepest rise of the hand's force on its way down a branch, between two heights of the hand.
+// Steepest rise of the hand's force on its way down a branch, between two heights of the hand.
 double steepest_n_per_m(const Scaling& scaling, const Branch& branch, double lowest_m, double highest_m) {
   double steepest = 0.0;
   double above_n = scaling.hand_force_n(force_n(branch, scaling.z_m(highest_m)));
@@ -85,7 +85,7 @@ double steepest_n_per_m(const Scaling& scaling, const Branch& branch, double low
   return steepest;
 }
 
-// How many times steeper than allowed the force rises on either branch, where it can be felt in the device's workspace.
+// Largest ratio of the slope on either branch to the allowed stiffness, where it can be felt in the device's workspace.
 double excess_of_stiffness(const Scaling& scaling, const physics::LawTables& tables, const DeviceSpec& device) {
   const double lowest_m = device.workspace_min_m.y - device.contact_point_m.y;
   const double highest_m = device.workspace_max_m.y - device.contact_point_m.y;
@@ -94,7 +94,7 @@ double excess_of_stiffness(const Scaling& scaling, const physics::LawTables& tab
   const double free = steepest_n_per_m(scaling, tables.free, std::clamp(jump_in_m, lowest_m, highest_m), highest_m);
   const double attached =
       steepest_n_per_m(scaling, tables.attached, lowest_m, std::clamp(jump_off_m, lowest_m, highest_m));
-  // where a recorded contact is pressed, and in the turn from there to the attached branch, which adds at most the
+  // the pressed branch of a recorded contact, plus the turn from there to the attached branch, which adds at most the
   // contact's mean stiffness (measured_law_tables)
   const double pressed = tables.turn.si > 0.0 ? 2.0 * steepest_n_per_m(scaling, tables.pressed, lowest_m,
                                                                        std::clamp(jump_in_m, lowest_m, highest_m))
@@ -162,7 +162,7 @@ core::Result<Scaling> Scaling::fit(const physics::LawTables& tables, const Devic
   scaling.hand_m_per_m_ = scaling.lateral_m_per_m_ = kStrokeM / extent.reach_m;
   scaling.hand_n_per_n_ = scaling.cap_n_ / extent.strong_n;
 
-  // a weaker scale bends at another depth, so that one step need not be enough
+  // a weaker scale bends at another depth, so one step may not be enough
   for (double excess = excess_of_stiffness(scaling, tables, device); excess > 1.0 + kRounding;
        excess = excess_of_stiffness(scaling, tables, device)) {
     scaling.hand_n_per_n_ *= std::min(0.95, 1.0 / excess);
@@ -185,13 +185,13 @@ core::Result<Scaling> Scaling::compressed(const physics::LawTables& tables, cons
   while (bend_n < kLargestBend * strong_n) {
     scaling->bend_n_ = bend_n;
     scaling->bend_gain_n_ = scaling->hand_n_per_n_ * strong_n / std::asinh(strong_n / bend_n);
-    // what pulls from afar must stay too weak to be felt where the force is turned on
+    // long-range attraction must be too weak to be felt where the force is turned on
     const double afar_n = -scaling->hand_force_n(force_n(tables.free, scaling->release_z_m()));
     const double excess = std::max(excess_of_stiffness(*scaling, tables, device), afar_n / kFaintAtReleaseN);
     if (excess <= 1.0 + kRounding) return scaling;
     bend_n *= std::clamp(excess, 1.002, 1.2);
   }
-  // the contact is as stiff as the hand can stand without any compression
+  // without compression, the contact is already at the stiffness limit
   scaling->bend_n_ = 0.0;
   return scaling;
 }
@@ -240,7 +240,7 @@ core::Result<CommonScale> Scaling::common_scale(std::span<const std::shared_ptr<
   for (const auto& tables : materials) {
     scale.hand_m_per_m = std::min(scale.hand_m_per_m, common_stroke_m(device) / extent_of(*tables).reach_m);
   }
-  // the stiffness depends on both, so that the lengths come first
+  // the stiffness depends on both, so the lengths come first
   for (const auto& tables : materials) {
     const auto alone = common(*tables, device, scale);
     if (!alone) return tl::unexpected(alone.error());

@@ -13,7 +13,7 @@ constexpr double kUsableShare = 0.9;
 constexpr double kFarthestM = 1e3;
 }  // namespace
 
-// Force and stability: vendor's sheet and CHAI3D's table.
+// Force and stability from the vendor's data sheet and CHAI3D's table.
 DeviceSpec omni_like(std::string name) {
   return {.name = std::move(name),
           .max_force_n = 3.3,
@@ -63,7 +63,7 @@ double force_cap_n(const DeviceSpec& spec) { return std::min(kDefaultCapN, kUsab
 
 DeviceSpec limited_to(DeviceSpec spec, double max_n) {
   spec.max_force_n = std::min(spec.max_force_n, max_n / kUsableShare);
-  // the division may have been rounded up
+  // corrects a division that was rounded up
   while (force_cap_n(spec) > max_n) spec.max_force_n = std::nextafter(spec.max_force_n, 0.0);
   return spec;
 }
@@ -73,7 +73,7 @@ double usable_slew_n_per_s(const DeviceSpec& spec, double wanted_n_per_s) {
 }
 
 bool is_within_reach(const glm::dvec3& position_m) noexcept {
-  // a NaN compares false
+  // NaN compares false
   return std::abs(position_m.x) <= kFarthestM && std::abs(position_m.y) <= kFarthestM &&
          std::abs(position_m.z) <= kFarthestM;
 }

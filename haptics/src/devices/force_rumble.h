@@ -15,15 +15,16 @@ struct Rumble {
 
 // Renders a force as rumble. A jump, a change within kWindow ticks that no hand on a spring can cause, runs the heavy
 // motor: briefly when the pull begins (the tip snaps in), three times as long when it ends (the tip breaks free). The
-// light one hums in proportion to the force. For a tick of the servo; one step a tick of about a millisecond.
+// light motor hums in proportion to the force. May be called in a tick of the servo, one step per tick of about a
+// millisecond.
 class ForceRumble {
  public:
   static constexpr std::size_t kWindow = 4;
-  static constexpr double kJumpN = 0.06;  // at 0.1 m/s a spring of 40 N/m changes by a quarter of that
+  static constexpr double kJumpN = 0.06;  // a spring of 40 N/m changes by a quarter of that at 0.1 m/s
   static constexpr std::int64_t kSnapNs = 40'000'000;
   static constexpr std::int64_t kReleaseNs = 120'000'000;
   static constexpr double kHumShare = 0.35;
-  static constexpr double kFaintN = 0.02;  // less is silence
+  static constexpr double kFaintN = 0.02;  // weaker forces are silent
 
   explicit ForceRumble(double cap_n) : cap_n_(cap_n) {}
 
@@ -32,7 +33,7 @@ class ForceRumble {
 
  private:
   double cap_n_;
-  std::array<double, kWindow> before_n_{};  // of the last steps
+  std::array<double, kWindow> before_n_{};  // in the last steps
   std::size_t oldest_ = 0;
   std::int64_t shakes_until_ns_ = 0;
 };

@@ -18,15 +18,15 @@ namespace afm::haptics {
 namespace {
 
 constexpr auto kPollPause = std::chrono::milliseconds(4);
-constexpr double kDeadZone = 0.12;  // of a stick that nobody touches
+constexpr double kDeadZone = 0.12;  // of a released stick
 constexpr double kFastestPlacedMPerS = 0.30;
-constexpr std::int64_t kRepeatNs = 30'000'000;  // a rumble that lasts is ordered again in time
-constexpr double kAudible = 0.02;               // a change of the hum
-constexpr double kRestM = 0.060;                // where the simulated hand begins
+constexpr std::int64_t kRepeatNs = 30'000'000;  // refresh interval of a lasting rumble
+constexpr double kAudible = 0.02;               // smallest audible change of the hum
+constexpr double kRestM = 0.060;                // initial position of the simulated hand
 constexpr double kLowestM = -0.030, kHighestM = 0.075, kSidewaysM = 0.060, kDepthM = 0.030;
 
 core::Result<int> start(const SdlFunctions& sdl) {
-  // no window has the focus, and Ctrl-C belongs to the servo
+  // the process has no focused window, and Ctrl-C belongs to the servo
   sdl.set_hint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
   sdl.set_hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
   if (sdl.init(SDL_INIT_GAMECONTROLLER | SDL_INIT_HAPTIC) != 0) {
@@ -36,7 +36,7 @@ core::Result<int> start(const SdlFunctions& sdl) {
   return sdl.count();
 }
 
-// Each port leaves SDL once when it goes, so SDL is entered once for each.
+// Initialises SDL once per port, because each port shuts SDL down once when it is destroyed.
 core::Result<std::vector<std::unique_ptr<GamepadPort>>> open_all(const SdlFunctions& sdl) {
   const auto count = start(sdl);
   if (!count) return tl::unexpected(count.error());
@@ -110,7 +110,7 @@ DeviceSample GamepadDevice::read(std::int64_t now_ns) noexcept {
                 .turn_on_pressed = seen_.turn_on});
   DeviceSample sample = hand_.read(now_ns);
   sample.healthy = seen_.attached != 0 && now_ns - seen_.time_ns <= kStallNs;
-  sample.finished_script = 0;  // nobody else's
+  sample.finished_script = 0;  // the gamepad runs no scripts
   return sample;
 }
 

@@ -22,46 +22,46 @@ namespace afm::haptics {
 struct SdlFunctions;  // haptics/src/sdl_library.h
 class GamepadPort;    // haptics/src/gamepad_port.h
 
-// A game controller or a joystick that SDL2 knows. What it moves is the aim of a simulated hand, as a mouse does: the
-// governor's force acts on that hand, so that the tip snaps in, sticks and flies off on the wall, and a person feels of
-// it what the device can show.
+// Game controller or joystick supported by SDL2. It moves the aim of a simulated hand, as a mouse does. The governor's
+// force acts on that hand, so that the tip snaps in, sticks and flies off on the wall, and the user feels as much of
+// the force as the device can render.
 //
-// - A game controller moves the aim at a bounded speed: left stick up and down, right stick or cross sideways; A is
+// - A game controller moves the aim at a bounded speed: left stick up and down, right stick or d-pad sideways; A is
 //   Turn-On. Its motors render jumps and the force (ForceRumble).
-// - A joystick with force feedback places the aim by its deflection, its first button is Turn-On, and it is pushed with
-//   a constant effect in the direction of the force, at full strength for the cap.
+// - A joystick with force feedback sets the position of the aim by its deflection, its first button is Turn-On, and a
+//   constant effect pushes it in the direction of the force, at full strength for the cap.
 //
-// SDL runs in a separate thread, about 250 times a second; it and the servo's tick exchange data through two mailboxes.
-// Neither trusts the other: with no update for kStallNs, or unplugged, the device is not healthy; a force that the
-// servo has not renewed for kStaleNs stops, and a rumble ends by itself after kRumbleMs.
+// SDL runs in a separate thread, about 250 times a second, which exchanges data with the servo's tick through two
+// mailboxes. Neither trusts the other: without an update for kStallNs, or unplugged, the device is not healthy; a force
+// that the servo has not renewed for kStaleNs stops, and a rumble ends by itself after kRumbleMs.
 class GamepadDevice final : public HapticDevice {
  public:
   static constexpr std::int64_t kStallNs = 100'000'000;
-  static constexpr std::int64_t kCoastNs = 20'000'000;  // the aim stops if there is no update for so long
+  static constexpr std::int64_t kCoastNs = 20'000'000;  // longest time without an update before the aim stops
   static constexpr std::int64_t kStaleNs = 20'000'000;
   static constexpr std::uint32_t kRumbleMs = 60;
-  static constexpr double kFastestMPerS = 0.10;  // of the aim of a game controller
-  static constexpr double kReachM = 0.060;       // of the aim of a joystick, to either side
+  static constexpr double kFastestMPerS = 0.10;  // largest speed of a game controller's aim
+  static constexpr double kReachM = 0.060;       // range of a joystick's aim, in each direction
 
-  // Message when there is no gamepad, with the command that grants access to one.
+  // Message if there is no gamepad, with the command that grants access to one.
   static constexpr const char* kNone =
       "none is plugged in, or permission is denied; in that case: sudo usermod -aG input \"$(id -un)\", then log in "
       "again";
 
-  // The connected device.
+  // Properties of the connected device.
   struct Facts {
     std::string name;
     bool force_feedback = false;
     bool rumble = false;
   };
 
-  // All that are there, in SDL's order; starts none.
+  // All connected devices, in SDL's order; starts none.
   static core::Result<std::vector<Facts>> list(const SdlFunctions& sdl);
 
   enum class Wanted { Any, ForceFeedback };
 
-  // Takes the first one with force feedback, or else, if any will do, the first one. DeviceMissing: there is none.
-  // `clock` outlives the device and is the one whose time read() is given.
+  // Opens the first one with force feedback or, if any is acceptable, the first one. DeviceMissing: there is none.
+  // `clock` must outlive the device, and is the one that provides the time of read().
   static core::Result<std::unique_ptr<GamepadDevice>> open(const SdlFunctions& sdl, const core::Clock& clock,
                                                            Wanted wanted);
 
@@ -73,7 +73,7 @@ class GamepadDevice final : public HapticDevice {
   void write(const ForceCommand& command) noexcept override;
 
  private:
-  // Sticks -1 to 1 along the device frame, as SDL gave them last.
+  // Latest stick positions from SDL, -1 to 1 along the device frame.
   struct Frame {
     std::int64_t time_ns = 0;
     std::array<double, 3> sticks{};
@@ -96,12 +96,12 @@ class GamepadDevice final : public HapticDevice {
   std::unique_ptr<GamepadPort> port_;
   DeviceSpec spec_;
 
-  // between the threads
+  // shared by the threads
   core::LatestValue<Frame> frames_;
   core::LatestValue<Feeling> feelings_;
   std::atomic<bool> closing_{false};
 
-  // the servo's thread
+  // servo's thread
   SimulatedDevice hand_;
   ForceRumble rumble_;
   Frame seen_;
@@ -115,8 +115,8 @@ class GamepadDevice final : public HapticDevice {
   std::thread thread_;
 };
 
-// For the registry. A gamepad that lies on the desk must not take the hand away from the mouse: without a name only a
-// joystick with force feedback will do.
+// Entry for the registry. A gamepad lying on the desk must not replace the mouse: unless it is named, only a joystick
+// with force feedback is accepted.
 core::Result<std::unique_ptr<HapticDevice>> open_gamepad(const DeviceRequest& request, ProbeLog& log);
 void probe_gamepads(const Environment& environment, ProbeLog& log);
 

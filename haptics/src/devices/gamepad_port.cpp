@@ -12,7 +12,7 @@ namespace afm::haptics {
 namespace {
 
 constexpr double kFull = 32767.0;
-constexpr int kStickAxis = 0;  // of a joystick: 0 right, 1 towards the user
+constexpr int kStickAxis = 0;  // joystick: axis 0 is right, axis 1 towards the user
 constexpr Uint8 kTrigger = 0;
 
 double share_of(Sint16 value) { return std::max(-1.0, static_cast<double>(value) / kFull); }
@@ -39,7 +39,7 @@ core::Result<std::unique_ptr<GamepadPort>> GamepadPort::open(const SdlFunctions&
   return port;
 }
 
-// A controller's motors are no force; what can be pushed constantly in a direction is.
+// Looks for a constant force effect; a controller's motors do not provide one.
 void GamepadPort::open_force() {
   if (controller_ != nullptr || sdl_.is_haptic(joystick_) != 1) return;
   haptic_ = sdl_.open_haptic(joystick_);
@@ -96,8 +96,8 @@ void GamepadPort::rumble(const Rumble& rumble) {
   sdl_.rumble(joystick_, strength(rumble.heavy), strength(rumble.light), GamepadDevice::kRumbleMs);
 }
 
-// SDL's direction is the one that the force comes from; its axes point right and towards the user, and what is up for
-// the hand is away from the user on the stick.
+// SDL's direction is the one that the force comes from; its axes point right and towards the user. The hand's upward
+// direction is away from the user on the stick.
 void GamepadPort::push(const glm::dvec3& share) {
   const double length = std::hypot(share.x, share.y);
   SDL_HapticConstant& constant = effect_.constant;

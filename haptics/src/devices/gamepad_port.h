@@ -12,11 +12,12 @@
 
 namespace afm::haptics {
 
-// One controller or joystick that SDL has opened. One thread after open(). Its destructor stops motors and effects,
-// closes it, and leaves SDL.
+// Controller or joystick opened by SDL. One thread after open(). The destructor stops motors and effects, closes it,
+// and shuts down SDL once.
 class GamepadPort {
  public:
-  // Joystick `index` of SDL's list, whose subsystems the caller has started: the port leaves them when it goes.
+  // Opens joystick `index` of SDL's list. The caller has initialised SDL's subsystems, and the port shuts them down on
+  // destruction.
   static core::Result<std::unique_ptr<GamepadPort>> open(const SdlFunctions& sdl, int index);
 
   GamepadPort(const GamepadPort&) = delete;
@@ -25,15 +26,16 @@ class GamepadPort {
 
   const GamepadDevice::Facts& facts() const { return facts_; }
 
-  // Asks SDL for news; false once it is unplugged.
+  // Polls SDL; false once the device is unplugged.
   bool update();
   std::array<double, 3> sticks() const;  // right, up, towards the user, -1 to 1
   bool turn_on() const;
 
-  // As long as the next call, and at most GamepadDevice::kRumbleMs.
+  // Rumbles until the next call, for at most GamepadDevice::kRumbleMs.
   void rumble(const Rumble& rumble);
 
-  // Until the next call. `share`: of the device's strength, in the device frame, at most 1 long.
+  // Pushes until the next call. `share` is a fraction of the device's strength, in the device frame, with a length of
+  // at most 1.
   void push(const glm::dvec3& share);
 
  private:
@@ -43,8 +45,8 @@ class GamepadPort {
 
   SdlFunctions sdl_;
   GamepadDevice::Facts facts_;
-  SDL_GameController* controller_ = nullptr;  // null: a joystick
-  SDL_Joystick* joystick_ = nullptr;          // of the controller, or by itself
+  SDL_GameController* controller_ = nullptr;  // null for a joystick
+  SDL_Joystick* joystick_ = nullptr;          // the controller's own, or a plain joystick
   SDL_Haptic* haptic_ = nullptr;
   SDL_HapticEffect effect_{};
   int effect_id_ = -1;

@@ -23,12 +23,12 @@ namespace {
 
 constexpr auto kFirstPlacePatience = std::chrono::seconds(2);
 constexpr auto kReceivePatience = std::chrono::milliseconds(2);
-constexpr auto kPartPatience = std::chrono::milliseconds(200);  // what the link takes to send and to leave, and as much
-constexpr std::int64_t kComplaintNs = 1'000'000'000;            // between two lines about a service that stammers
+constexpr auto kPartPatience = std::chrono::milliseconds(200);  // twice the time the link needs to send and disconnect
+constexpr std::int64_t kComplaintNs = 1'000'000'000;            // between two lines about an unsteady service
 
-// The service reports no limits. The force is what careful drivers give a hand (Isaac Lab clips at 2 N); the stiffness
-// that of a Touch; the workspace a part of the reach in front of the arm that every Inverse3 has, around the place (0,
-// -0.12, 0.15) of its documentation.
+// The service reports no limits. Force: what careful drivers give a hand (Isaac Lab clips at 2 N). Stiffness: that of a
+// Touch. Workspace: the part of the reach in front of the arm that every Inverse3 has, around the position (0, -0.12,
+// 0.15) in its documentation.
 DeviceSpec inverse3() {
   return {.name = "Haply Inverse3",
           .max_force_n = 2.2,
@@ -67,7 +67,7 @@ HaplyDevice::HaplyDevice(const core::Clock& clock, std::uint16_t port, std::uniq
 
 HaplyDevice::~HaplyDevice() {
   closing_.store(true);
-  // what it does then has an end; only a connection that is being made is interrupted
+  // exchanges end by themselves; only a connection attempt needs interrupting
   wait_until(kPartPatience, [this] { return !exchanging_.load(); });
   link_->interrupt();
   thread_.join();
@@ -107,8 +107,8 @@ void HaplyDevice::serve() noexcept {
   }
 }
 
-// Until the connection ends. The service speaks first; then each of its states answers a force. A service that falls
-// silent holds the last force, so that zero is sent without being asked.
+// Runs until the connection ends. The service sends first; after that, each of its states answers a force. A silent
+// service holds the last force, so zero is sent without being asked for.
 void HaplyDevice::exchange() {
   device_id_.clear();
   force_ns_ = heard_ns_ = clock_.now_ns();
@@ -143,7 +143,7 @@ void HaplyDevice::exchange() {
   }
 }
 
-// Whatever ended the connection, the service may still hold what it was last sent.
+// Sends zero force, because the service may still hold the last one, however the connection ended.
 void HaplyDevice::part() noexcept {
   const auto attempt = [](const auto& step) {
     try {
@@ -179,7 +179,7 @@ glm::dvec3 HaplyDevice::force_for(std::int64_t now_ns) {
   // in whole nanoseconds, so that the fade ends at exactly zero
   trust_ns_ =
       std::clamp<std::int64_t>(trust_ns_ + (stale ? -elapsed_ns * (kReturnNs / kReleaseNs) : elapsed_ns), 0, kReturnNs);
-  // a force is for a known place
+  // no force without a known position
   if (closing_.load() || now_ns - heard_ns_ > kStallNs) trust_ns_ = 0;
   return static_cast<double>(trust_ns_) / static_cast<double>(kReturnNs) * command_.force_n;
 }

@@ -18,19 +18,19 @@ namespace afm::haptics {
 
 class HaplyLink;
 
-inline constexpr std::uint16_t kHaplyServicePort = 10001;  // of the maker's service on this machine
+inline constexpr std::uint16_t kHaplyServicePort = 10001;  // port of the manufacturer's service on this machine
 inline constexpr const char* kHaplyPortVariable = "TOUCHAFM_HAPLY_PORT";
 
-// A Haply Inverse3, through the Inverse Service that the manufacturer's set-up starts on this machine. One thread talks
-// to the service, one message each way about every millisecond; the servo reads the newest position, writes the newest
-// force, and never waits. Turn-On is the grip's button.
+// Haply Inverse3, through the Inverse Service that the manufacturer's set-up starts on this machine. One thread talks
+// to the service, one message in each direction about every millisecond; the servo reads the newest position, writes
+// the newest force, and never waits. Turn-On is the grip's button.
 //
-// - A force that the servo has not renewed for kStaleNs fades to exactly zero within kReleaseNs, and comes back over
+// - A force that the servo has not renewed for kStaleNs fades to exactly zero within kReleaseNs, and returns over
 //   kReturnNs.
-// - Without a place for kStallNs the device is not healthy, so that the governor cuts, and zero is sent unasked: the
-//   service keeps applying the last force, even while it reports nothing. Zero is also sent before every end of a
-//   connection.
-// - A service that went away is looked for again every kRetryNs.
+// - Without a position for kStallNs the device is not healthy, so the governor cuts the force, and zero is sent
+//   unasked: the service keeps applying the last force, even while it reports nothing. Zero is also sent before every
+//   disconnection.
+// - A lost service is looked for again every kRetryNs.
 class HaplyDevice final : public HapticDevice {
  public:
   static constexpr std::int64_t kStaleNs = 5'000'000;
@@ -39,8 +39,8 @@ class HaplyDevice final : public HapticDevice {
   static constexpr std::int64_t kStallNs = 20'000'000;
   static constexpr std::int64_t kRetryNs = 200'000'000;
 
-  // DeviceMissing: no service, or no Inverse3 that reports its position within two seconds. `clock` outlives the device
-  // and is the one whose time read() is given. `offer` is called for each connection.
+  // DeviceMissing: no service, or no Inverse3 that reports its position within two seconds. `clock` must outlive the
+  // device, and is the one that provides the time of read(). `offer` is called for each connection.
   static core::Result<std::unique_ptr<HaplyDevice>> open(const core::Clock& clock,
                                                          std::uint16_t port = kHaplyServicePort,
                                                          OfferReleasePath offer = {});
@@ -48,7 +48,7 @@ class HaplyDevice final : public HapticDevice {
   // Checks that the service answers; starts nothing.
   static core::Result<void> query(std::uint16_t port = kHaplyServicePort);
 
-  ~HaplyDevice() override;  // after a message of zero force
+  ~HaplyDevice() override;  // sends zero force first
 
   const DeviceSpec& spec() const noexcept override { return spec_; }
   DeviceSample read(std::int64_t now_ns) noexcept override;
@@ -67,7 +67,7 @@ class HaplyDevice final : public HapticDevice {
 
   HaplyDevice(const core::Clock& clock, std::uint16_t port, std::unique_ptr<HaplyLink> link, OfferReleasePath offer);
 
-  void serve() noexcept;  // begins with the connection that `link_` has
+  void serve() noexcept;  // starts with the connection in `link_`
   void exchange();
   void part() noexcept;
   void offer_release() const;
@@ -83,23 +83,23 @@ class HaplyDevice final : public HapticDevice {
   core::LatestValue<Frame> frames_;
   core::LatestValue<TimedForce> commands_;
   std::atomic<bool> closing_{false};
-  std::atomic<bool> exchanging_{true};  // there is a connection that ends with zero force
-  std::atomic<bool> released_{true};    // no force was sent since the last zero
+  std::atomic<bool> exchanging_{true};  // false once the connection has ended with zero force
+  std::atomic<bool> released_{true};    // no force sent since the last zero
 
-  // the servo's
+  // servo's thread
   Frame frame_;
 
-  // of the thread that speaks
+  // service's thread
   std::string device_id_;
   TimedForce command_;
   std::int64_t force_ns_ = 0;
   std::int64_t heard_ns_ = 0;
   std::int64_t complained_ns_ = 0;
-  std::int64_t trust_ns_ = 0;  // 0: the command is not believed, kReturnNs: wholly
+  std::int64_t trust_ns_ = 0;  // 0: command ignored; kReturnNs: command applied fully
   std::thread thread_;
 };
 
-// For the registry.
+// Entry for the registry.
 core::Result<std::unique_ptr<HapticDevice>> open_haply(const DeviceRequest& request, ProbeLog& log);
 void probe_haply(const Environment& environment, ProbeLog& log);
 

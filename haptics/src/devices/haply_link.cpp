@@ -33,14 +33,14 @@ constexpr auto kLeavePatience = std::chrono::milliseconds(100);
 struct HaplyLink::Socket {
   boost::asio::io_context context;
   std::optional<Stream> stream;
-  std::mutex changing;  // of `stream` and `interrupted`, against interrupt()
+  std::mutex changing;  // guards `stream` and `interrupted` against interrupt()
   bool interrupted = false;
 
   boost::beast::flat_buffer incoming;
-  bool reading = false;  // an operation is under way, which may go on from one receive() to the next
+  bool reading = false;  // a read is pending, possibly across calls of receive()
   bool ended = true;
 
-  // Lets what is under way go on until `done`. False: not within `patience`.
+  // Runs pending operations until `done`. Returns false if that takes longer than `patience`.
   bool run_until(const bool& done, std::chrono::microseconds patience) {
     const auto end = std::chrono::steady_clock::now() + patience;
     context.restart();
@@ -49,7 +49,7 @@ struct HaplyLink::Socket {
     return done;
   }
 
-  // Starts an operation and waits for its end: at most for `patience`, then the connection is cut.
+  // Starts an operation and waits until it ends; cuts the connection after `patience`.
   template <class Start>
   ErrorCode finish(Start&& start, std::chrono::microseconds patience) {
     bool done = false;
@@ -63,12 +63,12 @@ struct HaplyLink::Socket {
     return boost::asio::error::timed_out;
   }
 
-  // Whatever is under way ends.
+  // Ends all pending operations.
   void cut() {
     ErrorCode ignored;
     {
       const std::lock_guard lock(changing);
-      // a duplicate of the descriptor keeps the connection open: it is not the last close() that has to end it
+      // a duplicate of the descriptor keeps the connection open, so close() alone may not end it
       if (stream) ignored = stream->next_layer().shutdown(tcp::socket::shutdown_both, ignored);
       if (stream) ignored = stream->next_layer().close(ignored);
     }
@@ -79,7 +79,7 @@ struct HaplyLink::Socket {
   void read_on() {
     if (reading || ended) return;
     reading = true;
-    // piece by piece: a peer that sends too much can still be sent zero force, which Beast's own limit would prevent
+    // in pieces: a peer that sends too much can still be sent zero force, which Beast's own limit would prevent
     stream->async_read_some(incoming, kLongestMessage + 1 - incoming.size(),
                             [this](const ErrorCode& error, std::size_t) {
                               reading = false;
@@ -111,7 +111,7 @@ core::Result<void> HaplyLink::connect(std::uint16_t port) {
   socket.incoming.clear();
   socket.ended = true;
   tcp::socket& tcp_socket = socket.stream->next_layer();
-  // this machine alone: a force must not depend on a network
+  // local machine only: a force must not depend on a network
   const tcp::endpoint service(boost::asio::ip::address_v4::loopback(), port);
   ErrorCode error =
       socket.finish([&](auto done) { tcp_socket.async_connect(service, std::move(done)); }, kHandshakePatience);
@@ -182,7 +182,7 @@ std::string text_frame(std::string_view text) {
     frame += static_cast<char>(text.size() >> 8U);
     frame += static_cast<char>(text.size() & 0xFFU);
   }
-  frame.append(4, '\0');  // the mask
+  frame.append(4, '\0');  // masking key
   frame += text;
   return frame;
 }

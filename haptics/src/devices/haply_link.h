@@ -12,8 +12,8 @@
 
 namespace afm::haptics {
 
-// A connection to a WebSocket of this machine: text messages, one at a time. One thread, which never waits longer than
-// is said.
+// WebSocket connection to a service on this machine: text messages, one at a time. One thread, which never waits longer
+// than stated.
 class HaplyLink {
  public:
   HaplyLink();
@@ -21,27 +21,27 @@ class HaplyLink {
   HaplyLink& operator=(const HaplyLink&) = delete;
   ~HaplyLink();
 
-  // In the place of the one before, within two seconds. DeviceMissing: nobody listens at the port, or not as a
+  // Replaces the previous connection, within two seconds. DeviceMissing: nothing listens at the port, or not as a
   // WebSocket.
   core::Result<void> connect(std::uint16_t port);
 
-  // The next message; empty if none comes within `patience`, or the connection has ended.
+  // Next message; empty if none arrives within `patience`, or the connection has ended.
   std::optional<std::string> receive(std::chrono::microseconds patience);
 
-  // Nothing more will be received: the other side left, or began a message of more than 64 KiB. In the second case it
-  // can still be sent to.
+  // True if nothing more can be received: the peer left, or began a message of more than 64 KiB. In the second case,
+  // sending still works.
   bool ended() const;
 
-  // Within 20 ms. False, and ended(): the other side left, or does not read.
+  // Sends within 20 ms. Returns false if the peer left or does not read; ended() is then true.
   bool send(const std::string& message);
 
-  // Ends the connection so that what was sent is still read, within 100 ms.
+  // Ends the connection so that sent data are still read, within 100 ms.
   void leave();
 
-  // The connection's socket, on which another process may send a text_frame(); -1 if there is no connection.
+  // Socket of the connection, on which another process may send a text_frame(); -1 if there is no connection.
   int descriptor() const;
 
-  // Ends the connection for good and wakes every waiting thread. From any thread.
+  // Ends the connection for good and wakes every waiting thread. Any thread.
   void interrupt();
 
  private:
@@ -49,8 +49,8 @@ class HaplyLink {
   std::unique_ptr<Socket> socket_;
 };
 
-// A text of at most 65535 bytes as it goes over the wire from a client (RFC 6455, section 5.2), masked with zero: there
-// is no proxy on the way that a mask would have to protect.
+// Encodes a text of at most 65535 bytes as a client's frame (RFC 6455, section 5.2). The mask is zero, because there is
+// no proxy to protect.
 std::string text_frame(std::string_view text);
 
 }  // namespace afm::haptics

@@ -11,9 +11,9 @@ namespace {
 
 using json = nlohmann::json;
 
-constexpr std::size_t kLongestId = 256;  // the service's have four digits; a message with it fits anywhere
+constexpr std::size_t kLongestId = 256;  // the service's ids have four digits; this limit keeps every message small
 
-// A member of an object, or null: of anything else too.
+// Member of an object, or null, also for other values.
 const json& member(const json& value, const char* name) {
   static const json kNull;
   if (!value.is_object()) return kNull;

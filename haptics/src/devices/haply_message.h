@@ -6,20 +6,21 @@
 #include <string>
 #include <string_view>
 
-// The messages of Haply's Inverse Service, version 3, in TouchAFM's frame: right +x, up +y, towards the user +z. The
-// service's own is right +x, away +y, up +z.
+// Messages of Haply's Inverse Service, version 3, in TouchAFM's frame: right +x, up +y, towards the user +z. The
+// service's own frame is right +x, away +y, up +z.
 namespace afm::haptics {
 
 struct HaplyState {
-  std::string device_id;     // of the first Inverse3
-  glm::dvec3 position_m{0};  // from the middle of its mounting plate
-  bool button = false;       // of the grip, wireless or not
+  std::string device_id;     // first Inverse3
+  glm::dvec3 position_m{0};  // from the centre of its mounting plate
+  bool button = false;       // grip button, wireless or not
 };
 
-// Empty if the bytes are no message, or name no Inverse3 with a place that a hand can have. Any bytes, any thread.
+// Empty if the bytes are not a message, or contain no Inverse3 with a plausible position. Accepts any bytes; any
+// thread.
 std::optional<HaplyState> parse_haply_state(std::string_view message);
 
-// The service applies it once, and answers with the next state.
+// The service applies a force once, and answers with its next state.
 std::string haply_force_message(const std::string& device_id, const glm::dvec3& force_n);
 
 }  // namespace afm::haptics

@@ -26,7 +26,8 @@ constexpr auto kFirstFramePatience = std::chrono::seconds(1);
 constexpr int kMostErrorsInAFrame = 8;
 constexpr std::int64_t kForEver = std::numeric_limits<std::int64_t>::max();
 
-// Between two callbacks a hand moves a millimetre at most; beside the workspace the figures have some play.
+// Largest plausible motion between two callbacks, in which a hand moves a millimetre at most. The figures for the
+// workspace have some tolerance as well.
 constexpr double kLongestLeapM = 0.05;
 constexpr double kWorkspacePlayM = 0.1;
 
@@ -64,12 +65,12 @@ HdapiDevice::HdapiDevice(const HdapiFunctions& functions, const core::Clock& clo
 }
 
 core::Result<void> HdapiDevice::start(Supervision supervision) {
-  // the driver's own clamp stays behind ours
+  // keeps the driver's own clamp behind ours
   hd_.enable(hdapi::kForceClamping);
   hd_.set_scheduler_rate(1'000'000'000 / kSchedulerPeriodNs);
-  hdapi::take_newest_error(hd_);  // neither is vital
+  hdapi::take_newest_error(hd_);  // neither setting is vital
 
-  // asked in a frame, a device that cannot tell would look like one that failed
+  // inside a frame, a device without this property would look like a failed one
   std::array<double, hdapi::kRoomForValues> heat{};
   hd_.get_doubles(hdapi::kMotorTemperature, heat.data());
   measures_heat_ = hdapi::take_newest_error(hd_).code == 0;
@@ -105,7 +106,7 @@ core::Result<void> HdapiDevice::start(Supervision supervision) {
 HdapiDevice::~HdapiDevice() {
   closing_.store(true);
   if (supervisor_.joinable()) supervisor_.join();
-  // a scheduler that has stalled cannot take the zero; its output is off already
+  // a stalled scheduler cannot send the zero; its output is already off
   if (scheduler_started_) wait_until(kReleasePatience, [this] { return released_.load(); });
   hd_.make_current_device(handle_);
   hd_.disable(hdapi::kForceOutput);
@@ -141,7 +142,7 @@ std::optional<std::string> HdapiDevice::supervise() {
     output_cut_.store(true);
   }
   cut_ = stalled;
-  // a driver that calls too seldom stalls and comes back all the time
+  // a driver with too few callbacks keeps stalling and recovering
   const std::int64_t now_ns = clock_.now_ns();
   std::int64_t& told_ns = told_ns_[static_cast<std::size_t>(now)];
   if (now == told_ || (told_ns != 0 && now_ns - told_ns < kSameLineNs)) return std::nullopt;
@@ -181,7 +182,7 @@ void HdapiDevice::run_frame() noexcept {
   if (closing) released_.store(true);
 }
 
-// The place is the last good one while the device gives nonsense.
+// Reads the position; keeps the last valid one while the device reports nonsense.
 void HdapiDevice::read_hand(std::int64_t now_ns) noexcept {
   std::array<double, hdapi::kRoomForValues> mm{};
   hd_.get_doubles(hdapi::kPosition, mm.data());
@@ -201,7 +202,7 @@ void HdapiDevice::read_hand(std::int64_t now_ns) noexcept {
   const glm::dvec3 position_m = 1e-3 * glm::dvec3(mm[0], mm[1], mm[2]);
   bool inside = true;
   for (int axis = 0; axis < 3; ++axis) {
-    // a NaN compares false
+    // NaN compares false
     inside = inside && position_m[axis] >= spec_.workspace_min_m[axis] - kWorkspacePlayM &&
              position_m[axis] <= spec_.workspace_max_m[axis] + kWorkspacePlayM;
   }
@@ -220,7 +221,7 @@ void HdapiDevice::follow_calibration(std::int64_t now_ns) noexcept {
   if (status == hdapi::kCalibrated) {
     calibration_ = HdapiHealth::Ready;
   } else if (status == hdapi::kNeedsUpdate) {
-    // the new origin may move the hand's place: never while a force is on
+    // the new origin may move the hand's position, so never while a force is on
     if (output_ == Output::Off) hd_.update_calibration(calibration_style_);
     calibration_ = HdapiHealth::Calibrating;
   } else {
@@ -249,7 +250,7 @@ void HdapiDevice::send_force(std::int64_t now_ns, std::int64_t elapsed_ns) noexc
   const double gain = static_cast<double>(trust_ns_) / static_cast<double>(kReturnNs);
 
   const glm::dvec3 target_n = output_ == Output::On ? gain * command_.force_n : glm::dvec3(0.0);
-  // two of the servo's steps may fall between two callbacks
+  // two of the servo's ticks may fall between two callbacks
   const double seconds = 1e-9 * static_cast<double>(std::min(elapsed_ns, kSchedulerPeriodNs));
   const double longest_step_n = kUsableLimitShare * spec_.max_slew_n_per_s * seconds;
   const glm::dvec3 step_n = target_n - force_n_;
@@ -282,13 +283,13 @@ HdapiHealth HdapiDevice::own_health(std::int64_t now_ns) const noexcept {
 
 namespace {
 
-// The dynamic linker repeats the name that it was given.
+// Removes the name that the dynamic linker repeats.
 std::string without_name(const LibraryAttempt& attempt) {
   const std::string prefix = attempt.name + ": ";
   return attempt.refusal.starts_with(prefix) ? attempt.refusal.substr(prefix.size()) : attempt.refusal;
 }
 
-// The library, or nothing; what was tried goes to the log.
+// Loads the library, or returns nothing; logs the attempts.
 std::optional<HdapiFunctions> find_library(const Environment& environment, ProbeLog& log) {
   const HdapiSearch search = load_hdapi(environment(kHdLibraryVariable));
   for (const LibraryAttempt& attempt : search.attempts) {

@@ -19,18 +19,18 @@
 
 namespace afm::haptics {
 
-// A PHANTOM Omni, a Touch, or what else the vendor's library drives. At most one in a process.
+// PHANTOM Omni, Touch, or another device driven by the vendor's library. At most one per process.
 //
-// Three threads meet here and none waits for another. The vendor's scheduler calls once a millisecond, takes the newest
-// command of the servo to the device and leaves the hand's place behind. The servo reads and writes at its own pace.
-// The supervisor watches the scheduler and says what changed.
+// Three threads share it, and none waits for another. The vendor's scheduler calls once a millisecond, passes the
+// servo's newest command to the device, and stores the hand's position. The servo reads and writes at its own rate. The
+// supervisor watches the scheduler and reports changes.
 //
-// - The scheduler's side trusts no servo: a command older than kStaleNs fades to exactly zero within kReleaseNs, and
-//   comes back over kReturnNs.
-// - The servo's side trusts no scheduler: with no callback for kStallNs the device is not healthy, so the governor
-// cuts.
-// - No step of the force is larger than the device's own limit allows, except that zero passes at once.
-// - The force output is on only while the device is Ready; before a calibration it is off.
+// - The scheduler's side does not trust the servo: a command older than kStaleNs fades to exactly zero within
+//   kReleaseNs, and returns over kReturnNs.
+// - The servo's side does not trust the scheduler: without a callback for kStallNs the device is not healthy, so the
+//   governor cuts the force.
+// - No step of the force exceeds the device's own limit, except that zero takes effect at once.
+// - The force output is on only while the device is Ready; it is off before a calibration.
 class HdapiDevice final : public HapticDevice {
  public:
   static constexpr std::int64_t kStaleNs = 5'000'000;
@@ -38,23 +38,23 @@ class HdapiDevice final : public HapticDevice {
   static constexpr std::int64_t kReturnNs = 100'000'000;
   static constexpr std::int64_t kStallNs = 5'000'000;
   static constexpr std::int64_t kCalibrationCheckNs = 100'000'000;
-  static constexpr std::int64_t kSameLineNs = 10'000'000'000;  // between two that say the same
+  static constexpr std::int64_t kSameLineNs = 10'000'000'000;  // between two identical lines
 
-  // Caller of supervise(): the device's thread, or a test at its own pace.
+  // Caller of supervise(): the device's own thread, or a test.
   enum class Supervision { Thread, Caller };
 
-  // Takes the device called `name`, or, if that is empty, the first of the default device, "Default Device" and
-  // "Default PHANToM" that answers, asks for its limits and starts the scheduler. DeviceMissing: none answers; the
-  // message has every name that was tried and what the library said. Failed: it reports limits that cannot be, or
-  // cannot be started. `clock` outlives the device and is the one whose time read() is given.
+  // Opens the device called `name` or, if that is empty, the first of the default device, "Default Device" and "Default
+  // PHANToM" that answers; reads its limits and starts the scheduler. DeviceMissing: none answers; the message has all
+  // names tried and the library's messages. Failed: its limits are impossible, or it cannot be started. `clock` must
+  // outlive the device, and is the one that provides the time of read().
   static core::Result<std::unique_ptr<HdapiDevice>> open(const HdapiFunctions& functions, const core::Clock& clock,
                                                          const std::string& name,
                                                          Supervision supervision = Supervision::Thread);
 
-  // Properties of a device, read without starting it.
+  // Reads the properties of a device without starting it.
   static core::Result<DeviceSpec> query(const HdapiFunctions& functions, const std::string& name);
 
-  // Zero force, force output off, then the scheduler stops, the callback goes, and the device is released.
+  // Sends zero force, switches the force output off, stops the scheduler, removes the callback, and closes the device.
   ~HdapiDevice() override;
 
   const DeviceSpec& spec() const noexcept override { return spec_; }
@@ -64,9 +64,9 @@ class HdapiDevice final : public HapticDevice {
   // Health of the device at `now_ns`. Any thread.
   HdapiHealth health(std::int64_t now_ns) const noexcept;
 
-  // Switches the force output off when the scheduler has stalled. Gives a line for the log when the health has changed
-  // since the last line, the same one at most every ten seconds. One thread, never the servo's: the library may take
-  // its time, or hang.
+  // Switches the force output off if the scheduler has stalled. Returns a log line if the health has changed since the
+  // last one; the same line at most every ten seconds. One thread, never the servo's, because the library may be slow
+  // or hang.
   std::optional<std::string> supervise();
 
  private:
@@ -87,7 +87,7 @@ class HdapiDevice final : public HapticDevice {
 
   core::Result<void> start(Supervision supervision);
 
-  // the scheduler's thread
+  // scheduler's thread
   static std::uint32_t call(void* self) noexcept;
   void run_frame() noexcept;
   void read_hand(std::int64_t now_ns) noexcept;
@@ -106,18 +106,18 @@ class HdapiDevice final : public HapticDevice {
   bool scheduler_started_ = false;
   bool measures_heat_ = false;
 
-  // between the threads
+  // shared by the threads
   core::LatestValue<Frame> frames_;
   core::LatestValue<TimedForce> commands_;
   std::atomic<bool> called_{false};
   std::atomic<std::int64_t> last_frame_ns_{0};
   std::atomic<HdapiHealth> health_{HdapiHealth::Starting};
-  std::atomic<std::uint32_t> error_code_{0};  // what led to it, 0: no error of the library
-  std::atomic<bool> output_cut_{false};       // by the supervisor
+  std::atomic<std::uint32_t> error_code_{0};  // cause of the health; 0: not an error of the library
+  std::atomic<bool> output_cut_{false};       // cut by the supervisor
   std::atomic<bool> closing_{false};
-  std::atomic<bool> released_{false};  // zero force was sent after closing began
+  std::atomic<bool> released_{false};  // zero force sent since closing began
 
-  // the scheduler's thread
+  // scheduler's thread
   Frame frame_;
   bool has_position_ = false;
   glm::dvec3 raw_position_m_{0.0};
@@ -129,21 +129,21 @@ class HdapiDevice final : public HapticDevice {
   std::int64_t fault_until_ns_ = 0;
   Output output_ = Output::Unknown;
   TimedForce command_;
-  std::int64_t trust_ns_ = 0;  // of kReturnNs: how far the servo's commands count
+  std::int64_t trust_ns_ = 0;  // 0 to kReturnNs: weight of the servo's commands
   glm::dvec3 force_n_{0.0};
 
-  // the servo's thread
+  // servo's thread
   Frame seen_;
   std::int64_t tick_ns_ = 0;
 
-  // the supervisor's thread
+  // supervisor's thread
   HdapiHealth told_ = HdapiHealth::Starting;
-  std::array<std::int64_t, static_cast<std::size_t>(HdapiHealth::DeviceFault) + 1> told_ns_{};  // when it was
+  std::array<std::int64_t, static_cast<std::size_t>(HdapiHealth::DeviceFault) + 1> told_ns_{};  // time of each line
   bool cut_ = false;
   std::thread supervisor_;
 };
 
-// For the registry.
+// Entry for the registry.
 core::Result<std::unique_ptr<HapticDevice>> open_hdapi(const DeviceRequest& request, ProbeLog& log);
 void probe_hdapi(const Environment& environment, ProbeLog& log);
 

@@ -7,28 +7,28 @@
 
 namespace afm::haptics {
 
-// Health of a device that is driven through HDAPI. In every state but Ready its force output is off and it reports to
-// the servo that it is not healthy.
+// Health of a device driven through HDAPI. In every state except Ready its force output is off, and it reports to the
+// servo that it is not healthy.
 enum class HdapiHealth : std::uint32_t {
-  Starting,  // the scheduler has not called yet
+  Starting,  // no callback so far
   Ready,
   Calibrating,
-  NeedsInkwell,  // a person has to put the pen into the inkwell
+  NeedsInkwell,  // the user must put the pen into the inkwell
   WarmMotors,
   ForceExceeded,
   ImpulseExceeded,
   VelocityExceeded,
-  ImplausiblePosition,  // not a number, far outside the workspace, or a leap
+  ImplausiblePosition,  // NaN, far outside the workspace, or a leap
   SchedulerStalled,     // no callback for HdapiDevice::kStallNs
   ConnectionLost,
-  DeviceFault,  // and every error that has no name here
+  DeviceFault,  // and all errors without a name here
 };
 
-// The state that an error of the library (not 0) leads to.
+// State after an error of the library (not 0).
 HdapiHealth health_after(std::uint32_t error_code) noexcept;
 
 // Time without a new fault after which the device counts as healthy. Empty: only a restart of the servo clears it.
-// Calibration and a stall end when their cause does and have no such time.
+// Calibration and a stall have no such time; they end with their cause.
 std::optional<std::int64_t> recovery_ns(HdapiHealth fault) noexcept;
 
 // Fault and remedy, for the log: lower case, no full stop.

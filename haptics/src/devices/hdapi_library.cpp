@@ -12,7 +12,7 @@ namespace {
 // 3.4 drives the Touch (USB, Ethernet), 3.0 the Omni (FireWire).
 constexpr const char* kLibraryNames[] = {"libHD.so.3.4", "libHD.so.3.0", "libHD.so"};
 
-// Empty if everything was found.
+// Empty if all functions were found.
 std::string bind_all(void* library, HdapiFunctions& hd) {
   FunctionBinder binder(library);
   binder.bind("hdInitDevice", hd.init_device);
@@ -47,7 +47,7 @@ HdapiSearch load_hdapi(const std::string& configured) {
   HdapiSearch search;
   for (const std::string& name : names) {
     LibraryAttempt& attempt = search.attempts.emplace_back(LibraryAttempt{name, {}});
-    // never closed, not even when it is refused; its own plug-ins look for its symbols among the global ones
+    // never closed, not even when refused; its own plug-ins look for its symbols among the global ones
     void* library = ::dlopen(name.c_str(), RTLD_NOW | RTLD_GLOBAL);
     if (library == nullptr) {
       attempt.refusal = linker_error();

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-// The vendor's library of the PHANTOM Omni and Touch ("HDAPI"), which a lab installs by itself and which is found at
-// run time. Names, types and numbers are our own, made from the facts of the interface alone (x86-64 SysV, plain C): no
-// header, binary or text of the vendor is used, and none may enter this tree.
+// Vendor's library of the PHANTOM Omni and Touch ("HDAPI"), installed by the lab and loaded at run time. Names, types
+// and numbers are our own, based only on the facts of the interface (x86-64 SysV, plain C): no header, binary or text
+// of the vendor is used, and none may enter this tree.
 namespace afm::haptics {
 
-using HdapiHandle = std::uint32_t;           // a device
-using HdapiSchedulerHandle = unsigned long;  // a callback that was scheduled
+using HdapiHandle = std::uint32_t;           // device
+using HdapiSchedulerHandle = unsigned long;  // scheduled callback
 using HdapiCallback = std::uint32_t (*)(void*);
 
-// The newest entry of the library's stack of errors. Returned by value in two registers.
+// Newest entry of the library's error stack. Returned by value in two registers.
 struct HdapiError {
   std::uint32_t code = 0;  // 0: the stack is empty
   std::int32_t internal_code = 0;
@@ -23,10 +23,10 @@ struct HdapiError {
 };
 static_assert(sizeof(HdapiError) == 12);
 
-// Those of the library's functions that TouchAFM calls. Position and force belong to the scheduler's thread and lie
-// between begin_frame() and end_frame(); properties may be asked from any thread.
+// Functions of the library used by TouchAFM. Position and force belong to the scheduler's thread, between begin_frame()
+// and end_frame(); properties may be read from any thread.
 struct HdapiFunctions {
-  HdapiHandle (*init_device)(const char* name) = nullptr;  // a null name: the default device
+  HdapiHandle (*init_device)(const char* name) = nullptr;  // null: the default device
   void (*disable_device)(HdapiHandle device) = nullptr;
   void (*make_current_device)(HdapiHandle device) = nullptr;
   void (*begin_frame)(HdapiHandle device) = nullptr;
@@ -48,8 +48,8 @@ struct HdapiFunctions {
   void (*unschedule)(HdapiSchedulerHandle callback) = nullptr;
 };
 
-// A library that was tried. `refusal` says why it was not taken: what the dynamic linker said, or which function it
-// lacks; empty for the one that was taken.
+// Library that was tried. `refusal` is the reason why it was rejected, the dynamic linker's message or a missing
+// function; empty for the one in use.
 struct LibraryAttempt {
   std::string name;
   std::string refusal;
@@ -57,13 +57,12 @@ struct LibraryAttempt {
 
 struct HdapiSearch {
   std::optional<HdapiFunctions> functions;
-  std::vector<LibraryAttempt> attempts;  // in order; the last one was taken if `functions` is there
+  std::vector<LibraryAttempt> attempts;  // in order; the last one is in use if `functions` is set
 };
 
-// Loads `configured` if it is not empty, and nothing else; otherwise the first of libHD.so.3.4, libHD.so.3.0 and
-// libHD.so that can be loaded and has every function of HdapiFunctions. What was loaded stays loaded for the life of
-// the process: the driver does not survive being unloaded and loaded again (CHAI3D, CPhantomDevices). Any thread, not a
-// servo tick.
+// Loads only `configured` if it is not empty; otherwise the first of libHD.so.3.4, libHD.so.3.0 and libHD.so that can
+// be loaded and has every function of HdapiFunctions. Libraries stay loaded for the lifetime of the process: the driver
+// does not survive unloading and reloading (CHAI3D, CPhantomDevices). Any thread, not a servo tick.
 HdapiSearch load_hdapi(const std::string& configured);
 
 }  // namespace afm::haptics

@@ -17,16 +17,15 @@ namespace afm::haptics::hdapi {
 
 namespace {
 
-constexpr int kMostErrors = 64;  // a stack that never empties is a broken library
+constexpr int kMostErrors = 64;  // a stack that never empties means a broken library
 constexpr int kMostRetries = 10;
 constexpr auto kRetryPause = std::chrono::milliseconds(20);
 constexpr double kMillimetre = 1e-3;
 
-// What the manufacturer says of stiffness runs from 0 to 1 N/mm; what stays stable at 1 kHz is less (CHAI3D: 400 N/m
-// for the Touch).
+// Largest stiffness stable at 1 kHz (CHAI3D: 400 N/m for the Touch). The manufacturer's values range from 0 to 1 N/mm.
 constexpr double kStableStiffnessNPerM = 400.0;
 
-// The lower third of the workspace lies below the sample's surface: a stroke of 50 mm and the recoil need the rest.
+// Share of the workspace below the sample's surface; a stroke of 50 mm and the recoil need the rest.
 constexpr double kContactShare = 1.0 / 3.0;
 
 struct Taken {
@@ -92,7 +91,7 @@ core::Result<HdapiHandle> take_device(const HdapiFunctions& hd, const std::strin
     const char* name;  // null: the library's own default
     std::string said;
   };
-  // some drivers know only the one, some only the other default
+  // some drivers know only one of the two defaults
   std::vector<Candidate> candidates{{nullptr, "the default device"},
                                     {"Default Device", "\"Default Device\""},
                                     {"Default PHANToM", "\"Default PHANToM\""}};

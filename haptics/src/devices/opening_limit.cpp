@@ -26,7 +26,7 @@ OpeningLimit::~OpeningLimit() {
 void OpeningLimit::wait(const std::string& subject, std::chrono::milliseconds limit) {
   std::unique_lock lock(mutex_);
   if (over_.wait_for(lock, limit, [this] { return done_; })) return;
-  // no destructor of a library that hangs is to be trusted either
+  // the destructors of a hanging library cannot be trusted either
   ::_exit(core::fail(core::ExitCode::DeviceMissing,
                      fmt::format("{}: its driver did not answer within {:g} s; restart the device and its driver, or "
                                  "choose another with --haptics",

@@ -9,12 +9,12 @@
 
 namespace afm::haptics {
 
-// Ends the process where a driver does not come back from a call that opens or looks for a device: a thread that is
-// caught in a vendor's library can be neither interrupted nor left behind. No force is possible yet. Make one around
-// the call; the process ends with DeviceMissing and one line that names `subject`.
+// Ends the process if a driver does not return from a call that opens or probes a device: a thread stuck in a vendor's
+// library can be neither interrupted nor left behind. No force is possible at that point. Create one around the call;
+// the process ends with DeviceMissing and one line that names `subject`.
 class OpeningLimit {
  public:
-  // Throws std::system_error where no thread can be made.
+  // Throws std::system_error if no thread can be created.
   OpeningLimit(std::string subject, std::chrono::milliseconds limit);
   OpeningLimit(const OpeningLimit&) = delete;
   OpeningLimit& operator=(const OpeningLimit&) = delete;

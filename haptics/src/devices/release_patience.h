@@ -6,10 +6,10 @@
 
 namespace afm::haptics {
 
-// Time that the end of a driver waits for its thread to release the hand.
+// Time that a driver's destructor waits for its thread to release the hand.
 inline constexpr auto kReleasePatience = std::chrono::milliseconds(50);
 
-// False if the condition does not come true in time. It is asked every millisecond.
+// Polls the condition every millisecond; false if it does not become true in time.
 template <class Condition>
 bool wait_until(std::chrono::milliseconds patience, Condition&& condition) {
   const auto end = std::chrono::steady_clock::now() + patience;

@@ -9,8 +9,8 @@
 
 namespace afm::haptics {
 
-// Those of SDL's functions that a gamepad needs: found at run time, so that the servo starts on a machine without SDL
-// and without its libraries for windows.
+// SDL functions needed by a gamepad, loaded at run time, so that the servo starts on a machine without SDL and its
+// window libraries.
 struct SdlFunctions {
   decltype(&SDL_SetHint) set_hint = nullptr;
   decltype(&SDL_InitSubSystem) init = nullptr;
@@ -44,7 +44,7 @@ struct SdlFunctions {
 
 inline constexpr const char* kSdlLibrary = "libSDL2-2.0.so.0";
 
-// Loads kSdlLibrary, once and for the life of the process. The error says what the dynamic linker said.
+// Loads kSdlLibrary once, for the lifetime of the process. The error is the dynamic linker's message.
 core::Result<SdlFunctions> load_sdl();
 
 }  // namespace afm::haptics

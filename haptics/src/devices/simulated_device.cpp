@@ -63,7 +63,7 @@ void SimulatedDevice::begin_next_script() noexcept {
   path_to_m_ = glm::dvec3(next_.target_m[0], next_.target_m[1], next_.target_m[2]);
 }
 
-// The newest place that is old enough, in the steps of the encoders.
+// Newest position that is old enough, rounded to the encoder step.
 glm::dvec3 SimulatedDevice::reported_m(std::int64_t now_ns) noexcept {
   newest_ = (newest_ + 1) % kPassed;
   passed_[newest_] = {.time_ns = now_ns, .position_m = position_m_};
@@ -75,7 +75,7 @@ glm::dvec3 SimulatedDevice::reported_m(std::int64_t now_ns) noexcept {
   return flaws_.quantum_m > 0 ? flaws_.quantum_m * glm::round(place_m / flaws_.quantum_m) : place_m;
 }
 
-// Against the motion; of a hand that rests, against what would move it, and no more than that.
+// Opposes the motion; for a hand at rest, opposes the force that would move it, without exceeding it.
 double SimulatedDevice::friction_n(int axis, double aim_m) const noexcept {
   const double speed = velocity_m_per_s_[axis];
   if (speed != 0.0) return -std::copysign(flaws_.friction_n, speed);
@@ -83,8 +83,8 @@ double SimulatedDevice::friction_n(int axis, double aim_m) const noexcept {
   return -std::clamp(moving_n, -flaws_.friction_n, flaws_.friction_n);
 }
 
-// The motion follows x(t) = lag + aim(t) + y(t), with aim(t) = a + b t, the steady lag F/k - c b/k, and the free
-// oscillation y'' + 2 s y' + w^2 y = 0 from where the hand is.
+// The motion is x(t) = lag + aim(t) + y(t), with aim(t) = a + b t, the steady lag F/k - c b/k, and the free oscillation
+// y'' + 2 s y' + w^2 y = 0 from the current state.
 void SimulatedDevice::advance(int axis, double seconds, double aim_from_m, double aim_to_m) noexcept {
   if (seconds <= 0) return;
   const double aim_speed = (aim_to_m - aim_from_m) / seconds;
@@ -105,10 +105,10 @@ void SimulatedDevice::advance(int axis, double seconds, double aim_from_m, doubl
       envelope * ((quadrature * omega - decay * y) * cosine - (y * omega + decay * quadrature) * sine);
   position_m_[axis] = aim_to_m + lag + y_after;
   velocity_m_per_s_[axis] = aim_speed + y_speed_after;
-  // friction stops a motion, it does not turn it round
+  // friction stops a motion but does not reverse it
   if (flaws_.friction_n > 0 && speed_before * velocity_m_per_s_[axis] < 0.0) velocity_m_per_s_[axis] = 0.0;
 
-  // the mechanical end of the workspace takes all the momentum
+  // the mechanical end of the workspace absorbs all momentum
   const double inside = std::clamp(position_m_[axis], spec_.workspace_min_m[axis], spec_.workspace_max_m[axis]);
   if (position_m_[axis] != inside) {
     position_m_[axis] = inside;

@@ -9,22 +9,22 @@
 
 namespace afm::haptics {
 
-// The states that wait at a connection, of which only the newest is a place of the hand: after a stall of this machine
-// hundreds wait, each a millisecond older than the next. None is believed until nothing waits behind it. One object a
+// States queued at a connection, of which only the newest is the hand's position: after a stall of this machine
+// hundreds are queued, one millisecond apart. A state is used only if nothing is queued behind it. One object per
 // connection, one thread.
 class WaitingStates {
  public:
   struct Taken {
-    bool asked = false;                // the service sent something, and waits for a force
-    std::optional<HaplyState> newest;  // with nothing behind it; empty while more wait, or for bytes that are no state
+    bool asked = false;                // the service has sent something, and waits for a force
+    std::optional<HaplyState> newest;  // last in the queue; empty while more are queued, or for invalid bytes
   };
 
-  // `receive` gives the next message, or nothing after its patience, which only the first call of a take may have;
-  // `late` says when to stop, for a service that sends without a pause.
+  // `receive` returns the next message, or nothing after its patience, which only the first call may use. `late`
+  // returns true when to stop, for a service that sends without pause.
   Taken take(const std::function<std::optional<std::string>(bool first)>& receive, const std::function<bool()>& late);
 
  private:
-  std::optional<HaplyState> last_;  // more waited behind it
+  std::optional<HaplyState> last_;  // not the last in the queue
 };
 
 }  // namespace afm::haptics

@@ -18,7 +18,7 @@ namespace afm::haptics {
 
 namespace {
 
-// Touches more stack than a tick uses, so that no tick meets a page fault there.
+// Touches more stack than a tick uses, so that no tick has a page fault there.
 void prefault_stack() {
   constexpr std::size_t kBytes = 256 * 1024;
   constexpr std::size_t kPage = 4096;

@@ -9,7 +9,7 @@ namespace afm::haptics {
 
 namespace {
 
-// `way` shortened to `longest` where it is longer.
+// `way`, shortened to `longest` if it is longer.
 glm::dvec3 at_most(const glm::dvec3& way, double longest) {
   const double length = glm::length(way);
   return length > longest ? way * (longest / length) : way;
@@ -64,7 +64,7 @@ ScanGuide::Pull ScanGuide::step(const Input& input) noexcept {
           .stiffness_n_per_m = stiffness_n_per_m_};
 }
 
-// Whether the hand can be there, and came there from the place before without a jump.
+// True if the hand can reach the target, and the path did not jump to it.
 bool ScanGuide::is_reached_by(const Target& target) noexcept {
   if (!is_within_reach(target.in_device_m) || stop_.stored_j(target.in_device_m) > 0.0) return false;
   if (!target_ || target_->time_ns == target.time_ns) return true;
@@ -84,7 +84,7 @@ void ScanGuide::move_attractor(const glm::dvec3& target_m, const glm::dvec3& han
   attractor_m_ += at_most(share * (target_m - before_m), kFastestMPerS * elapsed_s);
   const double leash_m = most_force_n_ / stiffness_n_per_m_ * std::min(1.0, led_s_ / kRiseS);
   attractor_m_ = hand_m + at_most(attractor_m_ - hand_m, leash_m);
-  // stored energy is convex along the way: a part of the way costs no more than that part of the whole
+  // stored energy is convex along the path, so a fraction of the path costs at most that fraction of the total
   const double wanted_j = stored_j(hand_m) - before_j;
   if (wanted_j > tank_.held_j()) attractor_m_ = before_m + (tank_.held_j() / wanted_j) * (attractor_m_ - before_m);
 }

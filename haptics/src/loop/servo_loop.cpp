@@ -17,7 +17,7 @@ namespace {
 constexpr double kSlowestHz = 100.0;
 constexpr double kFastestHz = 10'000.0;
 constexpr std::uint64_t kTimingStoresPerSecond = 5;
-constexpr std::int64_t kMostTicksOfMotion = 3;  // that what moves by itself makes up for
+constexpr std::int64_t kMostTicksOfMotion = 3;  // most ticks that a moving part catches up after a stall
 
 void count(std::array<std::uint32_t, scene::kHistogramBins>& bins, std::uint32_t& largest, std::uint32_t us) {
   ++bins[std::min<std::uint32_t>(us, scene::kHistogramBins - 1)];
@@ -43,7 +43,7 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
         fmt::format("cannot run the servo at {} Hz: choose {} to {} Hz", rate_hz, kSlowestHz, kFastestHz));
   }
   const std::int64_t period_ns = period_of(settings);
-  // a tick that comes late once must not let go
+  // one late tick must not drop the force
   const double slowest_hz = 2.0 / device.spec().force_lasts_s;
   if (rate_hz < slowest_hz) {
     return core::failure(
@@ -62,7 +62,7 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
         fmt::format("cannot limit the force to {} N: choose {} N or more", settings.max_force_n, kLeastForceLimitN));
   }
   const DeviceSpec spec = limited_to(device.spec(), settings.max_force_n);
-  // a copy, because what has been checked in shared memory may change there
+  // a copy, because checked data in shared memory could still change
   const auto copy = std::make_unique<const scene::SharedModel>(segment.model());
   const scene::SharedModel& shared = *copy;
   if (auto valid = scene::validate(shared); !valid) return tl::unexpected(valid.error());
@@ -115,7 +115,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
   std::array<double, 16> room_from_sample{};
   std::copy_n(glm::value_ptr(rest), room_from_sample.size(), room_from_sample.begin());
   sample_.set_orientation(room_from_sample);
-  // a successor goes on with what was changed before it
+  // a successor continues with its predecessor's changes
   edits_.build();
 }
 
@@ -132,7 +132,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   const auto& [x_n, y_n, z_n] = state_.hand.force_n;
   const DeviceSample hand = position_check_.checked(device_.read(now_ns), elapsed_ns, {x_n, y_n, z_n});
 
-  // the place of a device that failed, or that makes no sense, is the last one known; the governor hears of it below
+  // a failed device, or an implausible position, leaves the last known one in use; the governor handles it below
   device_healthy_ = hand.healthy && is_within_reach(hand.position_m);
   if (device_healthy_) {
     hand_position_m_ = hand.position_m;
@@ -149,7 +149,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
     pulled_off = pulled_off || touch_.response.events[i].kind == physics::EventKind::JumpOffContact;
   }
 
-  // from the contact point, so that a recording that knows no other frame gives the same bits
+  // from the contact point, so that a recording without any other frame gives the same bits
   renderer_ = renderer_link(now_ns);
   const auto output = governor_.step({.time_ns = now_ns,
                                       .hand_position_m = hand.position_m - spec_.contact_point_m,
@@ -176,7 +176,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   change_model();
 }
 
-// While the scan leads the hand, the law of force is silent and waits for a lift.
+// While the scan leads the hand, the force law is silent and waits for a lift.
 ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
   touch_ = {};
   Wanted wanted{.hand_height_m = glm::dot(hand_from_contact_m_, sample_.normal()), .energy = {}};
@@ -203,7 +203,7 @@ ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
   return wanted;
 }
 
-// Where the scan's tip is for the hand. A hand that feels the sample is not taken off it.
+// Position of the scan's tip for the hand. A hand that feels the sample is not pulled off it.
 std::optional<ScanGuide::Target> ServoLoop::guide_target() const noexcept {
   const glm::dvec2 apex_m(scan_.apex_xy_m[0], scan_.apex_xy_m[1]);
   if (scan_.hand != scene::ScanHand::Led || model_->phase() == physics::Phase::Attached) return std::nullopt;
@@ -215,7 +215,7 @@ std::optional<ScanGuide::Target> ServoLoop::guide_target() const noexcept {
 
 void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
   if (const auto heartbeat = shared_.new_heartbeat()) {
-    // the time of its arrival counts, not the time that it claims
+    // the time of arrival counts, not the time in the heartbeat
     heartbeat_seen_ns_ = now_ns;
     leaving_ = leaving_ || heartbeat->leaving != 0;
     heartbeat_ = heartbeat;
@@ -233,9 +233,9 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
   scan_ = fresh && newest_scan_.hand != scene::ScanHand::Apart ? newest_scan_ : scene::ScanLead{};
 }
 
-// The paper's procedure: choose, lift, press Turn-On. A choice waits until the tip is off the sample, then the force is
-// removed, and only without force does the law or its scale change. An edit of the material under the tip does the
-// same; no hand feels that of another.
+// Follows the paper's procedure: choose, lift, press Turn-On. A selection waits until the tip is off the sample; then
+// the force is removed, and only without force do the law and its scale change. An edit of the material under the tip
+// is handled the same way; edits of other materials are not felt.
 void ServoLoop::change_model() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.adopt(i);
@@ -388,7 +388,7 @@ ServoExit ServoLoop::run(const core::MonotonicClock& clock) noexcept {
     count(timing_.wake_us, timing_.wake_max_us, wake_us);
     count(timing_.work_us, timing_.work_max_us, microseconds(clock.now_ns() - woke_ns));
 
-    // in the slack before the next deadline: some 16 KB, a few microseconds
+    // in the slack before the next deadline: about 16 KB, a few microseconds
     if (timing_.ticks % ticks_per_store == 0) shared_.store(timing_);
   } while (!finished());
 

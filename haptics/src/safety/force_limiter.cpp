@@ -15,8 +15,8 @@ namespace {
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Finite `v` shortened to `longest` where it is longer; direction kept. Scaled first, so that huge numbers do not
-// overflow.
+// Finite `v`, shortened to `longest` if it is longer, with the same direction. Scales first, so that huge numbers do
+// not overflow.
 glm::dvec3 shortened(const glm::dvec3& v, double longest) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (largest == 0.0) return v;
@@ -25,7 +25,7 @@ glm::dvec3 shortened(const glm::dvec3& v, double longest) {
   return largest * length <= longest ? v : direction * (longest / length);
 }
 
-// The nearer end for a number outside; a NaN stays one, and cuts.
+// Clamps to the range; NaN is kept, and cuts the force.
 double within(double number, double least, double most) { return number < least ? least : std::min(number, most); }
 
 }  // namespace
@@ -43,7 +43,7 @@ FaultCode ForceLimiter::step(const OutputRequest& request) noexcept {
   const glm::dvec3 target_n =
       law_n + damping_n + arm_gain * stop_.force_n(request.position_m, request.velocity_m_per_s);
   const double largest_step_n = within(request.slew_n_per_s, 0.0, slew_n_per_s_) * request.elapsed_s;
-  // also what grew beyond all numbers on the way here
+  // also catches overflow on the way here
   if (!finite(target_n) || !finite(request.position_m) || !std::isfinite(largest_step_n) || largest_step_n < 0.0) {
     cut();
     return FaultCode::NotFinite;
@@ -51,7 +51,7 @@ FaultCode ForceLimiter::step(const OutputRequest& request) noexcept {
 
   wanted_n_ = law_n + arm_gain * stop_.spring_n(request.position_m);
   const glm::dvec3 clamped_n = shortened(target_n, cap_n_);
-  // between two vectors within the cap there is none beyond it
+  // every vector between two within the cap is within the cap
   command_n_ += shortened(clamped_n - command_n_, largest_step_n);
   if (request.too_fast) {
     cut();

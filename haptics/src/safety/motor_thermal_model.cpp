@@ -11,12 +11,12 @@ namespace afm::haptics {
 MotorThermalModel::MotorThermalModel(double continuous_force_n, double cap_n)
     : continuous_force_n_(continuous_force_n) {
   AFM_CHECK(continuous_force_n >= 0 && cap_n > 0);
-  // a hot device of unknown rating gets half the force
+  // a hot device with unknown rating gets half the force
   rest_gain_ = continuous_force_n > 0 ? std::min(1.0, kRestShare * continuous_force_n / cap_n) : 0.5;
 }
 
 void MotorThermalModel::update(double force_n, double elapsed_s, double measured_heat) noexcept {
-  // not a number is no measurement
+  // NaN is not a measurement
   measured_ = measured_heat > 0 ? std::min(measured_heat, kHot) : 0.0;
   if (continuous_force_n_ <= 0 || !(elapsed_s > 0)) return;
   const double share = force_n / continuous_force_n_;

@@ -9,7 +9,7 @@ namespace afm::haptics {
 DeviceSample PositionCheck::checked(DeviceSample sample, std::int64_t elapsed_ns, const glm::dvec3& force_n) noexcept {
   if (!measured_) return sample;
   if (!sample.healthy || !is_within_reach(sample.position_m)) {
-    started_ = false;  // wherever it comes back is where it begins
+    started_ = false;  // the first position after the failure is accepted
     return sample;
   }
   if (!started_) {
@@ -38,8 +38,8 @@ DeviceSample PositionCheck::checked(DeviceSample sample, std::int64_t elapsed_ns
   return sample;
 }
 
-// A device that reports less often than the servo asks moves further between two reports, as it does during a late
-// tick.
+// A device that reports less often than the servo reads moves further between two reports, as does any device during a
+// late tick.
 bool PositionCheck::is_possible(const glm::dvec3& position_m, std::int64_t elapsed_ns) const noexcept {
   const std::int64_t time_ns = std::min(believed_ns_, std::max(kLongestGapNs, elapsed_ns));
   return glm::length(position_m - believed_m_) <= kSlackM + kFastestMPerS * 1e-9 * static_cast<double>(time_ns);

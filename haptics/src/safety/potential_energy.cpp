@@ -20,7 +20,7 @@ struct BranchEnergy {
   double stiffness_n_per_m = 0;
 };
 
-// From the highest node down, by Simpson's rule in every interval.
+// Integrates from the highest node down, with Simpson's rule in every interval.
 BranchEnergy integrate(const PotentialEnergy::ForceOverHeight& force_n, double lowest_m, std::size_t nodes) {
   BranchEnergy branch{.energy_j = std::vector<double>(nodes, 0.0)};
   double above_n = force_n(lowest_m + kSpacingM * static_cast<double>(nodes - 1));

@@ -101,7 +101,7 @@ SafetyConditions SafetyGovernor::evaluate(const GovernorInput& input, std::int64
   motion_.move(input.hand_position_m, elapsed_ns);
   observe_energy(input);
 
-  // a late tick finds the hand elsewhere: the force glides to where the model now wants it
+  // a late tick finds the hand elsewhere: the force moves gradually to the model's new value
   if (elapsed_ns > 3 * period_ns_) guard_until_ns_ = input.time_ns + kGuardNs;
   if (input.pulled_off) damping_until_ns_ = input.time_ns + kReleaseDampingNs;
 
@@ -116,7 +116,7 @@ SafetyConditions SafetyGovernor::evaluate(const GovernorInput& input, std::int64
   return conditions;
 }
 
-// What has passed between the hand and its device since the tick before.
+// Energy exchanged between the hand and its device since the previous tick.
 void SafetyGovernor::observe_energy(const GovernorInput& input) noexcept {
   const bool fresh = !input.led && high_and_free(input) && input.time_ns >= damping_until_ns_;
   if (!state_.armed() || fresh) observer_.reset();
@@ -165,7 +165,7 @@ FaultCode SafetyGovernor::limit_force(const GovernorInput& input, std::int64_t e
   observer_damping_ =
       state_.armed() ? observer_.damping_n_s_per_m(motion_.velocity_m_per_s(), seconds(period_ns_)) : 0.0;
   const double release_damping = input.time_ns < damping_until_ns_ ? kReleaseDampingNSPerM : 0.0;
-  // a fade has its own clock: it must be over in time
+  // a fade has its own timing and must end in time
   const bool guarded = input.time_ns < guard_until_ns_ && state_.state != ServoState::Fading;
   slew_n_per_s_ = guarded ? std::min(kGuardSlewNPerS, output_.slew_n_per_s()) : output_.slew_n_per_s();
   return output_.step({.law_force_n = input.wanted_force_n,

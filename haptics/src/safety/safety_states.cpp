@@ -16,7 +16,7 @@ struct Reason {
   FaultCode fault;
 };
 
-// The most urgent of all reasons to take the force away.
+// Most urgent of all reasons to remove the force.
 std::optional<Reason> reason_to_fade(const SafetyConditions& conditions) {
   if (conditions.late) return Reason{kQuickFadeNs, FaultCode::LateTick};
   if (conditions.energy_exceeded) return Reason{kQuickFadeNs, FaultCode::EnergyExceeded};
@@ -39,7 +39,7 @@ SafetyState begin_fade(const SafetyState& before, std::int64_t fade_ns, FaultCod
 }
 
 SafetyState after_conditions(const SafetyState& before, const SafetyConditions& conditions) noexcept {
-  // a hand may be moved as fast as it likes where it feels nothing
+  // a hand that feels no force may move at any speed
   const bool cut = conditions.cut != FaultCode::None && (before.armed() || conditions.cut != FaultCode::VelocityTrip);
   if (cut) return {ServoState::Fault, conditions.cut, 0};
 

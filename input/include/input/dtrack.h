@@ -12,7 +12,7 @@
 
 namespace afm::input {
 
-// A body as a DTrack system of Advanced Realtime Tracking sees it: tracker frame, metres. Not tracked: no pose.
+// Body as tracked by a DTrack system of Advanced Realtime Tracking: tracker frame, metres. No pose while not tracked.
 struct DtrackBody {
   std::uint32_t id = 0;
   bool tracked = false;
@@ -22,14 +22,14 @@ struct DtrackBody {
 
 struct DtrackFlystick {
   DtrackBody body;
-  std::uint32_t buttons = 0;         // the trigger first
-  std::array<double, 8> joystick{};  // -1 to 1: to the right, upwards
+  std::uint32_t buttons = 0;         // trigger first
+  std::array<double, 8> joystick{};  // -1 to 1: right, up
 };
 
 // One datagram. Trivially copyable.
 struct DtrackFrame {
   std::uint32_t frame = 0;
-  std::uint32_t latency_us = 0;  // from the cameras to the sending, of a line ts2; 0: not said
+  std::uint32_t latency_us = 0;  // from the cameras to sending, from line ts2; 0: unknown
   std::size_t body_count = 0;
   std::array<DtrackBody, 64> bodies{};
   std::size_t flystick_count = 0;
@@ -39,9 +39,8 @@ struct DtrackFrame {
   const DtrackFlystick* flystick(std::uint32_t id) const;
 };
 
-// A total function over whatever comes in by UDP: the lines fr, ts2, 6d and 6df2 of DTrack's ASCII output; other lines
-// are skipped. Empty: no frame number, or a line that contradicts itself: counts, numbers of bodies below 0 or above
-// 63, a rotation that is none.
+// Parses any UDP datagram: the lines fr, ts2, 6d and 6df2 of DTrack's ASCII output; other lines are skipped. Empty: no
+// frame number, or an inconsistent line: wrong counts, body numbers below 0 or above 63, an invalid rotation.
 std::optional<DtrackFrame> parse_dtrack(std::string_view packet);
 
 }  // namespace afm::input

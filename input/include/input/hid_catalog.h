@@ -14,7 +14,7 @@
 
 namespace afm::input {
 
-// A device with a protocol that is compiled in: a row of the catalog.
+// Device with a built-in protocol: a row of the catalog.
 struct HidModel {
   std::uint16_t vendor;
   std::uint16_t product;
@@ -23,7 +23,7 @@ struct HidModel {
 };
 std::span<const HidModel> hid_models();
 
-// As an HID device introduces itself.
+// Identity that an HID device reports.
 struct HidIdentity {
   std::uint16_t vendor = 0;
   std::uint16_t product = 0;

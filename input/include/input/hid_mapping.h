@@ -17,8 +17,8 @@ namespace afm::input {
 struct HidMapping {
   enum class Quantity { Push, Turn, Gyro, Acceleration };
 
-  // A whole number of `bits` bits, the lowest one first at bit `bit` of byte `byte`. Byte 0 is the report's number
-  // where `report` is not 0.
+  // Integer of `bits` bits, the lowest one at bit `bit` of byte `byte`. Byte 0 is the report's number if `report` is
+  // not 0.
   struct Axis {
     Quantity quantity = Quantity::Push;
     int axis = 0;  // 0: x, 1: y, 2: z
@@ -28,7 +28,7 @@ struct HidMapping {
     unsigned bits = 8;  // 1 to 32
     bool is_signed = false;
     double center = 0.0;
-    double scale = 1.0;      // counts of full deflection, of 1 degree a second, or of 1 g; negative: turned round
+    double scale = 1.0;      // counts at full deflection, per degree per second, or per g; negative: reversed
     double dead_zone = 0.0;  // 0 to 0.9 of full deflection
   };
   struct Button {
@@ -45,7 +45,7 @@ struct HidMapping {
   std::vector<Button> buttons;
 };
 
-// Without an axis of gyroscope or accelerometer the cap or stick steers the ray.
+// Without a gyroscope or accelerometer axis, the cap or stick steers the ray.
 std::unique_ptr<HidDriver> mapped_driver(const HidMapping& mapping);
 
 }  // namespace afm::input

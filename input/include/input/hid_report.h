@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-// Common interface of HID wands: bytes of a report in, motion and buttons out.
+// Common interface of HID wands: report bytes in, motion and buttons out.
 namespace afm::input {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -44,21 +44,21 @@ struct ImuSample {
 struct HidInput {
   std::optional<glm::dvec3> push;
   std::optional<glm::dvec3> turn;
-  std::optional<std::uint32_t> buttons;  // of WandButton
+  std::optional<std::uint32_t> buttons;  // bits of WandButton
   std::array<ImuSample, 3> imu;
-  std::size_t imu_count = 0;                   // over the time since the report before, evenly
-  bool has_gyro = true;                        // of the imu samples
-  std::optional<double> yaw_from_forward_rad;  // of a wand that sees a beacon straight ahead
+  std::size_t imu_count = 0;                   // evenly spaced since the previous report
+  bool has_gyro = true;                        // for the imu samples
+  std::optional<double> yaw_from_forward_rad;  // from a wand that sees a beacon straight ahead
 };
 
-// A feature report that a device must be asked for after opening, `times` times.
+// Feature report to request from a device after opening it, `times` times.
 struct FeatureRequest {
   std::uint8_t id = 0;
   std::size_t size = 0;
   int times = 1;
 };
 
-// One device's protocol. Total functions over bytes: whatever comes, an answer or a refusal. One thread.
+// Protocol of one device. Accepts any bytes, and either interprets or rejects them. One thread.
 class HidDriver {
  public:
   HidDriver() = default;
@@ -66,19 +66,19 @@ class HidDriver {
   HidDriver& operator=(const HidDriver&) = delete;
   virtual ~HidDriver() = default;
 
-  // Empty: not a report that the device sends, or damaged.
+  // Empty: not a report of this device, or damaged.
   virtual std::optional<HidInput> read(Bytes report) = 0;
 
-  // True if the cap or the stick steers the ray; otherwise the wand points where it is turned.
+  // True if the cap or the stick steers the ray; otherwise the wand points in its own direction.
   virtual bool steered() const { return false; }
 
-  // Output reports that make the device send what read() understands.
+  // Output reports that make the device send reports for read().
   virtual std::vector<std::vector<std::uint8_t>> set_up() const { return {}; }
 
-  // Output reports that what was read last asks for. Gives them once.
+  // Output reports in response to the last report read. Returned once.
   virtual std::vector<std::vector<std::uint8_t>> take_answers() { return {}; }
 
-  // The calibration that the device keeps, if any; what it is without is used when it makes no sense.
+  // Calibration stored in the device, if any; if it is implausible, nominal numbers are used.
   virtual std::optional<FeatureRequest> calibration() const { return std::nullopt; }
   virtual void calibrate(std::span<const std::vector<std::uint8_t>> reports) { static_cast<void>(reports); }
 };

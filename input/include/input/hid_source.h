@@ -18,20 +18,20 @@ namespace afm::input {
 // Result of the search for one HID device, as text.
 struct HidFinding {
   std::string path;
-  std::string name;  // as the device calls itself, with its numbers: "SpaceMouse Compact (256f:c635)"
+  std::string name;  // name reported by the device, with its numbers: "SpaceMouse Compact (256f:c635)"
   bool is_wand = false;
   bool usable = false;
-  std::string said;  // what it is, or why it cannot be used and what to do
+  std::string said;  // description, or why it cannot be used and what to do
 };
 
-// Looks at every HID device that the system shows; those that are wands are opened and closed again. Fails if the
-// library cannot be started. One thread at a time.
+// Examines every HID device that the system lists; wands are opened and closed again. Fails if the library cannot be
+// started. One thread at a time.
 core::Result<std::vector<HidFinding>> find_hid_wands(const std::vector<HidMapping>& mappings);
 
-// A wand by hidapi: the first one that can be opened, plugged in before or later. Devices are looked for once a second
-// as long as none is open; one that cannot be opened is tried again after 0.1, 0.2, 0.4 s and so on, because the rights
-// of a new device come a little later than the device. When it is unplugged its buttons are released and it points
-// nowhere, until it comes again.
+// Wand through hidapi: the first one that can be opened, plugged in before or later. Looks for devices once a second
+// while none is open. A device that cannot be opened is tried again after 0.1, 0.2, 0.4 s and so on, because the
+// permissions of a new device are set a little after it appears. When unplugged, it releases its buttons and points
+// nowhere until it is back.
 class HidSource final : public WandSource {
  public:
   // The clock must outlive it.
@@ -41,7 +41,7 @@ class HidSource final : public WandSource {
 
   WandState poll() override;
 
-  std::uint64_t refused_reports() const { return refused_; }  // on the thread that polls
+  std::uint64_t refused_reports() const { return refused_; }  // only on the polling thread
 
  private:
   struct Device;
@@ -58,12 +58,12 @@ class HidSource final : public WandSource {
   const core::Clock& clock_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<HidWand> wand_;
-  std::vector<std::string> paths_;  // of the wands that were seen last, in the order in which they are tried
-  std::vector<KnownHid> known_;     // what they are
+  std::vector<std::string> paths_;  // wands seen last, in the order of attempts
+  std::vector<KnownHid> known_;     // descriptions of these wands
   std::int64_t next_look_ns_ = 0;
   std::int64_t next_open_ns_ = 0;
   std::int64_t open_pause_ns_ = 0;
-  std::string complaint_;  // as it was logged last
+  std::string complaint_;  // as last logged
   std::uint64_t refused_ = 0;
 };
 

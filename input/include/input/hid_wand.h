@@ -19,20 +19,20 @@ struct HandPlace {
   glm::dvec3 forward{0.0, 0.0, -1.0};
 };
 
-// The wand that the reports of one HID device make: a pointer that pivots at the hand's place. A wand with a motion
-// sensor points where it is turned; that of a cap or a stick is steered by it, as long as it does not move the scene.
-// One thread.
+// Wand made from the reports of one HID device: a pointer that pivots at the position of the hand. A wand with a motion
+// sensor points in its own direction; a cap or stick steers the ray while it does not move the scene. One thread.
 class HidWand {
  public:
   HidWand(std::unique_ptr<HidDriver> driver, const HandPlace& place);
 
-  // A report that came in at `now_ns`. False, and nothing changes: not a report of this device, or damaged.
+  // Processes a report received at `now_ns`. Returns false and changes nothing if it is not a report of this device, or
+  // damaged.
   bool take(Bytes report, std::int64_t now_ns);
 
-  // Output reports for the device, after every report that was taken.
+  // Output reports for the device; send them after every accepted report.
   std::vector<std::vector<std::uint8_t>> take_answers() { return driver_->take_answers(); }
 
-  // Once for every state that is published: steering goes on between the reports.
+  // Call once for every published state: steering continues between the reports.
   WandState state(std::int64_t now_ns);
 
  private:
@@ -42,20 +42,20 @@ class HidWand {
 
   std::unique_ptr<HidDriver> driver_;
   HandPlace place_;
-  double forward_rad_;  // of the forward direction, about +y from -z
+  double forward_rad_;  // forward direction, about +y from -z
   WandState state_;
   OrientationFilter filter_;
   double heading_offset_rad_ = 0.0;
-  double yaw_rad_ = 0.0;  // of a steered ray, from straight ahead
+  double yaw_rad_ = 0.0;  // steered ray, from straight ahead
   double pitch_rad_ = 0.0;
   std::int64_t steered_ns_ = 0;
   std::int64_t motion_ns_ = 0;
   std::int64_t grabbed_ns_ = 0;
-  bool home_held_ = false;  // by the second of two quick presses of Grab
+  bool home_held_ = false;  // second of two quick presses of Grab
 };
 
-// Deflection of a cap or stick as a speed, -1 to 1: none within 10 % of the middle, then exponentially finer near it
-// than at the stop.
+// Speed, -1 to 1, for the deflection of a cap or stick: zero within 10 % of the middle, then exponential, finer near
+// the middle than at the stop.
 double rate_response(double deflection);
 
 }  // namespace afm::input

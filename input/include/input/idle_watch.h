@@ -12,7 +12,7 @@ class IdleWatch {
 
   explicit IdleWatch(std::int64_t patience_ns) : patience_ns_(patience_ns) {}
 
-  // Once a frame; `used`: something was pressed, moved or pointed at since the last.
+  // Call once per frame; `used` is true after any press, motion or pointing since the last call.
   Change update(bool used, std::int64_t now_ns);
 
   bool away() const { return away_; }

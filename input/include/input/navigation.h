@@ -11,23 +11,24 @@
 
 namespace afm::input {
 
-// True if the wand must not move the scene: the tip is in contact, or the hand feels a force. Otherwise hand and
-// picture would separate.
+// True if the wand must not move the scene: the tip is in contact, or a force acts on the hand. Hand and picture would
+// otherwise separate.
 bool navigation_locked(const scene::TipState& tip);
 
-// Transform of the scene by a wand: a similarity of the room. `pivot_m` is the middle of the scene, about which sticks
+// Transform of the scene by a wand: a similarity of the room. `pivot_m` is the centre of the scene, about which sticks
 // and caps turn and scale it. Pure: depends only on its inputs, not on the frame rate. One thread.
 //
-// - Grab held, with a wand that is pointed: the scene is stuck to the wand, exactly; brought back, it is where it was.
+// - Grab held, with a pointed wand: the scene follows the wand rigidly; a wand brought back restores it exactly.
 // - Grab held, with a cap: it flies and turns the scene. Sticks of other wands do so at any time.
-// - Scale held: larger towards oneself, or upwards; about the hand where that is tracked, else about the middle.
-// - Home: as at the start.
+// - Scale held: enlarges when pulled towards the user, or upwards; about the hand if it is tracked, else about the
+//   centre.
+// - Home: back to the initial transform.
 class Navigation {
  public:
   explicit Navigation(const glm::dvec3& pivot_m) : pivot_m_(pivot_m) {}
 
-  // Once a frame, `frame_s` >= 0 after the frame before. While `locked` nothing moves, and what was held is taken up
-  // from where it then is.
+  // Call once per frame, `frame_s` >= 0 after the previous frame. While `locked`, nothing moves; a held button then
+  // continues from the wand's current pose.
   void update(const WandState& wand, double frame_s, bool locked);
 
   void home();
@@ -37,7 +38,7 @@ class Navigation {
 
   static constexpr double kSmallestScale = 0.05;
   static constexpr double kLargestScale = 20.0;
-  static constexpr double kFarthestM = 10.0;  // to which a stick flies the scene
+  static constexpr double kFarthestM = 10.0;  // largest distance that a stick flies the scene
 
  private:
   void follow_grab(const WandState& wand);
@@ -59,7 +60,7 @@ class Navigation {
   std::optional<Grab> grab_;
   struct Scaling {
     glm::dvec3 wand_m;
-    glm::dvec3 along;  // where the wand pointed
+    glm::dvec3 along;  // pointing direction of the wand
     glm::dvec3 middle_m;
     double scale;
   };

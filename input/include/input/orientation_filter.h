@@ -8,22 +8,22 @@
 
 namespace afm::input {
 
-inline constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);  // of the level frame and of the room
+inline constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);  // up in the level frame and the room
 
 // Orientation of a wand from its gyroscope and accelerometer: the explicit complementary filter of Mahony, Hamel and
-// Pflimlin (2008), with the direction of gravity alone. Tilt is absolute; heading starts at zero and drifts with what
-// is left of the gyroscope's bias, which is measured whenever the wand lies still. One thread.
+// Pflimlin (2008), with gravity as its only reference. Tilt is absolute; heading starts at zero and drifts with the
+// residual bias of the gyroscope, which is measured whenever the wand lies still. One thread.
 class OrientationFilter {
  public:
-  // `duration_s` > 0 since the sample before. Without a gyroscope the tilt follows gravity and the heading does not
-  // change.
+  // `duration_s` > 0 is the time since the previous sample. Without a gyroscope, the tilt follows gravity and the
+  // heading stays.
   void add(const ImuSample& sample, double duration_s, bool has_gyro = true);
 
   bool valid() const { return started_; }
   const glm::dquat& level_from_wand() const { return level_from_wand_; }
   const glm::dvec3& bias_rad_per_s() const { return bias_; }
 
-  // Angle from -z to where the wand points, about +y; 0 where it points straight up or down.
+  // Angle about +y from -z to the pointing direction; 0 if it is vertical.
   double heading_rad() const;
 
  private:
@@ -34,7 +34,7 @@ class OrientationFilter {
   glm::dvec3 bias_{0.0};
   bool started_ = false;
 
-  // of the stretch of time that is being watched
+  // over the current observation period
   glm::dvec3 rate_low_{0.0}, rate_high_{0.0}, rate_sum_{0.0};
   glm::dvec3 pull_low_{0.0}, pull_high_{0.0};
   double watched_s_ = 0.0;

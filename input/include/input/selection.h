@@ -11,31 +11,31 @@
 
 namespace afm::input {
 
-// Something to point at, as a sphere in the room.
+// Target for pointing: a sphere in the room.
 struct Target {
   glm::dvec3 center_m{0.0};
   double radius_m = 0.1;
 };
 
-// The target whose silhouette is angularly nearest to the ray, if it lies within `cone_rad` of it; among those that the
-// ray hits, the nearest to the wand. The bubble ray of Lu, Yu and Shi (2020) with angular distance.
+// Target whose silhouette has the smallest angle to the ray, if that is within `cone_rad`; among targets hit by the
+// ray, the one nearest to the wand. This is the bubble ray of Lu, Yu and Shi (2020) with angular distance.
 std::optional<std::size_t> pick(const Ray& ray, double cone_rad, std::span<const Target> targets);
 
-// True if no other target hides the middle of a target from the eye. A target that the hand can point at but the eye
+// True if no other target hides the centre of a target from the eye. A target that the hand can point at but the eye
 // cannot see is not the intended one (Argelaguet and Andujar 2009).
 bool seen_from(const glm::dvec3& eye_m, std::size_t target, std::span<const Target> targets);
 
-// Turns pointing and pressing into a choice: a target is chosen when the select button goes down while the ray is on
-// it. Of the targets that the eye sees, the ray snaps to the nearest within kPickConeRad, and lets it go for another
-// only when that one is nearer by kStickRad: a hand that trembles between two of them does not flicker.
+// Turns pointing and pressing into a choice: pressing the select button chooses the target under the ray. The ray snaps
+// to the nearest visible target within kPickConeRad, and switches to another only if that is nearer by kStickRad, so
+// that a hand that trembles between two targets does not make it flicker.
 class Selector {
  public:
   struct Result {
     std::optional<std::size_t> hovered;
-    std::optional<std::size_t> chosen;  // only in the frame of the press
+    std::optional<std::size_t> chosen;  // set only in the frame of the press
   };
 
-  // Once a frame; the targets keep their order. A wand that points nowhere hovers nothing and chooses nothing.
+  // Call once per frame; the targets keep their order. A wand that points nowhere neither hovers nor chooses.
   Result update(const WandState& wand, const glm::dvec3& eye_m, std::span<const Target> targets);
 
  private:

@@ -17,24 +17,24 @@ struct HeadKey {
   scene::HeadPose pose;
 };
 
-// Reads a script of the head: a line `seconds, x, y, z` or `seconds, x, y, z, qx, qy, qz, qw` for each place, in metres
-// of the room, times rising from 0; # begins a comment. BadInputFile: names file and line.
+// Reads a head script: one line `seconds, x, y, z` or `seconds, x, y, z, qx, qy, qz, qw` per pose, in metres of the
+// room, with times that increase from 0; # begins a comment. BadInputFile names file and line.
 core::Result<std::vector<HeadKey>> load_head_script(const std::string& path);
 
-// A head for a desk without a tracker. It follows a script, over and over, or goes where steps send it, at a walking
-// pace: nothing jumps. Steps end the script. One thread.
+// Head for a desk without a tracker. It repeats a script, or moves to where steps send it, at walking pace and without
+// jumps. The first step ends the script. One thread.
 class SimulatedHead {
  public:
   // `script` may be empty: the head stays at `start` until the first step.
   SimulatedHead(const scene::HeadPose& start, std::vector<HeadKey> script);
 
-  // By so much, in the room's frame; on the way it may be given again.
+  // Moves the target by this vector, in the room's frame; steps add up while the head is moving.
   void step(const glm::dvec3& by_m);
 
-  // Back to the start, also of the script.
+  // Returns to the start, and restarts the script.
   void home();
 
-  // Times never run backwards. Empty: neither a script nor a step moves it.
+  // Times never decrease. Empty if neither a script nor a step moves the head.
   std::optional<scene::HeadPose> pose(std::int64_t now_ns);
 
   static constexpr double kPaceMPerS = 0.6;
@@ -44,8 +44,8 @@ class SimulatedHead {
 
   scene::HeadPose start_, shown_;
   std::vector<HeadKey> script_;
-  std::optional<std::int64_t> begun_ns_;  // of the script
-  std::optional<glm::dvec3> target_m_;    // of the steps
+  std::optional<std::int64_t> begun_ns_;  // start of the script
+  std::optional<glm::dvec3> target_m_;    // target of the steps
   std::int64_t shown_ns_ = 0;
 };
 

@@ -8,8 +8,8 @@
 
 namespace afm::input {
 
-// A wand in a simulated hand: it rests at a fixed grip and turns towards its aim along a minimum-jerk path, with the
-// tremor that hands have. Deterministic: the state depends only on the script and the times asked for. One thread.
+// Wand in a simulated hand: it rests at a fixed grip and turns towards its target along a minimum-jerk path, with
+// natural hand tremor. Deterministic: the state depends only on the script and the times requested. One thread.
 class SimulatedWand {
  public:
   explicit SimulatedWand(const glm::dvec3& grip_m);

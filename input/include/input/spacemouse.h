@@ -10,9 +10,9 @@
 
 namespace afm::input {
 
-// A report of 3Dconnexion's caps. Report 1 holds the translation, report 2 the rotation, or report 1 all six (wireless
-// models); report 3 the buttons. Raw axes of the device: x right, y towards the user, z down, about +-350 at the stop.
-// FreeSpacenav's spacenavd, src/dev.c.
+// Report of a 3Dconnexion cap. Report 1 contains the translation and report 2 the rotation, or report 1 all six
+// (wireless models); report 3 contains the buttons. Raw axes of the device: x right, y towards the user, z down, about
+// +-350 at the stop. Source: FreeSpacenav's spacenavd, src/dev.c.
 struct SpaceMouseReport {
   std::optional<std::array<std::int16_t, 3>> translation;
   std::optional<std::array<std::int16_t, 3>> rotation;
@@ -21,7 +21,7 @@ struct SpaceMouseReport {
 
 std::optional<SpaceMouseReport> parse_spacemouse(Bytes report);
 
-// Left button: Select. Right button: Grab, with the left one Scale. Any further button: Home.
+// Left button: Select. Right button: Grab; together with the left one: Scale. Any further button: Home.
 std::unique_ptr<HidDriver> spacemouse_driver();
 
 }  // namespace afm::input

@@ -13,17 +13,17 @@ namespace afm::input {
 // Log lines about a tracker: when its frames begin, stop and continue, and how many are lost. Main thread only.
 class TrackerReport {
  public:
-  // `place` is where the tracker sends to, as ADDRESS:PORT.
+  // `place` is the address that the tracker sends to, as ADDRESS:PORT.
   TrackerReport(std::string place, std::int64_t now_ns) : place_(std::move(place)), began_ns_(now_ns) {}
 
-  // Once a frame: a line, if there is something new to say. Losses are added up for 10 s.
+  // Call once per frame: returns a line if there is something new to report. Losses are summed over 10 s.
   std::optional<std::string> follow(const DtrackUpdate& update, std::int64_t now_ns);
 
-  // Of the whole run.
+  // Summary of the whole run.
   std::string total() const;
 
-  static constexpr std::int64_t kPatienceNs = 5'000'000'000;   // for the first frame
-  static constexpr std::int64_t kSilenceNs = 1'000'000'000;    // that is worth a line
+  static constexpr std::int64_t kPatienceNs = 5'000'000'000;   // wait for the first frame
+  static constexpr std::int64_t kSilenceNs = 1'000'000'000;    // shortest silence worth a line
   static constexpr std::int64_t kIntervalNs = 10'000'000'000;  // between two lines about losses
 
  private:

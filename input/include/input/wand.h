@@ -7,14 +7,14 @@
 
 namespace afm::input {
 
-// By what they do, whatever they are called on the device; the values are bits of WandState::buttons.
+// Buttons named by function, whatever their names on the device; the values are bits of WandState::buttons.
 enum class WandButton : std::uint32_t {
-  Select = 1,     // chooses what the ray points at
+  Select = 1,     // chooses the target of the ray
   Grab = 2,       // held: the scene moves with the wand
   Scale = 4,      // held: the wand makes the scene larger and smaller
-  Home = 8,       // the scene goes back to where it was
-  Recenter = 16,  // where the wand points now is straight ahead
-  Stop = 32,      // no force, at once
+  Home = 8,       // resets the transform of the scene
+  Recenter = 16,  // makes the wand's current direction straight ahead
+  Stop = 32,      // removes the force at once
 };
 
 constexpr std::uint32_t bit(WandButton button) { return static_cast<std::uint32_t>(button); }
@@ -23,18 +23,18 @@ constexpr std::uint32_t bit(WandButton button) { return static_cast<std::uint32_
 enum class WandMotion : std::uint32_t { Absolute = 0, Rate = 1 };
 
 // State that every wand reports. Room frame, metres, right-handed, +y up; the ray leaves the wand along its -z.
-// Trivially copyable, so that it crosses threads by core::LatestValue.
+// Trivially copyable, so that it can cross threads in a core::LatestValue.
 struct WandState {
-  std::int64_t time_ns = 0;  // when the newest report came in
+  std::int64_t time_ns = 0;  // arrival of the newest report
   glm::dvec3 position_m{0.0};
   glm::dquat room_from_wand{1.0, 0.0, 0.0, 0.0};
-  bool orientation_valid = false;  // without it the wand points nowhere
-  bool position_valid = false;     // else position_m is where the hand is taken to be
+  bool orientation_valid = false;  // false: the wand points nowhere
+  bool position_valid = false;     // false: position_m is an assumed position of the hand
   bool connected = false;
   WandMotion motion = WandMotion::Absolute;
-  std::uint32_t buttons = 0;  // of WandButton
-  std::uint32_t stops = 0;    // presses of Stop until now: one that is shorter than a frame counts too
-  // how far the cap or the stick is pushed along, and turned about, the room's axes: -1 to 1
+  std::uint32_t buttons = 0;  // bits of WandButton
+  std::uint32_t stops = 0;    // presses of Stop so far; counts those shorter than a frame, too
+  // deflection of the cap or stick along, and about, the room's axes: -1 to 1
   glm::dvec3 push{0.0};
   glm::dvec3 turn{0.0};
 
@@ -43,7 +43,7 @@ struct WandState {
 
 struct Ray {
   glm::dvec3 origin_m{0.0};
-  glm::dvec3 direction{0.0, 0.0, -1.0};  // unit
+  glm::dvec3 direction{0.0, 0.0, -1.0};  // unit vector
 };
 
 inline Ray ray_of(const WandState& wand) {

@@ -16,14 +16,14 @@ namespace afm::input {
 struct WandFile {
   std::optional<glm::dvec3> hand_m;  // for a wand without position tracking, room frame
   std::optional<DtrackSettings> dtrack;
-  std::optional<std::uint32_t> head_body;  // of the tracker
+  std::optional<std::uint32_t> head_body;  // body number in the tracker
   std::optional<HidMapping> device;
 };
 
-// Reads and checks it. The error names file, line and key.
+// Reads and checks a wand file. The error names file, line and key.
 core::Result<WandFile> load_wand_file(const std::string& path);
 
-// The devices of all files *.toml in a folder, in the order of their names.
+// Mappings from all *.toml files in a folder, in the order of their names.
 core::Result<std::vector<HidMapping>> load_mappings(const std::string& folder);
 
 }  // namespace afm::input

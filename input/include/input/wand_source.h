@@ -18,8 +18,8 @@ class WandSource {
   WandSource& operator=(const WandSource&) = delete;
   virtual ~WandSource() = default;
 
-  // Takes what has come in, waiting for it for 10 ms at most, and returns the newest state. Never fails: a wand that is
-  // not there is not `connected`.
+  // Processes the input, waiting for it for at most 10 ms, and returns the newest state. Never fails: a missing wand is
+  // not `connected`.
   virtual WandState poll() = 0;
 };
 
@@ -31,7 +31,7 @@ class WandThread {
   WandThread& operator=(const WandThread&) = delete;
   ~WandThread();
 
-  // Any thread. Not connected before the first state has come.
+  // Any thread. Not connected before the first state.
   WandState newest() const { return newest_.load().value_or(WandState{}); }
 
  private:
@@ -40,7 +40,7 @@ class WandThread {
   std::unique_ptr<WandSource> source_;
   core::LatestValue<WandState> newest_;
   std::atomic<bool> ending_{false};
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // last member: it uses all the others
 };
 
 }  // namespace afm::input

@@ -33,7 +33,7 @@ struct LawChoice {
   Regime regime = Regime::Dmt;
   double tabor = 0.0;
   double maugis = 0.0;
-  std::string reason;  // one sentence for people, with the numbers
+  std::string reason;  // one sentence for users, with the numbers
 };
 
 // By the regime at zero load, where adhesion alone presses the bodies together: JKR for JKR, Maugis-Dugdale for Maugis,

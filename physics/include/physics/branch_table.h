@@ -21,7 +21,7 @@ class BranchTable {
  public:
   static constexpr std::size_t kNodesPerOctave = 128;
 
-  enum class Side { Above, Below };  // of its end, where the branch lies
+  enum class Side { Above, Below };  // side of its end on which the branch lies
 
   struct Node {
     double force_n = 0.0;
@@ -66,11 +66,11 @@ class BranchTable {
   double side_ = 1.0;    // +1 above the end, -1 below
   double reach_ = -1.0;  // |Z - Z_end| of the last node; below zero where there are none
   double last_force_ = 0.0;
-  double tail_exponent_ = 0.0;       // above zero: F falls off as distance^-tail_exponent beyond the last node
+  double tail_exponent_ = 0.0;       // positive: F falls off as distance^-tail_exponent beyond the last node
   double line_force_at_zero_ = 0.0;  // otherwise F is this line there
   double line_slope_ = 0.0;          // N/m
-  double spacing_ = 0.0;             // above zero: of equally spaced nodes
-  std::vector<Piece> pieces_;        // one, where the nodes are equally spaced
+  double spacing_ = 0.0;             // positive if the nodes are equally spaced
+  std::vector<Piece> pieces_;        // a single one if the nodes are equally spaced
 };
 
 }  // namespace afm::physics

@@ -17,7 +17,7 @@ struct RectangularLever {
 
 // Two arms that meet at the tip.
 struct VShapedLever {
-  Length length;      // from the base to the tip
+  Length length;      // distance from the base to the tip
   Length base_width;  // b, outer distance of the arms at the base
   Length arm_width;   // d, of each arm, parallel to the base
   Length thickness;

@@ -41,11 +41,11 @@ class UnphysicalValue : public std::invalid_argument {
 
 // One number of ContactParameters as files, checks and people know it.
 struct ContactField {
-  std::string_view name;      // of the member; blanks for underscores make it what messages say
-  std::string_view json_key;  // of its SI value in session files and above recorded curves
+  std::string_view name;      // name of the member; messages print it with spaces for underscores
+  std::string_view json_key;  // key of its SI value in session files and above recorded curves
   std::string_view meaning;   // its symbol, for help texts
   double smallest;            // SI, legal itself
-  double largest;             // likewise
+  double largest;             // largest accepted value
   Infinity infinity;          // allowed: it stands for a rigid body
   const Units* units;
   double (*get)(const ContactParameters& contact);  // SI

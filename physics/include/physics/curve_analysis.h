@@ -25,7 +25,7 @@ struct Extreme {
 struct CurveSummary {
   Extreme approach;    // its force is -F_attr
   Extreme retract;     // its force is -F_ad
-  Energy loop_energy;  // what the hand put in and did not get back: -closed integral of F dZ, by trapezoids
+  Energy loop_energy;  // energy lost by the hand: -closed integral of F dZ, by trapezoids
 };
 
 // For samples in the order of the cycle. The loop is closed only if the first and the last sample share their Z.
@@ -37,7 +37,7 @@ std::vector<CurvePoint> points_of(std::span<const CurveSample> samples);
 // The force that the instrument shows where nothing acts ("baseline" in nanite, AtomicJ and SPM-Kit): a straight line
 // F = level + tilt (Z - z_far).
 struct Baseline {
-  Length z_far;  // the outermost point of the approach
+  Length z_far;  // outermost point of the approach
   Force level;
   Stiffness tilt;
   Force noise;  // standard deviation around the line, from the median absolute deviation

@@ -18,14 +18,14 @@ struct CycleFigures {
   Length tip_height_after_jtc;
 
   Length z_joc;            // jump off contact
-  Force force_before_joc;  // the pull-off force, -F_ad
+  Force force_before_joc;  // pull-off force, -F_ad
   Force force_after_joc;
   Length tip_height_before_joc;
   Length tip_height_after_joc;
 
-  Energy lost_at_jtc;  // the drop of the potential of lever and law at the jump
+  Energy lost_at_jtc;  // drop of the potential of lever and law at the jump
   Energy lost_at_joc;
-  Energy loop_energy;  // what one whole cycle dissipates: the area of the loop
+  Energy loop_energy;  // energy dissipated in a cycle: the area of the loop
 
   Stiffness critical_stiffness;  // k_c at and above which the hysteresis vanishes; infinite if it never does
 };

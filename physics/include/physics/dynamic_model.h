@@ -44,7 +44,7 @@ namespace afm::physics {
 class DynamicModel {
  public:
   static constexpr std::int64_t kSubSteps = 256;
-  static constexpr std::int64_t kLongestStep = 1'000'000'000;  // in sub-steps, of simulating()
+  static constexpr std::int64_t kLongestStep = 1'000'000'000;  // sub-steps of simulating()
   static constexpr std::uint64_t kDefaultSeed = 1;
 
   // Starts in WaitForLift. Throws std::invalid_argument (UnphysicalValue where one field is to blame) as
@@ -91,7 +91,7 @@ class DynamicModel {
     Length contact_gap;
     std::shared_ptr<const TipForce> surface;
     std::uint64_t seed;
-    Length free_above;  // the end of a jump off contact
+    Length free_above;  // end of a jump off contact
   };
 
   static std::shared_ptr<const Setup> build(Law law, const ContactParameters& contact, const LeverDynamics& lever,

@@ -23,8 +23,8 @@ struct LawPoint {
 // neck does. Along a branch h and F are continuous; their derivatives may jump at `kinks` only. Building uses it, the
 // servo never does.
 struct LawBranch {
-  double first = 0.0;  // where h is largest for a free branch, deepest for an attached one
-  double last = 0.0;   // where the branch ends: contact for a free branch, the end of the neck for an attached one
+  double first = 0.0;  // parameter at the largest h of a free branch, or the deepest point of an attached one
+  double last = 0.0;   // end of the branch: contact for a free branch, the end of the neck for an attached one
   std::function<LawPoint(double s)> at;
   std::vector<double> kinks;  // strictly between first and last, ascending
 };

@@ -19,13 +19,13 @@ struct ModelEvent {
   Length z;
   Force force_before;     // signed, as in physics/contact.h
   Force force_after;      // signed
-  double fraction = 0.0;  // of the step's interval, in [0, 1]
+  double fraction = 0.0;  // fraction of the step's interval, in [0, 1]
 };
 
 // What the tip and the lever do at one Z; frames and signs as in physics/contact.h. `events` holds `event_count` jumps
 // in the order in which they happened within the step.
 struct TipResponse {
-  Force force;  // on the tip, by the sample
+  Force force;  // force of the sample on the tip
   Length tip_height;
   Length cantilever_deflection;
   Length sample_deformation;
@@ -38,7 +38,7 @@ struct TipResponse {
 
 // How apex, lever and surface stand at one Z with one force on the tip; frames and signs as in physics/contact.h.
 struct LeverState {
-  Length tip_height;             // of the apex above the undeformed surface, Z - delta_c
+  Length tip_height;             // height of the apex above the undeformed surface, Z - delta_c
   Length cantilever_deflection;  // delta_c = -F/k_c
   Length sample_deformation;     // delta_s: of the support alone while free, tip height less the contact gap in contact
 };
@@ -75,7 +75,7 @@ class ApproachRetractModel {
   void wait_for_lift() noexcept { phase_ = Phase::WaitForLift; }
 
   Phase phase() const noexcept { return phase_; }
-  Length lowest_z() const noexcept { return lowest_z_; }  // while attached: how deep the contact was pressed
+  Length lowest_z() const noexcept { return lowest_z_; }  // deepest point of the current contact; valid while attached
   Law law() const noexcept { return tables_->law; }
   const ContactParameters& contact() const noexcept { return tables_->contact; }
   const CycleFigures& figures() const noexcept { return tables_->figures; }
@@ -87,8 +87,8 @@ class ApproachRetractModel {
 
   std::shared_ptr<const LawTables> tables_;
   Phase phase_ = Phase::WaitForLift;
-  Length previous_z_;  // of the step before; meaningless in WaitForLift
-  Length lowest_z_;    // since the jump to contact; meaningless unless Attached
+  Length previous_z_;  // previous step; meaningless in WaitForLift
+  Length lowest_z_;    // minimum since the jump to contact; meaningless unless Attached
 };
 
 }  // namespace afm::physics

@@ -21,14 +21,14 @@ struct LawOptions;
 // (docs/adding-a-law.md).
 enum class Law : std::uint32_t {
   Paper = 0,          // Liu & Peng: nothing until Hao's fold, then the contact line -k' Z until F_ad
-  Hao = 1,            // the same with the van der Waals attraction before the fold
+  Hao = 1,            // Paper with the van der Waals attraction before the fold
   Hertz = 2,          // elastic contact without adhesion
   Dmt = 3,            // van der Waals, then Hertz with a constant adhesion (Derjaguin, Muller & Toporov)
   Jkr = 4,            // Johnson, Kendall & Roberts
   MaugisDugdale = 5,  // van der Waals, then Maugis' contact with a cohesive zone
   LennardJones = 6,   // rigid sphere, surface 3-9 potential (Bradley)
   Measured = 7,       // two branches that an instrument recorded
-  Count               // how many laws there are; none itself
+  Count               // number of laws
 };
 
 // The curve of a law before lever and support bend; what each promises stands in physics/force_laws.h.
@@ -41,13 +41,13 @@ enum class ModulusUse { Unused, Optional, Needed };
 // What a law is made of and what can be done with it. Lists of laws, help texts, panels and checks follow from this.
 struct LawTraits {
   Law law;
-  std::string_view name;  // what command lines and files call it
-  bool van_der_waals;     // the Hamaker constant acts
-  bool adhesion;          // the work of adhesion acts
+  std::string_view name;  // name on command lines and in files
+  bool van_der_waals;     // includes the Hamaker constant
+  bool adhesion;          // includes the work of adhesion
   bool atomic_distance;   // z0 acts
   ModulusUse modulus;
   bool dynamic;     // its force follows from the tip's height without a lever, so it can move a mass
-  bool computed;    // from ContactParameters, so that --model can ask for it; not recorded by an instrument
+  bool computed;    // computed from ContactParameters, so available for --model; false: recorded by an instrument
   LawCurve* curve;  // null: closed form (computed), or recorded
 };
 

@@ -25,7 +25,7 @@ struct LawTables {
   // rises from the deepest place until it is on the attached branch. Zero: the attached branch holds both ways.
   BranchTable pressed;
   Length turn;
-  Length pressed_to;  // the deepest recorded place
+  Length pressed_to;  // deepest recorded position
   CycleFigures figures;
   Length contact_gap;  // D while attached
 

@@ -24,7 +24,7 @@ namespace afm::physics {
 //
 // a falls and c falls all the way; load and indentation are continuous.
 struct MaugisPoint {
-  double contact_radius;  // a, 0 from the point on
+  double contact_radius;  // a; 0 for s >= 0
   double load;            // P
   double indentation;     // delta
   double dload_ds;

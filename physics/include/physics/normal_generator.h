@@ -54,7 +54,7 @@ class NormalGenerator {
 
   double at_the_rim(std::size_t layer, double x, bool negative) noexcept;
 
-  const Layers* layers_;  // one for all
+  const Layers* layers_;  // shared by all generators
   std::array<std::uint64_t, 4> state_{};
 };
 

@@ -14,9 +14,9 @@ namespace afm::physics {
 
 struct Unit {
   std::string_view symbol;
-  double per_si;  // how many are one SI unit, but for eV a power of ten: 1e9 for nm, 1e-9 for GPa
+  double per_si;  // units per SI unit; a power of ten, except for eV: 1e9 for nm, 1e-9 for GPa
   bool shown;     // offered in messages and used for output; the others are spellings that are understood as well
-  double zero_si = 0.0;  // what 0 of it is in SI: 273.15 for degrees Celsius
+  double zero_si = 0.0;  // SI value of zero: 273.15 for degrees Celsius
 };
 
 // The units of one sort of quantity, the largest first. Stiffness and surface energy are one type but two lists, so
@@ -37,7 +37,7 @@ extern const UnitList<Stiffness> kStiffnessUnits;          // N/m mN/m
 extern const UnitList<Velocity> kVelocityUnits;            // m/s mm/s um/s
 extern const UnitList<SurfaceEnergy> kSurfaceEnergyUnits;  // J/m2 mJ/m2, also mN/m
 extern const UnitList<Pressure> kPressureUnits;            // TPa GPa MPa kPa Pa
-extern const Units kPlainNumber;                           // without a unit
+extern const Units kPlainNumber;                           // dimensionless
 extern const UnitList<Time> kTimeUnits;                    // s ms us
 extern const UnitList<Frequency> kFrequencyUnits;          // MHz kHz Hz
 extern const UnitList<Temperature> kTemperatureUnits;      // K
@@ -48,7 +48,7 @@ enum class Infinity { Refused, Allowed };
 template <class Q>
 struct ParsedQuantity {
   std::optional<Q> value;
-  std::string error;  // one line that lists the legal units; empty if there is a value
+  std::string error;  // one line with the legal units; empty if there is a value
 };
 
 // "m, mm, um, nm, pm": those of the units that messages offer.

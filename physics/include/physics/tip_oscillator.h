@@ -90,9 +90,9 @@ class TipOscillator {
 
   double spring_constant_;
   double sub_step_;
-  double kick_;     // of half a B, m/s a newton
+  double kick_;     // velocity change by half a B, m/s per newton
   double damping_;  // c
-  double noise_;    // of one O, m/s; 0 at 0 K
+  double noise_;    // velocity noise of one O, m/s; 0 at 0 K
   Swing swing_;
 
   double base_velocity_ = 0.0;

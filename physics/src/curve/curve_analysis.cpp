@@ -56,7 +56,7 @@ Baseline line_through(const Stretch& stretch) {
   for (const CurvePoint& point : stretch.points) residuals.push_back((point.force - line.at(point.z)).si);
   line.level = Force(median(residuals));
   for (double& residual : residuals) residual = std::abs(residual - line.level.si);
-  line.noise = Force(1.4826 * median(residuals));  // of a normal distribution
+  line.noise = Force(1.4826 * median(residuals));  // standard deviation of a normal distribution
   return line;
 }
 

@@ -14,7 +14,7 @@ namespace afm::physics {
 struct CurveBin {
   Length z;  // mean
   Force mean;
-  Force median;  // of an even number the upper; leaves a jump as sharp as the bins are and throws out single outliers
+  Force median;  // upper one for an even number; keeps a jump as sharp as the bins and rejects single outliers
   Force middle;  // mean of the middle half: throws out single outliers, and keeps the area under the branch
 };
 

@@ -100,7 +100,7 @@ class BlindTip {
   std::size_t reach_x_, reach_y_;
   double threshold_m_;
   std::vector<double> bound_m_;         // P, row by row
-  std::vector<std::ptrdiff_t> offset_;  // of each of its places, in pixels of the image
+  std::vector<std::ptrdiff_t> offset_;  // offset of each tip position, in pixels of the image
   std::vector<std::size_t> touching_;
 };
 

@@ -70,7 +70,7 @@ class TipReach {
     return pixels;
   }
 
-  std::vector<double> lowest_of_column_m_;  // the lowest of the tip, by pixels from its apex
+  std::vector<double> lowest_of_column_m_;  // lowest point of the tip per column, indexed by pixels from its apex
   std::vector<double> lowest_of_row_m_;
 };
 

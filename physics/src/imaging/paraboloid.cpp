@@ -39,7 +39,7 @@ class ParabolaEnvelope {
   }
 
  private:
-  static constexpr double kRounding = 1e-6;  // of a crossing, in points
+  static constexpr double kRounding = 1e-6;  // tolerance of a crossing, in points
 
   double hanging_m(std::size_t from, std::size_t at) const {
     const double distance_m = (static_cast<double>(at) - static_cast<double>(from)) * step_m_;

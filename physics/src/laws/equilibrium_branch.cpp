@@ -12,7 +12,7 @@ namespace {
 
 // Laws run over their scales by equal factors, so that a step of s is a step of scale.
 constexpr double kScanStep = 0.05;
-constexpr int kHalvings = 80;  // of an interval of s, beyond what a double resolves
+constexpr int kHalvings = 80;  // bisections of an interval of s, beyond the resolution of a double
 
 // First point, kinks, last point.
 std::vector<double> corners_of(const LawBranch& branch) {

@@ -52,7 +52,7 @@ class EquilibriumBranch {
 
   const LawBranch& branch_;
   double compliance_;
-  double sign_;  // of dZ/ds on the stable stretch
+  double sign_;  // sign of dZ/ds on the stable stretch
   double end_ = 0.0;
   bool folded_ = false;
 };

@@ -16,7 +16,7 @@ namespace {
 struct DimensionalContact {
   double lambda;
   MaugisUnits units;
-  Length gap;  // the height at which the indentation is zero
+  Length gap;  // height at which the indentation is zero
 
   LawPoint at(double s) const {
     const MaugisPoint point = maugis_point(lambda, s);
@@ -78,7 +78,7 @@ ForceLaw maugis_law(const ContactParameters& contact, const LawOptions& options)
       const ForceAndSlope here = unbound(above);
       return here.force < held.force.si ? ForceAndSlope{held.force.si, 0.0} : here;
     };
-    constexpr double kShortest = 1e-9;  // of a plateau, in the parameter; a shorter one is rounding
+    constexpr double kShortest = 1e-9;  // length of a plateau in the parameter; shorter ones are rounding errors
     const double plateau = heights.parameter((van_der_waals.gap_at(held.force) - held.h).si);
     if (plateau > kShortest) kinks.push_back(joint + plateau);
     const auto curve = [=](double s) { return s < joint ? neck_contact.at(s) : heights.point(s - joint, attraction); };

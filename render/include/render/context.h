@@ -13,10 +13,10 @@ namespace afm::render {
 class Device;
 class HeadsetRuntime;
 
-// Off in the programs; on in every test, together with synchronisation validation.
+// Vulkan validation layer, with synchronisation validation. Off in the programs, on in every test.
 enum class Validation { Off, On };
 
-// Use of the pictures: shown in a Window, which must be opened before the context, or only read back.
+// Destination of the pictures: a Window, which must be opened before the context, or readback only.
 enum class Presentation { None, Window };
 
 // One Vulkan device as the `devices` command lists it.
@@ -25,18 +25,17 @@ struct DeviceDescription {
   std::string kind;    // "discrete GPU", "CPU", ...
   std::string driver;  // name and version as the driver reports them
   bool usable = false;
-  std::string reason;  // why not, empty if usable
+  std::string reason;  // reason why not, empty if usable
 };
 
 // The Vulkan instance, the chosen device and its queue. Prefers a discrete GPU, then an integrated or virtual one, and
-// takes a CPU device (lavapipe) when there is nothing else. Must outlive every Renderer made from it; one thread at a
+// uses a CPU device (lavapipe) only as a last resort. Must outlive every Renderer created from it; one thread at a
 // time.
 class Context {
  public:
-  // DeviceMissing: no loader, no driver, no device that can do what the renderer needs, or, with Validation::On, no
-  // validation layer. The message says what to install.
-  // `runtime`: of the headset that the device shows pictures in; it then chooses the device, and must be there for as
-  // long as this call takes.
+  // DeviceMissing: no loader, no driver, no device with the features the renderer needs, or, with Validation::On, no
+  // validation layer. The message says what to install. `runtime`, if any, belongs to the headset that shows the
+  // device's pictures: it chooses the device, and must outlive this call.
   static core::Result<Context> open(Validation validation = Validation::Off,
                                     Presentation presentation = Presentation::None, HeadsetRuntime* runtime = nullptr);
 
@@ -46,10 +45,10 @@ class Context {
 
   const std::string& device_name() const;
 
-  // True if the device has multiview: both eyes in one pass.
+  // True if the device has multiview, which draws both eyes in one pass.
   bool draws_both_eyes_at_once() const;
 
-  // Pixels of the longest picture, each way.
+  // Largest width and height of a picture, in pixels.
   std::uint32_t largest_picture_px() const;
 
   // Messages of the validation layer since the last call. Always empty with Validation::Off.

@@ -8,13 +8,13 @@
 
 namespace afm::render {
 
-// Nearest and farthest depth in a frame, over both eyes: metres from the plane through the eye parallel to the wall.
+// Nearest and farthest depth in a frame, over both eyes, in metres from the plane through the eye parallel to the wall.
 struct DepthRange {
   double nearest_m = 0;
   double farthest_m = 0;
 };
 
-// Reduces the eyes' depth to its extremes on the device, without waiting for it. Renderer's thread.
+// Finds the extremes of the eyes' depth on the device, without waiting for it. Renderer's thread.
 class DepthMeter {
  public:
   // Both must outlive it.
@@ -23,13 +23,13 @@ class DepthMeter {
   DepthMeter& operator=(DepthMeter&&) noexcept;
   ~DepthMeter();
 
-  // Begins with the renderer's newest frame, unless an earlier measurement is still under way.
+  // Measures the renderer's newest frame, unless an earlier measurement is still running.
   void measure();
 
-  // Of the newest measurement that is finished; nothing before the first, or when nothing was drawn.
+  // Newest finished measurement; nothing before the first, or if nothing was drawn.
   std::optional<DepthRange> newest();
 
-  // Waits for the measurement under way.
+  // Waits for the running measurement.
   void wait();
 
  private:

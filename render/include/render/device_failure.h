@@ -5,9 +5,8 @@
 
 namespace afm::render {
 
-// The graphics device or the display is lost, or no memory is left: what Renderer, Presenter and Window throw where
-// their comments name no other way. One line for people. Nothing more can be drawn with that renderer; it can be
-// destroyed.
+// The graphics device or the display was lost, or memory ran out. Renderer, Presenter and Window throw it unless their
+// comments say otherwise. what() is one line for users. That renderer cannot draw any more; it can only be destroyed.
 class DeviceFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -19,8 +19,8 @@
 // types.
 namespace afm::render {
 
-// Bends the mesh of one node like an end-loaded beam (physics/beam_shape.h), clamped at x = 0 and loaded at x = L,
-// along the node's +x; displacement along the node's +z, in the node's units. Normals follow the slope.
+// Bends the mesh of one node like an end-loaded beam (physics/beam_shape.h), clamped at x = 0 and loaded at x = L. The
+// beam lies along the node's +x and bends along its +z, in the node's units. Normals follow the slope.
 struct BeamBend {
   scene::NodeIndex node = 0;
   float length = 1.0F;
@@ -36,35 +36,35 @@ struct KeyLight {
 };
 
 // Mark at the contact point: a soft shadow that deepens as the tip approaches and, briefly after a jump, a ring of
-// light at the distance `ring_radius_m`.
+// light with radius `ring_radius_m`.
 struct ContactMark {
-  glm::vec3 place_m{0.0F};      // the apex
+  glm::vec3 place_m{0.0F};      // tip apex
   float shade_radius_m = 0.0F;  // 0: no mark
   glm::vec3 ring_color{0.0F};   // linear radiance
   float ring_radius_m = 0.0F;
 };
 
-// Dissolves what is drawn into the background: everything by `veil`, and what lies far away by its distance. With a
-// range, things may be far larger than the room: what is read, panels and what is unlit, is then drawn before all else.
+// Fades the picture into the background: the whole picture by `fade`, distant objects by distance. With a range,
+// objects may be far larger than the room; text, panels and unlit objects are then drawn first.
 struct Fog {
-  float fade = 0.0F;                   // 0: clear, 1: nothing but the background
-  float begin_m = 0.0F, end_m = 0.0F;  // from the origin; equal: no range
+  float fade = 0.0F;                   // 0: clear, 1: background only
+  float begin_m = 0.0F, end_m = 0.0F;  // distances from the origin; equal: no range
   glm::dvec3 origin_m{0.0};
-  glm::dvec3 away{0.0, 0.0, -1.0};  // unit; distances count along it
+  glm::dvec3 away{0.0, 0.0, -1.0};  // unit vector along which distances are measured
 };
 
-// A light of the scene, placed in the room (KHR_lights_punctual). It adds to the environment and casts no shadow.
+// Light of the scene, placed in the room (KHR_lights_punctual). It adds to the environment and casts no shadow.
 struct PlacedLight {
   scene::PunctualLight light;
   glm::vec3 position_m{0.0F};
-  glm::vec3 direction{0.0F, 0.0F, -1.0F};  // of its rays, unit
+  glm::vec3 direction{0.0F, 0.0F, -1.0F};  // unit vector along the rays
 };
 
-// Further lights are not drawn.
+// Limit on placed lights; further ones are not drawn.
 inline constexpr std::size_t kMostPlacedLights = 16;
 
-// A rectangle in the room that shows a drawn panel: lower-left corner, and edges to the right and up, in metres.
-// Without area the panel is not shown.
+// Rectangle in the room that shows a panel: lower-left corner, and edges to the right and up, in metres. A panel
+// without area is not shown.
 struct PanelPlacement {
   glm::dvec3 lower_left_m{0.0};
   glm::dvec3 right_m{1.0, 0.0, 0.0};
@@ -82,28 +82,28 @@ struct PlotPoint {
   bool operator==(const PlotPoint&) const = default;
 };
 
-// One approach-retract curve. Approach is drawn dashed and thinner, retract solid: they differ in more than colour.
+// One approach-retract curve. Approach is dashed and thinner, retract solid, so that they differ in more than colour.
 struct PlotCurve {
   std::string label;
   glm::vec3 color{1.0F};  // sRGB
-  bool faded = false;     // an earlier material, behind
+  bool faded = false;     // earlier material, drawn in the background
   std::vector<PlotPoint> approach;
   std::vector<PlotPoint> retract;
 
   bool operator==(const PlotCurve&) const = default;
 };
 
-struct PlotMarker {  // a labelled value: "Z_jtc 2.40 nm"
+struct PlotMarker {  // labelled value: "Z_jtc 2.40 nm"
   enum class Kind { VerticalLine, HorizontalLine } kind = Kind::VerticalLine;
-  double value = 0;   // nm on the axis of places, nN on the force axis
-  std::string label;  // empty: the line alone
+  double value = 0;   // nm on the position axis, nN on the force axis
+  std::string label;  // empty: line only
 
   bool operator==(const PlotMarker&) const = default;
 };
 
-// The words of a plot.
+// Legend and axis texts of a plot.
 struct PlotWords {
-  std::string approach, retract;  // what dashed and solid mean; empty: the labels say it
+  std::string approach, retract;  // legend of the dashed and the solid line; empty: no legend, the labels suffice
   std::string place_axis = "Z (nm)", force_axis = "F (nN)";
   char decimal_mark = '.';
 
@@ -116,17 +116,17 @@ struct DataRow {
   bool operator==(const DataRow&) const = default;
 };
 
-// A force over a place. The force-displacement panel: Z (nm) to the right, force on the tip (nN, positive away from the
-// sample) up. The friction loop: lateral displacement and force, each stroke a curve.
+// Plot of force against position. For the force-displacement panel: Z (nm) to the right, force on the tip (nN, positive
+// away from the sample) up. For the friction loop: lateral displacement and force, one curve per stroke.
 struct ForcePanel {
   std::string title;
   PlotWords words{};
   double place_min_nm = -5, place_max_nm = 20, force_min_nn = -2, force_max_nn = 1;
   std::vector<PlotCurve> curves;
   std::vector<PlotMarker> markers;
-  std::optional<PlotPoint> cursor;  // where the tip is now
-  std::string stage;                // the part of the cycle in words, with the letters of the paper's Fig. 2
-  std::vector<DataRow> figures;     // what follows from the curves, in a row above them, without sources
+  std::optional<PlotPoint> cursor;  // current position of the tip
+  std::string stage;                // current part of the cycle, with the letters of the paper's Fig. 2
+  std::vector<DataRow> figures;     // quantities derived from the curves, in a row above them, without sources
 
   bool operator==(const ForcePanel&) const = default;
 };
@@ -141,19 +141,19 @@ struct DataPanel {
 
 enum class StateShape { Circle, Triangle, Square, Diamond, Cross };
 
-// The line above: guidance, the servo's state in a word and a shape, and the scale.
+// Line above the picture: guidance, the state of the servo as a word and a shape, and the scale.
 struct Banner {
   std::string guidance;
   std::string state_word;
   StateShape state_shape = StateShape::Circle;
   glm::vec3 state_color{1.0F};  // sRGB
-  std::string scale;            // "sample and motion: 1 m = 33 nm ..."; the second line: hand and servo
-  std::string warning;          // "not real-time", empty for none
+  std::string scale;            // "sample and motion: 1 m = 33 nm ..."; second line: hand and servo
+  std::string warning;          // "not real-time"; empty: none
 
   bool operator==(const Banner&) const = default;
 };
 
-struct Label {  // a short text standing in the room: a swatch's name
+struct Label {  // short text in the room, such as a swatch's name
   std::string text;
   bool highlighted = false;
   PanelPlacement placement;
@@ -161,44 +161,44 @@ struct Label {  // a short text standing in the room: a swatch's name
   bool operator==(const Label&) const = default;
 };
 
-// Target of a ray on a ControlPanel.
+// Target that a ray can hit on a ControlPanel.
 struct ControlTarget {
   enum class Kind { Less, More, Button } kind = Kind::Less;
-  std::size_t index = 0;  // of the row, or of the button
+  std::size_t index = 0;  // index of the row or the button
 
   bool operator==(const ControlTarget&) const = default;
 };
 
-struct ControlRow {  // a value with a target to make it less and one to make it more
+struct ControlRow {  // value with one target to decrease it and one to increase it
   std::string name, value;
-  bool changed = false;  // not what it was at first
+  bool changed = false;  // differs from its initial value
 
   bool operator==(const ControlRow&) const = default;
 };
 
-// Values that are changed by pointing (render/control_layout.h says where its targets stand).
+// Panel of values that are changed by pointing; render/control_layout.h has the positions of its targets.
 struct ControlPanel {
   std::string title;
-  std::vector<std::string> buttons;  // beside the title
+  std::vector<std::string> buttons;  // next to the title
   std::vector<ControlRow> rows;
-  std::vector<std::string> notes;  // what follows from the values, a line each
-  std::string status;              // what has become of the last change
+  std::vector<std::string> notes;  // results derived from the values, one per line
+  std::string status;              // outcome of the last change
   std::optional<ControlTarget> pointed;
-  std::optional<std::size_t> marked;  // the row that keys change
+  std::optional<std::size_t> marked;  // row changed by keys
 
   bool operator==(const ControlPanel&) const = default;
 };
 
-// A grid of colours, row by row from the top.
+// Grid of colours, row by row from the top.
 struct ColorGrid {
   std::uint32_t columns = 0;
   std::uint32_t rows = 0;
-  std::vector<std::array<std::uint8_t, 4>> colors;  // sRGB and coverage; columns * rows of them
+  std::vector<std::array<std::uint8_t, 4>> colors;  // sRGB and coverage; columns * rows entries
 
   bool operator==(const ColorGrid&) const = default;
 };
 
-// One quantity of a scan as a picture: what has not been measured has no coverage.
+// One quantity of a scan as a picture. Unmeasured pixels have no coverage.
 struct ImageMap {
   std::string title;
   ColorGrid grid;
@@ -206,60 +206,60 @@ struct ImageMap {
   bool operator==(const ImageMap&) const = default;
 };
 
-// Lines over one axis: along a line of the scan, or across a tip.
+// Lines over one axis: along a scan line, or across a tip.
 struct ProfilePlot {
   struct Line {
     std::string label;
     glm::vec3 color{1.0F};  // sRGB
-    bool dashed = false;    // so that lines differ in more than colour
+    bool dashed = false;    // makes lines differ in more than colour
     std::vector<glm::vec2> points;
 
     bool operator==(const Line&) const = default;
   };
   std::string title;
-  glm::dvec2 low{0.0}, high{1.0};  // of the axes
+  glm::dvec2 low{0.0}, high{1.0};  // ends of the axes
   std::vector<Line> lines;
 
   bool operator==(const ProfilePlot&) const = default;
 };
 
-// What a scan has measured so far: trace and retrace of the height large and beside each other, with axes, a scale bar
-// and a bar of colours; below or beside them smaller what else is measured, and the newest line.
+// Results of a scan so far: trace and retrace of the height, large and side by side, with axes, a scale bar and a
+// colour bar; below or beside them, smaller, the other quantities and the newest line.
 struct ImagePanel {
   std::string title, subtitle;
   std::array<ImageMap, 2> heights;  // trace, retrace
   std::vector<ImageMap> smaller;    // error signal, lateral force
   ProfilePlot profile;              // the newest line
-  std::string side_unit;            // of the two below
-  double side = 1;                  // of the area, which is a square
-  double scale_bar = 1;             // a round length
-  std::optional<double> line;       // 0 at the top to 1: where the tip scans now
+  std::string side_unit;            // unit of `side` and `scale_bar`
+  double side = 1;                  // side of the scanned square
+  double scale_bar = 1;             // round length
+  std::optional<double> line;       // scan position, 0 at the top to 1 at the bottom
   double bar_low_nm = 0, bar_high_nm = 1;
-  std::vector<glm::vec3> bar;  // colours from the lowest height to the highest
+  std::vector<glm::vec3> bar;  // colours from the lowest to the highest height
   char decimal_mark = '.';
 
   bool operator==(const ImagePanel&) const = default;
 };
 
-// The picture for setting up a screen, at true scale on all of it: a grid in centimetres or decimetres, a cross in the
-// wall's plane, a circle, a ruler of eye distances, grey steps; and, where the eyes have pictures of their own, an L
-// that the left eye's alone shows, an R in the right eye's. Nothing else should be shown with it.
+// Picture for setting up a screen, at true scale over its whole area: a grid in centimetres or decimetres, a cross in
+// the wall's plane, a circle, a ruler of eye distances and grey steps. If the eyes have separate pictures, it shows an
+// L to the left eye only and an R to the right eye only. Nothing else should be shown with it.
 struct CalibrationPanel {
-  std::string size;       // of the screen, with its name
-  std::string mode;       // of stereo
-  std::string legend;     // of grid and letters
-  std::string ruler;      // its legend
-  double square_m = 0.1;  // of the grid
-  double ipd_m = 0;       // of the viewer, marked on the ruler
+  std::string size;       // size of the screen, with its name
+  std::string mode;       // stereo mode
+  std::string legend;     // legend of grid and letters
+  std::string ruler;      // legend of the ruler
+  double square_m = 0.1;  // grid spacing
+  double ipd_m = 0;       // viewer's eye distance, marked on the ruler
   bool eye_marks = true;
-  glm::dvec2 grid_from_m{0.0};               // a crossing of the grid: right of and below the screen's middle
-  std::array<scene::EdgeRamp, 4> ramps{};    // of blending, by scene::ScreenEdge
-  std::array<std::string, 4> ramp_widths{};  // as text; empty: no ramp
+  glm::dvec2 grid_from_m{0.0};               // one grid crossing, right of and below the screen centre
+  std::array<scene::EdgeRamp, 4> ramps{};    // blending ramps, indexed by scene::ScreenEdge
+  std::array<std::string, 4> ramp_widths{};  // ramp widths as text; empty: no ramp
 
   bool operator==(const CalibrationPanel&) const = default;
 };
 
-// A panel without area: not shown.
+// Placement of a panel that is not shown: it has no area.
 inline constexpr PanelPlacement kNoPlacement{
     .lower_left_m = glm::dvec3(0.0), .right_m = glm::dvec3(0.0), .up_m = glm::dvec3(0.0)};
 
@@ -269,12 +269,12 @@ struct FrameState {
   std::array<scene::EyeView, 2> eyes;         // left, right; reversed infinite depth
   std::vector<glm::dmat4> room_from_node;     // one per scene node
   std::vector<std::uint8_t> visible;          // one per scene node, 0 hides the node's own mesh
-  std::vector<scene::NodeIndex> highlighted;  // these and all below them glow: what the wand points at or has chosen
+  std::vector<scene::NodeIndex> highlighted;  // pointed at or selected by the wand; glow with their children
   std::vector<BeamBend> bends;
   KeyLight key_light;
   ContactMark contact;
   Fog fog;
-  std::vector<PlacedLight> lights;  // only if the scene has lights
+  std::vector<PlacedLight> lights;  // used only if the scene has lights
   ForcePanel force_panel;
   PanelPlacement force_placement;
   ImagePanel image_panel;
@@ -290,10 +290,10 @@ struct FrameState {
   std::vector<Label> labels;
   CalibrationPanel calibration;
   PanelPlacement calibration_placement = kNoPlacement;
-  std::size_t panels_apart = 0;  // at most so many panels are left out of the pictures of the eyes (Headset::show())
+  std::size_t panels_apart = 0;  // largest number of panels left out of the eyes' pictures (Headset::show())
 };
 
-// An image in host memory: 8-bit sRGB RGBA, rows from top to bottom.
+// Image in host memory: 8-bit sRGB RGBA, rows from top to bottom.
 struct Image {
   std::uint32_t width = 0;
   std::uint32_t height = 0;

@@ -13,7 +13,7 @@ namespace afm::render {
 
 enum class ChannelOrder { Rgba, Bgra };
 
-// An image in somebody else's memory: rows as of Image, four bytes a pixel.
+// View of an image in memory it does not own: rows as in Image, four bytes per pixel.
 struct ImageSpan {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
@@ -29,11 +29,11 @@ struct ImageSpan {
 // An independent copy.
 Image to_image(const ImageSpan& span);
 
-// The image as the bytes of a PNG file: 8-bit sRGB without alpha.
+// Encodes the image as a PNG file: 8-bit sRGB without alpha.
 core::Result<std::vector<std::uint8_t>> encode_png(const ImageSpan& image);
 
-// Writes a temporary file beside `path` and renames it, so that a file of that name is always whole. The error names
-// the path.
+// Writes a temporary file next to `path` and renames it, so that a file of that name is always complete. The error
+// names the path.
 core::Result<void> write_png(const ImageSpan& image, const std::string& path);
 
 }  // namespace afm::render

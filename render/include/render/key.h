@@ -3,7 +3,7 @@
 
 namespace afm::render {
 
-// The keys of a keyboard by their place, named as a US keyboard prints them.
+// Keys of a keyboard by position, named as printed on a US keyboard.
 enum class Key {
   Other,
   Space,

@@ -13,7 +13,7 @@
 
 namespace afm::render {
 
-// Fit of a picture in its window: at its proportions, between black bars, or stretched to the whole window, as for a
+// Fit of a picture in its window: in its proportions, between black bars, or stretched to the whole window, as for a
 // projector whose image ends at the measured corners of the screen.
 enum class PictureFit { Proportions, Fill };
 struct PicturePlace {
@@ -22,25 +22,25 @@ struct PicturePlace {
 };
 PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px, PictureFit fit = PictureFit::Proportions);
 
-// Picture of a frame in a window. In mode dual, the left eye's: one window has one picture.
+// Picture of a frame in a window. In mode dual it is the left eye's: one window has one picture.
 struct WindowPicture {
   Composition composition;
   PictureFit fit = PictureFit::Proportions;
 };
 
-// When windows change their picture: in their display's own time, or, where the surface offers VK_NV_present_barrier,
-// in the same refresh as those of other machines with displays in step.
+// Timing of the picture change: each display on its own, or, if the surface offers VK_NV_present_barrier, in the same
+// refresh as synchronised displays of other machines.
 enum class Swap { Alone, WithOthers };
 
 inline constexpr std::size_t kMostWindows = 16;
 
-// Shows a renderer's frames in windows that are presented together, in step with their display: begin(), then for the
-// windows of each screen render() and draw(), then show(). Follows the windows through resizes, full screen and the
-// loss of a surface. Main thread only. A lost device and a lack of memory are exceptions: DeviceFailure.
+// Shows a renderer's frames in windows that are presented together, in step with their display: begin(), then render()
+// and draw() for the windows of each screen, then show(). Handles resizing, full screen and loss of a surface. Main
+// thread only. Throws DeviceFailure if the device is lost or memory runs out.
 class Presenter {
  public:
-  // DeviceMissing: the device and the display have no way to show pictures in common. All must outlive the presenter;
-  // `context` was opened with Presentation::Window. One window at least, kMostWindows at most.
+  // DeviceMissing: the device and the display have no common way to show pictures. All arguments must outlive the
+  // presenter; `context` was opened with Presentation::Window. Takes 1 to kMostWindows windows.
   static core::Result<Presenter> create(Context& context, Renderer& renderer, std::span<Window* const> windows,
                                         Swap swap = Swap::Alone);
 
@@ -48,23 +48,23 @@ class Presenter {
   Presenter& operator=(Presenter&&) noexcept;
   ~Presenter();
 
-  // DeviceMissing, saying what is missing: quad-buffer needs a display with a picture for each eye.
+  // DeviceMissing, with the missing feature: quad-buffer needs a display with a picture for each eye.
   core::Result<void> check_mode(scene::StereoMode mode) const;
 
-  // All windows change their picture with other machines'.
+  // True if all windows change their picture in step with other machines.
   bool swaps_with_others() const;
 
-  // Takes the images that the windows show next; `pictures` has one entry a window, in modes that check_mode() allows.
-  // Calls `while_waiting` every few milliseconds, from this thread. False: no window can show anything now, since all
-  // are minimised, have just changed their size, or their display accepts no picture; go on and try with the next
-  // frame.
+  // Acquires the images that the windows show next. `pictures` has one entry per window, in modes that check_mode()
+  // allows. Calls `while_waiting` every few milliseconds on this thread. False if no window can show anything now,
+  // because all are minimised, have just been resized, or their display accepts no picture; continue and try again with
+  // the next frame.
   bool begin(std::span<const WindowPicture> pictures, const std::function<void()>& while_waiting);
 
   // Draws the renderer's newest frame into those of these windows that have an image, and waits until it is drawn.
   void draw(std::span<const std::size_t> windows, const std::function<void()>& while_waiting);
 
-  // Shows what has been drawn since begin(), in one call: all windows change in the same refresh where the device can
-  // do it.
+  // Shows everything drawn since begin(), in one call: all windows change in the same refresh if the device supports
+  // it.
   void show();
 
  private:

@@ -10,35 +10,36 @@
 
 namespace afm::render {
 
-// Outcome of saving a picture; the error names its path.
+// Result of saving a picture; the error names its path.
 struct SavedPicture {
   std::string path;
   core::Result<void> written;
 };
 
-// Saves pictures of frames as PNG files while the next frames are drawn: copied by the device, encoded and written by a
-// separate thread. A few pictures can be on their way; where there are more, the next waits, and none is lost. The
-// thread of the renderer. A lost device and a lack of memory are exceptions: DeviceFailure.
+// Saves pictures of frames as PNG files while the next frames are drawn: the device copies them, and a separate thread
+// encodes and writes them. At most kMostPictures are in progress; the next one waits, and none is lost. Renderer's
+// thread. Throws DeviceFailure if the device is lost or memory runs out.
 class ScreenshotQueue {
  public:
-  // Pictures on their way at once.
+  // Largest number of pictures in progress.
   static constexpr std::size_t kMostPictures = 4;
 
   // Both must outlive it.
   ScreenshotQueue(Context& context, Renderer& renderer);
   ScreenshotQueue(ScreenshotQueue&&) noexcept;
   ScreenshotQueue& operator=(ScreenshotQueue&&) noexcept;
-  ~ScreenshotQueue();  // waits, as finish() does
+  ~ScreenshotQueue();  // waits like finish()
 
-  // Begins to save the renderer's newest frame in a mode with one picture; `path` and `area` as for write_png() and
-  // Renderer::read_composed(). False, with nothing begun: kMostPictures are on their way; call collect() and try again
-  // with this frame or a later one. Does not wait.
+  // Starts saving the renderer's newest frame in a mode with one picture; `path` and `area` as in write_png() and
+  // Renderer::read_composed(). Returns false and saves nothing if kMostPictures are in progress: call collect(), and
+  // try again with this frame or a later one. Does not wait.
   bool save(const Composition& composition, std::string path, const ReadArea& area = {});
 
-  // Hands on what has been read and returns what has been written since, in the order of save(). Does not wait.
+  // Passes on the pictures that have been read, and returns those written since the last call, in the order of save().
+  // Does not wait.
   std::vector<SavedPicture> collect();
 
-  // As collect(), once everything is written.
+  // Like collect(), after everything is written.
   std::vector<SavedPicture> finish();
 
  private:

@@ -21,20 +21,20 @@ struct WindowEvent {
   enum class Kind { KeyDown, KeyUp, ButtonDown, ButtonUp, Scroll } kind = Kind::KeyDown;
   Key key = Key::Other;
   MouseButton button = MouseButton::Left;
-  double scroll = 0;  // steps of the wheel, positive away from the person
+  double scroll = 0;  // wheel steps, positive away from the user
   glm::dvec2 cursor_px{0.0};
 };
 
 struct WindowInput {
-  std::vector<WindowEvent> events;  // since the last poll, in their order
+  std::vector<WindowEvent> events;  // events since the last poll, in order
   glm::dvec2 cursor_px{0.0};
-  glm::dvec2 origin_px{0.0};     // where the picture's top left corner lies on the desktop; 0,0 where it is unknown
+  glm::dvec2 origin_px{0.0};     // top left corner of the picture on the desktop; 0,0 if unknown
   bool close_requested = false;  // the window's own close button
 
-  // Change of the monitor that the window fills, or of those under its rectangle. Without its monitor, the window
-  // continues at a small size on another.
+  // Loss or return of the monitor that the window fills, or of those under its rectangle. Without its monitor, the
+  // window continues at a small size on another.
   enum class MonitorChange { None, Lost, Back } monitor_change = MonitorChange::None;
-  std::string monitor;  // that the change is of; empty: under the rectangle
+  std::string monitor;  // monitor of `monitor_change`; empty: under the rectangle
 };
 
 struct WindowOptions {
@@ -42,17 +42,17 @@ struct WindowOptions {
   std::uint32_t width = 1280;
   std::uint32_t height = 720;
   bool full_screen = false;
-  std::string monitor{};                   // to fill, as list_monitors() names it; empty: none in particular
-  std::optional<scene::PixelRect> rect{};  // of the desktop, without a frame, instead of width and height
+  std::string monitor{};                   // monitor to fill, named as in list_monitors(); empty: any
+  std::optional<scene::PixelRect> rect{};  // rectangle of the desktop, without a frame, instead of width and height
 };
 
 class WindowHandle;
 
-// A window on this machine's display, without anything in it: see Presenter. On the main thread only. Must outlive the
-// Context that was opened to present to it.
+// Empty window on this machine's display; Presenter draws into it. Main thread only. Must outlive the Context opened to
+// present to it.
 class Window {
  public:
-  // DeviceMissing: no display, no monitor of that name, or a window system without Vulkan or without places.
+  // DeviceMissing: no display, no monitor of that name, or a window system without Vulkan or without window positions.
   static core::Result<Window> open(const WindowOptions& options);
 
   Window(Window&&) noexcept;
@@ -62,16 +62,16 @@ class Window {
   // Events since the last call. Does not wait. Throws DeviceFailure if the display has gone.
   WindowInput poll();
 
-  // Waits until something happens, but no longer than `seconds`: for a window that nobody sees.
+  // Waits until something happens, for at most `seconds`; used while nobody sees the window.
   void wait(double seconds);
 
-  // Of the picture, in pixels; 0 x 0 while minimised.
+  // Size of the picture in pixels; 0 x 0 while minimised.
   glm::uvec2 size_px() const;
 
   bool full_screen() const;
-  void set_full_screen(bool full_screen);  // on the monitor that shows most of it; not if it has its place by a rect
+  void set_full_screen(bool full_screen);  // on the monitor showing most of it; no effect for a window placed by a rect
 
-  // Of the monitor; 60 where it does not say.
+  // Refresh rate of the monitor; 60 if unknown.
   double refresh_hz() const;
 
   WindowHandle& handle() { return *handle_; }

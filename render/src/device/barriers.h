@@ -8,21 +8,21 @@
 
 namespace afm::render {
 
-// Use of an image at one point of a command buffer. Every barrier of the renderer names two of these, with stages and
-// accesses spelled out at the call.
+// Use of an image at one point of a command buffer. Every barrier of the renderer is made of two of these, with stages
+// and accesses spelled out at the call.
 struct ImageUse {
   vk::PipelineStageFlags2 stages;
   vk::AccessFlags2 access;
   vk::ImageLayout layout = vk::ImageLayout::eUndefined;
 
-  // The same, and what the image holds is not needed any more: to be waited for, not to be kept.
+  // Same use, with the image's contents discarded: only the earlier accesses have to finish.
   constexpr ImageUse discarded() const { return {stages, access, vk::ImageLayout::eUndefined}; }
 };
 
-// The uses that several passes have.
+// Uses shared by several passes.
 inline constexpr ImageUse kColorDrawn{
     vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-    // it is read where a pass loads what another has drawn
+    // read when a pass loads what another has drawn
     vk::AccessFlagBits2::eColorAttachmentRead | vk::AccessFlagBits2::eColorAttachmentWrite,
     vk::ImageLayout::eColorAttachmentOptimal};
 inline constexpr ImageUse kDepthTested{

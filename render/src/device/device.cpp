@@ -23,7 +23,7 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kInstallDriver =
     "install a Vulkan driver (Debian: mesa-vulkan-drivers, which also draws without a GPU)";
 
-// Of the C interface's types, or since 1.4.304 (Debian 13) of Vulkan-Hpp's own.
+// Callback with the C interface's types, or, since 1.4.304 (Debian 13), with Vulkan-Hpp's own.
 using MessageCallback = decltype(vk::DebugUtilsMessengerCreateInfoEXT::pfnUserCallback);
 template <class>
 struct OnMessage;
@@ -44,8 +44,8 @@ vk::DebugUtilsMessengerCreateInfoEXT messenger_info(MessageSink& sink) {
           .pUserData = &sink};
 }
 
-// Throws std::system_error if the threads that a CPU's driver needs, one a processor and one for the queue, cannot be
-// started: lavapipe does without those that it cannot have, and then never finishes.
+// Throws std::system_error if the threads of a CPU driver, one per processor and one for the queue, cannot be started.
+// lavapipe ignores threads that fail to start, and then never finishes.
 void check_threads() {
   std::atomic<bool> done{false};
   std::vector<std::jthread> threads;
@@ -74,7 +74,7 @@ std::optional<std::uint32_t> graphics_family(const vk::raii::PhysicalDevice& phy
   return std::nullopt;
 }
 
-// Why the renderer cannot use this device, empty if it can.
+// Reason why the renderer cannot use this device; empty if it can.
 std::string missing_ability(const vk::raii::PhysicalDevice& physical) {
   if (physical.getProperties().apiVersion < VK_API_VERSION_1_3) {
     return "its driver is older than Vulkan 1.3";
@@ -141,7 +141,7 @@ core::Result<std::unique_ptr<vk::raii::Context>> open_loader() {
   }
 }
 
-// EnumeratePhysicalDevices fails or finds nothing when the loader has no driver.
+// EnumeratePhysicalDevices fails or returns nothing if the loader has no driver.
 core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::raii::Instance& instance) {
   try {
     std::vector<vk::raii::PhysicalDevice> found;
@@ -152,7 +152,7 @@ core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::r
       return found;
     }
   } catch (const vk::SystemError&) {
-    // said by the failure below
+    // reported by the failure below
   }
   return core::failure(core::ErrorCategory::DeviceMissing, std::string("found no Vulkan device: ") + kInstallDriver);
 }
@@ -260,7 +260,7 @@ void Device::create_device(Presentation presentation, DeviceSource* source) {
   const vk::DeviceQueueCreateInfo queue_info{
       .queueFamilyIndex = queue_family_, .queueCount = 1, .pQueuePriorities = &priority};
   vk::PhysicalDevicePresentBarrierFeaturesNV barrier{.presentBarrier = VK_TRUE};
-  // maintenance4: SPIR-V 1.6 gives a compute shader's size as the feature allows
+  // maintenance4: SPIR-V 1.6 declares a compute shader's size in the form that needs this feature
   vk::PhysicalDeviceVulkan13Features features13{.pNext = present_barrier_ ? &barrier : nullptr,
                                                 .synchronization2 = VK_TRUE,
                                                 .dynamicRendering = VK_TRUE,
@@ -327,7 +327,7 @@ void Device::wait_idle() const noexcept {
   try {
     finish_all();
   } catch (const vk::SystemError&) {
-    // lost, or without memory: said by whatever needs the device next
+    // a lost device or lack of memory is reported by the next call that needs the device
   }
 }
 
@@ -352,7 +352,7 @@ void Device::run_once(const std::function<void(const vk::raii::CommandBuffer&)>&
 
 namespace {
 
-// `wait` takes a time limit.
+// `wait` takes a timeout.
 template <class Wait>
 void wait_in_turns(const Device& device, Wait&& wait, const std::function<void()>& meanwhile) {
   for (std::uint64_t turn = 0; turn <= Device::kLongestWorkNs / Device::kTurnNs; ++turn) {

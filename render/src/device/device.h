@@ -15,7 +15,7 @@
 
 namespace afm::render {
 
-// Collects what the validation layer says; the layer may call from any thread.
+// Collects the messages of the validation layer, which may call from any thread.
 class MessageSink {
  public:
   void add(std::string message);
@@ -26,7 +26,7 @@ class MessageSink {
   std::vector<std::string> messages_;
 };
 
-// The steps that Device::open() and list_devices() share; DeviceMissing with what to install.
+// Steps shared by Device::open() and list_devices(); DeviceMissing says what to install.
 core::Result<std::unique_ptr<vk::raii::Context>> open_loader();
 core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader, Validation validation,
                                                  Presentation presentation, MessageSink& sink,
@@ -34,10 +34,10 @@ core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader
 core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::raii::Instance& instance);
 DeviceDescription describe(const vk::raii::PhysicalDevice& physical);
 
-// Implementation of Context: the Vulkan objects that every part of the renderer needs.
+// Implementation of Context: the Vulkan objects shared by all parts of the renderer.
 class Device {
  public:
-  // `source`: what makes instance and device instead of the Vulkan loader; may be null.
+  // `source` creates instance and device in place of the Vulkan loader; may be null.
   static core::Result<std::unique_ptr<Device>> open(Validation validation, Presentation presentation,
                                                     DeviceSource* source = nullptr);
 
@@ -53,32 +53,32 @@ class Device {
   // True if both eyes can be drawn in one pass.
   bool multiview() const { return multiview_; }
 
-  // True if surfaces may offer to change their pictures together with other machines': VK_NV_present_barrier.
+  // True if surfaces may offer VK_NV_present_barrier, which changes their pictures in step with other machines.
   bool present_barrier() const { return present_barrier_; }
 
-  // Mesa 22.3's lavapipe draws a triangle that is clipped into the first view of a multiview pass alone.
+  // True for Mesa 22.3's lavapipe, which draws a clipped triangle into only the first view of a multiview pass.
   bool clips_first_view_only() const { return clips_first_view_only_; }
 
-  // Before what the device may still use is destroyed. A lost device uses nothing.
+  // Call before destroying resources that the device may still use. Returns at once if the device is lost.
   void wait_idle() const noexcept;
-  void finish_all() const;  // the same; throws vk::SystemError
+  void finish_all() const;  // same, but throws vk::SystemError
 
   std::uint64_t largest_heap_bytes() const;
 
-  // Until the device has done it. Throws vk::SystemError; ends the process if it takes longer than kLongestWork: a
-  // device that hangs cannot even be closed.
-  static constexpr std::uint64_t kLongestWorkNs = 120'000'000'000;  // a driver of a GPU gives up after some 10 s
-  // `meanwhile` is called every kTurnNs.
+  // Waits until the device has finished. Throws vk::SystemError; ends the process if it takes longer than
+  // kLongestWorkNs, because a hanging device cannot even be closed.
+  static constexpr std::uint64_t kLongestWorkNs = 120'000'000'000;  // GPU drivers give up after about 10 s
+  // Interval between calls of `meanwhile`.
   static constexpr std::uint64_t kTurnNs = 5'000'000;
   void wait_for(const vk::raii::Fence& fence, const std::function<void()>& meanwhile = [] {}) const;
   void wait_for(
       const vk::raii::Semaphore& timeline, std::uint64_t value, const std::function<void()>& meanwhile = [] {}) const;
   [[noreturn]] void give_up() const;
 
-  // Records with `record`, submits and waits: for uploads at start and for reading back.
+  // Records with `record`, submits and waits; used for uploads at start and for readback.
   void run_once(const std::function<void(const vk::raii::CommandBuffer&)>& record) const;
 
-  // The name shows in validation messages and captures.
+  // Names an object in validation messages and captures.
   template <class Object>
   void set_name(const Object& object, const std::string& name) const {
     if (!naming_) {

@@ -9,10 +9,10 @@
 
 namespace afm::render {
 
-// Message for a Vulkan failure, one line. `doing`: "drawing a frame".
+// One-line message for a Vulkan failure. `doing` is an activity: "drawing a frame".
 std::string describe_error(const vk::SystemError& error, const Device& device, const std::string& doing);
 
-// Does `work`; a failure of Vulkan leaves as a DeviceFailure.
+// Runs `work` and turns a Vulkan failure into a DeviceFailure.
 template <class Work>
 auto rethrow_as_device_failure(const Device& device, const char* doing, Work&& work) {
   try {

@@ -5,8 +5,8 @@
 
 namespace afm::render {
 
-// Makes instance and device where another library must: a headset's runtime adds what it needs to what the renderer
-// asks for, and names the device that the headset is plugged into. Throws vk::SystemError as Vulkan does.
+// Creates instance and device where another library must do it: a headset's runtime adds its own requirements to the
+// renderer's, and chooses the device that the headset is plugged into. Throws vk::SystemError like Vulkan.
 class DeviceSource {
  public:
   virtual ~DeviceSource() = default;

@@ -6,7 +6,7 @@
 namespace afm::render {
 
 double eye_memory_bytes(glm::uvec2 eye_px, std::uint32_t samples) {
-  // drawn with many samples, and resolved
+  // multisampled and resolved images
   const double images = 2.0 * (4.0 + 4.0) * (samples > 1 ? 1.0 + samples : 1.0);
   return images * static_cast<double>(eye_px.x) * static_cast<double>(eye_px.y);
 }

@@ -15,7 +15,7 @@ namespace afm::render {
 
 namespace {
 
-// So far away that it shades nothing; its square is still a number.
+// Contact too far away to shade anything; the square of its distance is still finite.
 constexpr glm::vec4 kNoContact(1e18F, 0.0F, 0.0F, 1.0F);
 
 void write_contact(const ContactMark& mark, FrameBlock& block) {
@@ -33,7 +33,7 @@ void write_fog(const Fog& fog, FrameBlock& block) {
   block.fog_axis = glm::vec4(glm::vec3(fog.away), static_cast<float>(-glm::dot(fog.away, fog.origin_m)));
 }
 
-// The direction in the room of a place on an eye's image, in clip coordinates; as far as the near plane.
+// Direction in the room of a point on an eye's image, given in clip coordinates; ends on the near plane.
 glm::dvec3 seen_at(const scene::EyeView& eye, double x, double y) {
   const glm::dvec4 place = glm::inverse(eye.projection) * glm::dvec4(x, y, 1.0, 1.0);
   return glm::transpose(glm::dmat3(eye.view)) * (glm::dvec3(place) / place.w);
@@ -58,8 +58,8 @@ glm::mat4 shadow_from_room(const KeyLight& light) {
   const auto radius = static_cast<double>(light.shadow_radius_m);
   const glm::dvec3 center(light.shadow_center_m);
 
-  // rows of the matrix: x and y span -1..1 across the sphere, z 0..1 along the light; y down, as in the eyes, or the
-  // light would see backs for fronts
+  // rows of the matrix: x and y span -1..1 across the sphere, z 0..1 along the light. y points down, as in the eyes;
+  // otherwise the light would mistake back faces for front faces
   const glm::dvec3 rows[3]{right / radius, -up / radius, -to_light / (2.0 * radius)};
   glm::dmat4 m(1.0);
   for (glm::length_t row = 0; row < 3; ++row) {
@@ -73,7 +73,7 @@ glm::mat4 shadow_from_room(const KeyLight& light) {
 
 namespace {
 
-// KHR_lights_punctual, "Angular attenuation": the cosine to the cone's axis is scaled and shifted to 0..1.
+// KHR_lights_punctual, "Angular attenuation": scales and shifts the cosine of the angle to the cone's axis to 0..1.
 glm::vec4 cone_of(const scene::PunctualLight& light) {
   if (light.kind != scene::PunctualLight::Kind::Spot) {
     return {0.0F, 1.0F, 0.0F, 0.0F};
@@ -130,7 +130,7 @@ FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, cons
 glm::dmat3 normal_matrix(const glm::dmat4& room_from_node) {
   const glm::dmat3 linear(room_from_node);
 
-  // the cofactor matrix is the inverse transpose up to the determinant's size, and exists for flattened nodes too
+  // the cofactor matrix is the inverse transpose up to the size of the determinant, and exists for flattened nodes too
   glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                       glm::cross(linear[0], linear[1]));
   const double longest = std::max({glm::length(cofactor[0]), glm::length(cofactor[1]), glm::length(cofactor[2])});
@@ -149,7 +149,7 @@ void mark_highlighted(const FrameState& frame, const SceneGeometry& geometry, st
     glowing[node] = 1;
   }
 
-  // parents stand before their children
+  // parents come before their children
   for (std::size_t node = 0; node < parents.size(); ++node) {
     if (parents[node] && glowing[*parents[node]] != 0) {
       glowing[node] = 1;

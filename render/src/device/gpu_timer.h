@@ -11,14 +11,14 @@ class GpuTimer {
  public:
   explicit GpuTimer(const Device& device);
 
-  // In the order in which a frame reaches them; two each only where panels are painted, the shadow map is drawn, the
-  // eyes are.
+  // Marks in the order of a frame. A pair is set only if panels are painted, the shadow map is drawn or the eyes are
+  // drawn.
   enum class Mark : std::uint32_t { PanelsBegin, PanelsEnd, ShadowBegin, ShadowEnd, EyesBegin, EyesEnd };
 
-  // Outside any rendering.
+  // Must be called outside any rendering.
   void mark(const vk::raii::CommandBuffer& command, Mark mark) const;
 
-  // Of a frame that is finished.
+  // Times of a finished frame.
   PassTimes times(bool panels_painted, bool shadow_drawn, bool eyes_drawn) const;
 
  private:

@@ -12,7 +12,7 @@ namespace {
 constexpr vk::MemoryPropertyFlags kHostMemory =
     vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
 
-// Host-visible memory is mapped.
+// Maps host-visible memory.
 Buffer create_buffer(const Device& device, const std::string& name, vk::DeviceSize size, vk::BufferUsageFlags usage,
                      vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags useful = {}) {
   Buffer result;

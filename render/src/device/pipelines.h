@@ -12,8 +12,8 @@ namespace afm::render {
 enum class Blending { Opaque, Premultiplied };
 enum class DepthUse { None, TestAndWrite, TestOnly };
 
-// Parameters that distinguish the renderer's graphics pipelines; everything else is the same for all. Viewport,
-// scissor, cull mode and front face are dynamic.
+// Parameters that differ between the renderer's graphics pipelines. Viewport, scissor, cull mode and front face are
+// dynamic.
 struct PipelineRequest {
   std::string name;
   std::span<const std::uint32_t> vertex_code{};
@@ -29,7 +29,7 @@ struct PipelineRequest {
   Blending blending = Blending::Opaque;
   DepthUse depth = DepthUse::None;
   vk::CompareOp depth_compare = vk::CompareOp::eGreater;  // reversed depth
-  std::uint32_t variant = 0;                              // the fragment shader's specialisation constant 0
+  std::uint32_t variant = 0;                              // specialisation constant 0 of the fragment shader
 };
 
 vk::raii::Pipeline create_pipeline(const Device& device, const PipelineRequest& request);
@@ -42,7 +42,8 @@ struct LayoutRequest {
 
 vk::raii::PipelineLayout create_pipeline_layout(const Device& device, const LayoutRequest& request);
 
-// Scissor over the whole target, and a viewport `guard_band` times as large about the same middle; culling off.
+// Sets the scissor to the whole target, and a viewport `guard_band` times as large with the same centre; disables
+// culling.
 void set_viewport(const vk::raii::CommandBuffer& command, vk::Extent2D extent, float guard_band = 1.0F);
 
 }  // namespace afm::render

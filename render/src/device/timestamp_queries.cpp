@@ -9,7 +9,8 @@ bool TimestampQueries::works_on(const Device& device) {
   return device.physical().getQueueFamilyProperties()[device.queue_family()].timestampValidBits > 0;
 }
 
-// One query more than there are marks: lavapipe 25.0 (Debian 13) writes one beyond the end of a pool's memory.
+// Allocates one query more than there are marks: lavapipe 25.0 (Debian 13) writes one beyond the end of a pool's
+// memory.
 TimestampQueries::TimestampQueries(const Device& device, std::uint32_t marks)
     : ms_per_tick_(1e-6 * static_cast<double>(device.physical().getProperties().limits.timestampPeriod)),
       queries_(*device, vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp, .queryCount = marks + 1}) {}

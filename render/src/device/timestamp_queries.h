@@ -5,20 +5,20 @@
 
 namespace afm::render {
 
-// Moments at which the device reached places in commands, by its own clock.
+// Times at which the device reached marks in the commands, by its own clock.
 class TimestampQueries {
  public:
   static bool works_on(const Device& device);
 
   TimestampQueries(const Device& device, std::uint32_t marks);
 
-  // Forgets the marks of an earlier frame, before they are set again. Outside any rendering.
+  // Resets the marks of an earlier frame before they are set again. Call outside any rendering.
   void reset(const vk::raii::CommandBuffer& command, std::uint32_t first, std::uint32_t count) const;
 
-  // Set once all commands before it are done. Outside any rendering.
+  // Sets a mark once all earlier commands are done. Call outside any rendering.
   void mark(const vk::raii::CommandBuffer& command, std::uint32_t mark) const;
 
-  // Of commands that are done and set both.
+  // Time between two marks, both set by commands that are done.
   double between_ms(std::uint32_t begin, std::uint32_t end) const;
 
  private:

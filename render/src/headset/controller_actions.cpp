@@ -18,7 +18,7 @@ constexpr float kPulseStrength = 0.8F;
 
 struct ActionRow {
   const char* name;
-  const char* words;  // which runtimes show where a user changes bindings
+  const char* words;  // shown by some runtimes where the user changes bindings
   XrActionType type;
 };
 constexpr std::array<ActionRow, 7> kControllerActions{{{"aim", "Point", XR_ACTION_TYPE_POSE_INPUT},
@@ -29,8 +29,8 @@ constexpr std::array<ActionRow, 7> kControllerActions{{{"aim", "Point", XR_ACTIO
                                                        {"fly", "Fly", XR_ACTION_TYPE_VECTOR2F_INPUT},
                                                        {"pulse", "Jump of the tip", XR_ACTION_TYPE_VIBRATION_OUTPUT}}};
 
-// Inputs of a controller for the actions of kControllerActions; null: it has none. "x|a" is the left hand's and the
-// right hand's.
+// Inputs of a controller for the actions of kControllerActions; null if it has none. "x|a" means x on the left hand and
+// a on the right.
 struct ProfileRow {
   const char* profile;
   std::array<const char*, kControllerActions.size()> inputs;
@@ -120,7 +120,7 @@ void ControllerActions::suggest() const {
         .countSuggestedBindings = static_cast<std::uint32_t>(bindings.size()),
         .suggestedBindings = bindings.data()};
     const XrResult result = calls_.SuggestInteractionProfileBindings(calls_.handle(), &suggested);
-    // a runtime need not know a controller
+    // a runtime does not have to know every controller
     if (result != XR_ERROR_PATH_UNSUPPORTED) check_openxr(result, "xrSuggestInteractionProfileBindings");
   }
 }
@@ -141,7 +141,7 @@ HeadsetController ControllerActions::read(XrSpace base, XrTime time, const scene
   check_openxr(synced, "xrSyncActions");
   if (synced == XR_SESSION_NOT_FOCUSED) return {};
 
-  // the hand that presses is the one that points; until another presses, it stays so
+  // the hand that pressed last points, until the other one presses
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
     if (!pressed(Select, hand_) && (pressed(Select, hand) || pressed(Grab, hand))) hand_ = hand;
   }

@@ -9,21 +9,22 @@
 
 namespace afm::render {
 
-// The controllers of a headset as OpenXR's actions, one set for both hands. The hand that pressed something last is the
-// one that points. Turn-On is none of them: it stays on the device that holds the hand.
+// A headset's controllers as OpenXR actions, one set for both hands. The hand that pressed an input last is the one
+// that points. Turn-On is not among them: it stays on the haptic device that holds the hand.
 class ControllerActions {
  public:
-  // Suggests bindings for every controller that the specification's core knows; the runtime lets its user change them.
+  // Suggests bindings for every controller in the core specification; the runtime lets its user change them.
   ControllerActions(const OpenXrInstance& calls, XrSession session);
 
-  // In a session that has the input; the place is that of the time of a frame, in `base` and from there in the room.
+  // Reads the controllers in a session with input focus. The pose is predicted for the time of a frame, in `base`, and
+  // transformed to the room.
   HeadsetController read(XrSpace base, XrTime time, const scene::HeadPose& room_from_base);
 
-  // A push of the hand that points.
+  // Vibrates the controller that points.
   void pulse() const;
 
  private:
-  // In the order of kControllerActions in the source.
+  // Actions in the order of kControllerActions in the source.
   enum Which : std::size_t { Aim, Select, Grab, Scale, Home, Fly, Pulse, kCount };
 
   XrAction create(Which which) const;
@@ -36,7 +37,7 @@ class ControllerActions {
   std::array<XrPath, 2> hands_{};
   std::array<XrAction, kCount> actions_{};
   std::array<XrSpace, 2> aims_{};
-  std::size_t hand_ = 1;  // most people's
+  std::size_t hand_ = 1;  // right, the more common one
 };
 
 }  // namespace afm::render

@@ -10,7 +10,7 @@
 namespace afm::render {
 namespace {
 
-// A runtime takes the values of formats without sRGB for linear light.
+// Runtimes interpret formats without sRGB as linear light.
 constexpr std::array kHeadsetFormats{HeadsetFormat{vk::Format::eB8G8R8A8Srgb, "B8G8R8A8 sRGB", false},
                                      HeadsetFormat{vk::Format::eR8G8B8A8Srgb, "R8G8B8A8 sRGB", true}};
 
@@ -74,7 +74,7 @@ bool PictureChain::wait_once(XrDuration most_ns) {
   if (!acquired_) {
     const XrSwapchainImageAcquireInfo info{.type = XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO, .next = nullptr};
     check_openxr(calls_.AcquireSwapchainImage(chain_, &info, &index_), "xrAcquireSwapchainImage");
-    // an index beyond the list is the runtime's fault, which must not become ours
+    // an index beyond the list is the runtime's error and must not become ours
     if (index_ >= images_.size()) throw OpenXrFailure(XR_ERROR_RUNTIME_FAILURE, "xrAcquireSwapchainImage");
     acquired_ = true;
   }
@@ -193,8 +193,8 @@ void EyeSwapchains::record(const vk::raii::CommandBuffer& command, const EyeTarg
   if (has_depth_) record_depth(command, eyes);
 }
 
-// Blitting changes the order of the bytes between formats without sRGB and copying keeps them: together the runtime's
-// image holds the values of ours.
+// Blits and then copies. A blit changes the byte order between formats without sRGB, and a copy keeps the bytes: the
+// runtime's image ends up with our values.
 void EyeSwapchains::record_reordered(const vk::raii::CommandBuffer& command, const EyeTargets& eyes) const {
   const vk::Extent2D extent = eyes.drawing().extent;
   const std::array<vk::Offset3D, 2> corners{

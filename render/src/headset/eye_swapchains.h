@@ -11,34 +11,35 @@
 
 namespace afm::render {
 
-// A way in which the runtime takes pictures with the bytes of ours: the eyes' images hold sRGB values.
+// Picture format of the runtime that can hold our bytes: the eyes' images contain sRGB values.
 struct HeadsetFormat {
   vk::Format format;
   const char* name;
-  bool other_order;  // of red and blue than the eyes' images
+  bool other_order;  // red and blue swapped against the eyes' images
 };
 
-// The first of the formats that we can fill which the runtime offers; nothing if it offers none of them.
+// The runtime's first format that we can fill; nothing if it offers none.
 std::optional<HeadsetFormat> choose_headset_format(const std::vector<std::int64_t>& offered);
 
-// What the runtime does with an image between two of our frames is its own; it gets and gives it as an attachment.
+// State in which the runtime hands over its images and gets them back: as an attachment. Its own use of them between
+// two of our frames is unknown.
 inline constexpr ImageUse kRuntimes{vk::PipelineStageFlagBits2::eAllCommands,
                                     vk::AccessFlagBits2::eMemoryRead | vk::AccessFlagBits2::eMemoryWrite,
                                     vk::ImageLayout::eColorAttachmentOptimal};
 inline constexpr ImageUse kRuntimesDepth{kRuntimes.stages, kRuntimes.access,
                                          vk::ImageLayout::eDepthStencilAttachmentOptimal};
 
-// Images of the runtime of which one at a time is filled.
+// Images of the runtime; one at a time is being filled.
 class PictureChain {
  public:
   // Throws OpenXrFailure.
   PictureChain(const OpenXrInstance& calls, XrSession session, vk::Format format, vk::Extent2D extent,
                std::uint32_t layers);
 
-  // Takes the image that is filled next, unless one is already taken. False: the runtime has lent none for 250 ms, as
-  // long as a hand may be held without a picture.
+  // Acquires the image that is filled next, unless one is already acquired. Returns false if the runtime provides none
+  // for 250 ms, the longest time a hand may be held without a picture.
   bool take(const std::function<void()>& while_waiting);
-  // The same without waiting.
+  // Same without waiting.
   bool take_if_lent() { return taken_ || wait_once(0); }
   void give_back();
 
@@ -56,24 +57,23 @@ class PictureChain {
   bool acquired_ = false, taken_ = false;
 };
 
-// The pictures of both eyes for the runtime: one chain of images with two layers, or, where it refuses that, one for
-// each eye. The eyes are drawn and resolved as for a wall, then copied; likewise their depth, where the runtime takes
-// it.
+// Pictures of both eyes for the runtime: one chain of images with two layers or, if the runtime refuses that, one chain
+// per eye. The eyes are drawn and resolved as for a wall, then copied, as is their depth if the runtime accepts it.
 class EyeSwapchains {
  public:
   enum class Depth { None, Shown };
   EyeSwapchains(const OpenXrInstance& calls, XrSession session, const Device& device, HeadsetFormat format,
                 vk::Extent2D extent, Depth depth);
 
-  // False if the runtime lends no image for the colours; where it lends none for the depth, the frame goes without.
+  // Returns false if the runtime provides no colour image. Without a depth image the frame is shown without depth.
   bool take(const std::function<void()>& while_waiting);
-  // Copies the newest eyes into the taken images.
+  // Copies the newest eyes into the acquired images.
   void record(const vk::raii::CommandBuffer& command, const EyeTargets& eyes) const;
   void give_back();
 
   XrSwapchainSubImage sub_image(scene::Eye eye, vk::Extent2D drawn) const { return color_.sub_image(eye, drawn); }
 
-  // Of the frame that was given back last; reversed infinite: 1 at scene::kNearM, 0 infinitely far away.
+  // Depth of the last released frame, reversed infinite: 1 at scene::kNearM, 0 infinitely far away.
   std::optional<XrCompositionLayerDepthInfoKHR> depth(scene::Eye eye, vk::Extent2D drawn) const;
 
  private:
@@ -81,7 +81,7 @@ class EyeSwapchains {
     vk::Image image;
     std::uint32_t layer = 0;
   };
-  // Of two layers, or two.
+  // One chain with two layers, or two chains.
   struct Chains {
     std::vector<PictureChain> chains;
     Place place(scene::Eye eye) const;
@@ -92,9 +92,9 @@ class EyeSwapchains {
   void record_reordered(const vk::raii::CommandBuffer& command, const EyeTargets& eyes) const;
 
   HeadsetFormat format_;
-  Chains color_, depth_;    // the latter empty where none is shown
-  bool has_depth_ = false;  // this frame
-  DeviceImage reordered_;   // with the runtime's order of the bytes, where that differs
+  Chains color_, depth_;    // `depth_` empty if the runtime accepts no depth
+  bool has_depth_ = false;  // valid for this frame
+  DeviceImage reordered_;   // in the runtime's byte order, if that differs
 };
 
 }  // namespace afm::render

@@ -7,19 +7,19 @@
 
 namespace afm::render {
 
-// The frame with its origin on the floor below the wearer, who looks along -z when the session begins or the headset is
-// recentred: the runtime's, where it has one; else its frame at eye level, lowered by its height above the floor of the
-// play area; else by that of a standing person's eyes.
+// Reference frame with its origin on the floor below the wearer, who looks along -z when the session begins or the
+// headset is recentred. Uses the runtime's floor frame if there is one. Otherwise it lowers the frame at eye level by
+// its height above the floor of the play area or, failing that, by the eye height of a standing person.
 class FloorSpace {
  public:
-  // `local_floor`: the instance has XR_EXT_local_floor.
+  // `local_floor` is true if the instance has XR_EXT_local_floor.
   FloorSpace(const OpenXrInstance& calls, XrSession session, bool local_floor);
 
-  // At a frame's time. Measures the floor at the first frame and after a recentring.
+  // The frame at the time of a video frame. Measures the floor at the first call and after recentring.
   XrSpace at(XrTime time);
   void recentered() { measured_ = false; }
 
-  // How the floor was found, in words.
+  // Description of how the floor was found.
   const std::string& source() const { return source_; }
 
   static constexpr float kStandingEyesM = 1.65F;

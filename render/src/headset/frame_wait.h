@@ -11,14 +11,14 @@
 
 namespace afm::render {
 
-// Waits for the runtime's next frame on a separate thread, which the runtime may keep waiting for as long as it likes.
-// Used by one other thread, which begins one wait at a time.
+// Waits for the runtime's next frame on a separate thread, because the runtime may block it indefinitely. Used by one
+// other thread, which begins one wait at a time.
 class FrameWait {
  public:
   FrameWait(PFN_xrWaitFrame wait, XrSession session) : call_(wait), session_(session), thread_([this] { run(); }) {}
   FrameWait(const FrameWait&) = delete;
   FrameWait& operator=(const FrameWait&) = delete;
-  // Waits for a wait that is under way.
+  // Blocks until a running wait ends.
   ~FrameWait();
 
   void begin();
@@ -28,7 +28,7 @@ class FrameWait {
     XrResult result = XR_SUCCESS;
     XrFrameState frame{};
   };
-  // The answer to begin(), if it comes within `patience`.
+  // Result of the wait begun last, if it ends within `patience`.
   std::optional<Answer> answer_within(std::chrono::milliseconds patience);
 
  private:
@@ -36,12 +36,12 @@ class FrameWait {
 
   PFN_xrWaitFrame call_;
   XrSession session_;
-  bool under_way_ = false;  // as begin()'s thread knows it
+  bool under_way_ = false;  // used only by the thread that calls begin()
   std::mutex changing_;
   std::condition_variable changed_;
   bool asked_ = false, ending_ = false;
   std::optional<Answer> answer_;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // last member: it uses all the others
 };
 
 }  // namespace afm::render

@@ -18,7 +18,7 @@ struct Headset::Parts {
   scene::HeadPose room_from_floor;
   const core::Clock& clock;
   std::vector<std::string> messages;
-  std::unique_ptr<HeadsetSession> session;  // none while the headset is lost
+  std::unique_ptr<HeadsetSession> session;  // null while the headset is lost
   Turn turn = Turn::Off;
   std::int64_t looked_ns = 0;
   std::string said_missing;
@@ -64,11 +64,11 @@ void Headset::Parts::look_again() {
   looked_ns = clock.now_ns();
   if (found) return;
   runtime.close();
-  // the same again and again is said once
+  // a repeated message is logged once
   if (std::exchange(said_missing, found.error().message) != found.error().message) messages.push_back(said_missing);
 }
 
-// Whatever the runtime refuses, another session may get: none is mended.
+// Runs `call`. After a failure the session is dropped rather than repaired: another session may succeed.
 template <class Call>
 void Headset::Parts::follow_loss(Call&& call) {
   try {
@@ -124,7 +124,7 @@ std::optional<std::int64_t> Headset::pose_age_ns() const { return parts_->pose_a
 
 const HeadsetController& Headset::controller() const {
   static const HeadsetController kNone;
-  // no button stays pressed where no frame came in which it could have been released
+  // no button stays pressed without a frame that could have reported its release
   const bool known = parts_->turn == Turn::Hidden || parts_->turn == Turn::Frame;
   return parts_->session && known ? parts_->session->controller() : kNone;
 }

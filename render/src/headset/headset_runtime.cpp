@@ -19,12 +19,12 @@ constexpr const char* kInstallRuntime =
     "it";
 constexpr std::uint32_t kLargestEyePx = 8192;
 
-// As vk::raii does for its own calls.
+// Throws like vk::raii does for its own calls.
 void check_vulkan(VkResult result, const char* call) {
   if (result != VK_SUCCESS) throw vk::SystemError(vk::make_error_code(static_cast<vk::Result>(result)), call);
 }
 
-// What the runtime refuses on its own side.
+// Throws if the runtime itself refused a call.
 void check_made(XrResult result, const char* call) {
   if (XR_FAILED(result)) {
     throw vk::SystemError(vk::make_error_code(vk::Result::eErrorInitializationFailed),
@@ -32,7 +32,7 @@ void check_made(XrResult result, const char* call) {
   }
 }
 
-// What a runtime says for people may be anything.
+// Text from a runtime, which may contain anything.
 template <std::size_t kSize>
 std::string words_of(const char (&said)[kSize]) {
   return core::printable({said, ::strnlen(said, kSize)});

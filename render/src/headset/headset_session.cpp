@@ -15,15 +15,15 @@ namespace afm::render {
 namespace {
 
 constexpr std::chrono::milliseconds kTurnOfFrameWait{5};
-constexpr std::chrono::seconds kLastWait{2};  // for a runtime that keeps a frame at the end of the program
+constexpr std::chrono::seconds kLastWait{2};  // time allowed at exit for a runtime that holds back a frame
 constexpr std::int64_t kLongFrozenNs = 10'000'000'000;
 constexpr int kMostEventsATurn = 100;
-constexpr double kUnusedFarM = 100.0;  // of a projection without a far plane
+constexpr double kUnusedFarM = 100.0;  // far plane reported for a projection without one
 
 struct StateRow {
   XrSessionState state;
   SessionEvent event;
-  const char* messages;  // null: of no interest to people
+  const char* messages;  // null: not worth a message
 };
 constexpr std::array<StateRow, 8> kStates{
     {{XR_SESSION_STATE_IDLE, SessionEvent::BecameIdle, "headset: not worn"},
@@ -68,7 +68,7 @@ HeadsetSession::~HeadsetSession() {
     core::end_at_once(core::ExitCode::RunFailed,
                       "error: the headset's runtime keeps a frame that the program waits for: restart the runtime");
   }
-  // the runtime's images are filled by what may still be under way
+  // pending commands may still fill the runtime's images
   device_.wait_idle();
 }
 
@@ -122,7 +122,7 @@ void HeadsetSession::follow_state(XrSessionState state) {
 }
 
 void HeadsetSession::begin_session() {
-  // the last one may not have ended yet: its frame is still waited for
+  // a frame may still be waited for
   if (ending_ && !wait_->under_way()) end_session();
   const XrSessionBeginInfo info{.type = XR_TYPE_SESSION_BEGIN_INFO,
                                 .next = nullptr,
@@ -179,7 +179,7 @@ Headset::Turn HeadsetSession::next_turn(const core::Clock& clock, const std::fun
   return seen ? Headset::Turn::Frame : Headset::Turn::Hidden;
 }
 
-// A session can be ended, and another headset looked for, only once the runtime has answered.
+// Logs the freeze. The session can be ended, and another headset looked for, only after the runtime responds.
 void HeadsetSession::say_frozen(std::int64_t since_ns) {
   if (since_ns < kLongFrozenNs || std::exchange(said_frozen_, true)) return;
   messages_.emplace_back("headset: frozen for 10 s, and no other is looked for before its runtime answers: restart it");
@@ -229,7 +229,7 @@ std::optional<std::array<HeadsetEye, 2>> HeadsetSession::locate_eyes(const std::
   return eyes;
 }
 
-// Whatever showing a picture may wait for; false if the runtime lends no image for it.
+// Does all the waiting that showing a picture needs; false if the runtime provides no image for it.
 bool HeadsetSession::get_ready_to_copy(const std::function<void()>& while_waiting) {
   if (!pictures_.take(while_waiting)) return false;
   device_.wait_for(copying_[copied_ % copying_.size()].done, while_waiting);

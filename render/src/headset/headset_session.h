@@ -17,8 +17,8 @@
 
 namespace afm::render {
 
-// One session with the runtime, from its first state to its last. Every call throws OpenXrFailure when session or
-// runtime are gone, after which it can only be destroyed.
+// One session with the runtime, from its first state to its last. Every call throws OpenXrFailure if the session or the
+// runtime is lost; the session can then only be destroyed.
 class HeadsetSession {
  public:
   HeadsetSession(HeadsetRuntimeParts& runtime, const Device& device, const EyeTargets& eyes, const Panels& panels,
@@ -32,14 +32,14 @@ class HeadsetSession {
   bool show();
   std::size_t most_panels() const { return quads_.most(); }
 
-  // Over, and nothing of it is under way: it can be destroyed without waiting.
+  // True once the session has ended and no wait is running: it can be destroyed without blocking.
   bool over() const { return states_.phase() == SessionPhase::Over && !wait_->under_way(); }
   void lost() { states_.take(SessionEvent::WasLost); }
   const HeadsetController& controller() const { return controller_; }
   void pulse();
 
  private:
-  // What copies one frame.
+  // Resources for copying one frame.
   struct Copying {
     vk::raii::CommandBuffer commands{nullptr};
     vk::raii::Fence done{nullptr};
@@ -74,13 +74,13 @@ class HeadsetSession {
   PanelQuads quads_;
   vk::raii::CommandPool pool_;
   std::array<Copying, 2> copying_;
-  std::size_t copied_ = 0;         // frames
-  std::optional<FrameWait> wait_;  // never without, once it is made
+  std::size_t copied_ = 0;         // number of frames copied
+  std::optional<FrameWait> wait_;  // always set after construction
   std::int64_t wait_began_ns_ = 0;
-  std::optional<XrFrameState> frame_;  // begun, and to be ended
-  std::array<XrView, 2> views_{};      // as they were located last
+  std::optional<XrFrameState> frame_;  // frame that has begun and must be ended
+  std::array<XrView, 2> views_{};      // as located last
   bool located_ = false;
-  bool ending_ = false;  // the runtime wants the session's end, once its last frame is
+  bool ending_ = false;  // the runtime wants the session to end after its last frame
   bool said_floor_ = false, said_frozen_ = false;
   HeadsetController controller_;
 };

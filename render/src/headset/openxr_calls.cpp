@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kLoader = "libopenxr_loader.so.1";
 
-// Found once and never closed: a runtime's threads may run in it until the end.
+// Opens the loader once and never closes it: a runtime's threads may run in it until the process ends.
 PFN_xrGetInstanceProcAddr find_openxr_loader() {
   static void* const library = ::dlopen(kLoader, RTLD_NOW | RTLD_LOCAL);
   return library == nullptr ? nullptr
@@ -77,7 +77,7 @@ core::Result<void> OpenXrInstance::open(const std::vector<const char*>& required
     enabled.insert(enabled.end(), optional.begin(), optional.end());
     auto info = openxr_struct<XrInstanceCreateInfo>(XR_TYPE_INSTANCE_CREATE_INFO);
     std::strncpy(info.applicationInfo.applicationName, "touchafm", XR_MAX_APPLICATION_NAME_SIZE - 1);
-    // a runtime of 1.0 refuses the 1.1 of newer headers
+    // a 1.0 runtime rejects the version 1.1 of newer headers
     info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
     info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
     info.enabledExtensionNames = enabled.data();

@@ -54,14 +54,14 @@ namespace afm::render {
   CALL(WaitFrame)                         \
   CALL(WaitSwapchainImage)
 
-// A call of the runtime that failed.
+// Failed call of the runtime.
 class OpenXrFailure : public std::runtime_error {
  public:
   OpenXrFailure(XrResult the_result, const char* call);
   XrResult result;
 };
 
-// Session or runtime are gone.
+// True if the session or the runtime is lost.
 bool is_loss(const OpenXrFailure& failure);
 
 // Throws OpenXrFailure for an error.
@@ -70,7 +70,7 @@ void check_openxr(XrResult result, const char* call);
 // "XR_ERROR_RUNTIME_UNAVAILABLE"
 std::string name_of(XrResult result);
 
-// A structure of OpenXR with nothing but its type.
+// OpenXR structure with only its type set.
 template <class Struct>
 Struct openxr_struct(XrStructureType type) {
   Struct made{};
@@ -78,9 +78,9 @@ Struct openxr_struct(XrStructureType type) {
   return made;
 }
 
-inline constexpr std::uint32_t kMostOpenXrItems = 10'000;  // that a runtime may list
+inline constexpr std::uint32_t kMostOpenXrItems = 10'000;  // limit on the length of a runtime's list
 
-// Asks a call of the runtime twice, for the length of a list and for the list. `ask(capacity, count, list)`.
+// Calls `ask(capacity, count, list)` twice: for the length of a list, then for its items.
 template <class Item, class Ask>
 std::vector<Item> openxr_list(const char* call, const Item& empty, Ask&& ask) {
   std::uint32_t count = 0;
@@ -92,8 +92,7 @@ std::vector<Item> openxr_list(const char* call, const Item& empty, Ask&& ask) {
   return items;
 }
 
-// The functions of one instance of the runtime; the instance is destroyed with them, and with it all that was made of
-// it.
+// Functions of one runtime instance. Destroying this destroys the instance and everything created from it.
 class OpenXrInstance {
  public:
   OpenXrInstance() = default;
@@ -101,8 +100,8 @@ class OpenXrInstance {
   OpenXrInstance& operator=(const OpenXrInstance&) = delete;
   ~OpenXrInstance() { close(); }
 
-  // DeviceMissing, without what to do about it: no loader, or a runtime that does not answer. Extensions that the
-  // runtime lacks are left out of `optional`; one that it lacks of `required` is named.
+  // DeviceMissing, without advice: no loader, or a runtime that does not respond. Extensions that the runtime lacks are
+  // removed from `optional`; a missing one of `required` is named in the message.
   core::Result<void> open(const std::vector<const char*>& required, std::vector<const char*>& optional);
   void close();
 
@@ -110,7 +109,7 @@ class OpenXrInstance {
   XrInstance handle() const { return instance_; }
   XrPath path(const char* text) const;
 
-  // A call of an optional extension; null where the instance lacks it.
+  // Function of an optional extension; null if the instance lacks it.
   template <class Function>
   Function find(const char* name) const {
     PFN_xrVoidFunction found = nullptr;

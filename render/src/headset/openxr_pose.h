@@ -11,7 +11,7 @@ namespace afm::render {
 inline constexpr XrPosef kOpenXrOrigin{.orientation = {0, 0, 0, 1}, .position = {0, 0, 0}};
 
 inline bool is_placed(XrFlags64 flags) {
-  // the bits of XrViewStateFlags are the same
+  // XrViewStateFlags has the same bits
   constexpr XrFlags64 kBoth = XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
   return (flags & kBoth) == kBoth;
 }
@@ -31,13 +31,13 @@ inline bool is_pose(const scene::HeadPose& pose) {
          std::abs(glm::length(pose.room_from_head) - 1.0) < 1e-3;
 }
 
-// A pose that is given in a frame whose own pose in the room is `room_from_frame`.
+// Transforms a pose from a frame to the room; `room_from_frame` is the pose of that frame in the room.
 inline scene::HeadPose in_room(const scene::HeadPose& room_from_frame, const scene::HeadPose& pose) {
   return {.position_m = room_from_frame.position_m + room_from_frame.room_from_head * pose.position_m,
           .room_from_head = room_from_frame.room_from_head * pose.room_from_head};
 }
 
-// The reverse: what `pose` of the room is in that frame.
+// Inverse of in_room(): transforms a pose from the room to that frame.
 inline XrPosef from_room(const scene::HeadPose& room_from_frame, const scene::HeadPose& pose) {
   const glm::dquat frame_from_room = glm::conjugate(room_from_frame.room_from_head);
   const glm::vec3 place(frame_from_room * (pose.position_m - room_from_frame.position_m));

@@ -12,8 +12,8 @@
 namespace afm::render {
 namespace {
 
-constexpr auto kQuadFormat = static_cast<std::int64_t>(vk::Format::eR8G8B8A8Srgb);  // has the bytes of kPanelFormat
-constexpr std::uint64_t kFramesInCopy = 3;  // after which the device has copied what a frame copies
+constexpr auto kQuadFormat = static_cast<std::int64_t>(vk::Format::eR8G8B8A8Srgb);  // same bytes as kPanelFormat
+constexpr std::uint64_t kFramesInCopy = 3;  // frames after which the device has finished copying a frame
 
 }  // namespace
 
@@ -54,7 +54,7 @@ void PanelQuads::take(std::vector<ApartPanel> panels) {
     }
   } catch (const OpenXrFailure& failure) {
     if (is_loss(failure)) throw;
-    refused_ = true;  // from the next frame on panels are drawn in the eyes' pictures
+    refused_ = true;  // panels are drawn in the eyes' pictures from the next frame on
   }
 }
 
@@ -88,7 +88,7 @@ const std::vector<XrCompositionLayerQuad>& PanelQuads::layers(XrSpace floor, con
   layers_.clear();
   for (const ApartPanel& panel : panels_) {
     const Shown& shown = shown_[panel.place];
-    if (shown.painting == 0) continue;  // the runtime has lent nothing yet
+    if (shown.painting == 0) continue;  // no image received from the runtime yet
     const PanelPlacement& place = panel.placement;
     const glm::dvec3 right = glm::normalize(place.right_m), up = glm::normalize(place.up_m);
     const scene::HeadPose middle{.position_m = place.lower_left_m + 0.5 * (place.right_m + place.up_m),

@@ -11,32 +11,32 @@
 
 namespace afm::render {
 
-// Panels as layers of their own, which the runtime draws from their textures: as sharp as the headset is, not as the
-// eyes' pictures are. Each has a chain of images, filled again when the panel was painted again.
+// Panels as separate layers that the runtime draws from their textures, at the headset's own resolution instead of that
+// of the eyes' pictures. Each panel has a chain of images, filled again whenever the panel is repainted.
 class PanelQuads {
  public:
-  // `offered`: the runtime's formats. `most_layers`: that it takes in a frame, with the eyes.
+  // `offered` lists the runtime's formats. `most_layers` is its limit per frame, the eyes included.
   PanelQuads(const OpenXrInstance& calls, XrSession session, const std::vector<std::int64_t>& offered,
              std::uint32_t most_layers);
 
-  // How many panels can be shown; 0: none, as the runtime has too few layers, no format with the bytes of the textures,
-  // or has refused their images.
+  // Number of panels that can be shown. 0 if the runtime has too few layers, has no format with the bytes of the
+  // textures, or has refused their images.
   std::size_t most() const { return refused_ ? 0 : most_; }
 
-  // A frame: takes an image for each panel that was painted again; copies the textures; gives the images back. A panel
-  // for which the runtime lends none at once keeps its old picture, which is better than a late frame.
+  // Begins a frame: acquires an image for each repainted panel, copies the textures and releases the images. If the
+  // runtime has no image ready, the panel keeps its old picture, which is better than a late frame.
   void take(std::vector<ApartPanel> panels);
   void record(const vk::raii::CommandBuffer& command) const;
   void give_back();
 
-  // The panels of that frame, in the order in which they cover each other.
+  // Layers of that frame's panels, in drawing order.
   const std::vector<XrCompositionLayerQuad>& layers(XrSpace floor, const scene::HeadPose& room_from_floor);
 
  private:
   struct Shown {
     std::optional<PictureChain> chain;
     vk::Extent2D extent;
-    std::uint64_t painting = 0;  // that the runtime has; 0: none
+    std::uint64_t painting = 0;  // painting shown by the runtime; 0: none
   };
   void prepare(const ApartPanel& panel, Shown& shown);
   void retire(Shown& shown);
@@ -46,9 +46,9 @@ class PanelQuads {
   std::size_t most_ = 0;
   bool refused_ = false;
   std::uint64_t frame_ = 0;
-  std::vector<ApartPanel> panels_;                              // of this frame
-  std::vector<Shown> shown_;                                    // by ApartPanel::place
-  std::vector<std::pair<XrSwapchain, std::uint64_t>> retired_;  // with the frame since which they are not used
+  std::vector<ApartPanel> panels_;                              // panels of the current frame
+  std::vector<Shown> shown_;                                    // indexed by ApartPanel::place
+  std::vector<std::pair<XrSwapchain, std::uint64_t>> retired_;  // each with the frame after which it is unused
   std::vector<XrCompositionLayerQuad> layers_;
 };
 

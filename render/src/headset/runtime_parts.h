@@ -13,11 +13,11 @@ namespace afm::render {
 struct HeadsetRuntimeParts : DeviceSource {
   explicit HeadsetRuntimeParts(std::string the_manifest) : manifest(std::move(the_manifest)) {}
 
-  // Connects, or connects again after close(). DeviceMissing as HeadsetRuntime::connect().
+  // Connects, or reconnects after close(). DeviceMissing as in HeadsetRuntime::connect().
   core::Result<void> open();
   void close() { calls.close(); }
 
-  // After connecting again: the runtime must still want the device that everything is drawn with.
+  // Call after reconnecting: fails unless the runtime still chooses the device that everything is drawn with.
   core::Result<void> check_device(const Device& device) const;
 
   bool has(const char* extension) const;
@@ -26,13 +26,13 @@ struct HeadsetRuntimeParts : DeviceSource {
   vk::raii::PhysicalDevice choose_device(const vk::raii::Instance& instance) override;
   vk::raii::Device create_device(const vk::raii::PhysicalDevice& physical, const vk::DeviceCreateInfo& info) override;
 
-  std::string manifest;  // of the runtime, for people
+  std::string manifest;  // the runtime's manifest file, for messages
   OpenXrInstance calls;
   XrSystemId system = XR_NULL_SYSTEM_ID;
-  std::vector<const char*> extensions;  // optional ones that the runtime has
+  std::vector<const char*> extensions;  // supported optional extensions
   std::string runtime_name, headset_name;
   glm::uvec2 eye_px{0};
-  std::uint32_t most_layers = 0;  // of one frame
+  std::uint32_t most_layers = 0;  // limit per frame
   PFN_vkGetInstanceProcAddr vulkan = nullptr;
 
  private:
@@ -40,7 +40,7 @@ struct HeadsetRuntimeParts : DeviceSource {
   VkPhysicalDevice wanted_device(VkInstance instance) const;
 };
 
-// Optional extensions, and what goes without them.
+// Optional extension, and the feature lost without it.
 struct HeadsetExtension {
   const char* name;
   const char* without;

@@ -6,8 +6,8 @@
 
 namespace afm::render {
 
-// A session on the device that the runtime has chosen; destroyed with this, and with it all that was made of it. Throws
-// OpenXrFailure.
+// Session on the device that the runtime has chosen. Destroying this destroys the session and everything created from
+// it. Throws OpenXrFailure.
 class SessionHandle {
  public:
   SessionHandle(const HeadsetRuntimeParts& runtime, const Device& device);
@@ -16,7 +16,7 @@ class SessionHandle {
   ~SessionHandle() { calls_.DestroySession(session_); }
   operator XrSession() const { return session_; }
 
-  // In the runtime's order.
+  // Formats in the runtime's order of preference.
   std::vector<std::int64_t> formats() const;
 
  private:

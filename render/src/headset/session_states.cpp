@@ -9,7 +9,7 @@ namespace {
 
 struct SessionRow {
   SessionEvent event;
-  std::array<SessionPhase, 2> next;  // from Idle, from Running
+  std::array<SessionPhase, 2> next;  // next phase from Idle and from Running
   std::array<SessionDuty, 2> duty;
   bool visible;
   bool focused;
@@ -21,7 +21,7 @@ constexpr std::array<SessionRow, 9> session_rows() {
   using enum SessionDuty;
   return {{
       {BecameIdle, {Idle, Running}, {Nothing, Nothing}, false, false},
-      // a second one while it runs is a fault of the runtime, which would refuse to begin again
+      // a second BecameReady while running is a runtime error; beginning again would be refused
       {BecameReady, {Running, Running}, {Begin, Nothing}, false, false},
       {BecameSynchronized, {Idle, Running}, {Nothing, Nothing}, false, false},
       {BecameVisible, {Idle, Running}, {Nothing, Nothing}, true, false},

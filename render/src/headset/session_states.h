@@ -3,15 +3,15 @@
 
 namespace afm::render {
 
-// The life of a session with a headset's runtime, as OpenXR's specification has it, without a call of it.
+// Life cycle of a session with a headset's runtime, as in the OpenXR specification, without any OpenXR call.
 enum class SessionPhase {
-  Idle,     // begun by nobody: the headset is not worn, or the runtime is not ready
-  Running,  // frames are waited for, begun and ended
-  Over      // destroyed, with its instance; another is looked for
+  Idle,     // not begun: the headset is not worn, or the runtime is not ready
+  Running,  // waiting for, beginning and ending frames
+  Over      // destroyed with its instance; another headset is looked for
 };
 
 enum class SessionEvent {
-  // the runtime's states
+  // states reported by the runtime
   BecameIdle,
   BecameReady,
   BecameSynchronized,
@@ -20,21 +20,21 @@ enum class SessionEvent {
   BecameStopping,
   BecameLossPending,
   BecameExiting,
-  // a call says that session, instance or runtime are gone
+  // a call reported that the session, instance or runtime is lost
   WasLost
 };
 
-// What has to be done about an event.
+// Action required by an event.
 enum class SessionDuty { Nothing, Begin, End, Destroy };
 
-// Phase and visibility of a session. Pure; takes any event at any time, since runtimes have sent all of them.
+// Phase and visibility of a session. Pure; accepts any event at any time, since runtimes have sent all of them.
 class SessionStates {
  public:
   SessionDuty take(SessionEvent event);
 
   SessionPhase phase() const { return phase_; }
-  bool visible() const { return visible_; }  // the wearer sees what is shown
-  bool focused() const { return focused_; }  // and its controllers are ours
+  bool visible() const { return visible_; }  // the wearer sees our pictures
+  bool focused() const { return focused_; }  // the wearer's input goes to us
 
  private:
   SessionPhase phase_ = SessionPhase::Idle;

@@ -41,7 +41,7 @@ vk::raii::DescriptorPool create_composing_pool(const Device& device) {
                                             .pPoolSizes = sizes.data()});
 }
 
-// Anaglyphs stand in the block in the order of kStereoModes.
+// Index of an anaglyph's matrices in the block, in the order of kStereoModes.
 std::size_t anaglyph_index(scene::StereoMode mode) {
   const auto* const end = scene::kStereoModes.begin() + static_cast<std::size_t>(mode);
   return static_cast<std::size_t>(
@@ -65,7 +65,7 @@ Buffer upload_anaglyphs(const Device& device) {
                        vk::BufferUsageFlagBits::eUniformBuffer);
 }
 
-// Of one layer: with two pictures, layer 1 is the right eye's.
+// Arrangement of one layer. In modes with two pictures, layer 1 is the right eye's.
 EyeArrangement arrangement_of(scene::StereoMode mode, std::uint32_t layer) {
   const EyeArrangement arrangement = scene::traits_of(mode).arrangement;
   if (arrangement != EyeArrangement::TwoPictures) {
@@ -74,7 +74,7 @@ EyeArrangement arrangement_of(scene::StereoMode mode, std::uint32_t layer) {
   return layer == 0 ? EyeArrangement::Left : EyeArrangement::Right;
 }
 
-// What is not drawn of an image must not count, not even with the weight of a rounded coordinate.
+// Margin that keeps undrawn pixels of an image out of the result, even with the weight of a rounded coordinate.
 constexpr float kOffUndrawn = 1.0F / 1024.0F;
 
 ComposeBlock compose_block(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place,
@@ -110,14 +110,14 @@ bool is_exact(const EyeTargets& eyes, const Composition& composition, const Comp
          !composition.warp && eyes.drawing().extent == whole && seen == glm::uvec2(whole.width, whole.height);
 }
 
-// Of a pipeline for such a picture.
+// Pipeline variant for such a picture.
 std::uint32_t composing_variant_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
   const bool mixed = scene::anaglyph_matrices(composition.mode).has_value();
   return (is_exact(eyes, composition, place) ? 0U : AFM_FEATURE_SCALED) | (mixed ? AFM_FEATURE_MIXED : 0U) |
          (composition.warp ? AFM_FEATURE_WARPED : 0U) | (composition.blend ? AFM_FEATURE_BLENDED : 0U);
 }
 
-// Whether the target shows the eyes' images beside each other, whole, and nothing else.
+// True if the target shows only the eyes' complete images, side by side.
 bool shows_eyes_alone(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
   const EyeArrangement eyes_in_it = arrangement_of(composition.mode, 0);
   const bool beside = eyes_in_it == EyeArrangement::Left || eyes_in_it == EyeArrangement::Right ||
@@ -127,7 +127,7 @@ bool shows_eyes_alone(const EyeTargets& eyes, const Composition& composition, co
          glm::uvec2(place.target.width, place.target.height) == size;
 }
 
-// Where a target shows pixels of an eye: each eye's image fills one box or the same one.
+// Positions of the eyes' images on a target: one box each, or one shared box.
 struct EyeBoxes {
   std::array<PixelBox, 2> boxes;
   std::size_t count = 1;
@@ -146,15 +146,15 @@ EyeBoxes boxes_of_eyes(EyeArrangement arrangement, const vk::Rect2D& area) {
   return {.boxes = {PixelBox{low, low + half}, PixelBox{low + step, low + step + half}}, .count = 2};
 }
 
-// Size of the part of the picture that one eye's image fills, as compose.frag shares it out.
+// Size of the part of the picture covered by one eye's image, with the same split as compose.frag.
 vk::Extent2D region_of_eye(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
   if (const auto& packing = scene::frame_packing(composition.mode)) return {eyes.extent().width, packing->eye_px.y};
   const PixelBox box = boxes_of_eyes(scene::traits_of(composition.mode).arrangement, place.area).boxes[0];
   return {static_cast<std::uint32_t>(box.high.x - box.low.x), static_cast<std::uint32_t>(box.high.y - box.low.y)};
 }
 
-// The pixels of `shown`, which an eye's image of that size fills, that a box of it reaches. What is scaled is blended
-// of neighbours.
+// Pixels of `shown`, which an eye's image of that size covers, that depend on `box` of that image. Scaled pixels are
+// blended from their neighbours.
 PixelBox scaled_into(const PixelBox& shown, const PixelBox& box, vk::Extent2D eye) {
   const glm::dvec2 scale = glm::dvec2(shown.high - shown.low) / glm::dvec2(eye.width, eye.height);
   if (scale == glm::dvec2(1.0)) return {shown.low + box.low, shown.low + box.high};
@@ -233,7 +233,7 @@ vk::Extent2D Composer::extent(scene::StereoMode mode) const {
   return {size.x, size.y};
 }
 
-// Pixels of the target that do not show the eyes as they are now.
+// Pixels of the target that are out of date with the eyes.
 PixelArea Composer::changed_in(const ComposeInto& into, const Drawn& drawn) const {
   const auto& [composition, place, correction] = drawn;
   PixelArea changed;
@@ -261,7 +261,7 @@ PixelArea Composer::changed_in(const ComposeInto& into, const Drawn& drawn) cons
     }
   }
 
-  // beside the picture the target is black
+  // the target is black outside the picture
   const glm::ivec2 low(place.area.offset.x, place.area.offset.y);
   const PixelBox picture{
       low, low + glm::ivec2(static_cast<int>(place.area.extent.width), static_cast<int>(place.area.extent.height))};
@@ -318,7 +318,7 @@ void Composer::copy(const vk::raii::CommandBuffer& command, const Composition& c
   }
 }
 
-// The eyes' pixels are the target's.
+// Copies parts of the eyes' images, whose pixels equal the target's.
 void Composer::copy_parts(const vk::raii::CommandBuffer& command, const Composition& composition,
                           const ComposeInto& into, const PixelArea& changed) const {
   eyes_.begin_copies(command);

@@ -20,86 +20,87 @@ namespace afm::render {
 
 // Target area of a picture.
 struct ComposePlace {
-  vk::Extent2D target;      // the whole image
-  vk::Rect2D area;          // what the picture fills
-  glm::ivec2 screen_px{0};  // where the target's first pixel lies on its screen
+  vk::Extent2D target;      // size of the whole image
+  vk::Rect2D area;          // part covered by the picture
+  glm::ivec2 screen_px{0};  // screen position of the target's first pixel
 
   bool operator==(const ComposePlace&) const = default;
 };
 
-// What an image of the target shows, so that the next picture changes only what differs from it.
+// Current contents of a target image, so that the next picture redraws only the differences.
 struct ComposedPicture {
   Composition composition;
   ComposePlace place;
-  std::uint64_t eye_changes = 0;  // EyeChanges::count() of the eyes in it
+  std::uint64_t eye_changes = 0;  // EyeChanges::count() at the time of drawing
 };
 
-// Target of a composition: an image with one layer for each picture of the mode.
+// Target of a composition: an image with one layer per picture of the mode.
 struct ComposeInto {
   vk::Image image;
-  std::span<const vk::ImageView> layers;  // views of single layers
-  ImageUse before;                        // what last used the image; its layout is that of `after`
-  ImageUse after;                         // how the image is left
-  bool takes_copies = false;              // it has the eyes' format, and may be copied to
-  std::optional<ComposedPicture>* shown;  // nothing before the first picture
+  std::span<const vk::ImageView> layers;  // one view per layer
+  ImageUse before;                        // previous use of the image; its layout is that of `after`
+  ImageUse after;                         // state in which the image is left
+  bool takes_copies = false;              // has the eyes' format and accepts copies
+  std::optional<ComposedPicture>* shown;  // empty before the first picture
 };
 
-// An image that pictures are composed into to be read, with as many layers as the mode has pictures.
+// Image that pictures are composed into for readback, with one layer per picture of the mode.
 struct ComposeTarget {
   DeviceImage image;
-  std::array<vk::raii::ImageView, 2> views{nullptr, nullptr};  // of each layer alone
+  std::array<vk::raii::ImageView, 2> views{nullptr, nullptr};  // one per layer
   std::optional<ComposedPicture> shown;
 };
 
-// Composes into images of one format: one pipeline for each kind of picture, created at first use.
+// Composes into images of one format, with one pipeline per kind of picture, created at first use.
 class ComposePipeline {
  public:
   // `layout` must outlive it.
   ComposePipeline(const Device& device, vk::PipelineLayout layout, vk::Format format);
 
-  // `variant`: of AFM_FEATURE_SCALED, _MIXED, _WARPED and _BLENDED.
+  // `variant` combines AFM_FEATURE_SCALED, _MIXED, _WARPED and _BLENDED.
   vk::Pipeline get(std::uint32_t variant);
 
  private:
   const Device* device_;
   vk::PipelineLayout layout_;
   vk::Format format_;
-  std::vector<vk::raii::Pipeline> made_;  // AFM_COMPOSE_VARIANTS
+  std::vector<vk::raii::Pipeline> made_;  // AFM_COMPOSE_VARIANTS entries
 };
 
-// Puts the two eye images into one picture: byte for byte where it is drawn at its own size. Every stereo mode is a
-// mode of one full-screen shader.
+// Combines the two eye images into one picture, byte for byte if it is drawn at its own size. One full-screen shader
+// implements every stereo mode.
 class Composer {
  public:
-  // `changes` are those of `eyes`; both must outlive it.
+  // `changes` belongs to `eyes`; both must outlive the composer.
   Composer(const Device& device, const EyeTargets& eyes, const EyeChanges& changes);
 
-  // The picture, or both, of the eyes' newest contents; waits for it. The device can make an image of that size.
+  // Composes the eyes' newest contents into one or two pictures, and waits for them. The device must support images of
+  // that size.
   std::vector<Image> compose(const Composition& composition, const ReadArea& area);
 
-  // To be called when the eye images have been made anew and nothing is in flight.
+  // Call when the eye images have been recreated and nothing is in flight.
   void eyes_changed();
 
-  // The picture's own size.
+  // Unscaled size of the picture.
   vk::Extent2D extent(scene::StereoMode mode) const;
 
-  // For targets of another format than the eyes'.
+  // Creates a pipeline for targets in a format other than the eyes'.
   ComposePipeline create_pipeline_for(vk::Format format) const { return {device_, *layout_, format}; }
 
-  // Draws the picture, or each of two into its layer, scaled to fill its area and black around it: into what a window
-  // shows and into what is read alike. Where the picture is nothing but the eyes' images beside each other, these are
-  // copied: on a CPU device that takes a fifth of the time. Of a picture that the image already shows with older eyes,
-  // only what has changed is drawn.
+  // Draws the picture, or each of two into its layer, scaled to fill its area and surrounded by black. Windows and
+  // readback use the same code. A picture that consists only of the eyes' images side by side is copied instead, which
+  // takes a fifth of the time on a CPU device. If the image already shows an older version of the picture, only the
+  // changes are drawn.
   void record(const vk::raii::CommandBuffer& command, ComposePipeline& pipeline, const Composition& composition,
               const ComposePlace& place, const ComposeInto& into);
 
-  // Draws what is read into `target`, which nothing in flight uses and which is made anew if it is not of that size,
-  // and leaves it in eTransferSrcOptimal.
+  // Draws a picture for readback into `target` and leaves it in eTransferSrcOptimal. Recreates `target` if its size
+  // differs; nothing in flight may use it.
   void record(const vk::raii::CommandBuffer& command, const Composition& composition, const ReadArea& area,
               ComposeTarget& target);
 
  private:
-  // What one picture is drawn with.
+  // Resources for drawing one picture.
   struct Drawn {
     const Composition& composition;
     const ComposePlace& place;
@@ -126,7 +127,7 @@ class Composer {
   Buffer anaglyphs_;
   vk::raii::DescriptorPool pool_;
   vk::raii::DescriptorSet set_{nullptr};
-  ComposeTarget target_;  // of compose()
+  ComposeTarget target_;  // used by compose()
 };
 
 }  // namespace afm::render

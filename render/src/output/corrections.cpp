@@ -14,7 +14,7 @@
 namespace afm::render {
 namespace {
 
-// Of one mesh and blending: two windows and a saved picture, and one to spare.
+// Sizes kept for one mesh and blending: two windows, a saved picture, and a spare.
 constexpr std::ptrdiff_t kMostKept = 4;
 
 constexpr int kTilePx = 64;
@@ -137,7 +137,7 @@ void Correction::find_tiles(const std::vector<glm::vec4>& map) {
 }
 
 void Correction::add_moved(const PixelBox& box, vk::Extent2D drawn, const glm::ivec2& at, PixelTiles& tiles) const {
-  constexpr int kFilterPx = 2;  // what a filter blends in, with its rounding
+  constexpr int kFilterPx = 2;  // reach of the filter, including rounding
   const glm::dvec2 size(drawn.width, drawn.height);
   for (const Tile& tile : tiles_) {
     const PixelBox shown{glm::ivec2(glm::floor(glm::dvec2(tile.low) * size)) - kFilterPx,
@@ -162,7 +162,7 @@ const Correction& Corrections::find(const Composition& composition, vk::Extent2D
   return newest_first_.emplace_front(device_, *layout_, *sampler_, composition, eye_px);
 }
 
-// A window that is resized would otherwise leave a map of every size.
+// Limits the number of maps, since resizing a window creates one for every size.
 void Corrections::forget_oldest(const Composition& composition) {
   const auto of_same = [&](const Correction& known) { return known.corrects_as(composition); };
   if (std::count_if(newest_first_.begin(), newest_first_.end(), of_same) < kMostKept) return;

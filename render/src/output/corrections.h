@@ -12,14 +12,14 @@
 
 namespace afm::render {
 
-// What the compose pass reads to correct the picture of one output's projector: its warp mesh as a map of the pixels
-// that one eye's image fills, and its blending.
+// Correction of one output's picture for its projector, as read by the compose pass: the warp mesh as a map of the
+// pixels covered by one eye's image, and the blending.
 class Correction {
  public:
   Correction(const Device& device, vk::DescriptorSetLayout layout, vk::Sampler sampler, const Composition& composition,
              vk::Extent2D eye_px);
 
-  // Of this mesh and blending, at any size; and of a size.
+  // True for this mesh and blending, at any size; serves() also compares the size.
   bool corrects_as(const Composition& composition) const {
     return warp_ == composition.warp && blend_ == composition.blend;
   }
@@ -29,12 +29,12 @@ class Correction {
 
   vk::DescriptorSet set() const { return *set_; }
 
-  // Adds every tile of the map in which a pixel shows a part of `box`, which lies in an eye's image of which `drawn` is
-  // drawn. `at` is the map's first pixel.
+  // Adds every tile of the map with a pixel that shows a part of `box`. `box` lies in an eye's image of which `drawn`
+  // is drawn; `at` is the map's first pixel.
   void add_moved(const PixelBox& box, vk::Extent2D drawn, const glm::ivec2& at, PixelTiles& tiles) const;
 
  private:
-  // A square of the map, and the part of the picture that its pixels show.
+  // Square of the map, and the part of the picture that its pixels show.
   struct Tile {
     PixelBox pixels;
     glm::vec2 low{0.0F}, high{0.0F};
@@ -44,7 +44,7 @@ class Correction {
   std::shared_ptr<const scene::WarpMesh> warp_;
   std::shared_ptr<const scene::Blend> blend_;
   vk::Extent2D eye_px_;
-  std::vector<Tile> tiles_;  // that show anything
+  std::vector<Tile> tiles_;  // tiles that show anything
   DeviceImage map_;
   vk::raii::ImageView view_{nullptr};
   Buffer block_;
@@ -52,16 +52,16 @@ class Correction {
   vk::raii::DescriptorSet set_{nullptr};
 };
 
-// The corrections in use, from the beginning that of an output without any. Another is made when a mesh or blending is
-// first shown at a size, which waits for the device.
+// Corrections in use, initially only that of an output without any. A new one is made when a mesh or blending is first
+// shown at a size, which waits for the device.
 class Corrections {
  public:
   explicit Corrections(const Device& device);
 
   vk::DescriptorSetLayout layout() const { return *layout_; }
 
-  // For eye images that fill `eye_px` pixels of the picture. Of each mesh and blending the newest sizes are kept: more
-  // than one submission shows.
+  // Correction for eye images that cover `eye_px` pixels of the picture. The newest sizes of each mesh and blending are
+  // kept, more than one submission uses.
   const Correction& find(const Composition& composition, vk::Extent2D eye_px);
 
  private:

@@ -41,7 +41,7 @@ SavedPicture PngWriter::wait() {
   return take_front();
 }
 
-// The lock is open while a picture is encoded and written.
+// Releases the lock while a picture is encoded and written.
 void PngWriter::run() {
   std::unique_lock lock(mutex_);
   while (true) {

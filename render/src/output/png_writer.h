@@ -14,19 +14,18 @@
 
 namespace afm::render {
 
-// A thread that writes pictures as PNG files, one after the other. One other thread gives and takes.
+// Thread that writes pictures as PNG files, one after the other. One other thread may call.
 class PngWriter {
  public:
   PngWriter();
   PngWriter(const PngWriter&) = delete;
   PngWriter& operator=(const PngWriter&) = delete;
-  ~PngWriter();  // once all is written
+  ~PngWriter();  // waits until all pictures are written
 
-  // The pixels must not change until take() or wait() reports the outcome. Does not wait.
+  // Queues a picture without waiting. Its pixels must not change until take() or wait() returns its result.
   void write(const ImageSpan& picture, std::string path);
 
-  // The oldest picture that is done and was not taken yet. take() does not wait; before wait() something was given that
-  // was not taken.
+  // Result of the oldest finished picture not yet taken. take() does not wait; wait() requires an untaken picture.
   std::optional<SavedPicture> take();
   SavedPicture wait();
 
@@ -43,7 +42,7 @@ class PngWriter {
   std::deque<Order> waiting_;
   std::deque<SavedPicture> done_;
   bool leaving_ = false;
-  std::thread thread_;  // last: it uses everything above
+  std::thread thread_;  // last member: it uses all the others
 };
 
 }  // namespace afm::render

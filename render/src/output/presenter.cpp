@@ -18,7 +18,7 @@
 namespace afm::render {
 namespace {
 
-constexpr int kMostSurfacesLost = 20;  // one after the other
+constexpr int kMostSurfacesLost = 20;  // in a row
 
 }  // namespace
 
@@ -29,7 +29,7 @@ PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px, PictureF
   const glm::dvec2 window(window_px);
   const glm::dvec2 picture(picture_px);
   double scale = std::min(window.x / picture.x, window.y / picture.y);
-  // a picture that was made for this window may be a pixel short of its border
+  // a picture made for this window may be a pixel smaller than it
   if (scale > 1.0 && (window_px.x - picture_px.x <= 1 || window_px.y - picture_px.y <= 1)) {
     scale = 1.0;
   }
@@ -37,7 +37,7 @@ PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px, PictureF
   return {.offset_px = (window_px - size) / 2U, .size_px = size};
 }
 
-// In the order of creation.
+// Members in the order of creation.
 struct Presenter::Parts {
   Parts(const Device& the_device, Renderer::Parts& the_renderer)
       : device(the_device),
@@ -54,11 +54,11 @@ struct Presenter::Parts {
   Parts& operator=(const Parts&) = delete;
   ~Parts() { device.wait_idle(); }
 
-  // A window, and what is done with it in this frame.
+  // Window, and its state in the current frame.
   struct Pane {
     std::unique_ptr<WindowSurface> surface;
     WindowPicture picture;
-    bool taken = false;  // it has an image to draw into
+    bool taken = false;  // has an image to draw into
     bool drawn = false;
   };
 
@@ -75,7 +75,7 @@ struct Presenter::Parts {
   vk::raii::Fence finished;
   std::optional<TimestampQueries> stopwatch;  // marks 0 and 1: before and after composing
   std::vector<Pane> panes;
-  int surfaces_lost = 0;  // since a picture was shown
+  int surfaces_lost = 0;  // since a picture was last shown
 };
 
 core::Result<void> Presenter::Parts::add(Window& window, Swap swap) {
@@ -83,7 +83,7 @@ core::Result<void> Presenter::Parts::add(Window& window, Swap swap) {
   return panes.back().surface->choose_format();
 }
 
-// Does what can find a surface outdated or lost; false if it has.
+// Runs `work`, which can find a surface outdated or lost; false if it has.
 template <class Work>
 bool Presenter::Parts::follow_surfaces(Work&& work) {
   try {
@@ -91,7 +91,7 @@ bool Presenter::Parts::follow_surfaces(Work&& work) {
     return true;
   } catch (const vk::SystemError& error) {
     const auto result = static_cast<vk::Result>(error.code().value());
-    // Mesa's answer, too, to a display that has gone, which the next poll() of the window finds
+    // Mesa also returns this when the display has gone, which the window's next poll() finds
     const bool no_memory = result == vk::Result::eErrorOutOfHostMemory || result == vk::Result::eErrorOutOfDeviceMemory;
     const bool lost = result == vk::Result::eErrorSurfaceLostKHR;
     if (!no_memory && !lost && result != vk::Result::eErrorOutOfDateKHR) throw;
@@ -139,7 +139,7 @@ void Presenter::Parts::draw(std::span<const std::size_t> windows, const std::fun
                                          .pSignalSemaphoreInfos = signals.data()},
                          *finished);
 
-  // presented only once it is drawn: some drivers (lavapipe) would wait inside the call, where nobody beats
+  // presented only after drawing: some drivers (lavapipe) would otherwise wait inside the call, without a heartbeat
   device.wait_for(finished, while_waiting);
   device->resetFences(*finished);
   if (stopwatch) renderer.compose_ms = stopwatch->between_ms(0, 1);

@@ -7,13 +7,13 @@
 
 namespace afm::render {
 
-// All layers of an image of kEyeFormat in host memory, which is kept for the next one.
+// Copy of all layers of an image of kEyeFormat in host memory, which is reused for the next one.
 class HostCopy {
  public:
-  // The image lies in eTransferSrcOptimal; what an earlier record() wrote is done and not needed any more.
+  // Requires the image in eTransferSrcOptimal, and the result of an earlier record() finished and no longer needed.
   void record(const Device& device, const vk::raii::CommandBuffer& command, const DeviceImage& image);
 
-  // Of the last record(), once its commands are done; until the next one.
+  // Result of the last record(), once its commands are done; valid until the next one.
   ImageSpan picture(std::uint32_t layer) const;
 
  private:
@@ -21,7 +21,7 @@ class HostCopy {
   vk::Extent2D extent_;
 };
 
-// Copies one layer of an image of kEyeFormat that lies in eShaderReadOnlyOptimal, and leaves it there; waits for the
+// Copies one layer of an image of kEyeFormat in eShaderReadOnlyOptimal, and leaves it in that layout; waits for the
 // queue.
 Image read_back(const Device& device, vk::Image image, std::uint32_t layer, vk::Extent2D extent);
 

@@ -19,7 +19,7 @@ namespace afm::render {
 enum class QueueMark : std::uint32_t { Begin, Composed, Copied };
 constexpr std::uint32_t kPictureMarks = 3;
 
-// One picture on its way: composed into an image, copied to the host, written from there.
+// Picture in progress: composed into an image, copied to the host, written from there.
 struct QueuedPicture {
   QueuedPicture(const Device& device, bool timed)
       : pool(*device, vk::CommandPoolCreateInfo{.queueFamilyIndex = device.queue_family()}),
@@ -40,7 +40,7 @@ struct QueuedPicture {
   std::string path;
 };
 
-// In the order of creation.
+// Members in the order of creation.
 struct ScreenshotQueue::Parts {
   Parts(const Device& the_device, Renderer::Parts& the_renderer) : device(the_device), renderer(the_renderer) {
     for (std::size_t i = 0; i < kMostPictures; ++i) places.emplace_back(device, renderer.options.time_passes);
@@ -60,7 +60,7 @@ struct ScreenshotQueue::Parts {
   std::vector<QueuedPicture> places;
   PngWriter writer;
 
-  // how many pictures have come so far; the places of those that are not written are in use
+  // number of pictures so far; unwritten ones occupy a place
   std::size_t begun = 0, handed = 0, written = 0;
 };
 
@@ -70,7 +70,7 @@ void ScreenshotQueue::Parts::mark(const QueuedPicture& place, QueueMark mark) co
   place.clock->mark(place.commands, static_cast<std::uint32_t>(mark));
 }
 
-// Does not wait.
+// Never waits.
 bool ScreenshotQueue::Parts::is_copied(const QueuedPicture& place) const {
   return place.copied.getStatus() == vk::Result::eSuccess;
 }
@@ -111,7 +111,7 @@ ScreenshotQueue::~ScreenshotQueue() {
   try {
     finish();
   } catch (const DeviceFailure&) {
-    // lost, or without memory: said by whatever needs the device next
+    // a lost device or lack of memory is reported by the next call that needs the device
   }
 }
 

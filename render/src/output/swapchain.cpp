@@ -9,7 +9,7 @@
 namespace afm::render {
 namespace {
 
-// The value by which a surface says that its size is ours to choose (Wayland).
+// Extent of a surface that leaves its size to the application (Wayland).
 constexpr std::uint32_t kFreeExtent = std::numeric_limits<std::uint32_t>::max();
 
 vk::Extent2D choose_extent(const vk::SurfaceCapabilitiesKHR& surface, vk::Extent2D wanted) {
@@ -20,7 +20,7 @@ vk::Extent2D choose_extent(const vk::SurfaceCapabilitiesKHR& surface, vk::Extent
           std::clamp(wanted.height, surface.minImageExtent.height, surface.maxImageExtent.height)};
 }
 
-// One more than the least, so that drawing need not wait for the image that is being shown.
+// One more than the minimum, so that drawing need not wait for the image on screen.
 std::uint32_t choose_image_count(const vk::SurfaceCapabilitiesKHR& surface) {
   const std::uint32_t count = surface.minImageCount + 1;
   return surface.maxImageCount == 0 ? count : std::min(count, surface.maxImageCount);
@@ -74,7 +74,7 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
                                        .preTransform = capabilities.currentTransform,
                                        .compositeAlpha = choose_alpha(capabilities),
                                        .presentMode = vk::PresentModeKHR::eFifo,
-                                       .clipped = VK_FALSE,  // what lies under another window is kept too
+                                       .clipped = VK_FALSE,  // keeps the parts hidden by other windows
                                        .oldSwapchain = old == nullptr ? vk::SwapchainKHR() : *old->swapchain_});
   for (const VkImage image : swapchain_.getImages()) {
     images_.emplace_back(image);

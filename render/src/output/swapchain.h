@@ -11,18 +11,18 @@
 
 namespace afm::render {
 
-// 8-bit UNORM in sRGB, which takes the eyes' bytes as they are; eUndefined if the surface has none.
+// 8-bit UNORM in sRGB, which takes the eyes' bytes unchanged; eUndefined if the surface has none.
 vk::SurfaceFormatKHR choose_surface_format(const Device& device, vk::SurfaceKHR surface);
 
-// Whether the surface can change its picture in the same refresh as those of other machines whose displays are in step.
+// True if the surface can change its picture in the same refresh as synchronised displays of other machines.
 bool offers_present_barrier(const Device& device, vk::SurfaceKHR surface);
 
-// The images of one size that a surface shows in turn, first in first out; with two layers the second is the right
-// eye's. Made anew for every size.
+// Images of one size that a surface shows in turn, first in, first out. With two layers, the second is the right eye's.
+// Recreated for every size.
 class Swapchain {
  public:
-  // `wanted` counts where the surface leaves the size to us. `swap`: with others only if the surface offers it. `old`
-  // may be null; nothing of it is in flight, and it is not used afterwards. Throws as vkCreateSwapchainKHR fails.
+  // `wanted` is used if the surface leaves the size to us. `swap` is WithOthers only if the surface offers it. `old`
+  // may be null; nothing of it may be in flight, and it is unusable afterwards. Throws if vkCreateSwapchainKHR fails.
   Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
             std::uint32_t layers, Swap swap, const Swapchain* old);
 
@@ -33,15 +33,15 @@ class Swapchain {
   std::uint32_t layer_count() const { return layer_count_; }
   bool takes_copies() const { return takes_copies_; }
 
-  // Images keep what they show from one time they are presented to the next.
+  // Picture in an image; images keep their contents between presentations.
   std::optional<ComposedPicture>& shown(std::uint32_t index) { return shown_[index]; }
 
-  // A view of each layer.
+  // Views of the layers, one each.
   std::span<const vk::ImageView> layers(std::uint32_t index) const {
     return std::span(layers_).subspan(index * layer_count_, layer_count_);
   }
 
-  // Signalled when the picture in the image is drawn; what presents it waits for it.
+  // Signalled when the picture in the image is drawn; presentation waits for it.
   vk::Semaphore drawn(std::uint32_t index) const { return *drawn_[index]; }
 
  private:
@@ -52,7 +52,7 @@ class Swapchain {
   std::vector<vk::Image> images_;  // owned by the swapchain
   std::vector<std::optional<ComposedPicture>> shown_;
   std::vector<vk::raii::ImageView> views_;
-  std::vector<vk::ImageView> layers_;  // of each image in turn
+  std::vector<vk::ImageView> layers_;  // all layers of the first image, then of the next
   std::vector<vk::raii::Semaphore> drawn_;
 };
 

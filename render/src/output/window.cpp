@@ -16,9 +16,9 @@ constexpr double kRefreshHz = 60.0;
 
 constexpr auto kNoWindow = core::ErrorCategory::DeviceMissing;
 
-constexpr double kLeftOver = 0.75;  // of a monitor that is left, each way: for a window whose own has gone
+constexpr double kLeftOver = 0.75;  // share of each side of another monitor, when its own has gone
 
-// By its name; null if it is not there.
+// Monitor of this name; null if there is none.
 GLFWmonitor* monitor_named(const std::string& name) {
   int count = 0;
   GLFWmonitor** const monitors = glfwGetMonitors(&count);
@@ -50,9 +50,9 @@ core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptio
   }
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a wall stays full when its operator looks at another screen
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a wall stays full screen when its operator uses another screen
   glfwWindowHint(GLFW_DECORATED, options.rect ? GLFW_FALSE : GLFW_TRUE);
-  glfwWindowHint(GLFW_VISIBLE, options.rect ? GLFW_FALSE : GLFW_TRUE);  // not before it is in its place
+  glfwWindowHint(GLFW_VISIBLE, options.rect ? GLFW_FALSE : GLFW_TRUE);  // hidden until it is in position
   const glm::uvec2 size = options.rect ? options.rect->size_px : glm::uvec2(options.width, options.height);
   handle->window_ =
       glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), options.title.c_str(), nullptr, nullptr);
@@ -137,7 +137,7 @@ WindowInput::MonitorChange WindowHandle::follow_monitor() {
   return WindowInput::MonitorChange::Back;
 }
 
-// Asking where the monitors are takes a while: only when some have come or gone, or the window waits for one.
+// Querying monitor positions is slow, so this does it only when one came or went, or the window waits for one.
 WindowInput::MonitorChange WindowHandle::follow_rect() {
   const unsigned changes = WindowSystem::monitor_changes();
   const bool changed = std::exchange(monitor_changes_, changes) != changes;
@@ -153,7 +153,7 @@ WindowInput::MonitorChange WindowHandle::follow_rect() {
   return WindowInput::MonitorChange::Back;
 }
 
-// On what is left, wherever the window happened to lie when its monitor went.
+// Moves the window onto a remaining monitor, wherever it lay when its own monitor went.
 void WindowHandle::become_small() {
   GLFWmonitor* const left = glfwGetPrimaryMonitor();
   const GLFWvidmode* const mode = left == nullptr ? nullptr : glfwGetVideoMode(left);
@@ -182,7 +182,7 @@ glm::uvec2 WindowHandle::size_px() const {
   return {static_cast<unsigned>(std::max(width, 0)), static_cast<unsigned>(std::max(height, 0))};
 }
 
-// Places come in the units of the desktop, which some window systems scale.
+// Pixels per desktop unit. GLFW reports positions in desktop units, which some window systems scale.
 glm::dvec2 WindowHandle::pixels_per_unit() const {
   int width = 0;
   int height = 0;
@@ -192,7 +192,7 @@ glm::dvec2 WindowHandle::pixels_per_unit() const {
 
 glm::dvec2 WindowHandle::picture_px(const glm::dvec2& place) const { return place * pixels_per_unit(); }
 
-// The monitor that shows the largest part of the window.
+// Monitor that shows the largest part of the window.
 GLFWmonitor* WindowHandle::monitor() const {
   if (GLFWmonitor* current = glfwGetWindowMonitor(window_)) {
     return current;

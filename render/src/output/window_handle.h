@@ -7,7 +7,7 @@
 
 namespace afm::render {
 
-// Implementation of Window. GLFW keeps its address: never moved.
+// Implementation of Window. Never moved, because GLFW keeps its address.
 class WindowHandle {
  public:
   static core::Result<std::unique_ptr<WindowHandle>> open(const WindowOptions& options);
@@ -15,14 +15,14 @@ class WindowHandle {
   WindowHandle& operator=(const WindowHandle&) = delete;
   ~WindowHandle();
 
-  // Throws vk::SystemError as vkCreate...SurfaceKHR fails.
+  // Throws vk::SystemError if vkCreate...SurfaceKHR fails.
   vk::raii::SurfaceKHR create_surface(const vk::raii::Instance& instance) const;
 
   WindowInput poll();
   void wait(double seconds);
   glm::uvec2 size_px() const;
-  // Of its picture's first pixel on the monitor that shows most of it; 0,0 where the window system keeps that to
-  // itself.
+  // Position of the picture's first pixel on the monitor that shows most of it; 0,0 if the window system does not
+  // reveal it.
   glm::ivec2 screen_px() const;
   bool full_screen() const { return glfwGetWindowMonitor(window_) != nullptr; }
   void set_full_screen(bool full_screen);
@@ -48,14 +48,13 @@ class WindowHandle {
 
   WindowSystem system_;
   GLFWwindow* window_ = nullptr;
-  std::optional<scene::PixelRect> rect_;  // its place, or the one that it takes again when a monitor is back
-  unsigned monitor_changes_ = WindowSystem::monitor_changes();  // as follow_rect() saw them last
-  std::string full_on_;  // the monitor that it fills, or fills again when it is back; empty: a window
+  std::optional<scene::PixelRect> rect_;                        // position, restored when a monitor is back
+  unsigned monitor_changes_ = WindowSystem::monitor_changes();  // as last seen by follow_rect()
+  std::string full_on_;  // monitor filled, or filled again when it is back; empty: a window
   bool monitor_lost_ = false;
   std::vector<WindowEvent> events_;
-  glm::dvec2 cursor_{
-      0.0};  // after the newest event, in the desktop's units: GLFW itself only knows the current position
-  int windowed_x_ = 0, windowed_y_ = 0, windowed_width_ = 0, windowed_height_ = 0;  // to come back from full screen
+  glm::dvec2 cursor_{0.0};  // after the newest event, in desktop units: GLFW only knows the current position
+  int windowed_x_ = 0, windowed_y_ = 0, windowed_width_ = 0, windowed_height_ = 0;  // restored after full screen
 };
 
 // Instance extensions that GLFW needs for surfaces. Empty before a window has been opened.

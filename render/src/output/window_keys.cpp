@@ -10,7 +10,7 @@ namespace afm::render {
 
 namespace {
 
-// GLFW's codes and Key count up together within a run.
+// Run of keys within which GLFW's codes and Key count up together.
 struct KeyRun {
   int first_code, last_code;
   Key first, last;
@@ -18,7 +18,7 @@ struct KeyRun {
 
 constexpr int index(Key key) { return static_cast<int>(key); }
 
-// In the order of Key.
+// Runs in the order of Key.
 constexpr std::array kRuns{
     KeyRun{GLFW_KEY_SPACE, GLFW_KEY_SPACE, Key::Space, Key::Space},
     KeyRun{GLFW_KEY_APOSTROPHE, GLFW_KEY_APOSTROPHE, Key::Apostrophe, Key::Apostrophe},

@@ -5,7 +5,7 @@
 
 namespace afm::render {
 
-// The key that GLFW gives this code.
+// Key for a GLFW code.
 Key key_of(int glfw_code);
 
 }  // namespace afm::render

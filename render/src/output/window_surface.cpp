@@ -9,7 +9,7 @@
 namespace afm::render {
 namespace {
 
-constexpr int kMostTurns = 40;  // how long a display may keep all its images before the loop goes on
+constexpr int kMostTurns = 40;  // longest wait for a display that keeps all its images
 
 constexpr ImageUse kAcquired{kFilling, vk::AccessFlagBits2::eNone, vk::ImageLayout::eUndefined};
 constexpr ImageUse kPresented{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagBits2::eNone,
@@ -63,7 +63,7 @@ bool WindowSurface::follow_window(std::uint32_t layers) {
   }
   device_.finish_all();
   swapchain_ = Swapchain(device_, *surface_, format_, wanted, layers, swap(), swapchain_ ? &*swapchain_ : nullptr);
-  // an image that was taken from the old ones may have left it signalled
+  // an image acquired from the old swapchain may have left it signalled
   acquired_ = vk::raii::Semaphore(*device_, vk::SemaphoreCreateInfo{});
   index_.reset();
   outdated_ = false;

@@ -23,18 +23,18 @@ std::string window_system_error() {
 
 namespace {
 
-#ifdef GLFW_PLATFORM  // 3.4 and later
+#ifdef GLFW_PLATFORM  // GLFW 3.4 and later
 
-// Where there is no Wayland, libwayland prints a second line beside our error.
+// Prevents libwayland from printing a second line next to our error when there is no Wayland.
 void silence_wayland() {
   using Log = void (*)(const char* format, std::va_list values);
-  void* const wayland = ::dlopen("libwayland-client.so.0", RTLD_LAZY);  // never closed: what is set stays
+  void* const wayland = ::dlopen("libwayland-client.so.0", RTLD_LAZY);  // never closed: the setting remains
   if (wayland == nullptr) return;
   const auto set_log = reinterpret_cast<void (*)(Log)>(::dlsym(wayland, "wl_log_set_handler_client"));
   if (set_log != nullptr) set_log([](const char*, std::va_list) {});
 }
 
-// GLFW would prefer Wayland, which lets no program place its windows on the projectors; X11 runs there too.
+// GLFW would prefer Wayland, which does not let a program place its windows on the projectors; X11 works there too.
 bool begin_glfw() {
   glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
   if (glfwInit() == GLFW_TRUE) return true;
@@ -75,13 +75,13 @@ WindowSystem::~WindowSystem() {
   if (joined_ && --shares_ == 0) glfwTerminate();
 }
 
-// Xlib ends the process when its connection breaks, unless both its handlers return: the one for all connections, and
-// the one of ours (libX11 1.7 and later). The functions are looked up in what GLFW has brought along: its build for
-// Wayland has none of them, and GLFW 3.4 loads libX11 for itself.
+// Keeps the process alive when the X connection breaks: Xlib ends it unless two handlers return, a global one and one
+// for our connection (libX11 1.7 and later). The functions are looked up in the library that GLFW has loaded, because
+// GLFW's Wayland build has none of them, and GLFW 3.4 loads libX11 itself.
 void WindowSystem::outlive_the_display() {
   using OnError = int (*)(void* display);
   using OnExit = void (*)(void* display, void* data);
-  void* const x11 = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);  // never closed: what is set stays
+  void* const x11 = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);  // never closed: the setting remains
   const auto get_display = reinterpret_cast<void* (*)()>(::dlsym(RTLD_DEFAULT, "glfwGetX11Display"));
   if (x11 == nullptr || get_display == nullptr) return;
   void* const display = get_display();
@@ -139,7 +139,7 @@ bool is_shown(const scene::PixelRect& rect, const std::vector<Monitor>& monitors
 bool can_place_windows() {
 #ifdef GLFW_PLATFORM_WAYLAND
   return glfwGetPlatform() != GLFW_PLATFORM_WAYLAND;
-#else  // GLFW 3.3 is built for one window system
+#else  // GLFW 3.3 supports one window system
   return std::string_view(glfwGetVersionString()).find("Wayland") == std::string_view::npos;
 #endif
 }

@@ -10,8 +10,7 @@
 
 namespace afm::render {
 
-// A share of GLFW, which is one for the process: begins with the first share and ends with the last. On the main thread
-// only.
+// Share of GLFW, which is global: initialised with the first share and terminated with the last. Main thread only.
 class WindowSystem {
  public:
   // DeviceMissing: no display.
@@ -36,7 +35,7 @@ class WindowSystem {
   bool joined_ = true;
 };
 
-// GLFW's words for its last failure on this thread.
+// GLFW's message for its last failure on this thread.
 std::string window_system_error();
 
 }  // namespace afm::render

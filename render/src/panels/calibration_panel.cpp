@@ -9,7 +9,7 @@
 namespace afm::render {
 namespace {
 
-constexpr float kWallHeightMm = 2286.0F;  // for which the texts have their size; on another screen they scale with it
+constexpr float kWallHeightMm = 2286.0F;  // the texts are sized for it; on other screens they scale with it
 constexpr Color kGround{{0.10F, 0.10F, 0.11F}, 1.0F};
 constexpr Color kFine{{0.30F, 0.32F, 0.35F}, 1.0F};
 constexpr Color kCoarse{{0.52F, 0.55F, 0.60F}, 1.0F};
@@ -22,7 +22,7 @@ constexpr Color kRamp{{0.20F, 0.78F, 0.58F}, 1.0F};
 
 Color grey(float srgb) { return {glm::vec3(srgb), 1.0F}; }
 
-// Lines every `step` both ways, of which two cross at `from`.
+// Draws lines `step` apart in both directions; two of them cross at `from`.
 void paint_grid(Canvas& canvas, glm::vec2 from, float step, float width, Color color) {
   const glm::vec2 size = canvas.size_mm();
   const auto first = [&](float place) { return place - step * std::floor(place / step); };
@@ -30,7 +30,7 @@ void paint_grid(Canvas& canvas, glm::vec2 from, float step, float width, Color c
   for (float y = first(from.y); y <= size.y; y += step) canvas.line({0.0F, y}, {size.x, y}, width, color);
 }
 
-// The borders of the ramps in which the picture fades out, with their widths.
+// Draws the borders of the blending ramps, with their widths.
 void paint_ramps(Canvas& canvas, const CalibrationPanel& panel, float unit) {
   const glm::vec2 size = canvas.size_mm(), middle = 0.5F * size;
   const float thick = 4.0F * unit, gap = 16.0F * unit;
@@ -66,7 +66,7 @@ void paint_circle(Canvas& canvas, glm::vec2 center, float radius, float width, C
   canvas.polyline(points, width, color);
 }
 
-// Distances from the mark at its left end, at true scale.
+// Draws a ruler at true scale that measures from the mark at its left end.
 void paint_ruler(Canvas& canvas, glm::vec2 zero, float unit, double ipd_m) {
   const auto tick = [&](float mm, float height, Color color) {
     const float x = mm * canvas.true_mm();
@@ -79,7 +79,8 @@ void paint_ruler(Canvas& canvas, glm::vec2 zero, float unit, double ipd_m) {
   tick(static_cast<float>(ipd_m * 1e3), 80.0F, palette::kOrange);
 }
 
-// Black to white in encoded values, and stripes of black and white beside the grey that has half of white's light.
+// Draws grey steps from black to white in encoded values, and black and white stripes next to the grey with half of
+// white's luminance.
 void paint_greys(Canvas& canvas, glm::vec2 at, float unit) {
   const glm::vec2 patch(70.0F * unit);
   constexpr int kSteps = 11;

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kEllipsis = "\u2026";
 constexpr float kPlateRounding = 22.0F;
 constexpr float kSubscriptScale = 0.75F;
-constexpr float kSubscriptDrop = 0.34F;  // of the line's height
+constexpr float kSubscriptDrop = 0.34F;  // fraction of the line's height
 
 bool in_subscript(char c) {
   const auto byte = static_cast<unsigned char>(c);
@@ -24,7 +24,7 @@ bool in_subscript(char c) {
 }  // namespace
 
 Color shown(Color color, PanelContrast contrast) {
-  constexpr float kStronger = 2.5F;  // of what is drawn faintly
+  constexpr float kStronger = 2.5F;  // enhancement of faint colours in high contrast
   if (contrast == PanelContrast::Normal) return color;
   const bool plate = color.srgb == palette::kPlate.srgb;
   if (contrast == PanelContrast::Opaque) return {color.srgb, plate ? 1.0F : color.alpha};
@@ -103,7 +103,7 @@ void Canvas::fitted_text(glm::vec2 position, TextStyle style, Color color, std::
   }
   const float room = width_mm - text_width_mm(style, kEllipsis);
   while (!text.empty() && text_width_mm(style, text) > room) {
-    // whole UTF-8 characters: continuation bytes go with their first byte
+    // removes whole UTF-8 characters: continuation bytes together with their first byte
     while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) {
       text.remove_suffix(1);
     }
@@ -123,7 +123,7 @@ void Canvas::line(glm::vec2 from, glm::vec2 to, float width_mm, Color color) {
   list_.AddLine(texel(from), texel(to), packed(color), width_mm * fonts_.texels_per_mm);
 }
 
-// Dear ImGui's mitres spike at sharp turns, so a line is broken there and the joint covered with a disc.
+// Dear ImGui's mitres spike at sharp turns, so this breaks the line there and covers the joint with a disc.
 void Canvas::polyline(std::span<const glm::vec2> points, float width_mm, Color color) {
   std::vector<ImVec2>& texels = memory_.texels;
   texels.clear();
@@ -159,7 +159,7 @@ void Canvas::dashed_polyline(std::span<const glm::vec2> points, float width_mm, 
                              Color color) {
   std::vector<glm::vec2>& dash = memory_.dash;
   dash.clear();
-  float place = 0.0F;  // along the period of dash and gap
+  float place = 0.0F;  // position within the period of dash and gap
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const float length = glm::distance(points[i], points[i + 1]);
     float done = 0.0F;
@@ -206,7 +206,7 @@ void Canvas::polygon(std::span<const glm::vec2> convex, Color color) {
   list_.AddConvexPolyFilled(texels.data(), static_cast<int>(texels.size()), packed(color));
 }
 
-// In bands of rows, so that the vertices of each are counted in 16 bits.
+// Draws in bands of rows, so that the vertices of each can be indexed in 16 bits.
 void Canvas::grid(glm::vec2 from, glm::vec2 to, const ColorGrid& grid) {
   if (grid.columns < 2 || grid.rows < 2) return;
   const std::uint32_t most_rows = std::max(2U, 32768U / grid.columns);

@@ -19,8 +19,8 @@ struct Color {
   float alpha = 1.0F;
 };
 
-// The panels' colours: light ink on a dark background, and Okabe and Ito's palette for what must be distinguished,
-// which people with any colour vision can.
+// Colours of the panels: light ink on a dark background, and the palette of Okabe and Ito, whose colours can be told
+// apart with any kind of colour vision.
 namespace palette {
 inline constexpr Color kPlate{{0.055F, 0.066F, 0.090F}, 0.90F};
 inline constexpr Color kEdge{{0.62F, 0.70F, 0.80F}, 0.30F};
@@ -33,13 +33,13 @@ inline constexpr Color kSkyBlue{{0.337F, 0.706F, 0.914F}, 1.0F};
 inline constexpr Color kYellow{{0.941F, 0.894F, 0.259F}, 1.0F};
 }  // namespace palette
 
-// How a colour is drawn: in high contrast the plate is black, and ink, edges and axes are white. What distinguishes
-// curves, states and values keeps its colour.
+// Colour as drawn. In high contrast the plate is black, and ink, edges and axes are white; colours that distinguish
+// curves, states and values stay.
 Color shown(Color color, PanelContrast contrast);
 
 enum class Align { Left, Center, Right };
 
-// Scratch memory for painting, kept so that painting again allocates nothing.
+// Scratch memory, kept so that repainting allocates nothing.
 struct CanvasMemory {
   std::vector<ImVec2> texels;
   std::vector<glm::vec2> points, dash;
@@ -55,28 +55,30 @@ class Canvas {
 
   glm::vec2 size_mm() const { return size_mm_; }
 
-  // A millimetre of the room: all lengths here are in the panels'.
+  // Length of a millimetre of the room, in the panels' millimetres, which are used everywhere else here.
   float true_mm() const { return fonts_.true_mm; }
 
-  // Pixels of an eye's image on which a millimetre is drawn, about: textures are twice as fine.
+  // Approximate number of an eye image's pixels per millimetre: textures have twice this resolution.
   float pixels_per_mm() const { return 0.5F * fonts_.texels_per_mm; }
 
-  // The panel's plate with its rounded edge.
+  // Draws the panel's plate with its rounded edge.
   void panel_background(Color edge = palette::kEdge, float edge_width_mm = 2.0F);
 
-  // `position` is the top of the line at its left end, middle or right end. An underscore starts a subscript that lasts
-  // to the next character that is no letter or digit: "Z_jtc". `scale` makes the style smaller.
+  // Draws a line of text. `position` is at the top of the line, at its left end, middle or right end. An underscore
+  // starts a subscript that ends before the next character other than a letter or digit: "Z_jtc". `scale` reduces the
+  // style's size.
   void text(glm::vec2 position, TextStyle style, Color color, std::string_view text, Align align = Align::Left,
             float scale = 1.0F);
   float text_width_mm(TextStyle style, std::string_view text, float scale = 1.0F) const;
 
-  // The same from the left, cut with an ellipsis where it would be wider than `width_mm`.
+  // Draws left-aligned text, cut with an ellipsis if it would be wider than `width_mm`.
   void fitted_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm);
 
-  // The same, drawn smaller where it would be wider; it stays on the middle of its line.
+  // Draws left-aligned text, reduced if it would be wider, and vertically centred on its line.
   void shrunk_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm);
 
-  // For who paints: nothing in it is kept from one call to the next, and `points` and `labels` no call here uses.
+  // Scratch memory for the caller, which keeps nothing from one call to the next. No function of this class uses
+  // `points` and `labels`.
   CanvasMemory& memory() { return memory_; }
 
   void line(glm::vec2 from, glm::vec2 to, float width_mm, Color color);
@@ -87,11 +89,11 @@ class Canvas {
   void disc(glm::vec2 center, float radius_mm, Color color);
   void polygon(std::span<const glm::vec2> convex, Color color);
 
-  // The grid's colours, one at the middle of each of its cells, blended between them; the outer half cells as their
-  // neighbours. As many vertices as the grid has points.
+  // Draws the grid's colours, one at the centre of each cell and blended in between; the outer half cells are constant.
+  // Uses as many vertices as the grid has points.
   void grid(glm::vec2 from, glm::vec2 to, const ColorGrid& grid);
 
-  // Nothing is drawn outside the rectangle until pop_clip().
+  // Draws nothing outside the rectangle until pop_clip().
   void push_clip(glm::vec2 from, glm::vec2 to);
   void pop_clip();
 

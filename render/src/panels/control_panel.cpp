@@ -9,16 +9,16 @@ namespace afm::render {
 namespace {
 
 constexpr double kControlMargin = 28.0;
-constexpr double kTop = 124.0;  // below the title and the buttons beside it
+constexpr double kTop = 124.0;  // below the title and the buttons next to it
 constexpr double kTallestRow = 104.0;
 constexpr double kTargetWidth = 88.0;
 constexpr double kButtonWidth = 165.0;
 constexpr double kGap = 10.0;
 constexpr double kNoteHeight = 43.0;
-constexpr double kBelowNotes = 20.0;  // to the rounded edge
+constexpr double kBelowNotes = 20.0;  // distance from the notes to the rounded edge
 constexpr float kValueScale = 0.8F;
 
-// From one row to the next: what the notes leave.
+// Distance between rows in the height that the notes leave.
 double row_pitch(const ControlPanel& panel, double height_mm) {
   const double notes = kNoteHeight * static_cast<double>(panel.notes.size() + 1) + kGap + kBelowNotes;
   const double rows = static_cast<double>(std::max<std::size_t>(panel.rows.size(), 1));
@@ -27,7 +27,7 @@ double row_pitch(const ControlPanel& panel, double height_mm) {
 
 glm::vec2 f(const glm::dvec2& v) { return glm::vec2(v); }
 
-// A target: bright when pointed at, with a sign or a word in its middle.
+// Draws a target, bright while pointed at, with a sign or a word in its centre.
 void paint_target(Canvas& canvas, const ControlBox& box, std::string_view text, bool pointed) {
   const Color panel_background = pointed ? palette::kOrange : Color{palette::kSkyBlue.srgb, 0.22F};
   canvas.rectangle(f(box.from_mm), f(box.to_mm), panel_background, 12.0F);

@@ -9,20 +9,20 @@
 
 namespace afm::render {
 
-// In a node's frame, along its axes.
+// Box in a node's frame, along its axes.
 struct DrawBox {
   glm::dvec3 center;
   glm::dvec3 half_size;
 };
 
-// Bounding box of a draw that is not bent.
+// Bounding box of a straight draw.
 DrawBox box_of(const Draw& draw);
 
-// Bounding box of a draw, or of what a box of it holds, that is bent as its DrawBlock says.
+// Bounding box of a bent draw, or of a bent part of it given by its own box. The bend is that of its DrawBlock.
 DrawBox bent_box(const DrawBox& box, const glm::vec4& bend);
 DrawBox bent_box(const Draw& draw, const glm::vec4& bend);
 
-// The least and the largest value of dot(form, (place, 1)) over the box.
+// Smallest and largest value of dot(form, (place, 1)) over the box.
 std::pair<double, double> range(const glm::dvec4& form, const DrawBox& box);
 
 }  // namespace afm::render

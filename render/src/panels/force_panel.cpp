@@ -15,7 +15,7 @@ constexpr float kRetractWidth = 7.0F;
 constexpr float kApproachWidth = 4.5F;
 constexpr float kFadedAlpha = 0.50F;
 
-// Where the axes stand on the canvas and what they span.
+// Position of the axes on the canvas, and their ranges.
 struct Plot {
   glm::vec2 top_left{0.0F};
   glm::vec2 bottom_right{0.0F};
@@ -32,7 +32,7 @@ struct Plot {
   glm::vec2 place(const PlotPoint& point) const { return {x(point.place_nm), y(point.force_nn)}; }
 };
 
-// A range that the app left empty or inverted still gives an axis.
+// Replaces an empty or inverted range, so that there is always an axis.
 std::pair<double, double> sane_range(double low, double high) {
   if (std::isfinite(low) && std::isfinite(high) && high > low) {
     return {low, high};
@@ -46,7 +46,7 @@ void paint_heading(Canvas& canvas, const ForcePanel& panel) {
   canvas.shrunk_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.stage, width);
 }
 
-// In columns from `top` on: the names small, the values below them. Returns where they end.
+// Draws columns from `top` down: small names with the values below them. Returns the lower end.
 float paint_figures(Canvas& canvas, const std::vector<DataRow>& figures, float top) {
   if (figures.empty()) return top;
   constexpr float kApart = 24.0F, kBelow = 18.0F;
@@ -62,7 +62,7 @@ float paint_figures(Canvas& canvas, const std::vector<DataRow>& figures, float t
   return top + name_height + value_height + kBelow;
 }
 
-// One entry for each curve, smaller where there are many, and what dashed and solid mean.
+// Draws one entry per curve, smaller if there are many, and the legend of dashed and solid lines.
 void paint_legend(Canvas& canvas, const ForcePanel& panel, float y) {
   constexpr float kStroke = 42.0F, kLabel = 54.0F, kApart = 34.0F;
   float whole = -kApart;
@@ -124,7 +124,7 @@ void paint_axes(Canvas& canvas, const Plot& plot, double place_step, double forc
   }
 }
 
-// Where the force axis says what it shows.
+// Box of the caption of the force axis.
 LabelBox force_caption(const Canvas& canvas, const Plot& plot, const PlotWords& words) {
   const glm::vec2 place = plot.top_left + glm::vec2(8.0F, -2.0F);
   const glm::vec2 size(canvas.text_width_mm(TextStyle::Body, words.force_axis) + 16.0F,
@@ -132,7 +132,7 @@ LabelBox force_caption(const Canvas& canvas, const Plot& plot, const PlotWords& 
   return {place, place + size};
 }
 
-// What the axes show, over the curves.
+// Draws the captions of both axes, over the curves.
 void paint_captions(Canvas& canvas, const Plot& plot, const PlotWords& words) {
   const LabelBox force = force_caption(canvas, plot, words);
   canvas.rectangle(force.from, force.to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
@@ -142,7 +142,7 @@ void paint_captions(Canvas& canvas, const Plot& plot, const PlotWords& words) {
               palette::kInk, words.place_axis, Align::Center);
 }
 
-// On the canvas, as many as it can show; valid until the next call.
+// Points on the canvas, as many as it can show; valid until the next call.
 std::span<const glm::vec2> placed(Canvas& canvas, const Plot& plot, const std::vector<PlotPoint>& points) {
   std::vector<glm::vec2>& places = canvas.memory().points;
   places.clear();
@@ -168,7 +168,7 @@ bool in_range(const Plot& plot, const PlotMarker& marker) {
                   : marker.value >= plot.force_min && marker.value <= plot.force_max;
 }
 
-// All lines first, so that none crosses a label.
+// Draws all lines first, so that none crosses a label.
 void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarker>& markers, const PlotWords& words) {
   const Color line_color{palette::kInk.srgb, 0.60F};
   std::vector<MarkerLabel>& labels = canvas.memory().labels;
@@ -234,7 +234,7 @@ void paint(Canvas& canvas, const ForcePanel& panel) {
   plot.bottom_right = canvas.size_mm() - glm::vec2(kMargin, 112.0F);
   paint_axes(canvas, plot, place_step, force_step, mark);
 
-  // markers before the curves: no label hides what was measured
+  // markers before the curves, so that no label hides measured data
   paint_markers(canvas, plot, panel.markers, panel.words);
   canvas.push_clip(plot.top_left, plot.bottom_right);
   for (const auto& curve : panel.curves) {

@@ -10,14 +10,14 @@
 namespace afm::render {
 namespace {
 
-constexpr float kImageTop = 146.0F;  // below title and subtitle
+constexpr float kImageTop = 146.0F;  // below the title and subtitle
 constexpr float kBetween = 26.0F;
 constexpr float kImageCaption = 44.0F;  // above a picture
 constexpr float kImageTicks = 60.0F;    // below trace and retrace
-constexpr float kColorBar = 92.0F;      // colours with their numbers
+constexpr float kColorBar = 92.0F;      // height of the colour bar with its numbers
 constexpr float kColorBarHeight = 30.0F;
 constexpr float kImageFoot = 26.0F;
-constexpr float kSmallShare = 0.62F;  // of a large picture's side that a small one wants
+constexpr float kSmallShare = 0.62F;  // preferred side of a small picture, relative to a large one
 constexpr float kTickLength = 8.0F;
 
 constexpr Color kUnderScaleBar{{0.0F, 0.0F, 0.0F}, 0.55F};
@@ -30,8 +30,8 @@ struct Square {
   glm::vec2 to() const { return from + glm::vec2(side); }
 };
 
-// Squares of a panel: two large ones beside each other; those of the smaller pictures and of the profile in a row below
-// or in a column at the right, whichever shows the large ones larger.
+// Squares of a panel: the two large ones side by side; the small pictures and the profile in a row below them or in a
+// column on the right, whichever leaves the large ones larger.
 struct Layout {
   std::array<Square, 2> heights;
   std::array<Square, 3> smaller;  // error, lateral force, profile
@@ -46,7 +46,7 @@ Layout column_layout(glm::vec2 size, float labels) {
   Layout layout;
   const float spare = width - 2.0F * large - small - 2.0F * kBetween;
   const float left = kMargin + labels + 0.25F * spare;
-  // what of the height is left goes above the bar, which then lies at the panel's foot
+  // spare height goes above the bar, which then lies at the bottom of the panel
   const float top =
       kImageTop + kImageCaption + 0.35F * std::max(0.0F, height - kImageCaption - kImageTicks - kColorBar - large);
   layout.heights = {Square{{left, top}, large}, Square{{left + large + kBetween, top}, large}};
@@ -84,7 +84,7 @@ Layout layout_of(glm::vec2 size, float labels) {
   return column.heights[0].side > row.heights[0].side ? column : row;
 }
 
-// The picture with a plate below what has not been measured, its caption above it.
+// Draws the picture with its caption above it, on a plate that shows through unmeasured areas.
 void paint_map(Canvas& canvas, const ImageMap& map, const Square& at, TextStyle style) {
   canvas.shrunk_text(at.from - glm::vec2(0.0F, kImageCaption - 2.0F), style, palette::kInk, map.title, at.side);
   canvas.rectangle(at.from, at.to(), kUnmeasured);
@@ -94,7 +94,7 @@ void paint_map(Canvas& canvas, const ImageMap& map, const Square& at, TextStyle 
   canvas.outline(at.from, at.to(), 2.0F, palette::kAxis);
 }
 
-// Round distances along the area, with as many ticks as their numbers have room for.
+// Round tick distance along the area, with as many ticks as there is room for numbers.
 double tick_of(const Canvas& canvas, const ImagePanel& panel, float side_mm) {
   int most = 5;
   double step = tick_step(panel.side, most);
@@ -133,7 +133,7 @@ void paint_axes(Canvas& canvas, const ImagePanel& panel, const Layout& layout) {
               panel.side_unit, Align::Right);
 }
 
-// In the picture's lower right corner, on a plate, so that it is seen on every colour.
+// Draws the scale bar in the picture's lower right corner, on a plate that makes it visible on every colour.
 void paint_scale_bar(Canvas& canvas, const ImagePanel& panel, const Square& at) {
   const float length = static_cast<float>(panel.scale_bar / panel.side) * at.side;
   const std::string text = fmt::format("{:g} {}", panel.scale_bar, panel.side_unit);
@@ -147,7 +147,7 @@ void paint_scale_bar(Canvas& canvas, const ImagePanel& panel, const Square& at) 
   canvas.rectangle({middle - 0.5F * length, to.y - 16.0F}, {middle + 0.5F * length, to.y - 8.0F}, palette::kInk);
 }
 
-// Where the tip is now: a mark at both edges and a thin line between them.
+// Marks the scan line of the tip at both edges, with a thin line in between.
 void paint_line(Canvas& canvas, double line, const Square& at) {
   const float y = at.from.y + static_cast<float>(std::clamp(line, 0.0, 1.0)) * at.side;
   canvas.line({at.from.x, y}, {at.to().x, y}, 2.5F, palette::kYellow);
@@ -183,7 +183,7 @@ void paint_bar(Canvas& canvas, const ImagePanel& panel, const Layout& layout) {
     const float half = 0.5F * canvas.text_width_mm(TextStyle::Small, number);
     canvas.line({x, to.y}, {x, to.y + kTickLength}, 2.5F, palette::kAxis);
     const float middle = std::clamp(x, from.x + half, to.x - half);
-    if (middle + half > end) continue;  // the unit's place
+    if (middle + half > end) continue;  // reserved for the unit
     canvas.text({middle, to.y + kTickLength}, TextStyle::Small, palette::kMuted, number, Align::Center);
   }
   canvas.text({to.x, to.y + kTickLength}, TextStyle::Small, palette::kMuted, "nm", Align::Right);

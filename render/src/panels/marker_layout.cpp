@@ -7,11 +7,11 @@
 namespace afm::render {
 namespace {
 
-constexpr float kBeside = 6.0F;  // from the line
-constexpr float kApart = 4.0F;   // from label to label
+constexpr float kBeside = 6.0F;  // distance from the line
+constexpr float kApart = 4.0F;   // distance between labels
 
-// Shows `take` places from the best to the worst, along the line, and at each on its one side and on its other, until
-// it takes one.
+// Offers `take` positions from best to worst, along the line and at each point on both sides of it, until it accepts
+// one.
 template <class Take>
 void offer_places(const MarkerLabel& label, const LabelBox& plot, Take&& take) {
   const glm::vec2 size = label.size;
@@ -21,7 +21,7 @@ void offer_places(const MarkerLabel& label, const LabelBox& plot, Take&& take) {
     }
     return;
   }
-  // at the left first, where an approach-retract curve leaves room below zero
+  // left side first, where an approach-retract curve leaves room below zero
   const bool upper_half = label.line < 0.5F * (plot.from.y + plot.to.y);
   const float below = label.line + kApart, above = label.line - kApart - size.y;
   for (float x = plot.from.x + 2.0F * kApart; x + size.x <= plot.to.x; x += 0.25F * size.x) {

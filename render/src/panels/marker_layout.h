@@ -23,8 +23,8 @@ struct MarkerLabel {
   glm::vec2 size{0.0F};
 };
 
-// Adds one box for each label, in their order, inside `plot`: beside its line, where it covers none of what is `taken`,
-// the labels before it included. A label without such a place keeps its preferred position.
+// Adds one box for each label, in order, inside `plot`. Each box lies next to its line where it covers nothing in
+// `taken`, earlier labels included. A label without such a position keeps its preferred one.
 void place_labels(std::span<const MarkerLabel> labels, const LabelBox& plot, std::vector<LabelBox>& taken);
 
 }  // namespace afm::render

@@ -8,7 +8,7 @@
 namespace afm::render {
 namespace {
 
-constexpr std::size_t kMostCorners = 200'000;  // the image of a scan has more, and changes in many places
+constexpr std::size_t kMostCorners = 200'000;  // a scan image has more, and changes in many places
 
 bool same(const ImVec4& a, const ImVec4& b) { return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w; }
 
@@ -16,7 +16,7 @@ bool same(const ImDrawVert& a, const ImDrawVert& b) {
   return a.pos.x == b.pos.x && a.pos.y == b.pos.y && a.uv.x == b.uv.x && a.uv.y == b.uv.y && a.col == b.col;
 }
 
-// Corners at the beginning that belong to equal triangles.
+// Number of corners at the beginning that belong to equal triangles.
 template <class It>
 std::ptrdiff_t equal_from(const It& a, const It& a_end, const It& b, const It& b_end) {
   const std::ptrdiff_t equal =

@@ -11,31 +11,31 @@
 
 namespace afm::render {
 
-// A rectangle of a canvas, in its texels, y down; empty where it has no width.
+// Rectangle of a canvas, in texels, y down; empty if it has no width.
 struct CanvasBox {
   glm::vec2 low{0.0F}, high{0.0F};
 };
 
-// The triangles of one painting of a panel, to find where the next one differs. Keeps its memory.
+// Triangles of one painting of a panel, compared with the next one to find the differences. Keeps its memory.
 class PaintedShapes {
  public:
   void clear();
 
-  // What ImGui draws in one list, after what is already there.
+  // Appends the shapes of an ImGui draw list.
   void add(const ImDrawList& list);
 
-  // Where the texels of two paintings may differ; none: anywhere. What is equal before and behind a difference, in the
-  // order of painting, does not count.
+  // Area in which the texels of two paintings may differ; nothing if that may be anywhere. Ignores equal shapes before
+  // and after a difference in the painting order.
   std::optional<CanvasBox> difference(const PaintedShapes& other) const;
 
  private:
   struct Group {
     ImVec4 clip{};
-    std::size_t end = 0;  // of its corners
+    std::size_t end = 0;  // one past its last corner
   };
   std::span<const ImDrawVert> corners_of(std::size_t group) const;
 
-  std::vector<ImDrawVert> corners_;  // three for each triangle
+  std::vector<ImDrawVert> corners_;  // three per triangle
   std::vector<Group> groups_;
   bool too_many_ = false;
 };

@@ -21,14 +21,14 @@ struct StyleRow {
   const char* dejavu;
 };
 
-// As sharp as 8192 pixels across the paper's wall need.
+// Largest resolution, sufficient for 8192 pixels across the paper's wall.
 constexpr float kMostTexelsPerMm = 5.4F;
-constexpr float kCoarser = 0.75F;  // where the glyphs find no room in an image
+constexpr float kCoarser = 0.75F;  // reduction step when the glyphs do not fit into an image
 
 constexpr const char* kInterFolder = "/usr/share/fonts/opentype/inter/";
 constexpr const char* kDejavuFolder = "/usr/share/fonts/truetype/dejavu/";
 
-// In the order of TextStyle. Medium weight at the least: thin strokes vanish at the back of a room.
+// Styles in the order of TextStyle, at least in medium weight: thin strokes are invisible from the back of a room.
 constexpr std::array<StyleRow, kTextStyles> kStyles{{
     {30.0F, "Inter-Medium.otf", "DejaVuSans.ttf"},
     {40.0F, "Inter-Medium.otf", "DejaVuSans.ttf"},
@@ -37,18 +37,18 @@ constexpr std::array<StyleRow, kTextStyles> kStyles{{
     {72.0F, "Inter-SemiBold.otf", "DejaVuSans-Bold.ttf"},
 }};
 
-// Latin, Greek, punctuation with the typographic minus and dashes, sub- and superscripts, arrows, mathematical
+// Latin, Greek, punctuation with the typographic minus and dashes, subscripts and superscripts, arrows, mathematical
 // operators.
 constexpr std::array<ImWchar, 17> kGlyphRanges{0x0020, 0x00FF, 0x0391, 0x03C9, 0x2010, 0x2027, 0x2030, 0x2044, 0x2070,
                                                0x209C, 0x2190, 0x2193, 0x2200, 0x2265, 0x2266, 0x226B, 0};
 
-// OpenType's signatures: of anything else ImGui ends the program.
+// True for a file with an OpenType signature; ImGui ends the program for any other.
 bool is_font(const std::string& bytes) {
   using namespace std::string_view_literals;
   return bytes.starts_with("OTTO"sv) || bytes.starts_with("\0\1\0\0"sv);
 }
 
-// ImGui does not look at what it is given.
+// Never returns null, since ImGui does not check.
 void* memory_or_throw(std::size_t size, void* /*unused*/) {
   if (void* place = std::malloc(size)) return place;
   throw std::bad_alloc();
@@ -58,7 +58,7 @@ void give_back(void* place, void* /*unused*/) { std::free(place); }
 core::Result<PanelFonts> draw_glyphs(float texels_per_mm, float true_mm) {
   PanelFonts result{.atlas = std::make_unique<ImFontAtlas>(), .texels_per_mm = texels_per_mm, .true_mm = true_mm};
   result.atlas->Flags |= ImFontAtlasFlags_NoMouseCursors;
-  std::deque<std::string> files;  // which the atlas reads when it is built
+  std::deque<std::string> files;  // read by the atlas when it is built
   for (std::size_t style = 0; style < kTextStyles; ++style) {
     const auto& row = kStyles[style];
     const float pixels = std::max(1.0F, std::round(row.height_mm * result.texels_per_mm));

@@ -6,7 +6,7 @@
 
 namespace afm::render {
 
-inline constexpr float kMargin = 34.0F;  // mm, of texts and plots
+inline constexpr float kMargin = 34.0F;  // mm, around texts and plots
 
 void paint(Canvas& canvas, const ForcePanel& panel);
 void paint(Canvas& canvas, const ImagePanel& panel);
@@ -15,7 +15,7 @@ void paint(Canvas& canvas, const Banner& banner);
 void paint(Canvas& canvas, const ControlPanel& panel);
 void paint(Canvas& canvas, const Label& label);
 
-// The letter that one eye's picture alone shows; fills the canvas.
+// Letter shown to one eye only; fills the canvas.
 struct EyeMark {
   scene::Eye eye = scene::Eye::Left;
 

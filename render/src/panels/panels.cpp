@@ -20,7 +20,7 @@
 namespace afm::render {
 namespace {
 
-constexpr std::uint32_t kLargestTexture = 8192;  // each way, or what the device can
+constexpr std::uint32_t kLargestTexture = 8192;  // each way; smaller if the device requires it
 
 const Label kNoLabel{.text = {}, .highlighted = false, .placement = kNoPlacement};
 
@@ -72,12 +72,12 @@ glm::dvec2 size_m(const PanelPlacement& placement) {
   return {glm::length(placement.right_m), glm::length(placement.up_m)};
 }
 
-// In millimetres of the panels.
+// Size in the panels' millimetres.
 glm::dvec2 size_mm(const PanelPlacement& placement, const PanelFonts& fonts) {
   return size_m(placement) * 1000.0 * static_cast<double>(fonts.true_mm);
 }
 
-// The L is in the left half of the calibration picture, the R in the right.
+// Placement of an eye's letter: the L in the left half of the calibration picture, the R in the right.
 PanelPlacement mark_placement(const PanelPlacement& whole, scene::Eye eye) {
   const double left = eye == scene::Eye::Left ? 0.14 : 0.66;
   return {.lower_left_m = whole.lower_left_m + left * whole.right_m + 0.36 * whole.up_m,
@@ -85,7 +85,7 @@ PanelPlacement mark_placement(const PanelPlacement& whole, scene::Eye eye) {
           .up_m = 0.36 * whole.up_m};
 }
 
-// At least what is wanted, with room to grow.
+// Enlarges the buffer to at least `bytes`, with room to grow.
 void reserve(const Device& device, Buffer& buffer, const char* name, std::size_t bytes, vk::BufferUsageFlags usage) {
   if (buffer.size < bytes) {
     buffer = create_host_buffer(device, name, std::max<vk::DeviceSize>(2 * bytes, 65536), usage);
@@ -195,7 +195,7 @@ Panels::Texture Panels::create_texture(vk::Extent2D extent) const {
   return texture;
 }
 
-// Gives the panel a texture of its placement's size; true if it is a new one.
+// Gives the panel a texture for its placement's size; true if it is a new one.
 bool Panels::resize(Panel& panel) {
   const glm::dvec2 canvas = glm::max(
       glm::ceil(size_mm(panel.placement, fonts_) * static_cast<double>(fonts_.texels_per_mm)), glm::dvec2(1.0));
@@ -371,7 +371,7 @@ void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const Eye
   show(data_);
   show(control_);
   std::for_each(labels_.begin(), labels_.end(), show);
-  // whether a force reaches the hand is to be seen, wherever the scene has been moved
+  // the banner shows whether a force reaches the hand, so it stays visible wherever the scene has been moved
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, over_all_pipeline_.get(drawing.pass, drawing.samples));
   show(banner_);
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, rectangle_pipeline_.get(drawing.pass, drawing.samples));

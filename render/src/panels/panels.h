@@ -24,59 +24,58 @@ namespace afm::render {
 
 inline constexpr std::size_t kFramesInFlight = 2;
 
-// Of the panels' textures, which hold premultiplied sRGB values; and their use whenever they are not painted.
+// Format of the panels' textures, which hold premultiplied sRGB values, and their use between paintings.
 inline constexpr vk::Format kPanelFormat = vk::Format::eR8G8B8A8Unorm;
 inline constexpr ImageUse kPanelShown{vk::PipelineStageFlagBits2::eFragmentShader,
                                       vk::AccessFlagBits2::eShaderSampledRead, vk::ImageLayout::eShaderReadOnlyOptimal};
 
-// What one panel adds to the pictures of the eyes.
+// Contribution of one panel to the eyes' pictures.
 struct PanelState {
   bool shown = false;
   PanelPlacement placement = kNoPlacement;
-  std::uint64_t painting = 0;  // which of its paintings the texture shows
-  PanelPart part{};            // in which that differs from the one before it
+  std::uint64_t painting = 0;  // number of the painting that the texture shows
+  PanelPart part{};            // part that differs from the previous painting
 
   bool operator==(const PanelState&) const = default;
 };
 
-// A panel that is left out of the eyes' pictures.
+// Panel that is left out of the eyes' pictures.
 struct ApartPanel {
-  std::size_t place = 0;  // of this panel in every frame
+  std::size_t place = 0;  // index of this panel, the same in every frame
   PanelPlacement placement;
-  vk::Image texture;  // until the next frame
+  vk::Image texture;  // valid until the next frame
   vk::Extent2D extent;
   std::uint64_t painting = 0;  // as PanelState::painting
 };
 
-// The panels of a frame: each is painted into its texture, and again only when its content or size has changed, and
-// shown on its rectangle in the room, the banner over all that is there. Panels without area are neither painted nor
-// shown.
+// Panels of a frame. Each is painted into its texture, repainted only when its content or size changes, and shown on
+// its rectangle in the room; the banner is drawn over everything. Panels without area are neither painted nor shown.
 class Panels {
  public:
-  // With Redraw::Everything textures are painted as a whole.
+  // With Redraw::Everything, textures are repainted as a whole.
   Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout,
          const RendererOptions& options);
   ~Panels();
 
-  // Takes a frame's panels; whether one of them must be painted again. `slot` numbers the frame in flight, whose
+  // Stores a frame's panels; returns true if one of them must be repainted. `slot` is the frame in flight, whose
   // previous use is over.
   bool update(const FrameState& frame, std::size_t slot);
 
-  // After update(): leaves up to so many panels out of the eyes' pictures, those that nothing hides.
+  // Call after update(): leaves up to `most` panels out of the eyes' pictures, those that nothing hides.
   void set_apart(std::size_t most, const PanelSight& sight);
-  // These, in the order in which they cover each other. Their textures are painted in the frame's commands.
+  // Panels left out of the eyes' pictures, in drawing order. The frame's commands paint their textures.
   std::vector<ApartPanel> apart() const;
 
-  // Paints what has changed; outside any rendering.
+  // Paints the changes; call outside any rendering.
   void record_textures(const vk::raii::CommandBuffer& command, std::size_t slot);
 
-  // Shows all panels but those apart, blended over what is there; inside an eye pass. What it records stays right until
-  // revision() changes.
+  // Draws all panels except those apart, blended over the picture; call inside an eye pass. The recorded commands stay
+  // valid until revision() changes.
   void record_rectangles(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
                          vk::DescriptorSet frame_set);
   std::uint64_t revision() const { return revision_; }
 
-  // All panels as the eyes' pictures show them now, each always at the same place; `states` keeps its memory.
+  // Lists all panels as the eyes' pictures show them, each always at the same index; `states` keeps its memory.
   void list(std::vector<PanelState>& states) const;
 
  private:
@@ -86,23 +85,23 @@ class Panels {
   struct Texture {
     DeviceImage image;
     vk::raii::ImageView view{nullptr};
-    vk::raii::DescriptorPool pool{nullptr};  // of one set: panels come and go with the labels
+    vk::raii::DescriptorPool pool{nullptr};  // pool for one set, because panels come and go with the labels
     vk::raii::DescriptorSet set{nullptr};
   };
   struct Panel {
     PanelPlacement placement;
     std::variant<std::monostate, ForcePanel, ImagePanel, DataPanel, Banner, ControlPanel, Label, CalibrationPanel,
                  EyeMark>
-        painted;  // what the texture shows
+        painted;  // content of the texture
     Texture texture;
-    PaintedShapes shapes;           // what has been painted
-    glm::vec2 canvas_texels{1.0F};  // what is painted, which a texture of the largest size shows smaller
-    std::uint64_t painting = 0;     // how many times it has been painted
+    PaintedShapes shapes;           // shapes of the last painting
+    glm::vec2 canvas_texels{1.0F};  // canvas size; a texture of the largest size shows it reduced
+    std::uint64_t painting = 0;     // number of paintings so far
     PanelPart part;                 // as PanelState::part
     bool shown = false;
-    bool apart = false;                  // from the eyes' pictures
-    bool has_place = false;              // there are enough places to show it apart
-    std::optional<scene::Eye> only_eye;  // whose picture alone shows it
+    bool apart = false;                  // left out of the eyes' pictures
+    bool has_place = false;              // room to show it apart
+    std::optional<scene::Eye> only_eye;  // shown to this eye only
   };
   // Vertices and indices of everything painted in one frame.
   struct Geometry {
@@ -115,7 +114,7 @@ class Panels {
     std::size_t first_index = 0;
     std::size_t first_command = 0;
     std::size_t command_count = 0;
-    bool whole = true;  // or the panel's part alone
+    bool whole = true;  // false: only the panel's part
   };
 
   void upload_atlas();
@@ -134,7 +133,7 @@ class Panels {
   const Device& device_;
   Redraw redraw_;
   PanelContrast contrast_;
-  double largest_texture_;  // texels each way
+  double largest_texture_;  // each way
   PanelFonts fonts_;
   std::unique_ptr<ImGuiContext, ContextDeleter> imgui_;
   vk::raii::DescriptorSetLayout texture_layout_;
@@ -142,7 +141,7 @@ class Panels {
   vk::raii::Pipeline canvas_pipeline_;
   vk::raii::PipelineLayout rectangle_layout_;
   EyePipeline rectangle_pipeline_;
-  EyePipeline over_all_pipeline_;  // of the banner, which nothing covers
+  EyePipeline over_all_pipeline_;  // draws the banner, which nothing covers
   vk::raii::Sampler sampler_;
   DeviceImage atlas_;
   vk::raii::ImageView atlas_view_{nullptr};
@@ -159,13 +158,13 @@ class Panels {
   Panel calibration_;
   std::array<Panel, 2> eye_marks_;
   std::uint64_t revision_ = 0;
-  std::vector<Panel*> order_, drawn_;  // of set_apart(); kept to reuse their memory
+  std::vector<Panel*> order_, drawn_;  // used by set_apart(); kept to reuse their memory
 
-  // what the frames before the slot's may still show: freed when the slot comes round again
+  // possibly still in use by older frames; freed when the slot is used again
   std::array<std::vector<Texture>, kFramesInFlight> retired_;
   std::size_t slot_ = 0;
 
-  // what this frame paints; kept to reuse its memory
+  // content painted in this frame; kept to reuse its memory
   CanvasMemory memory_;
   std::vector<Painting> paintings_;
   PaintedShapes shapes_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Panels that are left out of the eyes' pictures, for a headset that shows their textures itself.
+// Selection of the panels left out of the eyes' pictures, for a headset that shows their textures itself.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -20,14 +20,14 @@ void Panels::list(std::vector<PanelState>& states) const {
 }
 
 void Panels::set_apart(std::size_t most, const PanelSight& sight) {
-  // where there are fewer places than panels, the first ones get them
+  // with fewer places than panels, the first ones get them
   order_.assign({&banner_, &force_, &image_, &loop_, &data_, &control_});
   for (Panel& label : labels_) order_.push_back(&label);
   std::erase_if(order_, [](const Panel* panel) { return !panel->shown; });
   const std::size_t places = std::min(most, order_.size());
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i]->has_place = i < places;
 
-  // from the last that is drawn to the first: what is shown apart covers whatever is drawn
+  // from the last drawn to the first: a panel shown apart covers everything in the eyes' pictures
   std::rotate(order_.begin(), order_.begin() + (banner_.shown ? 1 : 0), order_.end());
   drawn_.clear();
   for (auto each = order_.rbegin(); each != order_.rend(); ++each) {

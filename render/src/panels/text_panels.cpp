@@ -40,10 +40,10 @@ struct Plate {
   glm::vec2 from, to;
 };
 
-// The state in a word and a shape; ends at `right`. It is read on the smallest picture, so it does not become smaller
-// than its pixels allow.
+// Draws the state as a word and a shape that end at `right`. It must be readable in the smallest picture, so its size
+// in pixels has a lower limit.
 Plate paint_state(Canvas& canvas, const Banner& banner, float right, float top) {
-  constexpr float kReadablePx = 14.0F;  // the height of the letters' em square, in pixels of an eye
+  constexpr float kReadablePx = 14.0F;  // height of the em square, in pixels of an eye
   constexpr float kMostEnlarged = 2.4F, kEdge = 12.0F;
   const float em = text_height_mm(TextStyle::Strong);
   const float room = (canvas.size_mm().y - 2.0F * kEdge) / (em + 24.0F);
@@ -65,11 +65,11 @@ Plate paint_state(Canvas& canvas, const Banner& banner, float right, float top) 
 struct Ink {
   TextStyle style;
   Color color;
-  float smallest = 0.55F;  // share of the style's size below which a text is cut instead
+  float smallest = 0.55F;  // fraction of the style's size below which text is cut instead
 };
 
-// From the left, smaller where it would be wider than `room_mm`, so that no word is cut; what would be too small to
-// read ends in an ellipsis.
+// Draws left-aligned text, reduced if it would be wider than `room_mm`, so that no word is cut. Text that would be too
+// small to read ends in an ellipsis instead.
 void shrunk_text(Canvas& canvas, glm::vec2 position, const Ink& ink, std::string_view text, float room_mm,
                  float scale = 1.0F) {
   const float fit = std::min(1.0F, room_mm / std::max(canvas.text_width_mm(ink.style, text, scale), 1.0F));
@@ -80,10 +80,10 @@ void shrunk_text(Canvas& canvas, glm::vec2 position, const Ink& ink, std::string
 
 bool is_words(const DataRow& row) { return row.value.empty() && row.source.empty(); }
 
-// The height of a line of words with the gap above it.
+// Height of a line of words with the gap above it.
 float words_line_mm() { return text_height_mm(TextStyle::Strong) + 8.0F; }
 
-// Takes so many words from the front as a line of this width has room for; one at least, and the blank behind them.
+// Removes from `words` the first line that fits this width, with the space after it, and returns it; at least one word.
 std::string_view take_line(const Canvas& canvas, std::string_view& words, float width_mm, float scale) {
   std::size_t end = words.find(' ');
   while (end != std::string_view::npos) {
@@ -96,7 +96,7 @@ std::string_view take_line(const Canvas& canvas, std::string_view& words, float 
   return line;
 }
 
-// Calls `draw` with each line of the rows; false where one is too wide.
+// Calls `draw` for each line of the rows; false if one is too wide.
 template <class Draw>
 bool for_each_line(const Canvas& canvas, const DataPanel& panel, float scale, const Draw& draw) {
   const float width = canvas.size_mm().x - 2.0F * kMargin;
@@ -111,10 +111,10 @@ bool for_each_line(const Canvas& canvas, const DataPanel& panel, float scale, co
   return fits;
 }
 
-constexpr float kHeader = 150.0F, kBelowRows = 18.0F;  // of a data panel
+constexpr float kHeader = 150.0F, kBelowRows = 18.0F;  // in a data panel
 constexpr float kMostPitch = 84.0F;
 
-// So large that the lines of a panel with nothing but words fill it, its header with them.
+// Text scale at which the lines of a panel of words fill it, including the header.
 float text_scale(const Canvas& canvas, const DataPanel& panel) {
   constexpr float kSmaller = 0.99F, kLeast = 0.2F;
   float scale = 1.0F;
@@ -136,7 +136,7 @@ void paint_text(Canvas& canvas, const DataPanel& panel, float top, float room, f
   });
 }
 
-// A row with nothing but a name is a line of words.
+// Draws a row that has only a name, as a line of words.
 void paint_words(Canvas& canvas, std::string_view words, float top, float pitch) {
   const float room = canvas.size_mm().x - 2.0F * kMargin;
   const float by_height = std::min(1.0F, pitch / words_line_mm());
@@ -145,10 +145,10 @@ void paint_words(Canvas& canvas, std::string_view words, float top, float pitch)
               std::min(by_height, by_width));
 }
 
-// The height of a row with the name and the value, and with a source below them.
+// Height of a row: name and value, and the source, if any, below them.
 float row_block_mm(const DataRow& row) { return row.source.empty() ? 46.0F : 78.0F; }
 
-// A header is as much smaller as the rows below it, where there are so many that they have to be.
+// Text scale of a table. The header shrinks as much as the rows, if there are so many that they must shrink.
 float table_scale(const Canvas& canvas, const DataPanel& panel) {
   float tallest = 0.0F;
   for (const DataRow& row : panel.rows) tallest = std::max(tallest, row_block_mm(row));
@@ -156,7 +156,7 @@ float table_scale(const Canvas& canvas, const DataPanel& panel) {
   return std::min(1.0F, (canvas.size_mm().y - kBelowRows) / whole);
 }
 
-// Name and value on one line, the source below; smaller where the rows stand close or the line is long.
+// Draws name and value on one line and the source below; smaller if the rows are close together or the line is long.
 void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
   constexpr float kNameGap = 20.0F;
   const float right = canvas.size_mm().x - kMargin;
@@ -200,7 +200,7 @@ void paint(Canvas& canvas, const DataPanel& panel) {
 
 void paint(Canvas& canvas, const Banner& banner) {
   canvas.panel_background();
-  // the scale may have a second line
+  // an optional second line of the scale
   const std::size_t end = banner.scale.find('\n');
   const std::string_view more =
       end == std::string::npos ? std::string_view() : std::string_view(banner.scale).substr(end + 1);
@@ -216,10 +216,10 @@ void paint(Canvas& canvas, const Banner& banner) {
   canvas.text({kMargin, top + lift}, TextStyle::Guidance, palette::kInk, banner.guidance, Align::Left, scale);
 
   const float second = top + text_height_mm(TextStyle::Guidance) + 16.0F;
-  // what is below the guidance gives way to it
+  // the lines below shrink to make room for the guidance
   const float lower = std::clamp((canvas.size_mm().y - second) / (text_height_mm(TextStyle::Body) + third), 0.1F, 1.0F);
   const float width = banner.warning.empty() ? 0.0F : canvas.text_width_mm(TextStyle::Body, banner.warning, lower);
-  const bool beside_state = state.to.y > second;  // enlarged, it reaches down to these lines
+  const bool beside_state = state.to.y > second;  // the enlarged state reaches down to these lines
   const float end_mm = beside_state ? state.from.x - 24.0F : right;
   const float whole = end_mm - kMargin;
   constexpr Ink kLower{TextStyle::Body, palette::kMuted, 0.0F};

@@ -16,39 +16,40 @@
 namespace afm::render {
 namespace {
 
-// A draw's flags in a DrawnFrame.
+// Flags of a draw in a DrawnFrame.
 constexpr std::uint8_t kDrawn = 1, kCasts = 2, kMirrored = 4, kPerVertex = 8, kLightPerVertex = 16;
 
-constexpr std::size_t kMostChanged = 64;  // draws; where more have changed, drawing everything costs about as much
-constexpr double kMostOfPicture = 0.75;   // likewise: vertices are placed again for each rectangle
-constexpr int kMarginPx = 2;              // the device computes with floats
+constexpr std::size_t kMostChanged = 64;  // draws; beyond this, redrawing everything costs about as much
+constexpr double kMostOfPicture = 0.75;   // same limit as a share: each rectangle processes the vertices again
+constexpr int kMarginPx = 2;              // the device computes in float
 constexpr double kFarPx = 1e6;
-constexpr double kFarDepth = 1e3;  // of the shadow map's depth range: what does not cross a slab before then, does not
-constexpr int kParts = 8;  // in which what is drawn is bounded: a long thing that lies aslant fills little of its box
+constexpr double kFarDepth =
+    1e3;                   // in depth ranges of the shadow map; edges that leave a slab later are parallel to it
+constexpr int kParts = 8;  // parts with bounds of their own: a long object at an angle fills little of its box
 
-// A surface looks up its shadow a step of up to two texels off itself, half a texel beside it and between four texels,
-// which are drawn with a device's precision.
+// Reach of a surface's shadow lookup, in texels: a step of up to two off the surface, half a texel beside it, and
+// interpolation between four, all with the device's precision.
 constexpr double kShadowTexels = 8.0;
 
-// Radii of the shade about the contact beyond which 1 - 0.72 * exp2(-2 r * r) is 1 in 32 bits (shaders/contact.glsl),
-// and beyond a ring of light there its light is lost in that of any surface: exp2(-(3.5 * 2)^2).
+// Beyond these radii the mark at the contact is invisible: the shade 1 - 0.72 * exp2(-2 r * r) is 1 in 32 bits
+// (shaders/contact.glsl), and a ring's light, exp2(-(3.5 * 2)^2), is lost in that of any surface.
 constexpr double kShadeReach = 3.6, kRingReach = 2.0;
 
-// Equal bytes draw the same; equal numbers with other bytes (0 and -0) cost a redraw and no more.
+// Equal bytes draw the same; equal numbers with different bytes (0 and -0) only cost a redraw.
 template <class Block>
 bool same_bytes(const Block& a, const Block& b) {
   const auto bytes = [](const Block& block) { return std::as_bytes(std::span(&block, 1)).data(); };
   return std::memcmp(bytes(a), bytes(b), sizeof(Block)) == 0;
 }
 
-// The draw's matrix as the shaders use it: they take the first three rows. One of zeros hides what is drawn in a point.
+// Matrix of a draw as the shaders use it, from its first three rows. A zero matrix collapses a hidden draw to a point.
 glm::dmat4 placing(const DrawBlock& block) {
   glm::dmat4 m(block.room_from_node);
   for (glm::length_t column = 0; column < 4; ++column) m[column][3] = column == 3 ? 1.0 : 0.0;
   return m;
 }
 
-// Of a draw's triangles in the room, with the beam's bend.
+// Longest edge of a draw's triangles in the room, with the beam's bend.
 double longest_edge_m(const Draw& draw, const DrawBlock& block) {
   const glm::dmat4 m(block.room_from_node);
   const double scale = std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
@@ -56,7 +57,7 @@ double longest_edge_m(const Draw& draw, const DrawBlock& block) {
   return static_cast<double>(draw.longest_edge) * scale * (1.0 + slope);
 }
 
-// Calls `take` with the parts, bent, in which a draw lies: slices across the axis along which it is longest.
+// Calls `take` with the bent parts of a draw: slices across its longest axis.
 template <class Take>
 void for_each_part(const Draw& draw, const DrawBlock& block, const Take& take) {
   const glm::dmat4 m(block.room_from_node);
@@ -175,7 +176,7 @@ bool DrawnFrame::casts_same_shadow(const DrawnFrame& other, std::uint32_t draw) 
 
 // ---- what differs ----
 
-// False where too many have.
+// Returns false if there are too many.
 bool Damage::find_changed(const DrawnFrame& before, const DrawnFrame& now) {
   changed_.assign(now.blocks_.size(), 0);
   changes_.clear();
@@ -189,7 +190,7 @@ bool Damage::find_changed(const DrawnFrame& before, const DrawnFrame& now) {
   return true;
 }
 
-// Whether what has not changed is drawn in the order in which it was.
+// True if the unchanged draws keep their order.
 bool Damage::same_order(const DrawnFrame& before, const DrawnFrame& now) const {
   const auto unchanged = [this](std::uint32_t draw) { return changed_[draw] == 0; };
   auto was = before.order_.begin();
@@ -212,7 +213,7 @@ void Damage::add_draw(const DrawnFrame& of, std::uint32_t draw, const SceneGeome
   });
 }
 
-// What has not changed itself, where the volume lies on it. What is shaded by vertex passes it on along its triangles.
+// Adds the area of unchanged draws within the volume. Draws shaded per vertex spread a change along their triangles.
 void Damage::add_reached(const Volume& volume, const DrawnFrame& now, const SceneGeometry& geometry,
                          PixelTiles& tiles) const {
   const glm::dmat4 room_from_box = glm::inverse(volume.box_from_room);
@@ -233,7 +234,8 @@ void Damage::add_reached(const Volume& volume, const DrawnFrame& now, const Scen
     if (low.x > high.x || low.y > high.y || low.z > high.z) continue;
     PixelBox seen = now.seen(room_from_box, low, high).within(now.bounds_[i]);
 
-    // where the column's four edges enter and leave the slab between two sides of the box: tight on what is flat
+    // the points where the column's four edges enter and leave the slab between two sides of the box bound flat objects
+    // tightly
     const glm::dmat4 node_from_box = glm::inverse(box_from_node);
     for (glm::length_t axis = 0; axis < 3 && !seen.empty(); ++axis) {
       std::array<glm::dvec3, 8> ends_m;
@@ -254,14 +256,14 @@ void Damage::add_reached(const Volume& volume, const DrawnFrame& now, const Scen
   }
 }
 
-// The columns behind the parts of the draw along the light, in the shadow map's clip space.
+// Adds the areas in the draw's shadow: the columns behind its parts along the light, in the shadow map's clip space.
 void Damage::add_shadow(const DrawnFrame& of, std::uint32_t draw, const DrawnFrame& now, const SceneGeometry& geometry,
                         PixelTiles& tiles) const {
   if (!of.is(draw, kCasts)) return;
   const glm::dmat4 map_from_room(of.rest_.shadow_from_room);
   const glm::dmat4 directions = glm::transpose(map_from_room);
   const glm::dmat4 rows = glm::transpose(map_from_room * placing(of.blocks_[draw]));
-  constexpr double kTexel = 1.0 / kShadowMapSize;  // in depth as much of the room as 2 * kTexel across
+  constexpr double kTexel = 1.0 / kShadowMapSize;  // in depth the same length as 2 * kTexel across
   const glm::dvec3 reach = kShadowTexels * kTexel * glm::dvec3(2.0, 2.0, 1.0);
   for_each_part(geometry.draws()[draw], of.blocks_[draw], [&](const DrawBox& part) {
     Volume column{.box_from_room = map_from_room};

@@ -19,21 +19,21 @@
 
 namespace afm::render {
 
-// All that the pictures of the eyes depend on, as the shaders read it: what two of these differ in is what must be
-// drawn again. A thing that is neither here nor constant after loading must not reach a picture.
+// Everything that the eyes' pictures depend on, as the shaders read it. The differences between two of these determine
+// what must be redrawn, so anything drawn must be included here or constant after loading.
 class DrawnFrame {
  public:
-  // Takes a frame. `before` is the frame drawn last: what has stayed has its bounds from there.
+  // Stores a frame. `before` is the frame drawn last; unchanged draws take their bounds from it.
   void take(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list, const EyePassConfig& drawing,
             float guard_band, const Panels& panels, const DrawnFrame& before);
 
-  // Nothing is known of what is drawn: it differs from every frame in everything.
+  // Makes this frame differ from every other in everything, because the picture's contents are unknown.
   void forget() { known_ = false; }
 
-  // One for each of the geometry's draws.
+  // Blocks of the geometry's draws, one each.
   std::span<const DrawBlock> blocks() const { return blocks_; }
 
-  // Pixels of an eye's image in which the draw may be seen, of either eye; of what is not drawn, none.
+  // Pixels of an eye's image in which either eye may see the draw; empty if it is not drawn.
   const PixelBox& bounds(std::uint32_t draw) const { return bounds_[draw]; }
 
  private:
@@ -42,7 +42,7 @@ class DrawnFrame {
   bool same(const DrawnFrame& other, std::uint32_t draw) const;
   bool casts_same_shadow(const DrawnFrame& other, std::uint32_t draw) const;
   bool is(std::uint32_t draw, std::uint8_t what) const { return (how_[draw] & what) != 0; }
-  PixelBox seen(std::span<const glm::dvec3> hull_m) const;  // of points in the room
+  PixelBox seen(std::span<const glm::dvec3> hull_m) const;  // bounds of points in the room
   PixelBox seen(const glm::dmat4& room_from_box, const glm::dvec3& low, const glm::dvec3& high) const;
   PixelBox seen(const PanelState& panel, const PanelPart& part) const;
 
@@ -53,28 +53,28 @@ class DrawnFrame {
   bool hazy_ = false;
   std::array<glm::dmat4, 2> clip_from_room_{};
   std::array<double, 2> near_m_{};
-  std::vector<DrawBlock> blocks_;     // by draw
-  std::vector<std::uint8_t> how_;     // by draw, of kDrawn and its like
-  std::vector<PixelBox> bounds_;      // by draw
-  std::vector<std::uint32_t> order_;  // of what is drawn
+  std::vector<DrawBlock> blocks_;     // indexed by draw
+  std::vector<std::uint8_t> how_;     // kDrawn and the other flags, indexed by draw
+  std::vector<PixelBox> bounds_;      // indexed by draw
+  std::vector<std::uint32_t> order_;  // drawing order
   std::vector<PanelState> panels_;
   std::vector<std::uint8_t> glowing_;
 };
 
-// The part of the eyes' images in which a frame differs from the one drawn last. A thing that has changed counts where
-// it was and where it is, with its shadow on all that stays: the column behind it along the light. Where something
-// changes that touches everything (eyes, light, resolution, fog), or many things do, it is everything. Never too small;
-// keeps its memory.
+// Part of the eyes' images in which a frame differs from the last one. A changed draw counts at its old and its new
+// position, with its shadow on all unchanged draws: the column behind it along the light. If a change affects
+// everything (eyes, light, resolution, fog), or many draws change, the part is everything. Never too small; keeps its
+// memory.
 class Damage {
  public:
   PixelArea between(const DrawnFrame& before, const DrawnFrame& now, const SceneGeometry& geometry);
 
  private:
-  // A box in a frame of its own in which what it holds may look different.
+  // Box, in its own frame, whose contents may look different.
   struct Volume {
     glm::dmat4 box_from_room{1.0};
     glm::dvec3 low{0.0}, high{0.0};
-    glm::dvec3 per_m{1.0};  // units along its axes that a metre of the room covers at most
+    glm::dvec3 per_m{1.0};  // at most this many units along each axis per metre of the room
   };
   bool find_changed(const DrawnFrame& before, const DrawnFrame& now);
   bool same_order(const DrawnFrame& before, const DrawnFrame& now) const;
@@ -85,25 +85,25 @@ class Damage {
   void add_contact(const DrawnFrame& of, const DrawnFrame& now, const SceneGeometry& geometry, PixelTiles& tiles) const;
   static void add_panels(const DrawnFrame& before, const DrawnFrame& now, PixelTiles& tiles);
 
-  std::vector<std::uint8_t> changed_;   // by draw
-  std::vector<std::uint32_t> changes_;  // the draws
+  std::vector<std::uint8_t> changed_;   // indexed by draw
+  std::vector<std::uint32_t> changes_;  // changed draws
 };
 
-// The newest changes of the eyes' images, so that what was made of an earlier state follows them.
+// Newest changes of the eyes' images, so that pictures made from an earlier state can follow them.
 class EyeChanges {
  public:
-  // Once for every frame that changes something.
+  // Call once for every frame that changes something.
   void add(const PixelArea& area);
 
   // Number of changes so far.
   std::uint64_t count() const { return count_; }
 
-  // What has changed of a picture of that size since there were `count` of them; everything if that is long ago.
+  // Area of a picture of that size that has changed since there were `count` changes; everything if that is long ago.
   PixelArea since(std::uint64_t count, vk::Extent2D extent) const;
 
  private:
   static constexpr std::size_t kKept = 8;
-  std::array<PixelArea, kKept> newest_;  // the change i at i % kKept
+  std::array<PixelArea, kKept> newest_;  // change i is at i % kKept
   std::uint64_t count_ = 0;
 };
 

@@ -18,9 +18,9 @@
 namespace afm::render {
 namespace {
 
-constexpr std::uint32_t kGroupPixels = 64;  // 8 invocations of 8 pixels each way: shaders/depth_range.comp
+constexpr std::uint32_t kGroupPixels = 64;  // 8 invocations of 8 pixels in each direction: shaders/depth_range.comp
 
-// As the shader keeps them: bits of floats.
+// Depths as bits of floats, as the shader stores them.
 struct DepthBits {
   std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t greatest = 0;
@@ -67,7 +67,7 @@ void record_barrier(const vk::raii::CommandBuffer& command, const vk::MemoryBarr
 
 }  // namespace
 
-// In the order of creation.
+// Members in the order of creation.
 struct DepthMeter::Parts {
   Parts(const Device& the_device, Renderer& the_renderer)
       : device(the_device),
@@ -113,11 +113,11 @@ struct DepthMeter::Parts {
   vk::raii::CommandBuffer commands;
   vk::raii::Fence finished;
   bool under_way = false;
-  double near_m = 0;  // of the frame that is measured
+  double near_m = 0;  // near plane of the measured frame
   std::optional<DepthRange> newest;
 };
 
-// The eyes' images may be others than the last time.
+// The eyes' images may have been recreated since the last time.
 void DepthMeter::Parts::bind(const EyeTargets& eyes) {
   const auto depth = [&](scene::Eye eye) {
     return vk::DescriptorImageInfo{
@@ -148,7 +148,7 @@ void DepthMeter::Parts::record(const EyeTargets& eyes) {
   commands_pool.reset();
   commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
 
-  // the frame left its depth to be read by fragment shaders and copies; the next one waits for those
+  // the frame prepared its depth for fragment shaders and copies; the next frame waits for those
   constexpr auto kReaders = vk::PipelineStageFlagBits2::eFragmentShader | vk::PipelineStageFlagBits2::eCopy;
   constexpr auto kCompute = vk::PipelineStageFlagBits2::eComputeShader;
   record_barrier(

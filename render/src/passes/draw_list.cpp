@@ -14,11 +14,11 @@
 namespace afm::render {
 namespace {
 
-constexpr std::uint32_t kManyTriangles = 10'000;  // of one draw: fewer cost little
-constexpr double kFineEdgePx = 8.0;               // of nine triangles in ten
-constexpr double kLongestEdgePx = 32.0;           // of any: the sides of a slab whose surface is fine
+constexpr std::uint32_t kManyTriangles = 10'000;  // per draw; smaller ones cost little
+constexpr double kFineEdgePx = 8.0;               // limit for nine triangles in ten
+constexpr double kLongestEdgePx = 32.0;           // limit for all triangles: the sides of a slab with a fine surface
 
-constexpr double kMostTurn = 0.65;  // of the lobe's border: the pictures of the samples differ by at most 2 of 255
+constexpr double kMostTurn = 0.65;  // share of the lobe's border: pictures of the samples differ by at most 2 of 255
 
 struct Sight {
   bool seen = false;
@@ -27,7 +27,7 @@ struct Sight {
 
 Sight sight(const scene::EyeView& eye, const glm::dmat4& room_from_node, const DrawBox& box, double guard_band) {
   const glm::dmat4 rows = glm::transpose(eye.projection * eye.view * room_from_node);
-  const glm::dvec4 near = rows[3] - rows[2];  // reversed depth: nothing is nearer than z = w
+  const glm::dvec4 near = rows[3] - rows[2];  // reversed depth: the near plane is z = w
   Sight sight{.seen = range(near, box).second >= 0.0, .clipped = range(near, box).first < 0.0};
   for (glm::length_t axis = 0; axis < 2; ++axis) {
     for (const double side : {-1.0, 1.0}) {
@@ -39,8 +39,8 @@ Sight sight(const scene::EyeView& eye, const glm::dmat4& room_from_node, const D
 }
 
 struct Scale {
-  double most = 0;     // room per unit of the node, along one of its axes
-  double stretch = 1;  // most / least: by which an angle between normals grows at most
+  double most = 0;     // metres per unit of the node, along its largest axis
+  double stretch = 1;  // most / least: largest magnification of an angle between normals
 };
 Scale scale_of(const glm::dmat4& room_from_node) {
   const glm::dmat3 linear(room_from_node);
@@ -48,8 +48,8 @@ Scale scale_of(const glm::dmat4& room_from_node) {
   return {most, most / least};
 }
 
-// Whether shading by vertex is as good as by fragment: edges as long as they would be if they lay across the line of
-// sight in the box's middle.
+// True if shading per vertex is as good as per fragment. Edge lengths are taken as if they were perpendicular to the
+// line of sight, at the centre of the box.
 bool is_fine(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node, double pixels_high) {
   if (draw.variant || draw.blended || draw.double_sided || draw.unlit || draw.index_count < 3 * kManyTriangles) {
     return false;
@@ -64,8 +64,8 @@ bool is_fine(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room
          static_cast<double>(draw.longest_edge) * pixels_per_unit < kLongestEdgePx;
 }
 
-// Whether the light on it changes so slowly that the vertices may carry it: along an edge the direction in which the
-// eye sees the studio reflected, which turns twice as far as the normal, stays within the reflection's soft edge.
+// True if the light varies slowly enough to be computed per vertex: along an edge, the direction in which the eye sees
+// the studio reflected stays within the soft edge of the reflection. That direction turns twice as far as the normal.
 bool is_smooth(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node) {
   if (draw.variant || draw.double_sided || draw.unlit) return false;
   const glm::dvec3 middle_m(room_from_node * glm::dvec4(glm::dvec3(draw.center), 1.0));

@@ -10,31 +10,31 @@
 
 namespace afm::render {
 
-// Where the colours of a plain material are worked out.
+// Stage that computes the colours of a plain material.
 enum class Shading : std::uint8_t {
   ByFragment,
-  ByVertex,      // the triangles are about as small as the pixels of an eye
-  LightByVertex  // rough, and turning little from vertex to vertex: shadows by fragment
+  ByVertex,      // triangles about as small as the pixels of an eye
+  LightByVertex  // rough, with small turns from vertex to vertex; shadows per fragment
 };
 
 // Draws of a frame: indices into SceneGeometry::draws().
 struct DrawList {
-  std::vector<std::uint32_t> shadow;   // opaque ones that are shown, seen or not
-  std::vector<std::uint32_t> opaque;   // seen by an eye, from near to far, so that what is hidden is not shaded
-  std::vector<std::uint32_t> blended;  // seen by an eye, from far to near
-  std::vector<std::uint8_t> mirrored;  // by draw, 1 where the node turns left into right
-  std::vector<Shading> shading;        // by draw; of what is not seen: ByFragment
-  bool hazy = false;                   // something dissolves into the background
-  bool clipped = false;                // an eye's near plane, or its guard band, cuts through one of those
+  std::vector<std::uint32_t> shadow;   // all opaque casters that are shown, in view or not
+  std::vector<std::uint32_t> opaque;   // in view, from near to far, so that hidden surfaces are not shaded
+  std::vector<std::uint32_t> blended;  // in view, from far to near
+  std::vector<std::uint8_t> mirrored;  // indexed by draw; 1 if the node mirrors its mesh
+  std::vector<Shading> shading;        // indexed by draw; ByFragment for draws out of view
+  bool hazy = false;                   // fog is visible
+  bool clipped = false;                // an eye's near plane or guard band cuts through a draw
 
   bool operator==(const DrawList&) const = default;
 };
 
-// Makes draw lists; keeps memory for the next.
+// Builds draw lists; keeps its memory for the next one.
 class DrawListBuilder {
  public:
-  // By the boxes of the draws, bent as the frame says: distances are of their middles from between the eyes.
-  // `guard_band` as in EyeTargets; `pixels_high` is what is drawn of an eye.
+  // Sorts by the boxes of the draws, bent as in the frame: distances are measured from the point between the eyes to
+  // their centres. `guard_band` as in EyeTargets; `pixels_high` is the drawn height of an eye.
   void list(const FrameState& frame, const SceneGeometry& geometry, float guard_band, double pixels_high,
             DrawList& list);
 

@@ -7,19 +7,19 @@
 
 namespace afm::render {
 
-// Both eyes in one multiview pass, or one eye a pass.
+// Both eyes in one multiview pass, or one eye per pass.
 enum class EyePass { Both, Single };
 
-// A shader's code for passes of both eyes, and for passes of one, which asks nothing of the device that multiview does.
+// Code of a shader for passes of both eyes, and for passes of one eye, which does not require multiview of the device.
 struct EyeCode {
   std::span<const std::uint32_t> both, single;
 };
 
-// A pipeline that draws into eyes, for both kinds of passes and with any number of samples: each made when it is first
-// asked for, and kept.
+// Pipeline that draws into eyes, for both kinds of passes and any number of samples. Each variant is created at first
+// use and kept.
 class EyePipeline {
  public:
-  // Code, formats, samples and views of the request are filled in here. What it points to must outlive the pipeline.
+  // Fills in code, formats, samples and views of the request. The data it points to must outlive the pipeline.
   EyePipeline(const Device& device, PipelineRequest request, EyeCode vertex, EyeCode fragment);
 
   vk::Pipeline get(EyePass pass, vk::SampleCountFlagBits samples);

@@ -10,7 +10,7 @@
 namespace afm::render {
 namespace {
 
-// a resolve writes depth, too, in the stage and with the access of colour
+// a resolve also writes depth in the stage and with the access of colour
 constexpr ImageUse kDepthResolved{vk::PipelineStageFlagBits2::eColorAttachmentOutput,
                                   vk::AccessFlagBits2::eColorAttachmentWrite, vk::ImageLayout::eDepthAttachmentOptimal};
 
@@ -19,10 +19,10 @@ constexpr ImageUse kEyesRead{vk::PipelineStageFlagBits2::eFragmentShader | vk::P
                              vk::AccessFlagBits2::eShaderSampledRead | vk::AccessFlagBits2::eTransferRead,
                              vk::ImageLayout::eShaderReadOnlyOptimal};
 
-// Objects may reach this many half screens beyond the screen's middle.
+// Limit: objects may extend this many half screens beyond the screen's centre.
 constexpr float kLargestGuardBand = 8.0F;
 
-// The attachment is drawn with many samples, and what it holds goes, with one, to where it pointed before.
+// Redirects the attachment to a multisampled image that is resolved into the original one.
 void resolve(vk::RenderingAttachmentInfo& attachment, vk::ImageView multisampled, vk::ResolveModeFlagBits mode) {
   attachment.resolveImageView = std::exchange(attachment.imageView, multisampled);
   attachment.resolveImageLayout = attachment.imageLayout;
@@ -108,8 +108,8 @@ void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass,
   const Filled to = filled(pass);
   const auto held = [&](const ImageUse& use) { return box ? use : use.discarded(); };
 
-  // the background covers every pixel that nothing else does, so no colour needs to be cleared; of a part, depth
-  // neither
+  // the background covers every pixel left over, so the colour needs no clearing; for a partial redraw, neither does
+  // the depth
   vk::RenderingAttachmentInfo color{.imageView = both ? *to.color.both : *to.color.single[to.layer],
                                     .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
                                     .loadOp = box ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eDontCare,

@@ -12,7 +12,7 @@ constexpr auto kDynamicUniform = vk::DescriptorType::eUniformBufferDynamic;
 
 constexpr std::uint32_t kMostPasses = 2;
 
-// The smallest distance of blocks of `size` bytes that a dynamic offset can express.
+// Smallest stride of blocks of `size` bytes that a dynamic offset allows.
 std::uint32_t aligned_stride(const Device& device, std::size_t size) {
   const auto alignment = device.physical().getProperties().limits.minUniformBufferOffsetAlignment;
   return static_cast<std::uint32_t>((size + alignment - 1) / alignment * alignment);

@@ -13,66 +13,66 @@
 
 namespace afm::render {
 
-// Set 0 of all pipelines that draw the room: the frame's uniforms, the draw's, and the shadow map where it is read.
-// What draws the shadow map has a set without: lavapipe would finish each draw before the next, to let it read what the
-// other wrote.
+// Set 0 of all pipelines that draw the room: the uniforms of the frame and the draw, and the shadow map if it is read.
+// Pipelines that draw the shadow map have a set without it; otherwise lavapipe would finish each draw before the next,
+// to let it read the result.
 enum class ShadowMapUse { Read, Drawn };
 vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowMapUse use);
 
-// Resources of one frame in flight: its commands, uniforms and draw blocks. Reused once the frame is finished.
+// Resources of one frame in flight: commands, uniforms and draw blocks. Reused once the frame is finished.
 class FrameSlot {
  public:
-  // `layout` where the shadow map is read, `shadow_layout` where it is drawn.
+  // `layout` is used to read the shadow map, `shadow_layout` to draw it.
   FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::DescriptorSetLayout shadow_layout,
             const ShadowMap& shadow_map, std::size_t draw_count);
 
-  // Writes everything that the frame's shaders read; `blocks` has one for each draw.
+  // Writes everything that the frame's shaders read; `blocks` has one entry per draw.
   void write(const FrameState& frame, std::span<const DrawBlock> blocks, const EyePassConfig& drawing,
              float guard_band);
 
-  // The frame's set of a pass: with the left eye's view first, or the right one's.
+  // Descriptor set of a pass, which starts with the left eye's view or with the right eye's.
   vk::DescriptorSet set(std::size_t pass) const { return *sets_[pass]; }
 
-  // The frame's set of the pass that draws the shadow map.
+  // Descriptor set of the pass that draws the shadow map.
   vk::DescriptorSet shadow_set() const { return *shadow_set_; }
 
-  // Bytes from one draw's block to the next: dynamic offsets of binding AFM_BINDING_DRAW are multiples of it.
+  // Distance in bytes between the blocks of two draws; dynamic offsets of binding AFM_BINDING_DRAW are multiples of it.
   std::uint32_t draw_stride() const { return draw_stride_; }
 
-  // Draws of the frame; the slot only keeps their memory.
+  // Draws of the frame; stored here only to keep their memory.
   DrawList draws;
 
-  // Commands that are recorded for one frame; patching() draws parts of the eyes.
+  // Commands recorded for one frame; patching() draws parts of the eyes.
   const vk::raii::CommandBuffer& painting() const { return commands_[0]; }
   const vk::raii::CommandBuffer& shadow() const { return commands_[1]; }
   const vk::raii::CommandBuffer& patching() const { return commands_[3]; }
 
-  // Commands that draw the eyes and stay for as many frames as `recorded` says.
+  // Commands that draw the eyes, reused by later frames while `recorded` is unchanged.
   const vk::raii::CommandBuffer& drawing() const { return commands_[2]; }
 
-  // All that the commands of drawing() depend on.
+  // Everything that the commands of drawing() depend on.
   struct Recorded {
     DrawList draws;
     EyePassConfig drawing;
     std::uint64_t panels = 0;  // as Panels::revision()
     bool anything = false;
 
-    // True if something has changed; it is then stored.
+    // Stores the new values; true if something has changed.
     bool take(const DrawList& new_draws, const EyePassConfig& new_drawing, std::uint64_t new_panels);
   };
   Recorded recorded;
 
-  // in the slot's newest frame
+  // work done in the slot's newest frame
   bool painted = false;   // panels
-  bool shadowed = false;  // the shadow map was drawn again
-  PixelArea area;         // of the eyes, that was drawn
+  bool shadowed = false;  // shadow map redrawn
+  PixelArea area;         // redrawn part of the eyes
 
-  std::uint64_t finished_at = 0;  // the timeline's value when the slot's newest frame is finished
+  std::uint64_t finished_at = 0;  // timeline value at which the slot's newest frame is finished
 
  private:
   vk::raii::CommandPool pool_;
   vk::raii::CommandBuffers commands_{nullptr};
-  std::vector<Buffer> uniforms_;  // one for each pass
+  std::vector<Buffer> uniforms_;  // one per pass
   std::uint32_t draw_stride_;
   Buffer draw_blocks_;
   vk::raii::DescriptorPool descriptor_pool_{nullptr};

@@ -10,12 +10,12 @@ namespace afm::render {
 
 // New order of a primitive's vertices, and the indices into that order.
 struct MeshOrder {
-  std::vector<std::uint32_t> vertices;  // the primitive's, without those that no triangle uses
+  std::vector<std::uint32_t> vertices;  // vertices of the primitive that are used by a triangle
   std::vector<std::uint32_t> indices;
 };
 
-// The order in which triangles are drawn fast: neighbours one after the other, so that most corners have just been
-// shaded, and vertices as they are first used. What blends, and what is no triangles, keeps its own order.
+// Order in which triangles are drawn fast: adjacent ones in succession, so that most corners have just been shaded, and
+// vertices in the order of first use. Blended primitives, and those without triangles, keep their own order.
 MeshOrder drawing_order(const scene::Primitive& primitive, bool blended);
 
 }  // namespace afm::render

@@ -18,15 +18,15 @@
 namespace afm::render {
 namespace {
 
-constexpr double kBehindM = 1e-3;  // before a panel's plane: a plate that carries it, for the precision of its place
+constexpr double kBehindM = 1e-3;  // space in front of a panel taken by its plate, within the precision of its place
 constexpr double kRightAngle = 1e-6;
-constexpr double kMostHidden = 0.1;  // a corner: of what stands beside a panel, for somebody who is not in the middle
+constexpr double kMostHidden = 0.1;  // about a corner: objects next to a panel, for a viewer off centre
 
 using Polygon = std::vector<glm::dvec2>;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-// The convex hull, counter-clockwise (Andrew's monotone chain).
+// Convex hull, counter-clockwise (Andrew's monotone chain).
 Polygon hull_of(Polygon points) {
   const auto before = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
   std::sort(points.begin(), points.end(), before);
@@ -39,13 +39,13 @@ Polygon hull_of(Polygon points) {
       }
       hull.push_back(point);
     }
-    hull.pop_back();  // the first of the other side
+    hull.pop_back();  // first point of the other side
     std::reverse(points.begin(), points.end());
   }
   return hull;
 }
 
-// Of a convex polygon within the unit square.
+// Area of a convex polygon within the unit square.
 double area_within_square(Polygon polygon) {
   for (const auto& [inwards, from] : {std::pair(glm::dvec2(1, 0), 0.0),
                                       {glm::dvec2(-1, 0), -1.0},
@@ -65,7 +65,7 @@ double area_within_square(Polygon polygon) {
   return 0.5 * twice;
 }
 
-// Counter-clockwise, as seen from before it.
+// Corners, counter-clockwise as seen from the front.
 std::array<glm::dvec3, 4> corners_of(const PanelPlacement& panel) {
   const glm::dvec3 &from = panel.lower_left_m, &right = panel.right_m, &up = panel.up_m;
   return {from, from + right, from + right + up, from + up};
@@ -73,10 +73,10 @@ std::array<glm::dvec3, 4> corners_of(const PanelPlacement& panel) {
 
 glm::dvec3 front_of(const PanelPlacement& panel) { return glm::normalize(glm::cross(panel.right_m, panel.up_m)); }
 
-// Positive on the side of the normal.
+// Plane equation, positive on the side of the normal.
 glm::dvec4 plane(const glm::dvec3& normal, const glm::dvec3& through) { return {normal, -glm::dot(normal, through)}; }
 
-// Where an eye's picture shows a panel, from its lowest corner to its highest; nothing where it is beside or behind it.
+// Bounds of a panel in an eye's picture: lowest and highest corner. Nothing if the panel is beside or behind the eye.
 std::optional<std::pair<glm::dvec2, glm::dvec2>> seen_at(const PanelPlacement& panel, const scene::EyeView& eye) {
   glm::dvec2 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const glm::dvec3& corner : corners_of(panel)) {
@@ -101,7 +101,7 @@ bool PanelSight::faces(const PanelPlacement& panel) const {
 }
 
 bool PanelSight::may_be_hidden(const PanelPlacement& panel) const {
-  if (frame_.fog.end_m > frame_.fog.begin_m) return false;  // then panels are drawn before all else
+  if (frame_.fog.end_m > frame_.fog.begin_m) return false;  // panels are then drawn first
   return std::any_of(frame_.eyes.begin(), frame_.eyes.end(), [&](const scene::EyeView& eye) {
     double share = 0.0;
     for (const auto* drawn : {&draws_.opaque, &draws_.blended}) {
@@ -111,7 +111,7 @@ bool PanelSight::may_be_hidden(const PanelPlacement& panel) const {
   });
 }
 
-// At most as much as the outline of its box.
+// Share of the panel that the outline of the draw's box covers, an upper limit.
 double PanelSight::hidden_share(const Draw& draw, const scene::EyeView& eye, const PanelPlacement& panel) const {
   if (!reaches_between(draw, eye, panel)) return 0.0;
   const DrawBox box = bent_box(draw, bend_of(frame_, draw.node));
@@ -133,7 +133,7 @@ double PanelSight::hidden_share(const Draw& draw, const scene::EyeView& eye, con
   return area_within_square(hull_of(std::move(outline)));
 }
 
-// Whether the box of the draw reaches into the pyramid from the eye to the panel: no face of either parts them.
+// True if the draw's box reaches into the pyramid from the eye to the panel: no face of either separates them.
 bool PanelSight::reaches_between(const Draw& draw, const scene::EyeView& eye, const PanelPlacement& panel) const {
   const glm::dmat4& room_from_node = frame_.room_from_node[draw.node];
   const glm::dmat4 rows = glm::transpose(room_from_node);

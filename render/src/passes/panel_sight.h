@@ -7,21 +7,21 @@
 
 namespace afm::render {
 
-// What both eyes of a frame see of its panels.
+// Visibility of a frame's panels to both eyes.
 class PanelSight {
  public:
   // All must outlive it.
   PanelSight(const FrameState& frame, const SceneGeometry& geometry, const DrawList& draws)
       : frame_(frame), geometry_(geometry), draws_(draws) {}
 
-  // A rectangle, with its front towards both eyes.
+  // True if the panel is a rectangle with its front towards both eyes.
   bool faces(const PanelPlacement& panel) const;
 
-  // What is drawn before it may hide more than a tenth of it from an eye. By the boxes of what is drawn: never false
-  // where it does.
+  // True if objects in front of the panel may hide more than a tenth of it from an eye. Based on the boxes of the
+  // draws: it may be true without need, but is never false if they do hide it.
   bool may_be_hidden(const PanelPlacement& panel) const;
 
-  // Parts of both may be seen in the same place.
+  // True if parts of both may be seen in the same place.
   bool may_overlap(const PanelPlacement& a, const PanelPlacement& b) const;
 
  private:

@@ -11,7 +11,7 @@
 
 namespace afm::render {
 
-// A rectangle of pixels; `high` lies outside it. Empty where it has no width or no height.
+// Rectangle of pixels; `high` is exclusive. Empty if it has no width or no height.
 struct PixelBox {
   glm::ivec2 low{0}, high{0};
 
@@ -19,23 +19,23 @@ struct PixelBox {
 
   bool empty() const { return high.x <= low.x || high.y <= low.y; }
   std::int64_t pixels() const;
-  PixelBox within(const PixelBox& other) const;  // what both have
-  PixelBox with(const PixelBox& other) const;    // the smallest that has both; an empty one has nothing to add
-  vk::Rect2D rect() const;                       // low is not negative
+  PixelBox within(const PixelBox& other) const;  // intersection
+  PixelBox with(const PixelBox& other) const;    // bounding box of both; an empty box adds nothing
+  vk::Rect2D rect() const;                       // requires non-negative `low`
 
   static PixelBox whole(vk::Extent2D extent);
 };
 
-// A part of a picture: all of it, or a few rectangles that do not overlap, so that one may be written after another
-// without a barrier. PixelTiles finds them. Allocates nothing.
+// Part of a picture: all of it, or a few rectangles that do not overlap, so that they can be written one after another
+// without a barrier. Created by PixelTiles. Allocates nothing.
 class PixelArea {
  public:
   static constexpr std::size_t kMostBoxes = 12;
-  static constexpr std::int64_t kPixelsOfBox = 8192;  // work that a rectangle of its own costs, in pixels
+  static constexpr std::int64_t kPixelsOfBox = 8192;  // cost of a separate rectangle, as work on this many pixels
 
   PixelArea() = default;
 
-  // At most kMostBoxes, of which no two overlap.
+  // Takes at most kMostBoxes boxes, none of which overlap.
   explicit PixelArea(std::span<const PixelBox> boxes);
 
   void add_everything();
@@ -44,9 +44,9 @@ class PixelArea {
   bool everything() const { return everything_; }
   bool empty() const { return !everything_ && count_ == 0; }
 
-  // Unless it is everything.
+  // Empty if the area is everything.
   std::span<const PixelBox> boxes() const { return {boxes_.data(), count_}; }
-  PixelBox around() const;                     // the smallest that has all of them
+  PixelBox around() const;                     // bounding box of all
   double share_of(vk::Extent2D extent) const;  // at most 1
 
  private:

@@ -9,11 +9,11 @@
 namespace afm::render {
 namespace {
 
-// Mesa 22.3's lavapipe draws in tiles of 64 x 64 pixels. A scissor that begins within one of them lets some of the
-// samples through that lie in the pixels before it.
+// Tile size. Mesa 22.3's lavapipe draws in tiles of 64 x 64 pixels, and a scissor that begins inside one lets through
+// some of the samples in the pixels before it.
 constexpr int kSideStep_px = 64;
 
-// The bits from..to-1.
+// Bits from..to-1.
 std::uint64_t bits(int from, int to) {
   const std::uint64_t below = to >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << to) - 1;
   return below & (~std::uint64_t{0} << from);

@@ -10,21 +10,21 @@
 
 namespace afm::render {
 
-// The part of a picture that rectangles cover, in square tiles: at most 64 each way. Allocates nothing.
+// Part of a picture covered by rectangles, in square tiles, at most 64 in each direction. Allocates nothing.
 class PixelTiles {
  public:
   explicit PixelTiles(vk::Extent2D extent);
 
-  // Every tile that has a pixel of it.
+  // Adds every tile that has a pixel of the box.
   void add(const PixelBox& box);
   void add(const PixelArea& area);
 
-  // The tiles in a few rectangles: cut where that leaves out most of what is between them.
+  // Tiles combined into a few rectangles, split where that leaves out most of the space in between.
   PixelArea area() const;
 
  private:
   struct Part {
-    glm::ivec2 low{0}, high{0};  // in tiles; empty where it has no width
+    glm::ivec2 low{0}, high{0};  // in tiles; empty if it has no width
   };
   struct Cut {
     int saved_px = 0;

@@ -145,7 +145,7 @@ void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
   command.end();
 }
 
-// All of the eyes, or what lies in the slot's area.
+// Draws all of the eyes, or the part within the slot's area.
 void Renderer::Parts::record_eyes(const vk::raii::CommandBuffer& command, std::size_t slot_index) {
   const FrameSlot& slot = slots[slot_index];
   const EyePassConfig& drawing = eyes.drawing();
@@ -233,8 +233,8 @@ void Renderer::Parts::render(const FrameState& frame) {
     record_shadow(slot_index, step);
   }
 
-  // Where everything is drawn, what is recorded is submitted again as it is while the slot's Recorded stays the same:
-  // what changes from frame to frame comes from the slot's buffers.
+  // For a full redraw, the recorded commands are resubmitted while the slot's Recorded stays the same: everything that
+  // changes from frame to frame is in the slot's buffers.
   if (!slot.area.everything()) {
     if (!slot.area.empty()) record_patching(slot_index);
   } else if (slot.recorded.take(slot.draws, eyes.drawing(), panels.revision())) {
@@ -358,7 +358,7 @@ FrameQuality Renderer::quality() const { return parts_->quality; }
 
 std::optional<PassTimes> Renderer::pass_times() const {
   const std::uint64_t finished = parts_->timeline.getCounterValue();
-  // an older frame's slot is in use again
+  // the slot of an older frame is in use again
   if (parts_->clocks.empty() || finished == 0 || finished + kFramesInFlight <= parts_->frames) {
     return std::nullopt;
   }

@@ -18,7 +18,7 @@
 
 namespace afm::render {
 
-// In the order of creation: later members use earlier ones.
+// Members in the order of creation: later members use earlier ones.
 struct Renderer::Parts {
   Parts(const Device& the_device, const scene::Scene& scene, const RendererOptions& the_options, PanelFonts fonts);
   Parts(const Parts&) = delete;
@@ -51,17 +51,17 @@ struct Renderer::Parts {
   Composer composer;
   DrawListBuilder lister;
   Damage damage;
-  DrawnFrame drawn, now;  // the frame that the eyes show, and the one that is being drawn
+  DrawnFrame drawn, now;  // frame shown by the eyes, and frame being drawn
   ShadowCasters shadow_casters;
   std::vector<FrameSlot> slots;
-  std::vector<GpuTimer> clocks;  // one a slot, or none
+  std::vector<GpuTimer> clocks;  // one per slot, or none
   vk::raii::Semaphore timeline;
-  std::uint64_t frames = 0;                // submitted
-  bool eyes_drawn = false;                 // since the eye images were made
-  bool rested = false;                     // the newest frame looks as the one before it, so that nothing was submitted
+  std::uint64_t frames = 0;                // number of frames submitted
+  bool eyes_drawn = false;                 // since the eye images were created
+  bool rested = false;                     // nothing submitted, because the newest frame looks like the one before
   double redrawn_share = 0;                // as Renderer::redrawn_share()
-  double near_m = 0;                       // of the newest frame: its depth is near_m / distance
-  double compose_ms = 0, readback_ms = 0;  // as in PassTimes, set by the caller
+  double near_m = 0;                       // near plane of the newest frame: depth is near_m / distance
+  double compose_ms = 0, readback_ms = 0;  // as in PassTimes; set by the caller
 };
 
 }  // namespace afm::render

@@ -13,7 +13,7 @@
 namespace afm::render {
 namespace {
 
-// glTF: alpha, the vertices' too, is ignored unless the material blends or is a mask.
+// glTF: alpha, including that of vertices, is ignored unless the material blends or is a mask.
 bool ignores_alpha(const scene::PbrMaterial& material) { return !material.blended && !material.alpha_cutoff; }
 
 DrawBlock material_block(const scene::PbrMaterial& material) {
@@ -64,7 +64,7 @@ void measure_edges(const scene::Primitive& primitive, Draw& draw) {
   draw.longest_edge = *std::max_element(usual, longest.end());
 }
 
-// Vertices and indices of all meshes end to end, those with a look first, and where each primitive lies.
+// Vertices and indices of all meshes end to end, those with a look first, and the position of each primitive.
 struct Packed {
   std::vector<scene::Vertex> vertices;
   std::vector<LookVertex> variant_vertices;
@@ -137,7 +137,7 @@ Packed pack(const scene::Scene& scene) {
     }
   }
 
-  // a scene without a mesh still gets buffers that can be bound
+  // a scene without a mesh still needs buffers to bind
   if (packed.indices.empty()) {
     packed.vertices.emplace_back();
     packed.indices.push_back(0);

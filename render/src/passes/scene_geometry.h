@@ -14,8 +14,7 @@
 
 namespace afm::render {
 
-// One primitive shown by one node: an indexed draw. Its place in SceneGeometry::draws() is its place among the
-// DrawBlocks.
+// One primitive shown by one node: an indexed draw. Its index in SceneGeometry::draws() is also that of its DrawBlock.
 struct Draw {
   scene::NodeIndex node = 0;
   std::uint32_t first_index = 0;
@@ -25,17 +24,17 @@ struct Draw {
   bool unlit = false;
   bool blended = false;
   bool casts_shadow = true;
-  std::optional<std::uint32_t> variant{};  // a place in SceneGeometry::looks(); none: drawn by the plain pipelines
+  std::optional<std::uint32_t> variant{};  // index into SceneGeometry::variants(); none: drawn by the plain pipelines
   std::uint32_t material = 0;
-  glm::vec3 center{0.0F};  // of the primitive's box, in the node's frame
+  glm::vec3 center{0.0F};  // centre of the primitive's box, in the node's frame
   glm::vec3 half_size{0.0F};
-  float usual_edge = 0.0F;    // in the node's frame: nine triangles in ten have none that is longer
+  float usual_edge = 0.0F;    // in the node's frame; the longest edge of nine triangles in ten is at most this
   float longest_edge = 0.0F;  // 0: no triangles
   float largest_turn = 0.0F;  // radians, between the normals at two corners of a triangle
-  DrawBlock block{};          // with the material's constants filled in
+  DrawBlock block{};          // includes the material's constants
 };
 
-// Vertex data that only a ShaderVariant reads.
+// Vertex data read only by a ShaderVariant.
 struct LookVertex {
   glm::vec4 tangent{0.0F};
   glm::vec4 coordinates{0.0F};
@@ -65,7 +64,7 @@ class SceneGeometry {
   std::vector<std::optional<scene::NodeIndex>> parents_;
   std::vector<ShaderVariant> variants_;
   Buffer vertices_;
-  Buffer variant_vertices_;  // of the first of them
+  Buffer variant_vertices_;  // first vertex with a look
   Buffer indices_;
 };
 

@@ -13,7 +13,7 @@
 namespace afm::render {
 namespace {
 
-// The uniform block of material.frag: the fields that it reads, a vec4 each, then two rows of each texture's transform.
+// Uniform block of material.frag: its fields, a vec4 each, then two rows of each texture's transform.
 constexpr std::size_t kFields = [] {
   std::size_t count = 0;
   scene::for_each_pbr_field([&](const auto& field) { count += field.use == scene::PbrUse::Plain ? 0U : 1U; });

@@ -9,7 +9,7 @@
 
 namespace afm::render {
 
-// Set 1 of the pipelines that draw a ShaderVariant: a material's block and its textures.
+// Set 1 of the pipelines that draw a ShaderVariant: the block and the textures of a material.
 class SceneMaterials {
  public:
   SceneMaterials(const Device& device, const scene::Scene& scene);

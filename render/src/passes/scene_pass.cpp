@@ -52,7 +52,7 @@ EyePipeline plain_pipeline(const Device& device, vk::PipelineLayout layout, Blen
   return {device, request, kSceneVertex, kSceneFragment};
 }
 
-// Only where the depth is still the cleared one, or everywhere, where it leaves that depth.
+// Area of the background: only where the depth is still cleared, or everywhere, which also clears the depth.
 enum class Background { Behind, Erasing };
 PipelineRequest background_request(vk::PipelineLayout layout, Background background) {
   const bool behind = background == Background::Behind;

@@ -13,7 +13,7 @@
 
 namespace afm::render {
 
-// The pipelines that draw a SceneGeometry: into the shadow map, and into the eyes with the background behind.
+// Pipelines that draw a SceneGeometry: into the shadow map, and into the eyes with the background behind.
 class ScenePass {
  public:
   ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout, vk::DescriptorSetLayout shadow_set_layout,
@@ -25,10 +25,10 @@ class ScenePass {
     const DrawList& draws;
     vk::DescriptorSet frame_set;
     std::uint32_t draw_stride = 0;      // as FrameSlot::draw_stride()
-    const DrawnFrame* frame = nullptr;  // with a box: what lies beside it is left out
-    std::optional<PixelBox> box{};      // the scissor, in which something else has been drawn before
+    const DrawnFrame* frame = nullptr;  // if `box` is set, used to skip draws outside it
+    std::optional<PixelBox> box{};      // scissor, over an earlier picture
   };
-  // `draws` of the input's geometry; the input's set is FrameSlot::shadow_set().
+  // Draws `draws` of the input's geometry; the input's set is FrameSlot::shadow_set().
   void record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
                      std::span<const std::uint32_t> draws) const;
   void record_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input);
@@ -52,12 +52,12 @@ class ScenePass {
   vk::raii::PipelineLayout shadow_layout_;
   vk::raii::PipelineLayout variant_layout_;
   vk::raii::Pipeline shadow_;
-  std::array<PlainPipelines, 2> opaque_;  // without haze, and with it
-  EyePipeline fine_;                      // shaded at the vertices, without haze
-  EyePipeline background_;                // where nothing else is
-  EyePipeline erasing_background_;        // in place of what was there
+  std::array<PlainPipelines, 2> opaque_;  // without and with haze
+  EyePipeline fine_;                      // shaded per vertex, without haze
+  EyePipeline background_;                // drawn where nothing else is
+  EyePipeline erasing_background_;        // overwrites the old contents
   std::array<PlainPipelines, 2> blended_;
-  std::vector<EyePipeline> variants_;  // as SceneGeometry::looks()
+  std::vector<EyePipeline> variants_;  // in the order of SceneGeometry::variants()
 };
 
 }  // namespace afm::render

@@ -32,7 +32,7 @@ vk::Offset3D corner(vk::Extent2D extent, std::uint32_t level) {
           static_cast<std::int32_t>(std::max(extent.height >> level, 1U)), 1};
 }
 
-// Each level from the one above it; blits of an sRGB image average light, not codes.
+// Computes each level from the one above; blits of an sRGB image average light instead of encoded values.
 void record_mipmaps(const vk::raii::CommandBuffer& command, const DeviceImage& image, std::uint32_t levels) {
   for (std::uint32_t level = 1; level < levels; ++level) {
     record_barriers(command, {level_barrier(*image.image, level - 1, kLevelWritten, kLevelRead)});

@@ -11,8 +11,7 @@
 
 namespace afm::render {
 
-// The images of a scene with their mipmaps, in each colour space in which a material reads them, and a sampler for each
-// texture.
+// Images of a scene with their mipmaps, in each colour space in which a material reads them, and a sampler per texture.
 class SceneTextures {
  public:
   SceneTextures(const Device& device, const scene::Scene& scene);
@@ -29,7 +28,7 @@ class SceneTextures {
   };
   static Uploaded upload(const Device& device, const scene::Image& image, bool srgb);
 
-  std::vector<std::uint32_t> image_of_;  // by texture
+  std::vector<std::uint32_t> image_of_;  // indexed by texture
   std::vector<vk::raii::Sampler> samplers_;
   std::map<std::pair<std::uint32_t, bool>, Uploaded> images_;
   Uploaded white_;

@@ -30,7 +30,7 @@ bool is_plain(const scene::PbrMaterial& material) {
   return same;
 }
 
-// The bits of the features that the material has.
+// Bits of the material's features.
 std::uint32_t features_of(const scene::PbrMaterial& material) {
   std::uint32_t bits = 0, bit = 1U << AFM_FIRST_PBR_FEATURE;
   scene::for_each_pbr_field([&](const auto& field) {

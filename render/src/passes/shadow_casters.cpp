@@ -16,7 +16,7 @@ constexpr vk::Rect2D kWholeMap{.extent = {kShadowMapSize, kShadowMapSize}};
 
 }  // namespace
 
-// True if what is drawn, or the light, is another: then there is nothing to compare with.
+// True if the set of draws or the light has changed: there is then nothing to compare with.
 bool ShadowCasters::follow(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list) {
   const glm::mat4 map_from_room = shadow_from_room(frame.key_light);
   bool others = map_from_room != map_from_room_ || list.shadow.size() != casters_.size();
@@ -52,7 +52,7 @@ bool ShadowCasters::separate(const SceneGeometry& geometry) {
   return dynamic_indices <= static_indices;
 }
 
-// With what lies about it: a texel is drawn whose middle is covered.
+// Area drawn by the dynamic casters, plus a margin: a texel is drawn if its centre is covered.
 vk::Rect2D ShadowCasters::drawn_by_dynamic(const FrameState& frame, const SceneGeometry& geometry) const {
   constexpr double kSize = kShadowMapSize;
   glm::dvec2 low(kSize), high(0.0);

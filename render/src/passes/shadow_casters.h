@@ -14,24 +14,23 @@
 
 namespace afm::render {
 
-// Part of the shadow map that a frame draws: nothing; everything; or the dynamic casters, onto a copy of the static
-// map, whose changed areas are drawn first.
+// Part of the shadow map that a frame draws: nothing; everything; or the dynamic casters on a copy of the static map,
+// whose changed areas are drawn first.
 enum class ShadowStep { Nothing, Everything, StaticAndDynamic, Dynamic };
 
-// The static and the dynamic casters of shadows, and the part of the map that the dynamic ones cover. In most frames
-// the tip alone moves: its shadow is a small part of the map.
+// Static and dynamic shadow casters, and the part of the map that the dynamic ones cover. In most frames only the tip
+// moves, and its shadow is a small part of the map.
 class ShadowCasters {
  public:
-  // To be called for each frame in turn: by what it asks for, the map follows the light and everything that casts a
-  // shadow.
+  // Call for each frame in turn: the returned steps keep the map up to date with the light and all casters.
   ShadowStep update(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list);
 
   // Draws of the newest step. A static caster has not moved for many frames.
   std::span<const std::uint32_t> static_casters() const { return static_; }
   std::span<const std::uint32_t> dynamic_casters() const { return dynamic_; }
 
-  // The part of the map that differs from the static one, before the dynamic casters are drawn onto it: the whole of it
-  // in the first step of two.
+  // Part of the map that differs from the static one before the dynamic casters are drawn; all of it in the first step
+  // of two.
   const vk::Rect2D& dirty() const { return dirty_; }
 
  private:
@@ -50,7 +49,7 @@ class ShadowCasters {
 
   glm::mat4 map_from_room_{0.0F};
   std::vector<Caster> casters_;
-  std::vector<int> frames_at_rest_;  // of each caster, up to those after which it is static
+  std::vector<int> frames_at_rest_;  // indexed by caster, up to the count that makes it static
   std::vector<std::uint32_t> static_, dynamic_, dynamic_before_;
   bool static_drawn_ = false;  // the static map shows static_
   vk::Rect2D dirty_, drawn_;

@@ -5,22 +5,21 @@
 
 namespace afm::render {
 
-// The depth image that the key light sees, the comparing sampler that reads it, and an image of what rests, from which
-// places of it are restored.
+// Depth image seen by the key light, the comparing sampler that reads it, and an image of the static casters, from
+// which parts of it are restored.
 class ShadowMap {
  public:
   explicit ShadowMap(const Device& device);
 
-  // Everything between them is drawn into the map, which is empty before; afterwards shaders can sample it.
+  // Clears the map; draws between begin() and end() go into it. Shaders can sample it afterwards.
   void begin(const vk::raii::CommandBuffer& command) const;
   void end(const vk::raii::CommandBuffer& command) const;
 
-  // Everything between them is drawn into the image of what rests, which is empty before.
+  // Clears the image of the static casters; the following draws go into it.
   void begin_static(const vk::raii::CommandBuffer& command) const;
   void end_static(const vk::raii::CommandBuffer& command) const;
 
-  // As begin(), with a map whose `dirty` part, which may be empty, is copied from the static one and whose rest is as
-  // it was.
+  // Like begin(), but copies the `dirty` part, which may be empty, from the static image and keeps the rest.
   void begin_on_static(const vk::raii::CommandBuffer& command, const vk::Rect2D& dirty) const;
 
   vk::DescriptorImageInfo descriptor() const;

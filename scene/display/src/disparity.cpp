@@ -9,7 +9,7 @@ namespace afm::scene {
 
 namespace {
 
-// By how much two eyes turn in to see a point; well-conditioned for small angles, unlike acos.
+// Angle between the lines of sight to a point; well-conditioned for small angles, unlike acos.
 double vergence(const glm::dvec3& left_eye, const glm::dvec3& right_eye, const glm::dvec3& point) {
   const glm::dvec3 left = left_eye - point, right = right_eye - point;
   return std::atan2(glm::length(glm::cross(left, right)), glm::dot(left, right));

@@ -22,11 +22,11 @@ constexpr std::size_t index_of(ScreenEdge edge) { return static_cast<std::size_t
 constexpr ScreenEdge facing(ScreenEdge edge) { return kScreenEdges.at((index_of(edge) + 2) % kScreenEdges.size()); }
 std::string key_of(ScreenEdge edge) { return "blend_" + std::string(kScreenEdgeNames.at(index_of(edge))); }
 
-// A screen in its plane, in metres from the lower left corner of the plane's first screen; y up.
+// Screen in its plane, in metres from the lower left corner of the plane's first screen; y up.
 struct PlaneBox {
-  std::size_t plane = 0;  // that first screen
+  std::size_t plane = 0;  // index of that first screen
   glm::dvec2 low{0.0}, high{0.0};
-  double turned_m = 0;  // how much higher its right end is than its left one
+  double turned_m = 0;  // height of its right end above its left end
 };
 
 std::vector<PlaneBox> boxes_of(const std::vector<Screen>& screens) {
@@ -47,7 +47,7 @@ std::vector<PlaneBox> boxes_of(const std::vector<Screen>& screens) {
   return boxes;
 }
 
-// How far `b`, which goes on beyond that edge of `a`, reaches into it.
+// Depth to which `b`, which extends beyond that edge of `a`, overlaps `a`.
 std::optional<double> overlap_m(const PlaneBox& a, const PlaneBox& b, ScreenEdge edge) {
   if (a.plane != b.plane) return std::nullopt;
   const bool across = edge == ScreenEdge::Left || edge == ScreenEdge::Right;
@@ -61,11 +61,11 @@ std::optional<double> overlap_m(const PlaneBox& a, const PlaneBox& b, ScreenEdge
   return depth;
 }
 
-// All that reaches into one edge of a screen.
+// All overlaps at one edge of a screen.
 struct EdgeOverlap {
   std::vector<std::size_t> screens;
-  std::size_t shallowest = 0;  // of them the one that reaches least far
-  double depth_m = 0;          // how far
+  std::size_t shallowest = 0;  // index of the one with the smallest depth
+  double depth_m = 0;          // smallest depth
 };
 
 EdgeOverlap overlap_of(const std::vector<PlaneBox>& boxes, std::size_t screen, ScreenEdge edge) {
@@ -82,7 +82,7 @@ EdgeOverlap overlap_of(const std::vector<PlaneBox>& boxes, std::size_t screen, S
   return overlap;
 }
 
-// Of the ramp at an edge: as the person says, of this edge or of one that faces it; else all of the overlap.
+// Ramp at an edge: the width given for this edge or for one that faces it; otherwise the whole overlap.
 tl::expected<EdgeRamp, BlendFault> ramp_of(const std::vector<Screen>& screens, const std::vector<EdgeWidths>& widths_m,
                                            std::size_t screen, ScreenEdge edge, const EdgeOverlap& overlap) {
   const auto fault = [&](std::string what) {
@@ -114,7 +114,7 @@ tl::expected<EdgeRamp, BlendFault> ramp_of(const std::vector<Screen>& screens, c
   return EdgeRamp{std::max(0.0, 0.5 * (overlap.depth_m - width_m)), std::min(width_m, overlap.depth_m)};
 }
 
-// Of that screen and its neighbours, in the unit coordinates of the screen's picture.
+// Fields of that screen and its neighbours, in unit coordinates of the screen's picture.
 std::vector<Blend::Field> fields_of(const std::vector<Screen>& screens, std::size_t screen,
                                     const std::function<double(std::size_t)>& black_of) {
   const std::vector<PlaneBox> boxes = boxes_of(screens);
@@ -139,7 +139,7 @@ std::vector<Blend::Field> fields_of(const std::vector<Screen>& screens, std::siz
   return fields;
 }
 
-// Calls `take` with the middle of each cell between the borders of ramps and screens in a picture.
+// Calls `take` with the centre of each cell between the borders of ramps and screens in a picture.
 void for_each_cell(const Blend& blend, const std::function<void(const glm::dvec2&)>& take) {
   std::array<std::vector<double>, 2> borders{std::vector{0.0, 1.0}, std::vector{0.0, 1.0}};
   for (const Blend::Field& field : blend.fields) {
@@ -166,7 +166,7 @@ void for_each_cell(const Blend& blend, const std::function<void(const glm::dvec2
   }
 }
 
-// A screen and all that overlap it, or what overlaps those, and so on.
+// Connected group of overlapping screens that contains this one.
 std::vector<std::size_t> group_of(const std::vector<Screen>& screens, std::size_t screen) {
   std::vector<std::size_t> group{screen};
   for (std::size_t i = 0; i < group.size(); ++i) {
@@ -206,7 +206,7 @@ std::optional<BlendFault> check_group(const std::vector<Screen>& screens, const 
   return gap;
 }
 
-// The output of a screen that is seen together with another output: with the same eye.
+// Output of a screen that is seen together with another output, by the same eye.
 const Output* shown_with(const Wall& wall, std::size_t screen, const Output& output) {
   if (screen == output.screen) return &output;
   const auto found = std::find_if(wall.outputs.begin(), wall.outputs.end(), [&](const Output& other) {

@@ -10,7 +10,7 @@
 
 namespace afm::scene {
 
-// A key of a wall file that cannot be so.
+// Key of a wall file with an impossible value.
 struct BlendFault {
   enum class Table { Screen, Output } table;
   std::size_t index;  // of the table
@@ -18,20 +18,20 @@ struct BlendFault {
   std::string what;
 };
 
-// Widths of ramps that a person gives, by ScreenEdge.
+// Ramp widths given in the file, indexed by ScreenEdge.
 using EdgeWidths = std::array<std::optional<double>, kScreenEdgeNames.size()>;
 
-// Finds the screens that overlap, and sets Screen::blend: ramps across the whole overlap, or of a given width in its
-// middle. What overlaps by less than kLeastOverlapM, or lies within another screen, is not blended.
+// Finds overlapping screens, and sets Screen::blend: ramps across the whole overlap, or of a given width in its middle.
+// Overlaps below kLeastOverlapM, and screens inside another screen, are not blended.
 inline constexpr double kLeastOverlapM = 0.010;
 std::optional<BlendFault> blend_screens(std::vector<Screen>& screens, const std::vector<EdgeWidths>& widths_m);
 
-// What is known of an output's projector.
+// Light of an output's projector, as far as known.
 struct ProjectorLight {
   std::optional<double> gamma, black;
 };
 
-// Sets Output::blend where screens overlap; one entry of `lights` an output.
+// Sets Output::blend where screens overlap; `lights` has one entry per output.
 std::optional<BlendFault> blend_outputs(Wall& wall, const std::vector<ProjectorLight>& lights);
 
 }  // namespace afm::scene

@@ -11,10 +11,10 @@ namespace afm::scene {
 
 namespace {
 
-// Of `whole` pixels that two eyes share.
+// Pixels per eye if two eyes share `whole` pixels.
 unsigned share(unsigned whole) { return std::max(1U, whole / 2U); }
 
-// A pixel of a region that shows one eye's image from corner to corner.
+// Pixel of a region that shows one eye's image from corner to corner.
 PixelSource in_region(PixelEye eye, glm::uvec2 pixel, glm::uvec2 region_px) {
   return {eye, (glm::dvec2(pixel) + 0.5) / glm::dvec2(region_px), 1.0 / glm::dvec2(region_px)};
 }
@@ -33,7 +33,7 @@ PixelSource top_bottom(glm::uvec2 picture, glm::uvec2 pixel) {
   return {};
 }
 
-// Lines are whole numbers: a picture of another size shows the nearest line and column of the exact one.
+// Lines are integers: a picture of another size shows the nearest line and column of the exact one.
 PixelSource frame_packed(const FramePacking& packing, glm::uvec2 picture, glm::uvec2 pixel) {
   const unsigned right_begins = packing.eye_px.y + packing.blank_lines;
   const glm::dvec2 scale = glm::dvec2(packing.eye_px.x, right_begins + packing.eye_px.y) / glm::dvec2(picture);
@@ -80,7 +80,7 @@ PixelSource straight_source(StereoMode mode, glm::uvec2 picture, glm::uvec2 pixe
   return {};
 }
 
-// How many eye images lie beside each other in the picture, each way.
+// Number of eye images side by side in the picture, in each direction.
 glm::uvec2 eyes_in_picture(const StereoModeTraits& mode) {
   if (mode.squeezed) return {1, 1};
   return {mode.arrangement == EyeArrangement::SideBySide ? 2U : 1U,
@@ -114,7 +114,7 @@ glm::uvec2 eye_size(StereoMode mode, glm::uvec2 picture_px) {
 PixelSource source_of_pixel(StereoMode mode, EyeOrder order, glm::uvec2 picture_px, glm::uvec2 pixel,
                             glm::ivec2 screen_px) {
   PixelSource source = straight_source(mode, picture_px, pixel, screen_px);
-  // what both eyes see in mono is one image, so there is nothing to exchange
+  // both eyes see the same image in mono, so there is nothing to exchange
   if (order == EyeOrder::Swapped && mode != StereoMode::Mono) source.eye = other(source.eye);
   return source;
 }

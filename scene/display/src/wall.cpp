@@ -15,13 +15,13 @@ namespace {
 using core::ErrorCategory;
 using core::failure;
 
-// A tape measure's error on a wall is a few millimetres in metres; one degree off square is a swapped or mistyped
-// corner.
+// The error of a tape measure on a wall is a few millimetres per metre; one degree off square means a swapped or
+// mistyped corner.
 constexpr double kLargestSquareErrorCosine = 0.0175;
 constexpr double kSmallestEdgeM = 1e-3;
 
-constexpr double kFlatM = 5e-3;       // what a tape measure gets right
-constexpr double kSameTurn = 0.9998;  // cosine of a degree
+constexpr double kFlatM = 5e-3;       // accuracy of a tape measure
+constexpr double kSameTurn = 0.9998;  // cosine of one degree
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -39,7 +39,7 @@ glm::dmat4 projection_matrix(const Extent& e, DepthConvention convention) {
   glm::dmat4 m(0.0);
   m[0][0] = 2.0 * e.near / (e.right - e.left);
   m[2][0] = (e.right + e.left) / (e.right - e.left);
-  // Vulkan's y points down: both terms of the row turn round, or every vertically off-axis frustum is wrong
+  // y points down in Vulkan: both terms of the row change sign, or every vertically off-axis frustum is wrong
   m[1][1] = y_sign * 2.0 * e.near / (e.top - e.bottom);
   m[2][1] = y_sign * (e.top + e.bottom) / (e.top - e.bottom);
   m[2][3] = -1.0;
@@ -118,7 +118,7 @@ void keep_outputs_of(std::optional<std::size_t> node, Wall& wall) {
 }
 
 double floor_height_m(const Wall& wall) {
-  constexpr double kSitting = 1.0;  // a seated head is higher above its floor
+  constexpr double kSitting = 1.0;  // lower than any seated head
   double floor = std::min(0.0, wall.viewers.front().sweet_spot.position_m.y - kSitting);
   for (const Screen& screen : wall.screens) {
     const double lowest = std::min({screen.lower_left.y, screen.lower_right.y, screen.upper_left.y});
@@ -176,7 +176,7 @@ core::Result<EyeView> off_axis_view(const Screen& screen, const glm::dvec3& eye_
 core::Result<EyeView> eye_from_fov(const HeadPose& eye, const FieldOfView& fov, DepthConvention convention,
                                    double near_m, double far_m) {
   constexpr double kRightAngle = 1.5707963267948966;
-  constexpr double kUnitError = 1e-3;  // of a runtime's quaternion, in single precision
+  constexpr double kUnitError = 1e-3;  // unit length of a runtime's single-precision quaternion
   const auto ordered = [](double low, double high) { return -kRightAngle < low && low < high && high < kRightAngle; };
   if (!ordered(fov.left_rad, fov.right_rad) || !ordered(fov.down_rad, fov.up_rad)) {
     return failure(ErrorCategory::Failed,

@@ -30,7 +30,7 @@ namespace {
 constexpr double kLargestEyeFromHeadM = 0.5;
 constexpr double kWidestBlendM = 20.0;
 constexpr double kSmallestGamma = 1.0, kLargestGamma = 4.0;
-constexpr double kLargestBlack = 0.05;  // a projector with a contrast of 20:1
+constexpr double kLargestBlack = 0.05;  // projector with a contrast of 20:1
 
 constexpr std::array<std::string_view, kScreenEdgeNames.size()> kBlendKeys{"blend_left", "blend_top", "blend_right",
                                                                            "blend_bottom"};
@@ -53,7 +53,7 @@ Screen read_screen(const toml::table& table, EdgeWidths& widths_m) {
   return screen;
 }
 
-// Beside the wall file.
+// The path is relative to the wall file.
 std::shared_ptr<const WarpMesh> read_warp_mesh(const TableReader& reader, const Output& output,
                                                const std::string& wall_path) {
   if (reader.has("homography")) {
@@ -68,9 +68,9 @@ std::shared_ptr<const WarpMesh> read_warp_mesh(const TableReader& reader, const 
   return std::make_shared<const WarpMesh>(std::move(*mesh));
 }
 
-// A homography as a person measures it: where on the output the corners of the picture are to appear. Returned is the
-// way back. It must keep every place of the picture before the projector and must not mirror it, which would exchange
-// near and far.
+// Homography given by a measurement: the output positions at which the corners of the picture should appear. Returns
+// the inverse. It must keep every point of the picture in front of the projector, and must not mirror the picture,
+// which would exchange near and far.
 glm::dmat3 read_keystone(const TableReader& reader, std::string_view key) {
   const auto v = reader.numbers<9>(key, "nine numbers, a 3 x 3 matrix row by row");
   const glm::dmat3 output_from_picture(v[0], v[3], v[6], v[1], v[4], v[7], v[2], v[5], v[8]);
@@ -80,7 +80,7 @@ glm::dmat3 read_keystone(const TableReader& reader, std::string_view key) {
   for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
     nearest = std::min(nearest, (output_from_picture * glm::dvec3(corner, 1.0)).z);
   }
-  constexpr double kLeastOfLargest = 1e-3;  // beyond it a picture is a line, or its edge infinitely far
+  constexpr double kLeastOfLargest = 1e-3;  // below this ratio the picture is a line, or its edge infinitely far away
   const double largest =
       std::abs(*std::max_element(v.begin(), v.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   if (!(size > kLeastOfLargest * largest) || !(nearest > kLeastOfLargest * largest)) {
@@ -167,7 +167,7 @@ bool overlap(const PixelRect& a, const PixelRect& b) {
   return a.offset_px.x < b_end.x && b.offset_px.x < a_end.x && a.offset_px.y < b_end.y && b.offset_px.y < a_end.y;
 }
 
-// What two outputs may not share, and the pair that dual needs.
+// Checks what two outputs may not share, and the pair that dual needs.
 void check_together(const Output& output, const std::vector<Output>& earlier, const toml::table& table) {
   const TableReader reader(table, "output");
   for (const Output& other : earlier) {
@@ -250,7 +250,7 @@ void read_tables(const toml::table& root, std::string_view key, const Read& read
   }
 }
 
-// Of what overlaps, once everything is read.
+// Sets the blending of overlaps, after everything has been read.
 void blend(Wall& wall, const toml::table& root, const std::vector<EdgeWidths>& widths_m,
            const std::vector<ProjectorLight>& lights) {
   auto fault = blend_screens(wall.screens, widths_m);
@@ -298,7 +298,7 @@ Wall read_wall(const toml::table& root, const std::string& path) {
   return wall;
 }
 
-// A ParaView configuration under another name; no TOML begins so.
+// True for a ParaView configuration under another name; no TOML file begins like that.
 bool begins_like_xml(const std::string& path) {
   char first = 0;
   return std::ifstream(path) >> first && first == '<';

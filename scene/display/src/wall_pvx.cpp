@@ -24,7 +24,7 @@ struct XmlFault {
   std::string what;
 };
 
-// Numbers between blanks, all of `text`.
+// Numbers separated by spaces; they must fill `text`.
 std::vector<double> numbers_in(std::string_view text) {
   std::vector<double> values;
   const char* at = text.data();

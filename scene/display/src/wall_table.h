@@ -93,7 +93,7 @@ class TableReader {
     return *value;
   }
 
-  // Of pixels: [x, y, width, height].
+  // Pixels: [x, y, width, height].
   PixelRect rect(std::string_view key) const {
     const auto v = numbers<4>(key, "four whole numbers [x, y, width, height] in pixels");
     for (const double value : v) {

@@ -11,16 +11,16 @@ namespace afm::scene {
 
 namespace {
 
-constexpr std::uint32_t kMostLines = 32;  // that a mesh shows each way
-constexpr double kOnEdge = 1e-9;          // of a triangle: neighbours share what lies on their edge
+constexpr std::uint32_t kMostLines = 32;  // visible mesh lines in each direction
+constexpr double kOnEdge = 1e-9;          // in barycentric coordinates: neighbours share the points on their edge
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
-// Half of a cell. Its edges from corner 0 to 1 and from corner 1 to 2 lie on lines of the mesh.
+// Half of a cell. Its edges from corner 0 to 1 and from corner 1 to 2 are lines of the mesh.
 struct MeshTriangle {
   std::array<const WarpNode*, 3> corners;
 
-  // Shares of the corners in a place; nothing outside.
+  // Barycentric coordinates of a point; nothing outside.
   std::optional<std::array<double, 3>> shares(const glm::dvec2& place) const {
     const glm::dvec2 a = corners[0]->output, ab = corners[1]->output - a, ac = corners[2]->output - a;
     const double area = cross(ab, ac);
@@ -40,7 +40,7 @@ struct MeshTriangle {
   }
 };
 
-// The triangles of a cell, the one along its upper and right edge first; none where a corner is not drawn.
+// Triangles of a cell, the one along its upper and right edge first; none if a corner is not drawn.
 std::array<std::optional<MeshTriangle>, 2> triangles_of(const WarpMesh& mesh, std::uint32_t column, std::uint32_t row) {
   const WarpNode* const first = &mesh.node(column, row);
   const WarpNode* const right = &mesh.node(column + 1, row);
@@ -52,13 +52,13 @@ std::array<std::optional<MeshTriangle>, 2> triangles_of(const WarpMesh& mesh, st
   return {MeshTriangle{{first, right, opposite}}, MeshTriangle{{opposite, below, first}}};
 }
 
-// Whether the mesh shows the line of that number: about kMostLines of them, and the last.
+// True if the mesh shows the line of that number: about kMostLines of them, and the last.
 bool is_shown_line(std::uint32_t line, std::uint32_t lines) {
   const std::uint32_t step = (lines - 1 + kMostLines - 1) / kMostLines;
   return line % step == 0 || line + 1 == lines;
 }
 
-// From a place to the straight line through two others, in pixels.
+// Distance in pixels from a point to the straight line through two others.
 double distance_px(const glm::dvec2& place, const glm::dvec2& from, const glm::dvec2& to) {
   return std::abs(cross(to - from, place - from)) / glm::length(to - from);
 }
@@ -67,7 +67,7 @@ struct WarpRaster {
   glm::uvec2 size_px;
   std::vector<glm::vec4> pixels;
 
-  // `lines` says which of the edges from corner 0 to 1 and from 1 to 2 are shown.
+  // `lines` is true for the visible edges: from corner 0 to 1, and from 1 to 2.
   void draw(const MeshTriangle& triangle, const std::array<bool, 2>& lines) {
     const glm::dvec2 size(size_px);
     std::array<glm::dvec2, 3> corners_px{};

@@ -16,18 +16,18 @@ namespace afm::scene {
 namespace {
 
 constexpr std::size_t kLargestMeshFile = 64U << 20U;
-constexpr double kFarthest = 10.0;      // from the middle of the output, whose upper edge is 1 away
-constexpr double kFarthestTexel = 4.0;  // from the picture, in its sizes
+constexpr double kFarthest = 10.0;      // from the centre of the output, whose upper edge is at distance 1
+constexpr double kFarthestTexel = 4.0;  // from the picture, in multiples of its size
 constexpr double kSmallestAspect = 0.1, kLargestAspect = 10.0;
-constexpr double kLeastArea = 1e-12;  // of a triangle that is none; the output has 1
-constexpr double kMostDrawn = 64.0;   // of all rectangles around triangles: it bounds the time that a mesh takes
+constexpr double kLeastArea = 1e-12;  // smaller triangles are degenerate; the output has area 1
+constexpr double kMostDrawn = 64.0;  // summed area of all bounding rectangles, which limits the time for drawing a mesh
 
 struct MeshFault {
   std::size_t line;
   std::string what;
 };
 
-// Lines of numbers between blanks.
+// Reads lines of numbers separated by spaces.
 class MeshLines {
  public:
   explicit MeshLines(std::string_view text) : rest_(text) {}
@@ -36,7 +36,7 @@ class MeshLines {
 
   [[noreturn]] void fail(std::string what) const { throw MeshFault{number_, std::move(what)}; }
 
-  // The next line, of exactly so many.
+  // Next line, with exactly `Count` numbers.
   template <std::size_t Count>
   std::array<double, Count> next(const char* meaning) {
     ++number_;
@@ -77,7 +77,7 @@ class MeshLines {
   std::size_t number_ = 0;
 };
 
-// As in the file: x to the right, y and v up.
+// Coordinates as in the file: x to the right, y and v up.
 WarpNode read_node(MeshLines& lines) {
   const auto [x, y, u, v, intensity] = lines.next<5>("five numbers: x y u v intensity");
   if (std::abs(x) > kFarthest || std::abs(y) > kFarthest) {
@@ -98,7 +98,7 @@ double doubled_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& 
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Of the rectangle around a triangle, as far as it lies in the output.
+// Area of the bounding rectangle of a triangle within the output.
 double drawn_area(const WarpNode& a, const WarpNode& b, const WarpNode& c) {
   const glm::dvec2 low = glm::min(a.output, glm::min(b.output, c.output));
   const glm::dvec2 high = glm::max(a.output, glm::max(b.output, c.output));
@@ -106,10 +106,10 @@ double drawn_area(const WarpNode& a, const WarpNode& b, const WarpNode& c) {
   return size.x * size.y;
 }
 
-// A picture that lies over itself has two colours for one pixel; one that is mirrored exchanges near and far.
+// A picture that overlaps itself has two colours for one pixel; a mirrored one exchanges near and far.
 void check_cells(const WarpMesh& mesh) {
   constexpr std::size_t kFirstNodeLine = 3;
-  double turn = 0.0;  // of all triangles: 1 or -1
+  double turn = 0.0;  // common orientation of all triangles: 1 or -1
   double drawn = 0.0;
   for (std::uint32_t row = 0; row + 1 < mesh.rows; ++row) {
     for (std::uint32_t column = 0; column + 1 < mesh.columns; ++column) {

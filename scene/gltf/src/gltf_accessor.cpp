@@ -16,7 +16,7 @@ std::size_t size_of(int component_type) {
   return static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
 }
 
-// Columns of matrices begin at multiples of four bytes.
+// Columns of matrices are aligned to four bytes.
 std::size_t element_size(const Accessor& accessor) {
   const std::size_t component = size_of(accessor.type);
   if (!accessor.matrix) return component * static_cast<std::size_t>(accessor.components);
@@ -54,7 +54,7 @@ class AccessorReader {
  private:
   [[noreturn]] void fail(const char* reason) const { throw GltfError(fmt::format("/accessors/{} {}", index_, reason)); }
 
-  // `count` elements from `offset` on, the last of which ends within the view.
+  // `count` elements from `offset`; the last one ends within the view.
   std::span<const std::uint8_t> elements(const BufferView& view, std::uint64_t offset, std::uint64_t count,
                                          std::size_t stride, std::size_t size, int type) const {
     const std::uint64_t length = view.bytes.size();
@@ -86,7 +86,7 @@ class AccessorReader {
   Accessor accessor_;
 };
 
-// glTF is little-endian and its data need not be aligned in memory.
+// Copies the bytes: glTF data are little-endian and may be unaligned in memory.
 template <class T>
 T load(const std::uint8_t* bytes) {
   T value;
@@ -127,7 +127,7 @@ std::uint32_t integer(const std::uint8_t* bytes, int type) {
   }
 }
 
-// Calls put(element, bytes of the element) for all of them, the sparse ones last.
+// Calls put(element, bytes of the element) for all elements, the sparse ones last.
 template <class Put>
 void for_each_element(const Accessor& accessor, int index, Put put) {
   for (std::size_t i = 0; i < accessor.count && !accessor.bytes.empty(); ++i) {

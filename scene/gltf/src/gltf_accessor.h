@@ -17,14 +17,14 @@ struct SparseValues {
   std::span<const std::uint8_t> values;
 };
 
-// A typed view of bytes, all of whose elements lie within them.
+// Typed view of bytes; all of its elements lie within them.
 struct Accessor {
   std::size_t count = 0;
   int components = 1;
-  int type = TINYGLTF_COMPONENT_TYPE_FLOAT;  // of a component
+  int type = TINYGLTF_COMPONENT_TYPE_FLOAT;  // component type
   bool normalized = false;
   bool matrix = false;
-  std::span<const std::uint8_t> bytes;  // empty: zeros
+  std::span<const std::uint8_t> bytes;  // empty: all zeros
   std::size_t stride = 0;
   std::optional<SparseValues> sparse;
 
@@ -36,13 +36,14 @@ class GltfAccessors {
   // Throws GltfError. `buffers` must outlive it.
   GltfAccessors(const GltfBuffers& buffers, const tinygltf::Model& model);
 
-  // By the file's number.
+  // `index` is the accessor's number in the file.
   const Accessor& operator[](int index) const { return accessors_[static_cast<std::size_t>(index)]; }
 
-  // All components of all elements; normalised integers as 0..1 or -1..1. Throws GltfError for what is not finite.
+  // All components of all elements; normalised integers as 0..1 or -1..1. Throws GltfError for numbers that are not
+  // finite.
   std::vector<float> floats(int index) const;
 
-  // The same of unsigned integers, as they are.
+  // Same for unsigned integers, unchanged.
   std::vector<std::uint32_t> integers(int index) const;
 
  private:

@@ -13,7 +13,7 @@
 namespace afm::scene {
 namespace {
 
-// How many numbers a key has; 0 for a path that glTF does not know.
+// Numbers per key; 0 for a path that is not part of glTF.
 std::size_t width_of(const std::string& path, std::size_t weights) {
   if (path == "translation" || path == "scale") return 3;
   if (path == "rotation") return 4;

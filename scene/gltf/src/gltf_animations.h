@@ -5,7 +5,7 @@
 
 namespace afm::scene {
 
-// All animations of the nodes that are shown, after these. Throws GltfError.
+// Reads all animations of the nodes in the scene; call after reading these. Throws GltfError.
 void read_animations(const tinygltf::Model& model, const GltfAccessors& accessors, const NodePlaces& places,
                      GltfBudget& budget, Scene& scene);
 

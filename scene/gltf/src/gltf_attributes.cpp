@@ -13,7 +13,7 @@
 namespace afm::scene {
 namespace {
 
-// Which integers an attribute may be made of beside floats.
+// Integer types allowed for an attribute besides float.
 enum class Integers { None, NormalizedUnsigned, Unsigned, Small, SmallSigned };
 
 struct Attribute {
@@ -81,7 +81,7 @@ void check_attribute(const std::string& path, const std::string& name, const Acc
                      bool quantized) {
   const Attribute* attribute = find(name);
   if (attribute == nullptr) return;
-  // a target's tangent has no handedness
+  // a morph target's tangent has no handedness
   const bool right_size = owner == AttributeOwner::Target ? accessor.components == 3
                                                           : accessor.components >= attribute->least_components &&
                                                                 accessor.components <= attribute->most_components;

@@ -7,8 +7,8 @@
 
 namespace afm::scene {
 
-// Memory budget for the meshes and animations of a model. Many may share an accessor, so a small file can demand a lot;
-// every stream asks before it allocates.
+// Memory budget for the meshes and animations of a model. Many of them may share an accessor, so a small file can
+// require a lot of memory; every stream is charged before its allocation.
 class GltfBudget {
  public:
   void take(std::uint64_t count, std::uint64_t bytes_each) {

@@ -25,7 +25,7 @@ Filter filter_of(const std::string& filter) {
   return filter == "EXPONENTIAL" ? Filter::Exponential : Filter::None;
 }
 
-// What the extension demands of a stream, and the decoder relies on.
+// Checks the extension's requirements on a stream, which the decoder relies on.
 bool is_consistent(Mode mode, Filter filter, std::uint64_t count, std::uint64_t stride) {
   if (mode != Mode::Attributes) {
     return (stride == 2 || stride == 4) && filter == Filter::None && (mode != Mode::Triangles || count % 3 == 0);

@@ -9,13 +9,13 @@
 
 namespace afm::scene {
 
-// A part of a buffer, within its bounds; decompressed if it was compressed.
+// Part of a buffer, within its bounds, after decompression.
 struct BufferView {
   std::span<const std::uint8_t> bytes;
   std::size_t stride = 0;  // 0: packed
 };
 
-// The views of a model's buffers, checked. `model` must outlive it.
+// Checked views of a model's buffers. `model` must outlive it.
 class GltfBuffers {
  public:
   // Throws GltfError.

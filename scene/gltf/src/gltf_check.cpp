@@ -17,7 +17,7 @@ namespace {
 
 using Kind = GltfMember::Kind;
 
-// Place of a value in the text: a chain of names and numbers, which becomes a path only in an error.
+// Location of a value in the text: a chain of names and numbers, converted to a path only for an error.
 struct Place {
   const Place* parent = nullptr;
   std::string_view name{};
@@ -32,13 +32,13 @@ struct Place {
   }
 };
 
-// A stranger's value, short enough for a line.
+// Untrusted value, shortened to fit into a line.
 std::string quoted(const Json& value) {
   if (value.is_structured()) return value.is_object() ? "an object" : "a list";
   return value.dump(-1, ' ', true, Json::error_handler_t::replace).substr(0, 60);
 }
 
-// JSON knows one kind of number: 4 may be written as 4.0.
+// Accepts 4.0 for 4, because JSON has only one kind of number.
 std::optional<std::uint64_t> whole_number(const Json& value) {
   constexpr double kLargestExact = 9007199254740992.0;
   if (value.is_number_unsigned()) return value.get<std::uint64_t>();
@@ -57,7 +57,7 @@ bool is_among(std::string_view choices, std::string_view value) {
   return false;
 }
 
-// The lists that others refer into, by where they stand.
+// Sizes of the lists that other parts refer to, indexed by list.
 std::array<std::size_t, kGltfLists> list_sizes(const Json& document) {
   constexpr std::array<const char*, kGltfLists> kPaths{"/accessors",   "/buffers",
                                                        "/bufferViews", "/cameras",
@@ -206,7 +206,7 @@ class Checker {
     }
   }
 
-  // A node's extras say what it is for TouchAFM; all others are an application's own.
+  // Keeps TouchAFM's own extras of a node, and drops those of other applications.
   static void keep(Json& object, const GltfMember& member, const Place& place) {
     Json own;
     if (place.parent->name == "nodes" && object.contains("extras") && object["extras"].is_object()) {

@@ -9,7 +9,7 @@
 
 #include "gltf_error.h"
 
-// Draco's headers convert as they please
+// Draco's headers contain implicit conversions
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
@@ -24,7 +24,7 @@ namespace {
 
 using Stream = std::span<const std::uint8_t>;
 
-// What a stream of this many bytes can hold at best; edgebreaker needs about a bit a triangle.
+// Upper limit for the contents of a stream; edgebreaker needs about one bit per triangle.
 constexpr std::size_t kMostCornersPerByte = 64;
 constexpr std::uint64_t kMostSeamNumbers = 64ULL << 20U;
 constexpr std::uint64_t kMostAttributeBytes = 128ULL << 20U;
@@ -40,13 +40,13 @@ std::optional<std::uint64_t> read_varint(Stream& stream) {
   return std::nullopt;
 }
 
-// What the header announces (Draco bitstream 2.2, sections 5 to 7): the decoder makes room for as much before it looks
-// at the rest.
+// Sizes in the header (Draco bitstream 2.2, sections 5 to 7). The decoder allocates memory for them before it checks
+// the rest.
 struct Announced {
   bool edgebreaker = false;
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
-  std::uint64_t seam_tables = 0;  // each with a number a corner
+  std::uint64_t seam_tables = 0;  // one number per corner each
 };
 
 std::optional<Announced> read_announced(Stream stream) {
@@ -57,7 +57,7 @@ std::optional<Announced> read_announced(Stream stream) {
   const bool has_metadata = (stream[10] & 0x80U) != 0;
   if (!is_version_2_2 || !is_mesh || has_metadata) return std::nullopt;
   Announced announced{.edgebreaker = stream[8] == 1};
-  stream = stream.subspan(kHeader + (announced.edgebreaker ? 1 : 0));  // the kind of traversal
+  stream = stream.subspan(kHeader + (announced.edgebreaker ? 1 : 0));  // skips the traversal type
   const auto first = read_varint(stream), second = read_varint(stream);
   if (!first || !second || stream.empty()) return std::nullopt;
   announced.vertices = announced.edgebreaker ? *first : *second;
@@ -66,8 +66,8 @@ std::optional<Announced> read_announced(Stream stream) {
   return announced;
 }
 
-// A decoder that measures the attributes, which are known before their values are, and makes room for no more of them
-// than a model needs. It keeps each value up to three times at once.
+// Decoder that checks the sizes of the attributes, which are known before their values, and limits them to the needs of
+// a model. It stores each value up to three times at once.
 template <class Decoder>
 class BoundedDecoder : public Decoder {
  public:

@@ -11,7 +11,7 @@
 
 namespace afm::scene {
 
-// A mesh out of a Draco stream: its corners, and a value a vertex of each attribute.
+// Decoded Draco mesh: its corners, and one value per vertex for each attribute.
 struct DracoMesh {
   std::vector<std::uint32_t> indices;
   std::map<std::string, std::vector<float>> attributes;
@@ -24,7 +24,7 @@ struct DracoAttribute {
   const Accessor* accessor = nullptr;
 };
 
-// Throws GltfError: the stream is broken, or is not the `corners` indices and the attributes that were announced.
+// Throws GltfError: the stream is broken, or does not contain exactly `corners` indices and the announced attributes.
 DracoMesh decode_draco(std::span<const std::uint8_t> stream, std::size_t corners,
                        const std::vector<DracoAttribute>& wanted);
 

@@ -5,7 +5,7 @@
 
 namespace afm::scene {
 
-// A fault in a model, as the end of a sentence that begins with the model's name. Thrown inside the loader only:
+// Fault in a model, as the end of a sentence that begins with the model's name. Used only inside the loader:
 // load_gltf() turns it into an Error.
 struct GltfError : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -19,10 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kDeepestNesting = 64;
-// Of the text's values; each takes up to about a hundred bytes as a tree.
+// Limit on the values in the text; each takes up to about a hundred bytes in a tree.
 constexpr std::uint64_t kMostValues = 4'000'000;
 
-// The whole of a plain file of at most `most_bytes`.
+// Reads a whole plain file of at most `most_bytes`.
 Bytes read_plain_file(const fs::path& path, std::uint64_t most_bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -45,7 +45,7 @@ Bytes read_plain_file(const fs::path& path, std::uint64_t most_bytes) {
   return bytes;
 }
 
-// One look along the text, in constant memory, before a tree is made of it.
+// Scans the text once, in constant memory, before a tree is built from it.
 void check_text(std::string_view text) {
   int depth = 0;
   std::uint64_t values = 1;
@@ -77,7 +77,7 @@ Json parse_text(std::string_view text) {
     return Json::parse(text.begin(), text.end());
   } catch (const Json::parse_error& error) {
     throw GltfError(fmt::format("its JSON is invalid at byte {}; export it again", error.byte));
-  } catch (const Json::exception&) {  // a number that is too large for double
+  } catch (const Json::exception&) {  // a number too large for double
     throw GltfError("its JSON is invalid: a number is out of range; export it again");
   }
 }
@@ -95,7 +95,7 @@ struct Chunks {
   std::optional<std::pair<std::size_t, std::size_t>> binary;  // offset and length
 };
 
-// The chunks of a binary glTF file whose header agrees with its size (glTF 2.0, section 4.4).
+// Chunks of a binary glTF file whose header agrees with its size (glTF 2.0, section 4.4).
 Chunks split(const Bytes& bytes) {
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
   constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;

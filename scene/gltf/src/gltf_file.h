@@ -31,8 +31,7 @@ class SideFiles {
   std::uint64_t bytes_left_ = 0;
 };
 
-// A model's text as a tree that is no deeper and no larger than a model needs, and the binary chunk of a .glb, if it
-// has one.
+// Text of a model as a tree of limited depth and size, and the binary chunk of a .glb, if it has one.
 struct GltfFile {
   Json document;
   std::optional<Bytes> binary;

@@ -33,7 +33,7 @@ Scene read_scene(const std::string& path, GltfWarnings& notes) {
   return scene;
 }
 
-// A message may quote the file, which must not break the line or reach a terminal as a control sequence.
+// Escapes a message, which may quote the file: it must stay on one line, without control sequences for a terminal.
 std::string printable(std::string text) {
   std::replace_if(text.begin(), text.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, '?');
   return text;

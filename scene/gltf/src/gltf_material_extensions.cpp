@@ -11,7 +11,7 @@
 #include "gltf_materials.h"
 #include "gltf_members.h"
 
-// To add an extension: a schema and a reader here, and a row of the table at the end (docs/adding-a-gltf-extension.md).
+// A new extension needs a schema, a reader, and a row of the table at the end (docs/adding-a-gltf-extension.md).
 namespace afm::scene {
 namespace {
 

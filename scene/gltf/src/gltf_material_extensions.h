@@ -8,16 +8,16 @@
 
 namespace afm::scene {
 
-// An extension of materials: what may stand in its object, and what becomes of that. Readers may throw GltfError.
+// Extension of materials: the schema of its object, and its reader. Readers may throw GltfError.
 struct GltfMaterialExtension {
   GltfMember schema;
   void (*read)(const tinygltf::Value& extension, PbrMaterial& material, GltfWarnings& notes);
 };
 
-// All that are understood.
+// All supported extensions.
 std::span<const GltfMaterialExtension> gltf_material_extensions();
 
-// Their schemas alone.
+// Their schemas.
 std::span<const GltfMember> gltf_material_extension_members();
 
 }  // namespace afm::scene

@@ -65,12 +65,12 @@ class MaterialReader {
       const Value* value = find_extension(source_.extensions, std::string(extension.schema.name));
       if (value != nullptr) extension.read(*value, material_, notes_);
     }
-    // KHR_materials_unlit: what else the material says is for programs that do not know the extension
+    // KHR_materials_unlit: the other properties are for programs without the extension
     if (material_.unlit) material_.emissive = glm::vec3(0.0F);
   }
 
  private:
-  // One of tinygltf's three kinds of reference to a texture.
+  // Converts one of tinygltf's three kinds of texture reference.
   template <class Info>
   void use_texture(const Info& info, TextureSlot slot) {
     if (info.index < 0) return;

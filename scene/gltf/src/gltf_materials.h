@@ -6,10 +6,10 @@
 
 namespace afm::scene {
 
-// Materials whose textures are numbered as in the file. Throws GltfError.
+// Reads the materials; their textures keep the numbers of the file. Throws GltfError.
 void read_materials(const tinygltf::Model& model, Scene& scene, GltfWarnings& notes);
 
-// The texture `key` of a material's extension, if it has one.
+// Texture `key` of a material's extension, if it has one.
 void read_texture(const tinygltf::Value& extension, const char* key, TextureSlot slot, PbrMaterial& material,
                   GltfWarnings& notes);
 

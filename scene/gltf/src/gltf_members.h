@@ -3,13 +3,13 @@
 
 #include "gltf_schema.h"
 
-// Words to write the schema's tables in.
+// Vocabulary for the schema's tables.
 namespace afm::scene::gltf_member {
 
 using Members = std::span<const GltfMember>;
 using Kind = GltfMember::Kind;
 
-// Of one list: the elements that tinygltf makes of them take up to two kilobytes each.
+// Limit on the length of a list: tinygltf's elements take up to two kilobytes each.
 inline constexpr std::size_t kMany = 250'000;
 inline constexpr std::size_t kMostMaterials = 16'384;
 inline constexpr double kLargest = 1e30;

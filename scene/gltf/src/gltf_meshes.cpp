@@ -37,7 +37,7 @@ class PrimitiveReader {
         mode_(static_cast<std::uint64_t>(source.mode)),
         quantized_(uses_quantization(model)) {}
 
-  // `default_material` is that of a primitive without one.
+  // `default_material` is used for a primitive without one.
   Primitive read(std::uint32_t default_material) {
     primitive_.topology = topology_of(mode_);
     primitive_.material = source_.material < 0 ? default_material : static_cast<std::uint32_t>(source_.material);
@@ -57,7 +57,7 @@ class PrimitiveReader {
 
   [[noreturn]] void fail(std::string_view reason) const { throw GltfError(fmt::format("{} {}", path_, reason)); }
 
-  // The values of an attribute, `count_` of them, out of its accessor.
+  // Values of an attribute, `count_` of them, from its accessor.
   std::optional<std::vector<float>> floats(const Attributes& from, const char* name, AttributeOwner owner) {
     const auto found = from.find(name);
     if (found == from.end()) return std::nullopt;
@@ -67,7 +67,7 @@ class PrimitiveReader {
     return accessors_.floats(found->second);
   }
 
-  // The same of the primitive itself, which may have them in a Draco stream.
+  // Same for the primitive itself, which may have them in a Draco stream.
   std::optional<std::vector<float>> floats(const char* name) {
     const auto draco = draco_.attributes.find(name);
     if (draco != draco_.attributes.end()) return std::move(draco->second);
@@ -117,7 +117,7 @@ class PrimitiveReader {
     }
     read_texture_coordinates();
 
-    // tangents belong to normals of the file; flat ones get theirs where they are drawn
+    // tangents belong to normals from the file; for flat normals they are computed when drawing
     if (primitive_.normals != Normals::Given) return;
     if (const auto tangents = floats("TANGENT")) {
       budget_.take(count_, sizeof(glm::vec4));

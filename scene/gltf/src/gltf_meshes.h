@@ -7,7 +7,8 @@
 
 namespace afm::scene {
 
-// All meshes, after the materials: a primitive without one gets a default material behind them. Throws GltfError.
+// Reads all meshes; call after reading the materials, since a default material is appended for primitives without one.
+// Throws GltfError.
 void read_meshes(const tinygltf::Model& model, const GltfBuffers& buffers, const GltfAccessors& accessors,
                  GltfBudget& budget, Scene& scene, GltfWarnings& notes);
 

@@ -12,7 +12,7 @@
 namespace afm::scene {
 namespace {
 
-// What the header says, before the rest is judged by the rules of a version that it may not have.
+// Checks the header first, because the other rules depend on the version.
 void check_header(const Json& document, GltfWarnings& notes) {
   const Json& asset = document["asset"];
   const std::string version = asset["version"];
@@ -40,12 +40,12 @@ void check_header(const Json& document, GltfWarnings& notes) {
   }
 }
 
-// What is taken out of the document before tinygltf sees it, so that it opens nothing and decodes nothing by itself:
-// the buffers' and images' URIs. In their places stand numbers that read_buffer() answers. Where tinygltf 2.7 refuses
-// what is valid, the document is changed so that it does not, and the model back again behind it:
+// Changes the document before tinygltf parses it. The URIs of buffers and images are replaced by numbers that
+// read_buffer() answers, so that tinygltf opens and decodes nothing itself. Valid constructs that tinygltf 2.7 rejects
+// are changed too, and restored in the model afterwards:
 // - a buffer without a URI that is not a .glb's first (a placeholder for compressed data) becomes one byte;
 // - indices in an accessor without a view (zeros, or a Draco stream) get a view that does not exist;
-// - an animation's channel that moves no node is left out.
+// - an animation's channel that moves no node is removed.
 class Exchange {
  public:
   Exchange(GltfFile& file, GltfWarnings& notes) : file_(file) {
@@ -166,7 +166,7 @@ class Exchange {
   std::size_t views_ = 0;
 };
 
-// tinygltf 2.9 (Debian 13) also asks for sizes, and takes no callbacks unless all are there.
+// tinygltf 2.9 (Debian 13) also asks for sizes, and requires the complete set of callbacks.
 template <class Callbacks>
 Callbacks callbacks_of(Exchange& exchange, Callbacks callbacks) {
   callbacks.FileExists = [](const std::string& name, void*) { return !name.empty(); };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// tinygltf is compiled into the program (tinygltf.cpp), without what could open a file or decode an image by itself.
+// tinygltf is compiled into the program (tinygltf.cpp), without the parts that open files or decode images.
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_FS
 #define TINYGLTF_NO_STB_IMAGE
@@ -15,9 +15,9 @@
 
 namespace afm::scene {
 
-// A model as tinygltf reads it out of a text that has been checked: what the schema promises holds of every member.
-// Buffers are filled with as many bytes as they announce; one without `data` is a placeholder for what is stored
-// compressed. Images are not decoded: they have their `uri` or their `bufferView`.
+// Model as parsed by tinygltf from a checked text: every member satisfies the schema. Buffers are filled to their
+// announced size; one without `data` is a placeholder for compressed data. Images are not decoded: they have their
+// `uri` or their `bufferView`.
 struct GltfModel {
   tinygltf::Model parts;
   SideFiles side_files;
@@ -26,7 +26,7 @@ struct GltfModel {
 // Throws GltfError.
 GltfModel read_gltf_model(const std::string& path, GltfWarnings& notes);
 
-// The value of an extension of this name, or nothing.
+// Value of an extension of this name; null if there is none.
 const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const std::string& name);
 
 // Members of an extension's value.

@@ -13,14 +13,14 @@
 namespace afm::scene {
 namespace {
 
-// With the instances of EXT_mesh_gpu_instancing; and the vertices that they show together.
+// Includes the instances of EXT_mesh_gpu_instancing. The second limit is on the vertices that they show in total.
 constexpr std::uint64_t kMostNodes = 250'000;
 constexpr std::uint64_t kMostDrawnCorners = 48'000'000;
 constexpr std::uint64_t kMostDraws = 100'000;
-// Of meshes with skins or morph targets, each of which is copied when it is posed.
+// Limit on the vertices of meshes with skins or morph targets, each of which is copied when it is posed.
 constexpr std::uint64_t kMostMovedVertices = 4'000'000;
 
-// Which nodes have a parent: at most one each, and none is its own ancestor.
+// True for the nodes with a parent. A node has at most one, and none is its own ancestor.
 std::vector<bool> find_parents(const std::vector<tinygltf::Node>& nodes) {
   std::vector<bool> has_parent(nodes.size(), false);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -33,7 +33,7 @@ std::vector<bool> find_parents(const std::vector<tinygltf::Node>& nodes) {
     }
   }
 
-  // with one parent each, what the roots do not reach is a loop
+  // since each has one parent, nodes not reached from the roots form a loop
   std::vector<std::size_t> reached;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!has_parent[i]) reached.push_back(i);
@@ -46,7 +46,7 @@ std::vector<bool> find_parents(const std::vector<tinygltf::Node>& nodes) {
   return has_parent;
 }
 
-// The roots to show: those of the default scene, of the first one, or of the whole file.
+// Roots to show: those of the default scene, of the first one, or of the whole file.
 std::vector<std::size_t> shown_roots(const tinygltf::Model& model, const std::vector<bool>& has_parent) {
   const std::size_t shown = model.defaultScene < 0 ? 0 : static_cast<std::size_t>(model.defaultScene);
   std::vector<std::size_t> roots, listed_by(has_parent.size(), model.scenes.size());
@@ -75,7 +75,7 @@ class NodeReader {
   NodeReader(const tinygltf::Model& model, const GltfAccessors& accessors, Scene& scene)
       : model_(model), accessors_(accessors), scene_(scene), places_(model.nodes.size()) {}
 
-  // Depth first without recursion: a hierarchy may be as deep as it has nodes.
+  // Depth first without recursion: a hierarchy may be as deep as its number of nodes.
   NodePlaces read() {
     std::vector<std::pair<std::size_t, std::optional<NodeIndex>>> waiting;
     const auto roots = shown_roots(model_, find_parents(model_.nodes));
@@ -143,7 +143,7 @@ class NodeReader {
     }
   }
 
-  // An instance is a node below the node whose mesh it shows.
+  // An instance is a child of the node whose mesh it shows.
   void add_instances(std::size_t index, const tinygltf::Value& extension, std::uint32_t mesh) {
     const tinygltf::Value& attributes = extension.Get("attributes");
     const auto read = [&](const char* name, int components) -> std::vector<float> {

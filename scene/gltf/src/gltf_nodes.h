@@ -12,7 +12,7 @@ namespace afm::scene {
 // Index of each of the file's nodes in the scene; empty for nodes that the scene does not contain.
 using NodePlaces = std::vector<std::optional<NodeIndex>>;
 
-// Cameras, lights, skins and the nodes of the scene that is shown, after the meshes. Throws GltfError.
+// Reads the cameras, lights, skins and nodes of the scene to show; call after reading the meshes. Throws GltfError.
 NodePlaces read_nodes(const tinygltf::Model& model, const GltfAccessors& accessors, GltfBudget& budget, Scene& scene,
                       GltfWarnings& notes);
 

@@ -4,8 +4,8 @@
 #include "gltf_material_extensions.h"
 #include "gltf_members.h"
 
-// The tables stand in the order of section 5 of the specification of glTF 2.0, each before what holds it; the ranges
-// are the specification's, or wide enough that nothing overflows a float.
+// Tables in the order of section 5 of the glTF 2.0 specification, each before the one that contains it. The ranges are
+// those of the specification, or wide but safe from overflow in float.
 namespace afm::scene {
 namespace {
 
@@ -19,7 +19,7 @@ constexpr GltfMember kAsset[]{text("version").required(), text("minVersion"), te
 constexpr GltfMember kHeader[]{object("asset", kAsset).required(), text("extensionsUsed").list(0, kMostMaterials),
                                text("extensionsRequired").list(0, kMostMaterials)};
 
-// an accessor without a view is all zeros, so that a small file can ask for much
+// an accessor without a view is all zeros, so that a small file can require much memory
 constexpr GltfMember kCount = whole("count", 1, 24'000'000).required();
 constexpr GltfMember kView = index("bufferView", GltfList::BufferViews);
 constexpr GltfMember kOffset = whole("byteOffset", 0, kBytes);

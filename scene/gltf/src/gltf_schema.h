@@ -9,10 +9,10 @@
 
 namespace afm::scene {
 
-// A model and all its side files together.
+// Limit on the total size of a model and its side files.
 inline constexpr std::uint64_t kLargestGltfBytes = 256ULL << 20U;
 
-// The lists of a model that its other parts refer into.
+// Lists of a model that other parts refer to.
 enum class GltfList {
   Accessors,
   Buffers,
@@ -31,18 +31,18 @@ enum class GltfList {
 };
 inline constexpr std::size_t kGltfLists = 14;
 
-// Legal values of a member of a JSON object: glTF 2.0's schema, with our bounds.
+// Legal values of a member of a JSON object: glTF 2.0's schema, with our limits.
 struct GltfMember {
   enum class Kind {
     Text,
-    Choice,     // one of `choices`, separated by spaces; a text, or a whole number
+    Choice,     // one of `choices`, separated by spaces; a text, or an integer
     Flag,       // true or false
     Number,     // finite, from `low` to `high`
-    Whole,      // the same without a fraction
-    Index,      // of an element of `into` that exists
+    Whole,      // integer from `low` to `high`
+    Index,      // existing element of `into`
     Object,     // with `members`
-    Accessors,  // an object whose members, of any name, are indices of accessors
-    Numbers,    // an object whose members, of any name, are whole numbers up to `high`
+    Accessors,  // object whose members, of any name, are indices of accessors
+    Numbers,    // object whose members, of any name, are integers up to `high`
   };
 
   std::string_view name;
@@ -54,10 +54,10 @@ struct GltfMember {
   std::span<const GltfMember> members{};
   bool is_required = false;
   bool is_list = false;
-  std::size_t least_elements = 0;  // of a list
+  std::size_t least_elements = 0;  // shortest list
   std::size_t most_elements = 0;
-  std::string_view needs{};  // the member that must stand beside it
-  std::string_view bars{};   // and those that may not, separated by spaces
+  std::string_view needs{};  // required member of the same object
+  std::string_view bars{};   // excluded members of the same object, separated by spaces
 
   constexpr GltfMember required() const {
     GltfMember copy = *this;
@@ -74,7 +74,7 @@ struct GltfMember {
     copy.bars = beside;
     return copy;
   }
-  // A list of such values.
+  // List of such values.
   constexpr GltfMember list(std::size_t least, std::size_t most) const {
     GltfMember copy = *this;
     copy.is_list = true;
@@ -84,13 +84,13 @@ struct GltfMember {
   }
 };
 
-// Members to check before all others: `asset` and the lists of extensions.
+// Members checked before all others: `asset` and the lists of extensions.
 std::span<const GltfMember> gltf_header();
 
-// All of a document but its header, with the extensions that are understood.
+// Document without its header, with all supported extensions.
 std::span<const GltfMember> gltf_document();
 
-// The names of those extensions.
+// Names of the supported extensions.
 std::set<std::string_view> gltf_extensions();
 
 }  // namespace afm::scene

@@ -41,7 +41,7 @@ std::vector<std::uint32_t> as_list(std::uint64_t mode, std::vector<std::uint32_t
   }
   for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
     if (mode == kTriangleStrip) {
-      // every other triangle of a strip is turned round
+      // every other triangle of a strip is reversed
       list.insert(list.end(), {corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]});
     } else {
       list.insert(list.end(), {corners[i + 1], corners[i + 2], corners[0]});

@@ -10,7 +10,7 @@
 
 namespace afm::scene {
 
-// A node's place below its parent: a matrix, or the three that make one.
+// Transform of a node below its parent: a matrix, or its translation, rotation and scale.
 struct NodeTransform {
   glm::dvec3 translation{0.0};
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
@@ -18,12 +18,12 @@ struct NodeTransform {
   std::optional<glm::dmat4> matrix{};
 };
 
-// Of the file's node of this number. Throws GltfError.
+// Transform of node number `node` in the file. Throws GltfError.
 NodeTransform read_transform(const tinygltf::Model& model, std::size_t node);
 
 glm::dmat4 matrix_of(const NodeTransform& transform);
 
-// Sixteen numbers, column by column, whose last row must be 0 0 0 1: skins and nodes know nothing else.
+// Sixteen numbers, column by column. The last row must be 0 0 0 1, as in all matrices of skins and nodes.
 glm::mat4 matrix_from(const float* numbers);
 
 }  // namespace afm::scene

@@ -10,10 +10,10 @@ namespace afm::scene {
 
 bool is_data_uri(std::string_view uri);
 
-// The bytes of "data:[type];base64,..." (RFC 2397, RFC 4648 section 4). Throws GltfError.
+// Decodes "data:[type];base64,..." (RFC 2397, RFC 4648 section 4). Throws GltfError.
 std::vector<std::uint8_t> decode_data_uri(std::string_view uri);
 
-// "%20" becomes a space (RFC 3986, section 2.1); what is no such triple stays as it is.
+// Decodes "%20" to a space (RFC 3986, section 2.1); anything else stays unchanged.
 std::string decode_percent(std::string_view uri);
 
 }  // namespace afm::scene

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// tinygltf's one copy. Its shared library is not linked: Debian's libdraco exports an older tinygltf under the same
-// names, and which of the two a call would reach depends on the order of the libraries.
+// The only copy of tinygltf. Its shared library is not linked: Debian's libdraco exports an older tinygltf under the
+// same names, and the order of the libraries would determine which of the two is called.
 
-// what its implementation needs and includes nowhere, or with hidden symbols
+// headers that the implementation needs but does not include, or that must not have hidden symbols
 #include <fstream>
 #include <nlohmann/json.hpp>
 

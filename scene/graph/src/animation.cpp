@@ -6,7 +6,7 @@
 namespace afm::scene {
 namespace {
 
-// Between which keys a time lies, and how far: 0 at the first, 1 at the second.
+// Keys on both sides of a time, and its position between them: 0 at the first, 1 at the second.
 struct Place {
   std::size_t before = 0;
   std::size_t after = 0;
@@ -23,7 +23,7 @@ Place place_of(const Track& track, float time_s) {
   return {next - 1, next, (time_s - times[next - 1]) / step, step};
 }
 
-// The first number of a key's value; cubic splines have a tangent on each side of it.
+// Index of the first number of a key's value; cubic splines have a tangent on each side of it.
 std::size_t value_at(const Track& track, std::size_t key) {
   return track.interpolation == Interpolation::CubicSpline ? (3 * key + 1) * track.width : key * track.width;
 }

@@ -21,7 +21,7 @@ glm::dvec3 vector_at(const std::optional<Track>& track, float time_s, const glm:
 }
 
 void move_nodes(Scene& scene, float time_s) {
-  // the first animation last, so that it has the last word
+  // the first animation last, so that it takes precedence
   for (auto animation = scene.animations.rbegin(); animation != scene.animations.rend(); ++animation) {
     for (const AnimatedNode& moved : animation->nodes) {
       Node& node = scene.nodes[moved.node];
@@ -52,7 +52,7 @@ void apply_morphs(Primitive& primitive, const std::vector<float>& weights) {
   primitive.targets.clear();
 }
 
-// The weighted mean of the joints' matrices; the weights need not add up to one.
+// Weighted sum of the joints' matrices; the weights need not add up to one.
 glm::mat4 blended(const Primitive& primitive, std::size_t vertex, const std::vector<glm::mat4>& joints) {
   glm::mat4 sum(0.0F);
   float total = 0.0F;
@@ -138,7 +138,7 @@ Scene posed(Scene scene, std::optional<float> time_s) {
     const auto place = static_cast<std::uint32_t>(scene.meshes.size());
     scene.meshes.push_back(std::move(moved));
     if (skinned) {
-      // a skin puts the vertices into the scene's own frame, wherever the node is
+      // a skin places the vertices in the scene's own frame, wherever the node is
       scene.nodes.push_back(Node{scene.nodes[i].name, std::nullopt, place, glm::dmat4(1.0)});
       scene.nodes[i].mesh.reset();
     } else {
@@ -146,7 +146,7 @@ Scene posed(Scene scene, std::optional<float> time_s) {
     }
   }
 
-  // what was only the start of a moved mesh is no longer needed
+  // original versions of moved meshes are no longer needed
   std::vector<bool> shown(meshes, false);
   for (const Node& node : scene.nodes) {
     if (node.mesh && *node.mesh < meshes) shown[*node.mesh] = true;

@@ -8,7 +8,7 @@
 namespace afm::scene {
 namespace {
 
-// Where the part's lists begin in the whole's.
+// Offsets of the part's lists within the whole.
 struct Offsets {
   std::uint32_t node, mesh, material, texture, image, skin, camera, light, variant;
 };

@@ -13,7 +13,7 @@ namespace afm::scene {
 
 inline constexpr std::uint64_t kSegmentMagic = 0x314D46414D464154;  // "TAFMAFM1" in memory
 
-// The sizes of the blocks in this build, in the order of SegmentLayout: two builds that disagree refuse each other.
+// Sizes of the blocks in this build, in the order of SegmentLayout: two builds that differ reject each other.
 using BlockSizes = std::array<std::uint32_t, 12>;
 inline constexpr BlockSizes kBlockSizes{sizeof(SharedModel),  sizeof(SceneTransforms), sizeof(Selection),
                                         sizeof(MaterialEdit), sizeof(HandScript),      sizeof(RendererHeartbeat),
@@ -37,12 +37,12 @@ struct SegmentLayout {
   // written by touchafm
   alignas(4096) core::LatestValue<SceneTransforms> transforms;
   core::LatestValue<Selection> selection;
-  std::array<core::LatestValue<MaterialEdit>, kMaxMaterials> edits;  // of every material the newest
+  std::array<core::LatestValue<MaterialEdit>, kMaxMaterials> edits;  // newest edit of every material
   core::LatestValue<HandScript> hand_script;
   core::LatestValue<ScanLead> scan_lead;
   core::LatestValue<RendererHeartbeat> heartbeat;
 
-  // written by touchafm-servo (of a ring, touchafm writes the tail)
+  // written by touchafm-servo; touchafm writes the tail of a ring
   alignas(4096) core::LatestValue<TipState> tip_state;
   core::LatestValue<ServoTiming> timing;
   core::LatestValue<SharedDevice> device;

@@ -19,7 +19,7 @@ namespace afm::scene {
 
 namespace {
 
-// Nothing in the scene or in the hand's frame is as far away as this; it keeps products of numbers finite.
+// Limit on all distances in the scene and the hand's frame; it keeps products finite.
 constexpr double kLargest = 1e9;
 
 bool sane(double value) { return std::isfinite(value) && std::abs(value) <= kLargest; }
@@ -33,7 +33,8 @@ bool positive(double value) { return sane(value) && value > 0; }
 
 bool terminated(const Name& name) { return std::find(name.begin(), name.end(), '\0') != name.end(); }
 
-// A field of a block by its type, and a block by its fields. A number without a unit of length or force may be larger.
+// Checks a field of a block according to its type, and a block field by field. A number without a unit of length or
+// force may be larger.
 bool is_field_valid(double value) { return sane(value); }
 bool is_field_valid(const HandScale& scale) {
   return std::isfinite(scale.hand_m_per_m) && std::isfinite(scale.hand_n_per_n);

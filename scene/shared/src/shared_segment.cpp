@@ -23,8 +23,8 @@ namespace {
 constexpr std::uint64_t kMostSegmentBytes =
     sizeof(SegmentLayout) + std::uint64_t{kMaxTopographySide} * kMaxTopographySide * sizeof(float);
 
-// Without the shrink seal the other process could cut the file under our mapping, and the next access would be a
-// SIGBUS.
+// Without the shrink seal, the other process could truncate the file under our mapping, and the next access would cause
+// a SIGBUS.
 constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
 
 auto segment_refused(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
@@ -33,10 +33,10 @@ void* map_whole(int descriptor, std::size_t bytes) {
   return ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
 }
 
-// Of the heights behind the blocks; the size is valid.
+// Size of the heights after the blocks; `size` is valid.
 std::size_t bytes_of(const SharedTopography& size) { return std::size_t{size.columns} * size.rows * sizeof(float); }
 
-// Where they lie: the layout is a whole number of pages long.
+// Address of the heights: the layout is a whole number of pages long.
 float* heights_behind(SegmentLayout& layout) { return reinterpret_cast<float*>(&layout + 1); }
 
 core::Result<void> validate(const SegmentHeader& header) {
@@ -96,7 +96,7 @@ core::Result<SharedSegment> SharedSegment::attach(core::FileDescriptor descripto
         fmt::format("cannot use descriptor {} as shared segment: {}", descriptor.get(), core::system_error(errno)));
   }
 
-  // the header first, by a plain read, which cannot fault whatever the descriptor is
+  // reads the header first, with a plain read, which cannot fault for any descriptor
   SegmentHeader header;
   if (::pread(descriptor.get(), &header, sizeof(header), 0) != static_cast<ssize_t>(sizeof(header))) {
     return segment_refused("cannot use the shared segment: it is shorter than its header");
@@ -124,7 +124,7 @@ core::Result<SharedSegment> SharedSegment::attach(core::FileDescriptor descripto
 }
 
 Topography SharedSegment::topography() const {
-  // the size once: what has been checked in shared memory may change there
+  // reads the size once, because checked data in shared memory could still change
   const SharedTopography size = layout_->model.topography;
   const std::size_t held = layout_.get_deleter().bytes - sizeof(SegmentLayout);
   Topography copy{.columns = size.columns, .rows = size.rows, .spacing_m = size.spacing_m, .height_m = {}};
@@ -137,7 +137,7 @@ std::uint64_t SharedSegment::scene_digest() const noexcept { return layout_->hea
 
 namespace {
 
-// Empties `value` and counts it as refused unless it is plausible. In place: a block may have 16 KB, and an empty one
+// Empties an implausible `value` and counts it as rejected. Works in place: a block may have 16 KB, and an empty one
 // must cost a tick nothing.
 template <class T, class Count, class... Model>
 void check(std::optional<T>& value, Count& refused, const Model&... model) noexcept {
@@ -147,7 +147,7 @@ void check(std::optional<T>& value, Count& refused, const Model&... model) noexc
   }
 }
 
-// The next plausible value of a ring; counts those that it skips as refused.
+// Next plausible value of a ring; counts those that it skips as rejected.
 template <class T, std::size_t Capacity>
 std::optional<T> next(core::SpscRing<T, Capacity>& ring, std::uint64_t& refused, const SharedModel& model) noexcept {
   while (auto value = ring.pop()) {

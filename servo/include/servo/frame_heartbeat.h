@@ -8,8 +8,9 @@
 
 namespace afm::servo {
 
-// Keeps a slow frame from looking like a dead one: each call sends a heartbeat to the servo, for at most two seconds
-// per frame. A slow picture is no reason to release the hand; a stopped one is. Made at the beginning of each frame.
+// Keeps the servo from mistaking a slow frame for a dead renderer: each call sends it a heartbeat, for at most two
+// seconds per frame. A slow picture is no reason to release the hand; a stopped one is. Create one at the beginning of
+// each frame.
 class FrameHeartbeat {
  public:
   FrameHeartbeat(ServoClient& servo, const core::Clock& clock)

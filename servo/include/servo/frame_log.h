@@ -18,16 +18,16 @@ namespace afm::servo {
 // Record of a frame for --frame-log.
 struct FrameRecord {
   std::int64_t begun_ns = 0, presented_ns = 0;
-  std::optional<double> head_latency_s{};               // from a tracker's packet to the presenting of what it moved
-  std::optional<double> nearest_rad{}, farthest_rad{};  // crossed disparity, as measured last
-  double ipd_m = 0;                                     // that the eyes were drawn for
-  std::optional<std::uint32_t> servo_late_us{};         // of the latest tick that the servo has reported since
-  std::uint64_t servo_missed = 0;                       // ticks, since the servo's start
-  std::optional<double> pose_age_s{};  // of a headset: from locating the eyes to its runtime's getting the picture
-  const char* headset = "";            // shown, hidden, frozen, off; empty without one
+  std::optional<double> head_latency_s{};  // from a tracker's packet to the presentation of the picture it changed
+  std::optional<double> nearest_rad{}, farthest_rad{};  // crossed disparity, as last measured
+  double ipd_m = 0;                                     // drawn eye distance
+  std::optional<std::uint32_t> servo_late_us{};  // latest tick that the servo has reported since the previous frame
+  std::uint64_t servo_missed = 0;                // number of ticks since the servo's start
+  std::optional<double> pose_age_s{};  // headset: from locating the eyes to the runtime's receipt of the picture
+  const char* headset = "";            // shown, hidden, frozen, off; empty without a headset
 };
 
-// The latest of the ticks that the servo has counted between two frames; empty: it has reported none.
+// Latest of the ticks that the servo has counted between two frames; empty if it has reported none.
 class ServoLateness {
  public:
   std::optional<std::uint32_t> since_last(const scene::ServoTiming& timing);
@@ -36,10 +36,11 @@ class ServoLateness {
   scene::ServoTiming before_;
 };
 
-// A line of CSV a frame. A thread writes, so that no frame waits for a disk; what it cannot write is said at the end.
+// Log with one CSV line per frame. A thread writes it, so that no frame waits for a disk; write errors are reported at
+// the end.
 class FrameLog {
  public:
-  // A file that is there is replaced.
+  // Replaces an existing file.
   static core::Result<std::unique_ptr<FrameLog>> create(const std::string& path, std::int64_t start_ns);
   FrameLog(const FrameLog&) = delete;
   FrameLog& operator=(const FrameLog&) = delete;
@@ -47,7 +48,7 @@ class FrameLog {
 
   void add(const FrameRecord& frame);
 
-  // Writes the rest. Nothing is added after it.
+  // Writes the remaining lines. Nothing may be added afterwards.
   core::Result<void> finish();
 
  private:
@@ -65,7 +66,7 @@ class FrameLog {
   std::string waiting_;  // lines
   bool ending_ = false;
   int error_ = 0;       // of the writing thread, read after its end
-  std::thread writer_;  // last: it uses all of the above
+  std::thread writer_;  // last member: it uses all the others
 };
 
 }  // namespace afm::servo

@@ -12,10 +12,10 @@
 namespace afm::servo {
 
 struct HapticChoice {
-  const haptics::DeviceKind* device = nullptr;  // null: the best there is
-  std::string replay_file;                      // not empty: a session whose hand is played, and no device
+  const haptics::DeviceKind* device = nullptr;  // null: the best available
+  std::string replay_file;                      // not empty: session whose hand is replayed, without a device
   enum class Person { Mouse, Simulated };
-  Person person = Person::Mouse;  // moves a device that no real hand moves
+  Person person = Person::Mouse;  // moves a device that has no real hand
 };
 
 struct HapticWord {
@@ -23,18 +23,20 @@ struct HapticWord {
   std::string meaning;
 };
 
-// All that --haptics takes: "auto", "mouse", the words of haptics::device_kinds(), and "replay:FILE".
+// All values of --haptics: "auto", "mouse", the names in haptics::device_kinds(), and "replay:FILE".
 std::vector<HapticWord> haptic_words();
 
-// One of those; anything else is wrong usage. A mouse is for the servo the simulated hand, which the window moves.
+// Parses one of these values; anything else is WrongUsage. For the servo, a mouse is the simulated hand, which the
+// window moves.
 core::Result<HapticChoice> parse_haptic_choice(std::string_view text);
 
-// Opens it, where the environment says. DeviceMissing: it is not there. BadInputFile: the session cannot be played.
-// What was tried goes to the log, unless the simulated hand was asked for. `clock` outlives the device.
+// Opens the chosen device, in the place that the environment gives. DeviceMissing: it is not connected. BadInputFile:
+// the session cannot be replayed. The attempts are logged, unless the simulated hand was requested. `clock` outlives
+// the device.
 core::Result<haptics::OpenedDevice> open_haptic_device(const HapticChoice& choice, const core::Clock& clock,
                                                        const haptics::OfferReleasePath& offer = {});
 
-// That of this process.
+// Environment of this process.
 haptics::Environment environment();
 
 }  // namespace afm::servo

@@ -8,9 +8,9 @@
 
 namespace afm::servo {
 
-// Starts `program` with `arguments`, and again each time it fails or crashes, until it ends well, is refused for good
-// (exit codes 2 to 4), or SIGINT or SIGTERM ends both. Failed: it has failed more than kMostRestarts times within a
-// minute. Main thread only.
+// Runs `program` with `arguments` and restarts it after each failure or crash, until it exits with success or with a
+// permanent error (exit codes 2 to 4), or until SIGINT or SIGTERM ends both. Failed: more than kMostRestarts failures
+// within a minute. Main thread only.
 core::Result<void> keep_running(const std::string& program, const std::vector<std::string>& arguments);
 
 inline constexpr int kMostRestarts = 5;

@@ -16,21 +16,21 @@ namespace afm::servo {
 // Behaviour of touchafm-servo after its renderer has died: it keeps the device for this time and offers its segment to
 // a new renderer.
 struct Linger {
-  double seconds = 0;   // 0: end at once
-  std::string program;  // the path of touchafm-servo
+  double seconds = 0;   // 0: exit at once
+  std::string program;  // path of touchafm-servo
   int segment = -1;
-  std::uint64_t scene_digest = 0;      // of the segment
+  std::uint64_t scene_digest = 0;      // scene of the segment
   std::vector<std::string> arguments;  // servo_arguments()
 };
 
-// The path of the running program; empty if the system does not tell.
+// Path of the running program; empty if the system does not provide it.
 std::string executable_path();
 
-// A thread that waits for what ends a servo: its renderer's end of the socket closes, a signal asks to end, its
-// watchdog dies, or this object goes. Real-time like the servo, because the hand is held until it is heard.
+// Thread that waits for the end of a servo: its renderer closes the socket, a signal asks it to exit, its watchdog
+// dies, or this object is destroyed. Real-time like the servo, because the hand is held until it reacts.
 class RendererMonitor {
  public:
-  // `signals` is a signalfd, `watchdog` the descriptor of a Watchdog; they and the loop must outlive this.
+  // `signals` is a signalfd, `watchdog` the descriptor of a Watchdog; they and the loop must outlive this object.
   RendererMonitor(haptics::ServoLoop& loop, core::FileDescriptor lifeline, const core::FileDescriptor& signals,
                   int watchdog, Linger linger);
   RendererMonitor(const RendererMonitor&) = delete;
@@ -50,7 +50,7 @@ class RendererMonitor {
   int watchdog_;
   Linger linger_;
   core::FileDescriptor done_;
-  std::thread thread_;  // last: it uses all of them
+  std::thread thread_;  // last member: it uses all the others
 };
 
 }  // namespace afm::servo

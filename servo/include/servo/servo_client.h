@@ -24,18 +24,18 @@ inline constexpr double kServoRateHz = 1000.0;
 // Settings of a servo and its device.
 struct ServoChoice {
   ServoMode mode = ServoMode::Process;
-  std::string haptic_device = "sim";  // what parse_haptic_choice() takes
+  std::string haptic_device = "sim";  // value for parse_haptic_choice()
   haptics::ServoSettings settings{.rate_hz = kServoRateHz};
 };
 
-// The frame loop's side of the servo: starts it with a new segment, sends it the selection and the transforms, and
+// Frame loop's interface to the servo: starts it with a new segment, sends it the selection and the transforms, and
 // receives every sample and event. One thread.
 class ServoClient {
  public:
-  // `program` is the running touchafm, with touchafm-servo in the same folder. Takes over a servo that waits because
-  // its renderer died, if its scene, device and settings are the same and if settings.linger_s, the time that this one
-  // would wait, is not zero; otherwise asks it to exit first. `topography` is the one that the model promises; the
-  // scene that draws it is known by its digest.
+  // `program` is the running touchafm, with touchafm-servo in the same folder. Takes over a servo that is waiting
+  // because its renderer died, if its scene, device and settings are the same and settings.linger_s, the time that this
+  // one would wait, is not zero. Otherwise it asks that servo to exit first. `topography` is the one announced in the
+  // model; the scene that shows it is identified by its digest.
   static core::Result<std::unique_ptr<ServoClient>> start(const scene::SharedModel& model, std::uint64_t scene_digest,
                                                           const ServoChoice& choice, const std::string& program,
                                                           const scene::Topography& topography = {});
@@ -45,34 +45,35 @@ class ServoClient {
     std::vector<scene::TipEvent> events;
   };
 
-  // Once a frame: everything new since the last call, and the newest state. Fails when the servo has ended. If the
-  // servo runs but has been silent for 200 ms, tip() reports Fault with ServoSilent until its next state arrives.
+  // Call once per frame: returns everything new since the last call, and the newest state. Fails if the servo has
+  // ended. If the servo runs but has been silent for 200 ms, tip() reports Fault with ServoSilent until its next state
+  // arrives.
   core::Result<Update> poll(std::int64_t now_ns);
 
-  // From now on what poll() gives reaches `audience` first, in a separate thread and within milliseconds: for what must
-  // not wait for a frame. It must outlive this. Once.
+  // From now on, passes everything that poll() returns to `audience` first, in a separate thread and within
+  // milliseconds, for uses that cannot wait for a frame. `audience` must outlive this object. Call once.
   void listen(TipAudience& audience);
 
-  // Sends the frame loop's heartbeat; poll() does so too. After 250 ms without one, the servo assumes that the loop
+  // Sends the frame loop's heartbeat, as poll() does too. After 250 ms without one, the servo assumes that the loop
   // hangs.
   void beat(std::int64_t now_ns);
 
-  // A person wants no force, now: the servo cuts it in its next tick, whatever state it is in, and gives none for 250
-  // ms at least.
+  // Emergency stop by a person: the servo cuts the force in its next tick, whatever its state, and applies none for at
+  // least 250 ms.
   void stop(std::int64_t now_ns);
 
-  // What every heartbeat from now on says of the picture. While nobody sees it, as when a headset is lost, the servo
-  // gives no force; when somebody does again, the hand lifts and Turn-On is pressed as after the start.
+  // Visibility of the picture, sent with every following heartbeat. While nobody sees it, as when a headset is lost,
+  // the servo applies no force; when it is seen again, the hand must lift and press Turn-On, as after the start.
   enum class Picture { Seen, Unseen };
   void set_picture(Picture picture) { picture_ = picture; }
 
   const scene::TipState& tip() const { return tip_; }
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
   const haptics::ServoSettings& settings() const { return settings_; }
-  const scene::SharedDevice& device() const { return device_; }  // what the servo holds, once poll() has seen its state
+  const scene::SharedDevice& device() const { return device_; }  // the servo's device, once poll() has run
   const scene::SharedModel& model() const { return segment_.model(); }
   scene::Topography topography() const { return segment_.topography(); }
-  const std::array<double, 16>& room_from_sample() const { return room_from_sample_; }  // as placed last
+  const std::array<double, 16>& room_from_sample() const { return room_from_sample_; }  // as last placed
 
   // Parameters of a material after this edit; edit 0: as loaded.
   const scene::SharedContact& parameters(std::size_t material, std::uint32_t edit_revision) const;
@@ -80,20 +81,21 @@ class ServoClient {
   std::uint64_t lost_samples() const { return side_.lost_samples() + (listener_ ? listener_->lost_samples() : 0); }
 
   // Selects the material under the tip and its scale; both take effect once the tip is off the sample, after the force
-  // has been removed. Without a mode: the previous one, initially Fit.
+  // has been removed. Without `mode`, keeps the previous one, initially Fit.
   void choose(std::int32_t material) { choose(material, selection_.scale_mode); }
   void choose(std::int32_t material, scene::ScaleMode mode);
-  std::int32_t chosen() const { return selection_.material; }  // which the tip may not have yet; -1: none
+  std::int32_t chosen() const { return selection_.material; }  // may differ from the tip's current material; -1: none
 
-  // Changes the parameters of a material, given by its index in the shared model; returns the revision of the edit. It
-  // takes effect like a selection: once the tip is off the sample, after the force has been removed, so that the hand
-  // has to lift and press Turn-On again. tip().edit_revision shows when; tip().edit_refused is set if the parameters
-  // cannot be felt (the servo logs the reason). Edits may come at any rate: the newest one for each material counts.
+  // Changes the parameters of a material, given by its index in the shared model; returns the revision of the edit.
+  // Like a selection, it takes effect once the tip is off the sample, after the force has been removed, so that the
+  // hand has to lift and press Turn-On again. tip().edit_revision shows when. tip().edit_refused is set if the
+  // parameters cannot be felt; the servo logs the reason. Edits may come at any rate: the newest one for each material
+  // counts.
   std::uint32_t change(std::size_t material, const scene::SharedContact& parameters);
   void place(const scene::SceneTransforms& transforms);
   void script(const scene::HandScript& script);
 
-  // Once a frame of a scan that has to do with the hand; its revision is set here.
+  // Call once per frame of a scan that involves the hand; sets the revision itself.
   void lead(const scene::ScanLead& lead);
 
  private:
@@ -109,23 +111,23 @@ class ServoClient {
   void take_state(std::int64_t now_ns);
 
   haptics::ServoSettings settings_;
-  core::MonotonicClock clock_;  // of a device in a thread of this process
+  core::MonotonicClock clock_;  // clock of a device in a thread of this process
   scene::SharedSegment segment_;
   scene::RendererSide side_;
   scene::Selection selection_;
-  std::vector<scene::SharedContact> edits_;  // all that were sent
-  std::uint32_t edit_base_ = 0;              // the predecessor's newest edit; the first of ours is the next
+  std::vector<scene::SharedContact> edits_;  // all edits sent
+  std::uint32_t edit_base_ = 0;              // newest edit of the predecessor; our first edit is the next one
   std::array<double, 16> room_from_sample_{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   scene::SharedDevice device_;
   scene::TipState tip_;
-  std::optional<Heard> heard_;     // when its tick last changed
-  std::uint32_t script_base_ = 0;  // the predecessor's newest script
+  std::optional<Heard> heard_;     // time at which its tick last changed
+  std::uint32_t script_base_ = 0;  // newest script of the predecessor
   std::uint32_t leads_ = 0;
   std::uint64_t beats_ = 0;
-  std::optional<std::int64_t> stopped_ns_;  // when stop() was called last
-  Picture picture_ = Picture::Seen;         // as set_picture() was told last
+  std::optional<std::int64_t> stopped_ns_;  // time of the last stop()
+  Picture picture_ = Picture::Seen;         // as last set by set_picture()
   std::unique_ptr<TipListener> listener_;
-  std::unique_ptr<Servo> servo_;  // last: it ends before its segment goes
+  std::unique_ptr<Servo> servo_;  // last member: it ends before its segment is destroyed
 };
 
 }  // namespace afm::servo

@@ -12,30 +12,30 @@
 #include "core/result.h"
 #include "haptics/servo_loop.h"
 
-// Handover of a servo whose renderer died to a new renderer, without opening and calibrating the device again. The two
-// meet at a Unix socket in a private folder of the user ($XDG_RUNTIME_DIR/touchafm); each trusts only processes of the
-// same user. Several servos may wait.
+// Handover of a servo whose renderer died to a new renderer, without opening and calibrating the device again. They
+// meet at a Unix socket in a private folder of the user ($XDG_RUNTIME_DIR/touchafm), and each trusts only processes of
+// the same user. Several servos may wait.
 namespace afm::servo {
 
-// The options of touchafm-servo that say how it runs and what it holds: a renderer that wants others wants another
-// servo.
+// Options of touchafm-servo that determine how it runs and what it holds. A renderer with different options needs a
+// different servo.
 std::vector<std::string> servo_arguments(const haptics::ServoSettings& settings, const std::string& device);
 
-// The waiting servo's end. Closed, nobody can find it any more.
+// Waiting servo's end of the handover. Once it is closed, nobody can find the servo.
 class HandoverPort {
  public:
-  // `program`: the path of touchafm-servo. Failed: the folder or the socket cannot be made.
+  // `program` is the path of touchafm-servo. Failed: the folder or the socket cannot be created.
   static core::Result<HandoverPort> open(const std::string& program, std::uint64_t scene_digest,
                                          const std::vector<std::string>& arguments);
   HandoverPort(HandoverPort&&) noexcept = default;
   HandoverPort& operator=(HandoverPort&&) = delete;
   ~HandoverPort();
 
-  int descriptor() const { return listener_.get(); }  // readable when somebody has come
+  int descriptor() const { return listener_.get(); }  // readable when a renderer has connected
 
-  // Shows the segment and the servo's arguments to a new renderer and waits at most a second for the answer. With Stay,
-  // `lifeline` closes when that renderer dies; Leave: it wants another servo; Nobody: it was of another user, saw
-  // nothing and does not count.
+  // Shows the segment and the servo's arguments to a new renderer, and waits at most a second for the answer. Stay:
+  // `lifeline` closes when that renderer dies. Leave: the renderer needs a different servo. Nobody: the peer belonged
+  // to another user, received nothing and does not count.
   enum class Answer { Stay, Leave, Nobody };
   Answer receive(int segment, const std::vector<std::string>& arguments, core::FileDescriptor& lifeline) const;
 
@@ -47,26 +47,26 @@ class HandoverPort {
   std::filesystem::path path_;
 };
 
-// A servo that waits, as the renderer sees it. To drop it is to tell it to leave.
+// Waiting servo, as seen by the renderer. Destroying it asks the servo to exit.
 struct WaitingServo {
   core::FileDescriptor segment;
   core::FileDescriptor lifeline;  // closes when this process dies
-  core::FileDescriptor process;   // a pidfd
+  core::FileDescriptor process;   // pidfd
   std::vector<std::string> arguments;
 
-  void stay() const;  // the answer that makes it go on
+  void stay() const;  // answer that keeps it running
 };
 
-// The sockets of those that wait for a renderer of `program`, first the ones of this scene and these arguments. A servo
-// that was killed leaves its socket behind.
+// Sockets of the servos waiting for a renderer of `program`, those with this scene and these arguments first. A killed
+// servo leaves its socket behind.
 std::vector<std::filesystem::path> find_waiting_servos(const std::string& program, std::uint64_t scene_digest,
                                                        const std::vector<std::string>& arguments);
 
-// Empty: nobody answers there, within a second.
+// Empty if nobody answers there within a second.
 std::optional<WaitingServo> visit_servo(const std::filesystem::path& socket);
 
-// Waits for the process behind a pidfd; false if it still runs after so long.
-inline constexpr int kLeaveMs = 2000;  // for a servo that was asked to exit
+// Waits for the process behind a pidfd; false if it still runs after that time.
+inline constexpr int kLeaveMs = 2000;  // patience with a servo that was asked to exit
 bool process_ended_within(const core::FileDescriptor& process, int milliseconds);
 
 }  // namespace afm::servo

@@ -19,10 +19,10 @@
 // Starts a servo, monitors it and ends it.
 namespace afm::servo {
 
-// A running servo. Used by the thread that stores heartbeats; the segment and its RendererSide must outlive it.
+// Running servo. Used by the thread that stores heartbeats; the segment and its RendererSide must outlive it.
 //
-// The destructor ends it in good order: it stores a heartbeat that says `leaving`, which fades the force, and waits.
-// The caller stores no other heartbeat from then on.
+// The destructor ends it in good order: it stores a heartbeat marked `leaving`, which fades out the force, and waits.
+// The caller must not store any other heartbeat afterwards.
 class Servo {
  public:
   Servo() = default;
@@ -32,24 +32,23 @@ class Servo {
 
   virtual bool alive() noexcept = 0;
 
-  // Once it has ended: its exit code, or 128 and the number of the signal that ended it, as a shell counts.
+  // Exit code once it has ended, or 128 plus the number of the signal that killed it, as in a shell.
   virtual std::optional<int> exit_status() noexcept = 0;
 };
 
-// touchafm-servo as a child process, which inherits the standard streams, the segment and one end of a socket pair, and
-// nothing else. When this process dies, in whatever way, the kernel closes the other end, and the servo releases the
-// hand.
+// touchafm-servo as a child process. It inherits only the standard streams, the segment and one end of a socket pair.
+// When this process dies, for whatever reason, the kernel closes the other end, and the servo releases the hand.
 class ServoProcess final : public Servo {
  public:
-  // `program` is the path of touchafm-servo; `settings` are what ServoLoop takes; `device` names the device as
-  // touchafm's --haptics does. A servo that cannot have it says why on stderr and ends with an exit code of the
-  // program.
+  // `program` is the path of touchafm-servo; `settings` are those of ServoLoop; `device` is a value of touchafm's
+  // --haptics. If the servo cannot open the device, it prints the reason to stderr and ends with one of the program's
+  // exit codes.
   static core::Result<std::unique_ptr<ServoProcess>> spawn(const std::string& program, scene::SharedSegment& segment,
                                                            scene::RendererSide& side,
                                                            const haptics::ServoSettings& settings,
                                                            const std::string& device = "sim");
 
-  // Waits at most 2 s for the servo to leave; then it is terminated, then killed. Leaves no zombie.
+  // Waits at most 2 s for the servo to exit, then terminates and finally kills it. Leaves no zombie.
   ~ServoProcess() override;
 
   bool alive() noexcept override;
@@ -68,17 +67,17 @@ class ServoProcess final : public Servo {
   core::OnInterruption terminate_;
 };
 
-// A servo that another renderer started, which has died. It is no child of this process.
+// Servo started by another renderer, which has died. It is not a child of this process.
 class AdoptedServo final : public Servo {
  public:
-  // `side` is of the segment that came with it.
+  // `side` belongs to the segment that came with it.
   static std::unique_ptr<AdoptedServo> adopt(WaitingServo waiting, scene::RendererSide& side);
 
-  // Ends it as ServoProcess does.
+  // Ends it like ServoProcess does.
   ~AdoptedServo() override;
 
   bool alive() noexcept override { return !exit_status().has_value(); }
-  std::optional<int> exit_status() noexcept override;  // 1, whatever it was
+  std::optional<int> exit_status() noexcept override;  // always 1
 
  private:
   AdoptedServo(WaitingServo waiting, scene::RendererSide& side) : waiting_(std::move(waiting)), side_(side) {}
@@ -87,8 +86,8 @@ class AdoptedServo final : public Servo {
   scene::RendererSide& side_;
 };
 
-// The same loop as a thread of this process, for sanitizers and debuggers. Its pages are
-// not locked, so it reports itself as not real-time; a debugger's stop disarms it.
+// The same loop as a thread of this process, for sanitizers and debuggers. Its pages are not locked, so it reports
+// itself as not real-time; a debugger's stop disarms it.
 class ServoThread final : public Servo {
  public:
   static core::Result<std::unique_ptr<ServoThread>> start(scene::SharedSegment& segment, scene::RendererSide& side,

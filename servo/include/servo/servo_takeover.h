@@ -15,9 +15,9 @@ struct TakenServo {
   WaitingServo servo;
 };
 
-// The servo that waits since its renderer died, if this renderer can go on with it: it is of the same scene, feels the
-// same materials, runs as `settings` say, which must want to linger too, and holds the same device. Any other is asked
-// to exit, and waited for, because it may hold the device.
+// Takes over a servo that has been waiting since its renderer died, if it fits this renderer: the same scene,
+// materials, device and `settings`, which must ask for lingering too. Any other waiting servo is asked to exit, and
+// waited for, because it may hold the device.
 std::optional<TakenServo> take_waiting_servo(const scene::SharedModel& model, std::uint64_t scene_digest,
                                              const haptics::ServoSettings& settings, const std::string& haptic_device,
                                              const std::string& servo_program);

@@ -15,13 +15,13 @@
 
 namespace afm::servo {
 
-// Recording of one material, with everything that its forces depend on: every tick's sample and every event from the
-// servo. The first sample follows a moment without force or motion that counts (haptics::ServoLoop), so that a replay
-// gives the same forces bit for bit.
+// Recording of one material, with everything that its forces depend on: every tick's sample and every event of the
+// servo. The first sample follows a state without force or relevant motion (haptics::ServoLoop), so that a replay gives
+// the same forces bit for bit.
 struct RecordedSession {
-  std::string material;                             // name in the material file
-  scene::SharedContact parameters;                  // what was felt; curve and surface are the only ones of a replay
-  std::optional<scene::SharedMeasuredCurve> curve;  // of Law::Measured
+  std::string material;             // name in the material file
+  scene::SharedContact parameters;  // parameters in effect; a replay has one curve and one surface at most
+  std::optional<scene::SharedMeasuredCurve> curve;  // for Law::Measured only
   std::optional<scene::SharedHeightField> surface;  // none: a topography, or a plane
   scene::Topography topography;                     // without columns: none
   std::array<double, 16> room_from_sample{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // as in SceneTransforms
@@ -34,30 +34,30 @@ struct RecordedSession {
   double slow_motion = 1;   // as in TipState
   std::vector<scene::TipSample> samples;
   std::vector<scene::TipEvent> events;
-  std::vector<std::string> shown;            // the materials on the wall, by name
+  std::vector<std::string> shown;            // names of the materials on the wall
   std::vector<EarlierCurve> earlier_curves;  // on the wall when the session began
-  std::vector<WallFrame> wall;               // of a live window, in the order of their times; else none
-  bool complete = true;                      // false: the file was cut, and this is what it still holds
+  std::vector<WallFrame> wall;               // live window only, in time order
+  bool complete = true;                      // false: the file was cut, and this is the rest
 
   double seconds_since_start(std::int64_t time_ns) const;
-  const scene::TipEvent* find(physics::EventKind kind) const;  // the first one, or null
+  const scene::TipEvent* find(physics::EventKind kind) const;  // first such event, or null
 };
 
-// The scene of a session for a servo that is to feel it again: one node, the sample, and its material twice, because
-// the session may end with the choice of another.
+// Scene of a session for a servo that replays it: one node, the sample, and its material twice, because the session may
+// end with the selection of another.
 std::unique_ptr<scene::SharedModel> model_of(const RecordedSession& session);
 
-// A session file (.afms): JSON and fixed-size records with checksums. Written whole or not at all.
+// Writes a session file (.afms): JSON and fixed-size records with checksums. Written completely or not at all.
 core::Result<void> save_session(const RecordedSession& session, const std::string& path);
 
-// Files of every version since TouchAFM 0.1.0. Believes nothing unchecked: altered and foreign files, other versions,
-// and numbers that are not finite are errors that name the file. One that was cut holds what came before.
+// Reads files of every version since TouchAFM 0.1.0. All input is checked: altered or foreign files, other versions,
+// and numbers that are not finite are errors that name the file. A file that was cut yields its beginning.
 core::Result<RecordedSession> load_session(const std::string& path);
 
-// Whether a regular file begins as a session does.
+// True for a regular file that begins like a session.
 bool is_session_file(const std::string& path);
 
-// Message about a session that is not complete.
+// Message about an incomplete session.
 std::string cut_text(const RecordedSession& session, const std::string& path);
 
 }  // namespace afm::servo

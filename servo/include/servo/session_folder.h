@@ -13,18 +13,18 @@
 
 namespace afm::servo {
 
-// Folder that sessions are recorded into: session-NAME.afms, then session-NAME-2.afms; existing files are never
-// overwritten. Each grows while it is felt (SessionWriter). One thread.
+// Folder that sessions are recorded into: session-NAME.afms, then session-NAME-2.afms. Never overwrites a file. Each
+// file grows during its session (SessionWriter). One thread.
 class SessionFolder {
  public:
-  // Makes it. Fails at once if it cannot be written.
+  // Creates the folder. Fails at once if it is not writable.
   static core::Result<SessionFolder> open(const std::string& path);
 
-  // Adds a part of the current session; the first part determines its name. A session without force loses its file when
-  // it ends.
+  // Adds a part of the current session; the first part determines its name. The file of a session without force is
+  // deleted when the session ends.
   core::Result<void> add(const RecordedSession& part);
 
-  // The session under way is over; the log says where it is.
+  // Ends the current session; logs the path of its file.
   core::Result<void> end();
 
  private:

@@ -8,8 +8,8 @@
 
 namespace afm::servo {
 
-// The friction loop of a session: the last whole cycle there and back, in the last contact that holds one, along the
-// line on which the tip moved most. None where the tip was not led there and back, or without friction.
+// Friction loop of a session: the last whole cycle back and forth, in the last contact that has one, along the line of
+// the largest motion. None without such a cycle, or without friction.
 std::optional<physics::FrictionLoop> friction_loop(const RecordedSession& session);
 
 }  // namespace afm::servo

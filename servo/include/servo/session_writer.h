@@ -13,23 +13,23 @@ namespace afm::servo {
 
 class SessionEncoder;
 
-// A session file that grows while the session is felt: what is older than a quarter of a second is in the file, which
-// can be read whenever the writer ends, in whatever way. One thread.
+// Session file that grows during the session. It contains everything older than a quarter of a second, and stays
+// readable if the writer is interrupted at any point. One thread.
 class SessionWriter {
  public:
   static constexpr std::int64_t kPauseNs = 250'000'000;  // between two parts
 
-  // A new file; fails if there is one of that name, or if it cannot be written. The session's head alone counts.
+  // Creates a file; fails if one of that name exists, or if it is not writable. Uses only the session's header.
   static core::Result<SessionWriter> create(const RecordedSession& session, const std::string& path);
 
   SessionWriter(SessionWriter&&) noexcept;
   SessionWriter& operator=(SessionWriter&&) noexcept;
-  ~SessionWriter();  // the file ends where it is
+  ~SessionWriter();  // leaves the file as it is
 
-  // Appends the part of the session since the last call.
+  // Appends `part`, the data since the last call.
   core::Result<void> add(const RecordedSession& part);
 
-  // Nothing follows: the file is whole.
+  // Completes the file; nothing may be added afterwards.
   core::Result<void> finish();
 
   const std::string& path() const { return path_; }

@@ -13,7 +13,7 @@
 
 namespace afm::servo {
 
-// Who hears of every sample and event, in their order. One thread calls it; it may not block.
+// Receiver of every sample and event, in order. Called by one thread; must not block.
 class TipAudience {
  public:
   TipAudience() = default;
@@ -24,17 +24,17 @@ class TipAudience {
   virtual void heard(const scene::TipEvent& event) = 0;
 };
 
-// Takes every sample and event of a servo within some 2 ms, whatever the frame loop does, gives them to an audience,
-// and hands them on to the frame loop in their order. The servo does not notice: its rings have one consumer as before.
+// Receives every sample and event of a servo within about 2 ms, however slow the frame loop is, passes them to an
+// audience, and then to the frame loop in order. Nothing changes for the servo: its rings still have one consumer.
 class TipListener {
  public:
-  // `side` for this alone; the segment and the audience must outlive it. The audience may not throw.
+  // `side` may have no other user; the segment and the audience must outlive this object. The audience must not throw.
   TipListener(scene::RendererSide side, TipAudience& audience);
   TipListener(const TipListener&) = delete;
   TipListener& operator=(const TipListener&) = delete;
   ~TipListener();
 
-  // The frame loop's thread.
+  // Called by the frame loop's thread.
   std::optional<scene::TipSample> pop_sample() noexcept { return handed_on_->samples.pop(); }
   std::optional<scene::TipEvent> pop_event() noexcept { return handed_on_->events.pop(); }
   std::uint64_t lost_samples() const noexcept { return handed_on_->samples.dropped(); }
@@ -53,7 +53,7 @@ class TipListener {
   TipAudience& audience_;
   std::unique_ptr<HandedOn> handed_on_ = std::make_unique<HandedOn>();
   std::atomic<bool> ending_{false};
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // last member: it uses all the others
 };
 
 }  // namespace afm::servo

@@ -8,8 +8,8 @@
 
 namespace afm::servo {
 
-// The servo's samples and events in the order of their times: an event may arrive a moment before the sample of its
-// tick, and then waits for it.
+// The servo's samples and events in time order. An event that arrives before the sample of its tick is held back until
+// then.
 class TipStream {
  public:
   // Calls `on_event` for each event and `on_sample` for each sample that belongs to a material.

@@ -11,7 +11,7 @@
 
 namespace afm::servo {
 
-// Places in the room frame, metres, right-handed, +y up.
+// Pose in the room frame, metres, right-handed, +y up.
 struct RecordedPose {
   std::array<double, 3> position_m{};
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: room from body
@@ -29,7 +29,7 @@ struct RecordedWand {
   bool operator==(const RecordedWand&) const = default;
 };
 
-// The settings of a scan, from a pixel on. SI.
+// Settings of a scan from one pixel on. SI.
 struct RecordedScanChange {
   std::uint32_t frame = 0;
   std::uint32_t pixel = 0;
@@ -44,7 +44,7 @@ struct RecordedScanChange {
   bool operator==(const RecordedScanChange&) const = default;
 };
 
-// A scan that is shown; with its changes it determines the images.
+// Scan on display; together with its changes it determines the images.
 struct RecordedScan {
   std::uint32_t frame = 0;
   std::uint32_t pixel = 0;
@@ -53,7 +53,7 @@ struct RecordedScan {
   bool operator==(const RecordedScan&) const = default;
 };
 
-// The part of a hand in that scan. SI.
+// Hand's part in that scan. SI.
 struct RecordedHandPart {
   bool paints = false;
   bool feedback = false;
@@ -63,20 +63,20 @@ struct RecordedHandPart {
   bool operator==(const RecordedHandPart&) const = default;
 };
 
-// State of the wall in one frame. With the servo's tick at the same time, it determines the picture. Names are those of
-// the files and of the command line; empty: none.
+// State of the wall in one frame. Together with the servo's tick at the same time, it determines the picture. Names are
+// those of the files and the command line; empty: none.
 struct WallFrame {
-  std::int64_t time_ns = 0;                   // CLOCK_MONOTONIC: of the state of the tip that was drawn
+  std::int64_t time_ns = 0;                   // CLOCK_MONOTONIC, time of the drawn tip state
   std::array<double, 16> room_from_sample{};  // as in SceneTransforms: sent to the servo with this frame
-  std::array<double, 16> navigation{};        // room from room, column by column: how the scene was moved
+  std::array<double, 16> navigation{};        // displacement of the scene, room from room, column by column
   std::string centerpiece{};                  // "instrument", "analogy" or "journey"
   double journey_orders = 0;                  // 0 to 9
   double fade = 0;                            // 0 to 1
-  std::string hovered{};                      // the material that wand or mouse points at
+  std::string hovered{};                      // material under the wand or mouse
   std::optional<RecordedWand> wand{};
-  RecordedPose head{};  // that the picture was drawn for
+  RecordedPose head{};  // viewer of the drawn picture
   double ipd_m = 0;
-  std::string stereo{};  // the mode: "anaglyph-red-cyan"
+  std::string stereo{};  // stereo mode: "anaglyph-red-cyan"
   bool eyes_swapped = false;
   std::string panels{};  // "samples", "parameters", "friction-loop", "keys" or "none"
   std::string guidance{};
@@ -84,13 +84,13 @@ struct WallFrame {
   double release_z_m = 0;                               // as in ActiveContact
   std::vector<std::array<std::string, 3>> servo_row{};  // name, value, source
   std::optional<RecordedScan> scan{};
-  std::vector<RecordedScanChange> scan_changes{};  // of that scan
+  std::vector<RecordedScanChange> scan_changes{};  // changes of `scan`
   std::optional<RecordedHandPart> scan_hand{};
 
   bool operator==(const WallFrame&) const = default;
 };
 
-// The curve of a material that was on the wall when a session began.
+// Curve of a material that was on the wall when a session began.
 struct EarlierCurve {
   std::string material{};
   std::vector<std::array<double, 2>> points{};  // Z in nm, force in nN
@@ -98,11 +98,11 @@ struct EarlierCurve {
   bool operator==(const EarlierCurve&) const = default;
 };
 
-// An array with an object a frame, which names only what is not as in the frame before; `last` is the frame before the
-// first one, and the last one afterwards.
+// Array with one object per frame, which contains only the differences from the previous frame. `last` is the frame
+// before the first one, and afterwards the last one.
 nlohmann::json json_of(std::span<const WallFrame> frames, nlohmann::json& last);
 
-// Throws nlohmann::json::exception when a key is missing, of the wrong type or not finite.
+// Throws nlohmann::json::exception if a key is missing, of the wrong type or not finite.
 std::vector<WallFrame> frames_of(const nlohmann::json& json, nlohmann::json& last);
 
 nlohmann::json json_of(const std::vector<EarlierCurve>& curves);

@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kLook = std::chrono::milliseconds(50);  // at the program, and for a signal
+constexpr auto kLook = std::chrono::milliseconds(50);  // interval for checking the program and signals
 constexpr auto kBeforeRestart = std::chrono::milliseconds(1000);
 constexpr auto kMinute = std::chrono::minutes(1);
 
@@ -42,7 +42,7 @@ core::Result<pid_t> spawn(const std::string& program, const std::vector<std::str
                        fmt::format("cannot start {} ({})", program, core::system_error(error)));
 }
 
-// Its wait status; a signal to this process is handed on once.
+// Wait status of the process; passes on a signal to it once.
 int wait_for(pid_t pid) {
   bool handed_on = false;
   for (;;) {
@@ -61,7 +61,7 @@ std::string end_of(int status) {
                              : fmt::format("ended with exit code {}", WEXITSTATUS(status));
 }
 
-// For which another start would end the same way.
+// Category of a failure that another start would repeat.
 std::optional<core::ErrorCategory> refusal_of(int status) {
   if (!WIFEXITED(status)) return std::nullopt;
   switch (static_cast<core::ExitCode>(WEXITSTATUS(status))) {

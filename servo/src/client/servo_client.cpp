@@ -17,12 +17,12 @@ namespace afm::servo {
 
 namespace {
 
-constexpr std::int64_t kStopNs = 250'000'000;  // so that a servo that missed ticks hears of it
+constexpr std::int64_t kStopNs = 250'000'000;  // long enough that a servo that missed ticks notices it
 
 constexpr std::int64_t kSilentNs = 200'000'000;
-constexpr int kSilentPolls = 3;  // a frame loop that was stopped itself has heard nothing either
+constexpr int kSilentPolls = 3;  // polls; a frame loop that was itself stopped has received nothing either
 
-// Why a servo ended that was not asked to; it has said more on stderr.
+// Error for a servo that ended unexpectedly; it has printed the details to stderr.
 core::Error ended(int status) {
   switch (static_cast<core::ExitCode>(status)) {
     case core::ExitCode::DeviceMissing:
@@ -128,7 +128,7 @@ std::uint32_t ServoClient::change(std::size_t material, const scene::SharedConta
 }
 
 const scene::SharedContact& ServoClient::parameters(std::size_t material, std::uint32_t edit_revision) const {
-  const std::size_t index = std::size_t{edit_revision} - edit_base_ - 1;  // huge where it is none of ours
+  const std::size_t index = std::size_t{edit_revision} - edit_base_ - 1;  // huge if the revision is not ours
   return index < edits_.size() ? edits_[index] : segment_.model().materials[material];
 }
 
@@ -149,8 +149,8 @@ void ServoClient::lead(const scene::ScanLead& lead) {
   side_.store(next);
 }
 
-// Takes the place of a renderer that died: revisions go on from its own, its edits are undone, and what it left unread
-// is of the past.
+// Continues for a renderer that died: revisions continue from its last one, its edits are undone, and its unread data
+// are discarded.
 void ServoClient::go_on() {
   tip_ = side_.tip_state().value_or(scene::TipState{});
   selection_ = side_.last_selection().value_or(scene::Selection{.revision = tip_.acknowledged.selection});

@@ -50,7 +50,7 @@ core::Result<std::unique_ptr<ServoProcess>> ServoProcess::spawn(const std::strin
   return std::unique_ptr<ServoProcess>(new ServoProcess(*process, std::move(ours), side));
 }
 
-// On SIGTERM it releases the hand, and says nothing of a renderer that died.
+// SIGTERM makes it release the hand, without a message about a dead renderer.
 ServoProcess::ServoProcess(pid_t pid, core::FileDescriptor lifeline, scene::RendererSide& side)
     : pid_(pid), lifeline_(std::move(lifeline)), side_(side), terminate_([pid] { ::kill(pid, SIGTERM); }) {}
 
@@ -94,7 +94,7 @@ AdoptedServo::~AdoptedServo() {
 }
 
 std::optional<int> AdoptedServo::exit_status() noexcept {
-  // its status goes to its own parent
+  // its own parent gets its status
   return process_ended_within(waiting_.process, 0) ? std::optional(1) : std::nullopt;
 }
 
@@ -121,7 +121,7 @@ ServoThread::ServoThread(std::unique_ptr<haptics::HapticDevice> device, std::uni
       }),
       release_([this] {
         loop_->stop();
-        // 90 ms; what does not answer within twice that will not
+        // 90 ms; a servo that does not answer within twice that is stuck
         for (int waited_ms = 0; alive() && waited_ms < kReleaseMs; ++waited_ms) {
           std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }

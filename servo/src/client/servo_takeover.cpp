@@ -14,7 +14,7 @@ namespace afm::servo {
 
 namespace {
 
-// Bit by bit, but for the padding behind a height field.
+// Compares bit by bit, except the padding after a height field.
 bool same_model(const scene::SharedModel& a, const scene::SharedModel& b) {
   constexpr std::size_t kWithoutPadding = offsetof(scene::SharedModel, height_fields);
   return std::memcmp(&a, &b, kWithoutPadding) == 0 &&

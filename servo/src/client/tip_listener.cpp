@@ -26,7 +26,7 @@ void TipListener::take_events() noexcept {
   }
 }
 
-// An event was stored before the sample of its tick, and is handed on before it.
+// Passes on an event before the sample of its tick, as it was stored.
 void TipListener::take_all() noexcept {
   while (const auto sample = side_.pop_sample()) {
     take_events();

@@ -7,8 +7,8 @@
 
 namespace afm::servo {
 
-// Meeting place of this user's processes: touchafm in $XDG_RUNTIME_DIR, or without one /tmp/touchafm-UID. Created with
-// mode 700. Failed: it cannot be created, or is not a private folder of this user.
+// Private folder of this user's processes: touchafm in $XDG_RUNTIME_DIR or, without one, /tmp/touchafm-UID. Created
+// with mode 700. Failed: it cannot be created, or is not a private folder of this user.
 core::Result<std::filesystem::path> private_folder();
 
 }  // namespace afm::servo

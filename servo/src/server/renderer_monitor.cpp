@@ -53,7 +53,7 @@ RendererMonitor::Update RendererMonitor::wait_for(int descriptor, std::optional<
 }
 
 void RendererMonitor::watch() {
-  // the servo's notes say already what is refused here
+  // the servo has already logged whatever is refused here
   haptics::enter_realtime(haptics::kMonitorPriority, haptics::PageLock::Leave);
   for (;;) {
     const Update update = wait_for(lifeline_.get(), std::nullopt);
@@ -63,7 +63,7 @@ void RendererMonitor::watch() {
       loop_.stop();
       return;
     }
-    // a renderer sends nothing here: whatever this is, it is the end, or a reason to let go
+    // a renderer never sends data here: any event is the end, or a reason to release the hand
     if (linger_.seconds <= 0 || !find_successor()) {
       loop_.renderer_died();
       return;

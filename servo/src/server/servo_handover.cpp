@@ -53,7 +53,7 @@ core::Result<sockaddr_un> address_of(const fs::path& socket) {
 
 const sockaddr* as_socket_address(const sockaddr_un& address) { return reinterpret_cast<const sockaddr*>(&address); }
 
-// Two builds on one machine have two paths, and never meet.
+// Name prefix from the program's path: two builds on one machine never meet.
 std::string prefix_of(const std::string& program) {
   std::error_code unused;
   return fmt::format("servo-{:016x}-", core::fnv1a(fs::weakly_canonical(program, unused).native()));
@@ -97,7 +97,7 @@ core::Result<HandoverPort> HandoverPort::open(const std::string& program, std::u
   const auto folder = private_folder();
   if (!folder) return tl::unexpected(folder.error());
   const fs::path path = *folder / (name_of(program, scene_digest, arguments) + std::to_string(::getpid()));
-  // nobody finds it before it can answer
+  // hidden until it can answer
   const fs::path unready = *folder / fmt::format(".{}", ::getpid());
   const auto address = address_of(path);
   const auto unready_address = address_of(unready);
@@ -139,7 +139,7 @@ HandoverPort::Answer HandoverPort::receive(int segment, const std::vector<std::s
 }
 
 void WaitingServo::stay() const {
-  // a servo that is gone by now is seen dead in the next frame
+  // a servo that has gone in the meantime is noticed in the next frame
   [[maybe_unused]] const auto sent = ::send(lifeline.get(), &kStay, 1, MSG_NOSIGNAL);
 }
 
@@ -163,7 +163,7 @@ std::optional<WaitingServo> visit_servo(const fs::path& path) {
   const auto address = address_of(path);
   if (!socket.is_open() || !address) return std::nullopt;
   if (::connect(socket.get(), as_socket_address(*address), sizeof(sockaddr_un)) != 0) {
-    if (errno == ECONNREFUSED) ::unlink(path.c_str());  // its servo was killed
+    if (errno == ECONNREFUSED) ::unlink(path.c_str());  // left by a killed servo
     return std::nullopt;
   }
   const auto servo = trusted_peer(socket.get(), ::getuid());

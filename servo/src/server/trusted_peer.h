@@ -7,7 +7,7 @@
 
 namespace afm::servo {
 
-// The process at the other end of a connected Unix socket, if it ran as `user` when it connected. Any thread.
+// Process at the other end of a connected Unix socket, if it ran as `user` when it connected. Any thread.
 std::optional<pid_t> trusted_peer(int socket, uid_t user) noexcept;
 
 }  // namespace afm::servo

@@ -29,17 +29,17 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// The first byte of a message says what it is.
-constexpr char kPath = 'P';  // then the bytes of zero force
+// First byte of a message: its type.
+constexpr char kPath = 'P';  // followed by the bytes of zero force
 constexpr std::string_view kEnd = "E";
 
 constexpr int kWakeMs = 5;
 constexpr int kWatchdogLeaveMs = 200;
 constexpr auto kLeavePatience = std::chrono::milliseconds(100);
 
-// Without the log's allocation.
+// Logs without allocating.
 void say(std::string_view line) {
-  // a closed stderr is nothing that a log line could report
+  // a closed stderr cannot be reported
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
 }
 
@@ -47,7 +47,7 @@ class Guard {
  public:
   Guard(const core::FileDescriptor& servo, scene::SharedSegment& segment)
       : servo_(servo), state_(segment.renderer_side()) {
-    // the process that made the socket pair; known before it can have been replaced by another of its number
+    // the process that created the socket pair; read before its number can have been reused
     ucred peer{};
     socklen_t size = sizeof(peer);
     if (::getsockopt(servo.get(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0) {
@@ -82,7 +82,7 @@ class Guard {
  private:
   enum class Heard { Nothing, Message, Gone };
 
-  // Within kWakeMs.
+  // Waits at most kWakeMs.
   Heard hear() {
     pollfd watched{.fd = servo_.get(), .events = POLLIN, .revents = 0};
     if (::poll(&watched, 1, kWakeMs) <= 0) return Heard::Nothing;
@@ -114,7 +114,7 @@ class Guard {
   void take_over(std::string_view line) const {
     release();
     if (process_.is_open()) ::syscall(SYS_pidfd_send_signal, process_.get(), SIGKILL, nullptr, 0);
-    // what the servo may have sent after the first
+    // zero force again: the servo may have sent another one in between
     release();
     if (device_.is_open()) core::take_leave(device_.get(), kLeavePatience);
     say(line);
@@ -171,7 +171,7 @@ void Watchdog::expect_end() const noexcept { Letter().send(socket_.get(), kEnd);
 
 void watch_servo(const core::FileDescriptor& servo, scene::SharedSegment& segment) {
   Guard guard(servo, segment);
-  // the servo's own notes say what is refused here as well
+  // the servo logs whatever is refused here too
   haptics::enter_realtime(haptics::kServoPriority, haptics::PageLock::Lock);
   guard.watch();
 }

@@ -18,7 +18,7 @@ namespace afm::servo {
 
 namespace {
 
-constexpr mode_t kFrameLogMode = 0666;  // less what the user's umask takes off
+constexpr mode_t kFrameLogMode = 0666;  // minus the user's umask
 constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
 constexpr auto kBetweenWrites = std::chrono::milliseconds(500);
 
@@ -52,7 +52,7 @@ std::optional<std::uint32_t> ServoLateness::since_last(const scene::ServoTiming&
     for (std::size_t us = timing.wake_us.size(); us > 0 && !latest; --us) {
       if (timing.wake_us[us - 1] > before_.wake_us[us - 1]) latest = static_cast<std::uint32_t>(us - 1);
     }
-    // the last bin holds all that is later
+    // the last bin holds all later ticks
     if (latest == timing.wake_us.size() - 1) latest = timing.wake_max_us;
   }
   before_ = timing;

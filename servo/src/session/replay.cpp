@@ -26,9 +26,9 @@ using scene::RendererLink;
 using scene::TipEvent;
 using scene::TipSample;
 
-// The hand of one sample after the other. The motors' heat, which is older than the session, is reported as if the
-// device had measured it: the governor goes by the larger of that and its own estimate, which began cold and is never
-// larger.
+// Plays the hand of one sample after another. The motors' heat at the start of a session is unknown, so the recorded
+// heat is reported as if measured by the device: the governor uses the larger of that and its own estimate, which
+// starts cold and is never larger.
 class RecordedHand final : public haptics::HapticDevice {
  public:
   explicit RecordedHand(const RecordedSession& session) : spec_(haptics::spec_of(session.device)) {}
@@ -52,12 +52,12 @@ class RecordedHand final : public haptics::HapticDevice {
 
 std::array<double, 3> array_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
-// The first result in which two records differ.
+// First value in which two records differ.
 template <class Record>
 std::optional<Difference> difference(std::size_t index, const Record& recorded, const Record& replayed) {
   std::optional<Difference> first;
   const auto compare = [&]<class Value>(const char* quantity, const Value& was, const Value& is) {
-    // bit for bit: -0.0 is not 0.0, and one NaN is another only if it looks the same
+    // bit for bit: -0.0 differs from 0.0, and NaNs are equal only with equal bits
     using Bytes = std::array<std::byte, sizeof(Value)>;
     if (first || std::bit_cast<Bytes>(was) == std::bit_cast<Bytes>(is)) return;
     first = Difference{index, quantity, static_cast<double>(was), static_cast<double>(is)};
@@ -76,8 +76,8 @@ std::optional<Difference> difference(std::size_t index, const Record& recorded, 
 
 bool lives(RendererLink link) { return link == RendererLink::Alive || link == RendererLink::Unseen; }
 
-// Whether a heartbeat with this tick lets the servo see what it saw then: the last one before a hang must be just old
-// enough when the hang was noticed.
+// True if a heartbeat in this tick reproduces what the servo saw: the last one before a hang must be just old enough at
+// the time the hang was noticed.
 bool beats(std::span<const TipSample> from_here) {
   const std::int64_t now_ns = from_here.front().time_ns;
   if (!lives(from_here.front().renderer)) return false;
@@ -88,7 +88,7 @@ bool beats(std::span<const TipSample> from_here) {
   return true;
 }
 
-// A servo with a separate segment, in the session's time.
+// Servo with its own segment, in the session's time.
 class Player {
  public:
   static core::Result<std::unique_ptr<Player>> create(const RecordedSession& session) {
@@ -103,7 +103,7 @@ class Player {
     return player;
   }
 
-  // The tick of this sample; false if it gave none.
+  // Runs the tick of this sample; false if the servo produced none.
   bool play(std::size_t index) {
     const TipSample& sample = session_.samples[index];
     const bool was_stopped = index > 0 && session_.samples[index - 1].renderer == RendererLink::Stopped;
@@ -114,7 +114,7 @@ class Player {
     if (sample.renderer == RendererLink::Stopped) beat({.stop = 1});
     if (sample.renderer == RendererLink::Leaving) beat({.leaving = 1});
     if (sample.renderer == RendererLink::Died) loop_->renderer_died();
-    // it shows in the tick after
+    // visible in the tick after
     const bool changes = index + 1 < session_.samples.size() && session_.samples[index + 1].changing != 0;
     if (changes != (chosen_ != 0)) choose(changes ? 1 : 0);
     turn_to(sample);
@@ -151,7 +151,7 @@ class Player {
         .material = material, .revision = ++selection_, .scale_mode = session_.samples.front().scale_mode});
   }
 
-  // The sample was turned on the wall: by the first frame not yet used that gives these axes.
+  // Turns the sample as on the wall: uses the next frame that gives these axes.
   void turn_to(const TipSample& sample) {
     const auto has_its_axes = [&](const haptics::SampleAxes& axes) {
       return array_of(axes.normal()) == sample.sample_normal && array_of(axes.x()) == sample.sample_x;
@@ -174,8 +174,9 @@ class Player {
     renderer_.store(transforms);
   }
 
-  // Before the session, so long ago that a hang which had lasted then lasts again: one tick that finds the hand where
-  // it was, and one at whose end the material takes effect. A session that begins in a fault finds the servo in one.
+  // Prepares the servo before the session, with times so early that a hang in progress is one again: one tick that
+  // finds the hand in place, and one at whose end the material takes effect. A session that begins in a fault starts
+  // with a servo in that fault.
   void lay_sample() {
     const TipSample& first = session_.samples.front();
     place(session_.room_from_sample);
@@ -195,10 +196,10 @@ class Player {
   std::unique_ptr<haptics::ServoLoop> loop_;
   std::uint64_t frame_ = 0;
   std::int32_t chosen_ = 0;
-  haptics::SampleAxes axes_;    // as placed last
-  std::size_t next_frame_ = 0;  // of the wall, that may turn the sample
+  haptics::SampleAxes axes_;    // as last placed
+  std::size_t next_frame_ = 0;  // next frame of the wall that may turn the sample
   std::uint32_t selection_ = 0;
-  scene::ScanLead scan_;  // as sent last
+  scene::ScanLead scan_;  // as last sent
   TipSample sample_;
   std::vector<TipEvent> events_;
 };

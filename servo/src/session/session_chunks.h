@@ -10,28 +10,28 @@
 #include "core/fnv1a.h"
 #include "servo/session_file.h"
 
-// A session file of version 6: "AFMS", the version, then chunks. A chunk is a name of four letters and the size of
-// its payload in 32 bits, the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a of all
-// bytes from the beginning of the file up to it, so that no chunk can be altered, left out or exchanged; where a file
-// ends inside a chunk, it was cut, and all chunks before it are whole.
+// Session file of version 6: "AFMS", the version, then chunks. A chunk consists of a name of four letters and the size
+// of its payload in 32 bits, the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a of
+// all bytes from the beginning of the file up to it, so that no chunk can be altered, left out or exchanged. A file
+// that ends inside a chunk was cut; all chunks before it are intact.
 namespace afm::servo {
 
 inline constexpr std::string_view kSessionMagic = "AFMS";
 inline constexpr std::uint32_t kSessionVersion = 6;
 
-inline constexpr std::string_view kHeadChunk = "HEAD";        // JSON: header_of()
+inline constexpr std::string_view kHeadChunk = "HEAD";        // header_of() as JSON
 inline constexpr std::string_view kSurfaceChunk = "SURF";     // one SharedHeightField, if the sample has one
 inline constexpr std::string_view kTopographyChunk = "TOPO";  // size, spacing and heights, if it has a topography
-inline constexpr std::string_view kPartChunk = "PART";  // samples and events up to one moment, and the wall's frames
-inline constexpr std::string_view kEndChunk = "DONE";   // the last one, without a payload
+inline constexpr std::string_view kPartChunk = "PART";  // samples and events up to one moment, and frames of the wall
+inline constexpr std::string_view kEndChunk = "DONE";   // end of the file, without a payload
 
-// Makes the bytes of a session, chunk by chunk.
+// Encodes a session, chunk by chunk.
 class SessionEncoder {
  public:
   SessionEncoder();
 
-  void head(const RecordedSession& session);  // first, with its surface
-  void part(const RecordedSession& session);  // what has come since the last part, in a chunk for each second
+  void head(const RecordedSession& session);  // first chunk, followed by the surface
+  void part(const RecordedSession& session);  // data since the last part, one chunk per second
   void end();
 
   const std::string& bytes() const { return bytes_; }  // since the last clear()
@@ -49,16 +49,16 @@ class SessionEncoder {
   nlohmann::json last_frame_;
 };
 
-// Takes chunks apart, one after the other.
+// Reads chunks one after the other.
 class SessionDecoder {
  public:
-  // Of a whole file, which must outlive it and begin with magic and version.
+  // `file` is a whole file that begins with magic and version; it must outlive the decoder.
   explicit SessionDecoder(std::string_view file);
 
   enum class Step { Chunk, Cut, Altered, End };
   Step next();
 
-  std::string_view name() const { return name_; }  // of the newest chunk
+  std::string_view name() const { return name_; }  // newest chunk
   std::string_view payload() const { return payload_; }
 
  private:

@@ -27,13 +27,13 @@ using scene::SharedHeightField;
 using scene::TipEvent;
 using scene::TipSample;
 
-constexpr std::uint32_t kVersionOf010 = 3;  // TouchAFM 0.1.0 wrote it
+constexpr std::uint32_t kVersionOf010 = 3;  // written by TouchAFM 0.1.0
 constexpr double kFarthestM = 1e6;
 constexpr double kUnitWithin = 1e-3;
 constexpr double kMostOrders = 9.0;
 constexpr const char* kRecordAgain = "; record it again";
 
-// Throws as session_of does. What is wrong, or nothing.
+// Reads a header; returns an error message, or nothing. Throws as session_of does.
 std::string read_header(std::string_view text, std::size_t sample_bytes, RecordedSession& session) {
   const nlohmann::json header = nlohmann::json::parse(text);
   if (!fits_records(header, sample_bytes)) return "the size of its records differs from this program's";
@@ -56,8 +56,8 @@ bool finite(const Record& record) {
   return all;
 }
 
-// Version 3: the header with its size, then samples, events and at most one surface, each with their number, then the
-// checksum of all before it. What is wrong, or nothing.
+// Reads version 3: the header with its size, then samples, events and at most one surface, each preceded by their
+// number, then the checksum of everything before it. Returns an error message, or nothing.
 std::string read_records(std::string_view file, RecordedSession& session) {
   std::string_view body = file.substr(kSessionMagic.size() + sizeof(kVersionOf010));
   std::uint64_t sum = 0, header_size = 0;
@@ -80,7 +80,7 @@ std::string read_records(std::string_view file, RecordedSession& session) {
   return {};
 }
 
-// Of the topography's chunk: whether all of it is there, and no more. Its numbers are checked with those of the scene.
+// Reads the topography's chunk; false unless its size is exact. Its numbers are checked with those of the scene.
 bool read_topography(std::string_view payload, scene::Topography& topography) {
   scene::SharedTopography size;
   if (!take(payload, size) || !take_all(payload, topography.height_m) || !payload.empty()) return false;
@@ -90,7 +90,7 @@ bool read_topography(std::string_view payload, scene::Topography& topography) {
   return true;
 }
 
-// What is wrong with a part, or nothing.
+// Reads a part; returns an error message, or nothing.
 std::string read_part(std::string_view payload, RecordedSession& session, nlohmann::json& last_frame) {
   if (!take_all(payload, session.samples) || !take_all(payload, session.events)) return "a part of it is damaged";
   for (WallFrame& frame : frames_of(nlohmann::json::parse(payload), last_frame)) {
@@ -99,7 +99,7 @@ std::string read_part(std::string_view payload, RecordedSession& session, nlohma
   return {};
 }
 
-// Version 6. What is wrong, or nothing.
+// Reads version 6; returns an error message, or nothing.
 std::string read_chunks(std::string_view file, RecordedSession& session) {
   SessionDecoder decoder(file);
   nlohmann::json last_frame;
@@ -124,7 +124,7 @@ std::string read_chunks(std::string_view file, RecordedSession& session) {
       if (std::string wrong = read_part(payload, session, last_frame); !wrong.empty()) return wrong;
     } else if (decoder.name() == kEndChunk) {
       session.complete = true;
-    }  // else of a later TouchAFM: what this one does not know does not change the forces
+    }  // chunks of a later TouchAFM are skipped: they do not change the forces
   }
 }
 
@@ -151,7 +151,7 @@ bool can_be_a_name(const std::string& name) {
   return !name.empty() && name.size() < scene::kNameLength && core::printable_line(name) == name;
 }
 
-// What cannot be in a session that was read, or nothing.
+// Checks a session that was read; returns an error message, or nothing.
 std::string what_cannot_be(const RecordedSession& session) {
   if (const auto valid = scene::validate(*model_of(session)); !valid) return valid.error().message;
   if (!scene::is_valid(session.topography, session.topography.size())) return "its topography is not a grid of heights";
@@ -199,7 +199,7 @@ std::unique_ptr<scene::SharedModel> model_of(const RecordedSession& session) {
     model->curves[0] = *session.curve;
   }
   if (!session.samples.empty() && session.samples.front().scale_mode == scene::ScaleMode::Common) {
-    model->common_hand_m_per_m = session.hand_m_per_m;  // what other materials asked for as well
+    model->common_hand_m_per_m = session.hand_m_per_m;  // limit set by other materials too
     model->common_hand_n_per_n = session.hand_n_per_n;
   }
   model->topography = session.topography.size();

@@ -10,7 +10,7 @@ namespace afm::servo {
 
 namespace {
 
-// JSON has no infinity: what is rigid has no entry.
+// Omits rigid values: JSON has no infinity.
 nlohmann::json json_of(const physics::ContactParameters& contact) {
   nlohmann::json json;
   for (const physics::ContactField& field : physics::kContactFields) {
@@ -120,7 +120,7 @@ nlohmann::json json_of(const scene::SharedDevice& device) {
                       {"max_stiffness_N_per_m", device.max_stiffness_n_per_m},
                       {"workspace_min_m", device.workspace_min_m},
                       {"workspace_max_m", device.workspace_max_m}};
-  // what is not limited has no entry
+  // omitted if unlimited
   if (std::isfinite(device.max_slew_n_per_s)) json["max_slew_N_per_s"] = device.max_slew_n_per_s;
   if (std::isfinite(device.max_speed_m_per_s)) json["max_speed_m_per_s"] = device.max_speed_m_per_s;
   return json;
@@ -140,8 +140,8 @@ scene::SharedDevice device_of(const nlohmann::json& json) {
   return device;
 }
 
-// Instead of the size of a height field where the sample has a topography, so that a TouchAFM that knows of none
-// refuses the session and does not feel a plane.
+// Size written in place of a height field's if the sample has a topography. A TouchAFM without topographies then
+// rejects the session instead of replaying a plane.
 constexpr std::size_t kTopographyBytes = 0;
 
 std::size_t surface_bytes_of(const RecordedSession& session) {
@@ -196,7 +196,7 @@ RecordedSession session_of(const nlohmann::json& header) {
     scene::SharedMeasuredCurve& curve = session.curve.emplace();
     curve.approach_count = branch_of(measured->at("approach"), curve.approach);
     curve.retract_count = branch_of(measured->at("retract"), curve.retract);
-    // 0.1.0 wrote none
+    // missing from files of 0.1.0
     const auto jumps = measured->value("jumps", std::array<std::uint32_t, 2>{});
     curve.jumps = {.approach = jumps[0], .retract = jumps[1]};
   }

@@ -8,14 +8,14 @@
 
 namespace afm::servo {
 
-// All of a session but its records: material, law, parameters, the device's limits, the scales, and what the wall
-// showed when it began.
+// Everything in a session except its records: material, law, parameters, the device's limits, the scales, and the state
+// of the wall at the beginning.
 nlohmann::json header_of(const RecordedSession& session);
 
-// Both throw nlohmann::json::exception when a key is missing or of the wrong type.
+// Both functions throw nlohmann::json::exception if a key is missing or of the wrong type.
 RecordedSession session_of(const nlohmann::json& header);
 
-// Whether its samples have this size, and its other records that which this program gives them.
+// True if its samples have this size, and its other records the sizes that this program writes.
 bool fits_records(const nlohmann::json& header, std::size_t sample_bytes);
 
 }  // namespace afm::servo

@@ -25,7 +25,7 @@ bool can_begin_with(const TipSample& sample, const scene::TipState& tip, bool dy
   const bool off = sample.servo_state == ServoState::Disarmed || sample.servo_state == ServoState::Fault;
   if (!off || sample.hand_force_n != 0.0) return false;
   if (sample.phase == physics::Phase::WaitForLift) return true;
-  // a lever that swings remembers more than the place
+  // an oscillating lever has more state than its position
   return sample.phase == physics::Phase::Free && !dynamic && is_of(sample, tip) &&
          sample.tip.z_m > tip.active.release_z_m;
 }
@@ -96,7 +96,8 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo) {
   scale_known_ = false;
 }
 
-// The newest state may still be, or already be, that of another contact model; then the next sample asks again.
+// Takes the scale from the newest state, unless that belongs to the previous or next contact model; the next sample
+// then tries again.
 void SessionRecorder::take_scale(const TipSample& sample, const scene::TipState& tip) {
   scale_known_ = is_of(sample, tip);
   if (!scale_known_) return;

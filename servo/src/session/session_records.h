@@ -13,12 +13,12 @@
 
 #include "scene/shared/tip_blocks.h"
 
-// Fixed-size little-endian records, one behind the other.
+// Fixed-size little-endian records, end to end.
 namespace afm::servo {
 
 static_assert(std::endian::native == std::endian::little, "session records are little-endian");
 
-// The records of versions 3 and 6, to the byte. A sample of version 6 ends with the lateral force and the scan, which
+// Record sizes of versions 3 and 6, in bytes. A sample of version 6 ends with the lateral force and the scan, which
 // 0.1.0 did not have.
 inline constexpr std::size_t kSampleBytesOf010 = 216;
 static_assert(sizeof(scene::TipSample) == 288 && offsetof(scene::TipSample, scan) == 232 &&
@@ -41,7 +41,7 @@ void put_all(std::string& bytes, std::span<const T> values) {
   for (const T& value : values) put(bytes, value);
 }
 
-// False if there are too few bytes; otherwise they are gone from the front.
+// Removes a record from the front; false if there are too few bytes.
 template <class T>
 bool take(std::string_view& bytes, T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -63,7 +63,7 @@ bool take_all(std::string_view& bytes, std::vector<T>& values) {
                      [&](T& value) { return take(bytes, value); });
 }
 
-// The same of version 3's samples: the lateral force that they do not have stays 0.
+// Same for samples of version 3, without lateral force: it stays 0.
 inline bool take_samples_of_010(std::string_view& bytes, std::vector<scene::TipSample>& samples) {
   std::uint64_t count = 0;
   if (!take(bytes, count) || count > bytes.size() / kSampleBytesOf010) return false;

@@ -115,7 +115,7 @@ json to_json_value(const T& value) {
   }
 }
 
-// `to` is new, and stays empty where nothing was written.
+// `to` is new, and stays empty if nothing was written.
 template <class T>
 void from_json_value(const json& value, T& to) {
   if constexpr (kIsOptional<T>) {

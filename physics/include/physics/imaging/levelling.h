@@ -15,8 +15,8 @@ enum class Levelling { None, Plane, Lines };
 
 struct LevellingText {
   Levelling levelling;
-  std::string_view word;     // on the command line
-  std::string_view meaning;  // what it takes off
+  std::string_view word;     // value on the command line
+  std::string_view meaning;  // description of what it subtracts
 };
 
 inline constexpr std::array kLevellings{
@@ -40,7 +40,7 @@ HeightStatistics height_statistics(std::span<const double> heights);
 
 struct LevelledHeights {
   std::vector<double> heights;  // all finite; row 0 at the top, as in ScanImage
-  double slope_x = 0;           // of the plane that was taken off: per column, to the right
+  double slope_x = 0;           // slope of the subtracted plane: per column, to the right
   double slope_y = 0;           // per row, upwards
   std::size_t filled = 0;       // points that were not measured
 };

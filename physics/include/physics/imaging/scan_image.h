@@ -14,8 +14,8 @@ inline constexpr double kMostImageValue = 1e100;
 
 // One quantity of a scan, row by row. Row 0 is the top one, with the largest y; columns run along x. NaN: not measured.
 struct ImageChannel {
-  std::string name;  // as AFM programs write it: "Height", "Deflection", "Lateral force (retrace)"
-  std::string unit;  // of the values, SI: "m", "N", "V", ""
+  std::string name;  // channel name as in AFM programs: "Height", "Deflection", "Lateral force (retrace)"
+  std::string unit;  // SI unit of the values: "m", "N", "V", ""
   std::vector<double> values;
 };
 
@@ -23,10 +23,10 @@ struct ImageChannel {
 struct ScanImage {
   std::size_t columns = 0;
   std::size_t rows = 0;
-  double width_m = 0;     // of the area that is scanned: columns times a pixel's width
+  double width_m = 0;     // width of the scanned area: columns times a pixel's width
   double height_m = 0;    // rows times a pixel's height
-  double x_offset_m = 0;  // of the area's left edge
-  double y_offset_m = 0;  // of its top edge
+  double x_offset_m = 0;  // left edge of the area
+  double y_offset_m = 0;  // top edge of the area
   std::vector<ImageChannel> channels;
   std::vector<std::pair<std::string, std::string>> metadata;  // key and value as text
 };

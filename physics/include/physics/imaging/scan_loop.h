@@ -62,17 +62,17 @@ class ScanLoop {
   Frequency largest_integral_gain() const noexcept { return largest_gain_; }
 
   double z_m() const noexcept { return z_m_; }
-  double deflection_m() const noexcept { return deflection_m_; }       // of the lever, without noise
+  double deflection_m() const noexcept { return deflection_m_; }       // lever, without noise
   double force_n() const noexcept { return spring_ * deflection_m_; }  // of the lever; negative: it holds the tip back
-  double noise_m() const noexcept { return noise_now_m_; }             // of this tick's detection
+  double noise_m() const noexcept { return noise_now_m_; }             // detection noise in this tick
   double setpoint_m() const noexcept { return setpoint_m_; }
-  double topography_m() const noexcept { return z_m_ + setpoint_m_; }  // what is recorded as the height
+  double topography_m() const noexcept { return z_m_ + setpoint_m_; }  // recorded height
   bool touching() const noexcept { return touching_; }
   bool at_end_of_range() const noexcept { return at_end_; }
 
  private:
   void set_swing(const ScanSettings& settings) noexcept;
-  double swinging_gain() const;  // a tick
+  double swinging_gain() const;  // gain per tick
   void follow_command() noexcept {
     if (!resonant_) {
       z_m_ = command_m_;
@@ -91,7 +91,7 @@ class ScanLoop {
   }
 
   double tick_s_ = 0, spring_ = 0, setpoint_m_ = 0, pull_off_m_ = 0, snap_in_m_ = 0;
-  double integral_ = 0, proportional_ = 0;  // a tick
+  double integral_ = 0, proportional_ = 0;  // per tick
   double noise_of_tick_m_ = 0;
   double reach_m_ = 0;
   Frequency largest_gain_;

@@ -32,23 +32,23 @@ inline constexpr std::size_t kMostScanPixels = 4096;
 // here: they make the surface that the apex traces (physics/imaging/morphology.h).
 struct ScanSettings {
   Frequency line_rate{2.0};          // lines a second, each there and back: tip speed 2 * width * line_rate
-  Force setpoint{0.5e-9};            // of the lever; below zero the tip is held by adhesion alone
+  Force setpoint{0.5e-9};            // lever force; negative: only adhesion holds the tip
   Frequency integral_gain{1000.0};   // 1/s; on a rigid contact 1/tau of the closed loop
-  double proportional_gain = 0.0;    // of the velocity form, a tick: below one
-  Frequency loop_rate{100e3};        // the controller's ticks a second, at least
-  Time detector_delay;               // before the controller sees a deflection; rounded to ticks
-  Frequency z_resonance{5e3};        // of the z scanner; zero: it follows its command at once
-  double z_quality_factor = 10.0;    // of that resonance
-  Length z_range{10e-6};             // of the z scanner, half above and half below z = 0
-  Stiffness spring_constant{0.1};    // of the lever
+  double proportional_gain = 0.0;    // gain of the velocity form, per tick: below one
+  Frequency loop_rate{100e3};        // lower limit of the controller's tick rate
+  Time detector_delay;               // delay until the controller sees a deflection; rounded to ticks
+  Frequency z_resonance{5e3};        // resonance of the z scanner; zero: it follows its command at once
+  double z_quality_factor = 10.0;    // quality factor of that resonance
+  Length z_range{10e-6};             // range of the z scanner, half above and half below z = 0
+  Stiffness spring_constant{0.1};    // lever stiffness
   Force adhesion{0.5e-9};            // magnitude of the pull at which the tip leaves the surface
   Length snap_in;                    // gap at which a free tip touches again
   double friction = 0.3;             // mu, of the lateral force
   Length noise;                      // rms of the detected deflection within kNoiseBandwidth; white
-  Velocity drift_x;                  // of the sample against the scanner
-  Velocity drift_y;                  // likewise; positive: upwards, towards row 0
+  Velocity drift_x;                  // drift of the sample against the scanner
+  Velocity drift_y;                  // drift of the sample against the scanner; positive: upwards, towards row 0
   Length second_apex_distance;       // along +x from the first apex; zero: there is none
-  Length second_apex_height;         // how much higher than the first one it ends
+  Length second_apex_height;         // height of its end above the first apex
   Feedback feedback = Feedback::On;  // off: the z scanner stays where it is
 };
 
@@ -60,12 +60,12 @@ Length noise_of_height(const ScanSettings& settings) noexcept;
 
 // One number of ScanSettings as options, files, panels and checks know it.
 struct ScanField {
-  std::string_view name;                        // of the member; with blanks for underscores it is what messages say
-  std::string_view option;                      // of the command line, without its dashes
-  std::string_view json_key;                    // of its SI value
-  std::string_view help;                        // what it is, for help texts
+  std::string_view name;                        // name of the member; messages print it with spaces for underscores
+  std::string_view option;                      // option of the command line, without its dashes
+  std::string_view json_key;                    // key of its SI value
+  std::string_view help;                        // description for help texts
   double smallest;                              // SI, legal itself
-  double largest;                               // likewise
+  double largest;                               // largest accepted value
   const Units* units;                           // kPlainNumber where it has none
   double (*get)(const ScanSettings& settings);  // SI
   void (*set)(ScanSettings& settings, double si);

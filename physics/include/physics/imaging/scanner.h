@@ -25,8 +25,8 @@ struct ScanPixel {
   double error_n = 0;    // k (d - d_set), with the detector's noise averaged over the pixel
   double lateral_n = 0;  // positive along -x: against the trace
   // of all ticks since the pixel before
-  double lowest_force_n = 0;   // of the lever
-  double highest_force_n = 0;  // likewise
+  double lowest_force_n = 0;   // lever force
+  double highest_force_n = 0;  // lever force
   double off_surface = 0;      // share of them without contact, 0 to 1
   double on_second_apex = 0;   // share of them in which the second apex touched
 };
@@ -84,13 +84,13 @@ class Scanner {
   // Scans the rest of the current line, at most; false: the frame was complete. Vectors grow once.
   bool next_line(ScanLine& line);
 
-  Time time() const noexcept { return Time(time_s_); }  // since the scanner was made
+  Time time() const noexcept { return Time(time_s_); }  // time since the scanner was created
   Time pixel_time() const noexcept;
-  std::size_t row() const noexcept { return row_; }  // of the next pixel
+  std::size_t row() const noexcept { return row_; }  // row of the next pixel
   // The apex now, in the area's frame at time zero: for drawing it.
   double x_m() const noexcept { return x_m_; }
   double y_m() const noexcept { return y_m_; }
-  double z_m() const noexcept;  // with the lever's deflection: the apex's own height
+  double z_m() const noexcept;  // apex height: includes the lever's deflection
   bool touching() const noexcept { return loop_.touching(); }
   const ScanLoop& loop() const noexcept { return loop_; }
 
@@ -108,13 +108,13 @@ class Scanner {
   ScanArea area_;
   ScanSettings settings_;
   Surface surface_;
-  std::size_t segments_ = 1, ticks_of_segment_ = 1;  // of a pixel
+  std::size_t segments_ = 1, ticks_of_segment_ = 1;  // per pixel
   double tick_s_ = 0;
   ScanLoop loop_;
   SlowDirection direction_ = SlowDirection::Down;
   std::size_t row_ = 0, lines_done_ = 0, step_ = 0;  // step: 0 to 2 * columns, the pixel within the line
   double time_s_ = 0, x_m_ = 0, y_m_ = 0;
-  double height_m_ = 0, slope_ = 0;  // of the surface below the apex
+  double height_m_ = 0, slope_ = 0;  // surface below the apex
   bool engaged_ = false;
 };
 

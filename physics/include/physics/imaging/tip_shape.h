@@ -15,7 +15,7 @@ enum class TipKind { Paraboloid, Sphere, Cone, ThreeSidedPyramid, FourSidedPyram
 
 struct TipKindName {
   TipKind kind;
-  std::string_view name;  // as options have it
+  std::string_view name;  // value of options
 };
 
 inline constexpr std::array kTipKinds{
@@ -32,10 +32,10 @@ std::string_view name_of(TipKind kind);
 // wide as the ball. One edge of the three-sided pyramid points along +x, the faces of the four-sided one along x and y.
 struct TipShape {
   TipKind kind = TipKind::Paraboloid;
-  Length radius{20e-9};           // above zero
-  double half_angle_rad = 0.3;    // of cone and pyramid, between axis and face: above 0, below pi/2
+  Length radius{20e-9};           // positive
+  double half_angle_rad = 0.3;    // cone and pyramid: angle between axis and face, in (0, pi/2)
   Length second_apex_distance{};  // along +x; zero: there is none
-  Length second_apex_height{};    // how much higher than the first it ends
+  Length second_apex_height{};    // height of its end above the first apex
 
   // How high the tip's material begins above the apex, at a place beside it; infinite beyond a sphere's equator.
   double height_above_apex_m(double x_m, double y_m) const noexcept;

@@ -21,7 +21,7 @@ TextureWrap wrap_of(int wrap) {
   return wrap == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE ? TextureWrap::ClampToEdge : TextureWrap::Repeat;
 }
 
-// glTF 2.0, section 3.8.4. What the file leaves open is filtered as well as can be.
+// glTF 2.0, section 3.8.4. Unspecified filters become the best available.
 void read_sampler(const tinygltf::Sampler& sampler, Texture& texture) {
   constexpr auto kNearest = TextureFilter::Nearest, kLinear = TextureFilter::Linear;
   texture.magnified = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? kNearest : kLinear;
@@ -49,7 +49,7 @@ void read_sampler(const tinygltf::Sampler& sampler, Texture& texture) {
   texture.wrap_v = wrap_of(sampler.wrapT);
 }
 
-// An image's bytes before they are decoded.
+// Image bytes before decoding.
 struct EncodedImage {
   std::string path;
   Bytes owned;
@@ -69,7 +69,7 @@ EncodedImage read_image(GltfModel& model, const GltfBuffers& buffers, std::uint3
   return image;
 }
 
-// Each worker takes the next image until there is none left.
+// Each worker takes the next image until none is left.
 void decode_all(const std::vector<EncodedImage>& encoded, std::vector<Image>& images) {
   std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> faults(images.size());
@@ -102,7 +102,7 @@ std::map<std::uint32_t, std::uint32_t> numbered(const std::set<std::uint32_t>& u
   return places;
 }
 
-// The images' sizes are bounded before the first of them is decoded.
+// Checks the sizes of all images before decoding any of them.
 void measure(const std::vector<EncodedImage>& encoded, std::vector<Image>& images) {
   std::uint64_t pixels = 0;
   for (std::size_t i = 0; i < images.size(); ++i) {
@@ -121,7 +121,7 @@ void measure(const std::vector<EncodedImage>& encoded, std::vector<Image>& image
   }
 }
 
-// Replaces the file's numbers of textures by the scene's; drops the uses of those that have no image.
+// Replaces the file's texture numbers with the scene's; drops uses without an image.
 void renumber(const std::map<std::uint32_t, std::uint32_t>& places, Scene& scene) {
   for (PbrMaterial& material : scene.materials) {
     for (TextureUse& use : material.textures) {

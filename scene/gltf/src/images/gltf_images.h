@@ -6,9 +6,9 @@
 
 namespace afm::scene {
 
-// The textures that the scene's materials use, whose indices are still the file's, with their samplers and images; what
-// is not used is not read. Images are decoded on all cores. Where a texture's image is only there in a format that is
-// not read (an extension's that is not required), its uses are dropped. Throws GltfError.
+// Reads the textures used by the scene's materials, whose indices are still those of the file, with their samplers and
+// images; skips unused ones. Decodes images on all cores. Drops the uses of a texture whose image exists only in an
+// unsupported format (of an optional extension). Throws GltfError.
 void read_textures(GltfModel& model, const GltfBuffers& buffers, Scene& scene, GltfWarnings& notes);
 
 }  // namespace afm::scene

@@ -45,11 +45,11 @@ void read_memory(png_structp png, png_bytep into, std::size_t count) {
   left = left.subspan(count);
 }
 
-// libpng says the reason, for a programmer, where nobody asks for it
+// libpng's messages are for programmers, and would go to stderr
 void keep_quiet(png_structp, png_const_charp) {}
 void leave(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 
-// libpng leaves by longjmp(), so that nothing here may need a destructor.
+// libpng returns by longjmp(), so nothing here may need a destructor.
 bool read_png(png_structp png, png_infop info, Encoded* left, png_bytepp rows, std::size_t row_bytes) {
   // NOLINTNEXTLINE(cert-err52-cpp): libpng knows no other way to say that an image is broken
   if (setjmp(png_jmpbuf(png)) != 0) return false;

@@ -13,10 +13,10 @@
 namespace afm::scene {
 
 enum class ScreenEdge { Left, Top, Right, Bottom };
-inline constexpr std::array<std::string_view, 4> kScreenEdgeNames{"left", "top", "right", "bottom"};  // in that order
+inline constexpr std::array<std::string_view, 4> kScreenEdgeNames{"left", "top", "right", "bottom"};  // by ScreenEdge
 
-// Part of a screen in which its picture fades out towards an edge: a smooth ramp, dark from the edge to where it
-// begins. Without width there is none.
+// Part of a screen in which its picture fades out towards an edge: a smooth ramp, dark from the edge to `begin_m`. Zero
+// width means no ramp.
 struct EdgeRamp {
   double begin_m = 0;  // from the edge
   double width_m = 0;
@@ -24,38 +24,38 @@ struct EdgeRamp {
   bool operator==(const EdgeRamp&) const = default;
 };
 
-// Overlap of a screen with others of its plane.
+// Overlap of a screen with others in its plane.
 struct ScreenBlend {
-  std::array<EdgeRamp, kScreenEdgeNames.size()> ramps{};  // by ScreenEdge
-  std::vector<std::size_t> neighbours{};                  // of Wall::screens, that overlap it
-  glm::dvec3 origin{0.0};                                 // a place that all screens of the overlap have in common
+  std::array<EdgeRamp, kScreenEdgeNames.size()> ramps{};  // indexed by ScreenEdge
+  std::vector<std::size_t> neighbours{};                  // indices into Wall::screens of the overlapping screens
+  glm::dvec3 origin{0.0};                                 // reference point shared by all screens of the overlap
 
   const EdgeRamp& ramp(ScreenEdge edge) const { return ramps[static_cast<std::size_t>(edge)]; }
 };
 
-// Blending of an output's picture: what it shows so that it and its neighbours together show what one projector would,
-// black everywhere as bright as where most of them overlap. Immutable, in unit coordinates of the picture from its
+// Blending of an output's picture, so that it and its neighbours together look like the picture of one projector, with
+// black as bright everywhere as where most of them overlap. Immutable, in unit coordinates of the picture from its
 // upper left corner. compose.frag has the same arithmetic, and a test compares the two.
 struct Blend {
   static constexpr std::size_t kMostScreens = 9;
 
-  // A screen. Its picture fades out in the ramps and ends at the box.
+  // Screen whose picture fades out in the ramps and ends at the box.
   struct Field {
     glm::dvec2 low{0.0}, high{1.0};
-    std::array<double, kScreenEdgeNames.size()> begin{};  // of the ramps, inwards from the edges; by ScreenEdge
+    std::array<double, kScreenEdgeNames.size()> begin{};  // ramp starts, inwards from the edges; by ScreenEdge
     std::array<double, kScreenEdgeNames.size()> width{};  // 0: no ramp
-    double black = 0;                                     // light of the projector's black, 1 for its white
+    double black = 0;                                     // luminance of the projector's black, relative to its white
   };
   std::vector<Field> fields{};    // the output's own first; at most kMostScreens
-  std::optional<double> gamma{};  // light of an encoded value: its power; nothing: sRGB's curve
-  double brightest_black = 0;     // of the whole overlap, of all projectors of a place together
-  double darkest_black = 0;       // likewise
+  std::optional<double> gamma{};  // exponent from encoded value to light; none: sRGB's curve
+  double brightest_black = 0;     // largest sum of the projectors' blacks at any point of the overlap
+  double darkest_black = 0;       // smallest such sum
 
-  // At a place within the picture.
+  // Values at a point of the picture.
   struct Place {
     double own = 0;    // weight of this output
-    double all = 0;    // of all that reach the place
-    double black = 0;  // light that their black leaves
+    double all = 0;    // total weight of all outputs that reach the point
+    double black = 0;  // luminance of their combined black
   };
   Place at(const glm::dvec2& picture) const;
 };

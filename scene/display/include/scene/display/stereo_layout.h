@@ -11,7 +11,7 @@
 
 #include "core/result.h"
 
-// Layout of the two eye images on a screen: pure arithmetic over pixels, counted from the top left corner.
+// Layout of the two eye images on a screen: pure arithmetic on pixels, counted from the top left corner.
 namespace afm::scene {
 
 enum class StereoMode {
@@ -62,19 +62,19 @@ struct AnaglyphMatrices {
   glm::dmat3 right;
 };
 
-// All that is known of a mode. A new one is a row here, and if its arrangement is new, a case in stereo_layout.cpp and
-// one in compose.frag (docs/adding-a-stereo-mode.md).
+// Properties of a mode. A new mode needs a row here and, if its arrangement is new, a case in stereo_layout.cpp and one
+// in compose.frag (docs/adding-a-stereo-mode.md).
 struct StereoModeTraits {
   StereoMode mode;
-  std::string_view name;  // as a person writes it
+  std::string_view name;  // name on the command line
   EyeArrangement arrangement;
   bool squeezed = false;     // two eyes share the size of one
-  bool interleaved = false;  // which eye a pixel belongs to counts from the screen's corner
+  bool interleaved = false;  // the eye of a pixel depends on its position on the screen
   std::optional<FramePacking> packing{};
   std::optional<AnaglyphMatrices> anaglyph{};
 };
 
-// A matrix written row by row, as in print; GLM stores columns.
+// Matrix written row by row, as in print; GLM stores columns.
 constexpr glm::dmat3 from_rows(const glm::dvec3& red, const glm::dvec3& green, const glm::dvec3& blue) {
   return {red.x, green.x, blue.x, red.y, green.y, blue.y, red.z, green.z, blue.z};
 }
@@ -145,31 +145,31 @@ constexpr const std::optional<FramePacking>& frame_packing(StereoMode mode) { re
 constexpr const std::optional<AnaglyphMatrices>& anaglyph_matrices(StereoMode mode) { return traits_of(mode).anaglyph; }
 constexpr bool has_two_pictures(StereoMode mode) { return traits_of(mode).arrangement == EyeArrangement::TwoPictures; }
 
-// WrongUsage, naming what there is: no mode of this name.
+// WrongUsage, with a list of the modes: no mode of this name.
 core::Result<StereoMode> parse_stereo_mode(std::string_view name);
 
-// Swapped shows the right eye's image wherever the left eye's belongs, and the other way round.
+// Swapped exchanges the images of the left and the right eye.
 enum class EyeOrder { Straight, Swapped };
 
-// Size of the picture (of each of them) in which one pixel of an eye image of `eye_px` is one pixel; the half modes
+// Size of the picture, or of each of two, in which a pixel of an eye image of `eye_px` is a pixel; the half modes
 // squeeze two into one. Frame packing has a fixed size.
 glm::uvec2 picture_size(StereoMode mode, glm::uvec2 eye_px);
 
-// The converse: eye images for a picture of `picture_px`, both at least 1 x 1. Where an odd number of pixels is shared
-// by two eyes, the last stays blank.
+// Inverse: size of the eye images for a picture of `picture_px`, at least 1 x 1. If two eyes share an odd number of
+// pixels, the last one stays blank.
 glm::uvec2 eye_size(StereoMode mode, glm::uvec2 picture_px);
 
 // Eye whose image a pixel of a picture shows.
 enum class PixelEye { Blank, Left, Right, Both };
 struct PixelSource {
   PixelEye eye = PixelEye::Blank;
-  glm::dvec2 uv{0.0};  // the middle of the pixel in the eye's image, of which the corners are 0,0 and 1,1
+  glm::dvec2 uv{0.0};  // centre of the pixel in the eye's image, which has the corners 0,0 and 1,1
   glm::dvec2 uv_per_pixel{0.0};
 };
 
-// For a picture of `picture_px` whose first pixel is at `screen_px` of its screen: what is interleaved counts from the
-// screen's corner, so that moving a window never exchanges the eyes. `pixel` counts from the picture's corner. For a
-// mode with two pictures: of the first.
+// Source of a pixel in a picture of `picture_px` whose first pixel is at `screen_px` of its screen. Interleaving starts
+// at the screen's corner, so that moving a window never exchanges the eyes. `pixel` starts at the picture's corner. In
+// a mode with two pictures: of the first.
 PixelSource source_of_pixel(StereoMode mode, EyeOrder order, glm::uvec2 picture_px, glm::uvec2 pixel,
                             glm::ivec2 screen_px = glm::ivec2(0));
 

@@ -15,8 +15,8 @@ using NodeIndex = std::uint32_t;
 
 enum class Interpolation { Step, Linear, CubicSpline };
 
-// A value over time: `width` numbers a key; with CubicSpline three times as many, in-tangent, value and out-tangent.
-// There is at least one key, and the times rise.
+// Value over time: `width` numbers per key; with CubicSpline three times as many: in-tangent, value and out-tangent.
+// There is at least one key, and the times increase.
 struct Track {
   Interpolation interpolation = Interpolation::Linear;
   std::size_t width = 0;
@@ -24,7 +24,7 @@ struct Track {
   std::vector<float> values;
 };
 
-// Tracks of an animation for one node; a property without a track keeps its value at rest.
+// Tracks of an animation for one node; a property without a track keeps its rest value.
 struct AnimatedNode {
   NodeIndex node = 0;
   glm::dvec3 translation{0.0};
@@ -39,15 +39,15 @@ struct AnimatedNode {
 struct Animation {
   std::string name;
   std::vector<AnimatedNode> nodes;
-  float length_s = 0.0F;  // the last key's time
+  float length_s = 0.0F;  // time of the last key
 };
 
-// The value at a time, which is held before the first and behind the last key. Rotations are turned on the shortest
-// great circle (glTF 2.0, appendix C). Writes `track.width` numbers.
+// Value at a time; constant before the first and after the last key. Rotations follow the shortest great circle (glTF
+// 2.0, appendix C). Writes `track.width` numbers.
 void sample(const Track& track, float time_s, std::vector<float>& value);
 glm::dquat sample_rotation(const Track& track, float time_s);
 
-// Skin of a mesh: one matrix per joint, from the mesh into the joint's frame at rest.
+// Skin of a mesh: one matrix per joint, from the mesh to the joint's rest frame.
 struct Skin {
   std::string name;
   std::vector<NodeIndex> joints;

@@ -8,12 +8,12 @@
 
 namespace afm::scene {
 
-// The heights of what is drawn below `root`, along +z of root's frame. Empty if nothing is drawn there, or nothing that
-// has an extent along x and y.
+// Heights of everything drawn below `root`, along +z of root's frame. Empty if nothing is drawn there, or nothing with
+// an extent along x and y.
 //
-// Where the first primitive of root's own mesh is a square grid as SharedHeightField describes it, and small enough,
-// its vertices are the field, bit for bit. Anything else is looked at from above, on a grid of the most points that a
-// field holds: the highest triangle counts, and beside all of them the lowest vertex. Allocates.
+// If the first primitive of root's own mesh is a square grid as in SharedHeightField, and small enough, its vertices
+// are the field, bit for bit. Any other geometry is sampled from above, on a grid of the largest size: the highest
+// triangle counts and, outside all triangles, the lowest vertex. Allocates.
 std::optional<SharedHeightField> height_field_below(const Scene& scene, NodeIndex root);
 
 }  // namespace afm::scene

@@ -15,8 +15,8 @@
 
 namespace afm::scene {
 
-// Pixels as the file holds them, four bytes each, rows from top to bottom. Whether they are sRGB or linear is said by
-// the slot that reads them, not by the image.
+// Pixels as stored in the file, four bytes each, rows from top to bottom. The slot that reads them, not the image,
+// determines whether they are sRGB or linear.
 struct Image {
   std::string name;
   std::uint32_t width = 0;
@@ -98,7 +98,8 @@ struct TextureUse {
   bool operator==(const TextureUse&) const = default;
 };
 
-// Look of a surface: glTF 2.0 metallic-roughness factors, linear, and those of the supported KHR_materials extensions.
+// Appearance of a surface: glTF 2.0 metallic-roughness factors, linear, and those of the supported KHR_materials
+// extensions.
 struct PbrMaterial {
   std::string name;
   glm::vec4 base_color{1.0F};
@@ -108,7 +109,7 @@ struct PbrMaterial {
   bool double_sided = false;
   bool blended = false;  // alphaMode BLEND: drawn after the opaque primitives, writes no depth, casts no shadow
   bool unlit = false;    // KHR_materials_unlit
-  std::optional<float> alpha_cutoff{};  // alphaMode MASK: what covers less is not there
+  std::optional<float> alpha_cutoff{};  // alphaMode MASK: fragments with less coverage are discarded
   float normal_scale = 1.0F;
   float occlusion_strength = 1.0F;
   float ior = 1.5F;       // KHR_materials_ior
@@ -119,20 +120,20 @@ struct PbrMaterial {
   float clearcoat_normal_scale = 1.0F;
   float iridescence = 0.0F;  // KHR_materials_iridescence
   float iridescence_ior = 1.3F;
-  glm::vec2 iridescence_thickness_nm{100.0F, 400.0F};  // of a texture's 0 and 1; without a texture the second holds
+  glm::vec2 iridescence_thickness_nm{100.0F, 400.0F};  // at texture values 0 and 1; without texture: the second
   std::array<TextureUse, kTextureSlots> textures{};
 
   const TextureUse& texture(TextureSlot slot) const { return textures[static_cast<std::size_t>(slot)]; }
   TextureUse& texture(TextureSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
 };
 
-// Shaders that use a field. Plain materials are those that the shader without textures draws: every field of Extended
-// and of Feature has its default.
+// Shaders that use a field. Plain materials are those that the shader without textures can draw: every Extended and
+// Feature field has its default.
 enum class PbrUse {
-  Plain,     // every shader draws it, or a texture has its own bit
-  Factor,    // material.frag alone reads it, and it says nothing without a texture or a feature
-  Extended,  // material.frag alone draws what is not the default
-  Feature,   // the same, and it switches a part of the shader on: 0 is off
+  Plain,     // drawn by every shader, or by a texture with its own bit
+  Factor,    // read only by material.frag; no effect without a texture or a feature
+  Extended,  // values other than the default are drawn only by material.frag
+  Feature,   // same, and the field enables a part of the shader; 0: off
 };
 
 template <class T>
@@ -142,9 +143,9 @@ struct PbrField {
   PbrUse use;
 };
 
-// Every field, in the order of the struct; scene_digest.cpp does not compile if one is missing. The digest, which
-// shader draws a material and what that shader is given follow from these rows: all but Plain are the first members of
-// material.frag's block, in this order and by these names, and the features its bits.
+// Every field, in the order of the struct; scene_digest.cpp does not compile if one is missing. These rows determine
+// the digest, the shader that draws a material, and the shader's input: all fields but Plain are the first members of
+// material.frag's block, in this order and with these names, and the features are its bits.
 inline constexpr std::tuple kPbrFields{
     PbrField{&PbrMaterial::name, "name", PbrUse::Plain},
     PbrField{&PbrMaterial::base_color, "base_color", PbrUse::Plain},

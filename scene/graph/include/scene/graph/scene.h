@@ -35,20 +35,20 @@ struct TextureCoordinates {
   glm::vec2 set_1{0.0F};
 };
 
-// By which joints of the node's skin a vertex is moved.
+// Joints of the node's skin that move a vertex, with their weights.
 struct Influence {
   std::array<std::uint32_t, 4> joints{};
   glm::vec4 weights{0.0F};
 };
 
-// Displacements that a morph target adds to the vertices; a stream that the target lacks is empty.
+// Displacements that a morph target adds to the vertices; missing streams are empty.
 struct MorphTarget {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
   std::vector<glm::vec3> tangents;
 };
 
-// The material that a primitive has in a variant of the scene (KHR_materials_variants).
+// Material of a primitive in a variant of the scene (KHR_materials_variants).
 struct VariantMaterial {
   std::uint32_t variant = 0;
   std::uint32_t material = 0;
@@ -73,7 +73,7 @@ struct Primitive {
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
-  std::vector<float> weights{};  // of the morph targets, as many as each primitive has
+  std::vector<float> weights{};  // one per morph target, as in each primitive
 };
 
 // glTF 2.0 cameras look along their node's -z with +y up.
@@ -93,12 +93,12 @@ struct PunctualLight {
   std::string name;
   Kind kind = Kind::Point;
   glm::vec3 intensity{1.0F};       // colour times lux (directional) or candela
-  std::optional<float> range_m{};  // none: without end
+  std::optional<float> range_m{};  // none: unlimited
   float inner_cone_rad = 0.0F;
   float outer_cone_rad = 0.0F;
 };
 
-// Parents stand before their children, so that one pass in order composes all transforms.
+// Parents come before their children, so that one pass in order composes all transforms.
 struct Node {
   std::string name;
   std::optional<NodeIndex> parent;
@@ -107,12 +107,12 @@ struct Node {
   std::optional<std::uint32_t> skin{};
   std::optional<std::uint32_t> camera{};
   std::optional<std::uint32_t> light{};
-  std::vector<float> weights{};  // of the mesh's morph targets, instead of the mesh's own
-  std::string role{};            // what the node is for TouchAFM (docs/gltf.md), "tip", "base", "surface" or "mark"
+  std::vector<float> weights{};  // morph target weights that replace the mesh's own
+  std::string role{};            // role in TouchAFM (docs/gltf.md): "tip", "base", "surface" or "mark"
 };
 
-// The scene graph: filled by the loader, constant from then on, and shared by everything that draws or feels. What
-// moves lives outside it, in a SceneTransforms block (scene/shared_blocks.h) indexed like `nodes`.
+// The scene graph: filled by the loader, constant from then on, and shared by all code that draws or feels. Moving
+// state is kept outside, in a SceneTransforms block (scene/shared_blocks.h) indexed like `nodes`.
 struct Scene {
   std::vector<Node> nodes;
   std::vector<Mesh> meshes;
@@ -125,7 +125,7 @@ struct Scene {
   std::vector<Animation> animations{};
   std::vector<std::string> variants{};
 
-  // The first node of that name, if there is one.
+  // First node of that name, if there is one.
   std::optional<NodeIndex> find_node(std::string_view name) const;
 };
 
@@ -134,8 +134,8 @@ struct Scene {
 NodeIndex append(Scene& scene, const Scene& part, std::string_view name, std::optional<NodeIndex> parent,
                  const glm::dmat4& parent_from_name);
 
-// A digest of nodes, meshes, materials, textures and images (64-bit FNV-1a): by it a renderer knows the servo of the
-// scene that it shows, in one run. Lights, cameras, skins, morph targets, animations and variants are not in it.
+// Digest of nodes, meshes, materials, textures and images (64-bit FNV-1a). Within one run, a renderer uses it to
+// recognise the servo of its scene. Excludes lights, cameras, skins, morph targets, animations and variants.
 std::uint64_t digest(const Scene& scene);
 
 }  // namespace afm::scene

@@ -20,28 +20,28 @@ namespace afm::scene {
 
 // One choice of tip, lever, sample and medium, with where each number comes from.
 struct MaterialEntry {
-  std::string name;   // what commands and models call it: "mica"
-  std::string title;  // what people read: "Mica"
+  std::string name;   // name in commands and models: "mica"
+  std::string title;  // name for display: "Mica"
   std::string tip;
   std::string medium;
-  std::string note;  // what a reader of the numbers must know; may be empty
-  std::string look;  // the material whose 3D models stand for it; its own name unless the file says otherwise
+  std::string note;  // remark about the numbers; may be empty
+  std::string look;  // material whose 3D models represent it; by default its own name
   physics::ContactParameters contact;
-  std::optional<physics::Elasticity> tip_elasticity;     // where the reduced modulus was made of both bodies
-  std::optional<physics::Elasticity> sample_elasticity;  // the same
-  physics::LeverDynamics lever;                          // in the medium, far from the sample
+  std::optional<physics::Elasticity> tip_elasticity;     // set if the reduced modulus was computed from both bodies
+  std::optional<physics::Elasticity> sample_elasticity;  // set if the reduced modulus was computed from both bodies
+  physics::LeverDynamics lever;                          // lever in the medium, far from the sample
   std::optional<physics::Force> experiment_f_attr;       // magnitude, measured by others
   std::optional<physics::Force> experiment_f_ad;         // magnitude, measured by others
-  std::vector<SourcedValue> sources;                     // of every number above, in the order of the fields
-  physics::FrictionParameters friction;                  // the numbers of every law, of which none is chosen here
-  bool has_lattice = false;                              // else its atoms lie in no order
-  std::vector<SourcedValue> friction_sources;            // of friction's numbers
+  std::vector<SourcedValue> sources;                     // sources of all numbers above, in the order of the fields
+  physics::FrictionParameters friction;                  // numbers of every friction law; none is selected here
+  bool has_lattice = false;                              // false: its atoms are not ordered
+  std::vector<SourcedValue> friction_sources;            // sources of the friction numbers
 };
 
 struct MaterialLibrary {
   std::vector<MaterialEntry> materials;  // in the file's order, names unique, every interaction valid
 
-  std::vector<std::string> names() const;  // in their order
+  std::vector<std::string> names() const;  // in file order
 
   // Null if there is none.
   const MaterialEntry* find(std::string_view name) const;

@@ -17,10 +17,10 @@ namespace afm::scene {
 
 // A lever with its tip, as a catalogue lists it.
 struct ProbeEntry {
-  std::string name;   // what commands call it: "ppp-contr"
-  std::string title;  // what people read
+  std::string name;   // name in commands
+  std::string title;  // name for display
   std::string shape;  // "rectangular" or "v-shaped"
-  std::string tip;    // the tip's material
+  std::string tip;    // material of the tip
   std::string note;   // may be empty
   physics::Length tip_radius;
   physics::Stiffness spring_constant;  // nominal, or of the geometry

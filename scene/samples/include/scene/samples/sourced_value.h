@@ -9,10 +9,10 @@ namespace afm::scene {
 
 // A number as it was written ("50 nm") and where it comes from.
 struct SourcedValue {
-  std::string key;  // as files name it: "tip_radius"
+  std::string key;  // key in files: "tip_radius"
   std::string value;
   std::string source;
-  bool estimated = false;  // not measured for this very system; to be said wherever the number is shown
+  bool estimated = false;  // not measured for this very system; must be mentioned wherever the number is shown
 };
 
 // Null if none has the key.

@@ -8,7 +8,7 @@
 
 namespace afm::scene {
 
-// Reason for which the servo removed the force. No servo ever used 7; the numbers are stable.
+// Reason why the servo removed the force. No servo ever used 7; the numbers are stable.
 enum class FaultCode : std::uint32_t {
   None = 0,
   RendererDied = 1,
@@ -17,7 +17,7 @@ enum class FaultCode : std::uint32_t {
   LateTick = 4,
   VelocityTrip = 5,
   DeviceError = 6,
-  ServoSilent = 7,  // said by the renderer, in the servo's place
+  ServoSilent = 7,  // reported by the renderer, in place of the servo
   DeadManReleased = 8,
   MotorsHot = 9,
   EnergyExceeded = 10,
@@ -28,8 +28,8 @@ enum class FaultCode : std::uint32_t {
 
 struct FaultText {
   FaultCode code;
-  const char* key;     // in the files of assets/guidance; None's says that the force is off, and a reason follows
-  const char* reason;  // for the log, in English
+  const char* key;     // key in assets/guidance; that of None introduces a reason for the missing force
+  const char* reason;  // English text for the log
 };
 
 inline constexpr std::array kFaultTexts{

@@ -9,9 +9,9 @@
 
 namespace afm::scene {
 
-// A topography that an instrument measured: heights on a square grid, as SharedHeightField has them, but of up to
-// kMaxTopographySide points a side; 0 at the origin. Metres as they were measured: SharedContact::topography says
-// how large a material shows them. Without columns there is none.
+// Topography measured by an instrument: heights on a square grid as in SharedHeightField, but with up to
+// kMaxTopographySide points per side; 0 at the origin. Metres as measured; SharedContact::topography has the scale at
+// which a material shows them. No columns: no topography.
 struct Topography {
   std::uint32_t columns = 0;
   std::uint32_t rows = 0;
@@ -21,18 +21,18 @@ struct Topography {
   SharedTopography size() const { return {columns, rows, spacing_m}; }
 };
 
-// What a surface's heights are of.
+// Meaning of a surface's heights.
 enum class Heights {
-  Drawn,  // of the sample, which a tip has still to trace
-  Traced  // of an apex that traced the sample: the image of a microscope
+  Drawn,  // heights of the sample, still to be traced by a tip
+  Traced  // heights of an apex that traced the sample: a microscope's image
 };
 
-// A surface under the tip, as it is felt: a grid of heights that somebody else holds.
+// Surface under the tip, as felt: a view of a grid of heights owned elsewhere.
 struct FeltHeights {
   std::uint32_t columns = 0;  // 0: the plane z = 0
   std::uint32_t rows = 0;
   double spacing_m = 0;
-  double height_factor = 1;  // of the numbers below
+  double height_factor = 1;  // factor of the heights below
   std::span<const float> height_m;
   Heights heights = Heights::Drawn;
 
@@ -53,11 +53,11 @@ struct FeltHeights {
         heights(Heights::Traced) {}
 };
 
-// The surface of a material that is valid beside these; a plane where it has none.
+// Surface of a material that is valid together with these; a plane if it has none.
 FeltHeights surface_of(const SharedContact& material, std::span<const SharedHeightField> fields,
                        const Topography& topography);
 
-// Whether a topography is of this size, with a height for each point, all of them finite.
+// True if a topography has this size, and a finite height for each point.
 bool is_valid(const Topography& topography, const SharedTopography& size);
 
 }  // namespace afm::scene

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <type_traits>
 
-// Description of the fields of a block of the shared scene, the only list of them:
+// Description of the fields of a block of the shared scene, and the only list of them:
 //
 //   template <class Visit, std::same_as<Tip>... Record>
 //   constexpr void for_each_field(Visit&& visit, const Record&... tip) {
@@ -18,7 +18,7 @@ namespace afm::scene {
 template <class T>
 concept Described = requires(const T& record) { for_each_field([](const char*, const auto&) {}, record); };
 
-// Likewise, but into the groups that are fields themselves: visits only numbers, enumerators and arrays.
+// Same, but descends into fields that are blocks themselves: visits only numbers, enumerators and arrays.
 template <class Visit, class... Record>
 constexpr void for_each_leaf(Visit&& visit, const Record&... records) {
   for_each_field(
@@ -32,7 +32,7 @@ constexpr void for_each_leaf(Visit&& visit, const Record&... records) {
       records...);
 }
 
-// Blocks have no hidden padding, so that their fields fill them.
+// Blocks have no hidden padding: their fields fill them.
 template <Described Record>
 constexpr bool all_fields_described() {
   std::size_t bytes = 0;

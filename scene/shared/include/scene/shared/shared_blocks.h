@@ -14,15 +14,14 @@
 #include "scene/shared/fault_codes.h"
 #include "scene/shared/scale_modes.h"
 
-// The blocks of the shared scene: trivially copyable, without pointers, SI units, and each with exactly one writer, the
-// process named in its comment. A reader believes nothing unchecked: indices are compared with counts, numbers with
-// ranges.
+// Blocks of the shared scene: trivially copyable, without pointers, in SI units, each with exactly one writer, the
+// process named in its comment. Readers check everything: indices against counts, numbers against ranges.
 namespace afm::scene {
 
 inline constexpr std::uint32_t kMaxNodes = 160;
 inline constexpr std::uint32_t kMaxMaterials = 32;
 inline constexpr std::uint32_t kMaxMeasuredCurves = 4;
-inline constexpr std::uint32_t kMaxMeasuredPoints = 512;  // of one branch
+inline constexpr std::uint32_t kMaxMeasuredPoints = 512;  // per branch
 inline constexpr std::uint32_t kMaxHeightFields = 8;
 inline constexpr std::uint32_t kMaxHeightFieldSide = 129;  // vertices
 inline constexpr std::uint32_t kMaxTopographySide = 1024;  // points
@@ -34,7 +33,7 @@ inline constexpr std::uint32_t kTopography = 0xFFFFFFFEU;  // instead of a heigh
 
 using Name = std::array<char, kNameLength>;  // zero-terminated UTF-8
 
-// A name is for people: a longer one is cut.
+// Cuts a longer text, since a name is only for display.
 Name to_name(std::string_view text);
 
 // ---- constant after the segment is created (written by touchafm before the servo starts) ----
@@ -46,31 +45,31 @@ struct SharedNode {
   std::array<double, 16> parent_from_node{};  // column-major rest transform
 };
 
-// Metres of the nanoworld, drawn and felt, for a metre that an instrument measured: along the sample and upwards.
+// Metres of the nanoworld, drawn and felt, per metre measured by the instrument: along the sample and upwards.
 struct TopographyScale {
   double lateral = 1;
   double vertical = 1;
 };
 
-// Parameters of a contact: one combination of tip, lever, sample and medium, and its law of force. The options of the
-// law lie flat, because nobody can check the bytes of a std::optional.
+// Parameters of a contact: one combination of tip, lever, sample and medium, and its force law. The options of the law
+// are plain members, because the bytes of a std::optional cannot be checked.
 struct SharedContact {
   Name name{};
   physics::ContactParameters contact{};
   physics::Law law = physics::Law::Paper;
-  std::uint32_t measured_curve = kNoMeasuredCurve;  // index into SharedModel::curves, of Law::Measured alone
+  std::uint32_t measured_curve = kNoMeasuredCurve;  // Law::Measured only: index into SharedModel::curves
   std::uint32_t exact_hamaker_sphere = 0;           // 0 or 1
   std::uint32_t has_meniscus = 0;                   // 0 or 1
-  double retardation_wavelength_m = 0;              // 0: not retarded
+  double retardation_wavelength_m = 0;              // 0: no retardation
   physics::Meniscus meniscus{};
-  std::uint32_t dynamic = 0;                    // 1: with the inertia, damping and thermal noise of the lever
+  std::uint32_t dynamic = 0;                    // 1: includes the inertia, damping and thermal noise of the lever
   std::uint32_t height_field = kNoHeightField;  // index into SharedModel::height_fields, or kTopography; none: a plane
   physics::LeverDynamics lever{};
-  TopographyScale topography{};  // of kTopography alone
+  TopographyScale topography{};  // kTopography only
   physics::FrictionParameters friction{};
 };
 
-// A curve that an instrument recorded, to be felt: each branch along rising Z.
+// Curve recorded by an instrument, to be felt; each branch in the order of increasing Z.
 struct SharedMeasuredCurve {
   std::uint32_t approach_count = 0;
   std::uint32_t retract_count = 0;
@@ -79,8 +78,8 @@ struct SharedMeasuredCurve {
   std::array<physics::MeasuredPoint, kMaxMeasuredPoints> retract{};
 };
 
-// The surface of a sample as it is drawn: heights on a square grid that is centred on the origin of the sample's frame,
-// row by row from -y to +y, x fastest; metres of the nanoworld along +z.
+// Surface of a sample as drawn: heights on a square grid centred on the origin of the sample's frame, row by row from
+// -y to +y, x fastest; metres of the nanoworld along +z.
 struct SharedHeightField {
   std::uint32_t columns = 0;
   std::uint32_t rows = 0;
@@ -88,7 +87,7 @@ struct SharedHeightField {
   std::array<float, kMaxHeightFieldSide * kMaxHeightFieldSide> height_m{};
 };
 
-// The topography that a segment holds behind its blocks (scene/shared/felt_heights.h); without columns it has none.
+// Size of the topography that a segment contains after its blocks (scene/shared/felt_heights.h); no columns: none.
 struct SharedTopography {
   std::uint32_t columns = 0;
   std::uint32_t rows = 0;
@@ -99,12 +98,11 @@ struct SharedModel {
   std::uint32_t node_count = 0;
   std::uint32_t material_count = 0;
   std::uint32_t sample_node =
-      0;  // its orientation turns the force: the axes of this node are those of its surface, +z outwards
+      0;  // determines the direction of the force: the axes of this node are those of the sample's surface, +z outwards
   std::uint32_t curve_count = 0;
   std::uint32_t height_field_count = 0;
   std::uint32_t padding = 0;
-  // the common scale, as in TipState; 0: the one that suits all of these materials. A replay has the one it was felt
-  // on.
+  // common scale, as in TipState; 0: the one that suits all of these materials. A replay uses the recorded one.
   double common_hand_m_per_m = 0;
   double common_hand_n_per_n = 0;
   SharedTopography topography{};
@@ -123,17 +121,16 @@ struct SceneTransforms {
   std::array<std::array<double, 16>, kMaxNodes> room_from_node{};
 };
 
-// The material that the wand chose, and the scale on which it is to be felt. `revision` grows by one with every choice.
+// Material selected with the wand, and the scale for feeling it. `revision` increases by one with every selection.
 struct Selection {
-  std::int32_t material = -1;  // index into SharedModel::materials, -1: none yet
+  std::int32_t material = -1;  // index into SharedModel::materials; -1: none yet
   std::uint32_t revision = 0;
   ScaleMode scale_mode = ScaleMode::Fit;
   std::uint32_t padding = 0;
 };
 
-// Other parameters for one material while the servo runs. `revision` grows by one with every edit, of whichever
-// material. It takes effect as a choice of a material does: once the tip is off the sample, without force, in the wait
-// state.
+// Other parameters for one material while the servo runs. `revision` increases by one with every edit, of any material.
+// An edit takes effect like a selection: once the tip is off the sample, without force, in the wait state.
 struct MaterialEdit {
   SharedContact material{};
   std::uint32_t revision = 0;
@@ -141,31 +138,32 @@ struct MaterialEdit {
 };
 
 // Motion that the simulated user makes with the simulated hand; real devices ignore it. A new `revision` starts a
-// minimum-jerk path of the hand's aim from where it is now to `target_m` (device frame, +y up, metres) in `duration_s`.
+// minimum-jerk path of the hand's aim from its current position to `target_m` (device frame, +y up, metres) in
+// `duration_s`.
 struct HandScript {
   std::array<double, 3> target_m{};
   double duration_s = 0;
   std::uint32_t revision = 0;
-  std::uint32_t turn_on_pressed = 0;  // 1 while the Turn-On button is held
+  std::uint32_t turn_on_pressed = 0;  // 1 while Turn-On is held
 };
 
-// What a scan on the wall and the hand have to do with each other.
+// Relation between a scan on the wall and the hand.
 enum class ScanHand : std::uint32_t {
-  Apart = 0,  // nothing
-  Led = 1,    // the hand is led along the scan's path by a weak spring
+  Apart = 0,  // independent
+  Led = 1,    // a weak spring leads the hand along the scan's path
   Scans = 2,  // the hand is the scanner
 };
 
-// The scan as the hand meets it, once a frame. The servo believes it as long as is_valid() does and it is no older than
-// kScanLeadLastsNs; any other one is Apart.
+// Scan data for the hand, sent once per frame. The servo uses it while is_valid() is true and it is not older than
+// kScanLeadLastsNs; otherwise it assumes Apart.
 struct ScanLead {
-  std::int64_t time_ns = 0;           // CLOCK_MONOTONIC, of the frame
-  std::array<double, 2> apex_xy_m{};  // of the scan's tip, in the sample's frame; of Led alone
-  double height_m = 0;                // likewise
-  double gain_per_s = 0;              // of the integral controller, of Scans with feedback; 0 to kMostScanGainPerS
-  ScanHand hand = ScanHand::Apart;    // Apart: the other fields do not count
-  std::uint32_t feedback = 0;         // 1: the loop moves the tip up and down; of Scans alone
-  std::uint32_t revision = 0;         // grows by one with every one that is sent
+  std::int64_t time_ns = 0;           // CLOCK_MONOTONIC, time of the frame
+  std::array<double, 2> apex_xy_m{};  // Led only: scan's tip in the sample's frame
+  double height_m = 0;                // Led only: height of that tip
+  double gain_per_s = 0;            // Scans with feedback only: gain of the integral controller, 0 to kMostScanGainPerS
+  ScanHand hand = ScanHand::Apart;  // Apart: the other fields are ignored
+  std::uint32_t feedback = 0;       // Scans only, 1: the loop moves the tip up and down
+  std::uint32_t revision = 0;       // increases by one with every message
   std::uint32_t padding = 0;
 
   bool operator==(const ScanLead&) const = default;
@@ -177,9 +175,9 @@ inline constexpr double kMostScanGainPerS = 1e6;
 struct RendererHeartbeat {
   std::int64_t time_ns = 0;
   std::uint64_t frame = 0;
-  std::uint32_t leaving = 0;  // 1: the renderer ends in good order; the servo releases the hand and ends too
-  std::uint32_t stop = 0;     // 1: a person wants no force at all, now
-  std::uint32_t unseen = 0;   // 1: nobody sees the picture, so that there is no force as long as this lasts
+  std::uint32_t leaving = 0;  // 1: the renderer exits in good order; the servo releases the hand and exits too
+  std::uint32_t stop = 0;     // 1: a person requests zero force at once
+  std::uint32_t unseen = 0;   // 1: the picture is not visible, so no force is applied
   std::uint32_t padding = 0;
 };
 
@@ -187,15 +185,15 @@ struct RendererHeartbeat {
 
 enum class ServoState : std::uint32_t { Disarmed = 0, Arming = 1, Running = 2, Fading = 3, Fault = 4 };
 
-// State of the renderer as the servo sees it.
+// State of the renderer as detected by the servo.
 enum class RendererLink : std::uint32_t {
-  Absent = 0,  // has not shown a sign of life yet
+  Absent = 0,  // no heartbeat yet
   Alive = 1,
   Hung = 2,     // no heartbeat for too long
-  Leaving = 3,  // said goodbye
+  Leaving = 3,  // announced its exit
   Died = 4,
-  Stopped = 5,  // lives, and a person has pressed Stop there
-  Unseen = 6,   // lives, and nobody sees its picture
+  Stopped = 5,  // alive; a person has pressed Stop there
+  Unseen = 6,   // alive; its picture is not visible
 };
 
 // The servo's device: limits as in haptics::DeviceSpec, positions in the device frame from the contact point, metres.
@@ -206,14 +204,14 @@ struct SharedDevice {
   double max_continuous_force_n = 0;
   double max_stiffness_n_per_m = 0;
   double max_slew_n_per_s = 0;     // infinite: no limit
-  double max_speed_m_per_s = 0;    // likewise
-  std::uint32_t has_own_hand = 0;  // 1: a person's, or a recorded one, which HandScript does not move
+  double max_speed_m_per_s = 0;    // infinite: no limit
+  std::uint32_t has_own_hand = 0;  // 1: a person's or a recorded hand, which ignores HandScript
   std::uint32_t padding = 0;
   std::array<double, 3> workspace_min_m{};
   std::array<double, 3> workspace_max_m{};
 };
 
-// Wake-up lateness and work of every tick, microseconds; the last bin holds all that is longer.
+// Wake-up lateness and work of every tick, microseconds; the last bin holds all longer ones.
 inline constexpr std::uint32_t kHistogramBins = 2001;
 struct ServoTiming {
   double rate_hz = 0;

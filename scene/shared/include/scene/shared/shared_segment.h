@@ -14,11 +14,10 @@
 #include "scene/shared/felt_heights.h"
 #include "scene/shared/tip_blocks.h"
 
-// The memory that touchafm and touchafm-servo share: a header page, the constant SharedModel, and one channel per
-// block.
+// Memory shared by touchafm and touchafm-servo: a header page, the constant SharedModel, and one channel per block.
 namespace afm::scene {
 
-// Raised whenever the meaning of a block changes; a change of a block's size is noticed by itself.
+// Increase whenever the meaning of a block changes; changes of a block's size are detected automatically.
 inline constexpr std::uint32_t kSegmentVersion = 7;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
@@ -26,11 +25,12 @@ inline constexpr std::uint32_t kEventRingCapacity = 256;
 
 struct SegmentLayout;
 
-// Counts in range, parents before children, names terminated, numbers finite, materials and curves as below.
+// Checks that counts are in range, parents come before children, names are terminated, numbers finite, and materials
+// and curves valid as below.
 core::Result<void> validate(const SharedModel& model);
 
-// A material that physics::validate() accepts, of a law and with options that are known; the counts are those of its
-// SharedModel. Whether it can be felt as well, only building it can tell.
+// Checks that physics::validate() accepts a material, and that its law and options are known; the counts are those of
+// its SharedModel. Only building it can show if it can also be felt.
 core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count, std::uint32_t height_field_count,
                             const SharedTopography& topography = {});
 
@@ -47,15 +47,15 @@ bool is_valid(const TipState& state, const SharedModel& model);
 bool is_valid(const TipSample& sample, const SharedModel& model);
 bool is_valid(const TipEvent& event, const SharedModel& model);
 
-// Why a law of force cannot be felt with this friction, or nothing. The paper's law is felt as the paper has it.
+// Reason why a force law cannot be felt with this friction, or nothing. The paper's law is felt as in the paper.
 std::string why_no_friction(physics::FrictionLaw friction, physics::Law law, physics::Pressure reduced_modulus);
 
-// Transform of `node` at rest, composed along its parents. `model` is valid and `node` is less than its node_count.
+// Transform of `node` at rest, composed with its parents. `model` is valid and `node` is less than its node_count.
 glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node);
 
-// The ends that touchafm holds. Keep one for the life of the segment and use it from one thread: it is the single
-// writer of what it stores and the single consumer of the two rings. Nothing here waits; what is implausible is dropped
-// and counted.
+// touchafm's end of the channels. Keep one for the lifetime of the segment and use it from one thread: it is the single
+// writer of the blocks it stores and the single consumer of the two rings. Never waits; drops and counts implausible
+// data.
 class RendererSide {
  public:
   void store(const SceneTransforms& transforms) noexcept;
@@ -65,19 +65,19 @@ class RendererSide {
   void store(const ScanLead& lead) noexcept;
   void store(const RendererHeartbeat& heartbeat) noexcept;
 
-  // The last value that this side stored, for a process that replaces one that died and must continue its revisions.
-  // Empty if nothing was stored completely.
+  // Last value stored by this side, for a process that replaces one that died and must continue its revisions. Empty if
+  // nothing was stored completely.
   std::optional<Selection> last_selection() const noexcept;
   std::optional<HandScript> last_hand_script() const noexcept;
   std::optional<MaterialEdit> last_edit(std::uint32_t material) const noexcept;  // material < material_count
 
   // Empty before the servo's first tick, and if the servo died in the middle of a store.
   std::optional<TipState> tip_state() noexcept;
-  std::optional<ServoTiming> servo_timing() const noexcept;  // some 5 times a second
+  std::optional<ServoTiming> servo_timing() const noexcept;  // updated about 5 times a second
 
   std::optional<SharedDevice> device() noexcept;  // empty until a servo has started
 
-  // The next one in order, or empty.
+  // Next one in order, or empty.
   std::optional<TipSample> pop_sample() noexcept;
   std::optional<TipEvent> pop_event() noexcept;
 
@@ -93,8 +93,8 @@ class RendererSide {
   std::uint64_t refused_ = 0;
 };
 
-// The ends that the servo holds, for its thread alone; wait-free, fit for a tick. The new_...() give each value once:
-// empty when nothing new came since the last call, and then the caller keeps what it had.
+// The servo's end of the channels, for its thread only; wait-free, so usable in a tick. The new_...() functions return
+// each value once: they are empty if nothing new has arrived, and the caller keeps its old value.
 class ServoSide {
  public:
   std::optional<SceneTransforms> new_transforms() noexcept;
@@ -106,7 +106,7 @@ class ServoSide {
   void store(const TipState& state) noexcept;
   void store(const ServoTiming& timing) noexcept;
   void store(const SharedDevice& device) noexcept;
-  void push(const TipSample& sample) noexcept;  // counted as lost if the renderer has fallen 16 s behind
+  void push(const TipSample& sample) noexcept;  // counted as lost if the renderer is 16 s behind
   void push(const TipEvent& event) noexcept;
 
   std::uint32_t refused_blocks() const noexcept { return refused_; }
@@ -124,10 +124,10 @@ class ServoSide {
   std::uint32_t refused_ = 0;
 };
 
-// Side of the thread that builds the servo's contact models.
+// Interface for the thread that builds the servo's contact models.
 class EditSide {
  public:
-  // The newest edit of this material, once; unchecked. `material` < kMaxMaterials.
+  // Newest edit of this material, returned once; unchecked. `material` < kMaxMaterials.
   std::optional<MaterialEdit> new_edit(std::uint32_t material) noexcept;
 
  private:
@@ -138,26 +138,27 @@ class EditSide {
   std::array<std::uint64_t, kMaxMaterials> seen_{};
 };
 
-// One anonymous memory file, sealed against resizing and mapped. It has no name: a process gets it by inheriting the
-// descriptor, and it is gone when the last of them ends, in whatever way. Also serves two threads of one process.
+// Anonymous memory file, sealed against resizing and mapped. It has no name: processes get it by inheriting the
+// descriptor, and it disappears when the last of them ends. Can also be shared by two threads of one process.
 class SharedSegment {
  public:
   // `model` must be valid (see validate); `scene_digest` is digest(Scene) of the scene that it describes; `topography`
-  // is the one that the model promises. A segment without one is no longer than its blocks.
+  // has the size given in the model. A segment without one is no longer than its blocks.
   static core::Result<SharedSegment> create(const SharedModel& model, std::uint64_t scene_digest,
                                             const Topography& topography = {});
 
-  // Maps what another process created. The error names both versions if they differ.
+  // Maps a segment created by another process. The error names both versions if they differ.
   static core::Result<SharedSegment> attach(core::FileDescriptor descriptor);
 
   int descriptor() const noexcept { return descriptor_.get(); }
   const SharedModel& model() const noexcept;
   std::uint64_t scene_digest() const noexcept;
 
-  // A copy of the topography as it is now; without columns if there is none. Unchecked: see is_valid.
+  // Current copy of the topography; without columns if there is none. Unchecked: see is_valid.
   Topography topography() const;
 
-  // Call each once per process that plays the side; the segment must outlive it (moving the segment is harmless).
+  // Call each function once per process that uses that side; the segment must outlive the result (moving the segment is
+  // harmless).
   RendererSide renderer_side() noexcept { return RendererSide(*layout_); }
   ServoSide servo_side() noexcept { return ServoSide(*layout_); }
   EditSide edit_side() noexcept { return EditSide(*layout_); }

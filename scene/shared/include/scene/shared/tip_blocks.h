@@ -9,13 +9,13 @@
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/shared_blocks.h"
 
-// State of the tip that touchafm-servo publishes every tick. Fields that several blocks have are one struct; a new
+// State of the tip that touchafm-servo publishes every tick. Fields shared by several blocks are one struct. A new
 // field takes one line in the struct, one in its description and one in ServoLoop::publish().
 namespace afm::scene {
 
-// The tip and its lever, from the law of force. Heights along +z of the sample.
+// Tip and lever, computed by the force law. Heights along +z of the sample.
 struct Tip {
-  double z_m = 0;      // piezo displacement Z above the surface below the tip: what the hand commands
+  double z_m = 0;      // piezo displacement Z above the surface below the tip: the hand's input
   double force_n = 0;  // on the tip, positive away from the sample
   double height_m = 0;
   double deflection_m = 0;          // delta_c, positive towards the sample
@@ -32,7 +32,7 @@ constexpr void for_each_field(Visit&& visit, const Record&... tip) {
 }
 static_assert(all_fields_described<Tip>());
 
-// The point of the sample's surface below the tip, in the sample's frame. The heights of a Tip count from there.
+// Point of the sample's surface below the tip, in the sample's frame. The heights of a Tip are measured from it.
 struct SurfacePoint {
   std::array<double, 2> xy_m{};
   double height_m = 0;
@@ -46,10 +46,10 @@ constexpr void for_each_field(Visit&& visit, const Record&... surface) {
 }
 static_assert(all_fields_described<SurfacePoint>());
 
-// The hand, in the device frame, from the device.
+// Hand, in the device frame, as reported by the device.
 struct HandState {
   std::array<double, 3> position_m{};
-  std::array<double, 3> force_n{};  // after the safety governor: what the device got
+  std::array<double, 3> force_n{};  // sent to the device, after the safety governor
 };
 
 template <class Visit, std::same_as<HandState>... Record>
@@ -72,13 +72,13 @@ constexpr void for_each_field(Visit&& visit, const Record&... scale) {
 }
 static_assert(all_fields_described<HandScale>());
 
-// The contact model under the tip, since it took effect.
+// Current contact model under the tip.
 struct ActiveContact {
   HandScale scale{};
-  double release_z_m = 0;  // Z at and above which the tip is free, whatever it did before
-  double slow_motion = 1;  // seconds that a second of the lever's physics takes; 1 without dynamics
+  double release_z_m = 0;  // Z at and above which the tip is always free
+  double slow_motion = 1;  // duration of a second of the lever's physics, in seconds; 1 without dynamics
   ScaleMode scale_mode = ScaleMode::Fit;
-  std::uint32_t edit_revision = 0;  // of the MaterialEdit in effect; 0: none
+  std::uint32_t edit_revision = 0;  // MaterialEdit in effect; 0: none
 };
 
 template <class Visit, std::same_as<ActiveContact>... Record>
@@ -93,12 +93,12 @@ static_assert(all_fields_described<ActiveContact>());
 
 // Limits on the force on the hand, from the safety governor.
 struct SafetyFigures {
-  double force_cap_n = 0;  // the longest force vector that may be given now
+  double force_cap_n = 0;  // current limit on the force vector
   double slew_limit_n_per_s = 0;
-  double motor_heat = 0;                  // 0: cold, 1: as hot as the motors may become
-  double thermal_gain = 1;                // what is left of the force to let the motors cool
-  double excess_energy_j = 0;             // that the hand has got beyond what the model and its sampling may give
-  double observer_damping_n_s_per_m = 0;  // that the passivity observer adds in this tick
+  double motor_heat = 0;                  // 0: cold, 1: limit of the motors
+  double thermal_gain = 1;                // share of the force left to let the motors cool
+  double excess_energy_j = 0;             // energy given to the hand beyond what the model and its sampling allow
+  double observer_damping_n_s_per_m = 0;  // added by the passivity observer in this tick
 };
 
 template <class Visit, std::same_as<SafetyFigures>... Record>
@@ -112,11 +112,11 @@ constexpr void for_each_field(Visit&& visit, const Record&... safety) {
 }
 static_assert(all_fields_described<SafetyFigures>());
 
-// Newest requests of the renderer that the servo has handled.
+// Newest requests of the renderer handled by the servo.
 struct Acknowledged {
-  std::uint32_t selection = 0;     // revision of the newest Selection that took effect
-  std::uint32_t refused_edit = 0;  // of the newest MaterialEdit that cannot be built
-  std::uint32_t hand_script = 0;   // of the newest HandScript that was finished
+  std::uint32_t selection = 0;     // revision of the newest Selection in effect
+  std::uint32_t refused_edit = 0;  // revision of the newest MaterialEdit that cannot be built
+  std::uint32_t hand_script = 0;   // revision of the newest HandScript that was finished
 };
 
 template <class Visit, std::same_as<Acknowledged>... Record>
@@ -127,9 +127,9 @@ constexpr void for_each_field(Visit&& visit, const Record&... acknowledged) {
 }
 static_assert(all_fields_described<Acknowledged>());
 
-// The newest state of the tip, once a tick, grouped by what computes it.
+// Newest state of the tip, once per tick, grouped by the code that computes it.
 struct TipState {
-  std::int64_t time_ns = 0;  // CLOCK_MONOTONIC at the device read
+  std::int64_t time_ns = 0;  // CLOCK_MONOTONIC when the device was read
   std::uint64_t tick = 0;
   Tip tip{};
   SurfacePoint surface{};
@@ -142,12 +142,12 @@ struct TipState {
   ServoState servo_state = ServoState::Disarmed;
   FaultCode fault = FaultCode::None;
   Acknowledged acknowledged{};
-  std::uint32_t dead_man = 0;        // 1: the force lasts only as long as the button is held
+  std::uint32_t dead_man = 0;        // 1: the force lasts only while the button is held
   std::uint32_t realtime = 0;        // 1: SCHED_FIFO and locked pages were granted
-  std::uint32_t garbage_blocks = 0;  // shared blocks refused as out of range
+  std::uint32_t garbage_blocks = 0;  // shared blocks rejected as out of range
   std::uint32_t led = 0;             // 1: the scan leads the hand
-  std::uint32_t level = 0;           // 1: the hand feels the sample level, as a scan's feedback has it
-  std::uint64_t presses = 0;         // of Turn-On since the servo began
+  std::uint32_t level = 0;           // 1: the hand feels the sample level, due to a scan's feedback
+  std::uint64_t presses = 0;         // presses of Turn-On since the servo started
 };
 
 template <class Visit, std::same_as<TipState>... Record>
@@ -187,8 +187,8 @@ constexpr void for_each_field(Visit&& visit, const Record&... lead) {
 }
 static_assert(all_fields_described<ScanLead>());
 
-// Every tick, for curves and sessions. Its bytes are the record of a session file (servo/session_file.h): another field
-// is another version of that.
+// Record of every tick, for curves and sessions. Its bytes are the record of a session file (servo/session_file.h): a
+// new field requires a new version of that format.
 struct TipSample {
   std::int64_t time_ns = 0;
   std::uint64_t tick = 0;
@@ -198,22 +198,22 @@ struct TipSample {
   ServoState servo_state = ServoState::Disarmed;
   physics::Phase phase = physics::Phase::WaitForLift;
   std::int32_t material = -1;
-  std::uint32_t wake_us = 0;        // how late this tick woke
+  std::uint32_t wake_us = 0;        // wake-up lateness of this tick
   std::uint32_t edit_revision = 0;  // as in ActiveContact
   std::uint32_t turn_on = 0;        // 1: the button was held
   RendererLink renderer = RendererLink::Absent;
   ScaleMode scale_mode = ScaleMode::Fit;
-  // device frame, from the device's contact point: with turn_on, renderer and the sample's normal all that a replay
-  // needs
+  // device frame, from the device's contact point; together with turn_on, renderer and the sample's normal, everything
+  // that a replay needs
   std::array<double, 3> hand_from_contact_m{};
   std::array<double, 3> sample_normal{0.0, 1.0, 0.0};  // +z of the sample's frame, unit
   std::array<double, 3> sample_x{1.0, 0.0, 0.0};       // +x of the sample's frame, unit
   SurfacePoint surface{};
   double motor_heat = 0;                    // as in SafetyFigures
-  std::uint32_t device_healthy = 1;         // 0: the device failed, and the hand's place is the last known
-  std::uint32_t changing = 0;               // 1: another choice, or an edit, has taken the force away
-  std::array<double, 2> lateral_force_n{};  // of friction on the lever by the sample, along the sample's x and y
-  ScanLead scan{};                          // in effect in this tick; as by default: none
+  std::uint32_t device_healthy = 1;         // 0: the device failed, and the hand's position is the last one known
+  std::uint32_t changing = 0;               // 1: force removed for a new selection or an edit
+  std::array<double, 2> lateral_force_n{};  // friction of the sample on the lever, along the sample's x and y
+  ScanLead scan{};                          // in effect in this tick; default: none
 };
 
 // Results of the tick: a replay must reproduce them bit for bit.
@@ -256,8 +256,8 @@ constexpr void for_each_field(Visit&& visit, const Record&... sample) {
 }
 static_assert(all_fields_described<TipSample>());
 
-// A transition of the latch, at the place where the path crossed the fold inside the tick; or a slip from atom to atom,
-// whose forces are the lateral ones: their magnitudes, before and after.
+// Transition of the latch, at the point where the path crossed the fold within the tick; or a slip between atoms, for
+// which the forces are the lateral ones: their magnitudes, before and after.
 struct TipEvent {
   physics::EventKind kind = physics::EventKind::JumpToContact;
   std::int32_t material = -1;
