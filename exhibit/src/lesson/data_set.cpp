@@ -19,7 +19,7 @@
 #include "core/version.h"
 #include "core/whole_file.h"
 #include "core/write_all.h"
-#include "exhibit/lesson/age_band.h"
+#include "study/age_band.h"
 
 namespace afm::exhibit {
 
@@ -166,7 +166,7 @@ std::size_t free_order(std::span<const Participant> participants) {
 core::Result<std::int64_t> started_day(const std::string& folder, std::optional<std::int64_t> day) {
   const std::string path = folder + "/participants.json";
   ordered_json json = described(kParticipantRows);
-  for (const AgeBandRow& band : kAgeBands) json["age_band"]["Levels"].push_back(band.word);
+  for (const study::AgeBandRow& band : study::kAgeBands) json["age_band"]["Levels"].push_back(band.word);
   std::error_code ignored;
   const bool exists = fs::exists(path, ignored);
   if (exists) {
