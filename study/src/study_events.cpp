@@ -106,28 +106,43 @@ class EventsLine {
     return std::string(fields_[column]);
   }
 
-  TrialKind kind() {
-    for (const TrialKindRow& row : kTrialKinds) {
+  StepKind kind() {
+    std::string known;
+    for (const StepKindRow& row : kStepKinds) {
       if (fields_[Type] == row.word) return row.kind;
+      const bool last = row.kind == kStepKinds.back().kind;
+      known += (known.empty() ? "" : last ? " or " : ", ") + std::string(row.word);
     }
-    refuse(Type, "text, free, cycle, identify, threshold, draw or question");
-    return TrialKind::Text;
+    refuse(Type, known);
+    return StepKind::Text;
   }
 
   // What a response may be, and whether it was right, depends on the kind of trial.
   void judge(StudyTrial& trial) {
     constexpr double kLargestForce_n = 1e3;
-    if (trial.kind == TrialKind::Draw) trial.value = optional(Response, 0, 1);
-    if (trial.kind == TrialKind::Cycle) trial.value = optional(Response, -kLargestForce_n, kLargestForce_n);
-    if (trial.kind == TrialKind::Question) question(trial);
-    if (trial.kind == TrialKind::Threshold) {
-      interval(Stimulus);
-      if (!fields_[Response].empty()) interval(Response);
-      if (!trial.level) refuse(Level, "the level of a threshold's trial");
+    switch (trial.kind) {
+      case StepKind::Draw:
+        trial.value = optional(Response, 0, 1);
+        break;
+      case StepKind::Cycle:
+        trial.value = optional(Response, -kLargestForce_n, kLargestForce_n);
+        break;
+      case StepKind::Question:
+        question(trial);
+        break;
+      case StepKind::Threshold:
+        interval(Stimulus);
+        if (!fields_[Response].empty()) interval(Response);
+        if (!trial.level) refuse(Level, "the level of a threshold's trial");
+        break;
+      case StepKind::Identify:
+        if (trial.stimulus.empty()) refuse(Stimulus, "the material that was shown");
+        break;
+      case StepKind::Text:
+      case StepKind::Free:
+        break;
     }
-    if (trial.kind == TrialKind::Identify && trial.stimulus.empty()) refuse(Stimulus, "the material that was shown");
-    const bool has_answer = trial.kind == TrialKind::Identify || trial.kind == TrialKind::Threshold;
-    if (has_answer && !trial.response.empty()) trial.right = trial.stimulus == trial.response;
+    if (row_of(trial.kind).compares_forces && !trial.response.empty()) trial.right = trial.stimulus == trial.response;
     const auto said = optional(Correct, 0, 1);
     if (said && *said != std::floor(*said)) refuse(Correct, "0 or 1");
     if (said && trial.right && (*said == 1.0) != *trial.right) refuse(Correct, "what stimulus and response say");

@@ -89,21 +89,21 @@ void add_thresholds(const std::vector<ThresholdResult>& results, std::vector<Mea
 
 bool has_answer(const StudyTrial& trial) {
   switch (trial.kind) {
-    case TrialKind::Identify:
-    case TrialKind::Threshold:
+    case StepKind::Identify:
+    case StepKind::Threshold:
       return trial.right.has_value();
-    case TrialKind::Cycle:
-    case TrialKind::Draw:
-    case TrialKind::Question:
+    case StepKind::Cycle:
+    case StepKind::Draw:
+    case StepKind::Question:
       return trial.value.has_value();
-    case TrialKind::Text:
-    case TrialKind::Free:
+    case StepKind::Text:
+    case StepKind::Free:
       break;
   }
   return true;
 }
 
-using GroupsByKind = std::map<TrialKind, TrialGroups>;
+using GroupsByKind = std::map<StepKind, TrialGroups>;
 
 GroupsByKind counted_trials(const LessonVisits& lesson, LessonResults& results) {
   GroupsByKind groups;
@@ -131,14 +131,14 @@ LessonResults lesson_results(const std::string& task, const LessonVisits& lesson
   results.simulated = static_cast<std::size_t>(std::count_if(
       lesson.visits.begin(), lesson.visits.end(), [](const auto& visit) { return visit.second->facts.simulated; }));
   GroupsByKind groups = counted_trials(lesson, results);
-  const auto materials = materials_of_steps(groups[TrialKind::Identify]);
-  for (const auto& [where, trials] : groups[TrialKind::Identify]) {
+  const auto materials = materials_of_steps(groups[StepKind::Identify]);
+  for (const auto& [where, trials] : groups[StepKind::Identify]) {
     results.identify.push_back(identify_result(where, trials, materials.at(where.step)));
   }
-  for (const auto& [where, trials] : groups[TrialKind::Threshold]) {
+  for (const auto& [where, trials] : groups[StepKind::Threshold]) {
     results.thresholds.push_back(threshold_result(where, trials));
   }
-  results.learning = learning_results(groups[TrialKind::Identify]);
+  results.learning = learning_results(groups[StepKind::Identify]);
 
   Measure share, seconds, newtons, score;
   share.key = "right", seconds.key = "answer_time_s", newtons.key = "pull_off_felt_N", score.key = "drawing";
@@ -149,15 +149,15 @@ LessonResults lesson_results(const std::string& task, const LessonVisits& lesson
   const auto value = [](const StudyTrial& trial) { return trial.value; };
   const auto rt = [](const StudyTrial& trial) { return trial.rt_s; };
   add_means(
-      groups[TrialKind::Identify], share, "share right",
+      groups[StepKind::Identify], share, "share right",
       [](const StudyTrial& trial) { return std::optional(*trial.right ? 1.0 : 0.0); }, results.measures);
-  add_means(groups[TrialKind::Identify], seconds, "time to answer", rt, results.measures);
+  add_means(groups[StepKind::Identify], seconds, "time to answer", rt, results.measures);
   add_thresholds(results.thresholds, results.measures);
-  add_means(groups[TrialKind::Threshold], seconds, "time to answer", rt, results.measures);
-  add_means(groups[TrialKind::Draw], score, "score of the drawing", value, results.measures);
-  add_means(groups[TrialKind::Cycle], newtons, "pull-off force felt", value, results.measures);
+  add_means(groups[StepKind::Threshold], seconds, "time to answer", rt, results.measures);
+  add_means(groups[StepKind::Draw], score, "score of the drawing", value, results.measures);
+  add_means(groups[StepKind::Cycle], newtons, "pull-off force felt", value, results.measures);
   std::map<std::string, std::vector<const StudyTrial*>> questions;
-  for (const auto& [where, people] : groups[TrialKind::Question]) {
+  for (const auto& [where, people] : groups[StepKind::Question]) {
     for (const auto& [id, trials] : people) questions[id].insert(questions[id].end(), trials.begin(), trials.end());
   }
   for (auto& [id, trials] : questions) {

@@ -129,7 +129,7 @@ TestResult comparison_of(const Measure& measure, const std::map<std::string, dou
 }  // namespace
 
 std::optional<std::size_t> item_of(const StudyTrial& trial, std::string_view questionnaire) {
-  if (trial.kind != TrialKind::Question || !trial.stimulus.starts_with(questionnaire)) return std::nullopt;
+  if (trial.kind != StepKind::Question || !trial.stimulus.starts_with(questionnaire)) return std::nullopt;
   const auto number = parse_number(std::string_view(trial.stimulus).substr(questionnaire.size()), 1, 100);
   return number ? std::optional(static_cast<std::size_t>(*number) - 1) : std::nullopt;
 }

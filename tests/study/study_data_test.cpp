@@ -45,7 +45,7 @@ TEST(StudyEvents, AreReadAsTheyWereWritten) {
   ASSERT_EQ(events->trials.size(), 4U);
   EXPECT_EQ(events->cut_line, 0U);
   const StudyTrial& first = events->trials[0];
-  EXPECT_EQ(first.kind, TrialKind::Identify);
+  EXPECT_EQ(first.kind, StepKind::Identify);
   EXPECT_EQ(first.condition, "haptics");
   EXPECT_EQ(first.stimulus, "mica");
   EXPECT_EQ(first.response, "gold");

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/enumerators.h"
 #include "core/result.h"
+#include "study/step_kind.h"
 
 namespace afm::study {
 
@@ -17,23 +16,11 @@ namespace afm::study {
 // Nothing is believed: every number is within its range, every word one of its column's, every size bounded, or the
 // error names file and line.
 
-enum class TrialKind { Text, Free, Cycle, Identify, Threshold, Draw, Question };
-struct TrialKindRow {
-  TrialKind kind;
-  std::string_view word;
-};
-inline constexpr std::array kTrialKinds{
-    TrialKindRow{TrialKind::Text, "text"},           TrialKindRow{TrialKind::Free, "free"},
-    TrialKindRow{TrialKind::Cycle, "cycle"},         TrialKindRow{TrialKind::Identify, "identify"},
-    TrialKindRow{TrialKind::Threshold, "threshold"}, TrialKindRow{TrialKind::Draw, "draw"},
-    TrialKindRow{TrialKind::Question, "question"}};
-static_assert(core::has_row_for_each(kTrialKinds, &TrialKindRow::kind));
-
 // A line of an events file. Empty words and missing numbers are its n/a.
 struct StudyTrial {
   double onset_s = 0, duration_s = 0;
   std::string step{};
-  TrialKind kind = TrialKind::Text;
+  StepKind kind = StepKind::Text;
   std::string condition{};
   bool practice = false;
   int trial = 1;                  // within its step
