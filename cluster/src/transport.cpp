@@ -31,7 +31,6 @@ struct TopicRow {
   int depth;  // newest of each key; no writer waits for a reader that is slower
 };
 
-// In the order of Transport::Topic.
 constexpr std::array<TopicRow, Transport::kTopics> kTopicRows{
     {{Transport::Topic::Model, "wall/model", ClusterRole::Master, Keeps::Late, 1},
      {Transport::Topic::Frame, "wall/frame", ClusterRole::Master, Keeps::Now, 1},
@@ -39,6 +38,7 @@ constexpr std::array<TopicRow, Transport::kTopics> kTopicRows{
      {Transport::Topic::History, "wall/history", ClusterRole::Master, Keeps::Now, 256},
      {Transport::Topic::Ready, "wall/ready", ClusterRole::Node, Keeps::Now, 4},
      {Transport::Topic::Swap, "wall/swap", ClusterRole::Master, Keeps::Now, 1}}};
+static_assert(core::has_row_for_each(kTopicRows, &TopicRow::topic));
 
 struct QosDelete {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
