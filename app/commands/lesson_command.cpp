@@ -17,12 +17,12 @@
 #include "app/options/exhibit_options.h"
 #include "core/fnv1a.h"
 #include "core/log.h"
-#include "exhibit/lesson/age_band.h"
 #include "exhibit/lesson/data_set.h"
 #include "exhibit/lesson/lesson_file.h"
 #include "exhibit/lesson/lesson_run.h"
 #include "exhibit/lesson/lesson_samples.h"
 #include "exhibit/lesson/simulated_student.h"
+#include "study/age_band.h"
 
 namespace afm::app {
 
@@ -196,8 +196,8 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
   auto out = command.add_option("--out", options->out, "the study's folder, which is made if need be");
   out.type_name("DIR");
   participant.needs(out);
-  enum_option(command, "--age-band", options->age_band, "an age band", exhibit::kAgeBands, &exhibit::AgeBandRow::word,
-              &exhibit::AgeBandRow::word, "age of the participant in years, for the study; default: not given")
+  enum_option(command, "--age-band", options->age_band, "an age band", study::kAgeBands, &study::AgeBandRow::word,
+              &study::AgeBandRow::word, "age of the participant in years, for the study; default: not given")
       .needs(participant);
   auto withdraw =
       command.add_option("--withdraw", options->withdrawn, "delete the folder and the row of this participant");

@@ -13,7 +13,7 @@
 #include "core/log.h"
 #include "curves/paper_report.h"
 #include "curves/paper_tables.h"
-#include "exhibit/study/survey_report.h"
+#include "study/survey_report.h"
 
 namespace afm::app {
 
@@ -36,9 +36,8 @@ core::Result<void> write_paper(const PaperOptions& options) {
   const char* run = of_a_demo ? "of the demo" : "of the model, which looks every 0.1 nm";
 
   const std::array<std::pair<const char*, std::string>, 6> files{
-      {{"paper.md",
-        curves::paper_markdown(*tables, *samples, run, exhibit::page_markdown(exhibit::paper_survey_blocks()))},
-       {"paper.json", curves::paper_json(*tables, *samples, exhibit::paper_survey_json())},
+      {{"paper.md", curves::paper_markdown(*tables, *samples, run, study::page_markdown(study::paper_survey_blocks()))},
+       {"paper.json", curves::paper_json(*tables, *samples, study::paper_survey_json())},
        {"table1.csv", curves::table1_csv(*tables)},
        {"table2.csv", curves::table2_csv(*tables)},
        {"fig2.svg", curves::figure2_svg(samples->materials.front())},

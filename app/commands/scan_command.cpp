@@ -119,7 +119,8 @@ core::Result<Scan> take_scan(const ScanOptions& options) {
     scanner.begin_frame(options.direction);
     std::size_t lines = 0;
     scan.image = physics::scan_frame(scanner, [&](const physics::ScanLine& line) {
-      ++scan.lines_with[physics::main_artefact(scanner, line)];
+      ++scan.lines_with[physics::main_artefact({scan.settings, area, scanner.loop().largest_integral_gain()},
+                                               physics::evidence_of(line))];
       ++lines;
       if (area.rows >= kManyLines && lines % (area.rows / 8) == 0 && lines < area.rows) {
         core::log_line(fmt::format("scanned {} of {} lines", lines, area.rows));

@@ -6,8 +6,8 @@
 #include "app/command.h"
 #include "app/commands/output_folder.h"
 #include "core/log.h"
-#include "exhibit/study/study_data.h"
-#include "exhibit/study/study_report.h"
+#include "study/study_data.h"
+#include "study/study_report.h"
 
 namespace afm::app {
 
@@ -19,9 +19,9 @@ struct StudyOptions {
 };
 
 core::Result<void> write_study(const StudyOptions& options) {
-  const auto data = exhibit::read_study(options.folder);
+  const auto data = study::read_study(options.folder);
   if (!data) return tl::unexpected(data.error());
-  const exhibit::ReportFiles files = exhibit::study_report(exhibit::study_results(*data));
+  const study::ReportFiles files = study::study_report(study::study_results(*data));
   auto folder = OutputFolder::open(options.out);
   if (!folder) return tl::unexpected(folder.error());
   for (const auto& [name, bytes] : files) {

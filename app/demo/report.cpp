@@ -12,20 +12,20 @@
 
 #include "core/percentiles.h"
 #include "core/version.h"
-#include "exhibit/html_page.h"
+#include "curves/html_page.h"
 
 namespace afm::app {
 
 namespace {
 
-using exhibit::html_figure;
-using exhibit::html_head;
-using exhibit::html_heading;
-using exhibit::html_note;
-using exhibit::html_picture;
-using exhibit::html_scrolled;
-using exhibit::html_table_head;
-using exhibit::html_text;
+using curves::html_figure;
+using curves::html_head;
+using curves::html_heading;
+using curves::html_note;
+using curves::html_picture;
+using curves::html_scrolled;
+using curves::html_table_head;
+using curves::html_text;
 using exhibit::Phrase;
 using exhibit::Phrases;
 

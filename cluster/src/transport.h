@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cluster/network.h"
+#include "core/enumerators.h"
 #include "core/file_descriptor.h"
 #include "core/result.h"
 
@@ -39,7 +40,7 @@ enum class ClusterRole { Master, Node, Observer };
 class Transport {
  public:
   enum class Topic : std::uint32_t { Model, Frame, Journal, History, Ready, Swap };
-  static constexpr std::size_t kTopics = 6;
+  static constexpr std::size_t kTopics = core::kEnumerators<Topic>.size();
 
   // Failed: DDS rejects the configuration, its ports are taken, or there is no such interface.
   static core::Result<std::unique_ptr<Transport>> open(const ClusterNetwork& network, ClusterRole role,

@@ -3,8 +3,12 @@
 cmake_minimum_required(VERSION 3.25)
 
 # The name by which a header is included: below include/ for everyone, below src/ within its folder, else from the root or tests/.
-file(GLOB_RECURSE headers RELATIVE ${ROOT} ${ROOT}/app/*.h ${ROOT}/cluster/*.h ${ROOT}/assets/*.h ${ROOT}/core/*.h ${ROOT}/curves/*.h ${ROOT}/exhibit/*.h ${ROOT}/haptics/*.h
-     ${ROOT}/input/*.h ${ROOT}/physics/*.h ${ROOT}/render/*.h ${ROOT}/scene/*.h ${ROOT}/servo/*.h ${ROOT}/shaders/*.h ${ROOT}/tests/*.h)
+include(${CMAKE_CURRENT_LIST_DIR}/production.cmake)
+set(headers "")
+foreach(top ${production} assets shaders tests)
+  file(GLOB_RECURSE found RELATIVE ${ROOT} ${ROOT}/${top}/*.h)
+  list(APPEND headers ${found})
+endforeach()
 foreach(header ${headers})
   if(header MATCHES "^(.*)/include/(.*)$")
     set(file_of_${CMAKE_MATCH_2} ${header})

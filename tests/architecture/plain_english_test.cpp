@@ -72,8 +72,8 @@ constexpr std::array kWords{
     Word{"news", "update"},
 };
 
-constexpr std::array kProduction{"app",     "cluster", "core",    "curves", "docs/reference", "exhibit",
-                                 "haptics", "input",   "physics", "render", "scene",          "servo"};
+constexpr std::array kProduction{"app",   "cluster", "core",   "curves", "docs/reference", "exhibit", "haptics",
+                                 "input", "physics", "render", "scene",  "servo",          "study"};
 
 std::string in_tree(const std::filesystem::path& path) {
   return std::filesystem::relative(path, support::source()).string();

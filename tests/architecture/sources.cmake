@@ -5,7 +5,7 @@ cmake_minimum_required(VERSION 3.25)
 set(faults "")
 
 # No CMakeLists names a source of another folder.
-set(production app cluster core curves exhibit haptics input physics render scene servo)
+include(${CMAKE_CURRENT_LIST_DIR}/production.cmake)
 set(scanned 0)
 foreach(top ${production} assets tests)
   file(GLOB_RECURSE lists RELATIVE ${ROOT} ${ROOT}/${top}/CMakeLists.txt)

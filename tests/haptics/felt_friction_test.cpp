@@ -102,6 +102,34 @@ TEST(FeltFriction, IsTheSameAtEveryRateAndSpeed) {
   }
 }
 
+// Every enumerator that chooses code in a tick: one without its code would end the servo here.
+TEST(FeltFriction, StepsByEveryLawOnEveryLatticeUnderEveryLawOfForceAndScale) {
+  std::size_t contacts = 0;
+  for (const physics::LawTraits& law : physics::kLawTable) {
+    for (const physics::FrictionLawText& friction : physics::kFrictionLaws) {
+      scene::SharedContact material = mica(friction.law);
+      material.law = law.law;
+      if (!law.computed || law.law == physics::Law::Paper) continue;
+      if (!scene::why_no_friction(friction.law, law.law, material.contact.reduced_modulus).empty()) continue;
+      for (const physics::LatticeKindText& lattice : physics::kLatticeKinds) {
+        if (friction.law != FrictionLaw::Lattice && lattice.kind != physics::LatticeKind::Rows) continue;
+        material.friction.lattice = lattice.kind;
+        const auto model = model_of(material);
+        for (const scene::ScaleModeText& scale : scene::kScaleModes) {
+          model->use(scale.mode);
+          const double on_m = put_down(*model);
+          const haptics::Touch touch = model->step({1e-3, 2e-3, on_m});
+          ASSERT_TRUE(std::isfinite(glm::length(touch.hand_force_n))) << law.name << " " << friction.word;
+          EXPECT_EQ(touch.friction.hand_force_n == glm::dvec3(0.0), friction.law == FrictionLaw::None) << friction.word;
+          ++contacts;
+        }
+        model->use(ScaleMode::Fit);
+      }
+    }
+  }
+  EXPECT_GT(contacts, 80U);
+}
+
 // A hand over the lattice, read by an encoder of the Omni's resolution whose last count is noise.
 class NoisyHand {
  public:

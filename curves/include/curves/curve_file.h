@@ -12,12 +12,14 @@
 // Reading and writing of force-distance curves; docs/curves.md says what each format holds.
 namespace afm::curves {
 
+// In the order in which a file's content is looked at; what is done with each is a row of kCurveRows in
+// curve_file.cpp (docs/adding-a-curve-format.md).
 enum class CurveFormat {
   TouchAfmCsv,     // output of `touchafm curve`
   Tab,             // afmformats, text
   Hdf5,            // afmformats, HDF5
-  AfmWorkshop,     // AFM Workshop's .csv; Gwyddion reads it too
   JpkForce,        // JPK's .jpk-force; read only
+  AfmWorkshop,     // AFM Workshop's .csv; Gwyddion reads it too
   IgorBinaryWave,  // Asylum Research's .ibw; read only
 };
 

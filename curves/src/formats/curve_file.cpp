@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/enumerators.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
@@ -29,21 +31,57 @@ constexpr std::uintmax_t kLargestCurveBytes = std::uintmax_t{256} << 20U;
 
 constexpr std::size_t kLongestHeading = 65536;
 
-std::optional<CurveFormat> known_format(std::string_view bytes) {
-  const std::string_view heading = bytes.substr(0, kLongestHeading);
-  if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return CurveFormat::Hdf5;
-  if (bytes.starts_with("PK\x03\x04")) return CurveFormat::JpkForce;
-  if (bytes.starts_with("# TouchAFM force-displacement curve")) return CurveFormat::TouchAfmCsv;
-  if (bytes.starts_with("#") && heading.find("# BEGIN METADATA") != std::string_view::npos) return CurveFormat::Tab;
-  if (heading.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos) return CurveFormat::AfmWorkshop;
-  if (looks_like_igor(bytes)) return CurveFormat::IgorBinaryWave;
-  return std::nullopt;
+bool begins_as_tab(std::string_view bytes) {
+  return bytes.starts_with("#") && bytes.substr(0, kLongestHeading).find("# BEGIN METADATA") != std::string_view::npos;
 }
 
-CurveFormat format_of(std::string_view bytes) {
-  const auto format = known_format(bytes);
-  if (!format) throw CurveError(fmt::format("it is no curve of a known kind; known are {}", kCurveFiles));
-  return *format;
+// Handed over in the format that holds the same and has a reader of our own.
+RecordedCurve read_hdf5(std::string_view bytes, const CurveReading& reading) {
+  return read_tab(from_confined_program(kHdf5Program, {"read", std::to_string(reading.index)}, bytes, kNotSurvived));
+}
+std::string hdf5_bytes(const RecordedCurve& curve) {
+  return from_confined_program(kHdf5Program, {"write"}, tab_bytes(curve), "HDF5 could not make it");
+}
+
+enum class Reader { Ours, Foreign };  // Foreign: reads what others' programs write, in a confined child
+
+struct CurveRow {
+  CurveFormat format;
+  std::string_view files;  // as kCurveFiles lists them
+  std::string_view word;   // after --format; empty: read only
+  bool (*begins)(std::string_view bytes);
+  Reader reader;
+  bool several;  // curves in one file
+  RecordedCurve (*read)(std::string_view bytes, const CurveReading& reading);
+  std::string (*write)(const RecordedCurve& curve);  // null: read only
+};
+
+constexpr std::array kCurveRows{
+    CurveRow{CurveFormat::TouchAfmCsv, "TouchAFM .csv", "",
+             [](std::string_view b) { return b.starts_with("# TouchAFM force-displacement curve"); }, Reader::Ours,
+             false, [](std::string_view b, const CurveReading&) { return read_touchafm_csv(b); }, nullptr},
+    CurveRow{CurveFormat::Tab, "afmformats .tab", "tab", begins_as_tab, Reader::Ours, false,
+             [](std::string_view b, const CurveReading&) { return read_tab(b); }, tab_bytes},
+    CurveRow{CurveFormat::Hdf5, ".h5", "h5", [](std::string_view b) { return b.starts_with("\x89HDF\r\n\x1a\n"); },
+             Reader::Ours, true, read_hdf5, hdf5_bytes},
+    CurveRow{CurveFormat::JpkForce, "JPK .jpk-force", "",
+             [](std::string_view b) { return b.starts_with("PK\x03\x04"); }, Reader::Foreign, false, read_jpk, nullptr},
+    CurveRow{CurveFormat::AfmWorkshop, "AFM Workshop .csv", "afm-workshop",
+             [](std::string_view b) { return b.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos; },
+             Reader::Foreign, false, read_workshop, workshop_bytes},
+    CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", looks_like_igor, Reader::Foreign, false,
+             [](std::string_view b, const CurveReading&) { return read_igor(b); }, nullptr}};
+static_assert(core::has_row_for_each(kCurveRows, &CurveRow::format));
+static_assert(std::all_of(kCurveRows.begin(), kCurveRows.end(),
+                          [](const CurveRow& row) {
+                            return std::string_view(kCurveFiles).find(row.files) != std::string_view::npos;
+                          }),
+              "kCurveFiles names the files of every format");
+
+const CurveRow* row_of_curve(std::string_view bytes) {
+  const auto found =
+      std::find_if(kCurveRows.begin(), kCurveRows.end(), [&](const CurveRow& row) { return row.begins(bytes); });
+  return found != kCurveRows.end() ? &*found : nullptr;
 }
 
 // Forces that the file gives in newtons scale with a calibration that replaces the one they were made with.
@@ -59,29 +97,12 @@ void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
   if (reading.sensitivity_m_per_v) made.sensitivity_m_per_v = reading.sensitivity_m_per_v;
 }
 
-// The formats that others made, and of which we have the readers of others or have seen few files.
-RecordedCurve read_foreign(CurveFormat format, std::string_view bytes, const CurveReading& reading) {
-  switch (format) {
-    case CurveFormat::JpkForce:
-      return read_jpk(bytes, reading);
-    case CurveFormat::AfmWorkshop:
-      return read_workshop(bytes, reading);
-    default:
-      return read_igor(bytes);
-  }
-}
-
 RecordedCurve read(std::string_view bytes, const CurveReading& reading) {
-  const CurveFormat format = format_of(bytes);
-  if (reading.index != 0 && format != CurveFormat::Hdf5) throw CurveError("it holds one curve alone");
-  if (format == CurveFormat::TouchAfmCsv) return read_touchafm_csv(bytes);
-  if (format == CurveFormat::Tab) return read_tab(bytes);
-  // handed over in the format that holds the same and has a reader of our own
-  if (format == CurveFormat::Hdf5) {
-    return read_tab(from_confined_program(kHdf5Program, {"read", std::to_string(reading.index)}, bytes, kNotSurvived));
-  }
-  if (!reading.confined) return read_foreign(format, bytes, reading);
-  return read_tab(in_confined_child([&] { return tab_bytes(read_foreign(format, bytes, reading)); }, kNotSurvived));
+  const CurveRow* row = row_of_curve(bytes);
+  if (row == nullptr) throw CurveError(fmt::format("it is no curve of a known kind; known are {}", kCurveFiles));
+  if (reading.index != 0 && !row->several) throw CurveError("it holds one curve alone");
+  if (row->reader == Reader::Ours || !reading.confined) return row->read(bytes, reading);
+  return read_tab(in_confined_child([&] { return tab_bytes(row->read(bytes, reading)); }, kNotSurvived));
 }
 
 // What every curve is, wherever it came from.
@@ -117,15 +138,15 @@ void make_texts_printable(CurveMetadata& metadata) {
 }  // namespace
 
 std::optional<CurveFormat> writable_format(std::string_view name) {
-  if (name == "tab") return CurveFormat::Tab;
-  if (name == "h5") return CurveFormat::Hdf5;
-  if (name == "afm-workshop") return CurveFormat::AfmWorkshop;
+  for (const CurveRow& row : kCurveRows) {
+    if (row.write != nullptr && row.word == name) return row.format;
+  }
   return std::nullopt;
 }
 
 bool is_curve_file(const std::string& path) {
   const auto beginning = core::read_beginning(path, kLongestHeading);
-  return beginning && known_format(*beginning).has_value();
+  return beginning && row_of_curve(*beginning) != nullptr;
 }
 
 core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReading& reading) {
@@ -161,23 +182,15 @@ core::Result<RecordedCurve> parse_curve(std::string_view bytes, const std::strin
 }
 
 core::Result<std::string> curve_bytes(CurveFormat format, const RecordedCurve& curve) {
+  const CurveRow& row = kCurveRows[core::index_of(format)];
+  if (row.write == nullptr) {
+    return core::failure(core::ErrorCategory::WrongUsage, "curves are written as tab, h5 or afm-workshop alone");
+  }
   try {
-    switch (format) {
-      case CurveFormat::Tab:
-        return tab_bytes(curve);
-      case CurveFormat::Hdf5:
-        return from_confined_program(kHdf5Program, {"write"}, tab_bytes(curve), "HDF5 could not make it");
-      case CurveFormat::AfmWorkshop:
-        return workshop_bytes(curve);
-      case CurveFormat::TouchAfmCsv:
-      case CurveFormat::JpkForce:
-      case CurveFormat::IgorBinaryWave:
-        break;
-    }
+    return row.write(curve);
   } catch (const std::runtime_error& error) {
     return core::failure(core::ErrorCategory::Failed, fmt::format("cannot write the curve: {}", error.what()));
   }
-  return core::failure(core::ErrorCategory::WrongUsage, "curves are written as tab, h5 or afm-workshop alone");
 }
 
 core::Result<void> write_curve(const std::string& path, CurveFormat format, const RecordedCurve& curve) {

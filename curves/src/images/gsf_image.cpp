@@ -15,7 +15,7 @@ namespace afm::curves {
 namespace {
 
 constexpr std::size_t kAlignment = 4;
-constexpr std::size_t kMostHeaderBytes = std::size_t{1} << 20U;
+constexpr std::size_t kMostGsfHeaderBytes = std::size_t{1} << 20U;
 
 struct GsfHeader {
   double columns = 0, rows = 0;
@@ -49,7 +49,7 @@ bool set_field(std::string_view name, std::string_view value, const Lines& lines
 }  // namespace
 
 ImagePages read_gsf(std::string_view bytes) {
-  const std::size_t end = bytes.substr(0, kMostHeaderBytes).find('\0');
+  const std::size_t end = bytes.substr(0, kMostGsfHeaderBytes).find('\0');
   if (end == std::string_view::npos) throw CurveError("the text at its beginning has no end");
   GsfHeader header;
   ImagePages found;

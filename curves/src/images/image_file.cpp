@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/enumerators.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
@@ -53,6 +54,7 @@ constexpr std::array kFormats{
     FormatRow{ImageFormat::Igor, "Igor", [](std::string_view b) { return looks_like_igor_image(b) || is_old_igor(b); },
               read_igor_image},
     FormatRow{ImageFormat::Jpk, "JPK", looks_like_tiff, read_jpk_image}};
+static_assert(core::has_row_for_each(kFormats, &FormatRow::format));
 
 const FormatRow* row_of(std::string_view bytes) {
   const auto found =

@@ -19,7 +19,7 @@
 #include "core/version.h"
 #include "core/whole_file.h"
 #include "core/write_all.h"
-#include "exhibit/lesson/age_band.h"
+#include "study/age_band.h"
 
 namespace afm::exhibit {
 
@@ -41,12 +41,13 @@ struct ColumnRow {
   const char* levels;  // separated by blanks; may be null
 };
 
+// Levels that a table of their own has are added by add_levels().
 constexpr std::array kEventColumns{
     ColumnRow{"onset", "start of the trial, counted from the start of the lesson", "s", nullptr},
     ColumnRow{"duration", "duration of the trial", "s", nullptr},
     ColumnRow{"step", "id of the step in the lesson file", nullptr, nullptr},
-    ColumnRow{"trial_type", "type of the step", nullptr, "text free cycle identify threshold draw question"},
-    ColumnRow{"condition", "senses that the step left the participant", nullptr, "haptics picture both sound"},
+    ColumnRow{"trial_type", "type of the step", nullptr, nullptr},
+    ColumnRow{"condition", "senses that the step left the participant", nullptr, nullptr},
     ColumnRow{"practice", "1 for a practice trial, 0 for a counted one", nullptr, "0 1"},
     ColumnRow{"trial", "number of the trial within its step, from 1", nullptr, nullptr},
     ColumnRow{"level", "w of a threshold's trial: the stronger F_ad is 1 + w times the weaker one", nullptr, nullptr},
@@ -63,7 +64,7 @@ constexpr std::array kParticipantRows{
     ColumnRow{"participant_id", "sub- and the participant's code of six letters", nullptr, nullptr},
     ColumnRow{"order", "place in the study from 0; modulo the number of orders it is the row of the Williams design",
               nullptr, nullptr},
-    ColumnRow{"age_band", "age in years, as a band", nullptr, nullptr},  // its levels are kAgeBands
+    ColumnRow{"age_band", "age in years, as a band", nullptr, nullptr},
     ColumnRow{"comfort", "how the participant's newest lesson ended", nullptr, "finished stopped withdrew"}};
 
 ordered_json described(std::span<const ColumnRow> columns) {
@@ -81,6 +82,11 @@ ordered_json described(std::span<const ColumnRow> columns) {
     }
   }
   return json;
+}
+
+template <class Rows>
+void add_levels(ordered_json& described, const char* column, const Rows& rows) {
+  for (const auto& row : rows) described[column]["Levels"].push_back(row.word);
 }
 
 core::Error failed(const std::string& what, const std::string& path, int error) {
@@ -166,7 +172,7 @@ std::size_t free_order(std::span<const Participant> participants) {
 core::Result<std::int64_t> started_day(const std::string& folder, std::optional<std::int64_t> day) {
   const std::string path = folder + "/participants.json";
   ordered_json json = described(kParticipantRows);
-  for (const AgeBandRow& band : kAgeBands) json["age_band"]["Levels"].push_back(band.word);
+  add_levels(json, "age_band", study::kAgeBands);
   std::error_code ignored;
   const bool exists = fs::exists(path, ignored);
   if (exists) {
@@ -191,6 +197,8 @@ core::Result<std::int64_t> started_day(const std::string& folder, std::optional<
 
 std::string events_json(const Lesson& lesson, const DataSetEntry& entry, std::int64_t day) {
   ordered_json json = described(kEventColumns);
+  add_levels(json, "trial_type", kStepKinds);
+  add_levels(json, "condition", kConditions);
   ordered_json titles = ordered_json::object();
   for (std::size_t i = 0; i < kLanguages.size(); ++i) titles[std::string(kLanguages[i].word)] = lesson.title.texts[i];
   json["Lesson"] = {{"id", lesson.id},

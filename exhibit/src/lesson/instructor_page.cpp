@@ -65,7 +65,7 @@ render::DataPanel panel_of(const InstructorState& state, std::size_t letters, co
 bool acts(InstructorAction action, const LessonPrompt& prompt) {
   switch (action) {
     case InstructorAction::Next:
-      return prompt.wants == Wants::GoOn || (prompt.in_step && prompt.kind == StepKind::Free);
+      return prompt.wants == Wants::GoOn || (prompt.in_step && row_of(prompt.kind).open_ended);
     case InstructorAction::Skip:
       return prompt.in_step;
     case InstructorAction::Stop:

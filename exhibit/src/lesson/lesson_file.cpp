@@ -5,11 +5,13 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <set>
 #include <utility>
 
+#include "core/enumerators.h"
 #include "core/fnv1a.h"
 #include "core/whole_file.h"
 #include "exhibit/lesson/questionnaire.h"
@@ -65,12 +67,18 @@ class LessonTable {
   // A text for each language.
   LessonText words(std::string_view key, std::size_t limit) const {
     const toml::table* table = required(key).as_table();
-    if (table == nullptr) refuse(key, "must be { en = \"...\", de = \"...\" }");
+    if (table == nullptr) {
+      std::string texts;
+      for (const LanguageRow& row : kLanguages)
+        texts += fmt::format("{}{} = \"...\"", texts.empty() ? "" : ", ", row.word);
+      refuse(key, fmt::format("must be {{ {} }}", texts));
+    }
     const LessonTable languages(*table, section_.empty() ? std::string(key) : section_ + "." + std::string(key));
     for (const auto& [language, node] : *table) {
-      const auto known = [&](const LanguageRow& row) { return row.word == language.str(); };
-      if (std::none_of(kLanguages.begin(), kLanguages.end(), known)) {
-        languages.refuse(language.str(), "unknown language; known are en, de");
+      std::vector<std::string_view> known;
+      for (const LanguageRow& row : kLanguages) known.push_back(row.word);
+      if (std::find(known.begin(), known.end(), language.str()) == known.end()) {
+        languages.refuse(language.str(), fmt::format("unknown language; known are {}", fmt::join(known, ", ")));
       }
     }
     LessonText words;
@@ -160,9 +168,15 @@ struct ScaleWord {
   scene::ScaleMode mode;
   std::string_view word;
 };
-constexpr std::array kLessonScales{ScaleWord{scene::ScaleMode::Common, "common"},
-                                   ScaleWord{scene::ScaleMode::Fit, "fit"},
-                                   ScaleWord{scene::ScaleMode::Compressed, "compressed"}};
+// Every scale but that of atoms, on which no hand compares two materials.
+constexpr auto kLessonScales = [] {
+  std::array<ScaleWord, scene::kScaleModes.size() - 1> rows{};
+  std::size_t count = 0;
+  for (const scene::ScaleModeText& row : scene::kScaleModes) {
+    if (row.mode != scene::ScaleMode::Atoms) rows.at(count++) = {row.mode, row.word};
+  }
+  return rows;
+}();
 
 struct RuleWord {
   StaircaseRule rule;
@@ -171,12 +185,14 @@ struct RuleWord {
 constexpr std::array kRules{RuleWord{StaircaseRule::Weighted, "weighted"},
                             RuleWord{StaircaseRule::OneUpThreeDown, "1-up-3-down"},
                             RuleWord{StaircaseRule::Quest, "quest"}};
+static_assert(core::has_row_for_each(kRules, &RuleWord::rule));
 
 struct CueWord {
   DistanceCue cue;
   std::string_view word;
 };
 constexpr std::array kCues{CueWord{DistanceCue::Kept, "kept"}, CueWord{DistanceCue::Roved, "roved"}};
+static_assert(core::has_row_for_each(kCues, &CueWord::cue));
 
 enum class SsqMoment { Before, After };
 struct MomentWord {
@@ -184,6 +200,7 @@ struct MomentWord {
   std::string_view word;
 };
 constexpr std::array kMoments{MomentWord{SsqMoment::Before, "before"}, MomentWord{SsqMoment::After, "after"}};
+static_assert(core::has_row_for_each(kMoments, &MomentWord::moment));
 
 ThresholdPlan read_threshold(const LessonTable& table) {
   ThresholdPlan plan;
@@ -280,7 +297,7 @@ void read_common(const LessonTable& table, const Lesson& lesson, LessonStep& ste
 
 LessonStep read_step(const LessonTable& table, const Lesson& lesson) {
   LessonStep step;
-  step.kind = table.one_of("type", kStepKinds, &StepKindRow::word).kind;
+  step.kind = table.one_of("type", kStepKinds, &study::StepKindRow::word).kind;
   allow_keys(table, step.kind);
   read_common(table, lesson, step);
   step.trials =
@@ -302,8 +319,7 @@ LessonStep read_step(const LessonTable& table, const Lesson& lesson) {
       step.materials = read_materials(table, step, lesson);
       break;
   }
-  const bool by_force = step.kind == StepKind::Identify || step.kind == StepKind::Threshold;
-  if (by_force && lesson.scale != scene::ScaleMode::Common) {
+  if (row_of(step.kind).compares_forces && lesson.scale != scene::ScaleMode::Common) {
     table.refuse("type", fmt::format("{} needs the lesson's scale = \"common\": on {} every material lets go at the "
                                      "same force of the hand, so that no one can tell them apart",
                                      word_of(step.kind), scene::text_of(lesson.scale).word));

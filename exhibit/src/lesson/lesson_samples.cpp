@@ -29,7 +29,6 @@ core::Result<void> check_samples(const Lesson& lesson, std::span<const curves::S
   double strongest_n = 0;
   for (const curves::SampleModel& sample : samples) strongest_n = std::max(strongest_n, f_ad_n(sample));
   for (const LessonStep& step : lesson.steps) {
-    if (step.kind == StepKind::Text || step.kind == StepKind::Draw || step.kind == StepKind::Question) continue;
     for (const std::size_t material : step.materials) {
       if (samples[material].figures().hysteretic) continue;
       return core::failure(core::ErrorCategory::BadInputFile,

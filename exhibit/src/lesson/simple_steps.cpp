@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "exhibit/lesson/questionnaire.h"
-#include "exhibit/study/questionnaires.h"
 #include "step_activity.h"
+#include "study/questionnaires.h"
 
 namespace afm::exhibit {
 
@@ -122,7 +122,8 @@ class QuestionActivity final : public StepActivity {
   void reset(double now_s) override { asked_s_ = now_s; }
   bool done() const override { return values_.size() == row_.items; }
   bool says_stop() const override {
-    return done() && row_.questionnaire == Questionnaire::Ssq && ssq_says_stop(std::span<const double, 16>(values_));
+    return done() && row_.questionnaire == Questionnaire::Ssq &&
+           study::ssq_says_stop(std::span<const double, 16>(values_));
   }
 
  private:

@@ -169,12 +169,25 @@ core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& pr
 }
 
 std::size_t SimulatedStudent::choose(const LessonPrompt& prompt) {
-  if (prompt.kind == StepKind::Threshold && prompt.has_right) return stronger_of_two();
-  if (prompt.kind == StepKind::Identify && prompt.has_right) return identify(prompt);
-  if (prompt.kind == StepKind::Draw && prompt.has_right) {
-    constexpr double kKnown = 0.8;  // of the parts
-    return random_.unit() < kKnown ? prompt.right : random_.below(prompt.answers.size());
+  if (!prompt.has_right) return rate(prompt);
+  constexpr double kKnown = 0.8;  // of the parts of a drawing
+  switch (prompt.kind) {
+    case StepKind::Threshold:
+      return stronger_of_two();
+    case StepKind::Identify:
+      return identify(prompt);
+    case StepKind::Draw:
+      return random_.unit() < kKnown ? prompt.right : random_.below(prompt.answers.size());
+    case StepKind::Text:
+    case StepKind::Free:
+    case StepKind::Cycle:
+    case StepKind::Question:
+      break;
   }
+  return rate(prompt);
+}
+
+std::size_t SimulatedStudent::rate(const LessonPrompt& prompt) {
   if (prompt.item.empty()) return 0;  // takes part, and goes on after a break
   if (prompt.item.starts_with("ssq-")) {
     // at most two slight symptoms, which is well below the rule that stops a lesson

@@ -60,7 +60,6 @@ class TrialCount {
   bool practice() const { return done_ < practice_; }
   int number() const { return 1 + (practice() ? done_ : done_ - practice_); }
   int of() const { return practice() ? practice_ : counted_; }
-  int counted_before() const { return done_ - practice_; }  // in a counted trial
   bool done() const { return done_ >= practice_ + counted_; }
   void next() { ++done_; }
 

@@ -35,6 +35,10 @@ enum class Law : std::uint32_t {
 using LawCurve = ForceLaw(const ContactParameters& contact, const LawOptions& options);
 LawCurve hao_law, hertz_law, dmt_law, jkr_law, maugis_law, lennard_jones_law;
 
+// The radius of the contact under a force on the tip, zero without contact; may search.
+using LawContactRadius = Length(const ContactParameters& contact, Force force);
+LawContactRadius hertz_radius, dmt_radius, jkr_radius, maugis_radius;
+
 // Unused: E* does not act. Optional: an infinite one makes the contact a rigid wall. Needed: finite.
 enum class ModulusUse { Unused, Optional, Needed };
 
@@ -49,6 +53,7 @@ struct LawTraits {
   bool dynamic;     // its force follows from the tip's height without a lever, so it can move a mass
   bool computed;    // computed from ContactParameters, so available for --model; false: recorded by an instrument
   LawCurve* curve;  // null: closed form (computed), or recorded
+  LawContactRadius* contact_radius;  // null: the law has no contact area, which friction by area needs
 };
 
 inline constexpr std::array kLawTable{
@@ -60,7 +65,8 @@ inline constexpr std::array kLawTable{
               .modulus = ModulusUse::Unused,
               .dynamic = false,
               .computed = true,
-              .curve = nullptr},
+              .curve = nullptr,
+              .contact_radius = nullptr},
     LawTraits{.law = Law::Hao,
               .name = "hao",
               .van_der_waals = true,
@@ -69,7 +75,8 @@ inline constexpr std::array kLawTable{
               .modulus = ModulusUse::Unused,
               .dynamic = false,
               .computed = true,
-              .curve = hao_law},
+              .curve = hao_law,
+              .contact_radius = nullptr},
     LawTraits{.law = Law::Hertz,
               .name = "hertz",
               .van_der_waals = false,
@@ -78,7 +85,8 @@ inline constexpr std::array kLawTable{
               .modulus = ModulusUse::Needed,
               .dynamic = true,
               .computed = true,
-              .curve = hertz_law},
+              .curve = hertz_law,
+              .contact_radius = hertz_radius},
     LawTraits{.law = Law::Dmt,
               .name = "dmt",
               .van_der_waals = true,
@@ -87,7 +95,8 @@ inline constexpr std::array kLawTable{
               .modulus = ModulusUse::Optional,
               .dynamic = true,
               .computed = true,
-              .curve = dmt_law},
+              .curve = dmt_law,
+              .contact_radius = dmt_radius},
     LawTraits{.law = Law::Jkr,
               .name = "jkr",
               .van_der_waals = false,
@@ -96,7 +105,8 @@ inline constexpr std::array kLawTable{
               .modulus = ModulusUse::Needed,
               .dynamic = true,
               .computed = true,
-              .curve = jkr_law},
+              .curve = jkr_law,
+              .contact_radius = jkr_radius},
     LawTraits{.law = Law::MaugisDugdale,
               .name = "maugis",
               .van_der_waals = true,
@@ -105,7 +115,8 @@ inline constexpr std::array kLawTable{
               .modulus = ModulusUse::Needed,
               .dynamic = true,
               .computed = true,
-              .curve = maugis_law},
+              .curve = maugis_law,
+              .contact_radius = maugis_radius},
     LawTraits{.law = Law::LennardJones,
               .name = "lj",
               .van_der_waals = false,
@@ -114,7 +125,8 @@ inline constexpr std::array kLawTable{
               .modulus = ModulusUse::Unused,
               .dynamic = true,
               .computed = true,
-              .curve = lennard_jones_law},
+              .curve = lennard_jones_law,
+              .contact_radius = nullptr},
     LawTraits{.law = Law::Measured,
               .name = "measured",
               .van_der_waals = false,
@@ -123,7 +135,8 @@ inline constexpr std::array kLawTable{
               .modulus = ModulusUse::Unused,
               .dynamic = false,
               .computed = false,
-              .curve = nullptr},
+              .curve = nullptr,
+              .contact_radius = nullptr},
 };
 static_assert(kLawTable.size() == static_cast<std::size_t>(Law::Count),
               "every law of force needs one row in kLawTable");

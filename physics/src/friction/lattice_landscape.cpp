@@ -8,13 +8,20 @@ namespace afm::physics {
 
 LatticeLandscape::LatticeLandscape(LatticeKind kind, Length period) noexcept : period_m_(period.si) {
   const double q = 2.0 * std::numbers::pi / period_m_;
-  if (kind == LatticeKind::Hexagonal) {
-    const double across = q / std::numbers::sqrt3;
-    waves_ = {{{q, across}, {q, -across}, {0.0, 2.0 * across}}};
-    count_ = 3;
-  } else {
-    waves_ = {{{q, 0.0}, {0.0, q}, {}}};
-    count_ = kind == LatticeKind::Square ? 2 : 1;
+  switch (kind) {
+    case LatticeKind::Rows:
+      waves_ = {{{q, 0.0}}};
+      count_ = 1;
+      break;
+    case LatticeKind::Square:
+      waves_ = {{{q, 0.0}, {0.0, q}}};
+      count_ = 2;
+      break;
+    case LatticeKind::Hexagonal:
+      const double across = q / std::numbers::sqrt3;
+      waves_ = {{{q, across}, {q, -across}, {0.0, 2.0 * across}}};
+      count_ = 3;
+      break;
   }
 }
 
@@ -47,7 +54,14 @@ double LatticeLandscape::sharpest_bend() const noexcept {
 double LatticeLandscape::highest() const noexcept { return 2.0 * count_; }
 
 Energy LatticeLandscape::scale_of_row(LatticeKind kind, Energy amplitude) noexcept {
-  return kind == LatticeKind::Hexagonal ? 0.25 * amplitude : 0.5 * amplitude;
+  switch (kind) {
+    case LatticeKind::Rows:
+    case LatticeKind::Square:
+      break;
+    case LatticeKind::Hexagonal:
+      return 0.25 * amplitude;
+  }
+  return 0.5 * amplitude;
 }
 
 Stiffness hexagonal_well_stiffness(Energy scale, Length period) {

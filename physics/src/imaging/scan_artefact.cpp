@@ -4,36 +4,24 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <vector>
 
 namespace afm::physics {
 namespace {
 
-constexpr double kShareOffForLost = 0.95;    // of the line
-constexpr double kShareOfLimit = 0.6;        // of the gain at which the loop swings: it rings behind each step
-constexpr double kShareOnSecondApex = 0.02;  // of the line
-constexpr double kShareDrifted = 0.03;       // of the area, while a frame is taken
-constexpr double kShareOfNoise = 0.25;       // of the relief's rms
-constexpr double kShareOfError = 0.3;        // of the relief's rms: an image flatter by 5 %, late by 17 degrees
-
-double rms_about_mean(const std::vector<double>& values) {
-  double mean = 0.0, square = 0.0;
-  const auto count = static_cast<double>(values.size());
-  for (const double value : values) mean += value / count;
-  for (const double value : values) square += (value - mean) * (value - mean) / count;
-  return std::sqrt(square);
-}
+constexpr double kLostShare = 0.95;        // of a line's time: the tip is not on the sample at all
+constexpr double kSecondApexShare = 0.02;  // of a line's time
+constexpr double kRingingShare = 0.8;      // of the gain at which the loop swings: each step is followed by waves
+constexpr double kDriftShare = 0.03;       // of a side, while a frame is taken
+constexpr double kNoiseShare = 0.03;       // rms over the relief
+constexpr double kParachuteShare = 0.004;  // of a line's time: a shorter flight is not seen
+constexpr double kOverloadFactor = 3.0;    // times the setpoint
+constexpr double kLagShare = 0.015;        // of a side: trace and retrace lie visibly apart
+constexpr double kBluntFactor = 1.5;       // times the radius of the sharper tip
 
 bool drifts(const ScanArea& area, const ScanSettings& settings) {
   const double frame_s = static_cast<double>(area.rows) / settings.line_rate.si;
-  return std::abs(settings.drift_x.si) * frame_s > kShareDrifted * area.width.si ||
-         std::abs(settings.drift_y.si) * frame_s > kShareDrifted * area.height.si;
-}
-
-bool rings(const Scanner& scanner) {
-  const ScanSettings& settings = scanner.settings();
-  return settings.feedback == Feedback::On &&
-         settings.integral_gain.si > kShareOfLimit * scanner.loop().largest_integral_gain().si;
+  return std::abs(settings.drift_x.si) * frame_s > kDriftShare * area.width.si ||
+         std::abs(settings.drift_y.si) * frame_s > kDriftShare * area.height.si;
 }
 
 }  // namespace
@@ -45,23 +33,33 @@ std::string_view name_of(ScanArtefact artefact) {
   throw std::logic_error("no such artefact");
 }
 
-ScanArtefact main_artefact(const Scanner& scanner, const ScanLine& line) {
-  const ScanSettings& settings = scanner.settings();
-  const double off = std::max(line.trace.off_surface, line.retrace.off_surface);
-  if (off > kShareOffForLost) return ScanArtefact::LostContact;
-  if (rings(scanner)) return ScanArtefact::Ringing;
-  if (off * static_cast<double>(scanner.area().columns) > 1.0) return ScanArtefact::Parachuting;
-  const double highest_n = std::max(line.trace.highest_force_n, line.retrace.highest_force_n);
-  if (highest_n - settings.setpoint.si > std::abs(settings.setpoint.si)) return ScanArtefact::Overload;
-  if (std::max(line.trace.on_second_apex, line.retrace.on_second_apex) > kShareOnSecondApex) {
+ScanEvidence evidence_of(const ScanLine& line) {
+  ScanEvidence evidence;
+  evidence.off_surface = 0.5 * (line.trace.off_surface + line.retrace.off_surface);
+  evidence.on_second_apex = 0.5 * (line.trace.on_second_apex + line.retrace.on_second_apex);
+  evidence.highest_force_n = std::max(line.trace.highest_force_n, line.retrace.highest_force_n);
+  const auto [low, high] = std::minmax_element(line.trace.height_m.begin(), line.trace.height_m.end());
+  if (low != high) evidence.relief_m = *high - *low;
+  return evidence;
+}
+
+ScanArtefact main_artefact(const ScanConditions& conditions, const ScanEvidence& evidence) {
+  const ScanSettings& settings = conditions.settings;
+  const bool follows = settings.feedback == Feedback::On;
+  if (evidence.off_surface > kLostShare) return ScanArtefact::LostContact;
+  if (settings.second_apex_distance.si > 0.0 && evidence.on_second_apex > kSecondApexShare) {
     return ScanArtefact::DoubleTip;
   }
-  if (drifts(scanner.area(), settings)) return ScanArtefact::Drift;
-  const double relief_m = rms_about_mean(line.trace.height_m);
-  if (noise_of_height(settings).si > kShareOfNoise * relief_m) return ScanArtefact::Noise;
-  const double error_m = rms_about_mean(line.trace.error_n) / settings.spring_constant.si;
-  const bool follows = settings.feedback == Feedback::On;
-  return follows && error_m > kShareOfError * relief_m ? ScanArtefact::Blur : ScanArtefact::None;
+  if (follows && settings.integral_gain > kRingingShare * conditions.largest_integral_gain) {
+    return ScanArtefact::Ringing;
+  }
+  if (drifts(conditions.area, settings)) return ScanArtefact::Drift;
+  if (noise_of_height(settings).si > kNoiseShare * evidence.relief_m) return ScanArtefact::Noise;
+  if (evidence.off_surface > kParachuteShare) return ScanArtefact::Parachuting;
+  if (evidence.highest_force_n > kOverloadFactor * std::abs(settings.setpoint.si)) return ScanArtefact::Overload;
+  const double lag = 2.0 * settings.line_rate.si / settings.integral_gain.si;
+  if (follows && lag > kLagShare) return ScanArtefact::Blur;
+  return evidence.bluntness > kBluntFactor ? ScanArtefact::BluntTip : ScanArtefact::None;
 }
 
 }  // namespace afm::physics

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/force_laws.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -147,6 +148,20 @@ ForceLaw force_law(Law law, const ContactParameters& contact, const LawOptions& 
   }
   ForceLaw dry = curve(contact, options);
   return options.meniscus ? with_meniscus(dry, *options.meniscus, contact.tip_radius) : dry;
+}
+
+Length hertz_radius(const ContactParameters& contact, Force force) {
+  return hertz_contact_radius(adhesive_contact(contact), std::max(Force(), force));
+}
+
+Length dmt_radius(const ContactParameters& contact, Force force) {
+  const AdhesiveContact adhesive = adhesive_contact(contact);
+  return dmt_contact_radius(adhesive, std::max(-dmt_adhesion(adhesive), force));
+}
+
+Length jkr_radius(const ContactParameters& contact, Force force) {
+  const AdhesiveContact adhesive = adhesive_contact(contact);
+  return jkr_contact_radius(adhesive, std::max(jkr_pull_off_load(adhesive), force));
 }
 
 }  // namespace afm::physics

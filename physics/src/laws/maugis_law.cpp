@@ -111,4 +111,14 @@ ForceLaw maugis_law(const ContactParameters& contact, const LawOptions& options)
           .attached_end_potential = van_der_waals.potential(formation) - work};
 }
 
+Length maugis_radius(const ContactParameters& contact, Force force) {
+  const AdhesiveContact adhesive = adhesive_contact(contact);
+  const MaugisUnits units = maugis_units(adhesive);
+  const double lambda = maugis_lambda(adhesive, cohesive_stress(adhesive.work_of_adhesion, contact.atomic_distance));
+  const double load = force / units.load;
+  const double least = maugis_point(lambda, maugis_pull_off(lambda)).load;
+  if (load <= least) return maugis_point(lambda, maugis_pull_off(lambda)).contact_radius * units.radius;
+  return maugis_point(lambda, maugis_at_load(lambda, load)).contact_radius * units.radius;
+}
+
 }  // namespace afm::physics

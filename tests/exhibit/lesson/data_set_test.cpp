@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/whole_file.h"
-#include "exhibit/lesson/age_band.h"
+#include "study/age_band.h"
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {
@@ -133,8 +133,8 @@ TEST_F(DataSetTest, KeepsAnAgeBandThatWasGiven) {
   ASSERT_TRUE(DataSet::create(lesson_, entry("ABCDEF")));
   EXPECT_THAT(text("participants.tsv"), HasSubstr("\t14-17\t")) << "a lesson without one forgets none";
   const auto levels = nlohmann::json::parse(text("participants.json"))["age_band"]["Levels"];
-  ASSERT_EQ(levels.size(), kAgeBands.size());
-  for (std::size_t i = 0; i < kAgeBands.size(); ++i) EXPECT_EQ(levels[i], kAgeBands[i].word);
+  ASSERT_EQ(levels.size(), study::kAgeBands.size());
+  for (std::size_t i = 0; i < study::kAgeBands.size(); ++i) EXPECT_EQ(levels[i], study::kAgeBands[i].word);
 }
 
 TEST_F(DataSetTest, NotesThatTheSoundWasLostBesideWhatItSaidBefore) {

@@ -88,6 +88,12 @@ TEST(TangentialStiffness, IsThatOfTwoBodiesInSeriesWithTheLever) {
   EXPECT_NEAR(in_series(Stiffness(80.0), Stiffness(120.0)).si, 48.0, 1e-12);
 }
 
+TEST(LateralContact, RefusesNoLawAndAnUnknownOne) {
+  const auto make = [](FrictionLaw law) { LateralContact(everything(law), Law::Dmt, elastic_mica(), 1.4_nN); };
+  EXPECT_THROW(make(FrictionLaw::None), std::invalid_argument);
+  EXPECT_THROW(make(static_cast<FrictionLaw>(kFrictionLaws.size())), std::invalid_argument);
+}
+
 TEST(LateralContact, YieldsByItsLaw) {
   const ContactParameters mica = elastic_mica();
   const Force adhesion = dmt_adhesion(adhesive_contact(mica));
@@ -106,9 +112,15 @@ TEST(LateralContact, YieldsByItsLaw) {
   EXPECT_NEAR(lattice.yield(2_nN).si, 0.2417e-9, 0.0001e-9);
 }
 
-TEST(LateralContact, IsWithoutForceOffTheSample) {
-  for (const FrictionLaw law : {FrictionLaw::Amontons, FrictionLaw::ContactArea, FrictionLaw::Lattice}) {
-    LateralContact contact(everything(law), Law::Dmt, elastic_mica(), 1.4_nN);
+// What a tick of the servo calls, for each row: an enumerator without its row does not compile.
+TEST(LateralContact, IsWithoutForceOffTheSampleAndYieldsOnItByEveryLaw) {
+  for (const FrictionLawText& row : kFrictionLaws) {
+    if (row.law == FrictionLaw::None) continue;
+    LateralContact contact(everything(row.law), Law::Dmt, elastic_mica(), 1.4_nN);
+    for (const Force load : {Force(), 1_nN, Force(1.0)}) {
+      EXPECT_TRUE(isfinite(contact.yield(load))) << row.word;
+    }
+    EXPECT_GT(contact.yield(1_nN), Force()) << row.word;
     EXPECT_FALSE(contact.touching());
     contact.touch_down({}, 3_nN);
     for (int i = 1; i <= 40; ++i) contact.slide_to({0.1_nm * i, Length()}, 3_nN);

@@ -33,7 +33,7 @@ ScanArtefact artefact_of(const ScanSettings& settings, const Scanner::Surface& s
   ScanLine line;
   EXPECT_TRUE(scanner.next_line(line));
   EXPECT_TRUE(scanner.next_line(line));
-  return main_artefact(scanner, line);
+  return main_artefact({settings, area, scanner.loop().largest_integral_gain()}, evidence_of(line));
 }
 
 // One change of the settings brings the artefact, and taking it back removes it.

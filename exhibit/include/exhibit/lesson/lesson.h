@@ -12,22 +12,12 @@
 #include "core/enumerators.h"
 #include "exhibit/exhibit_setup.h"
 #include "scene/shared/scale_modes.h"
+#include "study/step_kind.h"
 
 namespace afm::exhibit {
 
-// The types of steps, as lesson files and events.tsv name them.
-enum class StepKind { Text, Free, Cycle, Identify, Threshold, Draw, Question };
-struct StepKindRow {
-  StepKind kind;
-  std::string_view word;
-};
-inline constexpr std::array kStepKinds{
-    StepKindRow{StepKind::Text, "text"},           StepKindRow{StepKind::Free, "free"},
-    StepKindRow{StepKind::Cycle, "cycle"},         StepKindRow{StepKind::Identify, "identify"},
-    StepKindRow{StepKind::Threshold, "threshold"}, StepKindRow{StepKind::Draw, "draw"},
-    StepKindRow{StepKind::Question, "question"}};
-static_assert(core::has_row_for_each(kStepKinds, &StepKindRow::kind));
-constexpr std::string_view word_of(StepKind kind) { return kStepKinds[core::index_of(kind)].word; }
+using study::kStepKinds;
+using study::StepKind;
 
 // The senses that a step leaves a participant.
 enum class Condition { Haptics, Picture, Both, Sound };

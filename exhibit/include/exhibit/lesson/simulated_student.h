@@ -46,6 +46,7 @@ class SimulatedStudent {
  private:
   core::Result<void> feel(LessonRun& run, const LessonPrompt& prompt);
   std::size_t choose(const LessonPrompt& prompt);
+  std::size_t rate(const LessonPrompt& prompt);  // of an item, which has no right answer
   std::size_t stronger_of_two();
   std::size_t identify(const LessonPrompt& prompt);
 

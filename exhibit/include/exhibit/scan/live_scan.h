@@ -140,6 +140,7 @@ class LiveScan {
   const std::optional<ScanTruth>& truth() const { return truth_; }              // there while it is shown
   const ScanMaps& maps() const { return maps_; }
   const std::array<LineFacts, kPixels>& facts() const { return facts_; }  // by row, of the newest line there
+  const physics::Scanner& scanner() const { return *scanner_; }           // of the present frame
   std::size_t row() const;                                                // that is scanned now, 0 is the top one
   glm::dvec3 apex_m() const;                                              // in the sample's frame
   double force_n() const { return force_n_; }                             // on the lever, of the newest pixel

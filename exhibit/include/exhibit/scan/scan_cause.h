@@ -6,8 +6,7 @@
 
 namespace afm::exhibit {
 
-// The artefact that explains the newest lines of a scan, by what happened to the tip and by what its settings must do
-// to the image. Where several apply, the one that hides the others.
+// The artefact that explains the newest lines of a scan, by physics::main_artefact().
 physics::ScanArtefact cause_of(const LiveScan& scan);
 
 }  // namespace afm::exhibit

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +8,7 @@
 #include <string_view>
 
 #include "physics/law.h"
+#include "physics/rows_of_enum.h"
 #include "physics/units.h"
 
 // What holds a tip back sideways. The load N is the force on the tip and the pull-off force together: what presses the
@@ -17,7 +17,7 @@ namespace afm::physics {
 
 struct ContactParameters;
 
-// The values are part of session files and shared blocks.
+// The values are part of session files and shared blocks: a new law takes the next one (docs/adding-a-friction-law.md).
 enum class FrictionLaw : std::uint32_t {
   None = 0,
   Amontons = 1,     // mu N
@@ -36,6 +36,7 @@ inline constexpr std::array kFrictionLaws{
     FrictionLawText{FrictionLaw::Amontons, "amontons", "a share of the load"},
     FrictionLawText{FrictionLaw::ContactArea, "area", "a shear strength times the contact area"},
     FrictionLawText{FrictionLaw::Lattice, "lattice", "the tip sticks and slips from atom to atom"}};
+static_assert(has_row_for_each(kFrictionLaws, &FrictionLawText::law));
 
 constexpr const FrictionLawText& text_of(FrictionLaw law) { return kFrictionLaws.at(static_cast<std::size_t>(law)); }
 
@@ -54,6 +55,7 @@ struct LatticeKindText {
 inline constexpr std::array kLatticeKinds{LatticeKindText{LatticeKind::Rows, "rows"},
                                           LatticeKindText{LatticeKind::Square, "square"},
                                           LatticeKindText{LatticeKind::Hexagonal, "hexagonal"}};
+static_assert(has_row_for_each(kLatticeKinds, &LatticeKindText::kind));
 
 std::optional<LatticeKind> lattice_kind_of(std::string_view word);
 
@@ -75,19 +77,17 @@ inline constexpr Length kSmallestPeriod{5e-11}, kLargestPeriod{5e-9};
 inline constexpr Length kLargestCorrugation{1e-9};
 inline constexpr Stiffness kSmallestLateralStiffness{1e-3}, kLargestLateralStiffness{1e5};
 
-// Throws UnphysicalValue, whose field is friction_coefficient, shear_strength, lattice_period, lattice_corrugation or
-// lateral_stiffness, unless what the law needs is there and every number is within its range.
+// Throws std::invalid_argument for an unknown law, and UnphysicalValue, whose field is friction_coefficient,
+// shear_strength, lattice_period, lattice_corrugation or lateral_stiffness, unless what the law needs is there and
+// every number is within its range.
 void validate(const FrictionParameters& friction);
 
 // Whether the law of force has a contact area, which FrictionLaw::ContactArea needs; its modulus must be finite as
 // well.
-constexpr bool has_contact_area(Law law) {
-  constexpr std::array kWithArea{Law::Hertz, Law::Dmt, Law::Jkr, Law::MaugisDugdale};
-  return std::find(kWithArea.begin(), kWithArea.end(), law) != kWithArea.end();
-}
+constexpr bool has_contact_area(Law law) { return traits_of(law).contact_radius != nullptr; }
 
-// pi a^2 at a force on the tip, by the law of force: Hertz, DMT, JKR or Maugis-Dugdale; zero without contact. Throws
-// std::invalid_argument for another law or a rigid contact. May search: not for a tick.
+// pi a^2 at a force on the tip, by the law of force; zero without contact. Throws std::invalid_argument for a law
+// without a contact area or a rigid contact. May search: not for a tick.
 Area contact_area(Law law, const ContactParameters& contact, Force force);
 
 // 8 G* a: what a contact of the radius a is to a tangential force before it slides, in series with the lever (Mindlin

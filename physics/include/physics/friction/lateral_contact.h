@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <variant>
-#include <vector>
-
 #include "physics/contact_parameters.h"
-#include "physics/friction/anchored_tip.h"
-#include "physics/friction/friction.h"
-#include "physics/friction/lattice_tip.h"
-#include "physics/friction/sideways.h"
+#include "physics/friction/friction_tip.h"
 
 namespace afm::physics {
 
@@ -33,21 +27,14 @@ class LateralContact {
   Energy stored() const noexcept;          // in spring and landscape
   Length lift_per_load() const noexcept;   // d stored/dN at a support that is held: what a rising load has to pay
 
-  Stiffness stiffness() const noexcept { return parameters_.lateral_stiffness; }  // no spring in it is stiffer
+  Stiffness stiffness() const noexcept { return stiffness_; }  // no spring in it is stiffer
 
   // The least force that slides the tip, at a load at or above zero; of a lattice the largest along x.
   Force yield(Force load) const noexcept;
 
  private:
-  using Tip = std::variant<AnchoredTip, LatticeTip>;
-
-  static Tip tip_of(const FrictionParameters& friction);
-  Energy scale(Force load) const noexcept { return parameters_.corrugation * load; }
-
-  FrictionParameters parameters_;
-  std::vector<double> areas_m2_;  // of FrictionLaw::ContactArea, at equal steps of the load's root
-  double root_step_ = 1.0;        // sqrt(N)
-  Tip tip_;                       // never without a value, so that visiting it cannot throw
+  Stiffness stiffness_;
+  FrictionTip tip_;  // never without a value, so that visiting it cannot throw
   bool touching_ = false;
 };
 

@@ -39,10 +39,7 @@ class ScanLoop {
   void engage(double height_m) noexcept;
 
   // Where the z scanner is told to go, as far as it reaches; with the feedback off a hand may be the controller.
-  void command(double z_m) noexcept {
-    command_m_ = std::clamp(z_m, -reach_m_, reach_m_);
-    at_end_ = command_m_ != z_m;
-  }
+  void command(double z_m) noexcept { command_m_ = std::clamp(z_m, -reach_m_, reach_m_); }
 
   // Moves the z scanner for one tick, then looks at the surface below the apex and sets the next command.
   void tick(double height_m) noexcept {
@@ -68,7 +65,6 @@ class ScanLoop {
   double setpoint_m() const noexcept { return setpoint_m_; }
   double topography_m() const noexcept { return z_m_ + setpoint_m_; }  // recorded height
   bool touching() const noexcept { return touching_; }
-  bool at_end_of_range() const noexcept { return at_end_; }
 
  private:
   void set_swing(const ScanSettings& settings) noexcept;
@@ -104,7 +100,7 @@ class ScanLoop {
 
   double command_m_ = 0, z_m_ = 0, velocity_ = 0;
   double deflection_m_ = 0, error_m_ = 0, noise_now_m_ = 0;
-  bool touching_ = true, at_end_ = false;
+  bool touching_ = true;
   std::array<double, kMostDelayTicks + 1> detected_m_{};
   std::size_t newest_ = 0;
   NormalGenerator normal_;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "study/interval.h"
+
+namespace afm::study {
+
+// Means and their comparison. Pure functions of any thread; what too few values or no spread leave undefined is NaN.
+
+struct Summary {
+  std::size_t n = 0;
+  double mean = kNoValue;
+  double sd = kNoValue;  // of the sample: divided by n-1
+};
+Summary summary_of(std::span<const double> values);
+
+// mean -+ t(0.975, n-1) SD/sqrt(n) (Student 1908).
+Interval t_interval(const Summary& summary);
+// Of values on a scale with ends, beyond which no mean lies.
+Estimate mean_estimate(std::span<const double> values, const Interval& scale = {-kUnbounded, kUnbounded});
+
+// Means of different people, of unequal variance, and of the same people.
+struct TTest {
+  double t = kNoValue;
+  double degrees = kNoValue;
+  double p = kNoValue;  // two-sided
+  Estimate d;           // Cohen's d, or d_z of the differences
+};
+
+// Welch 1947 with the degrees of freedom of Welch and Satterthwaite. d = (mean a - mean b)/pooled SD (Cohen 1988), its
+// interval by inverting the noncentral t of n_a + n_b - 2 degrees of freedom (Cumming & Finch 2001).
+TTest welch_test(const Summary& a, const Summary& b);
+
+// Of differences: d_z = mean/SD, t = d_z sqrt(n); the interval by inverting the noncentral t of n-1 degrees.
+TTest paired_test(std::span<const double> differences);
+
+// d = t/scale where t is noncentral t of `degrees` and noncentrality d scale.
+Interval standardised_interval(double t, double degrees, double scale);
+
+// p times the number of the comparisons not yet rejected, in order of p (Holm 1979); NaN stays.
+std::vector<double> holm_adjusted(std::span<const double> p);
+
+// (post - pre)/(1 - pre) of proportions (Hake 1998); NaN for a pre of 1.
+double normalised_gain(double pre, double post);
+
+// Cronbach 1951: rows are people, columns items; k/(k-1) (1 - sum of the items' variances/variance of the sums).
+double cronbach_alpha(const std::vector<std::vector<double>>& people);
+
+}  // namespace afm::study

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "study/detection.h"
+#include "study/interval.h"
+#include "study/means.h"
+#include "study/paper_survey.h"
+#include "study/proportions.h"
+#include "study/study_data.h"
+#include "study/threshold.h"
+
+namespace afm::study {
+
+// What the counted trials of a study say, pooled over its people. Practice trials and trials without an answer take no
+// part. Everything is in a fixed order: the same data give the same results, bit for bit.
+
+// A step of blind identification under one condition (empty: the lesson has none).
+struct IdentifyResult {
+  std::string step, condition;
+  ConfusionMatrix matrix;
+  Estimate accuracy;                    // of all trials
+  double chance = kNoValue;             // 1 of the materials
+  TestResult against_chance;            // exact binomial
+  std::optional<SmallestCount> needed;  // right answers that chance would hardly give
+  Estimate d_prime;                     // as of a choice without bias among the materials
+  struct Material {
+    YesNo plain, corrected;  // against the rest, as the rates are and log-linear
+  };
+  std::vector<Material> materials;  // in the order of the matrix
+  struct Person {
+    std::string id;
+    std::size_t right = 0;
+    Estimate accuracy, d_prime;
+  };
+  std::vector<Person> people;
+};
+
+// A step that measures a threshold, under one condition.
+struct ThresholdResult {
+  std::string step, condition;
+  struct Person {
+    std::string id;
+    ThresholdFit fit;
+    Estimate d_prime;  // of two intervals, where all trials have one level
+  };
+  std::vector<Person> people;
+  Estimate weber_fraction;  // geometric mean over people with its t interval in logarithms
+  struct Level {
+    double level;
+    Estimate right;
+  };
+  std::vector<Level> levels;  // of all people, rising
+};
+
+// A number of each person under each condition: "SUS", "right answers in blind".
+struct Measure {
+  std::string key, title, unit;
+  double per_si = 1.0;  // units in one SI unit
+  int decimals = 2;
+  bool logarithmic = false;                                     // compared as ratios
+  Interval scale{-kUnbounded, kUnbounded};                      // of its values, SI
+  std::map<std::string, std::map<std::string, double>> values;  // by condition and person
+
+  Estimate mean(const std::string& condition) const;  // geometric where it is logarithmic; SI
+  double sd(const std::string& condition) const;      // NaN where it is logarithmic
+};
+
+// Two conditions of a measure; paired over those who did both, else of different people.
+struct ConditionComparison {
+  std::string measure, a, b;
+  TestResult test;
+  double holm_p = kNoValue;  // among the comparisons of this measure
+};
+
+// A score of the SSQ, before and after, of those who answered both times.
+struct SsqResult {
+  std::string scale;
+  Estimate before, after;
+  TestResult change;
+};
+
+// A step done before and after (steps "NAME-before" and "NAME-after").
+struct LearningResult {
+  std::string step;
+  Estimate before, after;  // share right, by person
+  double gain = kNoValue;  // Hake's, of the means
+  TestResult change, single_trials;
+};
+
+struct LessonResults {
+  std::string task, title;
+  std::vector<std::string> facts;  // "device: sim", one line for each that differs
+  std::size_t people = 0, simulated = 0, counted = 0, practice = 0, unanswered = 0;
+  std::vector<std::string> left_out;  // questionnaires that are not complete
+  std::vector<IdentifyResult> identify;
+  std::vector<ThresholdResult> thresholds;
+  std::vector<Measure> measures;
+  std::vector<ConditionComparison> comparisons;
+  std::vector<LearningResult> learning;
+  std::vector<SsqResult> ssq;
+  std::size_t ssq_stops = 0;  // people at whom the stop rule was reached
+};
+
+// A question of Table 3 as this study's people answered it.
+struct SurveyResult {
+  Summary answers;
+  Interval interval;
+  TestResult against_paper;
+};
+
+struct StudyResults {
+  std::size_t listed = 0, people = 0;
+  std::map<std::string, std::size_t> ages;  // people of each age band, where one was given
+  std::vector<std::string> left_out, remarks;
+  std::vector<SurveyResult> survey;  // the paper's eight questions; empty where nobody was asked
+  double survey_alpha = kNoValue, sus_alpha = kNoValue;
+  std::vector<TestResult> haptics_against_graphics;  // paired, here
+  std::vector<LessonResults> lessons;                // by task
+};
+
+StudyResults study_results(const StudyData& data);
+
+// The result of a t test with its effect, as reports print it.
+TestResult as_result(const std::string& name, const TTest& test, const std::string& effect_name);
+
+}  // namespace afm::study

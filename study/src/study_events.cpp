@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/printable.h"
+#include "study/study_data.h"
+#include "study_table.h"
+
+namespace afm::study {
+
+namespace {
+
+// In the order of the fields of a line.
+enum EventsColumn {
+  Onset,
+  Duration,
+  Step,
+  Type,
+  InCondition,
+  Practice,
+  Number,
+  Level,
+  Stimulus,
+  Response,
+  Correct,
+  Rt
+};
+constexpr std::array<std::string_view, 12> kEventsColumns{"onset",     "duration", "step",    "trial_type",
+                                                          "condition", "practice", "trial",   "level",
+                                                          "stimulus",  "response", "correct", "rt"};
+constexpr double kLongestLesson_s = 1e7;
+constexpr double kHighestLevel = 1e3;
+constexpr double kMostTrialsOfAStep = 1e6;
+
+// The items of a questionnaire are named "sus-1" and so on.
+struct ItemRange {
+  std::string_view prefix;
+  int items;
+  double least, most;
+};
+constexpr std::array kItemRanges{ItemRange{"paper-", 8, 0, 4}, ItemRange{"sus-", 10, 1, 5},
+                                 ItemRange{"tlx-", 6, 0, 100}, ItemRange{"ssq-", 16, 0, 3}};
+
+const ItemRange* range_of_item(std::string_view item) {
+  for (const ItemRange& each : kItemRanges) {
+    if (!item.starts_with(each.prefix)) continue;
+    const auto number = parse_number(item.substr(each.prefix.size()), 1, each.items);
+    return number && *number == std::floor(*number) ? &each : nullptr;
+  }
+  return nullptr;
+}
+
+// Reads the fields of a line; the first one that is wrong is kept.
+class EventsLine {
+ public:
+  explicit EventsLine(const std::vector<std::string_view>& fields) : fields_(fields) {}
+
+  const std::string& fault() const { return fault_; }
+
+  StudyTrial read() {
+    StudyTrial trial;
+    trial.onset_s = required(Onset, 0, kLongestLesson_s);
+    trial.duration_s = required(Duration, 0, kLongestLesson_s);
+    trial.step = word(Step);
+    if (trial.step.empty()) refuse(Step, "a step's id");
+    trial.kind = kind();
+    trial.condition = word(InCondition);
+    trial.practice = required(Practice, 0, 1) == 1.0;
+    trial.trial = static_cast<int>(required(Number, 1, kMostTrialsOfAStep));
+    trial.level = optional(Level, 0, kHighestLevel);
+    trial.stimulus = word(Stimulus);
+    trial.response = word(Response);
+    trial.rt_s = optional(Rt, 0, kLongestLesson_s);
+    judge(trial);
+    return trial;
+  }
+
+ private:
+  void refuse(EventsColumn column, const std::string& wanted) {
+    if (!fault_.empty()) return;
+    fault_ = fmt::format("{} \"{}\" is not {}", kEventsColumns[column], core::printable(fields_[column].substr(0, 64)),
+                         wanted);
+  }
+
+  std::optional<double> optional(EventsColumn column, double least, double most) {
+    if (fields_[column].empty()) return std::nullopt;
+    const auto value = parse_number(fields_[column], least, most);
+    if (!value) refuse(column, fmt::format("a number from {:g} to {:g}", least, most));
+    return value;
+  }
+
+  // A whole number where the column counts.
+  double required(EventsColumn column, double least, double most) {
+    const auto value = parse_number(fields_[column], least, most);
+    const bool counts = column == Practice || column == Number;
+    if (value && (!counts || *value == std::floor(*value))) return *value;
+    refuse(column, fmt::format("a {}number from {:g} to {:g}", counts ? "whole " : "", least, most));
+    return least;
+  }
+
+  std::string word(EventsColumn column) {
+    if (!fields_[column].empty() && !is_word(fields_[column])) refuse(column, "one word of letters, digits, - and _");
+    return std::string(fields_[column]);
+  }
+
+  StepKind kind() {
+    std::string known;
+    for (const StepKindRow& row : kStepKinds) {
+      if (fields_[Type] == row.word) return row.kind;
+      const bool last = row.kind == kStepKinds.back().kind;
+      known += (known.empty() ? "" : last ? " or " : ", ") + std::string(row.word);
+    }
+    refuse(Type, known);
+    return StepKind::Text;
+  }
+
+  // What a response may be, and whether it was right, depends on the kind of trial.
+  void judge(StudyTrial& trial) {
+    constexpr double kLargestForce_n = 1e3;
+    switch (trial.kind) {
+      case StepKind::Draw:
+        trial.value = optional(Response, 0, 1);
+        break;
+      case StepKind::Cycle:
+        trial.value = optional(Response, -kLargestForce_n, kLargestForce_n);
+        break;
+      case StepKind::Question:
+        question(trial);
+        break;
+      case StepKind::Threshold:
+        interval(Stimulus);
+        if (!fields_[Response].empty()) interval(Response);
+        if (!trial.level) refuse(Level, "the level of a threshold's trial");
+        break;
+      case StepKind::Identify:
+        if (trial.stimulus.empty()) refuse(Stimulus, "the material that was shown");
+        break;
+      case StepKind::Text:
+      case StepKind::Free:
+        break;
+    }
+    if (row_of(trial.kind).compares_forces && !trial.response.empty()) trial.right = trial.stimulus == trial.response;
+    const auto said = optional(Correct, 0, 1);
+    if (said && *said != std::floor(*said)) refuse(Correct, "0 or 1");
+    if (said && trial.right && (*said == 1.0) != *trial.right) refuse(Correct, "what stimulus and response say");
+  }
+
+  void question(StudyTrial& trial) {
+    const ItemRange* range = range_of_item(trial.stimulus);
+    if (range == nullptr) {
+      refuse(Stimulus, "an item of a questionnaire: paper-1 to 8, sus-1 to 10, tlx-1 to 6, ssq-1 to 16");
+      return;
+    }
+    trial.value = optional(Response, range->least, range->most);
+    if (trial.value && *trial.value != std::floor(*trial.value)) refuse(Response, "a whole number");
+  }
+
+  void interval(EventsColumn column) {
+    if (fields_[column] != "first" && fields_[column] != "second") refuse(column, "first or second");
+  }
+
+  const std::vector<std::string_view>& fields_;
+  std::string fault_;
+};
+
+}  // namespace
+
+core::Result<EventsFile> parse_events(std::string_view bytes, const std::string& name) {
+  const auto table = parse_tsv(bytes, name, kEventsColumns);
+  if (!table) return tl::unexpected(table.error());
+  EventsFile file{.trials = {}, .cut_line = table->cut_line};
+  for (std::size_t row = 0; row < table->lines.size(); ++row) {
+    EventsLine line(table->lines[row]);
+    file.trials.push_back(line.read());
+    if (!line.fault().empty()) return table->bad(row, line.fault());
+  }
+  return file;
+}
+
+}  // namespace afm::study

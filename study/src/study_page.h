@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/report_page.h"
+#include "study/study_results.h"
+
+namespace afm::study {
+
+// A condition as reports name it.
+std::string condition_text(const std::string& condition);
+
+// The section of a lesson.
+std::vector<PageBlock> lesson_blocks(const LessonResults& lesson);
+
+// Figures. The intervals are of 95 %.
+std::string survey_svg(const std::vector<SurveyResult>& survey);
+std::string identify_svg(const LessonResults& lesson);
+std::string thresholds_svg(const LessonResults& lesson);
+
+std::string study_json(const StudyResults& results);
+
+}  // namespace afm::study

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/study_results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <utility>
+
+#include "study_groups.h"
+
+namespace afm::study {
+
+namespace {
+
+// What all visits of a lesson have in common or not.
+struct LessonVisits {
+  std::vector<std::pair<std::string, const LessonVisit*>> visits;  // with the person
+};
+
+struct FactRow {
+  const char* name;
+  std::string LessonFacts::* value;
+};
+constexpr std::array kFactRows{FactRow{"lesson's digest", &LessonFacts::digest},
+                               FactRow{"program", &LessonFacts::program}, FactRow{"device", &LessonFacts::device},
+                               FactRow{"scale", &LessonFacts::scale}, FactRow{"wall", &LessonFacts::wall}};
+
+std::vector<std::string> facts_of(const LessonVisits& lesson) {
+  std::vector<std::string> lines;
+  for (const FactRow& row : kFactRows) {
+    std::set<std::string> values;
+    for (const auto& [id, visit] : lesson.visits) {
+      if (const std::string& value = visit->facts.*row.value; !value.empty()) values.insert(value);
+    }
+    if (values.empty()) continue;
+    lines.push_back(fmt::format("{}: {}{}", row.name, fmt::join(values, ", "),
+                                values.size() > 1 ? " (it is not the same for all)" : ""));
+  }
+  return lines;
+}
+
+// The mean over a person's trials of a number that some have.
+using NumberOf = std::function<std::optional<double>(const StudyTrial&)>;
+
+void add_means(const TrialGroups& groups, const Measure& like, const std::string& title, const NumberOf& number_of,
+               std::vector<Measure>& measures) {
+  std::map<std::string, Measure> by_step;
+  for (const auto& [where, people] : groups) {
+    for (const auto& [id, trials] : people) {
+      std::vector<double> numbers;
+      for (const StudyTrial* trial : trials) {
+        if (const auto number = number_of(*trial)) numbers.push_back(*number);
+      }
+      if (numbers.empty()) continue;
+      Measure& measure = by_step.try_emplace(where.step, like).first->second;
+      measure.key = like.key + "." + where.step;
+      measure.title = fmt::format("{}, {}", where.step, title);
+      measure.values[where.condition][id] = summary_of(numbers).mean;
+    }
+  }
+  for (auto& [step, measure] : by_step) measures.push_back(std::move(measure));
+}
+
+// Weber fraction and bias of each person.
+void add_thresholds(const std::vector<ThresholdResult>& results, std::vector<Measure>& measures) {
+  std::map<std::string, std::pair<Measure, Measure>> by_step;
+  for (const ThresholdResult& result : results) {
+    auto& [weber, bias] = by_step[result.step];
+    weber.key = "weber_fraction." + result.step;
+    weber.title = result.step + ", Weber fraction";
+    weber.decimals = 3;
+    weber.logarithmic = true;
+    bias.key = "bias." + result.step;
+    bias.title = result.step + ", bias towards the first";
+    for (const ThresholdResult::Person& person : result.people) {
+      if (!(person.fit.weber_fraction.value > 0.0)) continue;
+      weber.values[result.condition][person.id] = person.fit.weber_fraction.value;
+      bias.values[result.condition][person.id] = person.fit.bias.value;
+    }
+  }
+  for (auto& [step, pair] : by_step) {
+    if (pair.first.values.empty()) continue;
+    measures.push_back(std::move(pair.first));
+    measures.push_back(std::move(pair.second));
+  }
+}
+
+bool has_answer(const StudyTrial& trial) {
+  switch (trial.kind) {
+    case StepKind::Identify:
+    case StepKind::Threshold:
+      return trial.right.has_value();
+    case StepKind::Cycle:
+    case StepKind::Draw:
+    case StepKind::Question:
+      return trial.value.has_value();
+    case StepKind::Text:
+    case StepKind::Free:
+      break;
+  }
+  return true;
+}
+
+using GroupsByKind = std::map<StepKind, TrialGroups>;
+
+GroupsByKind counted_trials(const LessonVisits& lesson, LessonResults& results) {
+  GroupsByKind groups;
+  for (const auto& [id, visit] : lesson.visits) {
+    for (const StudyTrial& trial : visit->trials) {
+      if (trial.practice) {
+        ++results.practice;
+      } else if (!has_answer(trial)) {
+        ++results.unanswered;
+      } else {
+        ++results.counted;
+        groups[trial.kind][{trial.step, trial.condition}][id].push_back(&trial);
+      }
+    }
+  }
+  return groups;
+}
+
+LessonResults lesson_results(const std::string& task, const LessonVisits& lesson) {
+  LessonResults results;
+  results.task = task;
+  results.title = lesson.visits.front().second->facts.title;
+  results.facts = facts_of(lesson);
+  results.people = lesson.visits.size();
+  results.simulated = static_cast<std::size_t>(std::count_if(
+      lesson.visits.begin(), lesson.visits.end(), [](const auto& visit) { return visit.second->facts.simulated; }));
+  GroupsByKind groups = counted_trials(lesson, results);
+  const auto materials = materials_of_steps(groups[StepKind::Identify]);
+  for (const auto& [where, trials] : groups[StepKind::Identify]) {
+    results.identify.push_back(identify_result(where, trials, materials.at(where.step)));
+  }
+  for (const auto& [where, trials] : groups[StepKind::Threshold]) {
+    results.thresholds.push_back(threshold_result(where, trials));
+  }
+  results.learning = learning_results(groups[StepKind::Identify]);
+
+  Measure share, seconds, newtons, score;
+  share.key = "right", seconds.key = "answer_time_s", newtons.key = "pull_off_felt_N", score.key = "drawing";
+  seconds.unit = "s";
+  newtons.unit = "nN", newtons.per_si = 1e9;
+  share.scale = score.scale = kShares;
+  seconds.scale = newtons.scale = kNotNegative;
+  const auto value = [](const StudyTrial& trial) { return trial.value; };
+  const auto rt = [](const StudyTrial& trial) { return trial.rt_s; };
+  add_means(
+      groups[StepKind::Identify], share, "share right",
+      [](const StudyTrial& trial) { return std::optional(*trial.right ? 1.0 : 0.0); }, results.measures);
+  add_means(groups[StepKind::Identify], seconds, "time to answer", rt, results.measures);
+  add_thresholds(results.thresholds, results.measures);
+  add_means(groups[StepKind::Threshold], seconds, "time to answer", rt, results.measures);
+  add_means(groups[StepKind::Draw], score, "score of the drawing", value, results.measures);
+  add_means(groups[StepKind::Cycle], newtons, "pull-off force felt", value, results.measures);
+  std::map<std::string, std::vector<const StudyTrial*>> questions;
+  for (const auto& [where, people] : groups[StepKind::Question]) {
+    for (const auto& [id, trials] : people) questions[id].insert(questions[id].end(), trials.begin(), trials.end());
+  }
+  for (auto& [id, trials] : questions) {
+    std::stable_sort(trials.begin(), trials.end(),
+                     [](const StudyTrial* a, const StudyTrial* b) { return a->onset_s < b->onset_s; });
+  }
+  add_questionnaires(questions, results);
+  for (const Measure& measure : results.measures) {
+    const auto compared = compared_conditions(measure);
+    results.comparisons.insert(results.comparisons.end(), compared.begin(), compared.end());
+  }
+  return results;
+}
+
+// The newest answers of each person in any lesson.
+template <std::size_t items>
+std::map<std::string, std::array<std::optional<double>, items>> newest_answers(const StudyData& data,
+                                                                               std::string_view questionnaire) {
+  std::map<std::string, std::array<std::optional<double>, items>> answers;
+  for (const StudyData::Member& member : data.members) {
+    for (const LessonVisit& visit : member.visits) {
+      for (const StudyTrial& trial : visit.trials) {
+        const auto item = item_of(trial, questionnaire);
+        if (item && !trial.practice && trial.value) answers[member.person.id][*item] = trial.value;
+      }
+    }
+  }
+  return answers;
+}
+
+template <std::size_t items>
+double alpha_of(const std::map<std::string, std::array<std::optional<double>, items>>& answers, bool alternating) {
+  std::vector<std::vector<double>> people;
+  for (const auto& [id, given] : answers) {
+    if (!std::all_of(given.begin(), given.end(), [](const auto& answer) { return answer.has_value(); })) continue;
+    std::vector<double>& row = people.emplace_back();
+    // every second item of the SUS is a complaint
+    for (std::size_t i = 0; i < items; ++i) row.push_back(alternating && i % 2 == 1 ? -*given[i] : *given[i]);
+  }
+  return cronbach_alpha(people);
+}
+
+constexpr Interval kAnswerScale{0.0, kSurveyHighest};  // of the paper's questions
+
+void add_survey(const StudyData& data, StudyResults& results) {
+  const auto answers = newest_answers<8>(data, "paper-");
+  results.sus_alpha = alpha_of(newest_answers<10>(data, "sus-"), true);
+  if (answers.empty()) return;
+  results.survey_alpha = alpha_of(answers, false);
+  for (std::size_t i = 0; i < survey_questions().size(); ++i) {
+    std::vector<double> list;
+    for (const auto& [id, given] : answers) {
+      if (given[i]) list.push_back(*given[i]);
+    }
+    const Summary summary = summary_of(list);
+    results.survey.push_back({summary, t_interval(summary).within(kAnswerScale),
+                              as_result("Welch t", welch_test(summary, printed_summary(survey_questions()[i])), "d")});
+  }
+  std::vector<double> differences;
+  for (const auto& [id, given] : answers) {
+    if (given[kHapticsQuestion] && given[kGraphicsQuestion]) {
+      differences.push_back(*given[kHapticsQuestion] - *given[kGraphicsQuestion]);
+    }
+  }
+  results.haptics_against_graphics = {as_result("paired t", paired_test(differences), "d_z"), sign_test(differences)};
+  results.haptics_against_graphics[1].effect_name = "share that found haptics more helpful, of those who differ";
+}
+
+}  // namespace
+
+StudyResults study_results(const StudyData& data) {
+  StudyResults results;
+  results.listed = data.listed;
+  results.people = data.members.size();
+  results.left_out = data.left_out;
+  results.remarks = data.remarks;
+  for (const StudyData::Member& member : data.members) {
+    if (!member.person.age_band.empty()) ++results.ages[member.person.age_band];
+  }
+  std::map<std::string, LessonVisits> lessons;
+  for (const StudyData::Member& member : data.members) {
+    for (const LessonVisit& visit : member.visits) lessons[visit.task].visits.emplace_back(member.person.id, &visit);
+  }
+  for (const auto& [task, lesson] : lessons) results.lessons.push_back(lesson_results(task, lesson));
+  add_survey(data, results);
+  return results;
+}
+
+}  // namespace afm::study
