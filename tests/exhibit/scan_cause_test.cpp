@@ -11,7 +11,7 @@
 #include "core/enumerators.h"
 
 namespace afm::exhibit {
-namespace {
+namespace scan_cause_test {
 
 void scan_lines(LiveScan& scan, double lines) {
   constexpr double kFrameS = 1.0 / 60.0;
@@ -61,5 +61,5 @@ TEST(ScanArtefacts, AreTheSameOnTheWallAndInJsonWhateverKeysArePressed) {
   EXPECT_GE(seen.size(), 7U) << "keys that change nothing would agree, too";
 }
 
-}  // namespace
+}  // namespace scan_cause_test
 }  // namespace afm::exhibit
