@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <variant>
 #include <vector>
 
+#include "core/members.h"
 #include "device/memory.h"
 #include "panels/painted_shapes.h"
 #include "panels/panel_fonts.h"
@@ -80,6 +80,8 @@ class Panels {
   void list(std::vector<PanelState>& states) const;
 
  private:
+  static constexpr std::size_t kSlots = core::kMembers<FramePanels>;
+
   struct ContextDeleter {
     void operator()(ImGuiContext* context) const;
   };
@@ -91,9 +93,7 @@ class Panels {
   };
   struct Panel {
     PanelPlacement placement;
-    std::variant<std::monostate, ForcePanel, ImagePanel, DataPanel, Banner, ControlPanel, Label, CalibrationPanel,
-                 EyeMark>
-        painted;  // what the texture shows
+    PanelLayer layer = PanelLayer::InScene;
     Texture texture;
     PaintedShapes shapes;           // what has been painted
     glm::vec2 canvas_texels{1.0F};  // what is painted, which a texture of the largest size shows smaller
@@ -122,7 +122,7 @@ class Panels {
   vk::raii::DescriptorPool create_pool() const;
   vk::raii::DescriptorSet create_set(const vk::raii::DescriptorPool& pool, vk::ImageView view) const;
   template <class Content>
-  void update(Panel& panel, const Content& content, const PanelPlacement& placement);
+  void update(Panel& panel, const PanelPlacement& placement, const Content& content, Content& painted);
   enum class Texels { Kept, Fresh };
   template <class Content>
   void paint_on(Panel& panel, const Content& content, Texels texels);
@@ -149,15 +149,13 @@ class Panels {
   vk::raii::DescriptorPool atlas_pool_{nullptr};
   vk::raii::DescriptorSet atlas_set_{nullptr};
   std::array<Geometry, kFramesInFlight> geometry_;
-  Panel force_;
-  Panel image_;
-  Panel loop_;
-  Panel data_;
-  Panel banner_;
-  Panel control_;
+  std::array<Panel, kSlots> slots_;  // in the order of FramePanels
   std::vector<Panel> labels_;
-  Panel calibration_;
   std::array<Panel, 2> eye_marks_;
+  // what the textures of these show
+  FramePanels painted_;
+  std::vector<Label> painted_labels_;
+  std::array<EyeMark, 2> painted_marks_;
   std::uint64_t revision_ = 0;
   std::vector<Panel*> order_, drawn_;  // of set_apart(); kept to reuse their memory
 
