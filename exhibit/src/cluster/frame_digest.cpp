@@ -61,7 +61,7 @@ class FrameHash {
   template <class Struct>
     requires std::is_aggregate_v<Struct> && (!kIsArray<Struct>)
   void add(const Struct& members) {
-    core::for_each_member([this](const auto& member) { add(member); }, members);
+    core::for_each_member([this](const auto& member) { this->add(member); }, members);
   }
 
   std::uint64_t value() const { return value_; }
