@@ -116,7 +116,6 @@ core::Result<RenderSubject> standing_alone(std::string name, scene::Scene scene,
     frame.room_from_node = room;
     frame.key_light.shadow_center_m = glm::vec3(0.5 * (box.low + box.high));
     frame.key_light.shadow_radius_m = static_cast<float>(0.5 * glm::length(box.high - box.low));
-    frame.force_placement = frame.data_placement = frame.banner_placement = render::kNoPlacement;
     subject.frames.push_back(std::move(frame));
   }
   return subject;

@@ -196,8 +196,8 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   add_panels(stage_, panels_, now, {.pointed = told.pointed, .hand = told.hand, .tip = tip},
              exhibit::caption_of(message), frame);
   if ((message.moment.flags & cluster::ShownMoment::kBlank) != 0) exhibit::blank(frame);
-  add_warning(missing_text(message.missing, stage_.wall, stage_.phrases()), frame.banner);
-  if (master_gone) add_warning(stage_.phrases()[exhibit::Phrase::MasterMissing], frame.banner);
+  add_warning(missing_text(message.missing, stage_.wall, stage_.phrases()), frame.panels.banner.content);
+  if (master_gone) add_warning(stage_.phrases()[exhibit::Phrase::MasterMissing], frame.panels.banner.content);
   picture_.follow(message.view);
   const std::uint64_t digest = exhibit::digest_of(frame, picture_.told());
   picture_.show(frame, exhibit::Relief::NarrowEyes, clock_.now_ns(), [] {}, [&] { drawn(digest); });

@@ -21,6 +21,7 @@
 #include "core/printable.h"
 #include "exhibit/cluster/frame_inputs.h"
 #include "exhibit/cluster/wall_history.h"
+#include "exhibit/recorded_wall.h"
 
 namespace afm::app {
 
@@ -53,7 +54,7 @@ std::vector<NodeAnswers> ask_nodes(cluster::MasterLink& link, const exhibit::Sta
   cluster::FrameMessage frame;
   exhibit::Moment at_rest;
   exhibit::set_moment(at_rest, {}, "", false, frame);
-  exhibit::set_head(stage.wall.viewers.front().sweet_spot, frame.view);
+  frame.view.head = exhibit::pose_of(stage.wall.viewers.front().sweet_spot);
   frame.view.ipd_m = frame.view.drawn_ipd_m = stage.wall.viewers.front().ipd_m;
   const std::int64_t until_ns = clock.now_ns() + static_cast<std::int64_t>(seconds * 1e9);
   std::uint64_t number = 0;

@@ -96,7 +96,7 @@ void InstructorWindow::show(const exhibit::InstructorState& state, std::int64_t 
                             const std::function<void()>& while_waiting) {
   follow_size();
   const render::FrameState frame = page_.frame(state, pointed_, phrases_);
-  const bool same = shown_ == frame.data_panel && shown_labels_ == frame.labels;
+  const bool same = shown_ == frame.panels.data.content && shown_labels_ == frame.labels;
   if (same && now_ns - shown_ns_ < kAnewNs) return;
   const std::array<render::WindowPicture, 1> pictures{{{.composition = {.mode = scene::StereoMode::Mono}}}};
   if (!presenter_.begin(pictures, while_waiting)) return;
@@ -104,7 +104,7 @@ void InstructorWindow::show(const exhibit::InstructorState& state, std::int64_t 
   while_waiting();
   presenter_.draw(std::array<std::size_t, 1>{0}, while_waiting);
   presenter_.show();
-  shown_ = frame.data_panel;
+  shown_ = frame.panels.data.content;
   shown_labels_ = frame.labels;
   shown_ns_ = now_ns;
 }

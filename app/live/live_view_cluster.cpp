@@ -25,7 +25,7 @@ void LiveView::share_scan() {
 }
 
 void LiveView::share_built(const cluster::FrameMessage& message, render::FrameState& frame) {
-  add_warning(missing_text(message.missing, stage_.wall, stage_.phrases()), frame.banner);
+  add_warning(missing_text(message.missing, stage_.wall, stage_.phrases()), frame.panels.banner.content);
   cluster_->built(exhibit::digest_of(frame, message.view));
 }
 

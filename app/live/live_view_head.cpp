@@ -36,7 +36,7 @@ void LiveView::record(const exhibit::Moment& now) {
   servo::WallFrame shown = exhibit::wall_frame_of(now, servo_.link().tip().time_ns, stage_.materials.names());
   shown.room_from_sample = servo_.link().room_from_sample();
   const ViewPicture::Viewing viewing = picture_.viewing();
-  shown.head = exhibit::recorded(viewing.head);
+  shown.head = exhibit::pose_of(viewing.head);
   shown.ipd_m = viewing.ipd_m;
   shown.stereo = scene::name_of(viewing.mode);
   shown.eyes_swapped = viewing.order == scene::EyeOrder::Swapped;

@@ -79,25 +79,25 @@ void LiveView::hide_sample(exhibit::Moment& now) const {
 
 void LiveView::add_lesson(render::FrameState& frame) {
   if (lesson_ == nullptr) return;
-  const render::PanelPlacement banner = frame.banner_placement;
+  const render::PanelPlacement banner = frame.panels.banner.placement;
   const bool keys = panels_.shown() == "keys";
   if (!lesson_->shows_scene()) {
     exhibit::blank(frame);
-    frame.banner_placement = banner;
+    frame.panels.banner.placement = banner;
   }
   if (lesson_->prompt().hidden) {
-    frame.force_placement = render::kNoPlacement;
-    frame.banner.scale.clear();
+    frame.panels.force.placement = render::kNoPlacement;
+    frame.panels.banner.content.scale.clear();
   }
   if (keys) {
-    frame.data_placement = stage_.wall_scene.parameter_placement();
+    frame.panels.data.placement = stage_.wall_scene.parameter_placement();
     return;
   }
   const auto targets = lesson_->targets();
   const exhibit::LessonPlaces places = exhibit::lesson_places(stage_.wall_scene.parameter_placement(), targets.size());
-  frame.data_panel = lesson_->panel();
-  frame.data_placement = places.words;
-  frame.control_placement = render::kNoPlacement;
+  frame.panels.data.content = lesson_->panel();
+  frame.panels.data.placement = places.words;
+  frame.panels.control.placement = render::kNoPlacement;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     frame.labels.push_back({.text = targets[i].text, .highlighted = targets[i].marked, .placement = places.targets[i]});
   }

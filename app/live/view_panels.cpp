@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/enumerators.h"
@@ -12,12 +13,34 @@
 #include "exhibit/panel_hit.h"
 #include "exhibit/scan/scan_panels.h"
 #include "render/control_layout.h"
+#include "scene/shared/field_copy.h"
 
 namespace afm::app {
 
 namespace {
 
-constexpr const char* kLoopShown = "friction-loop";  // in sessions
+struct RightRow {
+  RightPanel panel;
+  std::string_view word;  // in sessions
+};
+constexpr std::array<RightRow, 3> kRightPanels{{{RightPanel::Data, "samples"},
+                                                {RightPanel::Parameters, "parameters"},
+                                                {RightPanel::FrictionLoop, "friction-loop"}}};
+static_assert(core::has_row_for_each(kRightPanels, &RightRow::panel));
+static_assert(kRightPanels.size() <= cluster::ShownPanels::kMostRight);
+
+// Where the ray is and whose hand moves it, in either direction.
+template <class Copy, class Told, class Shown>
+void copy_pointed(const Copy& copy, Told& told, Shown& shown) {
+  using S = cluster::ShownPanels;
+  auto& pointed = told.pointed;
+  copy(told.hand, shown.hand);
+  copy.flag(pointed.tab, shown.flags, S::kTab);
+  if (copy.has(pointed.control, shown.flags, S::kControl)) {
+    copy(pointed.control->kind, shown.control_kind);
+    copy(pointed.control->index, shown.control_index);
+  }
+}
 
 void log_parameters(const curves::LiveParameters& parameters) {
   std::string line = "parameters:";
@@ -45,52 +68,43 @@ ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<c
 std::string ViewPanels::shown() const {
   if (keys_shown_) return "keys";
   if (hidden_) return "none";
-  return right_ == RightPanel::Parameters ? "parameters" : right_ == RightPanel::FrictionLoop ? kLoopShown : "samples";
+  return std::string(kRightPanels[core::index_of(right_)].word);
 }
 
 void ViewPanels::show(std::string_view panels) {
   keys_shown_ = panels == "keys";
   hidden_ = panels == "none";
-  right_ = panels == "parameters" ? RightPanel::Parameters
-           : panels == kLoopShown ? RightPanel::FrictionLoop
-                                  : RightPanel::Data;
+  const auto row = std::find_if(kRightPanels.begin(), kRightPanels.end(),
+                                [&](const RightRow& candidate) { return candidate.word == panels; });
+  right_ = row == kRightPanels.end() ? RightPanel::Data : row->panel;
+}
+
+template <class Copy, class Panels, class Shown>
+void ViewPanels::copy_state(const Copy& copy, Panels& panels, Shown& shown) {
+  using S = cluster::ShownPanels;
+  copy.flag(panels.keys_shown_, shown.flags, S::kKeys);
+  copy.flag(panels.hidden_, shown.flags, S::kHidden);
+  copy.flag(panels.keys_known_, shown.flags, S::kKeysKnown);
+  copy.flag(panels.marking_, shown.flags, S::kMarking);
+  copy.flag(panels.unattended_, shown.flags, S::kUnattended);
+  copy(panels.right_, shown.right);
+  copy(panels.marked_, shown.marked);
 }
 
 cluster::ShownPanels ViewPanels::told(const Pointed& pointed, HandSource hand) const {
-  using Shown = cluster::ShownPanels;
-  Shown shown{.right = static_cast<std::uint32_t>(right_),
-              .marked = static_cast<std::uint32_t>(std::min<std::size_t>(marked_, Shown::kMostRows - 1)),
-              .hand = static_cast<std::uint32_t>(hand)};
-  const auto flag = [&](bool set, std::uint32_t bit) { shown.flags |= set ? bit : 0U; };
-  flag(keys_shown_, Shown::kKeys);
-  flag(hidden_, Shown::kHidden);
-  flag(keys_known_, Shown::kKeysKnown);
-  flag(marking_, Shown::kMarking);
-  flag(unattended_, Shown::kUnattended);
-  flag(pointed.tab, Shown::kTab);
-  if (pointed.control) {
-    shown.flags |= Shown::kControl;
-    shown.control_kind = static_cast<std::uint32_t>(pointed.control->kind);
-    shown.control_index = static_cast<std::uint32_t>(pointed.control->index);
-  }
+  cluster::ShownPanels shown;
+  copy_state(scene::CopyOut(), *this, shown);
+  shown.marked = std::min(shown.marked, cluster::ShownPanels::kMostRows - 1);
+  const Told told{.pointed = pointed, .hand = hand};
+  copy_pointed(scene::CopyOut(), told, shown);
   return shown;
 }
 
 ViewPanels::Told ViewPanels::follow(const cluster::ShownPanels& panels) {
-  using Shown = cluster::ShownPanels;
-  const auto flag = [&](std::uint32_t bit) { return (panels.flags & bit) != 0; };
-  keys_shown_ = flag(Shown::kKeys);
-  hidden_ = flag(Shown::kHidden);
-  keys_known_ = flag(Shown::kKeysKnown);
-  marking_ = flag(Shown::kMarking);
-  unattended_ = flag(Shown::kUnattended);
-  right_ = static_cast<RightPanel>(panels.right);
-  marked_ = panels.marked;
-  Told told{.pointed = {.control = {}, .tab = flag(Shown::kTab), .swatch = {}},
-            .hand = static_cast<HandSource>(panels.hand)};
-  if (flag(Shown::kControl)) {
-    told.pointed.control = {static_cast<render::ControlTarget::Kind>(panels.control_kind), panels.control_index};
-  }
+  copy_state(scene::CopyBack(), *this, panels);
+  if (!core::is_enumerator(right_)) right_ = RightPanel::Data;
+  Told told;
+  copy_pointed(scene::CopyBack(), told, panels);
   return told;
 }
 
@@ -167,26 +181,40 @@ void ViewPanels::change(const render::ControlTarget& target, std::size_t materia
   core::log_line("parameters: not changed: " + parameters.refusal());
 }
 
-void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material,
-                                const std::string& material_title, const scene::TipState& tip) {
+// The tab that opens the parameters, and the curve that follows from them.
+void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material) {
   const curves::LiveParameters& parameters = edits_.of(material);
-  const bool shown = right_ == RightPanel::Parameters;
-  if (shown) {
-    frame.control_panel = control_panel(material, material_title, edits_.state(material, tip));
-    frame.control_panel.pointed = pointed.control;
-    frame.control_placement = wall_scene_.parameter_placement();
-    frame.data_placement = render::kNoPlacement;
-  } else {
+  const bool open = right_ == RightPanel::Parameters;
+  if (!open) {
     frame.labels.push_back({.text = phrases()[exhibit::Phrase::ChangeParameters],
                             .highlighted = pointed.tab,
                             .placement = wall_scene_.parameter_tab_placement()});
   }
-  if (right_ == RightPanel::FrictionLoop && friction_ != nullptr) {
-    frame.loop_panel = exhibit::friction_panel(*friction_, parameters.model().parameters.friction.law, phrases());
-    frame.loop_placement = wall_scene_.parameter_placement();
-    frame.data_placement = render::kNoPlacement;
+  if (open || parameters.changed()) exhibit::add_prediction(parameters, phrases(), frame.panels.force.content);
+}
+
+// In the place of the sample's data.
+template <class Content>
+void ViewPanels::show_right(render::FramePanels& panels, render::PanelSlot<Content>& slot, Content content) const {
+  panels.data.placement = render::kNoPlacement;
+  slot = {.content = std::move(content), .placement = wall_scene_.parameter_placement()};
+}
+
+void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, std::size_t material,
+                           const std::string& material_title, const scene::TipState& tip) {
+  switch (right_) {
+    case RightPanel::Data:
+      return;
+    case RightPanel::Parameters:
+      show_right(panels, panels.control, control_panel(material, material_title, edits_.state(material, tip)));
+      panels.control.content.pointed = pointed.control;
+      return;
+    case RightPanel::FrictionLoop:
+      if (friction_ == nullptr) return;
+      const physics::FrictionLaw law = edits_.of(material).model().parameters.friction.law;
+      show_right(panels, panels.loop, exhibit::friction_panel(*friction_, law, phrases()));
+      return;
   }
-  if (shown || parameters.changed()) exhibit::add_prediction(parameters, phrases(), frame.force_panel);
 }
 
 void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece,
@@ -206,15 +234,18 @@ void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece center
 
 void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
                         const std::string& material_title, const scene::TipState& tip, HandSource hand) {
-  if (material && use_ == WallUse::Free) add_parameters(frame, pointed, *material, material_title, tip);
+  const bool changeable = material && use_ == WallUse::Free;
+  if (changeable) add_parameters(frame, pointed, *material);
+  render::FramePanels& panels = frame.panels;
   if (hidden_) {
-    frame.force_placement = frame.image_placement = frame.loop_placement = frame.data_placement =
-        frame.control_placement = render::kNoPlacement;
+    const render::PanelPlacement banner = panels.banner.placement;
+    hide(panels);
+    panels.banner.placement = banner;
   }
   if (keys_shown_) {
-    frame.data_panel = key_list(hand, unattended_, phrases(), use_);
-    frame.data_placement = wall_scene_.parameter_placement();
-    frame.loop_placement = frame.control_placement = render::kNoPlacement;
+    show_right(panels, panels.data, key_list(hand, unattended_, phrases(), use_));
+  } else if (changeable && !hidden_) {
+    add_right(panels, pointed, *material, material_title, tip);
   }
 }
 

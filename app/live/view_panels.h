@@ -27,6 +27,9 @@ struct Pointed {
   glm::dvec3 point_m{0.0};  // in the room
 };
 
+// What is in the place of the sample's data.
+enum class RightPanel { Data, Parameters, FrictionLoop };
+
 // Visible panels of the live window, and the parameters that one of them edits. One thread.
 class ViewPanels {
  public:
@@ -88,9 +91,6 @@ class ViewPanels {
               const std::string& material_title, const scene::TipState& tip, HandSource hand);
 
  private:
-  // What is in the place of the sample's data.
-  enum class RightPanel { Data, Parameters, FrictionLoop };
-
   bool toggle(RightPanel panel) {
     right_ = right_ == panel ? RightPanel::Data : panel;
     return right_ == panel;
@@ -98,8 +98,13 @@ class ViewPanels {
   const exhibit::Phrases& phrases() const { return wall_scene_.phrases(); }
   render::ControlPanel control_panel(std::size_t material, const std::string& title, exhibit::ChangeState state);
   void change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo);
-  void add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material,
-                      const std::string& material_title, const scene::TipState& tip);
+  void add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material);
+  void add_right(render::FramePanels& panels, const Pointed& pointed, std::size_t material,
+                 const std::string& material_title, const scene::TipState& tip);
+  template <class Content>
+  void show_right(render::FramePanels& panels, render::PanelSlot<Content>& slot, Content content) const;
+  template <class Copy, class Panels, class Shown>
+  static void copy_state(const Copy& copy, Panels& panels, Shown& shown);
 
   const exhibit::WallScene& wall_scene_;
   std::vector<input::Target> swatches_;

@@ -11,6 +11,7 @@
 #include "core/log.h"
 #include "exhibit/calibration.h"
 #include "exhibit/cluster/frame_inputs.h"
+#include "exhibit/recorded_wall.h"
 
 namespace afm::app {
 
@@ -102,7 +103,7 @@ void ViewPicture::look_from(const scene::HeadPose& head) {
 cluster::ShownView ViewPicture::told() const {
   using Shown = cluster::ShownView;
   Shown view{.ipd_m = settings_.ipd_m, .drawn_ipd_m = drawn_ipd_m_};
-  exhibit::set_head(head_, view);
+  view.head = exhibit::pose_of(head_);
   exhibit::set_depth(depth_, view);
   if (other_mode_) view.mode = static_cast<std::int32_t>(*other_mode_);
   if (other_order_ == scene::EyeOrder::Swapped) view.flags |= Shown::kSwapped;
@@ -115,7 +116,7 @@ void ViewPicture::follow(const cluster::ShownView& view) {
   follows_ = true;
   settings_.ipd_m = view.ipd_m;
   drawn_ipd_m_ = view.drawn_ipd_m;
-  head_ = exhibit::head_of(view);
+  head_ = exhibit::head_of(view.head);
   auto mode = view.mode < 0 ? std::nullopt : std::optional(static_cast<scene::StereoMode>(view.mode));
   if (mode && !can_show(*mode)) mode.reset();  // its own, rather than none
   const bool swapped = (view.flags & Shown::kSwapped) != 0;

@@ -52,7 +52,7 @@ bool is_material(std::int32_t material) {
   return material >= -1 && material < static_cast<std::int32_t>(scene::kMaxMaterials);
 }
 
-bool is_turned(const ShownPose& pose) {
+bool is_turned(const scene::Pose& pose) {
   double square = 0;
   for (const double part : pose.orientation) square += part * part;
   return std::abs(square - 1.0) < kUnitTolerance;

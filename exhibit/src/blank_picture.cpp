@@ -5,8 +5,7 @@ namespace afm::exhibit {
 
 void blank(render::FrameState& frame) {
   frame.visible.assign(frame.room_from_node.size(), 0);
-  frame.force_placement = frame.image_placement = frame.loop_placement = frame.data_placement = frame.banner_placement =
-      frame.control_placement = render::kNoPlacement;
+  hide(frame.panels);
   frame.labels.clear();
   frame.contact = {};
 }

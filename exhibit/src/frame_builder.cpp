@@ -137,20 +137,20 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
   render::FrameState frame;
   frame.eyes = eyes_;
   wall_scene_->update(moment.wall, frame);
-  frame.force_panel = force_panel(moment);
+  frame.panels.force.content = force_panel(moment);
   if (moment.scan != nullptr && moment.wall.material) {
     const std::string& title = (*materials_)[*moment.wall.material].setup.material.title;
-    frame.image_panel = image_panel(*moment.scan, phrases_->word(title), *phrases_);
+    frame.panels.image.content = image_panel(*moment.scan, phrases_->word(title), *phrases_);
   }
   if (moment.wall.centerpiece == Centerpiece::Plot) {
-    frame.data_panel = results_panel(moment.results, *phrases_);
+    frame.panels.data.content = results_panel(moment.results, *phrases_);
   } else if (moment.wall.material) {
-    frame.data_panel = data_panel((*materials_)[*moment.wall.material], moment.wall.tip, *phrases_);
+    frame.panels.data.content = data_panel((*materials_)[*moment.wall.material], moment.wall.tip, *phrases_);
   } else {
-    frame.data_panel = {
+    frame.panels.data.content = {
         .title = (*phrases_)[Phrase::NoSample], .subtitle = (*phrases_)[Phrase::NoSampleAdvice], .rows = {}};
   }
-  frame.banner = banner(moment);
+  frame.panels.banner.content = banner(moment);
   return frame;
 }
 

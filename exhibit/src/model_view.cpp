@@ -221,7 +221,6 @@ core::Result<ModelView> open_model(const ModelChoice& choice) {
   if (!frame.lights.empty()) frame.key_light.radiance = glm::vec3(0.0F);
   frame.key_light.shadow_center_m = glm::vec3(dvec3(room_from_scene * glm::dvec4(bounds.center, 1.0)));
   frame.key_light.shadow_radius_m = static_cast<float>(bounds.radius * scale);
-  frame.force_placement = frame.data_placement = frame.banner_placement = render::kNoPlacement;
   return view;
 }
 

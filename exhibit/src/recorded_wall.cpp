@@ -3,34 +3,37 @@
 
 #include <algorithm>
 #include <array>
-#include <glm/gtc/type_ptr.hpp>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
+#include "core/enumerators.h"
+#include "core/members.h"
 #include "exhibit/cycle_history.h"
+#include "scene/shared/field_copy.h"
 
 namespace afm::exhibit {
 
 namespace {
 
 // Files have names, which do not change with the enumeration.
-constexpr std::array<std::pair<Centerpiece, std::string_view>, 4> kCenterpieces{
-    {{Centerpiece::Instrument, "instrument"},
-     {Centerpiece::Plot, "plot"},
-     {Centerpiece::Analogy, "analogy"},
-     {Centerpiece::Journey, "journey"}}};
+struct CenterpieceRow {
+  Centerpiece piece;
+  std::string_view name;
+};
+constexpr std::array<CenterpieceRow, 4> kCenterpieces{{{Centerpiece::Instrument, "instrument"},
+                                                       {Centerpiece::Plot, "plot"},
+                                                       {Centerpiece::Analogy, "analogy"},
+                                                       {Centerpiece::Journey, "journey"}}};
+static_assert(core::has_row_for_each(kCenterpieces, &CenterpieceRow::piece));
 
-std::string name_of(Centerpiece piece) {
-  const auto found =
-      std::find_if(kCenterpieces.begin(), kCenterpieces.end(), [&](const auto& entry) { return entry.first == piece; });
-  return std::string(found->second);
-}
+std::string name_of(Centerpiece piece) { return std::string(kCenterpieces[core::index_of(piece)].name); }
 
 Centerpiece centerpiece_of(std::string_view name) {
-  const auto found =
-      std::find_if(kCenterpieces.begin(), kCenterpieces.end(), [&](const auto& entry) { return entry.second == name; });
-  return found == kCenterpieces.end() ? Centerpiece::Instrument : found->first;
+  const auto found = std::find_if(kCenterpieces.begin(), kCenterpieces.end(),
+                                  [&](const CenterpieceRow& row) { return row.name == name; });
+  return found == kCenterpieces.end() ? Centerpiece::Instrument : found->piece;
 }
 
 std::optional<std::size_t> index_of(std::span<const std::string> names, std::string_view name) {
@@ -38,29 +41,33 @@ std::optional<std::size_t> index_of(std::span<const std::string> names, std::str
   return found == names.end() ? std::nullopt : std::optional(static_cast<std::size_t>(found - names.begin()));
 }
 
-servo::RecordedPose recorded(const glm::dvec3& p, const glm::dquat& q) {
-  return {.position_m = {p.x, p.y, p.z}, .orientation = {q.w, q.x, q.y, q.z}};
+template <class Copy, class Wand, class Recorded>
+void copy_wand(const Copy& copy, Wand& wand, Recorded& recorded) {
+  copy(wand.position_m, recorded.pose.position_m);
+  copy(wand.room_from_wand, recorded.pose.orientation);
+  copy(wand.orientation_valid, recorded.orientation_valid);
+  copy(wand.position_valid, recorded.position_valid);
+  copy(wand.connected, recorded.connected);
+  copy(wand.buttons, recorded.buttons);
 }
 
-glm::dvec3 position_of(const servo::RecordedPose& pose) {
-  const auto& [x, y, z] = pose.position_m;
-  return {x, y, z};
+// What is recorded by its value, in either direction; materials and modes have names.
+template <class Copy, class Moment, class Frame>
+void copy_moment(const Copy& copy, Moment& moment, Frame& frame) {
+  auto& wall = moment.wall;
+  copy(wall.navigation, frame.navigation);
+  copy(wall.journey_orders, frame.journey_orders);
+  copy(wall.fade, frame.fade);
+  if (copy.has(wall.wand, frame.wand)) copy_wand(copy, *wall.wand, *frame.wand);
+  copy(wall.release_z_m, frame.release_z_m);
+  copy(moment.guidance, frame.guidance);
+  copy(moment.retracting, frame.retracting);
 }
 
-glm::dquat orientation_of(const servo::RecordedPose& pose) {
-  const auto& [w, x, y, z] = pose.orientation;
-  return {w, x, y, z};
-}
-
-input::WandState wand_of(const servo::RecordedWand& wand) {
-  input::WandState state;
-  state.position_m = position_of(wand.pose);
-  state.room_from_wand = orientation_of(wand.pose);
-  state.orientation_valid = wand.orientation_valid;
-  state.position_valid = wand.position_valid;
-  state.connected = wand.connected;
-  state.buttons = wand.buttons;
-  return state;
+// A change of a scan has the numbers of a servo::RecordedScanChange, in their order.
+template <class Change>
+auto numbers_of(Change& change) {
+  return std::tuple_cat(std::tie(change.frame, change.pixel), core::members_of(change.choice));
 }
 
 // As the live window's: the cycle that went on at `end_ns`, or the last whole one.
@@ -97,40 +104,32 @@ FrictionHistory friction_until(const servo::RecordedSession& session, std::int64
 
 }  // namespace
 
-servo::RecordedPose recorded(const scene::HeadPose& head) { return recorded(head.position_m, head.room_from_head); }
+scene::Pose pose_of(const scene::HeadPose& head) {
+  scene::Pose pose;
+  scene::convert(head.position_m, pose.position_m);
+  scene::convert(head.room_from_head, pose.orientation);
+  return pose;
+}
 
-scene::HeadPose head_of(const servo::RecordedPose& pose) {
-  return {.position_m = position_of(pose), .room_from_head = orientation_of(pose)};
+scene::HeadPose head_of(const scene::Pose& pose) {
+  scene::HeadPose head;
+  scene::convert(pose.position_m, head.position_m);
+  scene::convert(pose.orientation, head.room_from_head);
+  return head;
 }
 
 servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::span<const std::string> materials) {
   servo::WallFrame frame;
   frame.time_ns = time_ns;
-  std::copy_n(glm::value_ptr(moment.wall.navigation), frame.navigation.size(), frame.navigation.begin());
+  copy_moment(scene::CopyOut(), moment, frame);
   frame.centerpiece = name_of(moment.wall.centerpiece);
-  frame.journey_orders = moment.wall.journey_orders;
-  frame.fade = moment.wall.fade;
   if (moment.wall.hovered) frame.hovered = materials[*moment.wall.hovered];
-  if (const auto& wand = moment.wall.wand) {
-    frame.wand = {.pose = recorded(wand->position_m, wand->room_from_wand),
-                  .orientation_valid = wand->orientation_valid,
-                  .position_valid = wand->position_valid,
-                  .connected = wand->connected,
-                  .buttons = wand->buttons};
-  }
-  frame.guidance = moment.guidance;
-  frame.retracting = moment.retracting;
-  frame.release_z_m = moment.wall.release_z_m;
   if (moment.scan != nullptr) {
     const ScanProgress& scan = moment.scan->progress();
     frame.scan = {.frame = scan.frame, .pixel = scan.pixel, .truth = scan.truth};
-    if (const auto& hand = scan.hand) {
-      frame.scan_hand = {
-          .paints = hand->paints, .feedback = hand->feedback, .side_m = hand->side_m, .first_tick = hand->first_tick};
-    }
-    for (const auto& [scan_frame, pixel, c] : scan.changes) {
-      frame.scan_changes.push_back({scan_frame, pixel, c.setpoint_n, c.gain_per_s, c.line_rate_hz, c.tip_radius_m,
-                                    c.noise_m, c.drift_m_per_s, c.apex_distance_m});
+    if (scan.hand) core::members_of(frame.scan_hand.emplace()) = core::members_of(*scan.hand);
+    for (const ScanChange& change : scan.changes) {
+      core::members_of(frame.scan_changes.emplace_back()) = numbers_of(change);
     }
   }
   for (const render::DataRow& row : moment.servo) frame.servo_row.push_back({row.name, row.value, row.source});
@@ -140,12 +139,9 @@ servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::
 ScanProgress scan_progress_of(const servo::WallFrame& frame) {
   ScanProgress progress{
       .frame = frame.scan->frame, .pixel = frame.scan->pixel, .truth = frame.scan->truth, .changes = {}, .hand = {}};
-  if (const auto& hand = frame.scan_hand) {
-    progress.hand = {
-        .paints = hand->paints, .feedback = hand->feedback, .side_m = hand->side_m, .first_tick = hand->first_tick};
-  }
-  for (const auto& [scan_frame, pixel, setpoint, gain, rate, radius, noise, drift, apex] : frame.scan_changes) {
-    progress.changes.push_back({scan_frame, pixel, {setpoint, gain, rate, radius, noise, drift, apex}});
+  if (frame.scan_hand) core::members_of(progress.hand.emplace()) = core::members_of(*frame.scan_hand);
+  for (const servo::RecordedScanChange& change : frame.scan_changes) {
+    numbers_of(progress.changes.emplace_back()) = core::members_of(change);
   }
   return progress;
 }
@@ -158,15 +154,9 @@ RecordedMoment moment_on_wall(const servo::RecordedSession& session, std::span<c
   const std::size_t own = index_of(materials, session.material).value();
 
   Moment then = moment_of(session, own, frame.time_ns, {});
-  then.retracting = frame.retracting;
-  then.guidance = frame.guidance;
-  then.wall.release_z_m = frame.release_z_m;
+  copy_moment(scene::CopyBack(), then, frame);
   then.wall.hovered = index_of(materials, frame.hovered);
-  if (frame.wand) then.wall.wand = wand_of(*frame.wand);
   then.wall.centerpiece = centerpiece_of(frame.centerpiece);
-  then.wall.journey_orders = frame.journey_orders;
-  then.wall.fade = frame.fade;
-  then.wall.navigation = glm::make_mat4(frame.navigation.data());
   for (const auto& [name, value, source] : frame.servo_row) then.servo.push_back({name, value, source});
   return {.frame = &frame,
           .curves = curves_until(session, materials, own, frame.time_ns),

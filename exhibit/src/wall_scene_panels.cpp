@@ -155,13 +155,14 @@ render::PanelPlacement WallScene::plot_placement() const {
 }
 
 void WallScene::place_panels(const WallState& state, render::FrameState& frame) const {
-  frame.banner_placement = panel(-half_width_ + kPanelMargin, wall_top_ - kBannerHeight - kPanelMargin,
-                                 2.0 * (half_width_ - kPanelMargin), kBannerHeight);
-  frame.force_placement = frame.image_placement = frame.data_placement = render::kNoPlacement;
+  render::FramePanels& panels = frame.panels;
+  hide(panels);
+  panels.banner.placement = panel(-half_width_ + kPanelMargin, wall_top_ - kBannerHeight - kPanelMargin,
+                                  2.0 * (half_width_ - kPanelMargin), kBannerHeight);
   if (state.centerpiece == Centerpiece::Journey) return;
-  frame.force_placement = state.centerpiece == Centerpiece::Plot ? plot_placement() : force_placement_;
-  frame.data_placement = data_placement_;
-  if (state.scan && state.centerpiece != Centerpiece::Plot) std::swap(frame.image_placement, frame.force_placement);
+  const bool plot = state.centerpiece == Centerpiece::Plot;
+  (state.scan && !plot ? panels.image.placement : panels.force.placement) = plot ? plot_placement() : force_placement_;
+  panels.data.placement = data_placement_;
 }
 
 }  // namespace afm::exhibit

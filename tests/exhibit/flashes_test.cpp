@@ -152,12 +152,12 @@ class Flashes : public ::testing::Test {
     see("ring", std::to_string(rings_));
     see("shade", frame.contact.shade_radius_m > 0.0F ? "shown" : "");
     see("fog", std::to_string(frame.fog.fade));
-    narrator.follow(tip_, {.hint = hint_, .guidance = frame.banner.guidance, .scan_lines = {}});
+    narrator.follow(tip_, {.hint = hint_, .guidance = frame.panels.banner.content.guidance, .scan_lines = {}});
     see("caption", narrator.caption());
-    see("guidance", frame.banner.guidance);
-    see("state", frame.banner.state_word);
-    see("scale", frame.banner.scale);
-    see("warning", frame.banner.warning);
+    see("guidance", frame.panels.banner.content.guidance);
+    see("state", frame.panels.banner.content.state_word);
+    see("scale", frame.panels.banner.content.scale);
+    see("warning", frame.panels.banner.content.warning);
     for (std::size_t i = 0; i < frame.labels.size(); ++i) {
       see("label " + std::to_string(i), frame.labels[i].text + (frame.labels[i].highlighted ? " marked" : ""));
     }
@@ -165,13 +165,13 @@ class Flashes : public ::testing::Test {
       see("node " + stage_->wall_scene.scene().nodes[i].name, std::to_string(frame.visible[i]));
     }
     see("highlighted", std::to_string(frame.highlighted.size()));
-    see("data panel", frame.data_panel.title + frame.data_panel.subtitle);
-    see("plot", frame.force_panel.title + std::to_string(frame.force_panel.markers.size()));
-    see("curves", std::to_string(frame.force_panel.curves.size()));
-    see("force panel", std::to_string(glm::length(frame.force_placement.right_m)));
-    see("data panel's place", std::to_string(glm::length(frame.data_placement.right_m)));
-    see("banner", std::to_string(glm::length(frame.banner_placement.right_m)));
-    see("stage", frame.force_panel.stage);
+    see("data panel", frame.panels.data.content.title + frame.panels.data.content.subtitle);
+    see("plot", frame.panels.force.content.title + std::to_string(frame.panels.force.content.markers.size()));
+    see("curves", std::to_string(frame.panels.force.content.curves.size()));
+    see("force panel", std::to_string(glm::length(frame.panels.force.placement.right_m)));
+    see("data panel's place", std::to_string(glm::length(frame.panels.data.placement.right_m)));
+    see("banner", std::to_string(glm::length(frame.panels.banner.placement.right_m)));
+    see("stage", frame.panels.force.content.stage);
   }
 
  protected:

@@ -55,7 +55,7 @@ TEST(ForcePanel, NoLabelCoversAnotherForAnyMaterialOfTheLibrary) {
     const FrameBuilder frames(scene, felt, eyes_at_sweet_spot(wall).value());
     Moment moment;
     moment.wall.material = 0;
-    const render::ForcePanel panel = frames.build(moment).force_panel;
+    const render::ForcePanel panel = frames.build(moment).panels.force.content;
     if (felt.front().figures().hysteretic) {
       EXPECT_GE(panel.markers.size(), 4U) << entry.name;
     }
@@ -91,11 +91,11 @@ TEST(ForcePanel, ThePresentSamplesCurveIsThereAlone) {
   Moment moment;
   moment.curves = curves;
   moment.wall.material = 1;
-  const render::ForcePanel present = frames.build(moment).force_panel;
+  const render::ForcePanel present = frames.build(moment).panels.force.content;
   ASSERT_EQ(present.curves.size(), 1U);
   EXPECT_EQ(present.curves.front().label, library.materials[1].title);
   moment.wall.centerpiece = Centerpiece::Plot;
-  EXPECT_EQ(frames.build(moment).force_panel.curves.size(), felt.size());
+  EXPECT_EQ(frames.build(moment).panels.force.content.curves.size(), felt.size());
 }
 
 TEST(ForcePanel, LabelsOfOnePlaceMakeRoomForEachOther) {

@@ -60,7 +60,7 @@ TEST_F(InstrumentTest, TheLiftedTipAndHandleStayBelowTheBanner) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
     const scene::Tip lifted{.z_m = 1.4 * z_joc(material)};
     const render::FrameState instrument = frame({.material = material, .tip = lifted});
-    const double banner_y = instrument.banner_placement.lower_left_m.y;
+    const double banner_y = instrument.panels.banner.placement.lower_left_m.y;
     EXPECT_LT(highest_before_wall(instrument, "probe/"), banner_y) << material;
     EXPECT_GT(highest_before_wall(instrument, "probe/"), banner_y - 0.1) << "the stroke uses the room that there is";
     const render::FrameState analogy =
@@ -104,9 +104,9 @@ TEST_F(InstrumentTest, LaserAndPhotodiodeAreSeenBelowTheBannerAndBetweenThePanel
   const render::FrameState state = frame({.material = 0});
   for (const char* part : {"optics/laser", "optics/spot"}) {
     const glm::dvec3 seen = seen_on_wall(origin(state, part));
-    EXPECT_LT(seen.y, state.banner_placement.lower_left_m.y) << part;
-    EXPECT_GT(seen.x, state.force_placement.lower_left_m.x + state.force_placement.right_m.x) << part;
-    EXPECT_LT(seen.x, state.data_placement.lower_left_m.x) << part;
+    EXPECT_LT(seen.y, state.panels.banner.placement.lower_left_m.y) << part;
+    EXPECT_GT(seen.x, state.panels.force.placement.lower_left_m.x + state.panels.force.placement.right_m.x) << part;
+    EXPECT_LT(seen.x, state.panels.data.placement.lower_left_m.x) << part;
   }
 }
 

@@ -45,14 +45,14 @@ TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWal
   };
   const Phrases& phrases = stage->phrases();
   const render::PanelPlacement right = stage->wall_scene.parameter_placement();
-  expect_large(frame.force_panel, frame.force_placement, "the plot");
-  expect_large(frame.data_panel, frame.data_placement, "the data");
-  expect_large(full_banner(phrases, frame.banner), frame.banner_placement, "the banner");
+  expect_large(frame.panels.force.content, frame.panels.force.placement, "the plot");
+  expect_large(frame.panels.data.content, frame.panels.data.placement, "the data");
+  expect_large(full_banner(phrases, frame.panels.banner.content), frame.panels.banner.placement, "the banner");
   expect_large(app::key_list(app::HandSource::Mouse, false, phrases), right, "the list of keys");
   expect_large(full_parameters(*stage), right, "the parameters");
   const LiveScan scan = full_scan(*stage);
   expect_large(scan_panel(scan, phrases.word("Silicon nitride"), phrases), right, "the settings of a scan");
-  expect_large(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.force_placement, "the images");
+  expect_large(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.panels.force.placement, "the images");
   expect_large(full_friction_loop(physics::FrictionLaw::Lattice, phrases), right, "the friction loop");
   for (const LessonPrompt& prompt : full_prompts(phrases)) {
     const auto targets = lesson_targets(prompt, std::nullopt, phrases);

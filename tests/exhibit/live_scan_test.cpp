@@ -345,13 +345,13 @@ TEST(LiveScan, TakesThePlaceOfTheCurveAndTheTipFollowsUnlessTheHandHasIt) {
   moment.wall.material = kGold;
   render::FrameState frame;
   stage().wall_scene.update(moment.wall, frame);
-  const render::PanelPlacement place = frame.force_placement;
-  EXPECT_EQ(frame.image_placement, render::kNoPlacement);
+  const render::PanelPlacement place = frame.panels.force.placement;
+  EXPECT_EQ(frame.panels.image.placement, render::kNoPlacement);
   show_scan(scan, moment);
   EXPECT_EQ(moment.wall.surface.xy_m[1], scan.apex_m().y);
   stage().wall_scene.update(moment.wall, frame);
-  EXPECT_EQ(frame.image_placement, place);
-  EXPECT_EQ(frame.force_placement, render::kNoPlacement);
+  EXPECT_EQ(frame.panels.image.placement, place);
+  EXPECT_EQ(frame.panels.force.placement, render::kNoPlacement);
 
   Moment held;
   held.wall.material = kGold;

@@ -54,17 +54,17 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
     EXPECT_TRUE(painted.inside()) << where << ": " << name;
     EXPECT_FALSE(painted.cut) << where << ": " << name << " is cut";
   };
-  const render::Banner shown = full_banner(phrases, frame.banner);
-  const Painted banner = painter.paint(shown, frame.banner_placement, shown.state_color);
+  const render::Banner shown = full_banner(phrases, frame.panels.banner.content);
+  const Painted banner = painter.paint(shown, frame.panels.banner.placement, shown.state_color);
   EXPECT_TRUE(banner.inside() && !banner.cut) << where << ": the banner";
   const float letters = render::text_height_mm(render::TextStyle::Strong);
   const float letter_px = banner.state_height_px * letters / (letters + 24.0F);
   // a picture of 12 m x 2 m that is 400 pixels wide has 67 rows, 7 of them for the banner; one of 6 m x 2 m has 133
-  if (glm::length(frame.banner_placement.up_m) * width_px / stage.screen.width_m() > kLeastBannerPx) {
+  if (glm::length(frame.panels.banner.placement.up_m) * width_px / stage.screen.width_m() > kLeastBannerPx) {
     EXPECT_GE(letter_px, kLeastLetterPx) << where;
   }
-  expect_whole(frame.force_panel, frame.force_placement, "the plot");
-  expect_whole(frame.data_panel, frame.data_placement, "the data");
+  expect_whole(frame.panels.force.content, frame.panels.force.placement, "the plot");
+  expect_whole(frame.panels.data.content, frame.panels.data.placement, "the data");
   expect_whole(app::key_list(app::HandSource::Mouse, false, phrases), stage.wall_scene.parameter_placement(),
                "the list of keys");
   expect_whole(full_parameters(stage), stage.wall_scene.parameter_placement(), "the parameters");
@@ -81,7 +81,7 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
     }
   }
   const LiveScan scan = full_scan(stage);
-  expect_whole(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.force_placement, "the images");
+  expect_whole(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.panels.force.placement, "the images");
   expect_whole(scan_panel(scan, phrases.word("Silicon nitride"), phrases), stage.wall_scene.parameter_placement(),
                "the settings of a scan");
   const DepthReport depth = report_depth({.nearest_m = 1.0, .farthest_m = 10.0}, 2.5, 0.063, Relief::BringToWall);
@@ -98,7 +98,7 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   if (stage.screen.width_m() < kRulerM) return;
   render::FrameState pattern;
   show_calibration(stage.screen, scene::StereoMode::SideBySide, 0.063, phrases, pattern);
-  const Painted whole_screen = painter.paint(pattern.calibration, pattern.calibration_placement);
+  const Painted whole_screen = painter.paint(pattern.calibration, pattern.panels.calibration.placement);
   const float half_line = 1.5F * whole_screen.size.y / 2286.0F;  // of the grid, on the screen's edge
   constexpr float kSoftEdge = 3.0F;
   EXPECT_TRUE(whole_screen.inside(kSoftEdge + half_line)) << where << ": the test pattern";
@@ -148,11 +148,11 @@ TEST_P(ReadableWalls, HaveLargerLettersWhereTheyAreAskedFor) {
     LessonPrompt consent = full_prompts(stage.phrases()).front(), cycle;
     cycle.wants = LessonPrompt::Wants::Cycle;
     cycle.words = "Lift the tip, press Turn-On, and lower it until it snaps to the surface.";
-    render::Banner banner = frame.banner;
+    render::Banner banner = frame.panels.banner.content;
     banner.guidance = "Lower the tip";
     banner.scale.clear();
     banner.state_word.clear();
-    return Letters{painter.paint(banner, frame.banner_placement).letter_px, words_px(cycle), words_px(consent)};
+    return Letters{painter.paint(banner, frame.panels.banner.placement).letter_px, words_px(cycle), words_px(consent)};
   };
   const Letters normal = letters_at(1.0), large = letters_at(kLargestText);
   EXPECT_GT(large.guidance_px, 1.3F * normal.guidance_px);

@@ -98,12 +98,12 @@ class TranslatedWall : public ::testing::Test {
     for (const render::PlotMarker& marker : panel.markers) check(marker.label);
   }
   void check(const render::FrameState& frame) {
-    for (const std::string& text :
-         {frame.banner.guidance, frame.banner.state_word, frame.banner.scale, frame.banner.warning}) {
+    for (const std::string& text : {frame.panels.banner.content.guidance, frame.panels.banner.content.state_word,
+                                    frame.panels.banner.content.scale, frame.panels.banner.content.warning}) {
       check(text);
     }
-    check(frame.force_panel);
-    check(frame.data_panel);
+    check(frame.panels.force.content);
+    check(frame.panels.data.content);
     for (const render::Label& label : frame.labels) check(label.text);
   }
   const Phrases& phrases() const { return stage_->phrases(); }
@@ -207,8 +207,8 @@ TEST_F(TranslatedWall, HasNoEnglishWordOnItsPanels) {
   for (const auto mode : {scene::StereoMode::Mono, scene::StereoMode::SideBySide}) {
     render::FrameState frame;
     show_calibration(stage_->screen, mode, 0.063, phrases(), frame);
-    check(frame.calibration.legend);
-    check(frame.calibration.ruler);
+    check(frame.panels.calibration.content.legend);
+    check(frame.panels.calibration.content.ruler);
   }
 }
 
@@ -223,7 +223,7 @@ TEST_F(TranslatedWall, HasNoEnglishWordOnTheInstructorsPage) {
         state.hand_off = state.stop_asked = asked;
         state.judged = asked ? 4 : 0;
         const render::FrameState page = InstructorPage(16.0 / 9.0).frame(state, std::nullopt, phrases());
-        check(page.data_panel);
+        check(page.panels.data.content);
         for (const render::Label& target : page.labels) check(target.text);
       }
     }

@@ -26,7 +26,7 @@ TEST(WallPictures, ThePatternHasALetterForEachEyeOnlyWhereTheirPicturesDiffer) {
   for (const scene::StereoModeTraits& row : scene::kStereoModes) {
     render::FrameState frame;
     show_calibration(screen, row.mode, 0.063, test::english(), frame);
-    EXPECT_EQ(frame.calibration.eye_marks, row.mode != StereoMode::Mono) << row.name;
+    EXPECT_EQ(frame.panels.calibration.content.eye_marks, row.mode != StereoMode::Mono) << row.name;
   }
 }
 
@@ -37,7 +37,7 @@ TEST(WallPictures, ThePatternMarksWhereScreensAreBlended) {
   for (std::size_t i = 0; i < panels.size(); ++i) {
     render::FrameState frame;
     show_calibration(wall.screens.at(i), StereoMode::SideBySide, 0.063, test::english(), frame);
-    panels.at(i) = frame.calibration;
+    panels.at(i) = frame.panels.calibration.content;
   }
   const auto right = static_cast<std::size_t>(scene::ScreenEdge::Right);
   EXPECT_NEAR(panels[0].ramps.at(right).width_m, 0.4, 1e-9);
@@ -47,7 +47,7 @@ TEST(WallPictures, ThePatternMarksWhereScreensAreBlended) {
   EXPECT_NEAR(panels[1].grid_from_m.x, -2.8, 1e-9);
   render::FrameState frame;
   show_calibration(preset("tiled-2x2").screens.front(), StereoMode::SideBySide, 0.063, test::english(), frame);
-  EXPECT_EQ(frame.calibration.ramp_widths, (std::array<std::string, 4>{}));
+  EXPECT_EQ(frame.panels.calibration.content.ramp_widths, (std::array<std::string, 4>{}));
 }
 
 TEST(WallPictures, CorrectEachProjector) {

@@ -149,7 +149,8 @@ TEST_F(WallSceneTest, ShowsOnlyTheSampleOfTheMaterial) {
 
 TEST_F(WallSceneTest, WhatMustBeReadLiesInTheWallAndOnIt) {
   const render::FrameState state = frame({.material = 0});
-  for (const render::PanelPlacement& panel : {state.force_placement, state.data_placement, state.banner_placement}) {
+  for (const render::PanelPlacement& panel :
+       {state.panels.force.placement, state.panels.data.placement, state.panels.banner.placement}) {
     for (const glm::dvec3& corner : {panel.lower_left_m, panel.lower_left_m + panel.right_m + panel.up_m}) {
       EXPECT_NEAR(corner.z, 0.0, 1e-12);
       EXPECT_GE(corner.x, screen_.lower_left.x);

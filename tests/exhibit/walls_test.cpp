@@ -60,7 +60,7 @@ class ModelsOfAWall : public test::VulkanTest {
     EXPECT_TRUE(stage) << stage.error().message;
     auto subject = app::wall_subject(*stage, kEyeWidth, app::WallMotion::Tip).value();
     render::FrameState& frame = subject.frames[kFrame];
-    frame.banner.scale.clear();  // a metre of another wall shows something else
+    frame.panels.banner.content.scale.clear();  // a metre of another wall shows something else
     auto renderer = make_renderer(subject.scene, subject.drawing);
     renderer.render(frame);
     return renderer.read_eye(scene::Eye::Left);
@@ -137,9 +137,9 @@ void expect_everything_in_its_place(const std::string& wall_file, const std::str
   EXPECT_GE(height, 1.0 / 3.0 - 1e-12) << what;
   EXPECT_LE(height, 2.0 / 3.0 + 1e-12) << what;
   const render::FrameState frame = app::wall_subject(*stage, kEyeWidth, app::WallMotion::Tip).value().frames[kFrame];
-  std::vector<Place> places{place_of("banner", frame.banner_placement, *stage),
-                            place_of("force", frame.force_placement, *stage),
-                            place_of("data", frame.data_placement, *stage),
+  std::vector<Place> places{place_of("banner", frame.panels.banner.placement, *stage),
+                            place_of("force", frame.panels.force.placement, *stage),
+                            place_of("data", frame.panels.data.placement, *stage),
                             place_of("tab", stage->wall_scene.parameter_tab_placement(), *stage)};
   for (const render::Label& label : frame.labels) places.push_back(place_of(label.text, label.placement, *stage));
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -151,7 +151,7 @@ void expect_everything_in_its_place(const std::string& wall_file, const std::str
           << what << ": " << name << " and " << places[j].name;
     }
   }
-  for (const render::PanelPlacement& panel : {frame.force_placement, frame.data_placement}) {
+  for (const render::PanelPlacement& panel : {frame.panels.force.placement, frame.panels.data.placement}) {
     const double aspect = glm::length(panel.right_m) / glm::length(panel.up_m);
     EXPECT_LE(aspect, 1.6 + 1e-9) << what;
     EXPECT_GE(aspect, 0.5) << what;

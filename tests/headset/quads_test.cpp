@@ -17,9 +17,9 @@ class HeadsetQuads : public HeadsetTest {
  protected:
   // Beside what stands before the wall, so that nothing hides them.
   HeadsetQuads() {
-    frame_.force_placement.right_m.x = 0.70;
-    frame_.data_placement.lower_left_m.x = 0.80;
-    frame_.data_placement.right_m.x = 0.68;
+    frame_.panels.force.placement.right_m.x = 0.70;
+    frame_.panels.data.placement.lower_left_m.x = 0.80;
+    frame_.panels.data.placement.right_m.x = 0.68;
   }
 
   const std::vector<stand_in::SubmittedQuad>& quads() { return log().frames.back().quads; }
@@ -98,22 +98,22 @@ TEST_F(HeadsetQuads, AreThePanelsThatNothingHidesAtTheirPlaces) {
   connect();
   ASSERT_TRUE(draw_next());
   ASSERT_THAT(quads(), SizeIs(3));
-  expect_at(quads()[0], frame_.force_placement);
-  expect_at(quads()[1], frame_.data_placement);
-  expect_at(quads()[2], frame_.banner_placement);
-  expect_eyes_without({&frame_.force_placement, &frame_.data_placement, &frame_.banner_placement});
+  expect_at(quads()[0], frame_.panels.force.placement);
+  expect_at(quads()[1], frame_.panels.data.placement);
+  expect_at(quads()[2], frame_.panels.banner.placement);
+  expect_eyes_without({&frame_.panels.force.placement, &frame_.panels.data.placement, &frame_.panels.banner.placement});
 }
 
 TEST_F(HeadsetQuads, HoldTheTexturesOfThePanels) {
   connect();
   ASSERT_TRUE(draw_next());
   ASSERT_THAT(quads(), SizeIs(3));
-  expect_texture_of(quads()[0], frame_.force_placement);
-  expect_texture_of(quads()[1], frame_.data_placement);
-  expect_texture_of(quads()[2], frame_.banner_placement);
-  frame_.banner.guidance = "Press Turn-On";
+  expect_texture_of(quads()[0], frame_.panels.force.placement);
+  expect_texture_of(quads()[1], frame_.panels.data.placement);
+  expect_texture_of(quads()[2], frame_.panels.banner.placement);
+  frame_.panels.banner.content.guidance = "Press Turn-On";
   ASSERT_TRUE(draw_next());
-  expect_texture_of(quads()[2], frame_.banner_placement);
+  expect_texture_of(quads()[2], frame_.panels.banner.placement);
 }
 
 TEST_F(HeadsetQuads, HoldTheTextureOfEachLabel) {
@@ -129,7 +129,7 @@ TEST_F(HeadsetQuads, HoldTheTextureOfEachLabel) {
   ASSERT_THAT(quads(), SizeIs(5));
   // their corners are round
   for (const std::size_t i : {0U, 1U}) expect_texture_of(quads()[2 + i], frame_.labels[i].placement, 0.7);
-  expect_texture_of(quads()[4], frame_.banner_placement);
+  expect_texture_of(quads()[4], frame_.panels.banner.placement);
 }
 
 TEST_F(HeadsetQuads, StandInTheRoomHoweverTheWearerStandsInIt) {
@@ -139,7 +139,7 @@ TEST_F(HeadsetQuads, StandInTheRoomHoweverTheWearerStandsInIt) {
   connect();
   ASSERT_TRUE(draw_next());
   ASSERT_FALSE(quads().empty());
-  expect_at(quads().back(), frame_.banner_placement);
+  expect_at(quads().back(), frame_.panels.banner.placement);
 }
 
 TEST_F(HeadsetQuads, AreFilledAgainOnlyWhenThePanelIsPaintedAgain) {
@@ -147,26 +147,26 @@ TEST_F(HeadsetQuads, AreFilledAgainOnlyWhenThePanelIsPaintedAgain) {
   ASSERT_TRUE(draw_next());
   EXPECT_EQ(acquired_in_a_frame(), 0);
   const auto before = quads();
-  frame_.banner.state_word = "no force";
+  frame_.panels.banner.content.state_word = "no force";
   EXPECT_EQ(acquired_in_a_frame(), 1);
   EXPECT_TRUE(quads()[0].bytes == before[0].bytes);
   EXPECT_TRUE(quads()[2].bytes != before[2].bytes);
-  frame_.force_placement.lower_left_m.y += 0.05;
+  frame_.panels.force.placement.lower_left_m.y += 0.05;
   EXPECT_EQ(acquired_in_a_frame(), 0);
-  expect_at(quads()[0], frame_.force_placement);
+  expect_at(quads()[0], frame_.panels.force.placement);
 }
 
 TEST_F(HeadsetQuads, GoAndComeWithTheirPanels) {
   connect();
   ASSERT_TRUE(draw_next());
-  const render::PanelPlacement place = std::exchange(frame_.force_placement, render::kNoPlacement);
+  const render::PanelPlacement place = std::exchange(frame_.panels.force.placement, render::kNoPlacement);
   ASSERT_TRUE(draw_next());
   ASSERT_THAT(quads(), SizeIs(2));
-  frame_.force_placement = place;
-  frame_.force_placement.up_m.y = 0.5;
+  frame_.panels.force.placement = place;
+  frame_.panels.force.placement.up_m.y = 0.5;
   ASSERT_TRUE(draw_next());
   ASSERT_THAT(quads(), SizeIs(3));
-  expect_texture_of(quads()[0], frame_.force_placement);
+  expect_texture_of(quads()[0], frame_.panels.force.placement);
   log().calls.clear();
   for (int i = 0; i < 4; ++i) ASSERT_TRUE(draw_next());
   EXPECT_EQ(count("xrDestroySwapchain"), 1) << "of the size before";
@@ -185,8 +185,8 @@ TEST_F(HeadsetQuads, AreNoneOfThePanelsThatSomethingMayHide) {
   ball({-0.65, 0.0, 1.0}, 0.2);
   ASSERT_TRUE(draw_next());
   ASSERT_THAT(quads(), SizeIs(2));
-  expect_at(quads()[0], frame_.data_placement);
-  expect_eyes_without({&frame_.data_placement, &frame_.banner_placement});
+  expect_at(quads()[0], frame_.panels.data.placement);
+  expect_eyes_without({&frame_.panels.data.placement, &frame_.panels.banner.placement});
   frame_.room_from_node[scene_.gold][3].z = -1.0;  // behind it
   ASSERT_TRUE(draw_next());
   EXPECT_THAT(quads(), SizeIs(3));
@@ -216,9 +216,9 @@ TEST_F(HeadsetQuads, AreAsManyAsTheRuntimeHasLayersFor) {
     ASSERT_TRUE(draw_next());
     ASSERT_THAT(quads(), SizeIs(layers == 3 ? 2 : 0));
     if (layers == 3) {
-      expect_at(quads()[0], frame_.force_placement);
-      expect_at(quads()[1], frame_.banner_placement);
-      expect_eyes_without({&frame_.force_placement, &frame_.banner_placement});
+      expect_at(quads()[0], frame_.panels.force.placement);
+      expect_at(quads()[1], frame_.panels.banner.placement);
+      expect_eyes_without({&frame_.panels.force.placement, &frame_.panels.banner.placement});
     } else {
       expect_eyes_without({});
     }

@@ -12,20 +12,20 @@ class Calibration : public VulkanTest {
   Pair pattern(render::PassMode mode, bool eye_marks = true, const std::array<scene::EdgeRamp, 4>& ramps = {}) {
     auto frame = bare_frame(test_.scene);
     frame.visible.assign(test_.scene.nodes.size(), 0);
-    frame.calibration = {.size = "wall",
-                         .mode = "side-by-side",
-                         .legend = "squares",
-                         .ruler = "eyes",
-                         .ipd_m = 0.063,
-                         .eye_marks = eye_marks,
-                         .ramps = ramps};
+    frame.panels.calibration.content = {.size = "wall",
+                                        .mode = "side-by-side",
+                                        .legend = "squares",
+                                        .ruler = "eyes",
+                                        .ipd_m = 0.063,
+                                        .eye_marks = eye_marks,
+                                        .ramps = ramps};
     for (std::size_t edge = 0; edge < ramps.size(); ++edge) {
-      if (ramps.at(edge).width_m > 0.0) frame.calibration.ramp_widths.at(edge) = "300 mm";
+      if (ramps.at(edge).width_m > 0.0) frame.panels.calibration.content.ramp_widths.at(edge) = "300 mm";
     }
     const scene::Screen screen = paper_screen();
-    frame.calibration_placement = {.lower_left_m = screen.lower_left,
-                                   .right_m = screen.lower_right - screen.lower_left,
-                                   .up_m = screen.upper_left - screen.lower_left};
+    frame.panels.calibration.placement = {.lower_left_m = screen.lower_left,
+                                          .right_m = screen.lower_right - screen.lower_left,
+                                          .up_m = screen.upper_left - screen.lower_left};
     return draw(test_.scene, frame, small(4, mode));
   }
   // White pixels in a part of the picture, in shares of its size.

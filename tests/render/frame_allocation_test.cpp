@@ -43,7 +43,7 @@ class FrameAllocation : public testing::Test {
     std::vector<render::FrameState> frames = moving_frames();
     for (std::size_t i = 0; i < frames.size(); ++i) {
       render::FrameState& frame = frames[i];
-      render::PlotCurve& curve = frame.force_panel.curves.front();
+      render::PlotCurve& curve = frame.panels.force.content.curves.front();
       auto& branch = 2 * i < frames.size() ? curve.approach : curve.retract;
       curve.retract.clear();
       curve.approach.clear();
@@ -52,22 +52,24 @@ class FrameAllocation : public testing::Test {
         branch.push_back({z_nm, std::sin(z_nm)});
       }
       const std::string number = std::to_string(1000 + 37 * i);
-      frame.force_panel.cursor = branch.back();
-      frame.force_panel.stage = "pressed, at " + number + " of what a hand may push, and longer than the panel is wide";
-      frame.force_panel.markers = {{render::PlotMarker::Kind::VerticalLine, 2.4, "Z_jtc " + number + " nm"},
-                                   {render::PlotMarker::Kind::HorizontalLine, -1.4, "F_ad " + number + " nN"}};
-      for (render::DataRow& row : frame.data_panel.rows) row.value = number + " nN/m, by another hand";
-      frame.banner.guidance = "Move down, " + number + " nm are left until the tip snaps onto the surface";
-      frame.banner.state_shape = static_cast<render::StateShape>(i % 5);
-      frame.control_panel = {.title = "Parameters of a sample with a rather long name",
-                             .buttons = {"Apply"},
-                             .rows = {{"spring constant", number + " N/m", i % 2 == 0}},
-                             .notes = {"what follows from " + number},
-                             .status = "felt since " + number,
-                             .pointed = {},
-                             .marked = {}};
-      if (i % 3 == 0) frame.control_panel.pointed = render::ControlTarget{};
-      frame.control_placement = frame.data_placement;
+      frame.panels.force.content.cursor = branch.back();
+      frame.panels.force.content.stage =
+          "pressed, at " + number + " of what a hand may push, and longer than the panel is wide";
+      frame.panels.force.content.markers = {{render::PlotMarker::Kind::VerticalLine, 2.4, "Z_jtc " + number + " nm"},
+                                            {render::PlotMarker::Kind::HorizontalLine, -1.4, "F_ad " + number + " nN"}};
+      for (render::DataRow& row : frame.panels.data.content.rows) row.value = number + " nN/m, by another hand";
+      frame.panels.banner.content.guidance =
+          "Move down, " + number + " nm are left until the tip snaps onto the surface";
+      frame.panels.banner.content.state_shape = static_cast<render::StateShape>(i % 5);
+      frame.panels.control.content = {.title = "Parameters of a sample with a rather long name",
+                                      .buttons = {"Apply"},
+                                      .rows = {{"spring constant", number + " N/m", i % 2 == 0}},
+                                      .notes = {"what follows from " + number},
+                                      .status = "felt since " + number,
+                                      .pointed = {},
+                                      .marked = {}};
+      if (i % 3 == 0) frame.panels.control.content.pointed = render::ControlTarget{};
+      frame.panels.control.placement = frame.panels.data.placement;
       for (render::Label& label : frame.labels) label.highlighted = i % 2 == 0;
     }
     return frames;

@@ -57,9 +57,9 @@ class LongRun : public testing::Test {
     for (int i = 0; i < kFrames; ++i) {
       render::FrameState frame = whole_;
       frame.labels.resize(static_cast<std::size_t>(i % 4));
-      frame.banner.guidance += std::string(static_cast<std::size_t>(i), '!');
-      frame.force_panel.curves.front().retract.resize(static_cast<std::size_t>(10 * i));
-      frame.data_placement.right_m *= 1.0 - 0.02 * (i % 3);
+      frame.panels.banner.content.guidance += std::string(static_cast<std::size_t>(i), '!');
+      frame.panels.force.content.curves.front().retract.resize(static_cast<std::size_t>(10 * i));
+      frame.panels.data.placement.right_m *= 1.0 - 0.02 * (i % 3);
       frame.room_from_node[test_.floor][3].z += i % 7;  // past the eyes
       if (i % 5 == 0) frame.eyes[1] = frame.eyes[0];
       if (i % 6 == 0) {

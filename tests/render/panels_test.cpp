@@ -30,8 +30,8 @@ class PanelsInTheRoom : public VulkanTest {
 
   render::FrameState frame_with(const render::ForcePanel& panel) {
     auto frame = bare_frame(empty_);
-    frame.force_panel = panel;
-    frame.force_placement = half_wall();
+    frame.panels.force.content = panel;
+    frame.panels.force.placement = half_wall();
     return frame;
   }
 
@@ -50,10 +50,10 @@ bool is_green(const Pixel& p) { return p.g > p.r + 60 && p.g > p.b + 60; }
 
 TEST_F(PanelsInTheRoom, TextIsThere) {
   auto frame = bare_frame(empty_);
-  frame.data_panel = {.title = "Mica", .subtitle = "", .rows = {{"tip radius R", "50 nm", ""}}};
-  frame.data_placement = half_wall();
+  frame.panels.data.content = {.title = "Mica", .subtitle = "", .rows = {{"tip radius R", "50 nm", ""}}};
+  frame.panels.data.placement = half_wall();
   const auto with_text = draw(empty_, frame, readable());
-  frame.data_panel = {};
+  frame.panels.data.content = {};
   const auto without = draw(empty_, frame, readable());
   EXPECT_EQ(count(without.left, is_light), 0U);
   EXPECT_GT(count(with_text.left, is_light), 60U);
@@ -64,8 +64,8 @@ TEST_F(PanelsInTheRoom, GreekMinusSignsAndSubscriptsHaveGlyphs) {
   // a missing glyph is drawn as the font's replacement, alike for all
   const auto picture = [&](const std::string& text) {
     auto frame = bare_frame(empty_);
-    frame.data_panel.title = text;
-    frame.data_placement = half_wall();
+    frame.panels.data.content.title = text;
+    frame.panels.data.placement = half_wall();
     return draw(empty_, frame, readable()).left.rgba;
   };
   const auto missing = picture("\u4e2d");
@@ -84,8 +84,8 @@ TEST_F(PanelsInTheRoom, NothingCoversTheBanner) {
       glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, 0.4)));
   const auto greens = [&](const render::PanelPlacement& banner, const render::PanelPlacement& data) {
     auto frame = bare_frame(scene);
-    frame.banner_placement = banner;
-    frame.data_placement = data;
+    frame.panels.banner.placement = banner;
+    frame.panels.data.placement = data;
     return count(draw(scene, frame, readable()).left, is_green);
   };
   const std::size_t seen = greens(render::kNoPlacement, render::kNoPlacement);
@@ -117,9 +117,9 @@ TEST_F(PanelsInTheRoom, ACurveLiesWhereItsNumbersAre) {
 // 9000 texels, more than a texture has: it was cut at 4096, and the state of the force with it.
 TEST_F(PanelsInTheRoom, OneThatIsLargerThanATextureIsShownWhole) {
   auto frame = bare_frame(empty_);
-  frame.banner.state_word = "FORCE ON";
-  frame.banner.state_color = {0.0F, 1.0F, 0.0F};
-  frame.banner_placement = {.lower_left_m = {-0.9, 0.0, 0.0}, .right_m = {1.8, 0, 0}, .up_m = {0, 0.15, 0}};
+  frame.panels.banner.content.state_word = "FORCE ON";
+  frame.panels.banner.content.state_color = {0.0F, 1.0F, 0.0F};
+  frame.panels.banner.placement = {.lower_left_m = {-0.9, 0.0, 0.0}, .right_m = {1.8, 0, 0}, .up_m = {0, 0.15, 0}};
   const auto place_of_state = [&](double texels_per_m) {
     auto options = readable();
     options.panel_texels_per_m = texels_per_m;
@@ -146,7 +146,7 @@ TEST_F(PanelsInTheRoom, ChangedContentIsPaintedAgain) {
   auto renderer = make_renderer(empty_, readable());
   renderer.render(frame);
   const auto before = renderer.read_eye(scene::Eye::Left);
-  frame.force_panel.cursor = render::PlotPoint{10.0, -1.0};
+  frame.panels.force.content.cursor = render::PlotPoint{10.0, -1.0};
   renderer.render(frame);
   const auto after = renderer.read_eye(scene::Eye::Left);
   EXPECT_GT(difference(before, after, 20).share_beyond, 5e-5);
@@ -155,7 +155,7 @@ TEST_F(PanelsInTheRoom, ChangedContentIsPaintedAgain) {
 
 TEST_F(PanelsInTheRoom, WithoutAreaNothingIsShown) {
   auto frame = frame_with(line_panel({0.0F, 0.9F, 0.0F}));
-  frame.force_placement = nowhere();
+  frame.panels.force.placement = nowhere();
   EXPECT_EQ(draw(empty_, frame, readable()).left.rgba, draw(empty_, bare_frame(empty_), readable()).left.rgba);
 }
 
@@ -166,8 +166,8 @@ TEST_F(PanelsInTheRoom, NearerThingsHideIt) {
   before[3] = glm::dvec4(0.0, 0.0, 0.3, 1.0);
   add(scene, "in front", quad(white), before);
   auto frame = bare_frame(scene);
-  frame.force_panel = line_panel({0.0F, 0.9F, 0.0F});
-  frame.force_placement = half_wall();
+  frame.panels.force.content = line_panel({0.0F, 0.9F, 0.0F});
+  frame.panels.force.placement = half_wall();
   const auto eyes = draw(scene, frame, readable());
   EXPECT_GT(pixel(eyes.left, 256, 192).r, 200);
   EXPECT_LT(pixel(eyes.left, 120, 300).r, 120);

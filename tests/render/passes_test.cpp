@@ -64,7 +64,7 @@ TEST_F(Passes, FramesInFlightDoNotMix) {
   for (int i = 0; i < 7; ++i) {
     auto earlier = last;
     earlier.bends.front().end_deflection = 0.02F * static_cast<float>(i);
-    earlier.force_panel.cursor->place_nm = i;
+    earlier.panels.force.content.cursor->place_nm = i;
     earlier.highlighted = {i % 2 == 0 ? test_.mica : test_.nitride};
     renderer.render(earlier);
   }

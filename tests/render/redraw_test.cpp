@@ -61,8 +61,8 @@ class Story {
         {"the beam's place", [&] { move(test_->beam, 0.05); }},
         {"the contact", [&] { touch(); }},
         {"nothing", [] {}},
-        {"a number", [&] { frame_.data_panel.rows[0].value = std::to_string(whole(0, 999)); }},
-        {"the cursor", [&] { frame_.force_panel.cursor->place_nm = real(-4.0, 19.0); }},
+        {"a number", [&] { frame_.panels.data.content.rows[0].value = std::to_string(whole(0, 999)); }},
+        {"the cursor", [&] { frame_.panels.force.content.cursor->place_nm = real(-4.0, 19.0); }},
         {"a label", [&] { frame_.labels[0].highlighted = !frame_.labels[0].highlighted; }},
         {"a label that comes or goes",
          [&] { frame_.labels.resize(frame_.labels.size() == 3 ? 2 : 3, frame_.labels[0]); }},
@@ -70,7 +70,7 @@ class Story {
         {"a far place", [&] { move(test_->mica, 2.0); }},
         {"the highlight", [&] { frame_.highlighted = {whole(0, 1) == 0 ? test_->gold : test_->nitride}; }},
         {"what is shown", [&] { frame_.visible[static_cast<std::size_t>(whole(0, 5))] ^= 1U; }},
-        {"a panel's place", [&] { frame_.data_placement.lower_left_m.x = real(0.0, 0.6); }},
+        {"a panel's place", [&] { frame_.panels.data.placement.lower_left_m.x = real(0.0, 0.6); }},
         {"a mirror",
          [&] {
            auto& placed = frame_.room_from_node[test_->nitride];

@@ -42,7 +42,7 @@ TEST_F(Storm, OfSizesModesAndSamplesIsDrawnWithoutAMessage) {
     if (any(0, 3) == 0) frame.eyes[1] = frame.eyes[0];
     frame.room_from_node[test_.floor][3].z += any(0, 4);  // past the eyes
     frame.labels.resize(any(0, static_cast<std::uint32_t>(frame.labels.size())));
-    frame.data_placement.right_m *= 0.1 * any(0, 12);
+    frame.panels.data.placement.right_m *= 0.1 * any(0, 12);
     renderer.render(frame);
     if (any(0, 4) == 0) {
       const auto mode = scene::kStereoModes[any(0, scene::kStereoModes.size() - 1)].mode;

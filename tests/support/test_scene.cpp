@@ -178,9 +178,9 @@ render::FrameState bare_frame(const scene::Scene& scene) {
                      .radiance = glm::vec3(2.4F, 2.3F, 2.15F),
                      .shadow_center_m = {0.0F, -0.2F, -0.2F},
                      .shadow_radius_m = 1.6F};
-  frame.force_placement = nowhere();
-  frame.data_placement = nowhere();
-  frame.banner_placement = nowhere();
+  frame.panels.force.placement = nowhere();
+  frame.panels.data.placement = nowhere();
+  frame.panels.banner.placement = nowhere();
   return frame;
 }
 
@@ -189,39 +189,40 @@ render::FrameState full_frame(const TestScene& test) {
   frame.bends = {{.node = test.lever, .length = 1.0F, .end_deflection = -0.12F}};
   frame.highlighted = {test.gold};
 
-  frame.force_panel = {.title = "Force on the tip",
-                       .words = {.approach = "approach", .retract = "retract"},
-                       .place_min_nm = -5,
-                       .place_max_nm = 20,
-                       .force_min_nn = -1.6,
-                       .force_max_nn = 0.6,
-                       .curves = {sample_curve(0.6, 6.0, {0.337F, 0.706F, 0.914F}, "silicon nitride"),
-                                  sample_curve(1.4, 14.0, {0.902F, 0.624F, 0.0F}, "mica")},
-                       .markers = {{render::PlotMarker::Kind::VerticalLine, 2.398, "Z_jtc 2.40 nm"},
-                                   {render::PlotMarker::Kind::VerticalLine, 14.0, "Z_joc 14.0 nm"},
-                                   {render::PlotMarker::Kind::HorizontalLine, -0.24, "F_attr 0.24 nN"},
-                                   {render::PlotMarker::Kind::HorizontalLine, -1.4, "F_ad 1.40 nN"}},
-                       .cursor = render::PlotPoint{9.0, -0.9},
-                       .stage = "e \u2192 f   retract, held by adhesion",
-                       .figures = {}};
-  frame.force_panel.curves[0].faded = true;
-  frame.force_placement = {.lower_left_m = {-1.484, -0.40, 0.0}, .right_m = {0.95, 0, 0}, .up_m = {0, 0.75, 0}};
-  frame.data_panel = {.title = "Mica (muscovite)",
-                      .subtitle = "atomically flat, steps of 1 nm",
-                      .rows = {{"Hamaker constant A", "24.5 zJ", "Liu and Peng, Table 1"},
-                               {"tip radius R", "50 nm", "Liu and Peng, section 4"},
-                               {"spring constant k_c", "0.1 N/m", "Liu and Peng, section 4"},
-                               {"surface energy \u03b3", "4.46 mJ/m\u00b2", "from F_ad = 2\u03c0R\u03b3, eq. (3.7)"},
-                               {"reduced modulus E*", "\u221e", "rigid sample: k_s \u226b k_c"},
-                               {"F_attr, F_ad", "0.240, 1.400 nN", "eqs. (3.10) and (3.7)"}}};
-  frame.data_placement = {.lower_left_m = {0.534, -0.40, 0.0}, .right_m = {0.95, 0, 0}, .up_m = {0, 0.75, 0}};
-  frame.banner = {.guidance = "Lift the pen slowly until the tip lets go",
-                  .state_word = "force on",
-                  .state_shape = render::StateShape::Circle,
-                  .state_color = {0.0F, 0.75F, 0.55F},
-                  .scale = "1 m = 33 nm   \u00b7   lever 1 : 9 000   \u00b7   deflection \u00d7 3 300",
-                  .warning = "not real-time"};
-  frame.banner_placement = {.lower_left_m = {-1.484, 0.90, 0.0}, .right_m = {2.968, 0, 0}, .up_m = {0, 0.20, 0}};
+  frame.panels.force.content = {.title = "Force on the tip",
+                                .words = {.approach = "approach", .retract = "retract"},
+                                .place_min_nm = -5,
+                                .place_max_nm = 20,
+                                .force_min_nn = -1.6,
+                                .force_max_nn = 0.6,
+                                .curves = {sample_curve(0.6, 6.0, {0.337F, 0.706F, 0.914F}, "silicon nitride"),
+                                           sample_curve(1.4, 14.0, {0.902F, 0.624F, 0.0F}, "mica")},
+                                .markers = {{render::PlotMarker::Kind::VerticalLine, 2.398, "Z_jtc 2.40 nm"},
+                                            {render::PlotMarker::Kind::VerticalLine, 14.0, "Z_joc 14.0 nm"},
+                                            {render::PlotMarker::Kind::HorizontalLine, -0.24, "F_attr 0.24 nN"},
+                                            {render::PlotMarker::Kind::HorizontalLine, -1.4, "F_ad 1.40 nN"}},
+                                .cursor = render::PlotPoint{9.0, -0.9},
+                                .stage = "e \u2192 f   retract, held by adhesion",
+                                .figures = {}};
+  frame.panels.force.content.curves[0].faded = true;
+  frame.panels.force.placement = {.lower_left_m = {-1.484, -0.40, 0.0}, .right_m = {0.95, 0, 0}, .up_m = {0, 0.75, 0}};
+  frame.panels.data.content = {
+      .title = "Mica (muscovite)",
+      .subtitle = "atomically flat, steps of 1 nm",
+      .rows = {{"Hamaker constant A", "24.5 zJ", "Liu and Peng, Table 1"},
+               {"tip radius R", "50 nm", "Liu and Peng, section 4"},
+               {"spring constant k_c", "0.1 N/m", "Liu and Peng, section 4"},
+               {"surface energy \u03b3", "4.46 mJ/m\u00b2", "from F_ad = 2\u03c0R\u03b3, eq. (3.7)"},
+               {"reduced modulus E*", "\u221e", "rigid sample: k_s \u226b k_c"},
+               {"F_attr, F_ad", "0.240, 1.400 nN", "eqs. (3.10) and (3.7)"}}};
+  frame.panels.data.placement = {.lower_left_m = {0.534, -0.40, 0.0}, .right_m = {0.95, 0, 0}, .up_m = {0, 0.75, 0}};
+  frame.panels.banner.content = {.guidance = "Lift the pen slowly until the tip lets go",
+                                 .state_word = "force on",
+                                 .state_shape = render::StateShape::Circle,
+                                 .state_color = {0.0F, 0.75F, 0.55F},
+                                 .scale = "1 m = 33 nm   \u00b7   lever 1 : 9 000   \u00b7   deflection \u00d7 3 300",
+                                 .warning = "not real-time"};
+  frame.panels.banner.placement = {.lower_left_m = {-1.484, 0.90, 0.0}, .right_m = {2.968, 0, 0}, .up_m = {0, 0.20, 0}};
   const char* const names[]{"mica", "gold", "silicon nitride"};
   for (int i = 0; i < 3; ++i) {
     frame.labels.push_back(

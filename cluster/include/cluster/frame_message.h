@@ -11,21 +11,10 @@
 
 #include "cluster/messages.h"
 #include "scene/display/wall.h"
+#include "scene/shared/pose.h"
 
 // Inputs of a frame, from which every machine of a wall builds the same frame.
 namespace afm::cluster {
-
-struct ShownPose {
-  std::array<double, 3> position_m{};
-  std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // w x y z: room from body
-};
-
-template <class Visit, std::same_as<ShownPose>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... pose) {
-  visit("position_m", pose.position_m...);
-  visit("orientation", pose.orientation...);
-}
-static_assert(scene::all_fields_described<ShownPose>());
 
 // Part of scene::TipState that the wall shows.
 struct ShownTip {
@@ -42,8 +31,8 @@ struct ShownTip {
   std::uint32_t realtime = 0;
 };
 
-template <class Visit, std::same_as<ShownTip>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... tip) {
+template <class Visit, scene::RecordOf<ShownTip>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... tip) {
   visit("time_ns", tip.time_ns...);
   visit("tip", tip.tip...);
   visit("surface", tip.surface...);
@@ -71,11 +60,11 @@ struct ShownPanels {
   std::uint32_t control_kind = 0;
   std::uint32_t control_index = 0;
 
-  static constexpr std::uint32_t kMostRight = 3, kMostHands = 3, kMostControls = 3;
+  static constexpr std::uint32_t kMostRight = 8, kMostHands = 3, kMostControls = 3;
 };
 
-template <class Visit, std::same_as<ShownPanels>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... panels) {
+template <class Visit, scene::RecordOf<ShownPanels>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... panels) {
   visit("flags", panels.flags...);
   visit("right", panels.right...);
   visit("marked", panels.marked...);
@@ -89,7 +78,7 @@ static_assert(scene::all_fields_described<ShownPanels>());
 struct ShownView {
   static constexpr std::uint32_t kSwapped = 1, kCalibration = 2, kDepth = 4, kHardDepth = 8, kAllFlags = 15;
 
-  ShownPose head{};
+  scene::Pose head{};
   double ipd_m = 0.063;        // eye distance of the viewer
   double drawn_ipd_m = 0.063;  // eye distance drawn; smaller for comfort
   std::array<double, 2> depth_range_m{};
@@ -101,8 +90,8 @@ struct ShownView {
   std::uint32_t padding = 0;
 };
 
-template <class Visit, std::same_as<ShownView>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... view) {
+template <class Visit, scene::RecordOf<ShownView>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... view) {
   visit("head", view.head...);
   visit("ipd_m", view.ipd_m...);
   visit("drawn_ipd_m", view.drawn_ipd_m...);
@@ -124,7 +113,7 @@ struct ShownMoment {
                                  kCue = 32, kBlank = 64, kScan = 128, kTruth = 256, kAllFlags = 511;
 
   std::array<double, 16> navigation{};  // room from room, column by column
-  ShownPose wand{};
+  scene::Pose wand{};
   double journey_orders = 0;
   double fade = 0;
   double cue_age_s = 0;
@@ -138,8 +127,8 @@ struct ShownMoment {
   std::uint32_t padding = 0;
 };
 
-template <class Visit, std::same_as<ShownMoment>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... moment) {
+template <class Visit, scene::RecordOf<ShownMoment>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... moment) {
   visit("navigation", moment.navigation...);
   visit("wand", moment.wand...);
   visit("journey_orders", moment.journey_orders...);

@@ -33,8 +33,8 @@ struct ClusterHeader {
   bool operator==(const ClusterHeader&) const = default;
 };
 
-template <class Visit, std::same_as<ClusterHeader>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... header) {
+template <class Visit, scene::RecordOf<ClusterHeader>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... header) {
   visit("version", header.version...);
   visit("node", header.node...);
   visit("session", header.session...);
@@ -61,8 +61,8 @@ struct ReadyMessage {
   bool operator==(const ReadyMessage&) const = default;
 };
 
-template <class Visit, std::same_as<ReadyMessage>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... ready) {
+template <class Visit, scene::RecordOf<ReadyMessage>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... ready) {
   visit("header", ready.header...);
   visit("state", ready.state...);
   visit("wants_history", ready.wants_history...);
@@ -82,8 +82,8 @@ struct SwapMessage {
   ClusterHeader header{};
 };
 
-template <class Visit, std::same_as<SwapMessage>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... swap) {
+template <class Visit, scene::RecordOf<SwapMessage>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... swap) {
   visit("header", swap.header...);
 }
 static_assert(scene::all_fields_described<SwapMessage>());
@@ -99,8 +99,8 @@ struct EditRecord {
   bool operator==(const EditRecord&) const = default;
 };
 
-template <class Visit, std::same_as<EditRecord>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... edit) {
+template <class Visit, scene::RecordOf<EditRecord>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... edit) {
   visit("material", edit.material...);
   visit("revision", edit.revision...);
   visit("steps", edit.steps...);
@@ -124,8 +124,8 @@ struct ScanRecord {
   bool operator==(const ScanRecord&) const = default;
 };
 
-template <class Visit, std::same_as<ScanRecord>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... scan) {
+template <class Visit, scene::RecordOf<ScanRecord>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... scan) {
   visit("material", scan.material...);
   visit("frame", scan.frame...);
   visit("pixel", scan.pixel...);

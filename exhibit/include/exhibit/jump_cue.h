@@ -19,6 +19,13 @@ struct JumpCue {
   double age_s = 0;  // 0 to kCueSeconds
 };
 
+template <class Visit, scene::RecordOf<JumpCue>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... cue) {
+  visit("kind", cue.kind...);
+  visit("age_s", cue.age_s...);
+}
+static_assert(scene::all_fields_described<JumpCue>());
+
 // The jump that is shown: the newest one, but none gives way to the next before kLeastNs, so that a tip that chatters
 // does not flash more than three times a second (WCAG 2.3.1). One thread.
 class JumpCues {

@@ -41,6 +41,22 @@ struct Moment {
   std::vector<CycleResult> results;  // of Centerpiece::Plot
 };
 
+template <class Visit, scene::RecordOf<Moment>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... moment) {
+  visit("wall", moment.wall...);
+  visit("servo_state", moment.servo_state...);
+  visit("phase", moment.phase...);
+  visit("retracting", moment.retracting...);
+  visit("realtime", moment.realtime...);
+  visit("slow_motion", moment.slow_motion...);
+  visit("guidance", moment.guidance...);
+  visit("servo", moment.servo...);
+  visit("curves", moment.curves...);
+  visit("scan", moment.scan...);
+  visit("results", moment.results...);
+}
+static_assert(scene::all_fields_described<Moment>());
+
 // The moment of the newest state of the tip.
 Moment moment_of(const scene::TipState& tip, bool retracting);
 

@@ -11,6 +11,7 @@
 #include "exhibit/moment.h"
 #include "exhibit/scan/live_scan.h"
 #include "scene/display/wall.h"
+#include "scene/shared/pose.h"
 #include "servo/session_file.h"
 
 namespace afm::exhibit {
@@ -22,8 +23,9 @@ servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::
 // The scan of a frame; WallFrame::scan must be there. It may be no valid one: LiveScan::valid().
 ScanProgress scan_progress_of(const servo::WallFrame& frame);
 
-servo::RecordedPose recorded(const scene::HeadPose& head);
-scene::HeadPose head_of(const servo::RecordedPose& pose);
+// A head as messages and sessions hold it, and back.
+scene::Pose pose_of(const scene::HeadPose& head);
+scene::HeadPose head_of(const scene::Pose& pose);
 
 // A moment of the live wall, taken from its session.
 struct RecordedMoment {

@@ -17,7 +17,8 @@ namespace afm::exhibit {
 // happens; or the instrument at one true scale.
 enum class Centerpiece { Instrument, Plot, Analogy, Journey };
 
-// The state that moves, shows or hides the things on the wall.
+// The state that moves, shows or hides the things on the wall. The messages of a wall of several machines and sessions
+// carry every described field but those that DescribedWall.* lists.
 struct WallState {
   std::optional<std::size_t> material{};  // none: no sample lies on the stage yet
   scene::Tip tip{};
@@ -34,5 +35,23 @@ struct WallState {
   // its line, from the left to the right, as high as the highest place below it; sample's frame, metres
   std::optional<std::array<glm::dvec3, 2>> scan_line{};
 };
+
+template <class Visit, scene::RecordOf<WallState>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... wall) {
+  visit("material", wall.material...);
+  visit("tip", wall.tip...);
+  visit("surface", wall.surface...);
+  visit("release_z_m", wall.release_z_m...);
+  visit("hovered", wall.hovered...);
+  visit("wand", wall.wand...);
+  visit("centerpiece", wall.centerpiece...);
+  visit("journey_orders", wall.journey_orders...);
+  visit("fade", wall.fade...);
+  visit("navigation", wall.navigation...);
+  visit("cue", wall.cue...);
+  visit("scan", wall.scan...);
+  visit("scan_line", wall.scan_line...);
+}
+static_assert(scene::all_fields_described<WallState>());
 
 }  // namespace afm::exhibit

@@ -2,10 +2,14 @@
 #include "exhibit/cluster/wall_history.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <tuple>
 #include <type_traits>
 #include <utility>
+
+#include "core/members.h"
 
 namespace afm::exhibit {
 
@@ -129,10 +133,10 @@ void WallHistory::apply(const cluster::JournalRecord& record) {
 }
 
 cluster::ScanRecord record_of(const ScanChange& change, std::size_t material, const std::optional<HandPart>& hand) {
-  const auto& [frame, pixel, c] = change;
-  cluster::ScanRecord record{.material = static_cast<std::uint32_t>(material), .frame = frame, .pixel = pixel};
-  record.choice = {c.setpoint_n, c.gain_per_s,    c.line_rate_hz,   c.tip_radius_m,
-                   c.noise_m,    c.drift_m_per_s, c.apex_distance_m};
+  cluster::ScanRecord record{
+      .material = static_cast<std::uint32_t>(material), .frame = change.frame, .pixel = change.pixel};
+  record.choice =
+      std::apply([](const auto&... value) { return std::array{value...}; }, core::members_of(change.choice));
   if (hand) {
     record.has_hand = 1;
     record.paints = hand->paints ? 1 : 0;

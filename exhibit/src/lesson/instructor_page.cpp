@@ -102,12 +102,11 @@ render::FrameState InstructorPage::frame(const InstructorState& state, std::opti
   constexpr double kGapM = kBorder * kHeightM, kBelowM = 3.0 * kGapM + 2.0 * kTargetHigh * kHeightM;
   render::FrameState frame;
   frame.eyes = eyes_;
-  frame.force_placement = frame.banner_placement = render::kNoPlacement;
   const double width_m = screen_.width_m() - 2.0 * kGapM;
-  frame.data_placement = {.lower_left_m = screen_.lower_left + glm::dvec3(kGapM, kBelowM, 0.0),
-                          .right_m = {width_m, 0.0, 0.0},
-                          .up_m = {0.0, kHeightM - kBelowM - kGapM, 0.0}};
-  frame.data_panel = panel_of(state, static_cast<std::size_t>(width_m / kLetterM), phrases);
+  frame.panels.data.placement = {.lower_left_m = screen_.lower_left + glm::dvec3(kGapM, kBelowM, 0.0),
+                                 .right_m = {width_m, 0.0, 0.0},
+                                 .up_m = {0.0, kHeightM - kBelowM - kGapM, 0.0}};
+  frame.panels.data.content = panel_of(state, static_cast<std::size_t>(width_m / kLetterM), phrases);
   for (const InstructorAction action : core::kEnumerators<InstructorAction>) {
     if (!acts(action, state.prompt)) continue;
     frame.labels.push_back({.text = fmt::format("{}  {}", core::index_of(action) + 1, text_of(action, state, phrases)),

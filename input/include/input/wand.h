@@ -5,6 +5,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include "scene/shared/field_visitor.h"
+
 namespace afm::input {
 
 // Buttons named by function, whatever their names on the device; the values are bits of WandState::buttons.
@@ -40,6 +42,22 @@ struct WandState {
 
   bool pressed(WandButton button) const { return (buttons & bit(button)) != 0; }
 };
+
+template <class Visit, scene::RecordOf<WandState>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... wand) {
+  visit("time_ns", wand.time_ns...);
+  visit("position_m", wand.position_m...);
+  visit("room_from_wand", wand.room_from_wand...);
+  visit("orientation_valid", wand.orientation_valid...);
+  visit("position_valid", wand.position_valid...);
+  visit("connected", wand.connected...);
+  visit("motion", wand.motion...);
+  visit("buttons", wand.buttons...);
+  visit("stops", wand.stops...);
+  visit("push", wand.push...);
+  visit("turn", wand.turn...);
+}
+static_assert(scene::all_fields_described<WandState>());
 
 struct Ray {
   glm::dvec3 origin_m{0.0};

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/members.h"
 #include "scene/display/wall.h"
 #include "scene/graph/scene.h"
 
@@ -263,6 +264,29 @@ struct CalibrationPanel {
 inline constexpr PanelPlacement kNoPlacement{
     .lower_left_m = glm::dvec3(0.0), .right_m = glm::dvec3(0.0), .up_m = glm::dvec3(0.0)};
 
+// A panel with a place of its own in every frame.
+template <class Content>
+struct PanelSlot {
+  Content content{};
+  PanelPlacement placement = kNoPlacement;
+};
+
+// All panels but the labels. Painting, drawing, hiding and the digest visit the members, so that a new slot is part of
+// all of them (docs/adding-a-panel.md). A later panel covers an earlier one.
+struct FramePanels {
+  PanelSlot<ForcePanel> force;
+  PanelSlot<ImagePanel> image;  // in the place of the force
+  PanelSlot<ForcePanel> loop;   // friction loop, in the place of the data
+  PanelSlot<DataPanel> data;
+  PanelSlot<ControlPanel> control;  // in the place of the data
+  PanelSlot<Banner> banner;         // covers whatever is there, labels too
+  PanelSlot<CalibrationPanel> calibration;
+};
+
+inline void hide(FramePanels& panels) {
+  core::for_each_member([](auto& slot) { slot.placement = kNoPlacement; }, panels);
+}
+
 // ---- the frame ----
 
 struct FrameState {
@@ -275,21 +299,8 @@ struct FrameState {
   ContactMark contact;
   Fog fog;
   std::vector<PlacedLight> lights;  // used only if the scene has lights
-  ForcePanel force_panel;
-  PanelPlacement force_placement;
-  ImagePanel image_panel;
-  PanelPlacement image_placement = kNoPlacement;
-  ForcePanel loop_panel;
-  PanelPlacement loop_placement = kNoPlacement;
-  DataPanel data_panel;
-  PanelPlacement data_placement;
-  Banner banner;
-  PanelPlacement banner_placement;
-  ControlPanel control_panel;
-  PanelPlacement control_placement = kNoPlacement;
+  FramePanels panels;
   std::vector<Label> labels;
-  CalibrationPanel calibration;
-  PanelPlacement calibration_placement = kNoPlacement;
   std::size_t panels_apart = 0;  // largest number of panels left out of the eyes' pictures (Headset::show())
 };
 

@@ -24,4 +24,17 @@ struct EyeMark {
 void paint(Canvas& canvas, const CalibrationPanel& panel);
 void paint(Canvas& canvas, const EyeMark& mark);
 
+// How a panel meets the rest of the picture.
+enum class PanelLayer {
+  InScene,     // what stands before it hides it
+  OverAll,     // nothing hides it: whether a force reaches the hand is to be seen, wherever the scene has been moved
+  Calibration  // over everything else, and only in the pictures of the eyes
+};
+template <class Content>
+inline constexpr PanelLayer kLayerOf = PanelLayer::InScene;
+template <>
+inline constexpr PanelLayer kLayerOf<Banner> = PanelLayer::OverAll;
+template <>
+inline constexpr PanelLayer kLayerOf<CalibrationPanel> = PanelLayer::Calibration;
+
 }  // namespace afm::render

@@ -248,21 +248,21 @@ void Panels::paint_on(Panel& panel, const Content& content, Texels texels) {
 }
 
 template <class Content>
-void Panels::update(Panel& panel, const Content& content, const PanelPlacement& placement) {
+void Panels::update(Panel& panel, const PanelPlacement& placement, const Content& content, Content& painted) {
   const glm::dvec2 size = size_m(placement);
   const bool shown = size.x > 0.0 && size.y > 0.0;
   if (panel.placement != placement || panel.shown != shown) {
     ++revision_;
   }
   panel.placement = placement;
+  panel.layer = kLayerOf<Content>;
   panel.shown = shown;
   if (!panel.shown) {
     return;
   }
   const bool resized = resize(panel);
-  const Content* painted = std::get_if<Content>(&panel.painted);
-  if (resized || painted == nullptr || !(*painted == content)) {
-    panel.painted = content;
+  if (resized || panel.painting == 0 || !(painted == content)) {
+    painted = content;
     ++panel.painting;
     paint_on(panel, content, resized ? Texels::Fresh : Texels::Kept);
   }
@@ -275,22 +275,24 @@ bool Panels::update(const FrameState& frame, std::size_t slot) {
   vertices_.clear();
   indices_.clear();
   commands_.clear();
+  std::size_t slot_index = 0;
+  core::for_each_member(
+      [&](auto& painted, const auto& shown) {
+        update(slots_[slot_index++], shown.placement, shown.content, painted.content);
+      },
+      painted_, frame.panels);
   labels_.resize(std::max(labels_.size(), frame.labels.size()));
-  update(force_, frame.force_panel, frame.force_placement);
-  update(image_, frame.image_panel, frame.image_placement);
-  update(loop_, frame.loop_panel, frame.loop_placement);
-  update(data_, frame.data_panel, frame.data_placement);
-  update(banner_, frame.banner, frame.banner_placement);
-  update(control_, frame.control_panel, frame.control_placement);
+  painted_labels_.resize(labels_.size());
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     const Label& label = i < frame.labels.size() ? frame.labels[i] : kNoLabel;
-    update(labels_[i], label, label.placement);
+    update(labels_[i], label.placement, label, painted_labels_[i]);
   }
-  update(calibration_, frame.calibration, frame.calibration_placement);
+  const PanelSlot<CalibrationPanel>& calibration = frame.panels.calibration;
   for (std::size_t i = 0; i < eye_marks_.size(); ++i) {
     eye_marks_[i].only_eye = scene::kEyes[i];
-    update(eye_marks_[i], EyeMark{scene::kEyes[i]},
-           frame.calibration.eye_marks ? mark_placement(frame.calibration_placement, scene::kEyes[i]) : kNoPlacement);
+    update(eye_marks_[i],
+           calibration.content.eye_marks ? mark_placement(calibration.placement, scene::kEyes[i]) : kNoPlacement,
+           EyeMark{scene::kEyes[i]}, painted_marks_[i]);
   }
   return !paintings_.empty();
 }
@@ -365,17 +367,17 @@ void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const Eye
     command.pushConstants<PanelBlock>(*rectangle_layout_, vk::ShaderStageFlagBits::eVertex, 0, block);
     command.draw(4, 1, 0, 0);
   };
-  show(force_);
-  show(image_);
-  show(loop_);
-  show(data_);
-  show(control_);
+  const auto show_all = [&](PanelLayer layer) {
+    for (const Panel& panel : slots_) {
+      if (panel.layer == layer) show(panel);
+    }
+  };
+  show_all(PanelLayer::InScene);
   std::for_each(labels_.begin(), labels_.end(), show);
-  // the banner shows whether a force reaches the hand, so it stays visible wherever the scene has been moved
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, over_all_pipeline_.get(drawing.pass, drawing.samples));
-  show(banner_);
+  show_all(PanelLayer::OverAll);
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, rectangle_pipeline_.get(drawing.pass, drawing.samples));
-  show(calibration_);
+  show_all(PanelLayer::Calibration);
   std::for_each(eye_marks_.begin(), eye_marks_.end(), show);
 }
 

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <variant>
 #include <vector>
 
+#include "core/members.h"
 #include "device/memory.h"
 #include "panels/painted_shapes.h"
 #include "panels/panel_fonts.h"
@@ -79,6 +79,8 @@ class Panels {
   void list(std::vector<PanelState>& states) const;
 
  private:
+  static constexpr std::size_t kSlots = core::kMembers<FramePanels>;
+
   struct ContextDeleter {
     void operator()(ImGuiContext* context) const;
   };
@@ -90,9 +92,7 @@ class Panels {
   };
   struct Panel {
     PanelPlacement placement;
-    std::variant<std::monostate, ForcePanel, ImagePanel, DataPanel, Banner, ControlPanel, Label, CalibrationPanel,
-                 EyeMark>
-        painted;  // content of the texture
+    PanelLayer layer = PanelLayer::InScene;
     Texture texture;
     PaintedShapes shapes;           // shapes of the last painting
     glm::vec2 canvas_texels{1.0F};  // canvas size; a texture of the largest size shows it reduced
@@ -121,7 +121,7 @@ class Panels {
   vk::raii::DescriptorPool create_pool() const;
   vk::raii::DescriptorSet create_set(const vk::raii::DescriptorPool& pool, vk::ImageView view) const;
   template <class Content>
-  void update(Panel& panel, const Content& content, const PanelPlacement& placement);
+  void update(Panel& panel, const PanelPlacement& placement, const Content& content, Content& painted);
   enum class Texels { Kept, Fresh };
   template <class Content>
   void paint_on(Panel& panel, const Content& content, Texels texels);
@@ -148,15 +148,13 @@ class Panels {
   vk::raii::DescriptorPool atlas_pool_{nullptr};
   vk::raii::DescriptorSet atlas_set_{nullptr};
   std::array<Geometry, kFramesInFlight> geometry_;
-  Panel force_;
-  Panel image_;
-  Panel loop_;
-  Panel data_;
-  Panel banner_;
-  Panel control_;
+  std::array<Panel, kSlots> slots_;  // in the order of FramePanels
   std::vector<Panel> labels_;
-  Panel calibration_;
   std::array<Panel, 2> eye_marks_;
+  // what the textures of these show
+  FramePanels painted_;
+  std::vector<Label> painted_labels_;
+  std::array<EyeMark, 2> painted_marks_;
   std::uint64_t revision_ = 0;
   std::vector<Panel*> order_, drawn_;  // used by set_apart(); kept to reuse their memory
 

@@ -9,18 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "scene/shared/field_visitor.h"
+#include "scene/shared/pose.h"
+
 namespace afm::servo {
 
-// Pose in the room frame, metres, right-handed, +y up.
-struct RecordedPose {
-  std::array<double, 3> position_m{};
-  std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: room from body
-
-  bool operator==(const RecordedPose&) const = default;
-};
-
 struct RecordedWand {
-  RecordedPose pose;
+  scene::Pose pose;
   bool orientation_valid = false;  // as in input::WandState
   bool position_valid = false;
   bool connected = false;
@@ -28,6 +23,16 @@ struct RecordedWand {
 
   bool operator==(const RecordedWand&) const = default;
 };
+
+template <class Visit, scene::RecordOf<RecordedWand>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... wand) {
+  visit("pose", wand.pose...);
+  visit("orientation_valid", wand.orientation_valid...);
+  visit("position_valid", wand.position_valid...);
+  visit("connected", wand.connected...);
+  visit("buttons", wand.buttons...);
+}
+static_assert(scene::all_fields_described<RecordedWand>());
 
 // Settings of a scan from one pixel on. SI.
 struct RecordedScanChange {
@@ -44,6 +49,20 @@ struct RecordedScanChange {
   bool operator==(const RecordedScanChange&) const = default;
 };
 
+template <class Visit, scene::RecordOf<RecordedScanChange>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... change) {
+  visit("frame", change.frame...);
+  visit("pixel", change.pixel...);
+  visit("setpoint_N", change.setpoint_n...);
+  visit("gain_per_s", change.gain_per_s...);
+  visit("line_rate_Hz", change.line_rate_hz...);
+  visit("tip_radius_m", change.tip_radius_m...);
+  visit("noise_m", change.noise_m...);
+  visit("drift_m_per_s", change.drift_m_per_s...);
+  visit("apex_distance_m", change.apex_distance_m...);
+}
+static_assert(scene::all_fields_described<RecordedScanChange>());
+
 // Scan on display; together with its changes it determines the images.
 struct RecordedScan {
   std::uint32_t frame = 0;
@@ -52,6 +71,14 @@ struct RecordedScan {
 
   bool operator==(const RecordedScan&) const = default;
 };
+
+template <class Visit, scene::RecordOf<RecordedScan>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... scan) {
+  visit("frame", scan.frame...);
+  visit("pixel", scan.pixel...);
+  visit("truth", scan.truth...);
+}
+static_assert(scene::all_fields_described<RecordedScan>());
 
 // Hand's part in that scan. SI.
 struct RecordedHandPart {
@@ -62,6 +89,15 @@ struct RecordedHandPart {
 
   bool operator==(const RecordedHandPart&) const = default;
 };
+
+template <class Visit, scene::RecordOf<RecordedHandPart>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... part) {
+  visit("paints", part.paints...);
+  visit("feedback", part.feedback...);
+  visit("side_m", part.side_m...);
+  visit("first_tick", part.first_tick...);
+}
+static_assert(scene::all_fields_described<RecordedHandPart>());
 
 // State of the wall in one frame. Together with the servo's tick at the same time, it determines the picture. Names are
 // those of the files and the command line; empty: none.
@@ -74,7 +110,7 @@ struct WallFrame {
   double fade = 0;                            // 0 to 1
   std::string hovered{};                      // material under the wand or mouse
   std::optional<RecordedWand> wand{};
-  RecordedPose head{};  // viewer of the drawn picture
+  scene::Pose head{};  // viewer of the drawn picture
   double ipd_m = 0;
   std::string stereo{};  // stereo mode: "anaglyph-red-cyan"
   bool eyes_swapped = false;
@@ -89,6 +125,31 @@ struct WallFrame {
 
   bool operator==(const WallFrame&) const = default;
 };
+
+template <class Visit, scene::RecordOf<WallFrame>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... frame) {
+  visit("time_ns", frame.time_ns...);
+  visit("room_from_sample", frame.room_from_sample...);
+  visit("navigation", frame.navigation...);
+  visit("centerpiece", frame.centerpiece...);
+  visit("journey_orders", frame.journey_orders...);
+  visit("fade", frame.fade...);
+  visit("hovered", frame.hovered...);
+  visit("wand", frame.wand...);
+  visit("head", frame.head...);
+  visit("ipd_m", frame.ipd_m...);
+  visit("stereo", frame.stereo...);
+  visit("eyes_swapped", frame.eyes_swapped...);
+  visit("panels", frame.panels...);
+  visit("guidance", frame.guidance...);
+  visit("retracting", frame.retracting...);
+  visit("release_z_m", frame.release_z_m...);
+  visit("servo_row", frame.servo_row...);
+  visit("scan", frame.scan...);
+  visit("scan_changes", frame.scan_changes...);
+  visit("scan_hand", frame.scan_hand...);
+}
+static_assert(scene::all_fields_described<WallFrame>());
 
 // Curve of a material that was on the wall when a session began.
 struct EarlierCurve {

@@ -128,7 +128,7 @@ std::string read_chunks(std::string_view file, RecordedSession& session) {
   }
 }
 
-bool can_be(const RecordedPose& pose) {
+bool can_be(const scene::Pose& pose) {
   double length = 0;
   for (const double part : pose.orientation) length += part * part;
   return std::abs(length - 1.0) < kUnitWithin &&

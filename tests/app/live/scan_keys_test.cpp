@@ -128,7 +128,9 @@ class Visitor {
   std::string marked_row() {
     render::FrameState frame;
     panels_.add_to(frame, {}, kGold, "Gold", {}, HandSource::Mouse);
-    return frame.control_panel.marked ? frame.control_panel.rows.at(*frame.control_panel.marked).name : "";
+    return frame.panels.control.content.marked
+               ? frame.panels.control.content.rows.at(*frame.panels.control.content.marked).name
+               : "";
   }
 
   std::vector<curves::SampleModel> models_ = models();

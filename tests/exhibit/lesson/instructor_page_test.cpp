@@ -36,8 +36,8 @@ std::vector<Action> offered(const LessonPrompt& prompt) {
 }
 
 std::string text_of(const render::FrameState& frame) {
-  std::string text = frame.data_panel.title + "\n" + frame.data_panel.subtitle + "\n";
-  for (const render::DataRow& row : frame.data_panel.rows) text += row.name + ": " + row.value + "\n";
+  std::string text = frame.panels.data.content.title + "\n" + frame.panels.data.content.subtitle + "\n";
+  for (const render::DataRow& row : frame.panels.data.content.rows) text += row.name + ": " + row.value + "\n";
   for (const render::Label& label : frame.labels) text += label.text + "\n";
   return text;
 }
@@ -73,7 +73,7 @@ TEST(InstructorPage, IsPressedWhereItDrawsItsTargets) {
       const render::PanelPlacement& target = frame.labels[i].placement;
       EXPECT_EQ(page.action_at(middle_of(target, aspect), state.prompt), core::kEnumerators<Action>[i]);
       EXPECT_GE(target.up_m.y, 0.1 * InstructorPage::kHeightM) << "no fine aim is needed";
-      EXPECT_LE(target.lower_left_m.y + target.up_m.y, frame.data_placement.lower_left_m.y);
+      EXPECT_LE(target.lower_left_m.y + target.up_m.y, frame.panels.data.placement.lower_left_m.y);
     }
     EXPECT_EQ(page.action_at({0.5, 0.2}, state.prompt), std::nullopt) << "the panel";
   }

@@ -6,7 +6,6 @@
 #include "cluster/frame_message.h"
 #include "exhibit/depth_report.h"
 #include "exhibit/moment.h"
-#include "scene/display/wall.h"
 #include "scene/shared/shared_blocks.h"
 
 // What a frame of the wall consists of, as its machines send it, and back.
@@ -23,8 +22,6 @@ std::string caption_of(const cluster::FrameMessage& message);
 // As far as the wall shows it.
 scene::TipState tip_of(const cluster::FrameMessage& message);
 
-void set_head(const scene::HeadPose& head, cluster::ShownView& view);
-scene::HeadPose head_of(const cluster::ShownView& view);
 void set_depth(const DepthReport& depth, cluster::ShownView& view);
 DepthReport depth_of(const cluster::ShownView& view);
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <type_traits>
 
-// Description of the fields of a block of the shared scene, and the only list of them:
+#include "core/members.h"
+
+// Description of the fields of a block of the shared scene, or of the state of the wall: the only list of their names.
 //
-//   template <class Visit, std::same_as<Tip>... Record>
-//   constexpr void for_each_field(Visit&& visit, const Record&... tip) {
+//   template <class Visit, RecordOf<Tip>... Record>
+//   constexpr void for_each_field(Visit&& visit, Record&... tip) {
 //     visit("z_m", tip.z_m...);
 //     ...
 //
@@ -15,14 +18,17 @@
 // field was forgotten.
 namespace afm::scene {
 
+template <class Record, class Block>
+concept RecordOf = std::same_as<std::remove_const_t<Record>, Block>;
+
 template <class T>
 concept Described = requires(const T& record) { for_each_field([](const char*, const auto&) {}, record); };
 
 // Same, but descends into fields that are blocks themselves: visits only numbers, enumerators and arrays.
 template <class Visit, class... Record>
-constexpr void for_each_leaf(Visit&& visit, const Record&... records) {
+constexpr void for_each_leaf(Visit&& visit, Record&... records) {
   for_each_field(
-      [&](const char* name, const auto&... values) {
+      [&](const char* name, auto&... values) {
         if constexpr ((Described<std::remove_cvref_t<decltype(values)>> && ...)) {
           for_each_leaf(visit, values...);
         } else {
@@ -32,12 +38,29 @@ constexpr void for_each_leaf(Visit&& visit, const Record&... records) {
       records...);
 }
 
-// Blocks have no hidden padding: their fields fill them.
-template <Described Record>
+// Storage of a record that is never made, so that its fields can be named in a constant expression.
+template <class Record>
+union UnmadeRecord {
+  char none;
+  Record record;
+  constexpr UnmadeRecord() : none(0) {}
+  constexpr ~UnmadeRecord() {}
+};
+
+// The fields of a block of the shared scene fill it, since it has no hidden padding. Of any other record as many fields
+// are described as it has members.
+template <class Record>
 constexpr bool all_fields_described() {
-  std::size_t bytes = 0;
-  for_each_field([&](const char*, const auto& value) { bytes += sizeof(value); }, Record{});
-  return bytes == sizeof(Record);
+  if constexpr (std::is_trivially_copyable_v<Record>) {
+    const Record record{};
+    std::size_t bytes = 0;
+    for_each_field([&](const char*, const auto& value) { bytes += sizeof(value); }, record);
+    if (bytes == sizeof(Record)) return true;
+  }
+  std::size_t count = 0;
+  const UnmadeRecord<Record> unmade;
+  for_each_field([&](const char*, const auto&) { ++count; }, unmade.record);
+  return count == core::kMembers<Record>;
 }
 
 }  // namespace afm::scene

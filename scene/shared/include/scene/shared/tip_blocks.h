@@ -22,8 +22,8 @@ struct Tip {
   double sample_deformation_m = 0;  // delta_s
 };
 
-template <class Visit, std::same_as<Tip>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... tip) {
+template <class Visit, RecordOf<Tip>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... tip) {
   visit("z_m", tip.z_m...);
   visit("force_N", tip.force_n...);
   visit("tip_height_m", tip.height_m...);
@@ -38,8 +38,8 @@ struct SurfacePoint {
   double height_m = 0;
 };
 
-template <class Visit, std::same_as<SurfacePoint>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... surface) {
+template <class Visit, RecordOf<SurfacePoint>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... surface) {
   visit("tip_x_m", surface.xy_m[0]...);
   visit("tip_y_m", surface.xy_m[1]...);
   visit("surface_height_m", surface.height_m...);
@@ -52,8 +52,8 @@ struct HandState {
   std::array<double, 3> force_n{};  // sent to the device, after the safety governor
 };
 
-template <class Visit, std::same_as<HandState>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... hand) {
+template <class Visit, RecordOf<HandState>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... hand) {
   visit("hand_position_m", hand.position_m...);
   visit("hand_force_N", hand.force_n...);
 }
@@ -65,8 +65,8 @@ struct HandScale {
   double hand_n_per_n = 0;
 };
 
-template <class Visit, std::same_as<HandScale>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... scale) {
+template <class Visit, RecordOf<HandScale>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... scale) {
   visit("hand_m_per_m", scale.hand_m_per_m...);
   visit("hand_N_per_N", scale.hand_n_per_n...);
 }
@@ -81,8 +81,8 @@ struct ActiveContact {
   std::uint32_t edit_revision = 0;  // MaterialEdit in effect; 0: none
 };
 
-template <class Visit, std::same_as<ActiveContact>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... active) {
+template <class Visit, RecordOf<ActiveContact>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... active) {
   visit("scale", active.scale...);
   visit("release_z_m", active.release_z_m...);
   visit("slow_motion", active.slow_motion...);
@@ -101,8 +101,8 @@ struct SafetyFigures {
   double observer_damping_n_s_per_m = 0;  // added by the passivity observer in this tick
 };
 
-template <class Visit, std::same_as<SafetyFigures>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... safety) {
+template <class Visit, RecordOf<SafetyFigures>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... safety) {
   visit("force_cap_N", safety.force_cap_n...);
   visit("slew_limit_N_per_s", safety.slew_limit_n_per_s...);
   visit("motor_heat", safety.motor_heat...);
@@ -119,8 +119,8 @@ struct Acknowledged {
   std::uint32_t hand_script = 0;   // revision of the newest HandScript that was finished
 };
 
-template <class Visit, std::same_as<Acknowledged>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... acknowledged) {
+template <class Visit, RecordOf<Acknowledged>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... acknowledged) {
   visit("selection", acknowledged.selection...);
   visit("refused_edit", acknowledged.refused_edit...);
   visit("hand_script", acknowledged.hand_script...);
@@ -150,8 +150,8 @@ struct TipState {
   std::uint64_t presses = 0;         // presses of Turn-On since the servo started
 };
 
-template <class Visit, std::same_as<TipState>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... state) {
+template <class Visit, RecordOf<TipState>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... state) {
   visit("time_ns", state.time_ns...);
   visit("tick", state.tick...);
   visit("tip", state.tip...);
@@ -174,8 +174,8 @@ constexpr void for_each_field(Visit&& visit, const Record&... state) {
 }
 static_assert(all_fields_described<TipState>());
 
-template <class Visit, std::same_as<ScanLead>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... lead) {
+template <class Visit, RecordOf<ScanLead>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... lead) {
   visit("scan_time_ns", lead.time_ns...);
   visit("scan_apex_m", lead.apex_xy_m...);
   visit("scan_height_m", lead.height_m...);
@@ -217,8 +217,8 @@ struct TipSample {
 };
 
 // Results of the tick: a replay must reproduce them bit for bit.
-template <class Visit, std::same_as<TipSample>... Record>
-constexpr void for_each_result(Visit&& visit, const Record&... sample) {
+template <class Visit, RecordOf<TipSample>... Record>
+constexpr void for_each_result(Visit&& visit, Record&... sample) {
   visit("tip", sample.tip...);
   visit("hand_height_m", sample.hand_height_m...);
   visit("hand_force_N", sample.hand_force_n...);
@@ -230,8 +230,8 @@ constexpr void for_each_result(Visit&& visit, const Record&... sample) {
 }
 
 // Inputs of the tick: a replay begins with them.
-template <class Visit, std::same_as<TipSample>... Record>
-constexpr void for_each_input(Visit&& visit, const Record&... sample) {
+template <class Visit, RecordOf<TipSample>... Record>
+constexpr void for_each_input(Visit&& visit, Record&... sample) {
   visit("time_ns", sample.time_ns...);
   visit("tick", sample.tick...);
   visit("material", sample.material...);
@@ -249,8 +249,8 @@ constexpr void for_each_input(Visit&& visit, const Record&... sample) {
   visit("scan", sample.scan...);
 }
 
-template <class Visit, std::same_as<TipSample>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... sample) {
+template <class Visit, RecordOf<TipSample>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... sample) {
   for_each_result(visit, sample...);
   for_each_input(visit, sample...);
 }
@@ -267,8 +267,8 @@ struct TipEvent {
   double force_after_n = 0;
 };
 
-template <class Visit, std::same_as<TipEvent>... Record>
-constexpr void for_each_result(Visit&& visit, const Record&... event) {
+template <class Visit, RecordOf<TipEvent>... Record>
+constexpr void for_each_result(Visit&& visit, Record&... event) {
   visit("kind", event.kind...);
   visit("time_ns", event.time_ns...);
   visit("z_m", event.z_m...);
@@ -276,8 +276,8 @@ constexpr void for_each_result(Visit&& visit, const Record&... event) {
   visit("force_after_N", event.force_after_n...);
 }
 
-template <class Visit, std::same_as<TipEvent>... Record>
-constexpr void for_each_field(Visit&& visit, const Record&... event) {
+template <class Visit, RecordOf<TipEvent>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... event) {
   for_each_result(visit, event...);
   visit("material", event.material...);
 }
