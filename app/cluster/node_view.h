@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/live/view_display.h"
-#include "app/live/view_panels.h"
+#include "app/display/view_display.h"
+#include "app/view/view_panels.h"
 #include "cluster/node_link.h"
 #include "core/clock.h"
 #include "curves/sample_model.h"

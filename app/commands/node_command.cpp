@@ -12,8 +12,8 @@
 
 #include "app/cluster/cluster_start.h"
 #include "app/cluster/node_view.h"
-#include "app/command.h"
 #include "app/commands/view_command.h"
+#include "app/options/command.h"
 #include "app/options/pixel_size_option.h"
 #include "cluster/node_link.h"
 #include "core/exit_code.h"

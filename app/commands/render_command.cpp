@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "app/command.h"
 #include "app/demo/demonstration.h"
-#include "app/live/view_panels.h"
+#include "app/options/command.h"
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
+#include "app/view/view_panels.h"
 #include "core/log.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"

@@ -11,15 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "app/command.h"
 #include "app/headset/headset_runtime.h"
-#include "app/live/speech_choice.h"
+#include "app/options/command.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"
+#include "app/view/speech_choice.h"
 #include "core/exit_code.h"
 #include "core/interruption.h"
 #include "core/log.h"

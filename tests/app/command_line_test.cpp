@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/command.h"
+#include "app/options/command.h"
 #include "core/whole_file.h"
 #include "haptics/device_registry.h"
 #include "places.h"

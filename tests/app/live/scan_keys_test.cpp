@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/live/view_panels.h"
+#include "app/view/view_panels.h"
 #include "core/whole_file.h"
 #include "curves/sample_model.h"
 #include "exhibit/exhibit_setup.h"

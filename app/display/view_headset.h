@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "app/headset/picture_age.h"
+#include "app/display/picture_age.h"
 #include "core/clock.h"
 #include "exhibit/exhibit_setup.h"
 #include "input/wand.h"

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "app/lesson/instructor_window.h"
-#include "app/live/view_outputs.h"
-#include "app/live/view_picture.h"
-#include "app/live/view_windows.h"
+#include "app/display/instructor_window.h"
+#include "app/display/view_outputs.h"
+#include "app/display/view_picture.h"
+#include "app/display/view_windows.h"
 #include "core/result.h"
 #include "render/context.h"
 

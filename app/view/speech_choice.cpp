@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/speech_choice.h"
+#include "app/view/speech_choice.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

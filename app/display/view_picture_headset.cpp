@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The picture in a headset, and its left eye's in the window.
-#include "app/live/view_picture.h"
+#include "app/display/view_picture.h"
 
 namespace afm::app {
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "app/headset/view_headset.h"
-#include "app/live/frame_times.h"
-#include "app/live/mouse_wand.h"
-#include "app/live/view_outputs.h"
-#include "app/live/view_windows.h"
+#include "app/display/frame_times.h"
+#include "app/display/mouse_wand.h"
+#include "app/display/view_headset.h"
+#include "app/display/view_outputs.h"
+#include "app/display/view_windows.h"
 #include "app/options/dynamic_resolution.h"
 #include "cluster/frame_message.h"
 #include "exhibit/comfort_clamp.h"

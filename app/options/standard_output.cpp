@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/standard_output.h"
+#include "app/options/standard_output.h"
 #include "core/system_error.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/parameter_edits.h"
+#include "app/view/parameter_edits.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/live_sound.h"
+#include "app/view/live_sound.h"
 
 #include <utility>
 
-#include "app/live/speech_choice.h"
+#include "app/view/speech_choice.h"
 #include "core/log.h"
 
 namespace afm::app {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/view_panels.h"
+#include "app/view/view_panels.h"
 
 #include <fmt/format.h>
 

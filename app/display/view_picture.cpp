@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/view_picture.h"
+#include "app/display/view_picture.h"
 
 #include <fmt/format.h>
 

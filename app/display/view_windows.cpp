@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/view_windows.h"
+#include "app/display/view_windows.h"
 
 #include <fmt/format.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/lesson/instructor_window.h"
+#include "app/display/instructor_window.h"
 
 #include <algorithm>
 #include <array>
 #include <glm/common.hpp>
 #include <utility>
 
-#include "app/live/view_outputs.h"
+#include "app/display/view_outputs.h"
 #include "core/log.h"
 #include "scene/graph/scene.h"
 

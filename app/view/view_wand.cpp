@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/view_wand.h"
+#include "app/view/view_wand.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/servo_supervisor.h"
+#include "app/view/servo_supervisor.h"
 #include "core/percentiles.h"
 
 #include <fmt/format.h>

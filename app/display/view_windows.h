@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/live/view_outputs.h"
+#include "app/display/view_outputs.h"
 #include "render/window.h"
 
 namespace afm::app {

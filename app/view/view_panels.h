@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "app/live/parameter_edits.h"
 #include "app/live/view_keys.h"
+#include "app/view/parameter_edits.h"
 #include "cluster/frame_message.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/friction/friction_history.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/headset/view_headset.h"
+#include "app/display/view_headset.h"
 
 #include <algorithm>
 #include <cmath>
