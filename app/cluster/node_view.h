@@ -28,9 +28,9 @@ class NodeView {
     std::vector<std::byte> model;
   };
 
-  // All must outlive it.
+  // All must outlive it; `key_list` is that of the master's window.
   NodeView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewDisplay& display,
-           cluster::NodeLink& link, Place place, const core::Clock& clock);
+           cluster::NodeLink& link, Place place, KeyList key_list, const core::Clock& clock);
 
   // Until the window is closed or a signal comes; or until a master shows another wall, whose description it returns.
   std::optional<cluster::NodeLink::Document> run();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options/sound_options.h"
+#include "app/view/sound_settings.h"
 #include "core/clock.h"
 #include "curves/sample_model.h"
 #include "exhibit/sound/narrator.h"
@@ -16,12 +16,6 @@
 #include "servo/servo_client.h"
 
 namespace afm::app {
-
-struct LiveSoundSettings {
-  SoundOptions options;
-  bool sound = false;                            // tones and signals
-  std::optional<exhibit::SpeechProgram> speech;  // texts are spoken; none: they are captions alone
-};
 
 // What is heard at the live window. A card that is missing or gets lost costs one line of the log. Main thread; the
 // threads of SDL, of the voice and of the servo's listener are behind it.

@@ -74,7 +74,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
       [&](const scene::TipSample& sample) {
         cycles_.add(sample);
         friction_.add(sample);
-        if (hears_) hears_(sample);
+        for (const auto& hears : hears_) hears(sample);
         audience_.heard(sample);
         if (!folder_) return;
         if (recorder_.add(sample, *link_)) recorder_.set_earlier(curves_on_wall());
@@ -87,7 +87,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         cues_.add(event);
         if (event.kind == physics::EventKind::Slip) return;  // many times a second
         core::log_line(text_of(event));
-        if (hears_jumps_) hears_jumps_(event);
+        for (const auto& hears : hears_jumps_) hears(event);
       });
   keep_part(now_ns);
   log_state();

@@ -43,11 +43,11 @@ class ServoSupervisor {
   // pressed; one that dies again and again, or that cannot have its device, needs a person: then it has an error().
   void update(std::int64_t now_ns);
 
-  // Called with every sample, in their order, before a session keeps it.
-  void hear(std::function<void(const scene::TipSample&)> hears) { hears_ = std::move(hears); }
+  // Each is called with every sample, in their order, before a session keeps it.
+  void hear(std::function<void(const scene::TipSample&)> hears) { hears_.push_back(std::move(hears)); }
 
   // The same with every jump.
-  void hear_jumps(std::function<void(const scene::TipEvent&)> hears) { hears_jumps_ = std::move(hears); }
+  void hear_jumps(std::function<void(const scene::TipEvent&)> hears) { hears_jumps_.push_back(std::move(hears)); }
 
   // Adds a frame of the wall to the current session.
   void record(const servo::WallFrame& frame) { recorder_.add(frame); }
@@ -82,8 +82,8 @@ class ServoSupervisor {
   void log_timing() const;
 
   Starter starter_;
-  std::function<void(const scene::TipSample&)> hears_;
-  std::function<void(const scene::TipEvent&)> hears_jumps_;
+  std::vector<std::function<void(const scene::TipSample&)>> hears_;
+  std::vector<std::function<void(const scene::TipEvent&)>> hears_jumps_;
   Started started_;
   std::size_t materials_;
   std::string record_folder_;

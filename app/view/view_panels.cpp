@@ -39,8 +39,9 @@ void log_scan(const exhibit::LiveScan& scan) {
 
 }  // namespace
 
-ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials)
-    : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials) {}
+ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
+                       KeyList key_list)
+    : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials), key_list_(key_list) {}
 
 std::string ViewPanels::shown() const {
   if (keys_shown_) return "keys";
@@ -212,7 +213,7 @@ void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::
         frame.control_placement = render::kNoPlacement;
   }
   if (keys_shown_) {
-    frame.data_panel = key_list(hand, unattended_, phrases(), use_);
+    frame.data_panel = key_list_(hand, unattended_, phrases(), use_);
     frame.data_placement = wall_scene_.parameter_placement();
     frame.loop_placement = frame.control_placement = render::kNoPlacement;
   }

@@ -5,8 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "app/live/view_keys.h"
+#include "app/view/key_list.h"
 #include "app/view/parameter_edits.h"
+#include "app/view/pointed.h"
 #include "cluster/frame_message.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/friction/friction_history.h"
@@ -19,19 +20,11 @@
 
 namespace afm::app {
 
-// Target of a ray: a control of the open parameter panel, the tab that opens it, or a swatch.
-struct Pointed {
-  std::optional<render::ControlTarget> control;
-  bool tab = false;
-  std::optional<std::size_t> swatch;
-  glm::dvec3 point_m{0.0};  // in the room
-};
-
 // Visible panels of the live window, and the parameters that one of them edits. One thread.
 class ViewPanels {
  public:
-  // `wall_scene` must outlive it; `materials` as the servo was started with.
-  ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials);
+  // `wall_scene` must outlive it; `materials` as the servo was started with; `key_list` fills the panel of F1.
+  ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials, KeyList key_list);
 
   void toggle_keys() {
     keys_shown_ = !keys_shown_;
@@ -104,6 +97,7 @@ class ViewPanels {
   const exhibit::WallScene& wall_scene_;
   std::vector<input::Target> swatches_;
   ParameterEdits edits_;
+  KeyList key_list_;
   exhibit::LiveScan* scan_ = nullptr;
   const exhibit::FrictionHistory* friction_ = nullptr;
   std::size_t marked_ = 0;
