@@ -12,7 +12,7 @@
 #include <system_error>
 #include <vector>
 
-#include "app/commands/standard_output.h"
+#include "app/options/standard_output.h"
 #include "core/exit_code.h"
 #include "core/run_main.h"
 #include "core/version.h"

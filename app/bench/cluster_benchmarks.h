@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/command.h"
+#include "app/options/command.h"
 
 namespace afm::app {
 

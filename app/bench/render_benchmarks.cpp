@@ -15,8 +15,8 @@
 
 #include "app/bench/render_subjects.h"
 #include "app/bench/render_timing.h"
-#include "app/commands/standard_output.h"
 #include "app/options/exhibit_options.h"
+#include "app/options/standard_output.h"
 #include "core/clock.h"
 #include "core/log.h"
 #include "core/version.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/live/parameter_edits.h"
+#include "app/view/parameter_edits.h"
 #include "cluster/master_link.h"
 #include "cluster/membership.h"
 #include "core/clock.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/cluster/cluster_master.h"
-#include "app/live/view_outputs.h"
+#include "app/display/view_outputs.h"
 #include "app/options/command_line.h"
 #include "cluster/network.h"
 #include "core/clock.h"

@@ -28,7 +28,7 @@ constexpr int kPauseMs = 10;                           // between two looks at t
 }  // namespace
 
 NodeView::NodeView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewDisplay& display,
-                   cluster::NodeLink& link, Place place, const core::Clock& clock)
+                   cluster::NodeLink& link, Place place, KeyList key_list, const core::Clock& clock)
     : stage_(stage),
       windows_(display.windows()),
       picture_(display.picture()),
@@ -37,7 +37,7 @@ NodeView::NodeView(const exhibit::Stage& stage, const std::vector<curves::Sample
       clock_(clock),
       felt_(materials),
       frames_(stage.wall_scene, felt_, stage.eyes),
-      panels_(stage.wall_scene, materials),
+      panels_(stage.wall_scene, materials, key_list),
       history_(materials.size()) {
   panels_.set_friction(&history_.friction);
 }

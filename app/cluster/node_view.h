@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/live/view_display.h"
-#include "app/live/view_panels.h"
+#include "app/display/view_display.h"
+#include "app/view/view_panels.h"
 #include "cluster/node_link.h"
 #include "core/clock.h"
 #include "curves/sample_model.h"
@@ -28,9 +28,9 @@ class NodeView {
     std::vector<std::byte> model;
   };
 
-  // All must outlive it.
+  // All must outlive it; `key_list` is that of the master's window.
   NodeView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewDisplay& display,
-           cluster::NodeLink& link, Place place, const core::Clock& clock);
+           cluster::NodeLink& link, Place place, KeyList key_list, const core::Clock& clock);
 
   // Until the window is closed or a signal comes; or until a master shows another wall, whose description it returns.
   std::optional<cluster::NodeLink::Document> run();

@@ -12,11 +12,11 @@
 #include <optional>
 #include <vector>
 
-#include "app/command.h"
 #include "app/commands/analyse_image.h"
-#include "app/commands/standard_output.h"
+#include "app/options/command.h"
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
+#include "app/options/standard_output.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/commands/standard_output.h"
+#include "app/options/standard_output.h"
 
 namespace afm::app {
 

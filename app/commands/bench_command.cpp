@@ -11,7 +11,7 @@
 #include "app/bench/cluster_benchmarks.h"
 #include "app/bench/haptics_benchmarks.h"
 #include "app/bench/render_benchmarks.h"
-#include "app/command.h"
+#include "app/options/command.h"
 #include "core/system_error.h"
 
 namespace afm::app {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/command.h"
-#include "app/commands/standard_output.h"
+#include "app/options/command.h"
+#include "app/options/standard_output.h"
 #include "core/log.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"

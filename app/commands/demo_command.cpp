@@ -9,15 +9,15 @@
 #include <optional>
 #include <utility>
 
-#include "app/command.h"
-#include "app/commands/output_folder.h"
 #include "app/demo/curves_plot.h"
 #include "app/demo/demo_figures.h"
 #include "app/demo/demonstration.h"
 #include "app/demo/report.h"
 #include "app/demo/report_pictures.h"
+#include "app/options/command.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
+#include "app/options/output_folder.h"
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "app/command.h"
 #include "app/headset/headset_runtime.h"
+#include "app/options/command.h"
 #include "cluster/network.h"
 #include "core/clock.h"
 #include "core/printable.h"

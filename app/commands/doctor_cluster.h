@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/cluster/cluster_start.h"
-#include "app/command.h"
+#include "app/options/command.h"
 
 namespace afm::app {
 

@@ -10,11 +10,11 @@
 #include <span>
 
 #include "app/bench/servo_latency.h"
-#include "app/command.h"
 #include "app/commands/diagnosis.h"
 #include "app/commands/doctor_cluster.h"
 #include "app/commands/fault_bundle.h"
 #include "app/commands/findings_json.h"
+#include "app/options/command.h"
 #include "core/log.h"
 #include "core/percentiles.h"
 #include "core/printable.h"

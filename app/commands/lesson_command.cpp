@@ -11,8 +11,8 @@
 #include <system_error>
 #include <utility>
 
-#include "app/command.h"
 #include "app/commands/view_command.h"
+#include "app/options/command.h"
 #include "app/options/enum_option.h"
 #include "app/options/exhibit_options.h"
 #include "core/fnv1a.h"

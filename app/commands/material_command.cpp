@@ -7,9 +7,9 @@
 #include <span>
 #include <stdexcept>
 
-#include "app/command.h"
-#include "app/commands/standard_output.h"
+#include "app/options/command.h"
 #include "app/options/contact_options.h"
+#include "app/options/standard_output.h"
 #include "core/whole_file.h"
 #include "curves/adhesion_map_plot.h"
 #include "physics/law_tables.h"

@@ -12,8 +12,9 @@
 
 #include "app/cluster/cluster_start.h"
 #include "app/cluster/node_view.h"
-#include "app/command.h"
 #include "app/commands/view_command.h"
+#include "app/live/view_keys.h"
+#include "app/options/command.h"
 #include "app/options/pixel_size_option.h"
 #include "cluster/node_link.h"
 #include "core/exit_code.h"
@@ -150,7 +151,7 @@ core::Result<std::optional<cluster::NodeLink::Document>> show_wall(const NodeOpt
   core::log_line(
       fmt::format("cluster: node {} of the wall, {} of its outputs", options.name, stage.wall.outputs.size()));
   NodeView view(stage, *materials, **display, link,
-                {.node = loaded->node, .session = document.header.session, .model = document.bytes}, clock);
+                {.node = loaded->node, .session = document.header.session, .model = document.bytes}, key_list, clock);
   try {
     return view.run();
   } catch (const render::DeviceFailure& failure) {

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "app/command.h"
-#include "app/commands/output_folder.h"
+#include "app/options/command.h"
+#include "app/options/output_folder.h"
 #include "core/log.h"
 #include "curves/paper_report.h"
 #include "curves/paper_tables.h"

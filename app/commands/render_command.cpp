@@ -11,11 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "app/command.h"
 #include "app/demo/demonstration.h"
-#include "app/live/view_panels.h"
+#include "app/live/view_keys.h"
+#include "app/options/command.h"
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
+#include "app/view/view_panels.h"
 #include "core/log.h"
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
@@ -167,7 +168,7 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
   if (options.analogy) then.moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
   exhibit::PictureOptions picture = options.picture;
   look_as(*then.frame, stage.wall, picture);
-  ViewPanels panels(stage.wall_scene, models);
+  ViewPanels panels(stage.wall_scene, models, key_list);
   panels.set_friction(&then.friction);
   panels.show(then.frame->panels);
   std::optional<exhibit::LiveScan> scan;

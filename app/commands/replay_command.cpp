@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "app/command.h"
+#include "app/options/command.h"
 #include "app/options/sound_options.h"
 #include "core/log.h"
 #include "core/printable.h"

@@ -12,11 +12,11 @@
 #include <numbers>
 #include <utility>
 
-#include "app/command.h"
 #include "app/commands/scan_surface.h"
-#include "app/commands/standard_output.h"
+#include "app/options/command.h"
 #include "app/options/enum_option.h"
 #include "app/options/quantity_option.h"
+#include "app/options/standard_output.h"
 #include "core/log.h"
 #include "core/whole_file.h"
 #include "curves/image_output.h"

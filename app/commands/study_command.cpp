@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "app/command.h"
-#include "app/commands/output_folder.h"
+#include "app/options/command.h"
+#include "app/options/output_folder.h"
 #include "core/log.h"
 #include "study/study_data.h"
 #include "study/study_report.h"

@@ -11,15 +11,17 @@
 #include <utility>
 #include <vector>
 
-#include "app/command.h"
 #include "app/headset/headset_runtime.h"
-#include "app/live/speech_choice.h"
+#include "app/lesson/live_lesson.h"
+#include "app/live/live_window.h"
+#include "app/options/command.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"
+#include "app/view/speech_choice.h"
 #include "core/exit_code.h"
 #include "core/interruption.h"
 #include "core/log.h"
@@ -298,7 +300,6 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
 
   const auto cluster = other_machines(options, program, *stage, clock);
   if (!cluster) return tl::unexpected(cluster.error());
-  settings.cluster = cluster->get();
   DisplayOptions display_options = options.display;
   if (*cluster) display_options.swap = render::Swap::WithOthers;
   auto display = ViewDisplay::open(*stage, display_options, runtime.get(), clock);
@@ -314,11 +315,18 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   };
   std::optional<LiveLesson> guide;
   if (lesson != nullptr) guide.emplace(lesson->lesson, materials, stage->phrases(), lesson->study, clock);
-  settings.headset = (*display)->headset();
-  settings.lesson = guide ? &*guide : nullptr;
-  settings.instructor = (*display)->instructor();
-  LiveView live(*stage, materials, windows, (*display)->picture(), start_servo, **wand, clock, settings);
-  auto ran = live.run();
+  const LiveFeatures features{.headset = (*display)->headset(),
+                              .cluster = cluster->get(),
+                              .lesson = guide ? &*guide : nullptr,
+                              .instructor = (*display)->instructor()};
+  auto ran = run_live_window({.stage = *stage,
+                              .materials = materials,
+                              .windows = windows,
+                              .picture = (*display)->picture(),
+                              .wand = **wand,
+                              .clock = clock,
+                              .start_servo = start_servo},
+                             settings, features);
   auto kept = guide ? guide->finish() : core::Result<void>{};
   if (!ran) return ran;
   if (!kept) return kept;

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "app/cluster/cluster_start.h"
-#include "app/command.h"
+#include "app/display/view_display.h"
 #include "app/lesson/live_lesson.h"
-#include "app/live/live_view.h"
-#include "app/live/view_display.h"
-#include "app/live/view_wand.h"
+#include "app/live/view_settings.h"
+#include "app/options/command.h"
+#include "app/view/view_wand.h"
 #include "core/result.h"
 #include "exhibit/exhibit_setup.h"
 #include "physics/friction/friction.h"

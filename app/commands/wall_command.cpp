@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command.h"
+#include "app/options/command.h"
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
 #include "cluster/network.h"

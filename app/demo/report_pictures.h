@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/commands/output_folder.h"
 #include "app/demo/report.h"
+#include "app/options/output_folder.h"
 #include "core/result.h"
 #include "render/screenshot_queue.h"
 

@@ -4,7 +4,18 @@
 #include <array>
 #include <string>
 
-#include "app/live/live_view.h"
+#include "app/display/view_picture.h"
+#include "app/display/view_windows.h"
+#include "app/lesson/lesson_control.h"
+#include "app/live/journey_control.h"
+#include "app/live/place_control.h"
+#include "app/live/scan_control.h"
+#include "app/live/sound_control.h"
+#include "app/view/mouse_hand.h"
+#include "app/view/view_choice.h"
+#include "app/view/view_controls.h"
+#include "app/view/view_panels.h"
+#include "app/view/view_parts.h"
 
 namespace afm::app {
 
@@ -16,99 +27,108 @@ using render::Key;
 constexpr double kEyeStepM = 1e-3;
 constexpr double kHeadStepM = 0.05;
 
-}  // namespace
-
-// A friend of LiveView, so that a row may call what is private there.
-struct LiveKeyTable {
-  static constexpr std::array kRows{
-      LiveKey{Key::Digit1, "1 to 9", Phrase::KeyChoose, [](LiveView& view, std::size_t number) { view.number(number); },
-              Phrase::LeftClick, Key::Digit9},
-      LiveKey{MouseHand::kGripKey, "Space", Phrase::KeyHand, nullptr, Phrase::RightDragOrWheel},
-      LiveKey{MouseHand::kTurnOnKey, "T", Phrase::KeyTurnOn, nullptr, Phrase::MiddleClick},
-      LiveKey{Key::Enter, "Enter", Phrase::KeyStop, [](LiveView& view, std::size_t) { view.stop_or_go_on(); }},
-      LiveKey{Key::F2, "F2", Phrase::KeyParameters,
-              [](LiveView& view, std::size_t) { view.panels_.toggle_parameters(); }}
-          .outside_lessons(),
-      LiveKey{Key::I, "I", Phrase::KeyScan, [](LiveView& view, std::size_t) { view.toggle_scan(); }}.outside_lessons(),
-      LiveKey{Key::U, "U", Phrase::KeyTruth, [](LiveView& view, std::size_t) { view.toggle_truth(); }}
-          .outside_lessons(),
-      LiveKey{Key::F, "F", Phrase::KeyFriction, [](LiveView& view, std::size_t) { view.toggle_friction_loop(); }}
-          .outside_lessons(),
-      LiveKey{Key::L, "L", Phrase::KeyScanHand, [](LiveView& view, std::size_t) { view.next_scan_hand(); }}
-          .outside_lessons(),
-      LiveKey{Key::K, "K", Phrase::KeyScanFeedback, [](LiveView& view, std::size_t) { view.toggle_scan_feedback(); }}
-          .outside_lessons(),
-      LiveKey{Key::Tab, "Tab", Phrase::KeyNextSetting, [](LiveView& view, std::size_t) { view.mark_next_setting(); }}
-          .outside_lessons(),
-      LiveKey{Key::Equal, "+", Phrase::KeyChangeSetting, [](LiveView& view, std::size_t) { view.step_setting(1); }},
-      LiveKey{Key::Minus, "-", Phrase::KeyChangeSetting, [](LiveView& view, std::size_t) { view.step_setting(-1); }},
-      LiveKey{Key::M, "M", Phrase::KeyScale, [](LiveView& view, std::size_t) { view.next_scale(); }}
-          .outside_lessons()
-          .for_staff(),
-      LiveKey{Key::J, "J", Phrase::KeyJourney, [](LiveView& view, std::size_t) { view.turn_journey_round(); }}
-          .outside_lessons(),
-      LiveKey{Key::A, "A", Phrase::KeyAnalogy, [](LiveView& view, std::size_t) { view.toggle_analogy(); }}
-          .outside_lessons(),
-      LiveKey{Key::Y, "Y", Phrase::KeySay,
-              [](LiveView& view, std::size_t) { view.sound_.say_state(view.servo_.link().tip()); }},
-      LiveKey{Key::Q, "Q", Phrase::KeySound, [](LiveView& view, std::size_t) { view.sound_.toggle(); }},
-      LiveKey{Key::X, "X", Phrase::KeyBlank, [](LiveView& view, std::size_t) { view.toggle_picture(); }}.for_staff(),
-      LiveKey{Key::R, "R", Phrase::KeyStartAgain, [](LiveView& view, std::size_t) { view.begin_again(); }},
-      LiveKey{Key::H, "H", Phrase::KeyHome, [](LiveView& view, std::size_t) { view.bring_home(); }},
-      LiveKey{Key::Left, "Left", Phrase::KeyHeadAcross,
-              [](LiveView& view, std::size_t) { view.move_head(-kHeadStepM, 0.0, 0.0); }}
-          .for_staff(),
-      LiveKey{Key::Right, "Right", Phrase::KeyHeadAcross,
-              [](LiveView& view, std::size_t) { view.move_head(kHeadStepM, 0.0, 0.0); }}
-          .for_staff(),
-      LiveKey{Key::Up, "Up", Phrase::KeyHeadHeight,
-              [](LiveView& view, std::size_t) { view.move_head(0.0, kHeadStepM, 0.0); }}
-          .for_staff(),
-      LiveKey{Key::Down, "Down", Phrase::KeyHeadHeight,
-              [](LiveView& view, std::size_t) { view.move_head(0.0, -kHeadStepM, 0.0); }}
-          .for_staff(),
-      LiveKey{Key::PageUp, "PgUp", Phrase::KeyHeadDistance,
-              [](LiveView& view, std::size_t) { view.move_head(0.0, 0.0, kHeadStepM); }}
-          .for_staff(),
-      LiveKey{Key::PageDown, "PgDn", Phrase::KeyHeadDistance,
-              [](LiveView& view, std::size_t) { view.move_head(0.0, 0.0, -kHeadStepM); }}
-          .for_staff(),
-      LiveKey{Key::P, "P", Phrase::KeyPanels, [](LiveView& view, std::size_t) { view.panels_.toggle_all(); }}
-          .outside_lessons()
-          .for_staff(),
-      LiveKey{Key::S, "S", Phrase::KeySwapEyes, [](LiveView& view, std::size_t) { view.picture_.swap_eyes(); }}
-          .for_staff(),
-      LiveKey{Key::V, "V", Phrase::KeyStereoMode,
-              [](LiveView& view, std::size_t) { view.picture_.change_mode(ViewPicture::Step::Next); }}
-          .for_staff(),
-      LiveKey{Key::C, "C", Phrase::KeyStereoMode,
-              [](LiveView& view, std::size_t) { view.picture_.change_mode(ViewPicture::Step::Previous); }}
-          .for_staff(),
-      LiveKey{Key::LeftBracket, "[", Phrase::KeyEyeDistance,
-              [](LiveView& view, std::size_t) { view.picture_.widen_eyes(-kEyeStepM); }}
-          .for_staff(),
-      LiveKey{Key::RightBracket, "]", Phrase::KeyEyeDistance,
-              [](LiveView& view, std::size_t) { view.picture_.widen_eyes(kEyeStepM); }}
-          .for_staff(),
-      LiveKey{Key::G, "G", Phrase::KeyTestPattern,
-              [](LiveView& view, std::size_t) { view.picture_.toggle_calibration(); }}
-          .for_staff(),
-      LiveKey{Key::B, "B", Phrase::KeyContactToWall, [](LiveView& view, std::size_t) { view.bring_to_wall(); }}
-          .for_staff(),
-      LiveKey{Key::F11, "F11", Phrase::KeyFullScreen,
-              [](LiveView& view, std::size_t) { view.windows_.toggle_full_screen(); }}
-          .for_staff(),
-      LiveKey{Key::F12, "F12", Phrase::KeySavePicture, [](LiveView& view, std::size_t) { view.picture_.save(); }}
-          .for_staff(),
-      LiveKey{Key::N, "N", Phrase::KeySkip, [](LiveView& view, std::size_t) { view.skip_step(); }}.in_lessons(),
-      LiveKey{Key::O, "O", Phrase::KeyTryAgain, [](LiveView& view, std::size_t) { view.try_again(); }}.in_lessons(),
-      LiveKey{Key::Escape, "Esc", Phrase::KeyEnd, [](LiveView& view, std::size_t) { view.leaving_ = true; }}
-          .for_staff(),
-      LiveKey{Key::F1, "F1", Phrase::Keys, [](LiveView& view, std::size_t) { view.panels_.toggle_keys(); }},
-  };
+constexpr std::array kRows{
+    LiveKey{Key::Digit1, "1 to 9", Phrase::KeyChoose,
+            [](KeyOwners& owners, std::size_t number) { owners.parts.choice.number(number); }, Phrase::LeftClick,
+            Key::Digit9},
+    LiveKey{MouseHand::kGripKey, "Space", Phrase::KeyHand, nullptr, Phrase::RightDragOrWheel},
+    LiveKey{MouseHand::kTurnOnKey, "T", Phrase::KeyTurnOn, nullptr, Phrase::MiddleClick},
+    LiveKey{Key::Enter, "Enter", Phrase::KeyStop, [](KeyOwners& owners, std::size_t) { owners.parts.choice.enter(); }},
+    LiveKey{Key::F2, "F2", Phrase::KeyParameters,
+            [](KeyOwners& owners, std::size_t) { owners.parts.panels.toggle_parameters(); }}
+        .outside_lessons(),
+    LiveKey{Key::I, "I", Phrase::KeyScan, [](KeyOwners& owners, std::size_t) { owners.scan->toggle(); }}
+        .outside_lessons(),
+    LiveKey{Key::U, "U", Phrase::KeyTruth, [](KeyOwners& owners, std::size_t) { owners.scan->toggle_truth(); }}
+        .outside_lessons(),
+    LiveKey{Key::F, "F", Phrase::KeyFriction,
+            [](KeyOwners& owners, std::size_t) { owners.parts.choice.toggle_friction_loop(); }}
+        .outside_lessons(),
+    LiveKey{Key::L, "L", Phrase::KeyScanHand, [](KeyOwners& owners, std::size_t) { owners.scan->next_hand(); }}
+        .outside_lessons(),
+    LiveKey{Key::K, "K", Phrase::KeyScanFeedback,
+            [](KeyOwners& owners, std::size_t) { owners.scan->toggle_feedback(); }}
+        .outside_lessons(),
+    LiveKey{Key::Tab, "Tab", Phrase::KeyNextSetting,
+            [](KeyOwners& owners, std::size_t) { owners.parts.choice.mark_next_setting(); }}
+        .outside_lessons(),
+    LiveKey{Key::Equal, "+", Phrase::KeyChangeSetting,
+            [](KeyOwners& owners, std::size_t) { owners.parts.choice.step_setting(1); }},
+    LiveKey{Key::Minus, "-", Phrase::KeyChangeSetting,
+            [](KeyOwners& owners, std::size_t) { owners.parts.choice.step_setting(-1); }},
+    LiveKey{Key::M, "M", Phrase::KeyScale, [](KeyOwners& owners, std::size_t) { owners.parts.choice.next_scale(); }}
+        .outside_lessons()
+        .for_staff(),
+    LiveKey{Key::J, "J", Phrase::KeyJourney, [](KeyOwners& owners, std::size_t) { owners.journey->turn_round(); }}
+        .outside_lessons(),
+    LiveKey{Key::A, "A", Phrase::KeyAnalogy, [](KeyOwners& owners, std::size_t) { owners.journey->toggle_analogy(); }}
+        .outside_lessons(),
+    LiveKey{Key::Y, "Y", Phrase::KeySay, [](KeyOwners& owners, std::size_t) { owners.sound->say_state(); }},
+    LiveKey{Key::Q, "Q", Phrase::KeySound, [](KeyOwners& owners, std::size_t) { owners.sound->toggle_sound(); }},
+    LiveKey{Key::X, "X", Phrase::KeyBlank, [](KeyOwners& owners, std::size_t) { owners.sound->toggle_picture(); }}
+        .for_staff(),
+    LiveKey{Key::R, "R", Phrase::KeyStartAgain,
+            [](KeyOwners& owners, std::size_t) { owners.parts.controls.begin_again(); }},
+    LiveKey{Key::H, "H", Phrase::KeyHome, [](KeyOwners& owners, std::size_t) { owners.place->bring_home(); }},
+    LiveKey{Key::Left, "Left", Phrase::KeyHeadAcross,
+            [](KeyOwners& owners, std::size_t) { owners.place->move_head(-kHeadStepM, 0.0, 0.0); }}
+        .for_staff(),
+    LiveKey{Key::Right, "Right", Phrase::KeyHeadAcross,
+            [](KeyOwners& owners, std::size_t) { owners.place->move_head(kHeadStepM, 0.0, 0.0); }}
+        .for_staff(),
+    LiveKey{Key::Up, "Up", Phrase::KeyHeadHeight,
+            [](KeyOwners& owners, std::size_t) { owners.place->move_head(0.0, kHeadStepM, 0.0); }}
+        .for_staff(),
+    LiveKey{Key::Down, "Down", Phrase::KeyHeadHeight,
+            [](KeyOwners& owners, std::size_t) { owners.place->move_head(0.0, -kHeadStepM, 0.0); }}
+        .for_staff(),
+    LiveKey{Key::PageUp, "PgUp", Phrase::KeyHeadDistance,
+            [](KeyOwners& owners, std::size_t) { owners.place->move_head(0.0, 0.0, kHeadStepM); }}
+        .for_staff(),
+    LiveKey{Key::PageDown, "PgDn", Phrase::KeyHeadDistance,
+            [](KeyOwners& owners, std::size_t) { owners.place->move_head(0.0, 0.0, -kHeadStepM); }}
+        .for_staff(),
+    LiveKey{Key::P, "P", Phrase::KeyPanels, [](KeyOwners& owners, std::size_t) { owners.parts.panels.toggle_all(); }}
+        .outside_lessons()
+        .for_staff(),
+    LiveKey{Key::S, "S", Phrase::KeySwapEyes, [](KeyOwners& owners, std::size_t) { owners.parts.picture.swap_eyes(); }}
+        .for_staff(),
+    LiveKey{Key::V, "V", Phrase::KeyStereoMode,
+            [](KeyOwners& owners, std::size_t) { owners.parts.picture.change_mode(ViewPicture::Step::Next); }}
+        .for_staff(),
+    LiveKey{Key::C, "C", Phrase::KeyStereoMode,
+            [](KeyOwners& owners, std::size_t) { owners.parts.picture.change_mode(ViewPicture::Step::Previous); }}
+        .for_staff(),
+    LiveKey{Key::LeftBracket, "[", Phrase::KeyEyeDistance,
+            [](KeyOwners& owners, std::size_t) { owners.parts.picture.widen_eyes(-kEyeStepM); }}
+        .for_staff(),
+    LiveKey{Key::RightBracket, "]", Phrase::KeyEyeDistance,
+            [](KeyOwners& owners, std::size_t) { owners.parts.picture.widen_eyes(kEyeStepM); }}
+        .for_staff(),
+    LiveKey{Key::G, "G", Phrase::KeyTestPattern,
+            [](KeyOwners& owners, std::size_t) { owners.parts.picture.toggle_calibration(); }}
+        .for_staff(),
+    LiveKey{Key::B, "B", Phrase::KeyContactToWall,
+            [](KeyOwners& owners, std::size_t) { owners.place->bring_to_wall(); }}
+        .for_staff(),
+    LiveKey{Key::F11, "F11", Phrase::KeyFullScreen,
+            [](KeyOwners& owners, std::size_t) { owners.parts.windows.toggle_full_screen(); }}
+        .for_staff(),
+    LiveKey{Key::F12, "F12", Phrase::KeySavePicture,
+            [](KeyOwners& owners, std::size_t) { owners.parts.picture.save(); }}
+        .for_staff(),
+    LiveKey{Key::N, "N", Phrase::KeySkip, [](KeyOwners& owners, std::size_t) { owners.lesson->skip(); }}.in_lessons(),
+    LiveKey{Key::O, "O", Phrase::KeyTryAgain, [](KeyOwners& owners, std::size_t) { owners.lesson->try_again(); }}
+        .in_lessons(),
+    LiveKey{Key::Escape, "Esc", Phrase::KeyEnd,
+            [](KeyOwners& owners, std::size_t) { owners.parts.turn.leaving = true; }}
+        .for_staff(),
+    LiveKey{Key::F1, "F1", Phrase::Keys, [](KeyOwners& owners, std::size_t) { owners.parts.panels.toggle_keys(); }},
 };
 
-std::span<const LiveKey> live_keys() { return LiveKeyTable::kRows; }
+}  // namespace
+
+std::span<const LiveKey> live_keys() { return kRows; }
 
 render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use) {
   render::DataPanel panel;

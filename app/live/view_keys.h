@@ -5,27 +5,40 @@
 #include <optional>
 #include <span>
 
+#include "app/view/key_list.h"
 #include "exhibit/phrases.h"
 #include "render/frame.h"
 #include "render/key.h"
 
 namespace afm::app {
 
-class LiveView;
+class JourneyControl;
+class LessonControl;
+class PlaceControl;
+class ScanControl;
+class SoundControl;
+struct ViewParts;
 
-enum class HandSource { Mouse, Simulated, Device };
-enum class WallUse { Free, Lesson };
+// Whoever acts on a key: what all controls share, or a control.
+struct KeyOwners {
+  ViewParts& parts;
+  PlaceControl* place = nullptr;
+  JourneyControl* journey = nullptr;
+  LessonControl* lesson = nullptr;  // for rows of lessons only; null without a lesson
+  ScanControl* scan = nullptr;
+  SoundControl* sound = nullptr;
+};
 
 // A key of the live window, or a run of keys that do the same with a number each.
 struct LiveKey {
   render::Key key;
   const char* name;      // as docs/manual.md prints it; the wall translates it
   exhibit::Phrase text;  // on the list of keys; neighbours of the same text share a line; Keys: not listed
-  void (*press)(LiveView& view, std::size_t number);  // 0 for the run's first key; null: MouseHand follows the key
-  std::optional<exhibit::Phrase> mouse{};             // does the same
-  render::Key last = key;                             // of the run
-  bool staff = false;                                 // does nothing in an unattended window
-  bool not_in_lessons = false;                        // would change what a lesson asks, or give it away
+  void (*press)(KeyOwners& owners, std::size_t number);  // 0 for the run's first key; null: MouseHand follows the key
+  std::optional<exhibit::Phrase> mouse{};                // does the same
+  render::Key last = key;                                // of the run
+  bool staff = false;                                    // does nothing in an unattended window
+  bool not_in_lessons = false;                           // would change what a lesson asks, or give it away
   bool lessons_only = false;
 
   // The same row, for staff alone.

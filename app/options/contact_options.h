@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command.h"
+#include "app/options/command.h"
 #include "core/result.h"
 #include "curves/contact_setup.h"
 #include "scene/samples/probe_library.h"

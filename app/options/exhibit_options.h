@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/command.h"
+#include "app/options/command.h"
 #include "exhibit/exhibit_setup.h"
 #include "physics/friction/friction.h"
 #include "scene/shared/scale_modes.h"

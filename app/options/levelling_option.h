@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "app/command.h"
+#include "app/options/command.h"
 #include "physics/imaging/levelling.h"
 
 namespace afm::app {

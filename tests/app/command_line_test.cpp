@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/command.h"
+#include "app/options/command.h"
 #include "core/whole_file.h"
 #include "haptics/device_registry.h"
 #include "scene/shared/scale_modes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/frame_times.h"
+#include "app/display/frame_times.h"
 
 #include <gtest/gtest.h>
 

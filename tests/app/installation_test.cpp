@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "app/command.h"
+#include "app/options/command.h"
 #include "core/whole_file.h"
 #include "support/places.h"
 #include "support/run_program.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/output_folder.h"
+#include "app/options/output_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "app/live/mouse_hand.h"
+#include "app/view/mouse_hand.h"
 #include "curves/live_parameters.h"
 #include "curves/sample_model.h"
 #include "exhibit/exhibit_setup.h"

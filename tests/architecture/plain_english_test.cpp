@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command.h"
+#include "app/options/command.h"
 #include "app/program.h"
 #include "architecture/prose.h"
 #include "core/whole_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/headset/picture_age.h"
+#include "app/display/picture_age.h"
 
 #include <gtest/gtest.h>
 

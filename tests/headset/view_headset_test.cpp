@@ -19,7 +19,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/headset/view_headset.h"
+#include "app/display/view_headset.h"
 #include "core/whole_file.h"
 #include "exhibit/exhibit_setup.h"
 #include "servo/replay.h"

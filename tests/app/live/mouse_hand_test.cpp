@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/mouse_hand.h"
+#include "app/view/mouse_hand.h"
 
 #include <gtest/gtest.h>
 

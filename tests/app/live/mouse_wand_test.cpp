@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/mouse_wand.h"
+#include "app/display/mouse_wand.h"
 
 #include <gtest/gtest.h>
 

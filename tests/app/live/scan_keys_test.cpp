@@ -12,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/live/view_panels.h"
+#include "app/live/view_keys.h"
+#include "app/view/view_panels.h"
 #include "core/whole_file.h"
 #include "curves/sample_model.h"
 #include "exhibit/exhibit_setup.h"
@@ -135,7 +136,7 @@ class Visitor {
 
   std::vector<curves::SampleModel> models_ = models();
   LiveScan scan_{exhibit::scan_subject(stage().wall_scene, kGold, models_[kGold])};
-  ViewPanels panels_{stage().wall_scene, models_};
+  ViewPanels panels_{stage().wall_scene, models_, key_list};
 };
 
 // ---- what the image shows ----

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/view_outputs.h"
+#include "app/display/view_outputs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

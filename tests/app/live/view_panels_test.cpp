@@ -18,7 +18,7 @@
 #include "exhibit/frame_builder.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::app {
 namespace view_panels_test {
@@ -27,7 +27,7 @@ class PanelsOfTheView : public ::testing::Test {
  protected:
   void SetUp() override {
     exhibit::ExhibitFiles files;
-    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    files.assets_dir = support::source("assets");
     auto stage = exhibit::load_exhibit(files);
     ASSERT_TRUE(stage) << stage.error().message;
     stage_.emplace(std::move(*stage));

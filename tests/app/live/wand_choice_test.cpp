@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/live/view_wand.h"
+#include "app/view/view_wand.h"
 #include "support/places.h"
 
 namespace afm::app {

@@ -21,7 +21,7 @@
 #include "exhibit/frame_builder.h"
 #include "exhibit/recorded_wall.h"
 #include "exhibit/scan/scan_subject.h"
-#include "places.h"
+#include "support/places.h"
 
 namespace afm::exhibit {
 namespace described_wall_test {
@@ -96,7 +96,7 @@ class DescribedWall : public ::testing::Test {
 
   void SetUp() override {
     ExhibitFiles files;
-    files.assets_dir = AFM_SOURCE_DIR "/assets";
+    files.assets_dir = support::source("assets");
     auto stage = load_exhibit(files);
     ASSERT_TRUE(stage) << stage.error().message;
     stage_.emplace(std::move(*stage));

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/cluster/cluster_control.h"
+
+#include <utility>
+
+#include "app/cluster/cluster_master.h"
+#include "app/display/view_picture.h"
+#include "app/view/servo_supervisor.h"
+#include "app/view/view_hand.h"
+#include "app/view/view_panels.h"
+#include "app/view/view_parts.h"
+#include "exhibit/cluster/frame_digest.h"
+#include "exhibit/cluster/frame_inputs.h"
+#include "exhibit/exhibit_setup.h"
+#include "exhibit/scan/scan_panels.h"
+#include "servo/servo_client.h"
+
+namespace afm::app {
+
+ClusterControl::ClusterControl(ViewParts& parts, ClusterMaster& master) : parts_(parts), master_(master) {
+  parts_.turn.draws_unseen = true;
+  parts_.servo.hear([this](const scene::TipSample& sample) { master_.hear(sample); });
+  parts_.servo.hear_jumps([this](const scene::TipEvent& event) { master_.hear(event); });
+}
+
+void ClusterControl::share_scan() {
+  const ShownScan& shown = parts_.turn.scan;
+  master_.follow_scan(shown.scan, shown.material, shown.begun);
+}
+
+// Before the samples of a hand that paints.
+void ClusterControl::take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) { share_scan(); }
+
+// Sends the inputs of this frame. The moment becomes what the others have: what had no room is missing here too.
+void ClusterControl::add_to_moment(exhibit::Moment& now, ViewFrame& frame) {
+  message_ = {};
+  exhibit::set_moment(now, parts_.servo.link().tip(), frame.caption, parts_.turn.blank, message_);
+  message_.panels = parts_.panels.told(frame.pointed, parts_.hand.source());
+  message_.view = parts_.picture.told();
+  share_scan();
+  master_.send(message_, parts_.panels.edits(), parts_.servo.cycles(), parts_.servo.friction());
+  exhibit::Moment shared = exhibit::moment_of(message_);
+  shared.curves = now.curves;
+  if (parts_.turn.scan.scan != nullptr) exhibit::show_scan(*parts_.turn.scan.scan, shared);
+  now = std::move(shared);
+  frame.caption = exhibit::caption_of(message_);
+}
+
+void ClusterControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
+  add_warning(missing_text(message_.missing, parts_.stage.wall, parts_.stage.phrases()), picture.panels.banner.content);
+  master_.built(exhibit::digest_of(picture, message_.view));
+}
+
+void ClusterControl::before_showing(const Beat& beat) { master_.barrier(beat); }
+
+void ClusterControl::restart(Restart what) {
+  if (what == Restart::Everything) master_.forget();
+}
+
+void ClusterControl::finish() { master_.log_summary(); }
+
+}  // namespace afm::app

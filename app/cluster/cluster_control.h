@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/view/view_control.h"
+#include "cluster/frame_message.h"
+
+namespace afm::app {
+
+class ClusterMaster;
+struct ViewParts;
+
+// The other machines of the wall: they get the inputs of each frame, and all show it together. Behind all controls that
+// change what is shown.
+class ClusterControl final : public ViewControl {
+ public:
+  // Both must outlive it.
+  ClusterControl(ViewParts& parts, ClusterMaster& master);
+
+  void take(const ViewInput& input, const ViewFrame& frame) override;
+  void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
+  void add_to_picture(render::FrameState& picture, const ViewFrame& frame) override;
+  void before_showing(const Beat& beat) override;
+  void restart(Restart what) override;
+  void finish() override;
+
+ private:
+  void share_scan();
+
+  ViewParts& parts_;
+  ClusterMaster& master_;
+  cluster::FrameMessage message_{};  // inputs of this frame
+};
+
+}  // namespace afm::app

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/display/instructor_window.h"
+#include "app/display/view_outputs.h"
+#include "app/display/view_picture.h"
+#include "app/display/view_windows.h"
+#include "core/result.h"
+#include "render/context.h"
+
+namespace afm::app {
+
+// Options of the live view's windows and of the picture in them.
+struct DisplayOptions {
+  exhibit::PictureOptions picture;
+  WindowOptions window;
+  std::uint32_t eye_width = 0;     // 0: the windows'
+  double frame_budget_ms = 0;      // 0: none
+  double comfort_deg = 1;          // how much more or less the eyes may turn in than for the wall
+  std::string saved_folder = ".";  // for the pictures that are saved
+  bool validate = false;           // every Vulkan call
+  render::PanelContrast contrast = render::PanelContrast::Normal;
+  render::Swap swap = render::Swap::Alone;  // with the other machines of a wall
+  std::string instructor;  // where the instructor's window is, as open_window() takes it; empty: there is none
+};
+
+// The windows of the live view with all that draws into them. Main thread only.
+class ViewDisplay {
+ public:
+  // `stage` must outlive it. Fails as plan_view, ViewWindows and Context do, or where the display has not what the
+  // stereo mode needs. `runtime`: of the headset that shows the picture, whose left eye the windows then mirror; it may
+  // be null, and must outlive it, as the clock.
+  static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayOptions& options,
+                                                         render::HeadsetRuntime* runtime, const core::Clock& clock);
+  ViewDisplay(const ViewDisplay&) = delete;
+  ViewDisplay& operator=(const ViewDisplay&) = delete;
+
+  ViewWindows& windows() { return *windows_; }
+  ViewPicture& picture() { return *picture_; }
+  render::Context& context() { return *context_; }
+  InstructorWindow* instructor() { return instructor_.get(); }  // null: there is none
+  ViewHeadset* headset() { return headset_.get(); }             // null: none
+
+ private:
+  ViewDisplay() = default;
+  render::RendererOptions drawing(const exhibit::Stage& stage, const DisplayOptions& options) const;
+  core::Result<void> check_outputs(render::Swap swap) const;
+  static render::RendererOptions drawing_in_headset(const exhibit::Stage& stage, glm::uvec2 eye_px);
+
+  std::vector<ViewOutput> outputs_;
+  std::optional<ViewWindows> windows_;
+  std::optional<render::Window> instructor_window_;
+  std::optional<render::Context> context_;
+  std::optional<render::Renderer> renderer_;
+  std::optional<render::Presenter> presenter_;
+  std::unique_ptr<ViewHeadset> headset_;
+  std::optional<ViewPicture> picture_;
+  std::unique_ptr<InstructorWindow> instructor_;
+};
+
+}  // namespace afm::app

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/display/view_outputs.h"
+#include "render/window.h"
+
+namespace afm::app {
+
+struct ViewEvent {
+  std::size_t window = 0;
+  render::WindowEvent event;
+};
+
+// Input from all windows since the last call.
+struct ViewInput {
+  std::vector<ViewEvent> events;
+  std::size_t window = 0;  // that the cursor was in last
+  glm::dvec2 cursor_px{0.0};
+  bool close_requested = false;
+};
+
+// The windows of the live view, which share a person's input. Main thread only.
+class ViewWindows {
+ public:
+  // Fails as render::Window::open does, naming the output.
+  static core::Result<ViewWindows> open(const std::vector<ViewOutput>& outputs);
+
+  // Without waiting; logs monitors that are lost and come back.
+  ViewInput poll();
+
+  std::size_t count() const { return windows_.size(); }
+  render::Window& at(std::size_t window) const { return *windows_[window]; }
+  std::vector<render::Window*> all() const;
+  bool hidden() const;  // nobody sees any of them
+
+  // Of all that the wall file does not place by a rectangle.
+  void toggle_full_screen();
+
+  // Converts a point in a window to desktop coordinates, for a drag from one window into another.
+  glm::dvec2 on_desktop(std::size_t window, const glm::dvec2& cursor_px) const;
+
+ private:
+  void log_monitor_change(std::size_t window, const render::WindowInput& input) const;
+
+  std::vector<std::unique_ptr<render::Window>> windows_;
+  std::vector<std::string> names_;                      // of the outputs in the wall file
+  std::vector<std::optional<scene::PixelRect>> rects_;  // of those that have their place by one
+  std::vector<glm::dvec2> cursors_;                     // in each of them
+  std::vector<glm::dvec2> origins_;                     // on the desktop
+  std::size_t window_ = 0;
+};
+
+}  // namespace afm::app

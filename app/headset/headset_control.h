@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "app/view/view_control.h"
+
+namespace afm::app {
+
+class ViewHeadset;
+struct ViewParts;
+
+// A headset that shows the picture: the runtime's frames, the wearer's sight, and the controller as a wand.
+class HeadsetControl final : public ViewControl {
+ public:
+  // Both must outlive it.
+  HeadsetControl(ViewParts& parts, ViewHeadset& headset);
+
+  void begin_frame() override;
+  void add_to_log(servo::FrameRecord& record) override;
+
+ private:
+  ViewParts& parts_;
+  ViewHeadset& headset_;
+  std::optional<std::int64_t> felt_ring_ns_;  // begin of the newest ring of light that the controller has felt
+};
+
+}  // namespace afm::app

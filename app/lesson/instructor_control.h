@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "app/view/view_control.h"
+#include "render/key.h"
+
+namespace afm::exhibit {
+enum class InstructorAction;
+}
+
+namespace afm::app {
+
+class InstructorWindow;
+class LiveLesson;
+struct ViewParts;
+
+// The instructor of a lesson, at a window of their own.
+class InstructorControl final : public ViewControl {
+ public:
+  // `press_key` gets the keys that belong to the wall. All must outlive it.
+  InstructorControl(ViewParts& parts, LiveLesson& lesson, InstructorWindow& window,
+                    std::function<void(render::Key)> press_key);
+
+  void take(const ViewInput& input, const ViewFrame& frame) override;
+  void shown(const ViewFrame& frame, const Beat& beat) override;
+
+ private:
+  void act(exhibit::InstructorAction action, std::int64_t now_ns);
+
+  ViewParts& parts_;
+  LiveLesson& lesson_;
+  InstructorWindow& window_;
+  std::function<void(render::Key)> press_key_;
+  bool hand_off_ = false;  // the instructor keeps the force away
+  std::optional<std::int64_t> stop_asked_ns_;
+};
+
+}  // namespace afm::app

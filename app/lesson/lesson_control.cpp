@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/lesson/lesson_control.h"
+
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "app/lesson/live_lesson.h"
+#include "app/view/live_sound.h"
+#include "app/view/servo_supervisor.h"
+#include "app/view/view_choice.h"
+#include "app/view/view_hand.h"
+#include "app/view/view_panels.h"
+#include "app/view/view_parts.h"
+#include "app/view/view_wand.h"
+#include "exhibit/blank_picture.h"
+#include "exhibit/exhibit_setup.h"
+#include "exhibit/moment.h"
+#include "exhibit/panel_hit.h"
+#include "servo/servo_client.h"
+
+namespace afm::app {
+
+LessonControl::LessonControl(ViewParts& parts, LiveLesson& lesson) : parts_(parts), lesson_(lesson) {
+  parts_.panels.use_for(WallUse::Lesson);
+  parts_.choice.set_guide(*this);
+  parts_.servo.hear_jumps([this](const scene::TipEvent& event) { lesson_.happened(event, parts_.servo.link()); });
+}
+
+void LessonControl::skip() { lesson_.skip(); }
+
+void LessonControl::try_again() { lesson_.try_again(); }
+
+bool LessonControl::number(std::size_t number) {
+  if (lesson_.chooses_sample()) return false;
+  lesson_.number(number);
+  return true;
+}
+
+void LessonControl::step(int steps) { lesson_.step(steps); }
+
+// Enter takes the force away whatever else it does. Where the lesson waits for it and there is none, it only goes on.
+void LessonControl::enter() {
+  const bool waits = lesson_.prompt().wants != exhibit::LessonPrompt::Wants::Cycle;
+  if (!waits || parts_.servo.link().tip().servo_state != scene::ServoState::Disarmed) parts_.choice.stop_force();
+  if (lesson_.over()) parts_.turn.leaving = true;
+  lesson_.enter();
+}
+
+// An answer, or a sample where it may be chosen.
+void LessonControl::press(const Pointed& pointed, const input::Ray& ray) {
+  if (const auto target = target_at(ray)) return lesson_.press(*target);
+  if (pointed.swatch && lesson_.chooses_sample()) parts_.choice.choose(*pointed.swatch);
+}
+
+std::optional<exhibit::LessonTarget> LessonControl::target_at(const input::Ray& ray) const {
+  const exhibit::WallScene& wall = parts_.stage.wall_scene;
+  const auto targets = lesson_.targets();
+  const exhibit::LessonPlaces places = exhibit::lesson_places(wall.parameter_placement(), targets.size());
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (exhibit::hit_of(ray, places.targets[i], wall.panel_millimetre_m())) return targets[i];
+  }
+  return std::nullopt;
+}
+
+void LessonControl::follow_hand() {
+  if (!parts_.servo.running() || parts_.hand.source() == HandSource::Simulated) return;
+  const scene::TipState& tip = parts_.servo.link().tip();
+  const glm::dvec3 normal = glm::dmat3(parts_.wand.navigation()) * parts_.stage.wall_scene.sample_normal();
+  const glm::dvec3 place_m(tip.hand.position_m[0], tip.hand.position_m[1], tip.hand.position_m[2]);
+  lesson_.hand_moved(glm::dot(place_m, glm::normalize(normal)), tip.presses);
+}
+
+bool LessonControl::asks() const { return lesson_.takes_hand() && parts_.hand.source() != HandSource::Simulated; }
+
+void LessonControl::update(const ViewFrame& frame) {
+  follow_hand();
+  lesson_.update();
+  if (parts_.sound.lacks_card()) lesson_.sound_is_lost();
+  parts_.sound.set_tones(lesson_.has_tones());
+  using Telling = exhibit::Narrator::Telling;
+  exhibit::Narrator& narrator = parts_.sound.narrator();
+  narrator.set_telling(asks() ? Telling::Faults : lesson_.prompt().hidden ? Telling::Force : Telling::All);
+  if (const auto marked = lesson_.newly_marked()) narrator.note(*marked);
+  if (!parts_.servo.running()) return;
+  lesson_.lay_sample(parts_.servo.link());
+  if (asks() || !lesson_.has_force()) parts_.choice.keep_force_away(frame.now_ns);
+}
+
+// A blind sample looks like the first one, whichever it is, and nothing is written beside it.
+void LessonControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
+  if (!lesson_.prompt().hidden) return;
+  if (now.wall.material) now.wall.material = 0;
+  now.wall.release_z_m = 0;
+  now.curves = {};
+}
+
+void LessonControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
+  const render::PanelPlacement words = parts_.stage.wall_scene.parameter_placement();
+  const render::PanelPlacement banner = picture.panels.banner.placement;
+  if (!lesson_.shows_scene()) {
+    exhibit::blank(picture);
+    picture.panels.banner.placement = banner;
+  }
+  if (lesson_.prompt().hidden) {
+    picture.panels.force.placement = render::kNoPlacement;
+    picture.panels.banner.content.scale.clear();
+  }
+  if (parts_.panels.shown() == "keys") {
+    picture.panels.data.placement = words;
+    return;
+  }
+  const auto targets = lesson_.targets();
+  const exhibit::LessonPlaces places = exhibit::lesson_places(words, targets.size());
+  picture.panels.data.content = lesson_.panel();
+  picture.panels.data.placement = places.words;
+  picture.panels.control.placement = render::kNoPlacement;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    picture.labels.push_back(
+        {.text = targets[i].text, .highlighted = targets[i].marked, .placement = places.targets[i]});
+  }
+}
+
+// Where the hand has nothing to do, the line above is the question, or how to go on.
+std::optional<std::string> LessonControl::guidance(const exhibit::Phrases& phrases) const {
+  const exhibit::LessonPrompt& prompt = lesson_.prompt();
+  if (prompt.wants == exhibit::LessonPrompt::Wants::Cycle) {
+    return lesson_.has_force() ? std::nullopt : std::optional(prompt.words);
+  }
+  if (prompt.wants == exhibit::LessonPrompt::Wants::GoOn) return phrases[exhibit::Phrase::LessonPressEnter];
+  return prompt.words.size() <= exhibit::kLine ? prompt.words : prompt.title;
+}
+
+// The words of a prompt are spoken once, before the next step of the hand.
+std::string LessonControl::spoken(const std::string& line) {
+  const bool by_hand = lesson_.prompt().wants == exhibit::LessonPrompt::Wants::Cycle;
+  std::string words = lesson_.speech();
+  if (!by_hand) return words;
+  if (std::exchange(said_, words) != words) line_ = line;
+  return line == line_ ? words + " " + line : line;
+}
+
+void LessonControl::restart(Restart what) {
+  if (what != Restart::Visitor) lesson_.forget_laid();
+}
+
+}  // namespace afm::app

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/view/view_control.h"
+#include "app/view/view_guide.h"
+
+namespace afm::exhibit {
+struct LessonTarget;
+}
+
+namespace afm::app {
+
+class LiveLesson;
+struct ViewParts;
+
+// A lesson at the live window: a guide on top of everything else.
+class LessonControl final : public ViewControl, public ViewGuide {
+ public:
+  // Both must outlive it.
+  LessonControl(ViewParts& parts, LiveLesson& lesson);
+
+  void skip();
+  void try_again();
+
+  bool number(std::size_t number) override;
+  void step(int steps) override;
+  void enter() override;
+  void press(const Pointed& pointed, const input::Ray& ray) override;
+  std::string spoken(const std::string& line) override;
+
+  void update(const ViewFrame& frame) override;
+  void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
+  std::optional<std::string> guidance(const exhibit::Phrases& phrases) const override;
+  void add_to_picture(render::FrameState& picture, const ViewFrame& frame) override;
+  void restart(Restart what) override;
+
+ private:
+  std::optional<exhibit::LessonTarget> target_at(const input::Ray& ray) const;
+  void follow_hand();
+  bool asks() const;  // a person's answer is due
+
+  ViewParts& parts_;
+  LiveLesson& lesson_;
+  std::string said_, line_;  // spoken words of the newest prompt, and the guidance behind them
+};
+
+}  // namespace afm::app

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/live/view_keys.h"
+
+namespace afm::app {
+
+class ClusterMaster;
+class InstructorWindow;
+class LiveLesson;
+class ViewControl;
+class ViewHeadset;
+struct ViewParts;
+struct ViewSettings;
+
+// Features that a live window may lack; null: it has no such control. None is owned.
+struct LiveFeatures {
+  ViewHeadset* headset = nullptr;          // shows the picture
+  ClusterMaster* cluster = nullptr;        // the other machines of the wall
+  LiveLesson* lesson = nullptr;            // guides through the window
+  InstructorWindow* instructor = nullptr;  // follows that lesson
+};
+
+// Makes the controls of a live window and leads its keys to them.
+class LiveControls {
+ public:
+  // `parts` and all features must outlive it. The controls are added to those of `parts`.
+  LiveControls(ViewParts& parts, const ViewSettings& settings, const LiveFeatures& features);
+  ~LiveControls();
+  LiveControls(const LiveControls&) = delete;
+  LiveControls& operator=(const LiveControls&) = delete;
+
+  void press(render::Key key);
+
+ private:
+  template <typename Control, typename... Arguments>
+  Control& add(Arguments&&... arguments);
+
+  ViewParts& parts_;
+  WallUse use_;
+  bool unattended_;
+  std::vector<std::unique_ptr<ViewControl>> owned_;
+  KeyOwners owners_;
+};
+
+}  // namespace afm::app

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <vector>
+
+#include "app/live/view_head.h"
+#include "app/view/view_control.h"
+#include "input/simulated_head.h"
+
+namespace afm::app {
+
+struct ViewParts;
+
+// Where the viewer's head is, and how far the scene was moved.
+class PlaceControl final : public ViewControl {
+ public:
+  enum class Eyes { Followed, OfHeadset };
+
+  // `script` of a head that no tracker follows; may be empty.
+  PlaceControl(ViewParts& parts, const std::vector<input::HeadKey>& script, Eyes eyes);
+
+  void move_head(double right_m, double up_m, double nearer_m);
+
+  // Scene and head return to where they were at the start.
+  void bring_home();
+
+  // The contact comes into the wall's plane, where both eyes see it in one place.
+  void bring_to_wall();
+
+  void update(const ViewFrame& frame) override;
+  void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
+  void add_to_log(servo::FrameRecord& record) override;
+  void restart(Restart what) override;
+  void finish() override;
+
+ private:
+  double before_wall_m() const;  // distance of the contact point in front of the wall
+
+  ViewParts& parts_;
+  Eyes eyes_;
+  ViewHead head_;
+  input::SimulatedHead simulated_head_;  // used where no tracker follows a head
+  glm::dmat4 to_wall_{1.0};              // applied after the wand's navigation
+};
+
+}  // namespace afm::app

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/view/key_list.h"
+#include "app/view/sound_settings.h"
+#include "exhibit/guidance.h"
+#include "input/simulated_head.h"
+#include "scene/shared/scale_modes.h"
+
+namespace afm::app {
+
+struct ViewSettings {
+  HandSource hand = HandSource::Mouse;
+  exhibit::HandControls device_controls = exhibit::HandControls::Device;  // of HandSource::Device
+  double most_frames_per_s = 60.0;
+  scene::ScaleMode scale = scene::ScaleMode::Fit;  // M goes on to the next
+  std::optional<std::size_t> first_material;       // chosen whenever a servo has been started
+  std::string frame_log;                           // a file; empty: none is written
+  std::vector<input::HeadKey> head_script;         // of a head that no tracker follows; may be empty
+  bool unattended = false;    // keys of staff are locked; without a visitor it begins again and shows itself
+  double idle_s = 60;         // seconds without input before the demonstration starts
+  std::string record_folder;  // for the sessions of what is felt; empty: none is kept
+  LiveSoundSettings sound;
+};
+
+}  // namespace afm::app

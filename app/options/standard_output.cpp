@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/options/standard_output.h"
+#include "core/system_error.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+
+namespace afm::app {
+
+namespace {
+
+core::Result<void> cannot_write() {
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("cannot write to stdout: {}", core::system_error(errno)));
+}
+
+}  // namespace
+
+core::Result<void> write_stdout(std::string_view text) {
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) return cannot_write();
+  return flush_stdout();
+}
+
+core::Result<void> flush_stdout() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return cannot_write();
+  return {};
+}
+
+}  // namespace afm::app

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/view/parameter_edits.h"
+
+#include <algorithm>
+#include <array>
+
+namespace afm::app {
+
+curves::LiveParameters& ParameterEdits::parameters(std::size_t material) {
+  Edit& edit = edits_[material];
+  if (!edit.parameters) edit.parameters.emplace(loaded_[material]);
+  return *edit.parameters;
+}
+
+const curves::LiveParameters& ParameterEdits::of(std::size_t material) { return parameters(material); }
+
+std::optional<cluster::EditRecord> ParameterEdits::recorded(std::size_t material) const {
+  const Edit& edit = edits_[material];
+  if (!edit.parameters) return std::nullopt;
+  const curves::LiveParameters::State state = edit.parameters->state();
+  cluster::EditRecord record{.material = static_cast<std::uint32_t>(material), .revision = edit.revision};
+  static_assert(std::tuple_size_v<decltype(record.steps)> == curves::LiveParameters::kRows);
+  std::copy(state.steps.begin(), state.steps.end(), record.steps.begin());
+  if (state.refused) record.refused_row = static_cast<std::int32_t>(*state.refused);
+  record.refused_direction = state.refused_direction;
+  return record;
+}
+
+bool ParameterEdits::follow(const cluster::EditRecord& edit) {
+  if (edit.material >= edits_.size()) return false;
+  edits_[edit.material].revision = edit.revision;
+  curves::LiveParameters::State state;
+  state.refused_direction = edit.refused_direction;
+  std::copy(edit.steps.begin(), edit.steps.end(), state.steps.begin());
+  if (edit.refused_row >= 0) state.refused = static_cast<curves::LiveParameters::Row>(edit.refused_row);
+  return parameters(edit.material).restore(state);
+}
+
+bool ParameterEdits::take_felt(const scene::TipState& tip, std::vector<curves::SampleModel>& felt) {
+  if (tip.material < 0) return false;
+  const auto material = static_cast<std::size_t>(tip.material);
+  const exhibit::ChangeState now = state(material, tip);
+  const curves::SampleModel& edited = parameters(material).model();
+  const bool taken = now == exhibit::ChangeState::Applied || now == exhibit::ChangeState::AsLoaded;
+  if (!taken || felt[material].tables == edited.tables) return false;
+  felt[material] = edited;
+  return true;
+}
+
+bool ParameterEdits::changed(std::size_t material) const {
+  const Edit& edit = edits_[material];
+  return edit.parameters && edit.parameters->changed();
+}
+
+void ParameterEdits::apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo) {
+  curves::LiveParameters& now = parameters(material);
+  bool changed = false;
+  if (target.kind != render::ControlTarget::Kind::Button) {
+    changed = now.step(static_cast<curves::LiveParameters::Row>(target.index),
+                       target.kind == render::ControlTarget::Kind::More ? 1 : -1);
+  } else if (static_cast<exhibit::PanelButton>(target.index) == exhibit::PanelButton::Reset) {
+    changed = now.reset();
+  }
+  if (changed) edits_[material].revision = servo.change(material, now.model().parameters);
+}
+
+void ParameterEdits::reset(servo::ServoClient& servo) {
+  for (std::size_t i = 0; i < edits_.size(); ++i) {
+    if (edits_[i].parameters && edits_[i].parameters->reset()) {
+      edits_[i].revision = servo.change(i, edits_[i].parameters->model().parameters);
+    }
+  }
+}
+
+void ParameterEdits::resend(servo::ServoClient& servo) {
+  for (std::size_t i = 0; i < edits_.size(); ++i) {
+    edits_[i].revision = changed(i) ? servo.change(i, edits_[i].parameters->model().parameters) : 0;
+  }
+}
+
+exhibit::ChangeState ParameterEdits::state(std::size_t material, const scene::TipState& tip) const {
+  const Edit& edit = edits_[material];
+  const bool under_tip = tip.material == static_cast<std::int32_t>(material);
+  const bool taken = under_tip ? tip.active.edit_revision == edit.revision : edit.revision == 0;
+  if (edit.revision != 0 && tip.acknowledged.refused_edit == edit.revision) return exhibit::ChangeState::Refused;
+  if (!taken) return exhibit::ChangeState::Waiting;
+  return changed(material) ? exhibit::ChangeState::Applied : exhibit::ChangeState::AsLoaded;
+}
+
+}  // namespace afm::app

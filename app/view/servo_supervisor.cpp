@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/view/servo_supervisor.h"
+#include "core/percentiles.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/log.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::int64_t kMinuteNs = 60'000'000'000;
+constexpr std::size_t kMostRestarts = 3;  // a minute
+
+std::string text_of(const scene::TipEvent& event) {
+  const bool in = event.kind == physics::EventKind::JumpToContact;
+  return fmt::format("{} at Z = {:.3f} nm, pull {:.4f} nN", in ? "jump to contact" : "jump off contact",
+                     event.z_m * 1e9, -(in ? event.force_after_n : event.force_before_n) * 1e9);
+}
+
+}  // namespace
+
+ServoSupervisor::ServoSupervisor(Starter starter, Started started, std::size_t materials, std::string record_folder,
+                                 servo::TipAudience& audience)
+    : starter_(std::move(starter)),
+      started_(std::move(started)),
+      materials_(materials),
+      record_folder_(std::move(record_folder)),
+      audience_(audience),
+      cycles_(materials) {}
+
+core::Result<void> ServoSupervisor::start() {
+  if (!link_ && !record_folder_.empty()) {
+    auto folder = servo::SessionFolder::open(record_folder_);
+    if (!folder) return tl::unexpected(folder.error());
+    folder_ = std::move(*folder);
+  }
+  return launch(link_ ? "the servo was restarted" : nullptr);
+}
+
+core::Result<void> ServoSupervisor::launch(const char* message) {
+  const auto felt_before = link_ ? material() : std::nullopt;
+  auto servo = starter_();
+  if (!servo) {
+    if (link_) error_ = servo.error();
+    return tl::unexpected(servo.error());
+  }
+  link_ = std::move(*servo);
+  error_.reset();
+  stream_ = {};
+  logged_state_ = scene::ServoState::Disarmed;
+  if (message != nullptr) core::log_line(message);
+  started_(*link_, felt_before);
+  return {};
+}
+
+std::optional<std::size_t> ServoSupervisor::material() const {
+  const std::int32_t material = link_->tip().material;
+  return material < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(material));
+}
+
+void ServoSupervisor::update(std::int64_t now_ns) {
+  if (error_) return;
+  const auto polled = link_->poll(now_ns);
+  if (!polled) {
+    replace(polled.error(), now_ns);
+    return;
+  }
+  stream_.consume(
+      *polled,
+      [&](const scene::TipSample& sample) {
+        cycles_.add(sample);
+        friction_.add(sample);
+        for (const auto& hears : hears_) hears(sample);
+        audience_.heard(sample);
+        if (!folder_) return;
+        if (recorder_.add(sample, *link_)) recorder_.set_earlier(curves_on_wall());
+        keep_finished();
+      },
+      [&](const scene::TipEvent& event) {
+        cycles_.add(event);
+        recorder_.add(event);
+        audience_.heard(event);
+        cues_.add(event);
+        if (event.kind == physics::EventKind::Slip) return;  // many times a second
+        core::log_line(text_of(event));
+        for (const auto& hears : hears_jumps_) hears(event);
+      });
+  keep_part(now_ns);
+  log_state();
+}
+
+void ServoSupervisor::log_state() {
+  const scene::TipState& tip = link_->tip();
+  if (logged_state_ == tip.servo_state) return;
+  logged_state_ = tip.servo_state;
+  if (logged_state_ == scene::ServoState::Running) core::log_line("force on");
+  const bool off = logged_state_ == scene::ServoState::Disarmed || logged_state_ == scene::ServoState::Fault;
+  if (!off) return;
+  if (tip.fault == scene::FaultCode::ServoSilent) return core::log_line(scene::reason(tip.fault));  // whatever it does
+  const bool fault = tip.fault != scene::FaultCode::None;
+  core::log_line(fault ? std::string("force off: ") + scene::reason(tip.fault) : "force off");
+}
+
+void ServoSupervisor::replace(const core::Error& error, std::int64_t now_ns) {
+  error_ = error;
+  core::log_line(error.message);
+  while (!restarts_ns_.empty() && now_ns - restarts_ns_.front() > kMinuteNs) restarts_ns_.pop_front();
+  if (error.category != core::ErrorCategory::Failed || restarts_ns_.size() >= kMostRestarts) {
+    core::log_line("the servo has stopped: press R to restart it");
+    return;
+  }
+  restarts_ns_.push_back(now_ns);
+  if (auto started = launch("the servo was restarted automatically: lift, then press Turn-On"); !started) {
+    core::log_line(started.error().message);
+  }
+}
+
+void ServoSupervisor::keep_finished() {
+  const auto session = recorder_.take_finished();
+  if (!session || !folder_) return;
+  auto kept = folder_->add(*session);
+  if (kept) kept = folder_->end();
+  if (!kept) stop_recording(kept.error());
+}
+
+void ServoSupervisor::keep_part(std::int64_t now_ns) {
+  if (!folder_ || !recorder_.has_head() || now_ns - kept_ns_ < servo::SessionWriter::kPauseNs) return;
+  kept_ns_ = now_ns;
+  if (auto kept = folder_->add(recorder_.session()); !kept) return stop_recording(kept.error());
+  recorder_.forget_records();
+}
+
+// A folder that has become full or read-only ends the recording, not the view.
+void ServoSupervisor::stop_recording(const core::Error& error) {
+  core::log_line(error.message + "; recording has stopped");
+  folder_.reset();
+}
+
+std::vector<servo::EarlierCurve> ServoSupervisor::curves_on_wall() const {
+  std::vector<servo::EarlierCurve> earlier;
+  const scene::SharedModel& model = link_->model();
+  for (std::size_t i = 0; i < cycles_.curves().size(); ++i) {
+    const exhibit::CycleCurve& curve = cycles_.curves()[i];
+    if (!curve.empty()) earlier.push_back({.material = model.materials[i].name.data(), .points = curve.points()});
+  }
+  return earlier;
+}
+
+// Scheduling latency of the servo, for readers of the log.
+void ServoSupervisor::log_timing() const {
+  const scene::ServoTiming timing = link_->timing();
+  if (timing.ticks == 0) return;
+  const core::Percentiles wake = core::percentiles(timing.wake_us, timing.wake_max_us);
+  core::log_line(
+      fmt::format("servo: {} ticks, {} missed; scheduling latency p50 {:.0f}, p99 {:.0f}, p99.9 {:.0f}, max {:.0f} "
+                  "\u00b5s; {} samples lost on the way to the wall",
+                  timing.ticks, timing.missed, wake.p50, wake.p99, wake.p999, wake.max, link_->lost_samples()));
+}
+
+void ServoSupervisor::finish() {
+  log_timing();
+  recorder_.finish();
+  keep_finished();
+  link_.reset();
+}
+
+}  // namespace afm::app

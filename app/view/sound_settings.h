@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "app/options/sound_options.h"
+#include "exhibit/sound/speech_program.h"
+
+namespace afm::app {
+
+struct LiveSoundSettings {
+  SoundOptions options;
+  bool sound = false;                            // tones and signals
+  std::optional<exhibit::SpeechProgram> speech;  // texts are spoken; none: they are captions alone
+};
+
+}  // namespace afm::app

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/view/view_choice.h"
+
+#include <fmt/format.h>
+
+#include "app/view/live_sound.h"
+#include "app/view/parameter_edits.h"
+#include "app/view/servo_supervisor.h"
+#include "app/view/view_guide.h"
+#include "app/view/view_hand.h"
+#include "app/view/view_panels.h"
+#include "core/clock.h"
+#include "core/log.h"
+#include "exhibit/exhibit_setup.h"
+#include "physics/friction/friction.h"
+#include "servo/servo_client.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::int64_t kForceTakenNs = 500'000'000;  // longest time a new selection needs to remove the force
+
+}  // namespace
+
+ViewChoice::ViewChoice(ViewParts& parts, const std::vector<curves::SampleModel>& materials, const Settings& settings)
+    : parts_(parts), felt_(materials), scale_(settings.scale), first_material_(settings.first_material) {}
+
+void ViewChoice::follow_edits() {
+  if (!parts_.panels.edits().take_felt(parts_.servo.link().tip(), felt_)) return;
+  const std::size_t current = *parts_.servo.material();
+  parts_.sound.set_ear(current, felt_[current]);
+  core::log_line("the changed parameters are now in effect");
+}
+
+std::string ViewChoice::spoken(const std::string& line) const {
+  return guide_ == nullptr ? line : guide_->spoken(line);
+}
+
+void ViewChoice::choose(std::size_t material) {
+  if (!parts_.servo.running() || material >= felt_.size()) return;
+  parts_.servo.link().choose(static_cast<std::int32_t>(material), scale_);
+  if (parts_.hand.source() == HandSource::Simulated) parts_.hand.begin_person(material, parts_.clock.now_ns());
+  core::log_line("chosen: " + parts_.stage.materials.materials[material].title);
+}
+
+void ViewChoice::choose_first(std::optional<std::size_t> felt_before) {
+  if (const auto material = felt_before ? felt_before : first_material_) choose(*material);
+}
+
+void ViewChoice::number(std::size_t number) {
+  if (guide_ == nullptr || !guide_->number(number)) choose(number);
+}
+
+void ViewChoice::press(const Pointed& pointed, const input::Ray& ray) {
+  if (guide_ != nullptr) return guide_->press(pointed, ray);
+  if (pointed.swatch) choose(*pointed.swatch);
+  if (const auto material = parts_.servo.material()) {
+    parts_.panels.press(pointed, *material, parts_.servo.running() ? &parts_.servo.link() : nullptr);
+  }
+}
+
+void ViewChoice::enter() {
+  if (guide_ != nullptr) return guide_->enter();
+  stop_force();
+}
+
+// Felt once the tip is off the sample, as another material is.
+void ViewChoice::next_scale() {
+  scale_ = scene::after(scale_);
+  const scene::ScaleModeText& text = scene::text_of(scale_);
+  core::log_line(fmt::format("scale {}: {}", text.word, text.meaning));
+  if (const auto current = parts_.servo.material(); current && parts_.servo.running()) {
+    parts_.servo.link().choose(static_cast<std::int32_t>(*current), scale_);
+  }
+}
+
+void ViewChoice::mark_next_setting() {
+  if (const auto material = parts_.servo.material()) parts_.panels.mark_next(*material);
+}
+
+void ViewChoice::step_setting(int steps) {
+  if (guide_ != nullptr) return guide_->step(steps);
+  if (const auto material = parts_.servo.material()) {
+    parts_.panels.step_marked(steps, *material, parts_.servo.running() ? &parts_.servo.link() : nullptr);
+  }
+}
+
+void ViewChoice::toggle_friction_loop() {
+  const auto material = parts_.servo.material();
+  if (!material) return core::log_line("friction loop: choose a sample first");
+  if (!parts_.panels.toggle_friction_loop()) return core::log_line("friction loop: hidden");
+  const physics::FrictionLaw law = felt_[*material].parameters.friction.law;
+  core::log_line(law == physics::FrictionLaw::None
+                     ? std::string("friction loop: friction is off; start with --friction lattice, area or amontons")
+                     : std::string("friction loop: shown, friction ") + std::string(physics::text_of(law).word));
+}
+
+void ViewChoice::stop_force() {
+  if (parts_.servo.running()) parts_.servo.link().stop(parts_.clock.now_ns());
+}
+
+void ViewChoice::take_force_away(std::int64_t now_ns) {
+  force_taken_ns_ = now_ns;
+  if (const auto current = parts_.servo.material(); current && parts_.servo.running()) {
+    parts_.servo.link().choose(static_cast<std::int32_t>(*current), scale_);
+  }
+}
+
+void ViewChoice::keep_force_away(std::int64_t now_ns) {
+  const scene::ServoState state = parts_.servo.link().tip().servo_state;
+  const bool force = state == scene::ServoState::Arming || state == scene::ServoState::Running;
+  if (force && now_ns - force_taken_ns_ > kForceTakenNs) take_force_away(now_ns);
+}
+
+}  // namespace afm::app

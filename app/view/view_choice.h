@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "app/view/pointed.h"
+#include "app/view/view_parts.h"
+#include "curves/sample_model.h"
+#include "input/wand.h"
+#include "scene/shared/scale_modes.h"
+
+namespace afm::app {
+
+class ViewGuide;
+
+// What a person chooses at the live window: the sample under the tip, its scale and its settings, and whether there is
+// a force at all. Main thread only.
+class ViewChoice {
+ public:
+  struct Settings {
+    scene::ScaleMode scale = scene::ScaleMode::Fit;
+    std::optional<std::size_t> first_material;  // chosen whenever a servo has been started
+  };
+
+  // `parts` must outlive it; `materials` as the servo was started with.
+  ViewChoice(ViewParts& parts, const std::vector<curves::SampleModel>& materials, const Settings& settings);
+
+  // The samples as the servo feels them.
+  const std::vector<curves::SampleModel>& felt() const { return felt_; }
+
+  // Changed parameters that are in effect become what is felt. Once a frame.
+  void follow_edits();
+
+  // Takes a person's answers first; must outlive this.
+  void set_guide(ViewGuide& guide) { guide_ = &guide; }
+  std::string spoken(const std::string& line) const;  // what is spoken while this is the line of guidance
+
+  void choose(std::size_t material);
+  void choose_first(std::optional<std::size_t> felt_before);
+  void number(std::size_t number);  // a key from 1 to 9, from 0
+  void press(const Pointed& pointed, const input::Ray& ray);
+  void enter();
+
+  void next_scale();
+  void mark_next_setting();
+  void step_setting(int steps);
+  void toggle_friction_loop();
+
+  // The servo cuts the force now.
+  void stop_force();
+
+  // The sample is chosen again, which needs a lift and Turn-On.
+  void take_force_away(std::int64_t now_ns);
+
+  // The same whenever there is a force; once a frame.
+  void keep_force_away(std::int64_t now_ns);
+
+ private:
+  ViewParts& parts_;
+  std::vector<curves::SampleModel> felt_;
+  scene::ScaleMode scale_;
+  std::optional<std::size_t> first_material_;
+  ViewGuide* guide_ = nullptr;
+  std::int64_t force_taken_ns_ = 0;  // time of the newest take_force_away()
+};
+
+}  // namespace afm::app

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/view/view_panels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/enumerators.h"
+#include "core/log.h"
+#include "exhibit/friction/friction_panel.h"
+#include "exhibit/panel_hit.h"
+#include "exhibit/scan/scan_panels.h"
+#include "render/control_layout.h"
+#include "scene/shared/field_copy.h"
+
+namespace afm::app {
+
+namespace {
+
+struct RightRow {
+  RightPanel panel;
+  std::string_view word;  // in sessions
+};
+constexpr std::array<RightRow, 3> kRightPanels{{{RightPanel::Data, "samples"},
+                                                {RightPanel::Parameters, "parameters"},
+                                                {RightPanel::FrictionLoop, "friction-loop"}}};
+static_assert(core::has_row_for_each(kRightPanels, &RightRow::panel));
+static_assert(kRightPanels.size() <= cluster::ShownPanels::kMostRight);
+
+// Where the ray is and whose hand moves it, in either direction.
+template <class Copy, class Told, class Shown>
+void copy_pointed(const Copy& copy, Told& told, Shown& shown) {
+  using S = cluster::ShownPanels;
+  auto& pointed = told.pointed;
+  copy(told.hand, shown.hand);
+  copy.flag(pointed.tab, shown.flags, S::kTab);
+  if (copy.has(pointed.control, shown.flags, S::kControl)) {
+    copy(pointed.control->kind, shown.control_kind);
+    copy(pointed.control->index, shown.control_index);
+  }
+}
+
+void log_parameters(const curves::LiveParameters& parameters) {
+  std::string line = "parameters:";
+  for (std::size_t i = 0; i < curves::LiveParameters::kRows; ++i) {
+    const auto row = static_cast<curves::LiveParameters::Row>(i);
+    line += fmt::format("{} {}", i == 0 ? "" : ",", parameters.value(row));
+  }
+  core::log_line(line);
+}
+
+void log_scan(const exhibit::LiveScan& scan) {
+  std::string line = "scan:";
+  for (const exhibit::ScanRow row : core::kEnumerators<exhibit::ScanRow>) {
+    const std::string value = exhibit::value_text(scan.choice(), row);
+    line += fmt::format("{} {}", row == exhibit::ScanRow::Setpoint ? "" : ",", value.empty() ? "one apex" : value);
+  }
+  core::log_line(line);
+}
+
+}  // namespace
+
+ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
+                       KeyList key_list)
+    : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials), key_list_(key_list) {}
+
+std::string ViewPanels::shown() const {
+  if (keys_shown_) return "keys";
+  if (hidden_) return "none";
+  return std::string(kRightPanels[core::index_of(right_)].word);
+}
+
+void ViewPanels::show(std::string_view panels) {
+  keys_shown_ = panels == "keys";
+  hidden_ = panels == "none";
+  const auto row = std::find_if(kRightPanels.begin(), kRightPanels.end(),
+                                [&](const RightRow& candidate) { return candidate.word == panels; });
+  right_ = row == kRightPanels.end() ? RightPanel::Data : row->panel;
+}
+
+template <class Copy, class Panels, class Shown>
+void ViewPanels::copy_state(const Copy& copy, Panels& panels, Shown& shown) {
+  using S = cluster::ShownPanels;
+  copy.flag(panels.keys_shown_, shown.flags, S::kKeys);
+  copy.flag(panels.hidden_, shown.flags, S::kHidden);
+  copy.flag(panels.keys_known_, shown.flags, S::kKeysKnown);
+  copy.flag(panels.marking_, shown.flags, S::kMarking);
+  copy.flag(panels.unattended_, shown.flags, S::kUnattended);
+  copy(panels.right_, shown.right);
+  copy(panels.marked_, shown.marked);
+}
+
+cluster::ShownPanels ViewPanels::told(const Pointed& pointed, HandSource hand) const {
+  cluster::ShownPanels shown;
+  copy_state(scene::CopyOut(), *this, shown);
+  shown.marked = std::min(shown.marked, cluster::ShownPanels::kMostRows - 1);
+  const Told told{.pointed = pointed, .hand = hand};
+  copy_pointed(scene::CopyOut(), told, shown);
+  return shown;
+}
+
+ViewPanels::Told ViewPanels::follow(const cluster::ShownPanels& panels) {
+  copy_state(scene::CopyBack(), *this, panels);
+  if (!core::is_enumerator(right_)) right_ = RightPanel::Data;
+  Told told;
+  copy_pointed(scene::CopyBack(), told, panels);
+  return told;
+}
+
+Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m,
+                               std::optional<std::size_t> material) {
+  Pointed pointed{.control = {}, .tab = false, .swatch = {}, .point_m = wall_point_m};
+  const render::PanelPlacement panel = wall_scene_.parameter_placement();
+  const double millimetre_m = wall_scene_.panel_millimetre_m();
+  if (const auto hit = material && right_ == RightPanel::Parameters && !hidden_
+                           ? exhibit::hit_of(ray, panel, millimetre_m)
+                           : std::nullopt) {
+    pointed.control = render::control_at(control_panel(*material, "", exhibit::ChangeState::AsLoaded),
+                                         exhibit::size_mm(panel, millimetre_m), hit->place_mm);
+    return pointed;
+  }
+  if (use_ == WallUse::Free && right_ != RightPanel::Parameters && material &&
+      exhibit::hit_of(ray, wall_scene_.parameter_tab_placement(), millimetre_m)) {
+    pointed.tab = true;
+    return pointed;
+  }
+  pointed.swatch = input::pick(ray, input::kPickConeRad, swatches_);
+  if (pointed.swatch) pointed.point_m = swatches_[*pointed.swatch].center_m;
+  return pointed;
+}
+
+void ViewPanels::press(const Pointed& pointed, std::size_t material, servo::ServoClient* servo) {
+  if (pointed.tab) right_ = RightPanel::Parameters;
+  if (pointed.control) change(*pointed.control, material, servo);
+}
+
+render::ControlPanel ViewPanels::control_panel(std::size_t material, const std::string& title,
+                                               exhibit::ChangeState state) {
+  render::ControlPanel panel = scan_ != nullptr
+                                   ? exhibit::scan_panel(*scan_, title, phrases())
+                                   : exhibit::parameter_panel(edits_.of(material), title, state, phrases());
+  if (marking_) panel.marked = std::min(marked_, panel.rows.size() - 1);
+  return panel;
+}
+
+void ViewPanels::mark_next(std::size_t material) {
+  const std::size_t rows = control_panel(material, "", exhibit::ChangeState::AsLoaded).rows.size();
+  marked_ = marking_ ? (std::min(marked_, rows - 1) + 1) % rows : 0;
+  marking_ = true;
+  right_ = RightPanel::Parameters;
+}
+
+void ViewPanels::step_marked(int steps, std::size_t material, servo::ServoClient* servo) {
+  if (!marking_) mark_next(material);
+  const std::size_t rows = control_panel(material, "", exhibit::ChangeState::AsLoaded).rows.size();
+  marked_ = std::min(marked_, rows - 1);
+  right_ = RightPanel::Parameters;
+  using Control = render::ControlTarget::Kind;
+  change({steps > 0 ? Control::More : Control::Less, marked_}, material, servo);
+}
+
+void ViewPanels::change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo) {
+  const bool button = target.kind == render::ControlTarget::Kind::Button;
+  if (button && static_cast<exhibit::PanelButton>(target.index) == exhibit::PanelButton::Close) {
+    right_ = RightPanel::Data;
+    return;
+  }
+  if (scan_ != nullptr) {
+    if (button) scan_->reset();
+    if (!button) {
+      const int steps = target.kind == render::ControlTarget::Kind::More ? 1 : -1;
+      scan_->step(static_cast<exhibit::ScanRow>(target.index), steps);
+    }
+    return log_scan(*scan_);
+  }
+  if (servo == nullptr) return;
+  edits_.apply(target, material, *servo);
+  const curves::LiveParameters& parameters = edits_.of(material);
+  if (parameters.refusal().empty()) return log_parameters(parameters);
+  core::log_line("parameters: not changed: " + parameters.refusal());
+}
+
+// The tab that opens the parameters, and the curve that follows from them.
+void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material) {
+  const curves::LiveParameters& parameters = edits_.of(material);
+  const bool open = right_ == RightPanel::Parameters;
+  if (!open) {
+    frame.labels.push_back({.text = phrases()[exhibit::Phrase::ChangeParameters],
+                            .highlighted = pointed.tab,
+                            .placement = wall_scene_.parameter_tab_placement()});
+  }
+  if (open || parameters.changed()) exhibit::add_prediction(parameters, phrases(), frame.panels.force.content);
+}
+
+// In the place of the sample's data.
+template <class Content>
+void ViewPanels::show_right(render::FramePanels& panels, render::PanelSlot<Content>& slot, Content content) const {
+  panels.data.placement = render::kNoPlacement;
+  slot = {.content = std::move(content), .placement = wall_scene_.parameter_placement()};
+}
+
+void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, std::size_t material,
+                           const std::string& material_title, const scene::TipState& tip) {
+  switch (right_) {
+    case RightPanel::Data:
+      return;
+    case RightPanel::Parameters:
+      show_right(panels, panels.control, control_panel(material, material_title, edits_.state(material, tip)));
+      panels.control.content.pointed = pointed.control;
+      return;
+    case RightPanel::FrictionLoop:
+      if (friction_ == nullptr) return;
+      const physics::FrictionLaw law = edits_.of(material).model().parameters.friction.law;
+      show_right(panels, panels.loop, exhibit::friction_panel(*friction_, law, phrases()));
+      return;
+  }
+}
+
+void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece,
+                          const std::string& caption) const {
+  using exhibit::Note;
+  if (!caption.empty()) {
+    frame.labels.push_back({.text = caption, .highlighted = false, .placement = wall_scene_.note_placement()});
+    return;
+  }
+  std::string text;
+  if (centerpiece == exhibit::Centerpiece::Journey) text = note_text(phrases(), Note::LeaveJourney);
+  if (centerpiece == exhibit::Centerpiece::Analogy) text = note_text(phrases(), Note::LeaveAnalogy);
+  if (!keys_known_) text += (text.empty() ? "" : "     ") + note_text(phrases(), Note::Keys);
+  if (text.empty()) return;
+  frame.labels.push_back({.text = std::move(text), .highlighted = false, .placement = wall_scene_.note_placement()});
+}
+
+void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
+                        const std::string& material_title, const scene::TipState& tip, HandSource hand) {
+  const bool changeable = material && use_ == WallUse::Free;
+  if (changeable) add_parameters(frame, pointed, *material);
+  render::FramePanels& panels = frame.panels;
+  if (hidden_) {
+    const render::PanelPlacement banner = panels.banner.placement;
+    hide(panels);
+    panels.banner.placement = banner;
+  }
+  if (keys_shown_) {
+    show_right(panels, panels.data, key_list_(hand, unattended_, phrases(), use_));
+  } else if (changeable && !hidden_) {
+    add_right(panels, pointed, *material, material_title, tip);
+  }
+}
+
+void add_panels(const exhibit::Stage& stage, ViewPanels& panels, const exhibit::Moment& moment,
+                const Panelled& panelled, const std::string& caption, render::FrameState& frame) {
+  const bool travels = moment.wall.centerpiece == exhibit::Centerpiece::Journey;
+  const auto material = travels || panelled.tip.material < 0
+                            ? std::nullopt
+                            : std::optional(static_cast<std::size_t>(panelled.tip.material));
+  panels.add_to(frame, panelled.pointed, material,
+                material ? stage.phrases().word(stage.materials.materials[*material].title) : "", panelled.tip,
+                panelled.hand);
+  panels.add_note(frame, moment.wall.centerpiece, caption);
+}
+
+}  // namespace afm::app

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "app/view/key_list.h"
+#include "app/view/parameter_edits.h"
+#include "app/view/pointed.h"
+#include "cluster/frame_message.h"
+#include "exhibit/exhibit_setup.h"
+#include "exhibit/friction/friction_history.h"
+#include "exhibit/guidance.h"
+#include "exhibit/moment.h"
+#include "exhibit/scan/live_scan.h"
+#include "exhibit/wall_scene.h"
+#include "input/wand.h"
+#include "render/frame.h"
+
+namespace afm::app {
+
+// Panel to the right of the sample.
+enum class RightPanel { Data, Parameters, FrictionLoop };
+
+// Visible panels of the live window, and the parameters that one of them edits. One thread.
+class ViewPanels {
+ public:
+  // `wall_scene` must outlive it; `materials` as the servo was started with; `key_list` fills the panel of F1.
+  ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials, KeyList key_list);
+
+  void toggle_keys() {
+    keys_shown_ = !keys_shown_;
+    keys_known_ = true;
+  }
+  void toggle_parameters() { toggle(RightPanel::Parameters); }
+  // True if it is now shown.
+  bool toggle_friction_loop() { return toggle(RightPanel::FrictionLoop); }
+  // The settings of a scan are in the place of the parameters; null: none. It must outlive this.
+  void set_scan(exhibit::LiveScan* scan) { scan_ = scan; }
+
+  // Of the loop that is shown; must outlive this.
+  void set_friction(const exhibit::FrictionHistory* friction) { friction_ = friction; }
+
+  // The row that keys change: the next one; and a step of it. Both open the panel. `material` is the one under the tip.
+  void mark_next(std::size_t material);
+  void step_marked(int steps, std::size_t material, servo::ServoClient* servo);
+
+  void toggle_all() { hidden_ = !hidden_; }
+
+  // In a lesson neither parameters nor the tab that opens them are shown.
+  void use_for(WallUse use) { use_ = use; }
+
+  // The list of keys leaves out those of staff.
+  void show_visitors_keys_only() { unattended_ = true; }
+
+  // "keys", "none", "parameters", "friction-loop" or "samples": which of them cover the others.
+  std::string shown() const;
+  void show(std::string_view panels);
+
+  // `wall_point_m` is where the ray meets the wall's plane. `material` is the one under the tip.
+  Pointed pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m, std::optional<std::size_t> material);
+
+  // A press on a panel or its tab; a change goes to the servo, if there is one.
+  void press(const Pointed& pointed, std::size_t material, servo::ServoClient* servo);
+
+  ParameterEdits& edits() { return edits_; }
+
+  // What of it the other machines of a wall have to know, and the same there. `pointed` and `hand` as in add_to().
+  cluster::ShownPanels told(const Pointed& pointed, HandSource hand) const;
+  struct Told {
+    Pointed pointed;
+    HandSource hand = HandSource::Mouse;
+  };
+  Told follow(const cluster::ShownPanels& panels);
+
+  // A short note below the left panel: the caption of what is heard; without one how to leave what is shown, and, until
+  // F1 was used, where the keys are listed.
+  void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece, const std::string& caption) const;
+
+  // Adds the panels of this moment to a frame: the parameters or the tab that opens them, the curve that follows from
+  // what was changed, the keys; removes hidden panels.
+  void add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
+              const std::string& material_title, const scene::TipState& tip, HandSource hand);
+
+ private:
+  bool toggle(RightPanel panel) {
+    right_ = right_ == panel ? RightPanel::Data : panel;
+    return right_ == panel;
+  }
+  const exhibit::Phrases& phrases() const { return wall_scene_.phrases(); }
+  render::ControlPanel control_panel(std::size_t material, const std::string& title, exhibit::ChangeState state);
+  void change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo);
+  void add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material);
+  void add_right(render::FramePanels& panels, const Pointed& pointed, std::size_t material,
+                 const std::string& material_title, const scene::TipState& tip);
+  template <class Content>
+  void show_right(render::FramePanels& panels, render::PanelSlot<Content>& slot, Content content) const;
+  template <class Copy, class Panels, class Shown>
+  static void copy_state(const Copy& copy, Panels& panels, Shown& shown);
+
+  const exhibit::WallScene& wall_scene_;
+  std::vector<input::Target> swatches_;
+  ParameterEdits edits_;
+  KeyList key_list_;
+  exhibit::LiveScan* scan_ = nullptr;
+  const exhibit::FrictionHistory* friction_ = nullptr;
+  std::size_t marked_ = 0;
+  bool marking_ = false;  // a row has been marked by a key
+  bool hidden_ = false;
+  bool keys_shown_ = false;
+  bool unattended_ = false;
+  bool keys_known_ = false;
+  WallUse use_ = WallUse::Free;
+  RightPanel right_ = RightPanel::Data;
+};
+
+// The inputs that a frame's panels need in addition to its Moment.
+struct Panelled {
+  Pointed pointed;
+  HandSource hand = HandSource::Mouse;
+  scene::TipState tip{};
+};
+
+// All panels, and the note with the caption, as every machine of a wall shows them.
+void add_panels(const exhibit::Stage& stage, ViewPanels& panels, const exhibit::Moment& moment,
+                const Panelled& panelled, const std::string& caption, render::FrameState& frame);
+
+}  // namespace afm::app

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "app/display/mouse_wand.h"
+#include "app/view/pointed.h"
+#include "exhibit/guidance.h"
+#include "input/selection.h"
+
+namespace afm::exhibit {
+struct Stage;
+}
+
+namespace afm::app {
+
+class ServoSupervisor;
+class ViewPanels;
+class ViewPicture;
+class ViewWand;
+
+// Where a person points: with the wand or the mouse, whichever was used last. Main thread only.
+class ViewPointer {
+ public:
+  // All must outlive it.
+  ViewPointer(const exhibit::Stage& stage, ViewPicture& picture, ViewPanels& panels, ServoSupervisor& servo,
+              ViewWand& wand);
+
+  // Once a frame; a drag of the hand is no pointing.
+  void follow(const glm::dvec2& cursor_px, bool dragging, std::int64_t now_ns);
+
+  exhibit::Pointer kind() const;
+
+  // What the cursor in a window, or the wand, points at.
+  Pointed at(std::size_t window, const glm::dvec2& cursor_px);
+  Pointed at_wand();
+  Pointed now(std::size_t window, const glm::dvec2& cursor_px);  // with the one that was used last
+
+  input::Ray ray(std::size_t window, const glm::dvec2& cursor_px) const;
+
+  // The wand as it is drawn; the mouse has one too.
+  input::WandState drawn(const Pointed& pointed, std::int64_t now_ns) const;
+
+  // Hand travel per pixel that keeps the tip under the cursor.
+  double hand_m_per_px(std::size_t window) const;
+
+ private:
+  const exhibit::Stage& stage_;
+  ViewPicture& picture_;
+  ViewPanels& panels_;
+  ServoSupervisor& servo_;
+  ViewWand& view_wand_;
+  MouseWand mouse_;
+  std::vector<input::Target> swatches_;
+  glm::dvec2 cursor_px_{0.0};
+  std::int64_t cursor_moved_ns_ = 0;
+};
+
+}  // namespace afm::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include "exhibit/guidance.h"
+
+namespace afm::exhibit {
+class LiveScan;
+}
+
+namespace afm::app {
+
+// The scan on the wall; none while `scan` is null.
+struct ShownScan {
+  const exhibit::LiveScan* scan = nullptr;
+  std::size_t material = 0;
+  std::uint64_t begun = 0;  // number of scans started so far
+};
+
+// What controls tell the loop and one another.
+struct ViewTurn {
+  bool leaving = false;                              // the window closes after this frame
+  bool draws_unseen = false;                         // frames are drawn even while all windows are hidden
+  bool paced = false;                                // the frame rate is limited elsewhere, so the loop does not wait
+  bool blank = false;                                // picture hidden, for users who rely on sound and touch
+  std::function<bool(std::int64_t now_ns)> unseen;   // true while nobody sees the picture; unset: unknown
+  exhibit::Hint hint = exhibit::Hint::ChooseSample;  // next step of the procedure
+  ShownScan scan;
+};
+
+}  // namespace afm::app
