@@ -135,7 +135,7 @@ std::optional<std::string> receives_on(int descriptor, std::uint32_t domain) {
   socklen_t length = sizeof(own);
   if (::getsockname(descriptor, reinterpret_cast<sockaddr*>(&own), &length) != 0 || own.sin_family != AF_INET)
     return {};
-  if (own.sin_addr.s_addr != htonl(INADDR_ANY)) return {};  // one that sends
+  if (own.sin_addr.s_addr != htonl(INADDR_ANY)) return {};  // socket used for sending
   const std::uint32_t port = ntohs(own.sin_port);
   if (port < first_port(domain) || port >= first_port(domain) + kPortsOfDomain) return {};
   char name[IFNAMSIZ]{};

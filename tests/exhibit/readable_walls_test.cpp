@@ -98,7 +98,7 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   if (stage.screen.width_m() < kRulerM) return;
   render::FrameState pattern;
   show_calibration(stage.screen, scene::StereoMode::SideBySide, 0.063, phrases, pattern);
-  const Painted whole_screen = painter.paint(pattern.calibration, pattern.panels.calibration.placement);
+  const Painted whole_screen = painter.paint(pattern.panels.calibration.content, pattern.panels.calibration.placement);
   const float half_line = 1.5F * whole_screen.size.y / 2286.0F;  // of the grid, on the screen's edge
   constexpr float kSoftEdge = 3.0F;
   EXPECT_TRUE(whole_screen.inside(kSoftEdge + half_line)) << where << ": the test pattern";

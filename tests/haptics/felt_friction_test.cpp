@@ -56,8 +56,8 @@ double put_down(haptics::ContactModel& model, const glm::dvec2& at_m = glm::dvec
 }
 
 struct Drag {
-  std::vector<glm::dvec3> force_n;  // at whole milliseconds
-  std::vector<glm::dvec2> slips_m;  // where the tip's holder was
+  std::vector<glm::dvec3> force_n;  // at full milliseconds
+  std::vector<glm::dvec2> slips_m;  // positions of the tip's holder
 };
 
 // Along x at a speed of the hand, in ticks of a rate; forces where the hand has gone a whole number of tenths of mm.

@@ -176,7 +176,7 @@ class Loop {
   std::unique_ptr<ContactModel> model_;
   SampleAxes sample_;  // level
   SafetyGovernor governor_;
-  std::array<glm::dvec3, 6> history_{};  // the oldest is 5 ms old at 1 kHz
+  std::array<glm::dvec3, 6> history_{};  // oldest entry 5 ms old at 1 kHz
   std::size_t ticks_ = 0;
   std::int64_t time_ns_ = 1'000'000'000;
   glm::dvec3 position_m_{0.0, kTopM, 0.0};

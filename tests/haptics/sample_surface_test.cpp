@@ -96,7 +96,7 @@ TEST_P(FeltSurfaceOfARoughSample, IsWhatABallTraces) {
     }
     return highest;
   };
-  constexpr double kRounding = 0.05e-9;  // of a crease by the spline, an eighth of its change of slope in a spacing
+  constexpr double kRounding = 0.05e-9;  // crease rounded by the spline: an eighth of its change of slope in a spacing
   const SampleSurface traced(drawn_, kRadius, kAnyCurvature);
   const double at_origin_m = touching_m({0.0, 0.0});
   double deepest_dent_m = 0.0;

@@ -125,7 +125,7 @@ class ScalingOfAnyLaw : public testing::TestWithParam<std::tuple<Felt, ScaleMode
 };
 
 TEST_P(ScalingOfAnyLaw, StaysWithinTheCapAndTheSteepestSlopeAtEveryHeight) {
-  constexpr double kStepM = 37e-6;  // no multiple of the step that the fit looks with
+  constexpr double kStepM = 37e-6;  // not a multiple of the step used by the fit
   const auto look = [&](const afm::physics::BranchTable& branch, double lowest_m, double highest_m) {
     for (double height_m = lowest_m; height_m + kStepM < highest_m; height_m += kStepM) {
       const double low_n = hand_n(branch, height_m), high_n = hand_n(branch, height_m + kStepM);

@@ -78,7 +78,7 @@ void write_all(ServoBench& bench, Garbage& garbage) {
                                         .hand = garbage.coin() ? ScanHand::Led : ScanHand::Scans,
                                         .feedback = 1}));
     RendererHeartbeat heartbeat = garbage.flipped(RendererHeartbeat{});
-    heartbeat.leaving &= ~1U;  // a goodbye is believed, and so are Stop and a picture that nobody sees
+    heartbeat.leaving &= ~1U;  // leaving, Stop and an unseen picture are accepted
     heartbeat.stop &= ~1U;
     heartbeat.unseen &= ~1U;
     side.store(heartbeat);

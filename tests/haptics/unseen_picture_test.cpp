@@ -16,7 +16,7 @@ TEST(UnseenPicture, TakesTheForceAwayAndGivesNoneUntilItIsSeenAgain) {
   ServoBench bench;
   bench.hold_attached(kMica);
   bench.unseen = true;
-  bench.run(0.025);  // a fade of 20 ms, and the tick that hears of it
+  bench.run(0.025);  // a fade of 20 ms, plus the tick that detects it
   EXPECT_EQ(bench.hand_force_n(), 0.0);
   EXPECT_EQ(bench.state().fault, FaultCode::PictureUnseen);
   bench.move(ServoBench::kTop, 0.3);

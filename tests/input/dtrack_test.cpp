@@ -93,17 +93,17 @@ TEST(Dtrack, RefusesWhatContradictsItself) {
            "fr 1 2\n",
            "fr 99999999999\n",
            "fr 1\n6d 2 " + body,                                            // fewer than it says
-           "fr 1\n6d 1 " + body + body,                                     // more
-           "fr 1\n6d 1 [-1 1.000][1 2 3 0 0 0]" + kIdentity,                // a body below zero
+           "fr 1\n6d 1 " + body + body,                                     // more bodies than announced
+           "fr 1\n6d 1 [-1 1.000][1 2 3 0 0 0]" + kIdentity,                // negative body number
            "fr 1\n6d 1 [64 1.000][1 2 3 0 0 0]" + kIdentity,                // and beyond the last
-           "fr 1\n6d 1 [0 1.000][1 nan 3 0 0 0]" + kIdentity,               // no number
+           "fr 1\n6d 1 [0 1.000][1 nan 3 0 0 0]" + kIdentity,               // NaN
            "fr 1\n6d 1 [0 inf][1 2 3 0 0 0]" + kIdentity,                   //
-           "fr 1\n6d 1 [0 1.000][1 2 3 0 0 0][1 0 0 0 1 0 0 0 -1]",         // a mirror
+           "fr 1\n6d 1 [0 1.000][1 2 3 0 0 0][1 0 0 0 1 0 0 0 -1]",         // reflection
            "fr 1\n6d 1 [0 1.000][1 2 3 0 0 0][2 0 0 0 1 0 0 0 1]",          // stretched
            "fr 1\n6d 1 [0 1.000][1 2 3 0 0 0][1 0 0 0 1 0 0 0",             // cut off
            "fr 1\n6df2 1 1 [0 1.000 99 2][1 2 3]" + kIdentity + "[0 0 0]",  // 99 buttons
            "fr 1\n6df2 1 1 [0 1.000 4 9][1 2 3]" + kIdentity + "[0 0 0 0 0 0 0 0 0 0]",
-           "fr 1\n6df2 1 1 [0 1.000 4 2][1 2 3]" + kIdentity + "[0 0.5]",  // a joystick short
+           "fr 1\n6df2 1 1 [0 1.000 4 2][1 2 3]" + kIdentity + "[0 0.5]",  // one joystick value missing
        }) {
     EXPECT_FALSE(parse_dtrack(bad)) << bad;
   }

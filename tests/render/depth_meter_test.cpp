@@ -9,8 +9,8 @@
 namespace afm::test {
 namespace depth_meter_test {
 
-constexpr double kHeadM = 2.5;         // before the wall
-constexpr double kHalfWidthM = 1.524;  // of the wall
+constexpr double kHeadM = 2.5;         // distance from the wall
+constexpr double kHalfWidthM = 1.524;  // half the width of the wall
 constexpr double kToleranceM = 1e-4;   // 32-bit depth
 
 class DepthMeters : public VulkanTest {
@@ -92,7 +92,7 @@ TEST_F(DepthMeters, FollowsEveryFrameThroughResizes) {
     frame.room_from_node[0][3].z = z;
     renderer.render(frame);
     meter.measure();
-    meter.measure();  // one is under way
+    meter.measure();  // one is running
     meter.wait();
     ASSERT_TRUE(meter.newest());
     EXPECT_NEAR(meter.newest()->nearest_m, kHeadM - z, kToleranceM);

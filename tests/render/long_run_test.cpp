@@ -20,8 +20,8 @@ namespace long_run_test {
 
 constexpr int kWarmUpRounds = 3;
 constexpr int kRounds = 9;
-constexpr int kFrames = 12;                // of each round
-constexpr std::int64_t kLeak_bytes = 200;  // a frame, which would be noticed
+constexpr int kFrames = 12;                // per round
+constexpr std::int64_t kLeak_bytes = 200;  // per frame; a leak of this size is detected
 
 std::int64_t median(std::array<std::int64_t, kRounds> values) {
   std::sort(values.begin(), values.end());

@@ -51,7 +51,7 @@ class Story {
   int whole(int low, int high) { return std::uniform_int_distribution(low, high)(random_); }
   double real(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
 
-  std::string told;  // what has changed in the newest frame
+  std::string told;  // changes in the newest frame
 
  private:
   void change() {

@@ -85,7 +85,7 @@ TEST_F(PictureSaving, NoFrameWaitsForADiskThatStandsStill) {
     EXPECT_THAT(saver_.collect(), IsEmpty());
   }
   renderer_.wait();
-  EXPECT_EQ(begun, kMost);  // the others wait, and are told so
+  EXPECT_EQ(begun, kMost);  // the others are refused, and must wait
   EXPECT_FALSE(std::filesystem::exists(file(1)));
 
   std::thread reader([&] {

@@ -127,7 +127,7 @@ class Recording {
   bool heartbeats = true;
   bool stop = false;
   bool unseen = false;
-  std::function<scene::ScanLead()> scan;  // of a frame; empty: none
+  std::function<scene::ScanLead()> scan;  // scan of each frame; empty: none
   std::int64_t now_ns = 7'000'000'000;
 
  private:

@@ -51,7 +51,7 @@ TEST(Replay, TurnsTheSampleAgainAsTheWandTurnedIt) {
   RecordedSession session = recording.sessions.front();
   EXPECT_NE(session.samples.front().sample_normal, session.samples.back().sample_normal);
   expect_same(session);
-  session.wall.clear();  // so that the frames are what did it
+  session.wall.clear();  // leaves only the frames as a cause
   EXPECT_FALSE(replay(session)->identical());
 }
 
@@ -110,7 +110,7 @@ TEST(Replay, GivesFaultsHangsAndLateTicksAgain) {
   recording.arm();
   recording.aim(0.020, 0.5);
   recording.run(400);
-  recording.heartbeats = false;  // the picture hangs, and is back
+  recording.heartbeats = false;  // the picture hangs, and recovers
   recording.run(700);
   EXPECT_EQ(recording.state().fault, FaultCode::RendererHung);
   recording.heartbeats = true;
@@ -178,7 +178,7 @@ TEST(Replay, OfASessionThatBeginsInAFaultBeginsInIt) {
   recording->run(50);
   recording->device.healthy = false;
   recording->run(20);
-  recording->device.healthy = true;  // which ends no fault
+  recording->device.healthy = true;  // does not end a fault
   recording->choose(test::kGold);
   recording->run(100);
   ASSERT_EQ(recording->sessions.size(), 2U);

@@ -184,7 +184,7 @@ TEST_F(ServoDevices, ReplaysASessionTickByTickToTheSameForces) {
   EXPECT_TRUE(until(**servo, [&] { return !samples.empty() && samples.back().tick > session.samples.size(); }));
   std::size_t compared = 0;
   for (const TipSample& played : samples) {
-    const std::size_t index = played.tick - 1;  // one entry a tick
+    const std::size_t index = played.tick - 1;  // one entry per tick
     if (index >= session.samples.size() || played.phase == physics::Phase::WaitForLift) continue;
     const TipSample& recorded = session.samples[index];
     if (recorded.phase == physics::Phase::WaitForLift) continue;

@@ -239,7 +239,7 @@ TEST(ServoProcess, GivesForceOnlyWhileTurnOnIsHeldWhereItIsToldSo) {
 }
 
 TEST(ServoProcess, InheritsTheTwoDescriptorsAndNoOthers) {
-  const FileDescriptor stray(::open("/dev/null", O_RDONLY));  // without O_CLOEXEC, as a careless library might
+  const FileDescriptor stray(::open("/dev/null", O_RDONLY));  // missing O_CLOEXEC, as in a careless library
   SharedSegment segment = create_segment();
   RendererSide side = segment.renderer_side();
   auto servo = ServoProcess::spawn(kServoProgram, segment, side, {.rate_hz = kRateHz});

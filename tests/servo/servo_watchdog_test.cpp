@@ -90,7 +90,7 @@ class ServoWatchdog : public testing::Test {
   bool hold_attached() {
     side.store(scene::Selection{.material = kMica, .revision = 1});
     return eventually([&] {
-      if (!servo->alive()) start_servo();  // the machine stood still for longer than the watchdog waits
+      if (!servo->alive()) start_servo();  // the machine was stopped for longer than the watchdog waits
       move_to(0.19);
       rest(milliseconds(300));
       for (const bool pressed : {true, false}) {

@@ -117,7 +117,7 @@ std::string in_parts(const RecordedSession& whole, const std::string& path) {
     if (!writer) writer.emplace(SessionWriter::create(part, path).value());
     EXPECT_TRUE(writer->add(part));
   }
-  return core::read_file(path).value();  // while it is still open
+  return core::read_file(path).value();  // file still open
 }
 
 TEST(SessionFile, CutAnywhereHoldsTheWholePartsBeforeTheCut) {
@@ -139,7 +139,7 @@ TEST(SessionFile, CutAnywhereHoldsTheWholePartsBeforeTheCut) {
     EXPECT_THAT(cut_text(*session, path), HasSubstr(longest < 600 ? "after 0." : "s;"));
     longest = session->samples.size();
   }
-  EXPECT_EQ(longest, 666U);  // the last byte but one is missing
+  EXPECT_EQ(longest, 666U);  // last byte but one is missing
   EXPECT_EQ(load_session(folder.file("s.afms"))->samples.size(), 1000U);
 }
 

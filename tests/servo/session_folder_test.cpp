@@ -39,7 +39,7 @@ TEST(SessionFolder, KeepsNothingOfASessionWithoutForce) {
   const support::ScratchFolder scratch;
   SessionFolder folder = SessionFolder::open(scratch.file("kept")).value();
   ASSERT_TRUE(folder.add(part(0, 100, scene::ServoState::Disarmed)));
-  EXPECT_TRUE(std::filesystem::exists(scratch.file("kept/session-mica.afms")));  // while it grows
+  EXPECT_TRUE(std::filesystem::exists(scratch.file("kept/session-mica.afms")));  // file still growing
   ASSERT_TRUE(folder.end());
   EXPECT_TRUE(std::filesystem::is_empty(scratch.file("kept")));
 }

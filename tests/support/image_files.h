@@ -108,7 +108,7 @@ struct NanoscopeChannel {
   int bytes_of_integer = 2;
   int columns = 0, rows = 0;
   std::string scan_size = "1000 500 nm";
-  std::vector<std::int64_t> integers;  // as they lie in the file: the bottom row first
+  std::vector<std::int64_t> integers;  // in file order: the bottom row first
 };
 
 inline std::string nanoscope_file(const std::string& version, const std::vector<NanoscopeChannel>& channels) {

@@ -40,7 +40,7 @@ class LossyNetwork {
 
  private:
   static constexpr std::size_t kMost = 8;
-  struct Shared {  // with the switch
+  struct Shared {  // shared with the switch
     std::array<std::atomic<bool>, kMost> out{};
     std::atomic<std::uint64_t> lost{0};
   };

@@ -28,8 +28,8 @@ std::function<double(const Pixel&)> brighter_than(int floor);
 std::size_t count(const render::Image& image, const std::function<bool(const Pixel&)>& wanted);
 
 struct Difference {
-  int largest = 0;          // of any channel, in 255ths
-  double share_beyond = 0;  // of pixels with a channel that differs by more than the tolerance
+  int largest = 0;          // largest difference of any channel, in 255ths
+  double share_beyond = 0;  // share of pixels with a channel that differs by more than the tolerance
 };
 Difference difference(const render::Image& a, const render::Image& b, int tolerance);
 

@@ -16,8 +16,8 @@ const char* __lsan_default_suppressions() {
          "leak:libvulkan_lvp\n"
          "leak:libLLVM\n"
          "leak:libopenxr_loader\n"  // 1.0.20 forgets its table of an instance that is destroyed
-         "leak:libdbus\n"           // what SDL asks for a screen saver, where a display has a session bus
-         "leak:libxcb\n";  // of a swapchain whose X server died; a function has no name where no symbolizer is found
+         "leak:libdbus\n"           // asked for a screen saver by SDL, if a display has a session bus
+         "leak:libxcb\n";           // swapchain whose X server died; functions have no name without a symbolizer
 }
 
 // A program's last line stays its own.

@@ -23,7 +23,7 @@ inline std::vector<double> channel(std::span<const float> interleaved, std::size
 }
 
 inline std::vector<std::complex<double>> fft(std::vector<std::complex<double>> x) {
-  const std::size_t n = x.size();  // a power of two
+  const std::size_t n = x.size();  // must be a power of two
   if (n == 1) return x;
   std::vector<std::complex<double>> even, odd;
   for (std::size_t i = 0; i < n; i += 2) {

@@ -14,8 +14,8 @@ namespace afm::test {
 // A row of tests/scene/data/stereo_cases.csv, the research's test vectors.
 struct StereoCase {
   std::string id, kind, convention;
-  std::string input;           // as written
-  std::vector<double> inputs;  // where it is numbers
+  std::string input;           // text in the file
+  std::vector<double> inputs;  // values, if it is a list of numbers
   std::vector<double> expected;
 };
 

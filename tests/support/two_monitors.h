@@ -14,7 +14,7 @@ namespace afm::support {
 // with the driver that shows nothing. Throws if the packages for it are missing.
 class TwoMonitors {
  public:
-  static constexpr int kWidth = 320, kHeight = 240;  // of each
+  static constexpr int kWidth = 320, kHeight = 240;  // size of each
 
   TwoMonitors();
   TwoMonitors(const TwoMonitors&) = delete;

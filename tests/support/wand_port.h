@@ -114,7 +114,7 @@ class WandPort {
   std::unique_ptr<UMockdevTestbed, Releaser> testbed_;
   std::unique_ptr<void, Releaser> ioctls_;
   int device_ = -1;
-  unsigned number_ = 0;  // of the device, counted from the first that was plugged in
+  unsigned number_ = 0;  // number of the device, in the order of plugging in
 };
 
 }  // namespace afm::support

@@ -77,7 +77,7 @@ struct CurveFeatures {
   Force greatest_push;
   std::optional<Length> contact_point;
   ContactMethod contact_method = ContactMethod::ZeroForce;
-  std::array<std::optional<Length>, kContactMethods.size()> contact_estimates{};  // in the order of kContactMethods
+  std::array<std::optional<Length>, kContactMethods.size()> contact_estimates{};  // order of kContactMethods
   bool contact_doubtful = false;
   std::optional<CurveJump> snap_in;
   std::optional<Extreme> pull_off;

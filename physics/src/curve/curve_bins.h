@@ -38,7 +38,8 @@ inline std::vector<CurveBin> curve_bins(std::span<const CurvePoint> points, Leng
   std::stable_sort(rising.begin(), rising.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
   const std::size_t bins = std::clamp<std::size_t>(rising.size() / fewest_samples, 1, most_bins);
   const auto bin_of = [&](const CurvePoint& point) {
-    const double place = top > bottom ? (point.z - bottom) / (top - bottom) : 0.0;  // all may lie at one height
+    const double place =
+        top > bottom ? (point.z - bottom) / (top - bottom) : 0.0;  // flat if all points have one height
     return std::min(bins - 1, static_cast<std::size_t>(place * static_cast<double>(bins)));
   };
   std::vector<CurveBin> result;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/view_panels.h"
+#include "app/view/view_panels.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/live/view_keys.h"
 #include "core/enumerators.h"
 #include "curves/sample_model.h"
 #include "exhibit/calibration.h"
@@ -34,7 +35,7 @@ class PanelsOfTheView : public ::testing::Test {
     for (const scene::MaterialEntry& entry : stage_->materials.materials) {
       models_.push_back(curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value());
     }
-    panels_.emplace(stage_->wall_scene, models_);
+    panels_.emplace(stage_->wall_scene, models_, key_list);
     panels_->set_friction(&friction_);
   }
 

@@ -49,7 +49,7 @@ class Servo {
     input.time_ns = now_ns_;
     input.hand_position_m = {0.0, 0.06, 0.0};
     input.hand_height_m = 0.06;
-    input.law_energy.stiffness_n_per_m = 1e6;  // a force that no law gives
+    input.law_energy.stiffness_n_per_m = 1e6;  // force not explained by any law
     input.phase = afm::physics::Phase::Free;
     input.renderer = afm::scene::RendererLink::Alive;
     input.turn_on = ++ticks_ > 100;

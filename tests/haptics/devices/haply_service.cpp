@@ -108,7 +108,7 @@ class HaplyService::Server {
     boost::beast::error_code ignored;
     stream.next_layer().close(ignored);
     context_.restart();
-    context_.run();  // what refers to this frame ends now
+    context_.run();  // ends everything that refers to this frame
     const std::lock_guard lock(mutex_);
     client_ = -1;
   }

@@ -33,7 +33,7 @@ class HaplyService {
   std::vector<Force> forces() const;
 
   std::atomic<Manner> manner;
-  std::atomic<double> up_m{0.18};  // of the cursor
+  std::atomic<double> up_m{0.18};  // height of the cursor
   std::atomic<bool> button{false};
 
  private:

@@ -46,7 +46,7 @@ TEST(HdapiDevice, TellsItsLimitsInSi) {
   EXPECT_EQ(spec->name, "Mock Touch, serial 0001");
   EXPECT_EQ(spec->max_force_n, 3.3);
   EXPECT_EQ(spec->max_continuous_force_n, 0.88);
-  EXPECT_EQ(spec->max_stiffness_n_per_m, 400.0);  // the driver says 500
+  EXPECT_EQ(spec->max_stiffness_n_per_m, 400.0);  // 500 in the driver
   EXPECT_EQ(spec->max_slew_n_per_s, 2000.0);
   EXPECT_DOUBLE_EQ(spec->max_speed_m_per_s, 1.5);
   EXPECT_DOUBLE_EQ(spec->workspace_min_m.y, -0.060);
@@ -77,7 +77,7 @@ TEST(HdapiDevice, LetsACycleBeFeltWithinTheDriversLimits) {
   EXPECT_EQ(bench.events.size(), 2U);
   EXPECT_NEAR(bench.largest_force_n, 2.0, 0.01);
   EXPECT_LE(bench.largest_force_n, force_cap_n(bench.device->spec()));
-  EXPECT_LE(bench.largest_step_n, 0.5 + 1e-12);  // of the governor
+  EXPECT_LE(bench.largest_step_n, 0.5 + 1e-12);  // governor's limit
   EXPECT_EQ(bench.health(), HdapiHealth::Ready);
 }
 
@@ -252,7 +252,7 @@ TEST(HdapiDevice, IsNotHealthyWhileTheSchedulerStallsAndItsOutputIsSwitchedOff) 
   mock_hd_stall(1);
   bench.run(5);
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
-  EXPECT_GT(bench.felt(), 0.5);  // that is what the driver holds
+  EXPECT_GT(bench.felt(), 0.5);  // force held by the driver
   bench.run(1);
   EXPECT_EQ(bench.felt(), 0.0);
   EXPECT_EQ(bench.health(), HdapiHealth::SchedulerStalled);

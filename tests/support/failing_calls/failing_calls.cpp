@@ -37,7 +37,7 @@ namespace {
 
 enum class What { Nothing, Memory, Calls };
 
-constexpr int kSeconds = 20;  // that a forked process may take
+constexpr int kSeconds = 20;  // time limit of a forked process
 
 What armed = What::Nothing;
 bool all = false;

@@ -91,11 +91,11 @@ class Mock {
   double continuous_force_n = 0.88;
   double velocity_limit_mm_per_s = 1500.0;
   double stiffness_n_per_mm = 0.5;
-  bool first_sensor_broken = false;  // of the motors' temperatures: no number
-  double motor_temperature = 0.2;    // below zero: a device that does not measure it
+  bool first_sensor_broken = false;  // motor temperature is NaN
+  double motor_temperature = 0.2;    // negative: a device without this measurement
 
   std::array<std::atomic<double>, 3> position_mm;
-  std::atomic<bool> still{false};  // else the places flicker, as those of encoders under a hand do
+  std::atomic<bool> still{false};  // false: positions flicker, like those of encoders under a hand
   std::atomic<unsigned> reads{0};
   double tremor_mm() { return !still && ++reads % 2 == 0 ? 1e-4 : 0.0; }
   std::atomic<int> buttons{0};

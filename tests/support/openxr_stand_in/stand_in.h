@@ -29,8 +29,8 @@ struct SubmittedImage {
 struct SubmittedEye : SubmittedImage {
   XrPosef pose{};
   XrFovf fov{};
-  float near_m = 0, far_m = 0;  // of the depths 0 and 1
-  std::vector<float> depths;    // by pixel; empty where none came
+  float near_m = 0, far_m = 0;  // distances at depth 0 and 1
+  std::vector<float> depths;    // one per pixel; empty if no depth was submitted
 };
 struct SubmittedQuad : SubmittedImage {
   XrPosef pose{};
@@ -39,7 +39,7 @@ struct SubmittedQuad : SubmittedImage {
 };
 struct SubmittedFrame {
   std::vector<SubmittedEye> eyes;    // none where the frame had no layer
-  std::vector<SubmittedQuad> quads;  // in their order, over the eyes
+  std::vector<SubmittedQuad> quads;  // in order, over the eyes
 };
 
 struct Script {
@@ -51,14 +51,14 @@ struct Script {
   bool depth = true;  // offers XR_KHR_composition_layer_depth
   std::uint32_t most_layers = 16;
   bool local_floor = true, stage = true;
-  float local_height_m = 1.5F;  // of the frame at eye level above the floor
+  float local_height_m = 1.5F;  // height of the eye-level frame above the floor
   std::array<XrPosef, 2> eyes{{{{0, 0, 0, 1}, {-0.032F, 1.6F, 0.0F}}, {{0, 0, 0, 1}, {0.032F, 1.6F, 0.0F}}}};
   std::array<XrFovf, 2> fovs{{{-0.8F, 0.7F, 0.75F, -0.85F}, {-0.7F, 0.8F, 0.75F, -0.85F}}};
   bool tracked = true;
   bool should_render = true;
-  bool available = true;                         // to xrCreateInstance
-  bool headset_plugged_in = true;                // to xrGetSystem
-  std::int64_t frame_ns = 0;                     // how long xrWaitFrame keeps the program at least
+  bool available = true;                         // result of xrCreateInstance
+  bool headset_plugged_in = true;                // result of xrGetSystem
+  std::int64_t frame_ns = 0;                     // shortest duration of xrWaitFrame
   bool blocked = false;                          // xrWaitFrame keeps it until this is false
   bool lends = true;                             // images
   std::map<std::string, XrResult> failing;       // calls, once each
@@ -70,7 +70,7 @@ struct Script {
 
 // What the program did.
 struct Log {
-  std::vector<std::string> calls;   // all but xrPollEvent and xrGetActionState...
+  std::vector<std::string> calls;   // all calls except xrPollEvent and xrGetActionState...
   std::vector<std::string> faults;  // against the specification
   std::vector<SubmittedFrame> frames;
   int pulses = 0;
@@ -81,11 +81,11 @@ struct StandIn {
   std::mutex mutex;
   Script script;
   Log log;
-  bool keeps_frames = true;  // with their pictures
+  bool keeps_frames = true;  // stores frames with their pictures
 
   // The runtime's next states, one at a time as the program asks.
   void say(XrSessionState next) { states.push_back(next); }
-  void begin_again();  // as at the start
+  void begin_again();  // restores the initial state
 
   // of the calls
   std::deque<XrSessionState> states;

@@ -12,9 +12,9 @@ namespace afm::stand_in {
 namespace {
 
 struct Space {
-  float up_m = 0;      // of its origin above that of its frame
+  float up_m = 0;      // height of its origin above that of its frame
   bool local = false;  // its frame is at eye level, and moves when the headset is recentred
-  int hand = -1;       // whose aim it is
+  int hand = -1;       // hand of this aim
 
   float height_m() const { return up_m + (local ? stand_in().script.local_height_m : 0.0F); }
 };

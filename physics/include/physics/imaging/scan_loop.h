@@ -60,7 +60,7 @@ class ScanLoop {
 
   double z_m() const noexcept { return z_m_; }
   double deflection_m() const noexcept { return deflection_m_; }       // lever, without noise
-  double force_n() const noexcept { return spring_ * deflection_m_; }  // of the lever; negative: it holds the tip back
+  double force_n() const noexcept { return spring_ * deflection_m_; }  // lever; negative: it holds the tip back
   double noise_m() const noexcept { return noise_now_m_; }             // detection noise in this tick
   double setpoint_m() const noexcept { return setpoint_m_; }
   double topography_m() const noexcept { return z_m_ + setpoint_m_; }  // recorded height
