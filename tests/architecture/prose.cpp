@@ -26,6 +26,11 @@ class SourceReader {
     return std::move(messages_);
   }
 
+  std::vector<Comment> trailing_comments() {
+    messages();
+    return std::move(trailing_comments_);
+  }
+
  private:
   bool follows(std::string_view text) const { return source_.substr(at_).starts_with(text); }
 
@@ -43,7 +48,8 @@ class SourceReader {
 
   void step() {
     const char c = source_[at_];
-    if (follows("//") || (c == '#' && follows("#include"))) return skip_past("\n");
+    if (follows("//")) return read_comment();
+    if (c == '#' && follows("#include")) return skip_past("\n");
     if (follows("/*")) return skip_past("*/");
     if (follows("R\"")) return read_raw_literal();
     if (c == '"') return read_literal();
@@ -55,6 +61,17 @@ class SourceReader {
       return skip_past("'");
     }
     skip(1);
+  }
+
+  void read_comment() {
+    const std::size_t begin = source_.rfind('\n', at_) == std::string_view::npos ? 0 : source_.rfind('\n', at_) + 1;
+    const std::string_view before = source_.substr(begin, at_ - begin);
+    const std::string_view line = source_.substr(at_, source_.find('\n', at_) - at_);
+    const auto text = std::find_if_not(line.begin() + 2, line.end(), is_space);
+    if (!std::all_of(before.begin(), before.end(), is_space)) {
+      trailing_comments_.push_back({.text = std::string(text, line.end()), .line = line_});
+    }
+    skip_past("\n");
   }
 
   void read_literal() {
@@ -92,6 +109,7 @@ class SourceReader {
   int line_ = 1;
   Prose message_;
   std::vector<Prose> messages_;
+  std::vector<Comment> trailing_comments_;
 };
 
 }  // namespace
@@ -106,6 +124,8 @@ void Prose::add(std::string_view piece, int line) {
 }
 
 std::vector<Prose> messages_of(std::string_view source) { return SourceReader(source).messages(); }
+
+std::vector<Comment> trailing_comments_of(std::string_view source) { return SourceReader(source).trailing_comments(); }
 
 Prose page_of(std::string_view document) {
   Prose page;

@@ -19,6 +19,15 @@ struct Prose {
 // files and literals of one word (keys, names) are left out.
 std::vector<Prose> messages_of(std::string_view source);
 
+struct Comment {
+  std::string text;
+  int line = 1;
+};
+
+// Every // comment of a C++ or GLSL source that follows code on its line, without the slashes. Block comments, and
+// continuations on the next line, are left out.
+std::vector<Comment> trailing_comments_of(std::string_view source);
+
 // A page as one text, so that a phrase is found across the end of a line. Inline code of one word is left out.
 Prose page_of(std::string_view document);
 

@@ -22,7 +22,7 @@ struct SampleModel {
   ContactSetup setup;                                // as loaded
   scene::SharedContact parameters;                   // parameters for the servo
   physics::LawChoice contact;                        // its place on the adhesion map, and the law that suits it
-  std::shared_ptr<const physics::LawTables> tables;  // for a dynamic lever, those of the same lever at rest
+  std::shared_ptr<const physics::LawTables> tables;  // dynamic lever: tables of the same lever at rest
   haptics::Scaling scaling;                          // Fit, on the simulated hand
 
   const physics::CycleFigures& figures() const { return tables->figures; }

@@ -132,7 +132,7 @@ class ContactModel {
   double force_cap_n_;
   Scalings scalings_;
   StoredEnergies stored_energies_;
-  std::shared_ptr<const physics::LawTables> tables_;  // for the lever at rest
+  std::shared_ptr<const physics::LawTables> tables_;  // tables for the lever at rest
   scene::ScaleMode mode_ = scene::ScaleMode::Fit;
   double slow_motion_;
   bool level_ = false;

@@ -19,7 +19,7 @@ namespace afm::haptics {
 class PositionCheck {
  public:
   static constexpr double kFastestMPerS = 2.0;              // the velocity trip is at 0.8 m/s
-  static constexpr double kSlackM = 0.5e-3;                 // for encoders and clocks
+  static constexpr double kSlackM = 0.5e-3;                 // tolerance for encoders and clocks
   static constexpr std::int64_t kLongestGapNs = 8'000'000;  // between two positions of a working device
   static constexpr std::int64_t kStuckNs = 1'000'000'000;
   static constexpr double kStuckForceN = 0.05;

@@ -56,7 +56,7 @@ struct GovernorInput {
 class SafetyGovernor {
  public:
   static constexpr double kSlewNPerS = 500.0;
-  static constexpr double kGuardSlewNPerS = 100.0;  // for kGuardNs after a tick more than two periods late
+  static constexpr double kGuardSlewNPerS = 100.0;  // limit during kGuardNs after a tick more than two periods late
   static constexpr std::int64_t kGuardNs = 100'000'000;
   static constexpr std::int64_t kLateNs = 20'000'000;   // a tick after such a pause disarms
   static constexpr std::int64_t kHangNs = 250'000'000;  // with kSlowFadeNs, less than 350 ms from heartbeat to zero

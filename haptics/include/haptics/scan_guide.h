@@ -30,7 +30,7 @@ class ScanGuide {
  public:
   static constexpr double kStiffnessNPerM = 100.0;
   static constexpr double kShareOfStiffness = 0.25;  // maximum share of the stiffness that the device can render
-  static constexpr double kMostForceN = 0.6;         // of the spring; a hand held still feels it
+  static constexpr double kMostForceN = 0.6;         // limit of the spring; a hand held still feels it
   static constexpr double kDampingNSPerM = 2.0;      // applied to the hand by the governor
   static constexpr double kRiseS = 1.0;
   static constexpr double kLagS = 0.05;
@@ -86,7 +86,7 @@ class ScanGuide {
   glm::dvec3 attractor_m_{0.0};
   double led_s_ = 0;
   bool leads_ = false;
-  bool lost_ = false;  // until Turn-On is released
+  bool lost_ = false;  // reset when Turn-On is released
 };
 
 }  // namespace afm::haptics

@@ -18,7 +18,7 @@ namespace afm::haptics {
 namespace {
 
 constexpr auto kPollPause = std::chrono::milliseconds(4);
-constexpr double kDeadZone = 0.12;  // of a released stick
+constexpr double kDeadZone = 0.12;  // range of a released stick
 constexpr double kFastestPlacedMPerS = 0.30;
 constexpr std::int64_t kRepeatNs = 30'000'000;  // refresh interval of a lasting rumble
 constexpr double kAudible = 0.02;               // smallest audible change of the hum

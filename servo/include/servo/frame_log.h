@@ -65,7 +65,7 @@ class FrameLog {
   std::condition_variable more_;
   std::string waiting_;  // lines
   bool ending_ = false;
-  int error_ = 0;       // of the writing thread, read after its end
+  int error_ = 0;       // set by the writing thread, read after its end
   std::thread writer_;  // last member: it uses all the others
 };
 

@@ -21,7 +21,7 @@ namespace afm::servo {
 struct RecordedSession {
   std::string material;             // name in the material file
   scene::SharedContact parameters;  // parameters in effect; a replay has one curve and one surface at most
-  std::optional<scene::SharedMeasuredCurve> curve;  // for Law::Measured only
+  std::optional<scene::SharedMeasuredCurve> curve;  // Law::Measured only
   std::optional<scene::SharedHeightField> surface;  // none: a topography, or a plane
   scene::Topography topography;                     // without columns: none
   std::array<double, 16> room_from_sample{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // as in SceneTransforms

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Trailing comments can be read alone: they do not begin with a preposition or a relative pronoun.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "architecture/prose.h"
+#include "core/whole_file.h"
+#include "places.h"
+
+namespace afm {
+namespace {
+
+using support::Comment;
+using support::trailing_comments_of;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr std::array<std::string_view, 9> kDependent{"of",  "that",  "for",     "until",   "which",
+                                                     "who", "where", "whether", "likewise"};
+
+// Comments that still begin so in a folder and below it. A ceiling may only fall; a deeper folder has its own.
+struct Ceiling {
+  std::string_view folder;
+  std::size_t most;
+};
+constexpr std::array kUnfinished{Ceiling{"app", 103},
+                                 Ceiling{"assets", 5},
+                                 Ceiling{"curves/src/formats", 7},
+                                 Ceiling{"curves/src/images", 6},
+                                 Ceiling{"exhibit", 151},
+                                 Ceiling{"physics/include/physics/friction", 8},
+                                 Ceiling{"physics/include/physics/imaging", 1},
+                                 Ceiling{"physics/src/friction", 4},
+                                 Ceiling{"physics/src/imaging", 6},
+                                 Ceiling{"tests", 37}};
+
+constexpr std::array kRoots{"app",   "assets",  "cluster", "core",  "curves", "exhibit", "haptics",
+                            "input", "physics", "render",  "scene", "servo",  "shaders", "tests"};
+
+bool is_dependent(const Comment& comment) {
+  const std::string first = comment.text.substr(0, comment.text.find_first_of(" ,.:;"));
+  return std::any_of(kDependent.begin(), kDependent.end(), [&](std::string_view word) {
+    return std::equal(first.begin(), first.end(), word.begin(), word.end(), [](char a, char b) {
+      return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+    });
+  });
+}
+
+// "line: text" for each.
+std::vector<std::string> faults_of(std::string_view source) {
+  std::vector<std::string> faults;
+  for (const Comment& comment : trailing_comments_of(source)) {
+    if (is_dependent(comment)) faults.push_back(fmt::format("{}: {}", comment.line, comment.text));
+  }
+  return faults;
+}
+
+// Index of the entry with the longest folder that holds the file, or the number of entries.
+std::size_t unfinished_folder_of(const std::string& file) {
+  std::size_t best = kUnfinished.size(), longest = 0;
+  for (std::size_t i = 0; i < kUnfinished.size(); ++i) {
+    const std::string folder = std::string(kUnfinished[i].folder) + "/";
+    if (file.starts_with(folder) && folder.size() > longest) {
+      best = i;
+      longest = folder.size();
+    }
+  }
+  return best;
+}
+
+TEST(TrailingComments, AreFoundWithTheirLines) {
+  const auto comments = trailing_comments_of(
+      "// a comment of its line\n"
+      "int a = 1;  // of the first\n"
+      "const char* b = \"no // comment\";\n"
+      "int c = 1'000;   //   seconds\n"
+      "/* int d;  // inside */ char e = '\"';  // a quote\n");
+  ASSERT_EQ(comments.size(), 3U);
+  EXPECT_EQ(comments[0].text, "of the first");
+  EXPECT_EQ(comments[0].line, 2);
+  EXPECT_EQ(comments[1].text, "seconds");
+  EXPECT_EQ(comments[2].text, "a quote");
+}
+
+TEST(TrailingComments, ThatDependOnTheirLineAreNoticed) {
+  EXPECT_THAT(faults_of("int a;  // of the lever\nint b;  // Likewise\nint c;  // likewise, later\n"),
+              ElementsAre("1: of the lever", "2: Likewise", "3: likewise, later"));
+  EXPECT_THAT(faults_of("int a;  // offset in metres\nint b;  // whole steps\n// of a block\nint c;\n"), IsEmpty());
+}
+
+TEST(TrailingComments, CanBeReadAlone) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> faults;
+  std::vector<std::vector<std::string>> unfinished(kUnfinished.size());
+  std::size_t files = 0;
+  for (const char* root : kRoots) {
+    for (const auto& entry : fs::recursive_directory_iterator(std::string(AFM_SOURCE_DIR "/") + root)) {
+      const std::string ending = entry.path().extension().string();
+      const bool is_source = ending == ".cpp" || ending == ".h" || ending == ".glsl" || ending == ".vert" ||
+                             ending == ".frag" || ending == ".comp";
+      if (!entry.is_regular_file() || !is_source) continue;
+      ++files;
+      const std::string file = fs::relative(entry.path(), AFM_SOURCE_DIR).string();
+      const std::size_t folder = unfinished_folder_of(file);
+      auto& found = folder < unfinished.size() ? unfinished[folder] : faults;
+      for (const std::string& fault : faults_of(core::read_file(entry.path().string()).value())) {
+        found.push_back(file + ":" + fault);
+      }
+    }
+  }
+  EXPECT_GT(files, 1200U);
+  EXPECT_THAT(faults, IsEmpty());
+  for (std::size_t i = 0; i < kUnfinished.size(); ++i) {
+    EXPECT_LE(unfinished[i].size(), kUnfinished[i].most)
+        << fmt::format("{}:\n{}", kUnfinished[i].folder, fmt::join(unfinished[i], "\n"));
+  }
+}
+
+}  // namespace
+}  // namespace afm
