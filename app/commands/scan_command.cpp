@@ -118,9 +118,11 @@ core::Result<Scan> take_scan(const ScanOptions& options) {
     physics::Scanner scanner(area, scan.settings, surface->height_m, options.seed);
     scanner.begin_frame(options.direction);
     std::size_t lines = 0;
+    physics::NewestLines newest;
     scan.image = physics::scan_frame(scanner, [&](const physics::ScanLine& line) {
+      newest.add(line);
       ++scan.lines_with[physics::main_artefact({scan.settings, area, scanner.loop().largest_integral_gain()},
-                                               physics::evidence_of(line))];
+                                               newest.evidence())];
       ++lines;
       if (area.rows >= kManyLines && lines % (area.rows / 8) == 0 && lines < area.rows) {
         core::log_line(fmt::format("scanned {} of {} lines", lines, area.rows));

@@ -33,8 +33,12 @@ physics::ScanArtefact artefact_in_json(const LiveScan& scan, double lines) {
   const physics::ScanSettings settings = settings_of(scan.choice(), scan.subject().adhesion_n);
   physics::Scanner scanner(scan.scanner().area(), settings, scan.subject().traced(scan.choice().tip_radius_m));
   physics::ScanLine line;
-  for (double i = 0; i < lines; ++i) scanner.next_line(line);
-  return main_artefact({settings, scanner.area(), scanner.loop().largest_integral_gain()}, evidence_of(line));
+  physics::NewestLines newest;
+  for (double i = 0; i < lines; ++i) {
+    scanner.next_line(line);
+    newest.add(line);
+  }
+  return main_artefact({settings, scanner.area(), scanner.loop().largest_integral_gain()}, newest.evidence());
 }
 
 TEST(ScanArtefacts, AreTheSameOnTheWallAndInJsonWhateverKeysArePressed) {

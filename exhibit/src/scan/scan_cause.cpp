@@ -8,7 +8,7 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr std::size_t kLines = 6;  // the newest whole ones, which are judged
+using physics::kJudgedLines;
 
 // From the lowest to the highest place that was measured.
 double relief_m(const LiveScan& scan) {
@@ -27,7 +27,7 @@ physics::ScanEvidence evidence_of(const LiveScan& scan) {
   evidence.bluntness = scan.choice().tip_radius_m / scan.usual().tip_radius_m;
   const auto newest = scan.newest_row();
   if (!newest) return evidence;
-  for (std::size_t i = 0; i < std::min(kLines, *newest + 1); ++i) {
+  for (std::size_t i = 0; i < std::min(kJudgedLines, *newest + 1); ++i) {
     const LineFacts& line = scan.facts()[*newest - i];
     evidence.highest_force_n = std::max(evidence.highest_force_n, line.highest_force_n);
     evidence.off_surface = std::max(evidence.off_surface, line.off_surface);
@@ -40,7 +40,8 @@ physics::ScanEvidence evidence_of(const LiveScan& scan) {
 
 physics::ScanArtefact cause_of(const LiveScan& scan) {
   if (scan.is_painted()) return physics::ScanArtefact::None;  // a hand does not keep to lines
-  if (scan.progress().frame == 0 && scan.row() < kLines) return physics::ScanArtefact::None;  // too little to judge
+  if (scan.progress().frame == 0 && scan.row() < kJudgedLines)
+    return physics::ScanArtefact::None;  // too little to judge
   const physics::ScanSettings settings = settings_of(scan.choice(), scan.subject().adhesion_n);
   const physics::Scanner& scanner = scan.scanner();
   return main_artefact({settings, scanner.area(), scanner.loop().largest_integral_gain()}, evidence_of(scan));

@@ -43,6 +43,26 @@ ScanEvidence evidence_of(const ScanLine& line) {
   return evidence;
 }
 
+void NewestLines::add(const ScanLine& line) {
+  newest_[next_] = evidence_of(line);
+  next_ = (next_ + 1) % kJudgedLines;
+  const auto [low, high] = std::minmax_element(line.trace.height_m.begin(), line.trace.height_m.end());
+  if (low == line.trace.height_m.end()) return;
+  low_m_ = std::min(low_m_, *low);
+  high_m_ = std::max(high_m_, *high);
+}
+
+ScanEvidence NewestLines::evidence() const {
+  ScanEvidence all;
+  for (const ScanEvidence& line : newest_) {
+    all.off_surface = std::max(all.off_surface, line.off_surface);
+    all.on_second_apex = std::max(all.on_second_apex, line.on_second_apex);
+    all.highest_force_n = std::max(all.highest_force_n, line.highest_force_n);
+  }
+  all.relief_m = std::max(high_m_ - low_m_, 0.0);
+  return all;
+}
+
 ScanArtefact main_artefact(const ScanConditions& conditions, const ScanEvidence& evidence) {
   const ScanSettings& settings = conditions.settings;
   const bool follows = settings.feedback == Feedback::On;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <string_view>
 
 #include "physics/imaging/scanner.h"
@@ -50,6 +52,22 @@ struct ScanEvidence {
 
 // Evidence of one line alone.
 ScanEvidence evidence_of(const ScanLine& line);
+
+// A scan is judged by its newest lines, so that one that differs does not change the verdict.
+inline constexpr std::size_t kJudgedLines = 6;
+
+// Evidence of the lines of an image, in the order in which they are taken: of the newest kJudgedLines, with the relief
+// of all.
+class NewestLines {
+ public:
+  void add(const ScanLine& line);
+  ScanEvidence evidence() const;
+
+ private:
+  std::array<ScanEvidence, kJudgedLines> newest_{};
+  std::size_t next_ = 0;  // place of the next line in newest_
+  double low_m_ = HUGE_VAL, high_m_ = -HUGE_VAL;
+};
 
 // What a scan is judged by besides its lines.
 struct ScanConditions {
