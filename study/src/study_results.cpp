@@ -200,7 +200,7 @@ double alpha_of(const std::map<std::string, std::array<std::optional<double>, it
   return cronbach_alpha(people);
 }
 
-constexpr Interval kAnswerScale{0.0, kSurveyHighest};  // of the paper's questions
+constexpr Interval kAnswerScale{0.0, kSurveyHighest};  // scale of the paper's questions
 
 void add_survey(const StudyData& data, StudyResults& results) {
   const auto answers = newest_answers<8>(data, "paper-");

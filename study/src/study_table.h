@@ -15,7 +15,7 @@ namespace afm::study {
 
 // A table of text with tabs: one header row, then lines; n/a is given as an empty field.
 struct TsvTable {
-  std::string name;                                  // of the file
+  std::string name;                                  // name of the file
   std::vector<std::vector<std::string_view>> lines;  // without the header, in the order of the wanted columns
   std::size_t cut_line = 0;                          // the number of a last line without its end, which is left out
 

@@ -208,7 +208,7 @@ TEST_F(ViewInAHeadset, LetsTheHandGoInTimeWhenTheGraphicsDeviceHangs) {
   const std::string sessions = folder_.file("sessions"), stuck = folder_.file("stuck"),
                     frames = folder_.file("frames.csv");
   std::vector<std::string> program = command({"--record", sessions, "--frame-log", frames});
-  std::erase(program, "--validate");  // which knows nothing of the pretended hang
+  std::erase(program, "--validate");  // validation would not know the pretended hang
   support::LiveProgram view(test::on_faulty_device("stuck:" + stuck, program), display_.name());
   ASSERT_TRUE(view.says("headset: has the controllers")) << view.said();
   choose(1);

@@ -101,7 +101,7 @@ TEST(Posed, AddsMorphTargetsByTheirWeights) {
 
 TEST(Posed, PutsASkinWhereItsJointsAreWhereverTheNodeIs) {
   Scene scene = triangle();
-  scene.nodes[1].parent_from_node[3] = glm::dvec4(100, 0, 0, 1);  // of no importance for a skin
+  scene.nodes[1].parent_from_node[3] = glm::dvec4(100, 0, 0, 1);  // no importance for a skin
   scene.nodes.push_back({"joint", 0U, std::nullopt, glm::dmat4(1.0)});
   scene.nodes[2].parent_from_node[3] = glm::dvec4(0, 0, 5, 1);
   scene.nodes[1].skin = 0;

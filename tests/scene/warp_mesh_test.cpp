@@ -19,7 +19,7 @@ namespace warp_mesh_test {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr double kFloat = 1e-6;  // of a unit coordinate in 32 bits
+constexpr double kFloat = 1e-6;  // rounding of a unit coordinate in 32 bits
 
 // A mesh file with x and y in a regular grid; `texture` gives u, v and the intensity there.
 std::string regular(int columns, int rows, double aspect,
@@ -214,7 +214,7 @@ TEST(WarpMesh, OfTheCurvedPresetIsThatOfItsCylinder) {
   constexpr double kRadiusM = 4.0;
   const double half_m = 0.5 * screen.width_m(), axis_z_m = std::sqrt(kRadiusM * kRadiusM - half_m * half_m);
   const glm::dvec3 lens(0.0, 2.9, 4.5), eye = wall.viewers.front().sweet_spot.position_m;
-  const glm::dvec2 raster_low(-2.24, 0.36), raster_high(2.24, 2.88);  // of the projector, in the flat screen's plane
+  const glm::dvec2 raster_low(-2.24, 0.36), raster_high(2.24, 2.88);  // corners of the raster, in the flat screen's plane
   for (const WarpNode& node : mesh.nodes) {
     const glm::dvec2 share(node.output.x, 1.0 - node.output.y);
     const glm::dvec3 to = glm::dvec3(raster_low + share * (raster_high - raster_low), 0.0) - lens;

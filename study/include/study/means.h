@@ -14,7 +14,7 @@ namespace afm::study {
 struct Summary {
   std::size_t n = 0;
   double mean = kNoValue;
-  double sd = kNoValue;  // of the sample: divided by n-1
+  double sd = kNoValue;  // sample standard deviation: divided by n-1
 };
 Summary summary_of(std::span<const double> values);
 

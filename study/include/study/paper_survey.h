@@ -37,8 +37,8 @@ std::vector<AnswerCounts> answers_that_print_as(const SurveyQuestion& question);
 // the smallest two-sided p of the paired t test and of the sign test, with the effects of those ways.
 struct KindestPairing {
   std::size_t tables = 0;
-  TTest t;          // of the smallest p
-  TestResult sign;  // of the smallest p
+  TTest t;          // test with the smallest p
+  TestResult sign;  // test with the smallest p
 };
 KindestPairing kindest_pairing(const std::vector<AnswerCounts>& a, const std::vector<AnswerCounts>& b);
 

@@ -24,7 +24,7 @@ namespace afm::study {
 struct IdentifyResult {
   std::string step, condition;
   ConfusionMatrix matrix;
-  Estimate accuracy;                    // of all trials
+  Estimate accuracy;                    // share of right answers in all trials
   double chance = kNoValue;             // 1 of the materials
   TestResult against_chance;            // exact binomial
   std::optional<SmallestCount> needed;  // right answers that chance would hardly give
@@ -47,7 +47,7 @@ struct ThresholdResult {
   struct Person {
     std::string id;
     ThresholdFit fit;
-    Estimate d_prime;  // of two intervals, where all trials have one level
+    Estimate d_prime;  // two-interval d-prime, if all trials have one level
   };
   std::vector<Person> people;
   Estimate weber_fraction;  // geometric mean over people with its t interval in logarithms
@@ -55,7 +55,7 @@ struct ThresholdResult {
     double level;
     Estimate right;
   };
-  std::vector<Level> levels;  // of all people, rising
+  std::vector<Level> levels;  // levels of all people, rising
 };
 
 // A number of each person under each condition: "SUS", "right answers in blind".
@@ -64,7 +64,7 @@ struct Measure {
   double per_si = 1.0;  // units in one SI unit
   int decimals = 2;
   bool logarithmic = false;                                     // compared as ratios
-  Interval scale{-kUnbounded, kUnbounded};                      // of its values, SI
+  Interval scale{-kUnbounded, kUnbounded};                      // range of the values, SI
   std::map<std::string, std::map<std::string, double>> values;  // by condition and person
 
   Estimate mean(const std::string& condition) const;  // geometric where it is logarithmic; SI

@@ -20,7 +20,7 @@ enum class ScanArtefact {
   Overload,     // in front of a step up the lever presses harder than three times the setpoint
   DoubleTip,    // a second apex draws ghosts
   Drift,        // the sample moves on while it is scanned: the image is sheared or stretched
-  Noise,        // of the detector, as large as the relief
+  Noise,        // detector noise as large as the relief
   Blur,         // the loop is too slow: the image is flatter than the sample, and trace and retrace part
   BluntTip,     // dents close and bumps grow wide: visible only by comparison with a sharper tip
 };
@@ -45,7 +45,7 @@ std::string_view name_of(ScanArtefact artefact);
 struct ScanEvidence {
   double off_surface = 0;      // largest share of a line's time without contact
   double on_second_apex = 0;   // largest share of a line's time on the second apex
-  double highest_force_n = 0;  // of the lever
+  double highest_force_n = 0;  // force of the lever
   double relief_m = 0;         // from the lowest to the highest place that was measured
   double bluntness = 1;        // radius of the tip over that of a sharper one; 1: no other tip is known
 };
