@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DROOT=... -P documents.cmake
-# Every test that a document names exists: `Suite.Case`, `Suite.*`, `Suite.Beginning*` and files below tests/.
+# Every test that a document names exists: `Suite.Case`, `Suite.*`, `Suite.Beginning*` and files below tests/. So does every path
+# in backticks that begins with a folder of the tree, as a file, a folder, or a header as it is included.
 cmake_minimum_required(VERSION 3.25)
 
 # all cases, from TEST and its relatives and from add_test
@@ -51,6 +52,19 @@ foreach(document ${documents})
     string(FIND "${known}" "${wanted}" at)
     if(at EQUAL -1)
       string(APPEND faults "${document}: ${test}: there is no such test\n")
+    endif()
+  endforeach()
+  string(REGEX MATCHALL "`(app|assets|cluster|cmake|core|curves|docs|exhibit|haptics|input|physics|render|scene|scripts|servo|shaders|study)/[A-Za-z0-9_/.*-]+`"
+         paths "${text}")
+  foreach(path ${paths})
+    math(EXPR named "${named} + 1")
+    string(REGEX REPLACE "^`|/?`$" "" path "${path}")
+    if(path MATCHES "[A-Z][A-Z][A-Z]")
+      continue()  # a placeholder: NAME_device.h
+    endif()
+    file(GLOB found ${ROOT}/${path} ${ROOT}/*/include/${path} ${ROOT}/scene/*/include/${path})
+    if(NOT found)
+      string(APPEND faults "${document}: ${path}: there is no such file or folder\n")
     endif()
   endforeach()
   string(REGEX MATCHALL "tests/[A-Za-z0-9_/.*-]*[A-Za-z0-9_*]" files "${text}")

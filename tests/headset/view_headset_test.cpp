@@ -30,6 +30,7 @@
 #include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
+#include "support/stall_watch.h"
 #include "support/virtual_display.h"
 
 // The program with a headset of the stand-in runtime, which a file of the test's scripts, and its mirror on an X server
@@ -112,10 +113,16 @@ class ViewInAHeadset : public ::testing::Test {
     EXPECT_EQ(view.ends(), 0) << view.said();
   }
 
-  // From what the runtime did, by its own log, to the tick after which the servo holds no hand any more, by its
-  // session; which is the same bit for bit when it is replayed.
-  void expect_free_in_time(const std::string& sessions, const std::set<std::string>& ways,
+  // From what the runtime did, by its log, to the tick after which the servo holds no hand any more, by its session,
+  // which replays bit for bit. False, after a line on stdout, if a bound was exceeded while the machine stood still.
+  bool expect_free_in_time(const std::string& sessions, const std::set<std::string>& ways,
                            double longest_picture_ms = kUsualPictureMs) const {
+    bool judged = true;
+    judge(sessions, ways, longest_picture_ms, judged);
+    return judged;
+  }
+  void judge(const std::string& sessions, const std::set<std::string>& ways, double longest_picture_ms,
+             bool& judged) const {
     std::vector<scene::TipSample> samples;
     for (const auto& file : std::filesystem::directory_iterator(sessions)) {
       const auto session = servo::load_session(file.path());
@@ -137,10 +144,29 @@ class ViewInAHeadset : public ::testing::Test {
       ASSERT_NE(free, samples.end()) << what;
       EXPECT_EQ(free->hand_force_n, 0.0) << what;
       const double took_ms = 1e-6 * static_cast<double>(free->time_ns - lost_ns);
-      EXPECT_LE(took_ms, most_ms(longest_picture_ms)) << what;
+      const support::Milliseconds stalled = watch_.longest_between(lost_ns, free->time_ns);
+      if (took_ms > most_ms(longest_picture_ms) && stalled > support::kAwake) {
+        std::printf("%s: %.0f ms, not judged: the machine stood still for %.0f ms\n", what.c_str(), took_ms,
+                    stalled.count());
+        judged = false;
+        continue;
+      }
+      EXPECT_LE(took_ms, most_ms(longest_picture_ms)) << what << "; longest stall " << stalled.count() << " ms";
       RecordProperty(what + "_ms", std::to_string(took_ms));
     }
     EXPECT_EQ(seen, ways) << "with a force to lose";
+  }
+  void wear_and_lose(const std::string& sessions, bool& judged);
+  void hang_the_device(const std::string& sessions, bool& judged);
+
+  // Tries a scenario in at most three windows, until one is judged; it is given a folder for its sessions.
+  void in_a_window(const std::function<bool(const std::string& sessions)>& scenario) {
+    for (int window = 1; window <= 3; ++window) {
+      for (const char* file : {"script", "script.log", "script.pulses"}) std::filesystem::remove(folder_.file(file));
+      folder_.write("script", "");
+      if (scenario(folder_.file("sessions" + std::to_string(window))) || HasFailure()) return;
+    }
+    ADD_FAILURE() << "not judged: the machine stood still in three windows";
   }
   static bool holds(const scene::TipSample& sample) {
     return sample.servo_state != scene::ServoState::Disarmed && sample.servo_state != scene::ServoState::Fault;
@@ -152,12 +178,19 @@ class ViewInAHeadset : public ::testing::Test {
   exhibit::Stage stage_ = stage_of_the_assets();
   support::ScratchFolder folder_;
   support::VirtualDisplay display_{640, 480};
+  const support::StallWatch watch_;
 };
 
 // A whole cycle is felt. Then the headset is taken off, put on, lost, and found again: each time the hand is free in
 // time, and needs Turn-On again.
 TEST_F(ViewInAHeadset, FeelsASampleAndLetsTheHandGoInTimeWheneverTheHeadsetIsGone) {
-  const std::string sessions = folder_.file("sessions");
+  in_a_window([&](const std::string& sessions) {
+    bool judged = false;
+    wear_and_lose(sessions, judged);
+    return judged;
+  });
+}
+void ViewInAHeadset::wear_and_lose(const std::string& sessions, bool& judged) {
   support::LiveProgram view(command({"--record", sessions}), display_.name());
   EXPECT_TRUE(view.says("headset without lenses through stand-in 1.2.3")) << view.said();
   ASSERT_TRUE(view.says("headset: has the controllers")) << view.said();
@@ -186,7 +219,7 @@ TEST_F(ViewInAHeadset, FeelsASampleAndLetsTheHandGoInTimeWheneverTheHeadsetIsGon
   EXPECT_THAT(view.said(), HasSubstr("headset: hidden"));
   expect_good_end(view);
   EXPECT_THAT(view.said(), Not(HasSubstr("Stop was pressed")));
-  expect_free_in_time(sessions, {"blocked", "failed", "kept"});
+  judged = expect_free_in_time(sessions, {"blocked", "failed", "kept"});
 }
 
 // Of the eight pictures before a hang, for which the program has patience: by its frame log, whose last interval of
@@ -205,8 +238,14 @@ double longest_picture_ms(const std::string& frame_log, double least_ms) {
 
 // The program waits for the device, and the wearer before a picture that stands still.
 TEST_F(ViewInAHeadset, LetsTheHandGoInTimeWhenTheGraphicsDeviceHangs) {
-  const std::string sessions = folder_.file("sessions"), stuck = folder_.file("stuck"),
-                    frames = folder_.file("frames.csv");
+  in_a_window([&](const std::string& sessions) {
+    bool judged = false;
+    hang_the_device(sessions, judged);
+    return judged;
+  });
+}
+void ViewInAHeadset::hang_the_device(const std::string& sessions, bool& judged) {
+  const std::string stuck = folder_.file("stuck"), frames = folder_.file("frames.csv");
   std::vector<std::string> program = command({"--record", sessions, "--frame-log", frames});
   std::erase(program, "--validate");  // validation would not know the pretended hang
   support::LiveProgram view(test::on_faulty_device("stuck:" + stuck, program), display_.name());
@@ -222,7 +261,7 @@ TEST_F(ViewInAHeadset, LetsTheHandGoInTimeWhenTheGraphicsDeviceHangs) {
   };
   EXPECT_TRUE(loses_the_picture(view, hang, [] {})) << view.said();
   expect_good_end(view);
-  expect_free_in_time(sessions, {"hung"}, longest_picture_ms(frames, kUsualPictureMs));
+  judged = expect_free_in_time(sessions, {"hung"}, longest_picture_ms(frames, kUsualPictureMs));
 }
 
 // AFM_HEADSET_VIEW_SECONDS: for how long.
@@ -266,10 +305,11 @@ TEST_F(ViewInAHeadset, LosesNoSampleAndReplaysWhateverTheRuntimeDoes) {
 
 TEST_F(ViewInAHeadset, SaysInOneLineWhatIsMissing) {
   tell("gone");
-  const auto begin = std::chrono::steady_clock::now();
-  const auto gone = support::run_program(support::touchafm() + " view --headset");
+  support::ProgramResult gone;
+  support::expect_within(std::chrono::seconds(2), [&] {  // twice the second that it may take
+    return support::timed([&] { gone = support::run_program(support::touchafm() + " view --headset"); });
+  });
   EXPECT_EQ(gone.exit_code, 4);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));  // twice the second that it may take
   EXPECT_THAT(gone.err, AllOf(HasSubstr("XR_ERROR_RUNTIME_UNAVAILABLE"), HasSubstr(support::openxr_stand_in()),
                               HasSubstr("install libopenxr-loader1")));
   EXPECT_EQ(std::count(gone.err.begin(), gone.err.end(), '\n'), 1) << gone.err;

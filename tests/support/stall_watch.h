@@ -8,9 +8,11 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 // Bounds in real time, on a machine that may itself stand still. A watcher thread does nothing but wake every
 // millisecond; its longest delay is the machine's, whatever the program under test does.
@@ -24,6 +26,20 @@ class StallWatch {
   ~StallWatch() {
     ended_ = true;
     thread_.join();
+  }
+
+  struct Stall {
+    std::int64_t from_ns, to_ns;  // by the steady clock
+  };
+  // Longest stall that overlaps a span of the steady clock.
+  std::chrono::nanoseconds longest_between(std::int64_t from_ns, std::int64_t to_ns) const {
+    const std::lock_guard lock(mutex_);
+    std::int64_t longest_ns = 0;
+    for (const Stall& stall : stalls_) {
+      if (stall.from_ns < to_ns && stall.to_ns > from_ns)
+        longest_ns = std::max(longest_ns, stall.to_ns - stall.from_ns);
+    }
+    return std::chrono::nanoseconds(longest_ns);
   }
 
   // Longest delay of a wake-up since construction, a wake-up that is still due included.
@@ -45,12 +61,18 @@ class StallWatch {
       const std::int64_t due_ns = now_ns() + kPeriodNs;
       due_ns_ = due_ns;
       std::this_thread::sleep_for(std::chrono::nanoseconds(kPeriodNs));
-      longest_ns_ = std::max(longest_ns_.load(), now_ns() - due_ns);
+      const std::int64_t woken_ns = now_ns();
+      longest_ns_ = std::max(longest_ns_.load(), woken_ns - due_ns);
+      if (woken_ns - due_ns < kPeriodNs) continue;
+      const std::lock_guard lock(mutex_);
+      stalls_.push_back({due_ns, woken_ns});
     }
   }
 
   std::atomic<bool> ended_{false};
   std::atomic<std::int64_t> due_ns_{now_ns() + kPeriodNs}, longest_ns_{0};
+  mutable std::mutex mutex_;
+  std::vector<Stall> stalls_;  // those of a millisecond or more
   std::thread thread_;
 };
 
