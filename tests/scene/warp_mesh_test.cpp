@@ -214,7 +214,8 @@ TEST(WarpMesh, OfTheCurvedPresetIsThatOfItsCylinder) {
   constexpr double kRadiusM = 4.0;
   const double half_m = 0.5 * screen.width_m(), axis_z_m = std::sqrt(kRadiusM * kRadiusM - half_m * half_m);
   const glm::dvec3 lens(0.0, 2.9, 4.5), eye = wall.viewers.front().sweet_spot.position_m;
-  const glm::dvec2 raster_low(-2.24, 0.36), raster_high(2.24, 2.88);  // corners of the raster, in the flat screen's plane
+  const glm::dvec2 raster_low(-2.24, 0.36),
+      raster_high(2.24, 2.88);  // corners of the raster, in the flat screen's plane
   for (const WarpNode& node : mesh.nodes) {
     const glm::dvec2 share(node.output.x, 1.0 - node.output.y);
     const glm::dvec3 to = glm::dvec3(raster_low + share * (raster_high - raster_low), 0.0) - lens;

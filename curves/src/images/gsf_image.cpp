@@ -14,7 +14,7 @@ namespace afm::curves {
 
 namespace {
 
-constexpr std::size_t kAlignment = 4;
+constexpr std::size_t kGsfAlignment = 4;
 constexpr std::size_t kMostGsfHeaderBytes = std::size_t{1} << 20U;
 
 struct GsfHeader {
@@ -67,7 +67,7 @@ ImagePages read_gsf(std::string_view bytes) {
   }
   if (header.columns == 0 || header.rows == 0) throw CurveError("it has no XRes or no YRes");
   const std::size_t columns = image_side(header.columns), rows = image_side(header.rows);
-  const std::size_t data = (end / kAlignment + 1) * kAlignment;
+  const std::size_t data = (end / kGsfAlignment + 1) * kGsfAlignment;
   const std::string_view padding = part(bytes, end, data - end);
   if (padding.find_first_not_of('\0') != std::string_view::npos) {
     throw CurveError("its data do not begin at a multiple of 4 bytes");
