@@ -246,6 +246,12 @@ core::Result<std::unique_ptr<ClusterMaster>> other_machines(const ViewOptions& o
   return nullptr;
 }
 
+// Null without --headset.
+core::Result<std::unique_ptr<render::HeadsetRuntime>> headset_of(const ViewOptions& options) {
+  if (!options.headset) return nullptr;
+  return connect_headset();
+}
+
 }  // namespace
 
 core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction) {
@@ -269,12 +275,8 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   const core::CodeOfInterruption released(core::ExitCode::Done);
   const core::MonotonicClock clock;
   // first: without a headset nothing else is loaded
-  std::unique_ptr<render::HeadsetRuntime> runtime;
-  if (options.headset) {
-    auto connected = connect_headset();
-    if (!connected) return tl::unexpected(connected.error());
-    runtime = std::move(*connected);
-  }
+  const auto runtime = headset_of(options);
+  if (!runtime) return tl::unexpected(runtime.error());
   exhibit::ExhibitFiles files = options.files;
   if (!options.headset) files.aspect = expected_aspect(options.display);
   auto stage = exhibit::load_exhibit(files);
@@ -302,7 +304,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   if (!cluster) return tl::unexpected(cluster.error());
   DisplayOptions display_options = options.display;
   if (*cluster) display_options.swap = render::Swap::WithOthers;
-  auto display = ViewDisplay::open(*stage, display_options, runtime.get(), clock);
+  auto display = ViewDisplay::open(*stage, display_options, runtime->get(), clock);
   if (!display) return tl::unexpected(display.error());
   ViewWindows& windows = (*display)->windows();
   settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : windows.at(0).refresh_hz();

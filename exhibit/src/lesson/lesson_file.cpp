@@ -76,6 +76,7 @@ class LessonTable {
     const LessonTable languages(*table, section_.empty() ? std::string(key) : section_ + "." + std::string(key));
     for (const auto& [language, node] : *table) {
       std::vector<std::string_view> known;
+      known.reserve(kLanguages.size());
       for (const LanguageRow& row : kLanguages) known.push_back(row.word);
       if (std::find(known.begin(), known.end(), language.str()) == known.end()) {
         languages.refuse(language.str(), fmt::format("unknown language; known are {}", fmt::join(known, ", ")));

@@ -152,7 +152,7 @@ core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::r
       return found;
     }
   } catch (const vk::SystemError&) {
-    // reported by the failure below
+    // said by the failure below
   }
   return core::failure(core::ErrorCategory::DeviceMissing, std::string("found no Vulkan device: ") + kInstallDriver);
 }
@@ -327,7 +327,7 @@ void Device::wait_idle() const noexcept {
   try {
     finish_all();
   } catch (const vk::SystemError&) {
-    // a lost device or lack of memory is reported by the next call that needs the device
+    // a lost device or lack of memory is said by the next call that needs the device
   }
 }
 
