@@ -246,6 +246,19 @@ core::Result<std::unique_ptr<ClusterMaster>> other_machines(const ViewOptions& o
   return nullptr;
 }
 
+DisplayOptions display_of(const ViewOptions& options, const ClusterMaster* others) {
+  DisplayOptions display = options.display;
+  if (others != nullptr) display.swap = render::Swap::WithOthers;
+  return display;
+}
+
+servo::ServoChoice servo_of(const ViewOptions& options) {
+  servo::ServoChoice servo = options.servo;
+  servo.settings.spin_ns = 1000 * options.spin_us;
+  if (servo.mode == servo::ServoMode::Thread) servo.settings.linger_s = 0;  // a thread ends with this program
+  return servo;
+}
+
 // Null without --headset.
 core::Result<std::unique_ptr<render::HeadsetRuntime>> headset_of(const ViewOptions& options) {
   if (!options.headset) return nullptr;
@@ -302,15 +315,11 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
 
   const auto cluster = other_machines(options, program, *stage, clock);
   if (!cluster) return tl::unexpected(cluster.error());
-  DisplayOptions display_options = options.display;
-  if (*cluster) display_options.swap = render::Swap::WithOthers;
-  auto display = ViewDisplay::open(*stage, display_options, runtime->get(), clock);
+  auto display = ViewDisplay::open(*stage, display_of(options, cluster->get()), runtime->get(), clock);
   if (!display) return tl::unexpected(display.error());
   ViewWindows& windows = (*display)->windows();
   settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : windows.at(0).refresh_hz();
-  servo::ServoChoice servo = options.servo;
-  servo.settings.spin_ns = 1000 * options.spin_us;
-  if (servo.mode == servo::ServoMode::Thread) servo.settings.linger_s = 0;  // it ends with this program
+  const servo::ServoChoice servo = servo_of(options);
   const auto start_servo = [&] {
     return servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), servo, program,
                                      stage->wall_scene.topography());
