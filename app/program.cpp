@@ -16,7 +16,7 @@
 #include "core/exit_code.h"
 #include "core/run_main.h"
 #include "core/version.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 
 namespace afm::app {
 

@@ -19,9 +19,9 @@
 #include "core/log.h"
 #include "core/version.h"
 #include "curves/image_file.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/topography_model.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/models/topography_model.h"
 #include "render/context.h"
 #include "render/renderer.h"
 

@@ -20,7 +20,7 @@
 #include "core/clock.h"
 #include "core/log.h"
 #include "core/version.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "render/context.h"
 
 namespace afm::app {

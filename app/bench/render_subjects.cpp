@@ -11,10 +11,10 @@
 
 #include "core/check.h"
 #include "curves/sample_model.h"
-#include "exhibit/cycle_curve.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/guidance.h"
-#include "exhibit/wall_pictures.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/frame/wall_pictures.h"
+#include "exhibit/state/cycle_curve.h"
+#include "exhibit/words/guidance.h"
 #include "scene/gltf/gltf_loader.h"
 
 namespace afm::app {

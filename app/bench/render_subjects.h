@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "render/frame.h"
 #include "render/renderer.h"
 #include "scene/graph/scene.h"

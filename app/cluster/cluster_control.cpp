@@ -11,7 +11,7 @@
 #include "app/view/view_parts.h"
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scan/scan_panels.h"
 #include "servo/servo_client.h"
 

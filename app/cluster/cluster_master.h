@@ -12,9 +12,9 @@
 #include "cluster/master_link.h"
 #include "cluster/membership.h"
 #include "core/clock.h"
-#include "exhibit/cycle_history.h"
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/scan/live_scan.h"
+#include "exhibit/state/cycle_history.h"
 #include "scene/display/wall.h"
 
 namespace afm::app {

@@ -9,9 +9,9 @@
 #include "app/cluster/cluster_master.h"
 #include "core/interruption.h"
 #include "core/log.h"
-#include "exhibit/blank_picture.h"
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
+#include "exhibit/frame/blank_picture.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 

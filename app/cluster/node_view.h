@@ -12,8 +12,8 @@
 #include "core/clock.h"
 #include "curves/sample_model.h"
 #include "exhibit/cluster/wall_history.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
 #include "exhibit/scan/live_scan.h"
 
 namespace afm::app {

@@ -21,7 +21,7 @@
 #include "core/printable.h"
 #include "exhibit/cluster/frame_inputs.h"
 #include "exhibit/cluster/wall_history.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/recorded_wall.h"
 
 namespace afm::app {
 

@@ -20,7 +20,7 @@
 #include "core/log.h"
 #include "core/whole_file.h"
 #include "curves/image_output.h"
-#include "exhibit/image_picture.h"
+#include "exhibit/scan/image_picture.h"
 #include "physics/imaging/scan_artefact.h"
 #include "physics/imaging/scan_truth.h"
 #include "render/image_file.h"

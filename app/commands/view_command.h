@@ -12,7 +12,7 @@
 #include "app/options/command.h"
 #include "app/view/view_wand.h"
 #include "core/result.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "physics/friction/friction.h"
 #include "servo/servo_client.h"
 

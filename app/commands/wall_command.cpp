@@ -18,11 +18,11 @@
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
 #include "cluster/network.h"
-#include "exhibit/calibration.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/stage_place.h"
-#include "exhibit/wall_drawing.h"
-#include "exhibit/wall_layout.h"
+#include "exhibit/frame/calibration.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/wall_drawing.h"
+#include "exhibit/scenery/stage_place.h"
+#include "exhibit/scenery/wall_layout.h"
 #include "scene/display/disparity.h"
 
 namespace afm::app {

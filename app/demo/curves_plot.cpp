@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "curves/svg_plot.h"
-#include "exhibit/cycle_curve.h"
+#include "exhibit/state/cycle_curve.h"
 
 namespace afm::app {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "servo/session_file.h"
 
 namespace afm::app {

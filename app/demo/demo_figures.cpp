@@ -7,7 +7,7 @@
 
 #include "app/demo/demonstration.h"
 #include "core/check.h"
-#include "exhibit/film_strip.h"
+#include "exhibit/frame/film_strip.h"
 
 namespace afm::app {
 

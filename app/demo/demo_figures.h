@@ -8,7 +8,7 @@
 #include "app/demo/measurement.h"
 #include "app/demo/report.h"
 #include "core/result.h"
-#include "exhibit/frame_builder.h"
+#include "exhibit/frame/frame_builder.h"
 #include "render/renderer.h"
 #include "servo/session_file.h"
 

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "core/log.h"
-#include "exhibit/servo_rows.h"
-#include "exhibit/shared_model.h"
+#include "exhibit/models/shared_model.h"
+#include "exhibit/panels/servo_rows.h"
 
 namespace afm::app {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/demo/measurement.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 #include "scene/shared/shared_blocks.h"
 #include "servo/session_file.h"

@@ -9,7 +9,7 @@
 
 #include "app/display/picture_age.h"
 #include "core/clock.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "input/wand.h"
 #include "render/headset.h"
 

@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/log.h"
-#include "exhibit/calibration.h"
 #include "exhibit/cluster/frame_inputs.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/calibration.h"
+#include "exhibit/frame/recorded_wall.h"
 
 namespace afm::app {
 

@@ -12,10 +12,10 @@
 #include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
 #include "app/view/view_wand.h"
-#include "exhibit/blank_picture.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/moment.h"
-#include "exhibit/panel_hit.h"
+#include "exhibit/frame/blank_picture.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/panels/panel_hit.h"
+#include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {

@@ -15,7 +15,7 @@
 #include "exhibit/lesson/lesson.h"
 #include "exhibit/lesson/lesson_panel.h"
 #include "exhibit/lesson/lesson_run.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {

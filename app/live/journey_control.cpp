@@ -5,7 +5,7 @@
 #include "app/view/view_parts.h"
 #include "core/clock.h"
 #include "core/log.h"
-#include "exhibit/moment.h"
+#include "exhibit/state/moment.h"
 
 namespace afm::app {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/view/view_control.h"
-#include "exhibit/journey.h"
+#include "exhibit/scenery/journey.h"
 
 namespace afm::app {
 

@@ -8,7 +8,7 @@
 
 #include "app/live/view_record.h"
 #include "core/result.h"
-#include "exhibit/procedure.h"
+#include "exhibit/words/procedure.h"
 #include "render/key.h"
 
 namespace afm::exhibit {

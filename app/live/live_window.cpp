@@ -14,7 +14,7 @@
 #include "app/view/view_parts.h"
 #include "app/view/view_pointer.h"
 #include "app/view/view_wand.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {

@@ -16,7 +16,7 @@
 #include "core/clock.h"
 #include "core/enumerators.h"
 #include "core/log.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 #include "haptics/sample_axes.h"

@@ -7,8 +7,8 @@
 #include "app/view/view_controls.h"
 #include "app/view/view_parts.h"
 #include "core/log.h"
-#include "exhibit/blank_picture.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/blank_picture.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scan/live_scan.h"
 #include "servo/servo_client.h"
 

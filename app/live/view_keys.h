@@ -6,7 +6,7 @@
 #include <span>
 
 #include "app/view/key_list.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 #include "render/key.h"
 

@@ -8,7 +8,7 @@
 
 #include "app/view/key_list.h"
 #include "app/view/sound_settings.h"
-#include "exhibit/guidance.h"
+#include "exhibit/words/guidance.h"
 #include "input/simulated_head.h"
 #include "scene/shared/scale_modes.h"
 

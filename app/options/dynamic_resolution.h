@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 #include "render/renderer.h"
 

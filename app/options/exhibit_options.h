@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/options/command.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "physics/friction/friction.h"
 #include "scene/shared/scale_modes.h"
 

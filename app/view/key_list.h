@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 
 namespace afm::app {

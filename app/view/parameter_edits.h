@@ -7,7 +7,7 @@
 
 #include "cluster/messages.h"
 #include "curves/live_parameters.h"
-#include "exhibit/parameter_panel.h"
+#include "exhibit/panels/parameter_panel.h"
 #include "render/frame.h"
 #include "servo/servo_client.h"
 

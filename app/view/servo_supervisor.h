@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "exhibit/cycle_history.h"
 #include "exhibit/friction/friction_history.h"
-#include "exhibit/jump_cue.h"
+#include "exhibit/state/cycle_history.h"
+#include "exhibit/state/jump_cue.h"
 #include "servo/servo_client.h"
 #include "servo/session_folder.h"
 #include "servo/session_recorder.h"

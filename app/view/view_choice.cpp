@@ -11,7 +11,7 @@
 #include "app/view/view_panels.h"
 #include "core/clock.h"
 #include "core/log.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "physics/friction/friction.h"
 #include "servo/servo_client.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/view/pointed.h"
-#include "exhibit/depth_report.h"
+#include "exhibit/panels/depth_report.h"
 
 namespace afm::exhibit {
 struct Moment;

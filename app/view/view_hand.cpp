@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/view/servo_supervisor.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {

@@ -9,7 +9,7 @@
 
 #include "app/view/key_list.h"
 #include "app/view/mouse_hand.h"
-#include "exhibit/guidance.h"
+#include "exhibit/words/guidance.h"
 #include "input/selection.h"
 #include "input/simulated_person.h"
 

@@ -10,7 +10,7 @@
 #include "core/enumerators.h"
 #include "core/log.h"
 #include "exhibit/friction/friction_panel.h"
-#include "exhibit/panel_hit.h"
+#include "exhibit/panels/panel_hit.h"
 #include "exhibit/scan/scan_panels.h"
 #include "render/control_layout.h"
 #include "scene/shared/field_copy.h"

@@ -7,8 +7,8 @@
 #include "app/view/servo_supervisor.h"
 #include "app/view/view_panels.h"
 #include "app/view/view_wand.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/wall_layout.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/scenery/wall_layout.h"
 
 namespace afm::app {
 

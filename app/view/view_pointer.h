@@ -8,7 +8,7 @@
 
 #include "app/display/mouse_wand.h"
 #include "app/view/pointed.h"
-#include "exhibit/guidance.h"
+#include "exhibit/words/guidance.h"
 #include "input/selection.h"
 
 namespace afm::exhibit {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "exhibit/guidance.h"
+#include "exhibit/words/guidance.h"
 
 namespace afm::exhibit {
 class LiveScan;

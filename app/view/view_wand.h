@@ -9,7 +9,7 @@
 
 #include "core/clock.h"
 #include "core/result.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "input/dtrack_source.h"
 #include "input/navigation.h"
 #include "input/selection.h"

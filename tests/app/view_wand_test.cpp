@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "support/live_program.h"
 #include "support/places.h"
 #include "support/run_program.h"

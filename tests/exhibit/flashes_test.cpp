@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "exhibit/cycle_history.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/guidance.h"
-#include "exhibit/procedure.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
 #include "exhibit/sound/narrator.h"
+#include "exhibit/state/cycle_history.h"
+#include "exhibit/words/guidance.h"
+#include "exhibit/words/procedure.h"
 #include "support/places.h"
 
 namespace afm::exhibit {

@@ -9,7 +9,7 @@
 #include <glm/mat3x3.hpp>
 #include <string>
 
-#include "exhibit/frame_builder.h"
+#include "exhibit/frame/frame_builder.h"
 #include "panels/marker_layout.h"
 #include "physics/cycle_figures.h"
 #include "support/phrases.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/guidance.h"
+#include "exhibit/words/guidance.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

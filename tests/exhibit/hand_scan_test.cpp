@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "curves/sample_model.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/recorded_wall.h"
 #include "exhibit/scan/scan_hand.h"
 #include "exhibit/scan/scan_panels.h"
 #include "haptics/device.h"

@@ -11,7 +11,7 @@
 
 #include "app/bench/render_subjects.h"
 #include "app/live/view_keys.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/lesson/lesson_panel.h"
 #include "exhibit/scan/scan_panels.h"
 #include "full_panels.h"

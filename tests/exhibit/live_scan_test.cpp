@@ -15,8 +15,8 @@
 
 #include "core/enumerators.h"
 #include "curves/sample_model.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/recorded_wall.h"
 #include "exhibit/scan/scan_cause.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"

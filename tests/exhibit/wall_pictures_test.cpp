@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/wall_pictures.h"
+#include "exhibit/frame/wall_pictures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "exhibit/calibration.h"
-#include "exhibit/comfort_clamp.h"
-#include "exhibit/depth_report.h"
+#include "exhibit/frame/calibration.h"
+#include "exhibit/frame/comfort_clamp.h"
+#include "exhibit/panels/depth_report.h"
 #include "support/phrases.h"
 #include "support/places.h"
 

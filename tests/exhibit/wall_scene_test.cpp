@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/wall_scene.h"
+#include "exhibit/scenery/wall_scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

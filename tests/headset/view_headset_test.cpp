@@ -21,7 +21,7 @@
 
 #include "app/display/view_headset.h"
 #include "core/whole_file.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
 #include "support/faulty_device.h"

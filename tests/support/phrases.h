@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "support/places.h"
 
 namespace afm::test {

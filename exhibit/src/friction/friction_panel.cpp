@@ -10,7 +10,7 @@
 
 #include "curves/live_parameters.h"
 #include "curves/plot_units.h"
-#include "panel_conventions.h"
+#include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
 
 namespace afm::exhibit {

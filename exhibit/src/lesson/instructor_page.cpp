@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "exhibit/frame/wall_pictures.h"
 #include "exhibit/lesson/lesson_panel.h"
-#include "exhibit/wall_pictures.h"
 
 namespace afm::exhibit {
 

@@ -14,7 +14,7 @@
 #include "exhibit/lesson/lesson_prompt.h"
 #include "exhibit/lesson/lesson_random.h"
 #include "exhibit/lesson/trial_row.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 
 namespace afm::exhibit {
 

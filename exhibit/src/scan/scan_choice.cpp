@@ -9,7 +9,7 @@
 
 #include "core/enumerators.h"
 #include "curves/live_parameters.h"
-#include "panel_conventions.h"
+#include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
 
 namespace afm::exhibit {

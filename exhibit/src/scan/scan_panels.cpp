@@ -9,10 +9,10 @@
 
 #include "core/enumerators.h"
 #include "curves/live_parameters.h"
-#include "exhibit/height_colours.h"
-#include "exhibit/parameter_panel.h"
+#include "exhibit/models/height_colours.h"
+#include "exhibit/panels/parameter_panel.h"
 #include "exhibit/scan/scan_cause.h"
-#include "exhibit/wall_marks.h"
+#include "exhibit/scenery/wall_marks.h"
 #include "physics/quantity_text.h"
 
 namespace afm::exhibit {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "exhibit/panel_hit.h"
+#include "exhibit/panels/panel_hit.h"
 
 namespace afm::app {
 namespace mouse_wand_test {

@@ -16,7 +16,7 @@
 #include "app/view/view_panels.h"
 #include "core/whole_file.h"
 #include "curves/sample_model.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_cause.h"
 #include "exhibit/scan/scan_subject.h"

@@ -17,9 +17,9 @@
 #include "described_parts.h"
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/frame/recorded_wall.h"
 #include "exhibit/scan/scan_subject.h"
 #include "support/places.h"
 

@@ -12,9 +12,9 @@
 #include "cluster/frame_message.h"
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
-#include "exhibit/cycle_history.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/state/cycle_history.h"
 #include "support/places.h"
 
 namespace afm::exhibit {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "cluster/frame_message.h"
-#include "exhibit/depth_report.h"
-#include "exhibit/moment.h"
+#include "exhibit/panels/depth_report.h"
+#include "exhibit/state/moment.h"
 #include "scene/shared/shared_blocks.h"
 
 // What a frame of the wall consists of, as its machines send it, and back.

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "cluster/messages.h"
-#include "exhibit/cycle_history.h"
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/scan/live_scan.h"
+#include "exhibit/state/cycle_history.h"
 
 namespace afm::exhibit {
 

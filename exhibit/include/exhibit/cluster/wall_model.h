@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "physics/friction/friction.h"
 #include "render/renderer.h"
 

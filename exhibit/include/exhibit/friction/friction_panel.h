@@ -2,7 +2,7 @@
 #pragma once
 
 #include "exhibit/friction/friction_history.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "physics/friction/friction.h"
 #include "render/frame.h"
 

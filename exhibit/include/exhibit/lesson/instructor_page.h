@@ -9,7 +9,7 @@
 
 #include "core/enumerators.h"
 #include "exhibit/lesson/lesson_prompt.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 #include "scene/display/wall.h"
 #include "scene/shared/tip_blocks.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "exhibit/lesson/lesson_prompt.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 
 namespace afm::exhibit {

@@ -9,7 +9,7 @@
 
 #include "core/enumerators.h"
 #include "exhibit/lesson/lesson.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 
 namespace afm::exhibit {
 

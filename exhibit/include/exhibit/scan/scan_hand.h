@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "exhibit/phrases.h"
 #include "exhibit/scan/live_scan.h"
+#include "exhibit/words/phrases.h"
 #include "physics/units.h"
 #include "scene/shared/tip_blocks.h"
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "exhibit/moment.h"
-#include "exhibit/phrases.h"
 #include "exhibit/scan/live_scan.h"
+#include "exhibit/state/moment.h"
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 
 namespace afm::exhibit {

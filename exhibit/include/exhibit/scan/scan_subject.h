@@ -5,7 +5,7 @@
 
 #include "curves/sample_model.h"
 #include "exhibit/scan/live_scan.h"
-#include "exhibit/wall_scene.h"
+#include "exhibit/scenery/wall_scene.h"
 
 namespace afm::exhibit {
 

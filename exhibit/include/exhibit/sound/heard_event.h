@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 
 namespace afm::exhibit {
 

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/clock.h"
-#include "exhibit/guidance.h"
-#include "exhibit/phrases.h"
 #include "exhibit/sound/captions.h"
 #include "exhibit/sound/speech_queue.h"
 #include "exhibit/sound/tip_ear.h"
+#include "exhibit/words/guidance.h"
+#include "exhibit/words/phrases.h"
 #include "servo/tip_listener.h"
 
 namespace afm::exhibit {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "exhibit/phrases.h"
 #include "exhibit/sound/tip_ear.h"
+#include "exhibit/words/phrases.h"
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
