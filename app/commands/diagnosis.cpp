@@ -24,7 +24,11 @@ std::string join_group(const char* groups) {
 
 Finding priority(const MachineFacts& facts) {
   const int granted = facts.jitter.grant.priority;
-  if (granted > 0) return {"real-time priority", Verdict::Good, fmt::format("SCHED_FIFO {} granted", granted), {}};
+  if (granted > 0)
+    return {"real-time priority",
+            Verdict::Good,
+            fmt::format("SCHED_FIFO {} granted: to the servo, its watchdog and a driver's own thread", granted),
+            {}};
   return {"real-time priority", Verdict::Limited,
           fmt::format("SCHED_FIFO {} refused: the limit is {}", haptics::kServoPriority, facts.priority_limit),
           haptics::limit_fix("rtprio", "80")};

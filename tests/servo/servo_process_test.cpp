@@ -261,7 +261,7 @@ TEST(ServoProcess, SaysWhatIsMissingWhenItCannotBeStarted) {
   RendererSide side = segment.renderer_side();
   const auto servo = ServoProcess::spawn("/nowhere/touchafm-servo", segment, side, {.rate_hz = kRateHz});
   ASSERT_FALSE(servo);
-  EXPECT_THAT(servo.error().message, HasSubstr("cannot start the servo /nowhere/touchafm-servo: No such file"));
+  EXPECT_THAT(servo.error().message, HasSubstr("cannot start /nowhere/touchafm-servo: No such file"));
 }
 
 TEST(ServoThread, RunsTheSameLoopAndLeavesInGoodOrder) {

@@ -12,6 +12,8 @@
 // its axes are parallel to the room's.
 namespace afm::haptics {
 
+struct RealtimeGrant;
+
 struct DeviceSpec {
   std::string name;
   double max_force_n = 0;                                              // nominal peak
@@ -91,6 +93,9 @@ class HapticDevice {
   virtual const DeviceSpec& spec() const noexcept = 0;
   virtual DeviceSample read(std::int64_t now_ns) noexcept = 0;
   virtual void write(const ForceCommand& command) noexcept = 0;
+
+  // Scheduling of the driver's own thread on the way to the hand; null: it has none.
+  virtual const RealtimeGrant* driver_grant() const noexcept { return nullptr; }
 
   // Next motion of the simulated user. A real device ignores it.
   virtual void follow(const scene::HandScript& /*script*/) noexcept {}

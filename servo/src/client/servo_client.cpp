@@ -49,7 +49,7 @@ core::Result<std::unique_ptr<ServoClient>> ServoClient::start(const scene::Share
   if (auto taken = take_waiting_servo(model, scene_digest, choice.settings, choice.haptic_device, servo)) {
     std::unique_ptr<ServoClient> link(new ServoClient(std::move(taken->segment), choice.settings));
     link->go_on();
-    link->servo_ = AdoptedServo::adopt(std::move(taken->servo), link->side_);
+    link->servo_ = AdoptedServo::adopt(std::move(taken->servo), link->segment_, link->side_);
     return link;
   }
   auto segment = scene::SharedSegment::create(model, scene_digest, topography);
