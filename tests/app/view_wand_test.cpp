@@ -65,8 +65,8 @@ TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
 }
 
 struct Contact {
-  int moved = 0, told = 0;  // lines that the scene was moved, and that it is locked
-  bool whole = false;       // until the tip jumped off; else the force had ended before
+  int moved = 0, told = 0;  // log lines: the scene was moved, and it is locked
+  bool whole = false;       // the tip jumped off before the force ended
 };
 
 std::vector<Contact> contacts_in(const std::string& said) {

@@ -23,7 +23,7 @@ constexpr double kSum = 1e-12;
 struct Rectangle {
   std::string name;
   double left, right, bottom, top;
-  std::string keys{};  // of the screen
+  std::string keys{};  // keys of the screen
 };
 
 // A wall with an output for each of these screens in the plane z = 0.

@@ -137,7 +137,7 @@ TEST(SegmentCrash, OfTheServoLeavesTheRendererWithWholeValues) {
   RendererSide renderer = segment.renderer_side();
   std::uint64_t values = 0;
   std::uint64_t torn = 0;
-  std::uint64_t newest = 0;  // of all samples
+  std::uint64_t newest = 0;  // newest value of all samples
   int unfinished = 0;
   const auto count = [&](bool whole) {
     ++values;

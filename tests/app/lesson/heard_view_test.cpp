@@ -190,7 +190,7 @@ TEST_F(HeardView, GoesThroughALessonFromConsentToItsLastAnswerByEarAndHandAlone)
   ASSERT_TRUE(live->says("says: This lesson keeps your answers")) << live->said();
   xdotool("key x");
   ASSERT_TRUE(live->says("says: The picture is off")) << live->said();
-  xdotool("key t");  // which answers nothing: the hand has marked none
+  xdotool("key t");  // no answer: the hand has marked none
   move_hand(-0.020);
   ASSERT_TRUE(live->says("says: Yes, I take part")) << live->said();
   ASSERT_TRUE(turn_on_until(*live, "says: Words of feel")) << live->said();
@@ -357,7 +357,7 @@ TEST_F(HeardView, LeavesSpeechToAScreenReaderThatRuns) {
   // one process of that name, so that none is left
   std::filesystem::copy_file("/bin/sleep", folder_.file("orca"));
   support::LiveProgram reader({folder_.file("orca"), "1000"}, "");
-  for (int i = 0; i < 500; ++i) {  // until it has its name
+  for (int i = 0; i < 500; ++i) {  // waits for the process to get its name
     const auto name = core::read_file("/proc/" + std::to_string(reader.pid()) + "/comm");
     if (name && *name == "orca\n") break;
     std::this_thread::sleep_for(milliseconds(10));
