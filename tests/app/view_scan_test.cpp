@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An image that is taken in the real window, on an X server without a screen, by keys alone.
+// A scan in the real window, on an X server without a screen, operated only by keys.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

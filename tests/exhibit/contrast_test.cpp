@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be read of the panels by people who see little: contrast and size by WCAG 2.2 and XAUR.
+// Readability of the panels for people with low vision: contrast and size by WCAG 2.2 and XAUR.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -47,8 +47,8 @@ TEST_F(MouseWandTest, EachHalfOfSideBySideIsAWallSeenByItsOwnEye) {
   EXPECT_EQ(wand_.ray(both, {700.0, 350.0}).origin_m, eyes_[1].eye_position_m);
 }
 
-// A point before the wall, pointed at where each eye's image shows it: the ray meets the point itself, in every mode
-// that gives each eye a region of its own.
+// A point in front of the wall, pointed at where each eye's image shows it: the ray meets the point itself, in every
+// mode with a separate region for each eye.
 TEST_F(MouseWandTest, WhatTheCursorIsOnIsPointedAtInEveryModeThatSplitsThePicture) {
   const glm::dvec3 point(0.4, 1.2, 0.9);
   const auto uv_of = [&](std::size_t eye) {  // place in the eye's image
