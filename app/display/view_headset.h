@@ -46,7 +46,7 @@ class ViewHeadset {
   void show();
 
   // Returns whether the hand must be free because nobody sees the picture, or it is frozen. True at once if the headset
-  // is off, lost or frozen; after the time that a picture may stand still if the runtime hides the picture, has lost
+  // is off, lost or frozen; after the time that a picture may be frozen if the runtime hides the picture, has lost
   // the eyes or provides no image, or the graphics device hangs. A slow picture counts as seen.
   bool blind(std::int64_t now_ns) const;
 

@@ -17,7 +17,7 @@
 namespace afm::curves {
 
 // A material as it is felt and shown: its entries in files and on the command line, the current parameters, the
-// resulting law and the derived figures. Created anew for other parameters; cheap to copy.
+// resulting law and the derived figures. A new one is created for other parameters; cheap to copy.
 struct SampleModel {
   ContactSetup setup;                                // as loaded
   scene::SharedContact parameters;                   // parameters for the servo

@@ -10,8 +10,8 @@
 
 namespace afm::exhibit {
 
-// Advice besides stepping back when a depth strains the eyes: press the key that brings a moved scene back to the wall,
-// or the one that narrows the eye distance.
+// Advice for a depth that strains the eyes, in addition to stepping back: press the key that brings a moved scene back
+// to the wall, or the one that narrows the eye distance.
 enum class Relief { BringToWall, NarrowEyes };
 
 // The demands of a picture's depth on the viewer's eyes.

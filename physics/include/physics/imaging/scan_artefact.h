@@ -69,7 +69,7 @@ class NewestLines {
   double low_m_ = HUGE_VAL, high_m_ = -HUGE_VAL;
 };
 
-// Inputs of the judgement besides the lines.
+// Inputs of the judgement in addition to the lines.
 struct ScanConditions {
   const ScanSettings& settings;
   const ScanArea& area;
