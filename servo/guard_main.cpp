@@ -30,7 +30,7 @@ int descriptor_after(std::string_view option, int count, char** arguments) {
 
 int main(int count, char** arguments) {
   const int segment_number = descriptor_after("--segment", count, arguments);
-  const int servo_number = descriptor_after("--servo", count, arguments);
+  const int servo_number = descriptor_after("--watch-servo", count, arguments);
   if (segment_number < 0 || servo_number < 0) {
     afm::core::log_line("touchafm-servo starts this program; run 'touchafm demo --out DIR' instead");
     return static_cast<int>(ExitCode::WrongUsage);

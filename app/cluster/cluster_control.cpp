@@ -28,10 +28,10 @@ void ClusterControl::share_scan() {
   master_.follow_scan(shown.scan, shown.material, shown.begun);
 }
 
-// Before the samples of a hand that paints.
+// Shares the scan before the samples of a painting hand arrive.
 void ClusterControl::take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) { share_scan(); }
 
-// Sends the inputs of this frame. The moment becomes what the others have: what had no room is missing here too.
+// Sends this frame's inputs and replaces the moment by what was sent, so that this machine also lacks what did not fit.
 void ClusterControl::add_to_moment(exhibit::Moment& now, ViewFrame& frame) {
   message_ = {};
   exhibit::set_moment(now, parts_.servo.link().tip(), frame.caption, parts_.turn.blank, message_);

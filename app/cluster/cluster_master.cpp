@@ -13,8 +13,8 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kHistoryPauseNs = 500'000'000;  // between two answers to nodes that lack what was felt
-constexpr int kBeatMs = 2;                             // between two signs of life while the barrier waits
+constexpr std::int64_t kHistoryPauseNs = 500'000'000;  // shortest time between two histories sent to nodes
+constexpr int kBeatMs = 2;                             // time between two heartbeats while the barrier waits
 
 std::vector<std::string> names_of(const std::vector<scene::WallNode>& nodes) {
   std::vector<std::string> names;

@@ -14,9 +14,9 @@ namespace afm::app {
 
 namespace {
 
-constexpr int kListenMs = 1500;  // for another master: longer than DDS needs to find it
+constexpr int kListenMs = 1500;  // wait for another master; longer than DDS needs to discover one
 
-// The texts of the files, so that no other machine needs them.
+// Contains the texts of the files, so that the other machines need no files.
 core::Result<exhibit::WallModel> wall_model(const exhibit::ExhibitFiles& files, const WallChoice& choice,
                                             const std::string& program, const exhibit::Stage& stage) {
   exhibit::WallModel model;

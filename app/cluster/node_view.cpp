@@ -19,11 +19,11 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kCatchUpNs = 40'000'000;        // that a frame waits for the samples before it
-constexpr std::int64_t kSwapNs = 400'000'000;          // that it waits to be shown: longer than the master may wait
-constexpr std::int64_t kMasterGoneNs = 2'000'000'000;  // without a frame
-constexpr std::size_t kMostRecords = 60'000;           // of a minute of the servo
-constexpr int kPauseMs = 10;                           // between two looks at the windows
+constexpr std::int64_t kCatchUpNs = 40'000'000;        // longest wait of a frame for the samples before it
+constexpr std::int64_t kSwapNs = 400'000'000;          // longest wait for the signal to show; exceeds the master's
+constexpr std::int64_t kMasterGoneNs = 2'000'000'000;  // time without a frame after which the master counts as lost
+constexpr std::size_t kMostRecords = 60'000;           // one minute of the servo
+constexpr int kPauseMs = 10;                           // time between two checks of the windows
 
 }  // namespace
 
@@ -42,7 +42,7 @@ NodeView::NodeView(const exhibit::Stage& stage, const std::vector<curves::Sample
   panels_.set_friction(&history_.friction);
 }
 
-// The keys of staff that concern this machine alone.
+// Handles the staff keys that concern only this machine; returns whether to leave.
 bool NodeView::leaves() {
   const ViewInput input = windows_.poll();
   bool leaves = input.close_requested;
@@ -70,7 +70,7 @@ void NodeView::restore(std::span<const std::byte> document) {
   for (const cluster::EditRecord& edit : history_.edits) panels_.edits().follow(edit);
 }
 
-// One that cannot be applied leaves a hole, which the next history fills.
+// Applies the records in order. A record that cannot be applied leaves a gap, which the next history fills.
 void NodeView::take_records() {
   while (const auto record = link_.record()) {
     if (record->session != place_.session || !exhibit::is_applicable(record->record)) continue;
@@ -79,7 +79,7 @@ void NodeView::take_records() {
   }
 }
 
-// Everything that has come; another wall, if it is one.
+// Takes all messages. Returns the new description if the master shows another wall.
 std::optional<cluster::NodeLink::Document> NodeView::take() {
   if (auto model = link_.model()) {
     if (model->bytes != place_.model) return model;
@@ -111,7 +111,7 @@ void NodeView::apply_until(std::uint64_t journal) {
   }
 }
 
-// A scan that a hand paints needs every sample; any other follows from its changes.
+// Applies every sample to a scan that a hand paints; any other scan follows from the changes of its settings.
 void NodeView::apply_to_scan(const cluster::JournalRecord& record) {
   using Kind = cluster::JournalKind;
   if (record.kind() == Kind::Sample && scan_) scan_->follow_hand(record.sample());
@@ -129,7 +129,7 @@ void NodeView::apply_to_scan(const cluster::JournalRecord& record) {
   }
 }
 
-// One that began before this node came, or is far ahead, is computed anew.
+// Recomputes a scan that began before this node joined, or that is far ahead.
 void NodeView::follow_scan(const cluster::ShownMoment& shown) {
   if ((shown.flags & cluster::ShownMoment::kScan) == 0 || history_.scan.empty()) return scan_.reset();
   const bool truth = (shown.flags & cluster::ShownMoment::kTruth) != 0;
@@ -147,7 +147,7 @@ void NodeView::follow_scan(const cluster::ShownMoment& shown) {
   if (scan_->progress().truth != truth) scan_->show_truth(truth);
 }
 
-// False: it lacks what was felt before this frame.
+// Returns false while records from before this frame are missing.
 bool NodeView::catch_up(std::uint64_t journal) {
   const std::int64_t until_ns = clock_.now_ns() + kCatchUpNs;
   for (;;) {
@@ -155,7 +155,7 @@ bool NodeView::catch_up(std::uint64_t journal) {
     if (!knows_history_ || history_.journal > journal) return false;
     if (history_.journal == journal) return true;
     if (clock_.now_ns() >= until_ns) {
-      // the end is missing: a new history brings it
+      // the newest records are missing: a new history brings them
       knows_history_ = false;
       return false;
     }
@@ -164,7 +164,7 @@ bool NodeView::catch_up(std::uint64_t journal) {
   }
 }
 
-// Materials that this wall has.
+// Returns whether this wall has the message's materials.
 bool NodeView::fits(const cluster::FrameMessage& message) const {
   const auto count = static_cast<std::int32_t>(felt_.size());
   return message.tip.material < count && message.moment.hovered < count;
@@ -204,7 +204,7 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   shown_ns_ = clock_.now_ns();
 }
 
-// Not longer than until the master must have given up waiting, or has gone on.
+// Waits no longer than until the master must have given up or continued.
 void NodeView::wait_for_swap(const cluster::FrameMessage& message) {
   const std::int64_t until_ns = clock_.now_ns() + kSwapNs;
   for (;;) {

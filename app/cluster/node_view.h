@@ -18,21 +18,21 @@
 
 namespace afm::app {
 
-// A machine of a wall without the hand: builds every frame from the inputs that the master sends, and shows it together
-// with all others. It starts no servo and opens no haptic device. Main thread only.
+// A machine of a wall without the haptic device: builds every frame from the master's inputs and shows it together with
+// all other machines. Starts no servo and opens no haptic device. Main thread only.
 class NodeView {
  public:
   struct Place {
-    std::uint32_t node = 0;     // of Wall::nodes
-    std::uint64_t session = 0;  // of the master whose wall this is
+    std::uint32_t node = 0;     // index in Wall::nodes
+    std::uint64_t session = 0;  // session of the wall's master
     std::vector<std::byte> model;
   };
 
-  // All must outlive it; `key_list` is that of the master's window.
+  // All must outlive it; `key_list` is the one of the master's window.
   NodeView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewDisplay& display,
            cluster::NodeLink& link, Place place, KeyList key_list, const core::Clock& clock);
 
-  // Until the window is closed or a signal comes; or until a master shows another wall, whose description it returns.
+  // Runs until the window is closed or a signal arrives. If a master shows another wall, returns its description.
   std::optional<cluster::NodeLink::Document> run();
 
  private:
@@ -63,9 +63,9 @@ class NodeView {
   exhibit::WallHistory history_;
   bool knows_history_ = false;
   std::optional<exhibit::LiveScan> scan_;
-  std::deque<cluster::NodeLink::Numbered> records_;  // that have come and are not applied yet
+  std::deque<cluster::NodeLink::Numbered> records_;  // received and not yet applied
   std::optional<cluster::NodeLink::Came> next_;
-  std::optional<cluster::FrameMessage> shown_;  // the newest
+  std::optional<cluster::FrameMessage> shown_;  // newest frame on screen
   std::int64_t shown_ns_ = 0;
   std::int64_t swapped_ns_ = 0;
   std::uint64_t lost_records_ = 0;

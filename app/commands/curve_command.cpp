@@ -40,8 +40,8 @@ core::Result<void> write_text(const std::string& text, const std::string& path) 
   return path.empty() ? write_stdout(text) : core::write_file(path, text);
 }
 
-// The measured curve on the model: its contact point where the model's is, its baseline at zero force. What an
-// instrument calls zero is no property of the contact.
+// Puts the measured curve on the model, with both contact points together and its baseline at zero force, because an
+// instrument's zero is not a property of the contact.
 core::Result<void> add_overlay(const std::string& file, const curves::CurveRun& run, curves::SvgPlot& plot) {
   auto recorded = curves::load_curve(file);
   if (!recorded) return tl::unexpected(recorded.error());
@@ -126,7 +126,7 @@ core::Result<void> write_sweep(const CurveOptions& options, const curves::Contac
       options.out);
 }
 
-// A number that is swept need not be given as well.
+// Sets each swept value to the sweep's first, so that the user need not give it as well.
 ContactOptions with_swept_values(ContactOptions contact, const std::vector<std::string>& sweeps) {
   for (const std::string& sweep : sweeps) {
     const std::size_t equals = sweep.find('='), colon = sweep.find(':');

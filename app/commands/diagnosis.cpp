@@ -12,8 +12,8 @@ namespace afm::app {
 
 namespace {
 
-// What a machine in a lab reaches when it is set up well: none of a minute's ticks missed, one in a thousand later than
-// this.
+// Requirements on a well-configured lab machine: no missed tick in a minute, and at most one tick in a thousand later
+// than this.
 constexpr double kGoodLatenessUs = 200.0;
 
 constexpr const char* kLogInAgain = ", then log in again";

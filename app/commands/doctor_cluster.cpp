@@ -28,8 +28,8 @@ namespace afm::app {
 namespace {
 
 constexpr auto kBetweenFrames = std::chrono::milliseconds(50);
-constexpr std::size_t kEnoughAnswers = 10;  // of each node
-constexpr double kSlowRoundMs = 5.0;        // of an idle network
+constexpr std::size_t kEnoughAnswers = 10;  // needed from each node
+constexpr double kSlowRoundMs = 5.0;        // limit for an idle network
 
 struct NodeAnswers {
   std::optional<cluster::ReadyMessage> newest;
@@ -46,7 +46,7 @@ struct NodeAnswers {
   }
 };
 
-// The frames of a wall at rest, until every node has answered often enough.
+// Sends frames of a wall at rest until every node has answered often enough.
 std::vector<NodeAnswers> ask_nodes(cluster::MasterLink& link, const exhibit::Stage& stage, double seconds,
                                    const core::Clock& clock) {
   std::vector<NodeAnswers> nodes(stage.wall.nodes.size());

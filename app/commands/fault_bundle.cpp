@@ -34,7 +34,7 @@ void replace_word(std::string& text, const std::string& word, std::string_view b
   }
 }
 
-// /home/NAME of any user.
+// Replaces /home/NAME of any user.
 void replace_homes(std::string& text) {
   constexpr std::string_view kHomes = "/home/";
   for (std::size_t at = text.find(kHomes); at != std::string::npos; at = text.find(kHomes, at)) {
@@ -43,7 +43,7 @@ void replace_homes(std::string& text) {
   }
 }
 
-// The value behind the first line of a file that begins with `key`, without quotes.
+// Value in the first line of the file that begins with `key`, without quotes.
 std::string line_of(const char* path, std::string_view key) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {

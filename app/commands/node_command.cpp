@@ -31,12 +31,12 @@ namespace {
 struct NodeOptions {
   std::string name;
   std::string interface_address;
-  std::string master;  // host; empty: found by multicast
+  std::string master;  // host name; empty: found by multicast
   std::uint32_t domain = cluster::ClusterNetwork::kUsualDomain;
   DisplayOptions display;
 };
 
-// For the texts of the master's files, gone with this object.
+// A temporary folder for the texts of the master's files, removed by the destructor.
 class PrivateFolder {
  public:
   static core::Result<std::unique_ptr<PrivateFolder>> create() {
@@ -69,7 +69,7 @@ core::Result<cluster::ClusterNetwork> node_network(const NodeOptions& options) {
     if (!address) return tl::unexpected(address.error());
     network.peers.push_back(std::move(*address));
   } else if (!found->multicast) {
-    network.peers.push_back(found->address);  // the loopback interface: all on one machine
+    network.peers.push_back(found->address);  // the loopback interface: all nodes on one machine
   }
   return network;
 }
@@ -83,7 +83,7 @@ core::Result<std::uint32_t> place_of(const std::string& name, const scene::Wall&
   return core::wrong_usage(fmt::format("the master's wall has no node \"{}\"; choose from: {}", name, list));
 }
 
-// The master hears why, before this program ends.
+// Reports the reason to the master before this program ends.
 core::Error refuse(cluster::NodeLink& link, const cluster::ClusterHeader& header, std::uint32_t node,
                    cluster::NodeState state, std::uint64_t here, std::uint64_t there) {
   constexpr auto kToBeSent = std::chrono::milliseconds(500);
@@ -100,11 +100,11 @@ core::Error refuse(cluster::NodeLink& link, const cluster::ClusterHeader& header
 }
 
 struct NodeStage {
-  std::uint32_t node = 0;  // its place in the wall
+  std::uint32_t node = 0;  // its index in the wall
   exhibit::Stage stage;
 };
 
-// The master's files are gone from the disk when this returns: a node that is killed while it shows them leaves none.
+// Deletes the master's files from the disk before it returns, so that a node killed while it shows them leaves none.
 core::Result<NodeStage> load_stage(const std::string& name, const cluster::ClusterHeader& header,
                                    const exhibit::WallModel& model, const CommandContext& context,
                                    cluster::NodeLink& link) {
@@ -130,7 +130,7 @@ core::Result<NodeStage> load_stage(const std::string& name, const cluster::Clust
   return NodeStage{*node, std::move(*stage)};
 }
 
-// Shows one wall; the description of the next one, if a master has another.
+// Shows one wall. Returns the description of the next one if a master has another.
 core::Result<std::optional<cluster::NodeLink::Document>> show_wall(const NodeOptions& options,
                                                                    const cluster::NodeLink::Document& document,
                                                                    const CommandContext& context,

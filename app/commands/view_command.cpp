@@ -40,7 +40,7 @@ namespace afm::app {
 namespace {
 
 constexpr std::uint32_t kSmallestWindow = 64, kLargestWindow = 16384;
-constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // a second; the servo lets go after 250 ms of silence
+constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // per second; below 4 the servo trips
 
 constexpr QuantityRange kForceLimits{physics::Force(haptics::kLeastForceLimitN), physics::Force(2.0)};
 
@@ -52,7 +52,7 @@ core::Result<void> check_validation(render::Context& context) {
                        fmt::format("the Vulkan validation layer reported {} messages; see above", messages.size()));
 }
 
-// Name of the controls of a device that a real hand moves.
+// Controls of the device that a person moves.
 exhibit::HandControls controls_of(const servo::HapticChoice& choice) {
   using exhibit::HandControls;
   static constexpr std::array<std::pair<std::string_view, HandControls>, 3> kControls{
@@ -64,7 +64,7 @@ exhibit::HandControls controls_of(const servo::HapticChoice& choice) {
   return known == kControls.end() ? HandControls::Device : known->second;
 }
 
-// Selects who moves a simulated hand, and the settings under which a recorded hand is played.
+// Selects the source of a simulated hand, and the settings for a recorded hand.
 core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& device, ViewSettings& settings) {
   const auto choice = servo::parse_haptic_choice(device);
   if (!choice) return tl::unexpected(choice.error());
@@ -86,7 +86,7 @@ core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& devi
   return {};
 }
 
-// Width to height of an eye's picture. That there is no display is said when the windows open.
+// Width to height of an eye's picture. A missing display is reported later, when the windows open.
 double expected_aspect(const DisplayOptions& display) {
   const auto monitors = render::list_monitors();
   const glm::uvec2 window = expected_size(display.window, monitors.value_or(std::vector<render::Monitor>{}));
@@ -235,7 +235,7 @@ core::Result<void> set_speech(bool wanted, const exhibit::Stage& stage, ViewSett
   return {};
 }
 
-// Those of the wall; none where this machine shows it alone.
+// The wall's other machines; null if this machine shows the wall by itself.
 core::Result<std::unique_ptr<ClusterMaster>> other_machines(const ViewOptions& options, const std::string& program,
                                                             exhibit::Stage& stage, const core::Clock& clock) {
   if (options.cluster.wanted) {
@@ -269,7 +269,7 @@ core::Result<std::unique_ptr<render::HeadsetRuntime>> headset_of(const ViewOptio
 
 core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction) {
   std::vector<curves::SampleModel> materials;
-  // the paper's law has no friction: with one the window begins with the law of the adhesion map
+  // the paper's law has no friction: with friction, begins with the law of the adhesion map
   curves::ModelName law;
   law.automatic = friction != physics::FrictionLaw::None;
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
@@ -287,7 +287,7 @@ core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stag
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson) {
   const core::CodeOfInterruption released(core::ExitCode::Done);
   const core::MonotonicClock clock;
-  // first: without a headset nothing else is loaded
+  // first, so that nothing else is loaded if there is no headset
   const auto runtime = headset_of(options);
   if (!runtime) return tl::unexpected(runtime.error());
   exhibit::ExhibitFiles files = options.files;

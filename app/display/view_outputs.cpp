@@ -47,7 +47,7 @@ core::Result<render::WindowOptions> placed(const scene::Output& output, const st
   return window;
 }
 
-// A window holds one screen: a pair of projectors beside each other is one picture side by side.
+// Plans one window, which shows one screen: a pair of projectors side by side is one side-by-side picture.
 core::Result<std::vector<ViewOutput>> one_window(const scene::Wall& wall, const scene::Screen& stage,
                                                  const exhibit::PictureOptions& options, const WindowOptions& wanted,
                                                  const std::vector<render::Monitor>& monitors) {

@@ -27,8 +27,8 @@ Control& LiveControls::add(Arguments&&... arguments) {
   return added;
 }
 
-// In the order of ViewControl's calls: a lesson hides what a scan shows, sound tells of both, and the other machines
-// get the result.
+// In the order of ViewControl's calls: a lesson hides the scan's panels, the sound follows both, and the other machines
+// receive the result.
 LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const LiveFeatures& features)
     : parts_(parts),
       use_(features.lesson == nullptr ? WallUse::Free : WallUse::Lesson),

@@ -32,7 +32,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr double kHiddenPauseS = 0.05;  // between two heartbeats of a window that nobody sees
+constexpr double kHiddenPauseS = 0.05;  // time between two heartbeats while the windows are invisible
 
 }  // namespace
 
@@ -106,7 +106,7 @@ void LiveView::move_hand(const ViewInput& input, const ViewFrame& frame) {
                     .now_ns = frame.now_ns});
 }
 
-// The sample's new place is where the hand finds it.
+// Moves the hand's frame with the sample.
 void LiveView::follow_wand(std::int64_t now_ns) {
   ViewWand& wand = parts_.wand;
   const WallPicture shown = parts_.picture.picture(0);
@@ -121,7 +121,7 @@ void LiveView::follow_wand(std::int64_t now_ns) {
 exhibit::Hint LiveView::next_hint(std::int64_t now_ns) {
   const scene::TipState& tip = parts_.servo.link().tip();
   const exhibit::CycleHistory& cycles = parts_.servo.cycles();
-  // the pull of the sample jerks the hand down on its way up, which is no new approach
+  // the sample's pull jerks the rising hand down, which is not a new approach
   const bool ascending = cycles.ascending() || (cycles.pressed() && tip.tip.z_m > 0.0);
   return procedure_.update(tip, {ascending, cycles.pressed(), cycles.cycles()}, now_ns);
 }

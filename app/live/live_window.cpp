@@ -21,7 +21,7 @@ namespace afm::app {
 
 namespace {
 
-// Owns what the controls share, in the order in which it must end.
+// Owns the objects that the controls share, in reverse order of their destruction.
 struct LiveWindow {
   LiveWindow(const LiveWindowParts& given, const ViewSettings& settings)
       : panels(given.stage.wall_scene, given.materials, key_list),
@@ -55,7 +55,7 @@ struct LiveWindow {
   LiveWindow& operator=(const LiveWindow&) = delete;
 
   ViewPanels panels;
-  LiveSound sound;  // before the servo, whose listener it hears
+  LiveSound sound;  // before the servo, whose listener it uses
   ServoSupervisor servo;
   ViewHand hand;
   ViewPointer pointer;

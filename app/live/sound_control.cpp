@@ -32,7 +32,7 @@ void SoundControl::update(const ViewFrame& /*frame*/) {
   exhibit::Narrator::Step step{.hint = parts_.turn.hint, .guidance = parts_.choice.spoken(line), .scan_lines = {}};
   if (!parts_.servo.running()) step.hint = exhibit::Hint::ServoEnded;
   if (parts_.turn.scan.scan != nullptr) {
-    constexpr std::uint32_t kLine = 2 * exhibit::LiveScan::kPixels;  // trace and retrace
+    constexpr std::uint32_t kLine = 2 * exhibit::LiveScan::kPixels;  // pixels of trace and retrace together
     const exhibit::ScanProgress& progress = parts_.turn.scan.scan->progress();
     step.scan_lines = progress.frame * exhibit::LiveScan::kPixels + progress.pixel / kLine;
   }

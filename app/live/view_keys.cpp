@@ -144,7 +144,7 @@ render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phra
       continue;
     }
     text_above = key.text;
-    // without notes below them: with those the rows would stand on one another
+    // without notes, which would make the rows overlap
     panel.rows.push_back({phrases[key.text], name + (key.mouse ? ", " + phrases[*key.mouse] : ""), ""});
   }
   return panel;

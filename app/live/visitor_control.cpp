@@ -20,8 +20,8 @@ namespace afm::app {
 VisitorControl::VisitorControl(ViewParts& parts, double idle_s)
     : parts_(parts), watch_(static_cast<std::int64_t>(idle_s * 1e9)) {}
 
-// A visitor has gone: everything as after the start, and the wall shows what it does. Another has come: the same, for
-// that one's hand.
+// When a visitor leaves, everything returns to its initial state and the demonstration starts. When another arrives,
+// the same happens for that person's hand.
 void VisitorControl::take(const ViewInput& input, const ViewFrame& frame) {
   const bool pointed = std::exchange(cursor_seen_px_, input.cursor_px) != input.cursor_px;
   const bool wand = std::exchange(wand_seen_ns_, parts_.wand.used_ns()) != parts_.wand.used_ns();
@@ -39,7 +39,7 @@ void VisitorControl::take(const ViewInput& input, const ViewFrame& frame) {
   if (watch_.away() && !parts_.hand.has_own_hand()) demonstrate_next();
 }
 
-// Without a visitor the line invites.
+// Invites visitors while there is none.
 std::optional<std::string> VisitorControl::guidance(const exhibit::Phrases& phrases) const {
   if (!watch_.away()) return std::nullopt;
   return exhibit::step_text(phrases, exhibit::Hint::ChooseSample, parts_.hand.controls(parts_.pointer.kind()));
@@ -53,7 +53,7 @@ void VisitorControl::demonstrate_next() {
 
 bool VisitorControl::hand_was_used() {
   if (!parts_.hand.has_own_hand()) return false;
-  constexpr double kMovedM = 5e-3;  // more than a device that hangs on its springs
+  constexpr double kMovedM = 5e-3;  // more than the motion of a device that hangs on its springs
   const auto& [x, y, z] = parts_.servo.link().tip().hand.position_m;
   const glm::dvec3 now(x, y, z);
   if (glm::distance(now, hand_seen_m_) < kMovedM) return false;

@@ -12,7 +12,7 @@ namespace afm::app {
 
 struct ViewParts;
 
-// A live window that nobody attends: it begins again for every visitor, and demonstrates itself without one.
+// A live window without staff: restarts for every visitor, and demonstrates itself while there is none.
 class VisitorControl final : public ViewControl {
  public:
   // `idle_s`: seconds without input before the demonstration starts.

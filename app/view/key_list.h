@@ -9,7 +9,7 @@ namespace afm::app {
 enum class HandSource { Mouse, Simulated, Device };
 enum class WallUse { Free, Lesson };
 
-// Makes the list of keys on the wall. An unattended wall leaves out the keys of staff.
+// Makes the list of keys on the wall. An unattended wall omits staff keys.
 using KeyList = render::DataPanel (*)(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use);
 
 }  // namespace afm::app

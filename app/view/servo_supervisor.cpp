@@ -13,7 +13,7 @@ namespace afm::app {
 namespace {
 
 constexpr std::int64_t kMinuteNs = 60'000'000'000;
-constexpr std::size_t kMostRestarts = 3;  // a minute
+constexpr std::size_t kMostRestarts = 3;  // per minute
 
 std::string text_of(const scene::TipEvent& event) {
   const bool in = event.kind == physics::EventKind::JumpToContact;
@@ -85,7 +85,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         recorder_.add(event);
         audience_.heard(event);
         cues_.add(event);
-        if (event.kind == physics::EventKind::Slip) return;  // many times a second
+        if (event.kind == physics::EventKind::Slip) return;  // occurs many times a second
         core::log_line(text_of(event));
         for (const auto& hears : hears_jumps_) hears(event);
       });
@@ -100,7 +100,7 @@ void ServoSupervisor::log_state() {
   if (logged_state_ == scene::ServoState::Running) core::log_line("force on");
   const bool off = logged_state_ == scene::ServoState::Disarmed || logged_state_ == scene::ServoState::Fault;
   if (!off) return;
-  if (tip.fault == scene::FaultCode::ServoSilent) return core::log_line(scene::reason(tip.fault));  // whatever it does
+  if (tip.fault == scene::FaultCode::ServoSilent) return core::log_line(scene::reason(tip.fault));  // even then
   const bool fault = tip.fault != scene::FaultCode::None;
   core::log_line(fault ? std::string("force off: ") + scene::reason(tip.fault) : "force off");
 }
@@ -134,7 +134,7 @@ void ServoSupervisor::keep_part(std::int64_t now_ns) {
   recorder_.forget_records();
 }
 
-// A folder that has become full or read-only ends the recording, not the view.
+// A folder that has become full or read-only ends the recording but not the view.
 void ServoSupervisor::stop_recording(const core::Error& error) {
   core::log_line(error.message + "; recording has stopped");
   folder_.reset();
@@ -150,7 +150,7 @@ std::vector<servo::EarlierCurve> ServoSupervisor::curves_on_wall() const {
   return earlier;
 }
 
-// Scheduling latency of the servo, for readers of the log.
+// Logs the scheduling latency of the servo.
 void ServoSupervisor::log_timing() const {
   const scene::ServoTiming timing = link_->timing();
   if (timing.ticks == 0) return;

@@ -65,7 +65,7 @@ void ViewChoice::enter() {
   stop_force();
 }
 
-// Felt once the tip is off the sample, as another material is.
+// The new scale takes effect once the tip is off the sample, like another material.
 void ViewChoice::next_scale() {
   scale_ = scene::after(scale_);
   const scene::ScaleModeText& text = scene::text_of(scale_);

@@ -14,7 +14,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr double kDrawnHandM = 0.085;  // hand travel drawn as the stroke that a sample's cycle fills
+constexpr double kDrawnHandM = 0.085;  // hand travel that is drawn as long as the stroke of a sample's cycle
 
 }  // namespace
 

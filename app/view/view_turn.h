@@ -13,14 +13,14 @@ class LiveScan;
 
 namespace afm::app {
 
-// The scan on the wall; none while `scan` is null.
+// The scan on the wall; null `scan`: none.
 struct ShownScan {
   const exhibit::LiveScan* scan = nullptr;
   std::size_t material = 0;
   std::uint64_t begun = 0;  // number of scans started so far
 };
 
-// What controls tell the loop and one another.
+// State that controls share with the loop and with each other.
 struct ViewTurn {
   bool leaving = false;                              // the window closes after this frame
   bool draws_unseen = false;                         // frames are drawn even while all windows are hidden

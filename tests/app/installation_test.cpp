@@ -89,7 +89,7 @@ TEST_F(InstalledProgram, NamesTheAssetsThatItLacks) {
 TEST_F(InstalledProgram, RunsTheDemonstration) {
   const std::string command = "demo --out out --material mica --hand-speed 200mm/s --eye-width 160";
   ProgramResult demo = touchafm(command);
-  // a virtual machine that stands still releases the hand again and again: then as a person would
+  // a stalled virtual machine makes the servo release the hand repeatedly: tries again, as a person would
   for (int more = 0; more < 2 && demo.err.find("reduce the load on this machine") != std::string::npos; ++more) {
     demo = touchafm(command);
   }

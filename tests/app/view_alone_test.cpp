@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real window without a tracker, and without anyone who attends it, on an X server without a screen.
+// The real window without a tracker and without staff, on an X server without a screen.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

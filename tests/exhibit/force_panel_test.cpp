@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// That the force panel can be read: labels that do not cover each other, colours that people with any vision tell
-// apart.
+// Readability of the force panel: labels do not overlap, and colours can be distinguished with any colour vision.
 #include <gtest/gtest.h>
 
 #include <array>

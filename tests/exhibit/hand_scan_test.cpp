@@ -24,7 +24,7 @@ using scene::ScanHand;
 using scene::TipSample;
 
 constexpr double kSideM = 64e-9;
-constexpr double kMPerS = 40e-9;  // of the tip
+constexpr double kMPerS = 40e-9;  // speed of the tip
 
 const Phrases& english() {
   static const Phrases phrases = Phrases::load(support::source("assets/guidance/en.toml")).value();

@@ -21,7 +21,7 @@
 namespace afm::exhibit {
 namespace letters_test {
 
-constexpr double kCapShare = 0.727;  // of Inter's em square
+constexpr double kCapShare = 0.727;  // cap height in Inter's em square
 constexpr double kLeastMinutes = 20.0;
 
 class LettersOfThePanels : public ::testing::TestWithParam<const char*> {};

@@ -78,7 +78,7 @@ std::size_t measured_points(const LiveScan& scan) {
 
 struct Pressed {
   ScanRow row;
-  int times;  // of +, or of - where below zero
+  int times;  // number of presses of +, or of - if negative
 };
 struct Artefact {
   physics::ScanArtefact cause;

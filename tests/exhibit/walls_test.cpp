@@ -210,8 +210,8 @@ class DepthOfAWall : public test::VulkanTest {
   }
 };
 
-// What stands before the wall is placed so; what lies far behind a small screen is left to the comfort clamp of the
-// live window, which must then never warn.
+// Objects in front of the wall are placed within the limit. Those far behind a small screen are left to the comfort
+// clamp of the live window, which must then never warn.
 TEST_F(DepthOfAWall, StaysWithinOneDegreeOnEveryPreset) {
   for (const char* preset : {"powerwall", "3d-tv", "desk-red-cyan", "cave", "wide"}) {
     const auto stage = stage_on(fmt::format("{}/assets/walls/{}.toml", support::source(), preset));

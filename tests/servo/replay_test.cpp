@@ -191,7 +191,7 @@ TEST(Replay, GivesForcesThatWerePutDownForHotMotorsAgain) {
   Recording recording;
   recording.choose(test::kMica);
   recording.arm();
-  recording.aim(-0.030, 0.5);  // holds more than the motors stand for ever
+  recording.aim(-0.030, 0.5);  // exceeds the motors' continuous force
   recording.run(60'000);
   EXPECT_LT(recording.state().safety.thermal_gain, 1.0);
   recording.aim(0.065, 0.7);

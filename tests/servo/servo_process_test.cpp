@@ -35,8 +35,8 @@ using afm::servo::ServoProcess;
 using afm::servo::ServoThread;
 using testing::HasSubstr;
 
-// A renderer in a process of its own, which starts a servo, holds the tip on the sample and then draws for ever. The
-// test shares the segment with both and inherits the servo when the renderer dies.
+// A renderer in a separate process, which starts a servo, holds the tip on the sample and then draws until it is
+// killed. The test shares the segment with both and inherits the servo when the renderer dies.
 class RendererProcess {
  public:
   explicit RendererProcess(SharedSegment& segment) : log_(::memfd_create("stderr", MFD_CLOEXEC)) {

@@ -26,9 +26,9 @@
 #include "servo/servo_client.h"
 #include "support/stall_watch.h"
 
-// The guard that releases the hand when the servo cannot: on a stand-in for Haply's service, which holds the last force
-// that it was sent. Real processes and real time: each bound that protects the hand is doubled, and judged while the
-// machine is awake.
+// The guard that releases the hand if the servo cannot, with a stand-in for Haply's service, which keeps the last
+// force. Real processes and real time: each bound that protects the hand is doubled, and judged while the machine is
+// awake.
 namespace afm::servo {
 namespace servo_watchdog_test {
 

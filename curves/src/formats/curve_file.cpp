@@ -35,7 +35,7 @@ bool begins_as_tab(std::string_view bytes) {
   return bytes.starts_with("#") && bytes.substr(0, kLongestHeading).find("# BEGIN METADATA") != std::string_view::npos;
 }
 
-// Handed over in the format that holds the same and has a reader of our own.
+// Transfers the curve in a format of the same content that has a reader here.
 RecordedCurve read_hdf5(std::string_view bytes, const CurveReading& reading) {
   return read_tab(from_confined_program(kHdf5Program, {"read", std::to_string(reading.index)}, bytes, kNotSurvived));
 }
@@ -43,15 +43,15 @@ std::string hdf5_bytes(const RecordedCurve& curve) {
   return from_confined_program(kHdf5Program, {"write"}, tab_bytes(curve), "HDF5 could not make it");
 }
 
-enum class Reader { Ours, Foreign };  // Foreign: reads what others' programs write, in a confined child
+enum class Reader { Ours, Foreign };  // Foreign: formats of other programs, read in a confined child
 
 struct CurveRow {
   CurveFormat format;
-  std::string_view files;  // as kCurveFiles lists them
-  std::string_view word;   // after --format; empty: read only
+  std::string_view files;  // as listed in kCurveFiles
+  std::string_view word;   // value of --format; empty: read only
   bool (*begins)(std::string_view bytes);
   Reader reader;
-  bool several;  // curves in one file
+  bool several;  // files may contain several curves
   RecordedCurve (*read)(std::string_view bytes, const CurveReading& reading);
   std::string (*write)(const RecordedCurve& curve);  // null: read only
 };
@@ -84,7 +84,7 @@ const CurveRow* row_of_curve(std::string_view bytes) {
   return found != kCurveRows.end() ? &*found : nullptr;
 }
 
-// Forces that the file gives in newtons scale with a calibration that replaces the one they were made with.
+// Forces given in newtons scale with a calibration that replaces the original one.
 void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
   CurveMetadata& made = curve.metadata;
   double factor = 1.0;
@@ -105,7 +105,7 @@ RecordedCurve read(std::string_view bytes, const CurveReading& reading) {
   return read_tab(in_confined_child([&] { return tab_bytes(row->read(bytes, reading)); }, kNotSurvived));
 }
 
-// What every curve is, wherever it came from.
+// Checks the requirements on any curve.
 void check(RecordedCurve& curve) {
   constexpr double kHighest_m = 1.0, kStrongest_n = 1.0, kStiffest_n_per_m = 1e6;
   if (curve.points.size() < physics::kFewestApproachPoints) {
@@ -127,7 +127,7 @@ void check(RecordedCurve& curve) {
   if (!is_approach(curve.points.front())) throw CurveError("it has no approach");
 }
 
-// The texts go to terminals and into lines of files; the parameters are printable already.
+// Makes the texts safe for terminals and lines of files; the parameters are printable already.
 void make_texts_printable(CurveMetadata& metadata) {
   for (std::string* text : {&metadata.instrument, &metadata.software, &metadata.software_version, &metadata.date,
                             &metadata.time, &metadata.curve_id}) {

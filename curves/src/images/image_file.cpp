@@ -35,7 +35,7 @@ namespace {
 constexpr std::uintmax_t kLargestImageBytes = std::uintmax_t{256} << 20U;
 constexpr std::size_t kLongestBeginning = 512;
 constexpr std::size_t kMostChannels = 256;
-constexpr std::size_t kMostTextBytes = 4096;  // of a name, a key or a value
+constexpr std::size_t kMostTextBytes = 4096;  // limit for a name, a key or a value
 
 struct FormatRow {
   ImageFormat format;
@@ -69,7 +69,7 @@ std::string lower(std::string_view text) {
   return small;
 }
 
-// Names that a file gives twice get a number, so that each can be asked for.
+// Numbers repeated names, so that each channel can be selected.
 void number_names(std::vector<ImagePage>& pages) {
   for (std::size_t i = 0; i < pages.size(); ++i) {
     const auto same = [&](const ImagePage& page) { return lower(page.name) == lower(pages[i].name); };
@@ -84,7 +84,7 @@ std::string names_of(const std::vector<ImagePage>& pages) {
   return names;
 }
 
-// A height by its name and its unit; the smaller, the sooner it is taken.
+// Preference as a height by name and unit; smaller is better.
 int rank_as_height(const ImagePage& page) {
   const std::string name = lower(page.name);
   const auto begins = [&](std::string_view word) { return name.starts_with(word); };
@@ -109,7 +109,7 @@ std::size_t chosen_page(const std::vector<ImagePage>& pages, const std::string& 
   return static_cast<std::size_t>(std::min_element(pages.begin(), pages.end(), lower_rank) - pages.begin());
 }
 
-// Neither NaN nor an infinity is.
+// False for NaN and infinity.
 bool is_measured(double value) { return std::abs(value) <= physics::kMostImageValue; }
 
 bool same_grid(const ImagePage& a, const ImagePage& b) {
@@ -156,7 +156,7 @@ LoadedImage read_image(std::string_view bytes, const std::string& wanted) {
   return assembled(row->read(bytes), wanted, row->format);
 }
 
-// ---- from the child that read it: numbers and texts one behind the other, which are believed no more than a file ----
+// ---- serialised by the reading child: numbers and texts in sequence, validated like a file ----
 
 template <class T>
 void put(std::string& bytes, const T& value) {
@@ -246,7 +246,7 @@ LoadedImage taken_over(std::string_view bytes) {
   return loaded;
 }
 
-// What every image is, wherever it came from.
+// Checks the requirements on any image.
 void check_image(const LoadedImage& loaded) {
   const physics::ScanImage& image = loaded.image;
   if (loaded.chosen >= image.channels.size() || image.columns < 2 || image.rows < 2 ||
@@ -261,7 +261,7 @@ void check_image(const LoadedImage& loaded) {
   }
 }
 
-// The texts go to terminals and into lines of files.
+// Makes the texts safe for terminals and lines of files.
 void make_texts_printable(LoadedImage& loaded) {
   const auto make_printable = [](std::string& text) { text = core::printable_line(text); };
   for (physics::ImageChannel& channel : loaded.image.channels) {

@@ -13,9 +13,9 @@ namespace afm::exhibit {
 namespace {
 
 constexpr std::size_t kTextsBeforeRows = 2;  // guidance, caption
-constexpr double kFarthestSentM = 1e6;       // of a picture's depth
+constexpr double kFarthestSentM = 1e6;       // limit of a picture's depth
 
-// Each list of pairs serves both directions.
+// Each list of pairs defines both directions of the conversion.
 
 template <class Copy, class Tip, class Shown>
 void copy_tip(const Copy& copy, Tip& tip, Shown& shown) {
@@ -112,7 +112,7 @@ Moment moment_of(const cluster::FrameMessage& message) {
   std::vector<std::string> texts = message.texts.list();
   texts.resize(std::max(texts.size(), kTextsBeforeRows));
   moment.guidance = texts.front();
-  // the last row may have lost its source
+  // the last row may be cut off before its source
   for (std::size_t i = kTextsBeforeRows; i < texts.size(); i += 3) {
     const auto text = [&](std::size_t at) { return at < texts.size() ? texts[at] : std::string(); };
     moment.servo.push_back({text(i), text(i + 1), text(i + 2)});

@@ -11,7 +11,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// The grids of screens that overlap have their lines at the same places of the wall.
+// The grids of overlapping screens have their lines at the same places on the wall.
 void add_blending(const scene::Screen& screen, const Phrases& phrases, render::CalibrationPanel& panel) {
   const glm::dvec3 from_middle = screen.blend->origin - screen.center();
   panel.grid_from_m = {glm::dot(from_middle, glm::normalize(screen.lower_right - screen.lower_left)),
@@ -32,7 +32,7 @@ void show_calibration(const scene::Screen& screen, scene::StereoMode mode, doubl
   frame.labels.clear();
   constexpr double kSmallScreenM = 1.0;
   const double square_m = screen.width_m() < kSmallScreenM ? 0.01 : 0.1;
-  // one picture for both eyes: no letter is one eye's
+  // one picture for both eyes has no eye's letter
   const bool eye_marks = mode != scene::StereoMode::Mono;
   frame.panels.calibration.content = {
       .size = phrases.number(fmt::format("{}   {:.3f} m x {:.3f} m", screen.name, screen.width_m(), screen.height_m())),

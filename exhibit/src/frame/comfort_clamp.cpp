@@ -13,7 +13,7 @@ void ComfortClamp::measured(const render::DepthRange& range, double distance_m, 
   const auto angle = [&](double depth_m) {
     return std::abs(scene::disparity_at(distance_m, ipd_m, depth_m).crossed_rad);
   };
-  // for eyes some centimetres apart the angle is proportional to their distance within a hundredth
+  // for eyes some centimetres apart, the angle is proportional to their distance within one percent
   constexpr double kProportional = 0.99;
   const double most = std::max(angle(range.nearest_m), angle(range.farthest_m));
   wanted_ = most > limit_rad_ ? kProportional * limit_rad_ / most : 1.0;

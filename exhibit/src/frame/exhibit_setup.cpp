@@ -36,7 +36,7 @@ render::RendererOptions Stage::renderer_options(std::uint32_t eye_width) const {
 glm::uvec2 Stage::eye_size_within(scene::StereoMode mode, glm::uvec2 window_px) const {
   const glm::uvec2 room = scene::eye_size(mode, window_px);
   if (const auto packing = scene::frame_packing(mode)) {
-    // exact in a window of its own size; in a smaller one it is a preview
+    // exact in a window of this size, a preview in a smaller one
     const glm::dvec2 shrink = glm::dvec2(window_px) / glm::dvec2(scene::picture_size(mode, packing->eye_px));
     const double scale = std::min({1.0, shrink.x, shrink.y});
     return glm::max(glm::uvec2(glm::round(glm::dvec2(packing->eye_px) * scale)), glm::uvec2(1));
@@ -48,7 +48,7 @@ glm::uvec2 Stage::eye_size_within(scene::StereoMode mode, glm::uvec2 window_px) 
 
 namespace {
 
-// Those that were asked for; else all of the user's own file, or the paper's three.
+// The requested materials; otherwise all of the user's file, or the paper's three.
 core::Result<scene::MaterialLibrary> shown_materials(const ExhibitFiles& files) {
   auto library = scene::load_materials(files.assets_dir + "/materials.toml");
   if (!library) return library;
@@ -72,7 +72,7 @@ core::Result<scene::MaterialLibrary> shown_materials(const ExhibitFiles& files) 
   return shown;
 }
 
-// As high as before; who asks for about the same proportions gets the screen itself.
+// Fits the screen to the ratio at the same height. Nearly the same ratio keeps the screen unchanged.
 void take_aspect(double aspect, scene::Screen& screen) {
   constexpr double kSame = 0.01;
   if (std::abs(aspect * screen.height_m() / screen.width_m() - 1.0) < kSame) return;

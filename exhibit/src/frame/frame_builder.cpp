@@ -22,11 +22,11 @@ namespace {
 
 using physics::format_quantity;
 
-// Axes around the loop, in units of the reach of the pull and of its strength.
+// Axes around the loop, in units of the pull's reach and strength.
 constexpr double kAxisBelow = 0.42, kAxisAbove = 1.42;
-constexpr double kPushShare = 0.4;  // of the reach: the deepest push
+constexpr double kPushShare = 0.4;  // deepest push, as a share of the reach
 constexpr double kHardlyPulled = 0.05;
-constexpr const char* kApart = "     ";  // between two facts on a line
+constexpr const char* kApart = "     ";  // separates two facts on a line
 
 struct StateSign {
   render::StateShape shape;
@@ -41,14 +41,14 @@ const std::array<StateSign, 5> kStateSigns{{{render::StateShape::Square, {0.70F,
                                             {render::StateShape::Cross, {0.95F, 0.35F, 0.25F}}}};
 static_assert(after(Phrase::StateOff, core::kEnumerators<scene::ServoState>.size()) == Phrase::NotRealTime);
 
-// "33.1 nm": how much one metre of the wall shows.
+// "33.1 nm": length shown by one metre of the wall.
 std::string scale_text(double m_per_m) {
   std::string text = format_quantity(physics::Length(m_per_m), physics::kLengthUnits, 3);
   if (const std::size_t micro = text.find("um"); micro != std::string::npos) text.replace(micro, 1, "\u00b5");
   return text;
 }
 
-// Round the loops of all materials that are in front.
+// Axes around the loops of all materials in front.
 class Axes {
  public:
   void include(const curves::SampleModel& material) {
@@ -59,7 +59,7 @@ class Axes {
     push_nn_ = std::max(push_nn_, push_n * curves::kNnPerN);
   }
 
-  // A tip that is hardly pulled is pushed; otherwise the pull gives the measure.
+  // The pull sets the range; if it is negligible, the push does.
   void apply(render::ForcePanel& panel) const {
     const bool pulled = pull_nn_ > kHardlyPulled * push_nn_;
     panel.place_min_nm = -kAxisBelow * reach_nm_;
@@ -72,8 +72,8 @@ class Axes {
   double reach_nm_ = 1e-6, pull_nn_ = 1e-9, push_nn_ = 0.0;
 };
 
-// The three forces that a cycle is known by: of the law at the fold, which is felt just before the jump; just after it,
-// the paper's F_attr; and the pull-off.
+// Three forces that characterise a cycle: that of the law at the fold, felt just before the jump; the paper's F_attr
+// just after it; and the pull-off.
 std::vector<render::PlotMarker> jump_markers(const physics::CycleFigures& figures, const Phrases& phrases) {
   using Kind = render::PlotMarker::Kind;
   const double z_jtc_nm = figures.z_jtc.si * curves::kNmPerM, z_joc_nm = figures.z_joc.si * curves::kNmPerM;
@@ -165,7 +165,7 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   for (std::size_t i = 0; i < materials_->size(); ++i) {
     const bool in_front =
         moment.wall.centerpiece == Centerpiece::Plot || !moment.wall.material || moment.wall.material == i;
-    if (!in_front) continue;  // its forces need other axes: it would cross this plot from edge to edge
+    if (!in_front) continue;  // its forces exceed the axes
     axes.include((*materials_)[i]);
     if (i >= moment.curves.size() || moment.curves[i].empty()) continue;
     panel.curves.push_back(moment.curves[i].plot(phrases.word((*materials_)[i].setup.material.title), curve_color(i)));
@@ -212,7 +212,7 @@ render::Banner FrameBuilder::banner(const Moment& moment) const {
       phrases.text<Phrase::LeverScale>(scale_text(scale.lever_m_per_m)),
       phrases.text<Phrase::TipScale>(scale_text(scale.tip_m_per_m)),
       phrases.text<Phrase::DeflectionScale>(fmt::format("{:.0f}", scale.lever_m_per_m / scale.sample_m_per_m)));
-  // on a line of its own
+  // on a separate line
   for (const render::DataRow& row : moment.servo) {
     banner.scale +=
         fmt::format("{}{}: {} ({})", &row == &moment.servo.front() ? "\n" : kApart, row.name, row.value, row.source);

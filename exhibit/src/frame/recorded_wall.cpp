@@ -17,7 +17,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// Files have names, which do not change with the enumeration.
+// Names for files, independent of the enumeration's values.
 struct CenterpieceRow {
   Centerpiece piece;
   std::string_view name;
@@ -51,7 +51,7 @@ void copy_wand(const Copy& copy, Wand& wand, Recorded& recorded) {
   copy(wand.buttons, recorded.buttons);
 }
 
-// What is recorded by its value, in either direction; materials and modes have names.
+// Copies the fields recorded by value, in either direction; materials and modes are recorded by name.
 template <class Copy, class Moment, class Frame>
 void copy_moment(const Copy& copy, Moment& moment, Frame& frame) {
   auto& wall = moment.wall;
@@ -64,13 +64,13 @@ void copy_moment(const Copy& copy, Moment& moment, Frame& frame) {
   copy(moment.retracting, frame.retracting);
 }
 
-// A change of a scan has the numbers of a servo::RecordedScanChange, in their order.
+// Copies the values of a scan's change to or from servo::RecordedScanChange, in their order.
 template <class Change>
 auto numbers_of(Change& change) {
   return std::tuple_cat(std::tie(change.frame, change.pixel), core::members_of(change.choice));
 }
 
-// As the live window's: the cycle that went on at `end_ns`, or the last whole one.
+// Curves as in the live window: the running cycle at `end_ns`, or the last complete one.
 std::vector<CycleCurve> curves_until(const servo::RecordedSession& session, std::span<const std::string> materials,
                                      std::size_t own, std::int64_t end_ns) {
   CycleHistory history(materials.size());
@@ -82,7 +82,7 @@ std::vector<CycleCurve> curves_until(const servo::RecordedSession& session, std:
       here.material = static_cast<std::int32_t>(own);
       history.add(here);
     }
-    sample.material = static_cast<std::int32_t>(own);  // by its place among those that are drawn now
+    sample.material = static_cast<std::int32_t>(own);  // its index among the materials drawn now
     history.add(sample);
   }
   std::vector<CycleCurve> curves(history.curves().begin(), history.curves().end());

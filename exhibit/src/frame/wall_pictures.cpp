@@ -20,7 +20,7 @@ namespace {
 using core::ErrorCategory;
 using scene::StereoMode;
 
-// What one output shows: in a mode of two pictures with an eye of its own, that eye.
+// Composition of one output; if the mode has two pictures and the output an eye, only that eye.
 render::Composition composition_of(const scene::Output& output, const PictureOptions& options) {
   StereoMode mode = options.mode.value_or(output.mode);
   if (!options.mode && output.eye) mode = *output.eye == scene::Eye::Left ? StereoMode::Left : StereoMode::Right;
@@ -38,7 +38,7 @@ glm::uvec2 natural_size(const scene::Screen& screen, StereoMode mode, std::uint3
   return scene::picture_size(mode, {eye_width, std::max(1U, height)});
 }
 
-// The outputs that are drawn: a pair that only shares its screen out to two projectors counts once in another mode.
+// Outputs to draw: a pair of projectors that share one screen counts once in other modes.
 std::vector<scene::Output> drawn_outputs(const scene::Wall& wall, const PictureOptions& options) {
   std::vector<scene::Output> outputs;
   if (wall.outputs.empty()) {
@@ -62,7 +62,7 @@ std::vector<scene::Output> drawn_outputs(const scene::Wall& wall, const PictureO
   return outputs;
 }
 
-// Stretches or squeezes the plan; what shares an edge still does.
+// Scales the plan; adjoining rectangles stay adjoining.
 void scale_to(glm::uvec2 size_px, WallPlan& plan) {
   const glm::dvec2 scale = glm::dvec2(size_px) / glm::dvec2(plan.size_px);
   for (OutputPicture& output : plan.outputs) {
@@ -160,7 +160,7 @@ render::RendererOptions renderer_options(render::Context& context, const WallPla
   const OutputPicture& first = plan.outputs.front();
   const glm::uvec2 eye_px = scene::eye_size(first.composition.mode, first.rect.size_px);
   constexpr std::uint32_t kLeastPanels = 64,
-                          kMostPanels = 8192;  // eyes' pixels for which letters are still worth drawing
+                          kMostPanels = 8192;  // size of the eye images above which letters get no sharper
   render::RendererOptions options;
   options.eye_width = eye_px.x;
   options.eye_height = eye_px.y;

@@ -41,7 +41,7 @@ struct ColumnRow {
   const char* levels;  // separated by blanks; may be null
 };
 
-// Levels that a table of their own has are added by add_levels().
+// Levels with a separate table are added by add_levels().
 constexpr std::array kEventColumns{
     ColumnRow{"onset", "start of the trial, counted from the start of the lesson", "s", nullptr},
     ColumnRow{"duration", "duration of the trial", "s", nullptr},
@@ -93,7 +93,7 @@ core::Error failed(const std::string& what, const std::string& path, int error) 
   return {core::ErrorCategory::Failed, fmt::format("cannot {} {}: {}", what, path, core::system_error(error))};
 }
 
-// Holds the study's folder for this process alone.
+// Locks the study's folder against other processes.
 core::Result<core::FileDescriptor> lock(const std::string& folder) {
   core::FileDescriptor held(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!held.is_open()) return tl::unexpected(failed("open", folder, errno));
@@ -121,7 +121,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-// participants.tsv; none where there is no such file yet.
+// Reads participants.tsv; empty if there is no such file yet.
 core::Result<std::vector<Participant>> load_participants(const std::string& folder) {
   const std::string path = folder + "/participants.tsv";
   std::vector<Participant> participants;
@@ -160,7 +160,7 @@ auto find_participant(std::vector<Participant>& participants, const std::string&
                       [&](const Participant& each) { return each.id == "sub-" + code; });
 }
 
-// The least place that nobody has: after a withdrawal it is given again, which keeps the design balanced.
+// The lowest unused row: reusing the row of a withdrawn participant keeps the design balanced.
 std::size_t free_order(std::span<const Participant> participants) {
   std::size_t order = 0;
   const auto taken = [&](const Participant& each) { return each.order == order; };
@@ -168,7 +168,7 @@ std::size_t free_order(std::span<const Participant> participants) {
   return order;
 }
 
-// The number of days since the study's first day, which participants.json keeps; 0 without a day.
+// Days since the study's first day, which participants.json stores; 0 if `day` is empty.
 core::Result<std::int64_t> started_day(const std::string& folder, std::optional<std::int64_t> day) {
   const std::string path = folder + "/participants.json";
   ordered_json json = described(kParticipantRows);
@@ -317,7 +317,7 @@ core::Result<void> DataSet::finish(LessonEnd end) {
   auto participants = load_participants(folder_);
   if (!participants) return tl::unexpected(participants.error());
   const auto found = find_participant(*participants, code_);
-  if (found == participants->end()) return {};  // withdrawn meanwhile
+  if (found == participants->end()) return {};  // withdrawn in the meantime
   found->comfort = word_of(end);
   return save_participants(folder_, *participants);
 }

@@ -12,10 +12,10 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kEyeM = 2.0;        // before the page
-constexpr double kBorder = 0.02;     // of the page's height, around and between
-constexpr double kTargetHigh = 0.1;  // of the page's height
-constexpr double kLetterM = 0.024;   // mean width of a letter of the words
+constexpr double kEyeM = 2.0;        // distance in front of the page
+constexpr double kBorder = 0.02;     // share of the page's height
+constexpr double kTargetHigh = 0.1;  // share of the page's height
+constexpr double kLetterM = 0.024;   // mean width of a letter
 
 using Wants = LessonPrompt::Wants;
 
@@ -85,7 +85,7 @@ InstructorPage::InstructorPage(double aspect) {
   eyes_ = eyes_before(screen_, {.position_m = {0.0, 0.5 * kHeightM, kEyeM}}, 0.0).value();
 }
 
-// Two rows of two below the panel.
+// Two rows of two targets below the panel.
 render::PanelPlacement InstructorPage::target(InstructorAction action) const {
   constexpr double kGapM = kBorder * kHeightM, kHighM = kTargetHigh * kHeightM;
   const std::size_t index = core::index_of(action);

@@ -27,7 +27,7 @@ constexpr std::size_t kMostSteps = 100, kMostIdLetters = 40, kMostConditions = 4
 constexpr int kMostTrials = 200, kMostPractice = 20;
 constexpr double kLongestHintS = 600;
 
-// A table of the file, whose faults name key and line.
+// A table of the file. Its errors name key and line.
 class LessonTable {
  public:
   LessonTable(const toml::table& table, std::string section) : table_(table), section_(std::move(section)) {}
@@ -55,7 +55,7 @@ class LessonTable {
     return *value;
   }
 
-  // A part of file names, or of columns.
+  // Part of file or column names.
   std::string id(std::string_view key) const {
     const std::string value = text(key, kMostIdLetters);
     const bool plain = std::all_of(value.begin(), value.end(),
@@ -137,7 +137,7 @@ class LessonTable {
     return names;
   }
 
-  // The row of `table` whose `name` is the text.
+  // The row of `table` with the name `text`.
   template <class Table, class Row>
   const Row& one_of(std::string_view key, const Table& table, std::string_view Row::* name) const {
     const std::string value = text(key, kMostIdLetters);
@@ -169,7 +169,7 @@ struct ScaleWord {
   scene::ScaleMode mode;
   std::string_view word;
 };
-// Every scale but that of atoms, on which no hand compares two materials.
+// All scales except that of atoms, on which two materials cannot be compared by hand.
 constexpr auto kLessonScales = [] {
   std::array<ScaleWord, scene::kScaleModes.size() - 1> rows{};
   std::size_t count = 0;
@@ -222,7 +222,7 @@ ThresholdPlan read_threshold(const LessonTable& table) {
   return plan;
 }
 
-// The materials of a step, by their places in the lesson's list.
+// Indices of a step's materials in the lesson's list.
 std::vector<std::size_t> read_materials(const LessonTable& table, const LessonStep& step, const Lesson& lesson) {
   std::vector<std::size_t> places;
   const auto place_of = [&](std::string_view key, const std::string& name) {
@@ -259,7 +259,7 @@ void read_questionnaire(const LessonTable& table, LessonStep& step) {
   if (!step.id.ends_with(ending)) table.refuse("id", fmt::format("of this step must end in {}", ending));
 }
 
-// The keys of each type, in addition to those of all steps.
+// Allows the keys of each type in addition to those of all steps.
 void allow_keys(const LessonTable& table, StepKind kind) {
   switch (kind) {
     case StepKind::Text:

@@ -5,7 +5,7 @@
 
 namespace afm::exhibit {
 
-// The false colours of heights as an upright strip, unlit: from the origin upwards, 1 high and `width` wide. A node
+// The false colours of heights as an unlit vertical strip from the origin upwards, 1 high and `width` wide. Node
 // "strip".
 scene::Scene height_bar(double width);
 

@@ -7,7 +7,7 @@
 
 namespace afm::exhibit {
 
-// As vertices have it: linear light, opaque (IEC 61966-2-1).
+// Vertex colour: linear light, opaque (IEC 61966-2-1).
 glm::vec4 linear_colour(const Srgb& colour);
 
 }  // namespace afm::exhibit

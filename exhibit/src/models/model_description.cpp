@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array kRoles{"tip", "base", "surface"};
 
-// A stranger's name must not break a line or reach a terminal as a control sequence.
+// Escapes a name from a foreign file, which must not break a line or reach a terminal as a control sequence.
 std::string quoted(std::string name) {
   std::replace_if(name.begin(), name.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, '?');
   return '"' + name.substr(0, 80) + '"';

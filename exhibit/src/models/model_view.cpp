@@ -21,9 +21,9 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-constexpr double kWallHeightM = 2.286;  // the paper's
+constexpr double kWallHeightM = 2.286;  // the paper's wall
 constexpr double kAutoFieldOfViewRad = 0.7;
-constexpr double kAutoAzimuthRad = 0.35;  // from the front, a little from the right and from above
+constexpr double kAutoAzimuthRad = 0.35;  // from the front, slightly from the right and above
 constexpr double kAutoElevationRad = 0.22;
 
 struct Sphere {
@@ -31,8 +31,8 @@ struct Sphere {
   double radius = 1.0;
 };
 
-// One for each node, 0 for the unit shapes that only the wall gives a length: beams, rays, lines. A model that has
-// nothing else shows them.
+// 1 for each node to draw, 0 for unit shapes that only the wall gives a length (beams, rays, lines), unless the model
+// has nothing else.
 std::vector<std::uint8_t> drawn_nodes(const scene::Scene& scene) {
   std::vector<std::uint8_t> drawn;
   bool any = false;
@@ -44,7 +44,7 @@ std::vector<std::uint8_t> drawn_nodes(const scene::Scene& scene) {
   return drawn;
 }
 
-// About the box of everything that is drawn.
+// Sphere around the box of all drawn nodes.
 Sphere bounds_of(const scene::Scene& scene, const std::vector<std::uint8_t>& drawn,
                  const std::vector<dmat4>& scene_from_node) {
   dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
@@ -70,11 +70,11 @@ double aspect_of(const ModelChoice& choice) {
   return static_cast<double>(choice.size_px.x) / static_cast<double>(choice.size_px.y);
 }
 
-// How the model is looked at: the pose looks along -z with +y up, in the model's own metres.
+// View of the model: the pose looks along -z with +y up, in the model's metres.
 struct Look {
   dmat4 scene_from_camera{1.0};
   scene::Camera camera{};
-  double focus_m = 1.0;  // to what shall lie in the wall's plane
+  double focus_m = 1.0;  // distance of the wall's plane
 };
 
 Look automatic_look(const Sphere& bounds, double aspect) {
@@ -101,7 +101,7 @@ core::Result<Look> chosen_look(const scene::Scene& scene, const std::vector<dmat
     if (choice.camera != camera_name(scene, node)) continue;
     Look look{scene_from_node[i], camera, 1.0};
 
-    // a camera's own scale is not a lens
+    // removes the camera's scale, which is not a zoom
     for (int axis = 0; axis < 3; ++axis) {
       const double length = glm::length(look.scene_from_camera[axis]);
       if (length > 0.0) look.scene_from_camera[axis] /= length;
@@ -115,7 +115,7 @@ core::Result<Look> chosen_look(const scene::Scene& scene, const std::vector<dmat
                                    choice.camera, names.empty() ? "none" : names));
 }
 
-// The wall shows the frustum's cross-section at the focus; the room's origin is the wall's middle.
+// The wall shows the frustum's cross-section at the focus. The room's origin is the middle of the wall.
 double metres_of_wall(const Look& look) {
   const double height_m = look.camera.perspective
                               ? 2.0 * look.focus_m * std::tan(0.5 * static_cast<double>(look.camera.yfov_rad))
@@ -143,7 +143,7 @@ core::Result<void> set_perspective_eyes(const Look& look, double scale, const Mo
   return {};
 }
 
-// Parallel rays: both eyes see the same. The camera stands a wall's depth of `far` in front of what it sees.
+// Parallel projection: both eyes see the same. The camera is the depth `far` in front of its objects.
 void set_parallel_eyes(const Look& look, double scale, double aspect, render::FrameState& frame) {
   const double distance_m = look.focus_m * scale;
   const double near_m = static_cast<double>(look.camera.near_m) * scale;
@@ -168,7 +168,7 @@ void place_lights(const scene::Scene& scene, double scale, render::FrameState& f
     placed.position_m = glm::vec3(dvec3(room_from_node[3]));
     placed.direction = length > 0.0 ? glm::vec3(-backward / length) : glm::vec3(0, 0, -1);
 
-    // enlarged with the model, so that as much light arrives as before
+    // scaled with the model, so that the illumination stays the same
     if (placed.light.kind != scene::PunctualLight::Kind::Directional) {
       placed.light.intensity *= static_cast<float>(scale * scale);
     }

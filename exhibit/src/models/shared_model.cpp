@@ -14,7 +14,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// Column-major, as glm's.
+// Column-major, like glm's.
 std::array<double, 16> shared_matrix(const glm::dmat4& matrix) {
   std::array<double, 16> shared;
   std::copy_n(glm::value_ptr(matrix), shared.size(), shared.begin());

@@ -24,13 +24,12 @@ namespace afm::exhibit {
 
 namespace {
 
-// Of a material's stroke: the side of its sample, as the assets' samples have it, and the relief that a hand feels
-// well.
+// Side of a sample in units of the material's stroke, as in the assets, and the relief that is easy to feel.
 constexpr double kSideOfStroke = 1.65;
 constexpr double kLeastRelief = 0.05, kMostRelief = 0.25;
-constexpr double kSlabOfSide = 0.12;     // its thickness below the lowest place, in true proportions
-constexpr double kOutlierShare = 0.002;  // of the points, at either end of the colours' scale
-constexpr double kFlat_m = 1e-15;        // a relief that is none
+constexpr double kSlabOfSide = 0.12;     // thickness below the lowest place, as a share of the side
+constexpr double kOutlierShare = 0.002;  // share of the points at either end of the colour scale
+constexpr double kFlat_m = 1e-15;        // flat below this relief
 
 constexpr glm::vec4 kWallColour(0.055F, 0.05F, 0.06F, 1.0F);
 
@@ -44,7 +43,7 @@ struct Grid {
     return {static_cast<float>(x(column)), static_cast<float>(y(row)), z(column, row)};
   }
 
-  // By central differences; one-sided at the rim.
+  // Normal from central differences; one-sided at the rim.
   glm::vec3 normal(std::size_t column, std::size_t row) const {
     const std::size_t left = column > 0 ? column - 1 : 0,
                       right = std::min<std::size_t>(column + 1, topography.columns - 1);
@@ -66,7 +65,7 @@ scene::Primitive top_of(const Grid& grid, double lowest_m, double highest_m) {
   const std::size_t columns = grid.topography.columns, rows = grid.topography.rows;
   top.vertices.reserve(columns * rows);
   const double range_m = std::max(highest_m - lowest_m, kFlat_m);
-  // of 1024 colours no step is seen
+  // steps between 1024 colours are invisible
   std::vector<glm::vec4> colours(1024);
   for (std::size_t i = 0; i < colours.size(); ++i) {
     colours[i] = linear_colour(height_colour(static_cast<double>(i) / static_cast<double>(colours.size() - 1)));
@@ -83,7 +82,7 @@ scene::Primitive top_of(const Grid& grid, double lowest_m, double highest_m) {
     for (std::size_t column = 0; column + 1 < columns; ++column) {
       const auto a = static_cast<std::uint32_t>(row * columns + column), b = a + 1;
       const auto c = static_cast<std::uint32_t>(a + columns), d = c + 1;
-      // cut along the more level diagonal, so that an edge of the sample runs smoothly across the grid
+      // splits along the more level diagonal, so that an edge of the sample is smooth across the grid
       const auto drop = [&](std::uint32_t from, std::uint32_t to) {
         return std::abs(top.vertices[from].position.z - top.vertices[to].position.z);
       };
@@ -95,7 +94,7 @@ scene::Primitive top_of(const Grid& grid, double lowest_m, double highest_m) {
   return top;
 }
 
-// Four faces from the rim down.
+// Four faces below the rim.
 scene::Primitive walls_of(const Grid& grid, double bottom_m) {
   scene::Primitive walls;
   walls.material = 1;
@@ -111,7 +110,7 @@ scene::Primitive walls_of(const Grid& grid, double bottom_m) {
       walls.indices.insert(walls.indices.end(), {first, first + 1, first + 2, first + 2, first + 1, first + 3});
     }
   };
-  // each counter-clockwise as seen from above
+  // each counter-clockwise, seen from above
   face(columns, {0, -1, 0}, [&](std::size_t i) { return grid.place(i, 0); });
   face(rows, {1, 0, 0}, [&](std::size_t i) { return grid.place(columns - 1, i); });
   face(columns, {0, 1, 0}, [&](std::size_t i) { return grid.place(columns - 1 - i, rows - 1); });
@@ -123,7 +122,7 @@ double longest_side_m(const scene::Topography& topography) {
   return topography.spacing_m * (std::max(topography.columns, topography.rows) - 1);
 }
 
-// Without the outliers of a few points.
+// Range without outliers.
 std::pair<double, double> range_of(const scene::Topography& topography) {
   std::vector<float> heights = topography.height_m;
   const auto at = [&](double share) {
@@ -151,7 +150,7 @@ scene::Scene topography_scene(const scene::Topography& topography, double lowest
 }
 
 double exaggeration_of(double relief_m, double side_m) {
-  // both ends in true proportions, of the stroke
+  // both limits in true proportions, relative to the stroke
   const double relief = kSideOfStroke * relief_m / side_m;
   if (!(relief_m > kFlat_m) || (relief >= kLeastRelief && relief <= kMostRelief)) return 1.0;
   const double wanted = (relief < kLeastRelief ? kLeastRelief : kMostRelief) / relief;

@@ -29,7 +29,7 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-// A sample that is wider than this is no sample in true size; it is shown this wide.
+// A wider sample cannot be in true size, so it is scaled to this width.
 constexpr double kWidestSampleM = 1e-6;
 constexpr double kFittedSampleM = 60e-9;
 
@@ -58,7 +58,7 @@ void transform(scene::Primitive& primitive, const dmat4& matrix) {
   }
 }
 
-// All meshes of the nodes that `wanted` takes, as one mesh in a frame.
+// All meshes of the nodes that `wanted` accepts, as one mesh in a frame.
 template <class Wanted>
 scene::Mesh merged(const scene::Scene& scene, const dmat4& frame_from_scene, Wanted wanted) {
   const std::vector<dmat4> scene_from_node = scene::scene_from_nodes(scene);
@@ -72,7 +72,7 @@ scene::Mesh merged(const scene::Scene& scene, const dmat4& frame_from_scene, Wan
   return mesh;
 }
 
-// The looks of a model without its nodes and meshes.
+// The materials and textures of a model without its nodes and meshes.
 scene::Scene without_shape(const scene::Scene& scene) {
   scene::Scene bare;
   bare.materials = scene.materials;
@@ -140,7 +140,7 @@ core::Result<scene::Scene> load_sample(const std::string& file) {
   return sample;
 }
 
-// Whether a file that is there begins as no glTF model does: neither as a binary one nor as JSON.
+// Returns whether an existing file begins neither as binary glTF nor as JSON.
 bool is_no_model(const std::string& path) {
   std::error_code missing;
   if (!std::filesystem::is_regular_file(path, missing)) return false;

@@ -20,14 +20,14 @@ namespace {
 using physics::format_quantity;
 using physics::Law;
 
-// With a typographic minus, and no sign on what rounds to zero.
+// Formats with a typographic minus, and without a sign if the value rounds to zero.
 std::string signed_text(double value, int decimals, const char* unit) {
   const double tiny = 0.5 * std::pow(10.0, -decimals);
   const char* sign = value >= tiny ? "+" : value <= -tiny ? "\u2212" : "";
   return fmt::format("{}{:.{}f} {}", sign, std::abs(value), decimals, unit);
 }
 
-// A number of the contact: with its source or, if it was changed, with its first value.
+// A value of the contact, with its source or, if it was changed, with its initial value.
 template <class Q, class Text>
 render::DataRow row(const curves::SampleModel& material, const Phrases& phrases, Phrase name, const char* option,
                     Q physics::ContactParameters::* member, const Text& text) {
@@ -62,7 +62,7 @@ std::string hysteresis_text(const physics::CycleFigures& figures, const Phrases&
   return figures.hysteretic ? phrases.text<Phrase::HysteresisBelow>(k) : phrases.text<Phrase::NoHysteresisAbove>(k);
 }
 
-// The reason for the law, from the Tabor parameter.
+// Reason for the law, from the Tabor parameter.
 std::string law_text(const curves::SampleModel& material, const Phrases& phrases) {
   const Law law = material.parameters.law;
   if (law == Law::Measured) return phrases[Phrase::LawOfRecording];
@@ -72,7 +72,7 @@ std::string law_text(const curves::SampleModel& material, const Phrases& phrases
   return phrases.text<Phrase::OtherLawSuits>(tabor, regime, physics::name_of(material.contact.law));
 }
 
-// The numbers that the law uses.
+// Adds the values that the law uses.
 void add_contact_rows(const curves::SampleModel& material, const Phrases& phrases, render::DataPanel& panel) {
   using enum Phrase;
   using physics::ContactParameters;
@@ -97,7 +97,7 @@ void add_contact_rows(const curves::SampleModel& material, const Phrases& phrase
   }
 }
 
-// Attraction pulls the lever down, towards the sample: the deflection is positive.
+// An attraction bends the lever down, towards the sample: the deflection is then positive.
 std::string bend_text(double deflection_m, const Phrases& phrases) {
   const std::string amount = fmt::format("{:.2f} nm", std::abs(deflection_m) * curves::kNmPerM);
   return deflection_m < 0 ? phrases.text<Phrase::LeverBentUp>(amount) : phrases.text<Phrase::LeverBentDown>(amount);

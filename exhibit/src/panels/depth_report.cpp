@@ -11,7 +11,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// As degrees that the eyes turn in, and as millimetres on the wall.
+// The convergence in degrees and the parallax in millimetres on the wall.
 std::string disparity_text(const scene::Disparity& disparity) {
   return fmt::format("{:+.2f}\u00b0 ({:+.0f} mm)", -glm::degrees(disparity.crossed_rad), disparity.uncrossed_m * 1e3);
 }
@@ -38,7 +38,7 @@ std::string depth_text(const DepthReport& report, const Phrases& phrases) {
   if (report.hard) {
     text += ", " + phrases[report.relief == Relief::BringToWall ? DepthBringToWall : DepthNarrowEyes];
   }
-  // eyes closer together than the parallax at the far end would have to turn outwards
+  // eyes closer together than the far parallax would have to diverge
   if (report.farthest.uncrossed_m > scene::kSmallestIpdM) {
     text += "; " + phrases.text<DepthWideEyes>(fmt::format("{:.0f}", std::ceil(report.farthest.uncrossed_m * 1e3)));
   }

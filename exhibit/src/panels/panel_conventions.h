@@ -3,9 +3,8 @@
 
 namespace afm::exhibit {
 
-// Shared by the panels. The shares of the axis of force above and below zero, in units of the greatest force
-// towards the one and the other side.
+// Ranges of the force axis above and below zero in all panels, in units of the greatest force in either direction.
 inline constexpr double kForceAbove = 0.52, kForceBelow = 1.22;
-inline constexpr int kDigits = 3;  // of a number
+inline constexpr int kDigits = 3;  // significant digits of a value
 
 }  // namespace afm::exhibit

@@ -46,7 +46,7 @@ std::vector<std::string> notes(const curves::LiveParameters& parameters, const P
   return lines;
 }
 
-// In the order of LiveParameters::Row and of ChangeState.
+// In the order of LiveParameters::Row, and of ChangeState.
 constexpr std::array<Phrase, curves::LiveParameters::kRows> kNames{Phrase::TipRadius,       Phrase::SpringConstant,
                                                                    Phrase::HamakerConstant, Phrase::WorkOfAdhesion,
                                                                    Phrase::ReducedModulus,  Phrase::ForceLaw};

@@ -21,7 +21,7 @@ std::vector<render::DataRow> servo_rows(const scene::TipState& tip, const scene:
                                         const scene::SharedDevice& device, const Phrases& phrases) {
   using enum Phrase;
   std::vector<render::DataRow> rows;
-  // metres and newtons of the hand for those of the nanoworld: mm per nm, N per nN
+  // metres and newtons of the hand per those of the nanoworld: mm per nm, N per nN
   const scene::HandScale& scale = tip.active.scale;
   if (scale.hand_m_per_m > 0) {
     rows.push_back(

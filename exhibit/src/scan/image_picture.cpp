@@ -98,7 +98,7 @@ std::string value_label(double value, const std::string& unit) {
   return physics::format_si(value, physics::kPlainNumber.units, kDigits);
 }
 
-// The longest of 1, 2 or 5 times a power of ten that is at most a third of the width.
+// The longest length of 1, 2 or 5 times a power of ten that is at most a third of the width.
 double round_length_m(double width_m) {
   const double third_m = width_m / 3.0, decade_m = std::pow(10.0, std::floor(std::log10(third_m)));
   for (const double factor : {5.0, 2.0}) {

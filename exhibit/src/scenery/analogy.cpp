@@ -11,7 +11,7 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-constexpr double kShortestSpring = 0.1;  // of its length: its turns lie on each other
+constexpr double kShortestSpring = 0.1;  // share of its length: the coils touch
 
 }  // namespace
 

@@ -18,16 +18,16 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-// Seen from above like the sample on the wall; lower where the ball of the tip would stand in the way, and where a
-// viewer would stand inside it.
+// Seen from above, like the sample on the wall; lower at scales at which the ball of the tip would hide the view or
+// enclose the viewer.
 constexpr double kLowTiltRad = 0.12, kLowFromOrders = 6.0, kLowAtOrders = 7.5;
 
-constexpr double kBeyondFog = 20.0;     // layout units; the haze ends sooner
-constexpr double kBelowPixel = 0.0015;  // layout units
+constexpr double kBeyondFog = 20.0;     // in layout units; beyond the fog
+constexpr double kBelowPixel = 0.0015;  // size in layout units
 
 constexpr double kVeilS = 0.5, kTravelS = 20.0;
 constexpr double kWholeS = 2.0 * kVeilS + kTravelS;
-constexpr double kStepS = kTravelS / (kJourneyOrders + 1.0);  // at each power of ten
+constexpr double kStepS = kTravelS / (kJourneyOrders + 1.0);  // time at each power of ten
 static_assert(kStepS > 2.0 * kVeilS);
 
 double eased(double t) {
@@ -40,7 +40,7 @@ double scale_of(double orders) { return std::pow(10.0, std::clamp(orders, 0.0, k
 }  // namespace
 
 Phrase journey_place(double orders) {
-  // where the places end
+  // upper limits of the places
   static constexpr std::array kEnds{0.7, 1.7, 2.6, 3.5, 4.7, 6.2, 7.6, 8.3};
   static_assert(after(Phrase::PlaceBench, kEnds.size()) == Phrase::PlaceAtoms);
   const auto* const end = std::find_if(kEnds.begin(), kEnds.end(), [&](double e) { return orders < e; });
@@ -94,12 +94,12 @@ bool Journey::shows(scene::NodeIndex node, double orders, std::size_t ground) co
 }
 
 std::optional<Journey::Companion> Journey::companion(double orders) const {
-  // over their highest points, in metres (assets/generate/companions.cpp)
+  // above their highest points, in metres (assets/generate/companions.cpp)
   static constexpr std::array<Companion, 4> kCompanions{{{Phrase::CompanionHair, {560e-6, 300e-6, 95e-6}},
                                                          {Phrase::CompanionCell, {-9.5e-6, 0.5e-6, 6e-6}},
                                                          {Phrase::CompanionVirus, {-118e-9, 10e-9, 105e-9}},
                                                          {Phrase::CompanionDna, {-21e-9, -1e-9, 3.2e-9}}}};
-  constexpr double kNearest = 0.25, kFarthest = 1.15;  // layout units from the tip: then it is seen whole
+  constexpr double kNearest = 0.25, kFarthest = 1.15;  // layout units from the tip, for full visibility
   for (const Companion& companion : kCompanions) {
     const dvec3 place = companion.place * scale_of(orders);
     if (std::abs(place.x) > kNearest && std::abs(place.x) < kFarthest) return Companion{companion.name, place};

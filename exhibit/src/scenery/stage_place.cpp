@@ -14,15 +14,15 @@ namespace {
 using glm::dvec3;
 using scene::Screen;
 
-constexpr double kCorner = 0.05;     // of the main screen's width, between the edges of two screens that meet
-constexpr double kNarrowest = 0.25;  // of a side screen, in widths of the main one: less holds no panel
-constexpr double kFacingTie = 0.02;  // cosines that differ by less face as well
+constexpr double kCorner = 0.05;     // gap of adjoining screens, as a share of the main screen's width
+constexpr double kNarrowest = 0.25;  // width of a side screen in units of the main one; too narrow for a panel below
+constexpr double kFacingTie = 0.02;  // difference of cosines below which two screens are faced equally
 
 dvec3 right_of(const Screen& screen) { return glm::normalize(screen.lower_right - screen.lower_left); }
 
 dvec3 up_of(const Screen& screen) { return glm::cross(screen.normal(), right_of(screen)); }
 
-// The rectangle around tiles of one plane, upright as the first is.
+// Rectangle around the tiles of one plane, with the orientation of the first.
 Screen around(const std::vector<Screen>& tiles) {
   const Screen& first = tiles.front();
   if (tiles.size() == 1) return first;
@@ -72,7 +72,7 @@ double facing(const Screen& screen, const scene::HeadPose& head) {
 
 double area(const Screen& screen) { return screen.width_m() * screen.height_m(); }
 
-// Of screens that are faced as squarely the largest, and of those the first.
+// The largest of the screens that are faced most directly; the first of equal ones.
 const Screen& faced(const std::vector<Screen>& screens, const scene::HeadPose& head) {
   return *std::max_element(screens.begin(), screens.end(), [&](const Screen& a, const Screen& b) {
     const double difference = facing(b, head) - facing(a, head);
@@ -80,7 +80,7 @@ const Screen& faced(const std::vector<Screen>& screens, const scene::HeadPose& h
   });
 }
 
-// Whether `side` begins where the main screen's edge ends: upright as that is, wide enough, before the viewer.
+// Returns whether `side` continues the main screen at its edge: upright too, wide enough, and in front of the viewer.
 bool goes_on(const Screen& side, const dvec3& side_corner, const dvec3& main_corner, const Screen& main,
              const dvec3& head_m) {
   return glm::distance(side_corner, main_corner) < kCorner * main.width_m() &&

@@ -17,7 +17,7 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-constexpr double kSmallestBend = 0.02;  // layout units; less is not told from the thickness of the lines
+constexpr double kSmallestBend = 0.02;  // layout units; smaller bends are hidden by the lines' thickness
 
 scene::NodeIndex another(scene::Scene& scene, scene::NodeIndex of, std::string name, scene::NodeIndex parent) {
   scene::Node node = scene.nodes[of];

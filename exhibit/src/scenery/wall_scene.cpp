@@ -90,7 +90,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   }
   if (build.error()) return tl::unexpected(*build.error());
 
-  // the second half of the beam is a node of its own that shows the same mesh
+  // the second half of the beam is a separate node with the same mesh
   scene::Node beam_out = w.scene_.nodes[w.beam_in_];
   beam_out.name = "optics/beam-reflected";
   w.beam_out_ = static_cast<scene::NodeIndex>(w.scene_.nodes.size());
@@ -117,7 +117,7 @@ void WallScene::add_height_bar(ModelBuilder& build) {
       glm::scale(glm::translate(dmat4(1.0), dvec3(height_bar_x(), kHeightBarBottom, 0.0)), dvec3(kHeightBarHeight));
 }
 
-// One mesh for all materials, in metres as they were measured; the node of each says how large it is shown.
+// One mesh for all materials, in metres as measured. Each material's node contains its scale.
 void WallScene::add_topography(ModelBuilder& build, const std::string& sample, const UserModels& own,
                                MaterialLook& look) {
   const TopographyModel& model = *own.topography;
@@ -142,7 +142,7 @@ void WallScene::add_topography(ModelBuilder& build, const std::string& sample, c
   look.thickness_m = -bounds_below(scene_, look.sample).low.z;
 }
 
-// Materials that share a model share its surface. More surfaces than the servo has room for are felt as planes.
+// Materials with the same model share its surface. Surfaces beyond the servo's capacity are felt as planes.
 std::uint32_t WallScene::height_field_of(const std::string& model, scene::NodeIndex surface) {
   const auto known = std::find(surface_models_.begin(), surface_models_.end(), model);
   if (known != surface_models_.end()) return static_cast<std::uint32_t>(known - surface_models_.begin());
@@ -170,7 +170,7 @@ double WallScene::journey_m_per_m(double orders) const {
 }
 
 double WallScene::layout_per_m(const WallState& state) const {
-  // before a choice nothing lies on the stage, and the tip rests at its height of zero
+  // before a choice the stage is empty, and the tip is at zero height
   if (!state.material) return 0.0;
   return kStrokeHeight / (looks_[*state.material].stroke_m * parameter_factor(*state.material, state.release_z_m));
 }

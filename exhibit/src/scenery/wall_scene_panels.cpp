@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The composition of a wall of any shape and the place of its panels.
+// Composition of a wall of any shape, with the places of its panels.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -16,7 +16,7 @@ using glm::dvec3;
 
 namespace {
 
-// On a side screen, beside the corner that it shares with the main one, as high as `beside_m` is there.
+// Placement on a side screen, at the corner shared with the main screen, at the height of `beside_m`.
 render::PanelPlacement on_side_screen(const scene::Screen& side, bool at_its_right_end, const dvec3& beside_m,
                                       double unit_m) {
   const dvec3 right = glm::normalize(side.lower_right - side.lower_left);
@@ -41,10 +41,10 @@ render::PanelPlacement in_frame(const glm::dmat4& room_from_frame, double left, 
 
 }  // namespace
 
-// The layout, from the screens and the viewer in front of them.
+// Computes the layout from the screens and the viewer in front of them.
 void WallScene::lay_out(const StagePlace& stage) {
-  // the contact point: at eye height, in the middle, as far as everything finds its place above and below it, but never
-  // out of the wall's middle third
+  // the contact point: in the middle at eye height, moved to leave room above and below, but within the wall's middle
+  // third
   const scene::Screen& screen = stage.main;
   shape_ = wall_shape(stage);
   const double unit = shape_.unit_m;
@@ -68,7 +68,7 @@ void WallScene::lay_out(const StagePlace& stage) {
   lay_out_panels(stage);
 }
 
-// Shelf and wand, which stand before the wall: no nearer than eyes can look at without strain.
+// Places shelf and wand in front of the wall, no nearer than the eyes can look without strain.
 void WallScene::lay_out_front(const StagePlace& stage, double contact_height_m) {
   const double unit = shape_.unit_m;
   const dvec3 eye(glm::inverse(room_from_layout_) * glm::dvec4(stage.viewer_m, 1.0));
@@ -80,13 +80,13 @@ void WallScene::lay_out_front(const StagePlace& stage, double contact_height_m) 
   wand_grip_ = kWandGrip;
   wand_grip_.z = std::clamp(nearest - kWandReach, kLeastShelfZ, kWandGrip.z);
 
-  // seen from above the wall, things in front of it appear lower: then the shelf is higher
+  // objects in front of the wall appear lower to a viewer above them, so the shelf is raised
   const double bottom = shape_.arrangement == Arrangement::Below ? -kRoomBelow : -contact_height_m / unit;
   const double lowest_seen = eye.y + (bottom + kPanelMargin - eye.y) * (eye.z - shelf_z_) / eye.z;
   shelf_y_ = std::clamp(lowest_seen + kShelfHeight, kShelfY, kHighestShelfY);
 }
 
-// Panels are no wider than 1.6 of their height, however wide the wall.
+// Limits the width of panels to 1.6 times their height on wide walls.
 void WallScene::lay_out_panels(const StagePlace& stage) {
   const double half_wall = 0.5 * stage.main.width_m() / shape_.unit_m;
   const auto beside = [&] {
@@ -116,7 +116,7 @@ render::PanelPlacement WallScene::panel_beside(double left, double bottom, doubl
   return in_frame(room_from_layout_, left, bottom, width, height);
 }
 
-// The data's without a strip at its left.
+// The data panel's place without a strip at its left.
 render::PanelPlacement WallScene::right_of_data(double inset) const {
   render::PanelPlacement panel = data_placement_;
   const dvec3 step = inset * shape_.unit_m * glm::normalize(panel.right_m);
@@ -144,7 +144,7 @@ render::PanelPlacement WallScene::note_placement() const {
   return note;
 }
 
-// The finale's large plot takes the room of the instrument.
+// The finale's large plot replaces the instrument.
 render::PanelPlacement WallScene::plot_placement() const {
   if (shape_.arrangement == Arrangement::Beside) {
     const double width = std::min(kPanelInnerEdge + half_width_ - 2.0 * kPanelMargin, kWidestPlot);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place of everything in one state.
+// Places of all nodes in a given state.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,13 +19,13 @@ namespace afm::exhibit {
 using glm::dmat4;
 using glm::dvec3;
 
-// Everything in the sample's frame, in layout units; the lever runs towards the viewer, parallel to the sample.
+// All in the sample's frame, layout units. The lever extends towards the viewer, parallel to the sample.
 WallScene::LeverPose WallScene::lever_pose(const WallState& state) const {
   const double per_m = layout_per_m(state);
   const dvec3 up(0.0, 0.0, 1.0);
   const dvec3 along(std::sin(kLeverAzimuthRad), -std::cos(kLeverAzimuthRad), 0.0);
 
-  // the drawn deflection brings the apex exactly to its height although the tip turns with the lever's end slope
+  // the drawn deflection puts the apex exactly at its height even though the tip rotates with the lever's end
   LeverPose pose;
   const double deflection = state.tip.deflection_m * per_m;
   pose.end = -deflection;
@@ -35,7 +35,7 @@ WallScene::LeverPose WallScene::lever_pose(const WallState& state) const {
   }
   const double base_height = state.tip.z_m * per_m + kTipDrawnLength;
 
-  // the chip is moved along the lever so that the apex stays over its spot of the sample
+  // moves the chip along the lever to keep the apex over the same spot of the sample
   const dvec3 clamp =
       below_tip(state) + up * base_height - along * (kLeverDrawnLength + kTipDrawnLength * std::sin(pose.angle));
   pose.frame_from_lever = frame_matrix(along, glm::cross(up, along), up, clamp);
@@ -53,7 +53,7 @@ void WallScene::place_probe(const WallState& state, std::vector<dmat4>& local, r
           .length = static_cast<float>(lever_length_),
           .end_deflection = static_cast<float>(end / lever_scale)};
 
-  // the tip hangs below the lever's end and turns with it
+  // the tip is fixed to the lever's end and rotates with it
   const dvec3 end_point(kLeverDrawnLength, 0.0, end);
   const dvec3 tip_z(-std::sin(angle), 0.0, std::cos(angle));
   const dmat4 lever_from_tip = frame_matrix({std::cos(angle), 0.0, std::sin(angle)}, {0.0, 1.0, 0.0}, tip_z, end_point);
@@ -61,7 +61,7 @@ void WallScene::place_probe(const WallState& state, std::vector<dmat4>& local, r
   const dmat4 frame_from_parent = local[lever_] * ancestor_from_node(scene_, lever_, *scene_.nodes[tip_].parent);
   local[tip_] = glm::inverse(frame_from_parent) * frame_from_tip;
 
-  // beside the tip, through which a lever that is bent upwards would draw them, and never under the sample
+  // next to the tip, because a lever that is bent up would hide the marks, and never below the sample
   const double unbent_height = frame_from_lever[3].z - below_tip(state).z;
   const double lowest = std::max(0.0, kUnbentLowest - unbent_height);
   const auto in_frame = [&from_lever = frame_from_lever](double x, double z) {
@@ -81,13 +81,13 @@ void WallScene::place_optics(const WallState& state, std::vector<dmat4>& local) 
     const dmat4 layout_from_parent = ancestor_from_node(scene_, layout_, *scene_.nodes[node].parent);
     local[node] = glm::inverse(layout_from_parent) * layout_from_node;
   };
-  // where the light falls: on the upper face of the lever, over the tip
+  // where the light hits the upper side of the lever, over the tip
   const LeverPose pose = lever_pose(state);
   const dvec3 face(-std::sin(pose.angle), 0.0, std::cos(pose.angle));
   const dvec3 lit = dvec3(kLeverDrawnLength, 0.0, pose.end) + kLeverDrawnThickness * face;
   const dvec3 lever_end(scene_.nodes[sample_frame_].parent_from_node * pose.frame_from_lever * glm::dvec4(lit, 1.0));
 
-  // the diode looks between the lever and the viewer, so that its four quadrants and the spot are seen
+  // the diode's direction is between lever and viewer, so that its four quadrants and the spot are visible
   const dmat4 photodiode =
       looking_along(kPhotodiode, glm::normalize(dvec3(0.0, 0.2, 0.0) - kPhotodiode) + kTowardsViewer);
   const double full =
@@ -129,7 +129,7 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, render::B
   return local;
 }
 
-// The sample at its true proportions, the stage below it.
+// The sample at its true proportions, with the stage below it.
 void WallScene::place_sample(const WallState& state, std::vector<dmat4>& local) const {
   double thickness = 0.0;
   if (state.material) {
@@ -142,7 +142,7 @@ void WallScene::place_sample(const WallState& state, std::vector<dmat4>& local) 
   place_stand(thickness, local);
 }
 
-// Upright from the floor to the plate, wherever that is under a sample; the wand moves it with them.
+// Upright from the floor to the plate below a sample, wherever that is; moves with them under the wand.
 void WallScene::place_stand(double thickness, std::vector<dmat4>& local) const {
   const dmat4& layout_from_sample = scene_.nodes[sample_frame_].parent_from_node;
   const dvec3 top(layout_from_sample * glm::dvec4(0.0, 0.0, -thickness - stage_height_, 1.0));
@@ -243,7 +243,7 @@ void WallScene::update(const WallState& state, render::FrameState& frame) const 
   frame.key_light.shadow_radius_m = static_cast<float>(1.7 * unit_m);
 }
 
-// On the slanted face of each swatch's plinth.
+// On the slanted face of each swatch's base.
 void WallScene::place_swatch_labels(const WallState& state, render::FrameState& frame) const {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     const dmat4& room_from_label = frame.room_from_node[looks_[i].label];
@@ -263,7 +263,7 @@ Analogy::Heights WallScene::analogy_heights(const WallState& state) const {
   return {.poles = (state.tip.z_m - state.tip.deflection_m) * per_m, .deflection = state.tip.deflection_m * per_m};
 }
 
-// Beside the parts, in the wall's plane; the plate's lies on its front.
+// Next to the parts, in the wall's plane; the plate's label is on its front.
 void WallScene::place_analogy_labels(const WallState& state, render::FrameState& frame) const {
   const Analogy::Heights heights = analogy_heights(state);
   const auto beside = [&](double height) {
@@ -289,7 +289,7 @@ double WallScene::ruler_m_per_unit(const WallState& state) const {
   return 1.0 / (state.centerpiece == Centerpiece::Analogy ? kAnalogyScale * navigated : navigated);
 }
 
-// The ruler's number and what happens where the tip, or the magnet, meets the sample.
+// The ruler's number, and the event at the contact of tip or magnet and sample.
 void WallScene::place_marks(const WallState& state, render::FrameState& frame) const {
   frame.contact = {};
   const double m_per_unit = ruler_m_per_unit(state);
@@ -314,7 +314,7 @@ void WallScene::place_marks(const WallState& state, render::FrameState& frame) c
   frame.contact.ring_radius_m = static_cast<float>(ring.radius) * frame.contact.shade_radius_m;
 }
 
-// Over it, as deep in the room as it is.
+// Above the companion, at its depth.
 void WallScene::place_companion_label(const Journey::Companion& companion, render::FrameState& frame) const {
   const dmat4& room_from_journey = frame.room_from_node[journey_.frame()];
   const double unit_m = glm::length(dvec3(room_from_layout_[0]));
@@ -328,12 +328,12 @@ void WallScene::place_companion_label(const Journey::Companion& companion, rende
                           .placement = {.lower_left_m = middle - 0.5 * right, .right_m = right, .up_m = up}});
 }
 
-// So far to the right as an upright wall, whose panels stand below, has room for the numbers.
+// As far to the right as a narrow wall with panels below leaves room for the numbers.
 double WallScene::height_bar_x() const {
   return std::min(kHeightBarX, half_width_ - kPanelMargin - kHeightBarWidth - kHeightBarTextGap - kHeightBarTextWidth);
 }
 
-// The numbers at the ends of its scale, in metres as they were measured, and how far the sample is out of proportion.
+// The numbers at the ends of the colour scale, in metres as measured, and the sample's exaggeration.
 void WallScene::place_height_bar(const WallState& state, render::FrameState& frame) const {
   if (!topography_mesh_ || state.centerpiece != Centerpiece::Instrument || !state.material) return;
   const auto length = [](double length_m) {

@@ -13,14 +13,14 @@ namespace afm::exhibit {
 
 namespace {
 
-// Prefixes from pico up, each with a phrase for one and one for all other numbers.
+// Prefixes from pico up, each with a singular and a plural phrase.
 struct Prefix {
   double of_si;
-  const char* sign;  // of newtons
+  const char* sign;  // unit symbol for newtons
 };
 constexpr std::array<Prefix, 3> kPrefixes{{{1e-12, "pN"}, {1e-9, "nN"}, {1e-6, "\u00b5N"}}};
 constexpr std::size_t kUsual = 1;
-constexpr double kPicoBelow = 0.1, kMicroFrom = 1000.0;  // nano
+constexpr double kPicoBelow = 0.1, kMicroFrom = 1000.0;  // limits of the prefix nano
 static_assert(after(Phrase::OnePiconewton, 2 * kPrefixes.size()) == Phrase::OnePicometre);
 
 struct Rounded {

@@ -10,7 +10,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// Hand's millimetres mean the same for every material: its stroke is 50 of them.
+// Millimetres of the hand are comparable for all materials: a stroke is 50 of them.
 constexpr double kHandTurnM = 0.001;
 constexpr double kKeptM = 0.00005;
 

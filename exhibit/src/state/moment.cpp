@@ -7,9 +7,9 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kTurnM = 0.2e-9;  // Z must rise this far above its lowest before it counts as retracting
+constexpr double kTurnM = 0.2e-9;  // rise of Z above its minimum that counts as retracting
 
-// The part that the newest state and a recorded sample share.
+// Fields common to the newest state and a recorded sample.
 template <class TipRecord>
 Moment moment_from(const TipRecord& record) {
   Moment moment;

@@ -42,7 +42,7 @@ std::string list_of(const std::vector<Place>& places) {
   return list.empty() ? "none" : list;
 }
 
-// Of UTF-8, which the TOML parser has checked: all bytes but those that continue a character.
+// Counts the characters of UTF-8 text that the TOML parser has checked: all bytes except continuation bytes.
 std::size_t characters(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
@@ -85,7 +85,7 @@ void put(std::string_view place, std::string_view value, std::string& text) {
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-// From a word to the number behind it: "Gold 0.1 N/m".
+// End of the word before a number: "Gold 0.1 N/m".
 std::optional<std::size_t> end_of_word_before_number(std::string_view text) {
   for (std::size_t i = 0; i + 1 < text.size(); ++i) {
     if (text[i] == ' ' && is_digit(text[i + 1])) return i;
@@ -151,7 +151,7 @@ std::string Phrases::number(std::string text) const {
   const char mark = decimal_mark();
   const auto digit_at = [&](std::size_t i) { return i < text.size() && is_digit(text[i]); };
   for (std::size_t begin = 0; mark != '.' && begin < text.size();) {
-    // a run of digits and points is a number if it has one point, between digits
+    // digits and points are a number if there is a single point between digits
     std::size_t end = begin;
     while (digit_at(end) || (end > begin && end < text.size() && text[end] == '.' && digit_at(end + 1))) ++end;
     const auto run = std::string_view(text).substr(begin, end - begin);

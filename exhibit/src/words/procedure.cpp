@@ -5,7 +5,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// Said at once, and no longer than they hold: they speak of the force itself.
+// Shown at once, and only while they are true, because they concern the force.
 bool concerns_safety(Hint hint) {
   return hint == Hint::ComingOn || hint == Hint::GoingOff || hint == Hint::PressToGoOn || hint == Hint::ServoEnded;
 }
@@ -33,7 +33,7 @@ Hint Procedure::update(const scene::TipState& tip, const CycleProgress& progress
   if (shown_ && !at_once && now_ns - shown_since_ns_ < kReadableNs) return *shown_;
   const Hint next = reward_due_ && needs_force(step) ? Hint::LetGo : step;
   if (next == Hint::LetGo) reward_due_ = false;
-  if (next == Hint::MoveDown) let_go_ = false;  // the next cycle has begun
+  if (next == Hint::MoveDown) let_go_ = false;  // beginning of the next cycle
   if (shown_ != next) {
     shown_ = next;
     shown_since_ns_ = now_ns;

@@ -49,7 +49,7 @@ constexpr std::array<std::string_view, 29> kMaterialKeys{"name",
                                                          "lattice_period",
                                                          "lattice_corrugation"};
 
-// One [[material]].
+// Reads one [[material]].
 class MaterialReader {
  public:
   explicit MaterialReader(const toml::table& table) : table_(table, "material") {}
@@ -101,7 +101,7 @@ class MaterialReader {
     }
   }
 
-  // Both bodies, or E* itself, or nothing: rigid.
+  // Both bodies' moduli, or E*, or neither: rigid.
   void read_elasticity() {
     constexpr std::array<const char*, 4> kBodies{"tip_modulus", "tip_poisson_ratio", "sample_modulus",
                                                  "sample_poisson_ratio"};
@@ -187,7 +187,7 @@ class MaterialReader {
     entry_.friction.corrugation = table_.quantity("lattice_corrugation", physics::kLengthUnits);
   }
 
-  // By every law whose numbers it has.
+  // Checks every friction law for which the material has the numbers.
   void check_friction() const {
     for (const physics::FrictionLawText& row : physics::kFrictionLaws) {
       if (row.law == physics::FrictionLaw::Lattice && !entry_.has_lattice) continue;

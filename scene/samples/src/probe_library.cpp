@@ -39,7 +39,7 @@ constexpr std::array<std::string_view, 20> kProbeKeys{"name",
                                                       "quality_factor_in_air",
                                                       "quality_factor_in_liquid"};
 
-// One [[probe]].
+// Reads one [[probe]].
 class ProbeReader {
  public:
   explicit ProbeReader(const toml::table& table) : table_(table, "probe") {}
@@ -72,11 +72,11 @@ class ProbeReader {
  private:
   physics::Length length(std::string_view key) { return table_.quantity(key, physics::kLengthUnits); }
 
-  // The nominal spring constant, or that of the geometry.
+  // The nominal spring constant, or the one computed from the geometry.
   void read_lever() {
     if (table_.has("spring_constant")) {
       entry_.spring_constant = table_.quantity("spring_constant", physics::kStiffnessUnits);
-      // read for their sources alone
+      // read only for their sources
       for (const char* key : {"length", "width", "thickness"}) table_.optional_quantity(key, physics::kLengthUnits);
       for (const char* key : {"base_width", "arm_width", "lever_modulus", "lever_density"}) {
         if (table_.has(key)) table_.refuse(key, "has an effect only if no spring_constant is given");
@@ -128,7 +128,7 @@ class ProbeReader {
     return number;
   }
 
-  // Every value within its range, whatever sample it will meet.
+  // Checks that every value is within its range, independent of the sample.
   void check_physics() const {
     constexpr physics::Elasticity kAnySample{physics::Pressure(1e9), 0.3};
     physics::ContactParameters any;
@@ -161,7 +161,7 @@ ProbeLibrary read_probes(const toml::table& root) {
   return library;
 }
 
-// Puts the probe's source of `probe_key` in the place of the material's of `key`.
+// Replaces the material's source of `key` by the probe's of `probe_key`.
 void take_source(MaterialEntry& material, std::string_view key, const ProbeEntry& probe, std::string_view probe_key) {
   const SourcedValue* found = find_source(probe.sources, probe_key);
   SourcedValue taken{std::string(key), found->value, fmt::format("{}: {}", probe.title, found->source),

@@ -15,8 +15,8 @@
 
 namespace afm::scene {
 
-// One [[material]] or [[probe]]: texts, and numbers written { value = "50 nm", source = "citation", estimated = true }.
-// Remembers the source of every number that was read. Throws Faults that name the key; never leaves scene/src.
+// One [[material]] or [[probe]]: texts, and numbers in the form { value = "50 nm", source = "citation", estimated =
+// true }. Records the source of every number read. Throws Faults that name the key, which are caught within scene/src.
 class SourcedTable {
  public:
   // `kind` is the table's name in the file: "material".
@@ -44,7 +44,7 @@ class SourcedTable {
     return quantity(key, units);
   }
 
-  // A number without dimension: { value = 0.25, ... }.
+  // A dimensionless number: { value = 0.25, ... }.
   double number(std::string_view key);
 
   void add_source(SourcedValue source) { sources_.push_back(std::move(source)); }
@@ -63,7 +63,7 @@ class SourcedTable {
   std::vector<SourcedValue> sources_;
 };
 
-// The tables of the array `kind`, which must be the file's only key and hold at least one.
+// The tables of the array `kind`, which must be the file's only key and not empty.
 std::vector<const toml::table*> tables_of(const toml::table& root, const std::string& kind);
 
 }  // namespace afm::scene

@@ -113,7 +113,7 @@ core::Result<std::unique_ptr<Watchdog>> Watchdog::start(const std::string& progr
   core::FileDescriptor ours(ends[0]);
   core::FileDescriptor theirs(ends[1]);
   const auto process =
-      start_child(program, {"--segment", std::to_string(kInherited[0]), "--servo", std::to_string(kInherited[1])},
+      start_child(program, {"--segment", std::to_string(kInherited[0]), "--watch-servo", std::to_string(kInherited[1])},
                   {segment, theirs.get()});
   if (!process) return tl::unexpected(process.error());
   theirs.close();

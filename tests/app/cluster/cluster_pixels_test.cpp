@@ -167,7 +167,7 @@ class MappedScreen {
   }
 
  private:
-  static constexpr unsigned char kBrightest = 150;  // of the background, with some to spare
+  static constexpr unsigned char kBrightest = 150;  // brighter than the background, with a margin
 
   std::uint32_t word(std::size_t i) const {
     std::uint32_t value = 0;
@@ -179,7 +179,7 @@ class MappedScreen {
 };
 
 constexpr std::size_t kMachines = 3;
-constexpr std::size_t kStates = 40;  // of the pictures, that are compared
+constexpr std::size_t kStates = 40;  // number of states to compare
 
 // When each state of the pictures was first seen on each screen, in the order in which it came there.
 class StatesOfScreens {

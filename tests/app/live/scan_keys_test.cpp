@@ -39,7 +39,7 @@ constexpr std::size_t kLines = 8;  // whole ones that are looked at, the newest
 
 struct Press {
   std::string row;  // the beginning of its name
-  int times = 0;    // of +, or of - where below zero
+  int times = 0;    // number of presses of +, or of - if negative
 };
 
 struct ManualRow {

@@ -5,7 +5,7 @@
 
 namespace afm::exhibit {
 
-// Nothing but the background: neither the scene nor a panel nor a label.
+// Removes everything but the background from the frame: scene, panels and labels.
 void blank(render::FrameState& frame);
 
 }  // namespace afm::exhibit

@@ -7,7 +7,7 @@
 
 namespace afm::exhibit {
 
-// Shows the picture for setting up a screen on all of it, and nothing else.
+// Fills the screen with the picture for setting it up, instead of the scene.
 void show_calibration(const scene::Screen& screen, scene::StereoMode mode, double ipd_m, const Phrases& phrases,
                       render::FrameState& frame);
 

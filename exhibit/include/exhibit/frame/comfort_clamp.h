@@ -7,21 +7,21 @@
 
 namespace afm::exhibit {
 
-// Draws for eyes that are less far apart wherever the depth of a picture would ask more of a viewer than a limit: less
-// depth, in every direction alike. The contact point, in the wall's plane, stays where it is. One thread.
+// Reduces the eye distance if a picture's depth would strain the eyes beyond a limit, which reduces depth equally in
+// every direction. The contact point, in the wall's plane, keeps its place. One thread.
 class ComfortClamp {
  public:
-  // Of the angle that the eyes turn in more, or less, than for the wall.
+  // `limit_rad`: largest difference between the convergence of the eyes and that for the wall, radians.
   explicit ComfortClamp(double limit_rad) : limit_rad_(limit_rad) {}
 
-  // A depth that was measured, before a wall at `distance_m`, for eyes that are truly `ipd_m` apart.
+  // Reports a measured depth, for a wall at `distance_m` and eyes that are really `ipd_m` apart.
   void measured(const render::DepthRange& range, double distance_m, double ipd_m);
 
-  // The eye distance to draw for, instead of `ipd_m`. It narrows within a quarter of a second and widens within two, so
-  // that a thing that comes and goes does not make the picture breathe. Times never run backwards.
+  // Eye distance for drawing, instead of `ipd_m`. It narrows within a quarter of a second and widens within two, so
+  // that the picture does not pulsate when an object comes and goes. Times must not decrease.
   double ipd_m(double ipd_m, std::int64_t now_ns);
 
-  // The same once it has settled: what the depth measured last is about to be drawn for.
+  // The same after settling, for the newest measured depth.
   double settled_ipd_m(double ipd_m) const { return wanted_ * ipd_m; }
 
   static constexpr double kNarrowS = 0.25, kWidenS = 2.0;

@@ -8,8 +8,8 @@
 
 namespace afm::exhibit {
 
-// Frames of equal size, each reduced by an integer factor (every pixel is the mean of factor x factor of the frame's,
-// in the encoded values), in rows of `columns` from the top left.
+// Joins frames of equal size in rows of `columns`, from the top left. Reduces each frame by an integer factor: a pixel
+// is the mean of factor x factor of the frame's pixels, in encoded values.
 render::Image film_strip(std::span<const render::Image> frames, std::uint32_t columns, std::uint32_t factor);
 
 }  // namespace afm::exhibit

@@ -16,13 +16,13 @@
 
 namespace afm::exhibit {
 
-// The part of the cycle, which has the letters of the paper's Fig. 2.
+// Phase of the cycle, with the letters of the paper's Fig. 2.
 Phrase stage_of_cycle(const Moment& moment, double z_jtc_m);
 
-// Turns moments into frames for one wall and one viewer.
+// Converts moments to frames for one wall and one viewer.
 class FrameBuilder {
  public:
-  // `wall_scene`, whose language it uses, and `materials` must outlive it; the parameters of a material may change
+  // `wall_scene`, whose language it uses, and `materials` must outlive the object. A material's parameters may change
   // between two frames.
   FrameBuilder(const WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
                const std::array<scene::EyeView, 2>& eyes);
@@ -39,11 +39,10 @@ class FrameBuilder {
   std::array<scene::EyeView, 2> eyes_;
 };
 
-// The eyes of the wall's first viewer at his sweet spot, for its first screen.
+// Eyes of the wall's first viewer at the sweet spot, for the first screen.
 core::Result<std::array<scene::EyeView, 2>> eyes_at_sweet_spot(const scene::Wall& wall);
 
-// Colours of the materials' curves, by their place in the material file: Okabe & Ito's palette, safe for the
-// colour-blind.
+// Colours of the curves, by the material's index in its file: Okabe and Ito's palette for colour-blind viewers.
 glm::vec3 curve_color(std::size_t material);
 
 }  // namespace afm::exhibit

@@ -8,15 +8,15 @@
 
 namespace afm::exhibit {
 
-// A wall that is about to be drawn into a file: a graphics device, and the picture that is planned for it.
+// A wall that will be drawn into a file: the graphics device and the planned picture.
 class WallDrawing {
  public:
-  // `wall` must outlive it. Fails as render::Context::open, check_picture_size and plan_wall do.
+  // `wall` must outlive the object. Fails as render::Context::open, check_picture_size and plan_wall do.
   static core::Result<WallDrawing> open(const scene::Wall& wall, const PictureOptions& options);
 
   const WallPlan& plan() const { return plan_; }
 
-  // Draws each output of `scene` as `build` says, and writes the file or the two files of write_wall.
+  // Draws each output of `scene` with the frames of `build`, and writes the file or files of write_wall.
   core::Result<void> write(const scene::Scene& scene, double panel_millimetre_m, const BuildFrame& build,
                            const std::string& path);
 

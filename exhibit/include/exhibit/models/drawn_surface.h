@@ -10,10 +10,11 @@
 
 namespace afm::exhibit {
 
-// The material whose models draw this one: itself, the one that it looks like or, with a line on stderr, the grey one.
+// The material whose models are used for this one: itself, the one with its look or, with a line on stderr, the grey
+// one.
 std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& material);
 
-// The surface that the wall draws of a material, without drawing it. The error names the file.
+// The surface that the wall draws for a material. Does not draw it. The error names the file.
 core::Result<std::unique_ptr<scene::SharedHeightField>> drawn_surface(const std::string& assets_dir,
                                                                       const scene::MaterialEntry& material);
 

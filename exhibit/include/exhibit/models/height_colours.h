@@ -10,9 +10,8 @@ namespace afm::exhibit {
 
 using Srgb = std::array<std::uint8_t, 3>;
 
-// The false colours of a height, from the lowest to the highest: plum, copper, gold, cream. Evenly spaced in the
-// lightness L* of CIELAB, 16 to 95, so that equal steps of height look equal and a viewer who confuses hues still sees
-// them in order.
+// False colours of heights, from the lowest to the highest: plum, copper, gold, cream. Evenly spaced in CIELAB
+// lightness L*, 16 to 95, so that equal steps of height look equal, and viewers with colour blindness see the order.
 inline constexpr std::array<Srgb, 17> kHeightColours{{{44, 35, 65},
                                                       {71, 38, 74},
                                                       {98, 41, 76},
@@ -31,10 +30,10 @@ inline constexpr std::array<Srgb, 17> kHeightColours{{{44, 35, 65},
                                                       {244, 226, 170},
                                                       {250, 241, 206}}};
 
-// Of a place where nothing was measured: no colour of the scale.
+// Colour of a place without a measurement; not on the scale.
 inline constexpr Srgb kNoHeightColour{96, 104, 112};
 
-// 0: the lowest height of the scale, 1: the highest; beyond them their colours. NaN: kNoHeightColour.
+// Colour of a height from 0 (lowest) to 1 (highest). Clamps other values. NaN: kNoHeightColour.
 inline Srgb height_colour(double zero_to_one) {
   if (std::isnan(zero_to_one)) return kNoHeightColour;
   constexpr std::size_t kSteps = kHeightColours.size() - 1;

@@ -10,10 +10,10 @@
 
 namespace afm::exhibit {
 
-// Lives while a file is loaded. After a second a separate thread says that loading goes on.
+// Exists while a file is loaded. After a second, a separate thread reports that loading continues.
 class LoadingNotice {
  public:
-  // Waits for the moment to say so; false if the stop comes before it.
+  // Waits until the report is due; returns false if stopped before.
   using Wait = std::function<bool(const std::stop_token&)>;
   static bool wait_a_second(const std::stop_token& stop);
 

@@ -13,7 +13,7 @@
 
 namespace afm::exhibit {
 
-// The node's rest transform relative to one of its ancestors.
+// The node's transform at rest relative to one of its ancestors.
 glm::dmat4 ancestor_from_node(const scene::Scene& scene, scene::NodeIndex ancestor, scene::NodeIndex node);
 
 bool is_below(const scene::Scene& scene, scene::NodeIndex ancestor, scene::NodeIndex node);
@@ -23,11 +23,11 @@ struct Bounds {
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};
 };
 
-// Of everything below `root` at rest, in root's frame.
+// Bounds of everything below `root` at rest, in root's frame.
 Bounds bounds_below(const scene::Scene& scene, scene::NodeIndex root);
 
-// Loads models one by one into one graph, and keeps the first error, so that a composition reads straight. After an
-// error every call still returns some node; the graph is then not to be used.
+// Loads models one by one into one graph. Keeps the first error, so that callers need no check after each step; after
+// an error every call still returns a node, but the graph must not be used.
 class ModelBuilder {
  public:
   ModelBuilder(std::string models_dir, scene::Scene& scene) : models_dir_(std::move(models_dir)), scene_(scene) {}
@@ -37,16 +37,16 @@ class ModelBuilder {
 
   scene::NodeIndex model(const std::string& file, std::string_view name, scene::NodeIndex parent);
 
-  // The same, turned so that the frame `name` has the axes of the model's node `inner`.
+  // The same, rotated so that the frame `name` has the axes of the model's node `inner`.
   scene::NodeIndex model_in_frame_of(const std::string& inner, const std::string& file, const std::string& name,
                                      scene::NodeIndex parent);
 
-  // A model that is loaded already.
+  // Adds a loaded model.
   scene::NodeIndex part(const scene::Scene& part, std::string_view name, scene::NodeIndex parent) {
     return scene::append(scene_, part, name, parent, glm::dmat4(1.0));
   }
 
-  // A node by its whole name, "probe/tip".
+  // Finds a node by its full name, "probe/tip".
   scene::NodeIndex node(const std::string& name);
 
   const std::optional<core::Error>& error() const { return error_; }

@@ -13,31 +13,31 @@
 
 namespace afm::exhibit {
 
-// A model and the way to show it.
+// A model and how to show it.
 struct ModelChoice {
   std::string file{};
-  std::optional<double> at_s{};  // of its animations; none: at rest
-  std::string camera = "auto";   // as camera_name(), or "auto"
-  std::string variant{};         // of KHR_materials_variants; empty: the file's own materials
-  glm::uvec2 size_px{960, 720};  // of an eye's picture
-  double eyes_apart_m = 0.063;   // in front of a wall of the paper's height; 0: one eye in the middle
+  std::optional<double> at_s{};  // time in its animations; empty: at rest
+  std::string camera = "auto";   // see camera_name(), or "auto"
+  std::string variant{};         // variant of KHR_materials_variants; empty: the file's default materials
+  glm::uvec2 size_px{960, 720};  // size of an eye's picture
+  double eyes_apart_m = 0.063;   // eye distance in front of a wall of the paper's height; 0: one eye in the middle
 };
 
-// A model alone, ready to be drawn.
+// A model by itself, ready to be drawn.
 struct ModelView {
   scene::Scene scene;
   render::FrameState frame;
 };
 
-// The name of a camera: its own name, its node's, or its place in the file as "#0".
+// Name of a camera: its own, its node's, or its index in the file as "#0".
 std::string camera_name(const scene::Scene& scene, const scene::Node& node);
 
-// Loads a model, poses it, and places it behind a wall as its camera, or one that has all of it in view, sees it: what
-// the camera looks at lies in the wall's plane, two eyes look from where it stands. Errors name what is wrong: a file
-// that cannot be read, a camera or a variant that the model has not.
+// Loads a model, poses it, and places it behind a wall as seen by its camera, or by one that shows all of it: the
+// camera's focus is in the wall's plane, and two eyes look from the camera's position. The error names an unreadable
+// file, or a camera or variant that the model lacks.
 core::Result<ModelView> open_model(const ModelChoice& choice);
 
-// What is in a model and what of it is not shown: a line each, or one JSON object. Fails as load_gltf() does.
+// Describes a model and the parts of it that are not shown, as lines or as one JSON object. Fails as load_gltf() does.
 enum class DescriptionForm { Lines, Json };
 core::Result<void> describe_model(const std::string& file, DescriptionForm form, std::ostream& out);
 

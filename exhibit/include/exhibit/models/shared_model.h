@@ -11,15 +11,15 @@
 
 namespace afm::exhibit {
 
-// The shared model of a scene: its nodes at rest and what is felt. Fails if there are more of either than the segment
-// holds. `curves`, `surfaces` and `topography` are those that the materials refer to.
+// The shared model of a scene: its nodes at rest and its contacts. Fails if the segment lacks room for either. The
+// materials refer to `curves`, `surfaces` and `topography`.
 core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::NodeIndex sample_node,
                                               std::span<const curves::SampleModel> materials,
                                               std::span<const scene::SharedHeightField> surfaces,
                                               std::span<const scene::SharedMeasuredCurve> curves = {},
                                               const scene::SharedTopography& topography = {});
 
-// The transforms of a frame for the servo: room from node. At most scene::kMaxNodes.
+// A frame's transforms for the servo, room from node. At most scene::kMaxNodes.
 scene::SceneTransforms shared_transforms(std::span<const glm::dmat4> room_from_node);
 
 }  // namespace afm::exhibit

@@ -12,33 +12,32 @@
 
 namespace afm::exhibit {
 
-// A topography that an instrument measured, as a sample: what is felt, and the same as a mesh.
+// An instrument's topography as a sample: the surface to feel, and the same as a mesh.
 struct TopographyModel {
   scene::Topography topography;
-  scene::Scene sample;  // a node "surface" with a mesh in metres as measured: slab and false colours
-  double lowest_m = 0;  // of the colours' scale, in the topography's heights
+  scene::Scene sample;  // node "surface" with a mesh in metres as measured: slab and false colours
+  double lowest_m = 0;  // lower end of the colour scale, in the topography's heights
   double highest_m = 0;
-  double exaggeration = 1;  // of the heights against the sides, wherever it is shown
-  std::string summary;      // for the log: file, channel, size, levelling
+  double exaggeration = 1;  // vertical exaggeration, everywhere on the wall
+  std::string summary;      // file, channel, size and levelling, for the log
 };
 
-// BadInputFile as curves::load_topography() and felt_topography().
+// BadInputFile as from curves::load_topography() and felt_topography().
 core::Result<TopographyModel> load_topography_model(const std::string& file, const curves::TopographyReading& reading);
 
-// The mesh of the heights, vertex by vertex as they are felt, coloured by exhibit/height_colours.h from `lowest_m` to
-// `highest_m`, with the walls of a slab below it that ends at `bottom_m`. The first primitive is the grid, row by row
-// from -y.
+// Mesh of the heights, with the felt height at every vertex, coloured by exhibit/height_colours.h from `lowest_m` to
+// `highest_m`, with the walls of a slab down to `bottom_m`. The first primitive is the grid, row by row from -y.
 scene::Scene topography_scene(const scene::Topography& topography, double lowest_m, double highest_m, double bottom_m);
 
-// How large the sample of a material with this stroke is drawn and felt: as wide as the assets' samples are beside it.
+// Scale at which the sample is drawn and felt on a material with this stroke: as wide as the assets' samples.
 scene::TopographyScale topography_scale(const TopographyModel& model, double stroke_m);
 
-// How far it is smoothed where it is felt on this material, whose parameters are felt with it: for the log. Takes some
-// tenths of a second for the largest one.
+// Text for the log on how much the topography is smoothed to be felt on this material. Takes some tenths of a second
+// for the largest topography.
 std::string smoothing_note(const curves::SampleModel& material, const scene::Topography& topography);
 
-// 1, 2 or 5 times a power of ten by which the heights are multiplied, beyond true proportions, so that the relief is
-// neither too low to be felt nor higher than the stroke has room for.
+// Exaggeration of the heights, 1, 2 or 5 times a power of ten, for a relief that is high enough to be felt but not
+// higher than the stroke allows.
 double exaggeration_of(double relief_m, double side_m);
 
 }  // namespace afm::exhibit

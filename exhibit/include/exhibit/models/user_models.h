@@ -12,20 +12,20 @@
 
 namespace afm::exhibit {
 
-// Models that stand on the wall instead of those of the assets (docs/gltf.md, "Roles"): at rest, each part of them one
-// node, so that however many nodes a file has the servo's block holds them.
+// Models that replace those of the assets (docs/gltf.md, "Roles"), at rest. Each part becomes one node, so that the
+// servo's block has room whatever the number of nodes in the file.
 struct UserModels {
-  std::optional<scene::Scene> probe;   // "cantilever", below it "tip", below that "apex", as in the assets' probe.glb
-  std::optional<scene::Scene> sample;  // a node "surface", as in the assets' sample-*.glb
-  std::optional<TopographyModel> topography;  // instead of a sample: one that an instrument measured
+  std::optional<scene::Scene> probe;          // nodes "cantilever" > "tip" > "apex", as in the assets' probe.glb
+  std::optional<scene::Scene> sample;         // node "surface", as in the assets' sample-*.glb
+  std::optional<TopographyModel> topography;  // an instrument's topography instead of a sample
 };
 
-// Empty names are of no model; the first bytes of the sample's file say whether it is an image. Errors name the file
-// and what is missing in it.
+// An empty name means no model. The first bytes of the sample's file decide whether it is an image. The error names the
+// file and the part that it lacks.
 core::Result<UserModels> load_own_models(const std::string& probe_file, const std::string& sample_file,
                                          const curves::TopographyReading& reading = {});
 
-// The sample in the variant that is named like the material or its look, in any case of letters, if there is one.
+// The sample in the variant with the name of the material or of its look, ignoring case, if there is one.
 scene::Scene sample_as(const scene::Scene& sample, const scene::MaterialEntry& material);
 
 }  // namespace afm::exhibit

@@ -12,11 +12,11 @@ namespace afm::exhibit {
 
 struct CycleResult;
 
-// The material under the tip: its numbers with their sources, its law of force and the reason for it, the jumps and the
-// energy that follow, and the two values that move. Numbers that were changed are marked.
+// Data of the material under the tip: values with their sources, its force law and the reason for it, the resulting
+// jumps and energy, and the two moving values. Changed values are marked.
 render::DataPanel data_panel(const curves::SampleModel& material, const scene::Tip& tip, const Phrases& phrases);
 
-// The jumps of each material's cycle, when all are done.
+// The jumps of each material's cycle, once all are done.
 render::DataPanel results_panel(std::span<const CycleResult> results, const Phrases& phrases);
 
 }  // namespace afm::exhibit

@@ -10,8 +10,8 @@
 
 namespace afm::exhibit {
 
-// The advice for a depth that is hard to look at, apart from stepping back: the key that brings a scene that was moved
-// to the wall, or the one that draws for eyes less far apart.
+// Advice for a depth that strains the eyes, in addition to stepping back: press the key that brings a moved scene back
+// to the wall, or the one that narrows the eye distance.
 enum class Relief { BringToWall, NarrowEyes };
 
 // The demands of a picture's depth on the viewer's eyes.
@@ -19,7 +19,7 @@ struct DepthReport {
   bool measured = false;
   render::DepthRange range{};
   scene::Disparity nearest, farthest;
-  bool hard = false;  // beyond the one-degree rule: some see double
+  bool hard = false;  // exceeds the one-degree rule: some viewers see double
   Relief relief = Relief::NarrowEyes;
 };
 
@@ -29,7 +29,7 @@ DepthReport report_depth(const render::DepthRange& range, double distance_m, dou
 // One line; empty before the first measurement.
 std::string depth_text(const DepthReport& report, const Phrases& phrases);
 
-// The line in the screen's lower left corner; nothing while there is no text.
+// Label with that line in the screen's lower left corner; empty if there is no text.
 render::Label depth_label(const DepthReport& report, const scene::Screen& screen, const Phrases& phrases);
 
 }  // namespace afm::exhibit

@@ -9,17 +9,17 @@
 
 namespace afm::exhibit {
 
-// The state of a change, for people.
+// State of a parameter change, for display.
 enum class ChangeState { AsLoaded, Waiting, Applied, Refused };
 
-// The buttons of the panel, in their order.
+// Buttons of the panel, in order.
 enum class PanelButton { Reset, Close };
 
-// The parameters of a material with what follows from them, for the wall. `title` as it is to be read.
+// A material's parameters and the values that follow from them, for the wall. `title` is in the language of the wall.
 render::ControlPanel parameter_panel(const curves::LiveParameters& parameters, const std::string& title,
                                      ChangeState state, const Phrases& phrases);
 
-// The predicted curve behind the felt ones, with axes and markers that suit it.
+// Adds the predicted curve behind the felt ones, and sets axes and markers that fit it.
 void add_prediction(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel);
 
 }  // namespace afm::exhibit

@@ -9,8 +9,8 @@
 
 namespace afm::exhibit {
 
-// The servo on the wall: the scale of the hand, the device and its limits of force, punctuality, and the motors' heat
-// once that matters.
+// The servo's state for the wall: scale of the hand, the device and its force limits, timing, and the motors' heat once
+// it matters.
 std::vector<render::DataRow> servo_rows(const scene::TipState& tip, const scene::ServoTiming& timing,
                                         const scene::SharedDevice& device, const Phrases& phrases);
 

@@ -8,8 +8,8 @@
 
 namespace afm::exhibit {
 
-// A channel in the false colours of heights over its whole range, at least 256 pixels wide, row 0 on top; places
-// without a value are grey. On its right the range as a bar, its ends labelled; below it a bar of a round length.
+// Draws a channel in false colours over its whole range, at least 256 pixels wide, row 0 on top; places without a value
+// are grey. Adds a labelled colour bar on the right and a scale bar of a round length below.
 render::Image picture_of(const physics::ScanImage& image, std::size_t channel);
 
 }  // namespace afm::exhibit

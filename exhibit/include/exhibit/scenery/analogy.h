@@ -10,22 +10,22 @@
 namespace afm::exhibit {
 
 // Millet's analogy of the approach-retract cycle: a magnet on a spring above an iron plate. The hand that holds the
-// spring is the piezo, the spring is the cantilever, the magnet is the tip and the plate is the sample.
+// spring stands for the piezo, the spring for the cantilever, the magnet for the tip and the plate for the sample.
 class Analogy {
  public:
   Analogy() = default;
-  // Below `sample`, whose +z is the plate's normal.
+  // Adds its nodes below `sample`, whose +z is the plate's normal.
   Analogy(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex sample);
 
-  // Heights above the plate, in the frame's units: of the magnet's poles and, with the spring at rest between them, of
-  // the hand's place above them.
+  // Heights above the plate, in units of the sample's frame: the magnet's poles and, at the resting length of the
+  // spring above them, the hand.
   struct Heights {
-    double poles = 0;       // tip height: Z less the deflection
-    double deflection = 0;  // by which the spring is longer than at rest
+    double poles = 0;       // tip height: Z minus the deflection
+    double deflection = 0;  // length of the spring minus its resting length
   };
   void place(const Heights& heights, std::vector<glm::dmat4>& local) const;
 
-  // Heights of the middles of magnet and spring, for their names.
+  // Heights of the centres of magnet and spring, for their labels.
   double magnet_middle(const Heights& heights) const { return heights.poles + 0.5 * magnet_height_; }
   double spring_middle(const Heights& heights) const;
 

@@ -7,16 +7,16 @@
 
 namespace afm::exhibit {
 
-// What the scene is composed for: the screen that the viewer faces, or the rectangle around all tiles of its
-// plane, and the upright screens that go on around its left and right edges, if there are such.
+// Screens for which the scene is composed: the one that the viewer faces, or the rectangle around all tiles in its
+// plane, and upright screens that continue it at its left and right edges, if there are any.
 struct StagePlace {
   scene::Screen main;
   std::optional<scene::Screen> left{}, right{};
-  glm::dvec3 viewer_m{0.0};  // between the eyes
+  glm::dvec3 viewer_m{0.0};  // midpoint of the eyes
   double ipd_m = 0.063;
 };
 
-// Of the wall's first viewer at his sweet spot.
+// Place for the wall's first viewer at the sweet spot.
 StagePlace stage_place(const scene::Wall& wall);
 
 }  // namespace afm::exhibit

@@ -28,74 +28,74 @@ namespace afm::exhibit {
 
 class ModelBuilder;
 
-// Scales of the drawing: metres of the nanoworld (or of the instrument) shown as one metre on the wall.
+// Drawing scales: metres of the nanoworld (or of the instrument) per metre of the wall.
 struct DrawnScale {
   double sample_m_per_m = 0;  // sample, displacement, deflection
   double lever_m_per_m = 0;   // chip and cantilever
   double tip_m_per_m = 0;     // tip
 };
 
-// The scene on the wall: its models, their places, and their motion with the tip. Built
-// once; const from then on. A wall of any size shows the same picture.
+// The scene on the wall: its models, their places, and their motion with the tip. Built once, const afterwards. Shows
+// the same picture on a wall of any size.
 class WallScene {
  public:
   static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
                                       const StagePlace& place, const Phrases& phrases, const UserModels& own = {});
 
-  // The language of everything that is read on this wall.
+  // Language of all texts on this wall.
   const Phrases& phrases() const { return phrases_; }
 
   const scene::Scene& scene() const { return scene_; }
   scene::NodeIndex sample_node() const { return sample_frame_; }
 
-  // The swatches as targets of the wand, in the order of the materials.
+  // Swatches as targets of the wand, in the order of the materials.
   std::vector<input::Target> swatch_targets() const;
 
-  // The surfaces that are felt, as they are drawn; and which of them a material has, scene::kNoHeightField for none.
+  // The surfaces that are felt, as drawn, and the index of a material's surface, scene::kNoHeightField if it has none.
   std::span<const scene::SharedHeightField> height_fields() const { return height_fields_; }
   std::uint32_t height_field(std::size_t material) const { return looks_[material].height_field; }
 
-  // The topography that is drawn instead of them; without columns for none. And its scale on a material.
+  // A measured topography that replaces them, without columns if there is none; and its scale on a material.
   const scene::Topography& topography() const { return topography_; }
   scene::TopographyScale topography_scale(std::size_t material) const { return looks_[material].topography; }
 
-  // Says in a material's parameters which of these it is felt with.
+  // Stores in a material's parameters the surface with which it is felt.
   void lay_surface_on(scene::SharedContact& parameters, std::size_t material) const {
     parameters.height_field = looks_[material].height_field;
     parameters.topography = looks_[material].topography;
   }
 
-  // The contact point, in the wall's plane as long as nothing has been moved.
+  // The contact point; in the wall's plane until something has been moved.
   glm::dvec3 contact_m() const { return glm::dvec3(room_from_layout_[3]); }
 
-  // The length of what the layout has as a metre, so that every wall looks the same.
+  // Size of one layout unit in metres, chosen so that every wall looks the same.
   double unit_m() const;
 
-  // The length that panels draw as a millimetre: of the layout, or more, so that texts and lines are larger.
+  // Size of a panel's millimetre in metres; larger than the layout's if the text is enlarged.
   double panel_millimetre_m() const { return 1e-3 * text_size_ * unit_m(); }
-  void set_text_size(double times) { text_size_ = times; }  // before the first frame
+  void set_text_size(double times) { text_size_ = times; }  // call before the first frame
 
-  // Outward normal of the sample in the room, and its x axis, to the right; unit.
+  // Outward normal of the sample and its x axis, to the right; unit vectors in the room frame.
   glm::dvec3 sample_normal() const;
   glm::dvec3 sample_right() const;
 
-  // The place of the wand in a simulated person's hand.
+  // Place of the wand in a simulated person's hand.
   glm::dvec3 wand_grip_m() const;
 
-  // Metres of the nanoworld on a metre of the wall, at a place of the journey.
+  // Metres of the nanoworld per metre of the wall, at a point of the journey.
   double journey_m_per_m(double orders) const;
 
   // `release_z_m` as in WallState.
   DrawnScale drawn_scale(std::size_t material, double release_z_m = 0) const;
 
-  // The panel of a material's parameters, in the place of its data; and the target that opens it.
+  // Panel of a material's parameters, in place of its data, and the target that opens it.
   render::PanelPlacement parameter_placement() const;
   render::PanelPlacement parameter_tab_placement() const;
 
-  // For a short note, below the panel on the left.
+  // Placement of a short note below the left panel.
   render::PanelPlacement note_placement() const;
 
-  // Room from node, for every node of the scene.
+  // Transforms of all nodes, room from node.
   std::vector<glm::dmat4> node_transforms(const WallState& state) const;
 
   // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.
@@ -103,22 +103,22 @@ class WallScene {
 
  private:
   struct MaterialLook {
-    std::size_t ground;       // of the journey
-    scene::NodeIndex sample;  // the frame that is scaled
+    std::size_t ground;       // ground in the journey
+    scene::NodeIndex sample;  // scaled frame
     scene::NodeIndex swatch;
-    scene::NodeIndex label;    // on the swatch, for its name
+    scene::NodeIndex label;    // place of the name on the swatch
     double stroke_m;           // from the deepest push to the highest lift
-    double full_deflection_m;  // at pull-off
-    double thickness_m;        // of the slab
+    double full_deflection_m;  // deflection at pull-off
+    double thickness_m;        // thickness of the slab
     std::uint32_t height_field;
     scene::TopographyScale topography;
   };
 
-  // The lever's pose in the sample's frame, layout units.
+  // Pose of the lever in the sample's frame, layout units.
   struct LeverPose {
     glm::dmat4 frame_from_lever{1.0};  // origin at the clamp, x along the unbent lever, z away from the sample
-    double end = 0;                    // of the bent lever, along z
-    double angle = 0;                  // of its slope there, rad
+    double end = 0;                    // end of the bent lever, along z
+    double angle = 0;                  // slope at that end, rad
   };
 
   void lay_out(const StagePlace& stage);
@@ -135,13 +135,13 @@ class WallScene {
   void place_stand(double thickness, std::vector<glm::dmat4>& local) const;
   void place_optics(const WallState& state, std::vector<glm::dmat4>& local) const;
   void place_wand(const WallState& state, std::vector<glm::dmat4>& local) const;
-  double parameter_factor(std::size_t material, double release_z_m) const;  // of Z_joc, against the material's own
+  double parameter_factor(std::size_t material, double release_z_m) const;  // ratio of Z_joc to the material's own
   double layout_per_m(const WallState& state) const;                        // layout units per metre of the nanoworld
-  render::PanelPlacement plot_placement() const;                            // of the finale
+  render::PanelPlacement plot_placement() const;                            // plot of the finale
   render::PanelPlacement right_of_data(double inset) const;
   glm::dvec3 swatch_place(std::size_t i) const;
-  glm::dvec3 below_tip(const WallState& state) const;     // the surface's point, sample's frame, layout units
-  double ruler_m_per_unit(const WallState& state) const;  // metres shown by a layout unit at the ruler; 0: no ruler
+  glm::dvec3 below_tip(const WallState& state) const;     // surface point below the tip, sample's frame, layout units
+  double ruler_m_per_unit(const WallState& state) const;  // metres per layout unit at the ruler; 0: no ruler
   Analogy::Heights analogy_heights(const WallState& state) const;
   std::vector<scene::NodeIndex> hidden_roots(const WallState& state) const;
   void place_panels(const WallState& state, render::FrameState& frame) const;
@@ -156,25 +156,25 @@ class WallScene {
   std::vector<glm::dmat4> local_transforms(const WallState& state, render::BeamBend& bend) const;
   std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;
   render::PanelPlacement panel(double left, double bottom, double width, double height) const;         // in the wall
-  render::PanelPlacement panel_beside(double left, double bottom, double width, double height) const;  // of the scene
+  render::PanelPlacement panel_beside(double left, double bottom, double width, double height) const;  // in the layout
 
   scene::Scene scene_;
   Phrases phrases_;
-  std::vector<std::string> titles_;  // of the swatches, in that language
+  std::vector<std::string> titles_;  // titles of the swatches, in the language of the wall
   std::vector<MaterialLook> looks_;
   std::vector<scene::SharedHeightField> height_fields_;
   scene::Topography topography_;
   std::optional<std::uint32_t> topography_mesh_;
-  double topography_relief_m_ = 0;  // from the lowest colour to the highest
+  double topography_relief_m_ = 0;  // range of the colour scale
   double topography_exaggeration_ = 1;
-  scene::NodeIndex height_bar_{};            // where there is a topography
-  std::vector<std::string> surface_models_;  // of which model each of them is
+  scene::NodeIndex height_bar_{};            // used if there is a topography
+  std::vector<std::string> surface_models_;  // model of each surface
   // origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre
   glm::dmat4 room_from_layout_{1.0};
-  glm::dmat4 room_from_wall_{1.0};  // the same, with y along the main screen: another only where that lies flat
+  glm::dmat4 room_from_wall_{1.0};  // the same with y along the main screen; differs if that lies flat
   double text_size_ = 1.0;
   WallShape shape_;
-  double half_width_ = 0;  // of the composition, in layout units
+  double half_width_ = 0;  // half width of the composition in layout units
   double wall_top_ = 0;
   double shelf_y_ = 0, shelf_z_ = 0, back_z_ = 0;
   glm::dvec3 wand_grip_{0.0};
@@ -189,7 +189,7 @@ class WallScene {
   double lever_length_ = 0;  // glTF metres, clamp to tip axis
   double tip_length_ = 0;    // glTF metres, base to apex
   double stage_scale_ = 0, stage_height_ = 0;
-  double floor_y_ = 0;  // layout units, below the shelf and every sample's stage
+  double floor_y_ = 0;  // below the shelf and every sample's stage; layout units
 };
 
 }  // namespace afm::exhibit

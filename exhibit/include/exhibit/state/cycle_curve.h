@@ -10,15 +10,15 @@
 
 namespace afm::exhibit {
 
-// The force-displacement curve of one cycle as it grows: every sample that the servo gave while its force was enabled
-// and the tip had been lifted, and at every event the two ends of the jump, exactly where it happened. Split at the
-// deepest push into approach and retract.
+// The growing force-displacement curve of one cycle: all samples of the servo while its force was enabled and the tip
+// had been lifted, and both ends of each jump, exactly where it happened. Split at the deepest push into approach and
+// retract.
 class CycleCurve {
  public:
   void add(const scene::TipSample& sample);
   void add(const scene::TipEvent& event);
 
-  // One that was on the wall before, or its points: Z in nm, force in nN.
+  // A curve from stored points: Z in nm, force in nN.
   static CycleCurve from(const std::vector<std::array<double, 2>>& points);
   std::vector<std::array<double, 2>> points() const;
 
@@ -26,7 +26,7 @@ class CycleCurve {
 
   render::PlotCurve plot(std::string label, const glm::vec3& color) const;
 
-  // All that it is made of, for exhibit/cluster/wall_history.h.
+  // All of its state, for exhibit/cluster/wall_history.h.
   template <class Curve, class Visit>
   static void visit_state(Curve& curve, Visit&& visit) {
     visit(curve.points_);
@@ -41,7 +41,7 @@ class CycleCurve {
   std::size_t deepest_ = 0;
 };
 
-// The curve of a session up to `end_ns`, samples and events in their order in time.
+// The curve of a session up to `end_ns`, with samples and events in order of time.
 CycleCurve curve_until(const servo::RecordedSession& session, std::int64_t end_ns);
 
 }  // namespace afm::exhibit

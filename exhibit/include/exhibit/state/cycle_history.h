@@ -11,9 +11,9 @@
 
 namespace afm::exhibit {
 
-// The curves of materials that are felt again and again, one for each material: the cycle that is going on, or the last
-// whole one until the tip touches again. Forgotten when other parameters of the material have taken effect. Bounded,
-// however long the tip rests. One thread.
+// One curve per material: the running cycle, or the last complete one until the tip touches again. A material's curve
+// is discarded when other parameters of the material have taken effect. Memory is bounded even if the tip rests for
+// long. One thread.
 class CycleHistory {
  public:
   explicit CycleHistory(std::size_t materials) : curves_(materials) {}
@@ -22,11 +22,11 @@ class CycleHistory {
   void add(const scene::TipEvent& event);
 
   std::span<const CycleCurve> curves() const { return curves_; }
-  bool ascending() const { return ascending_; }  // the hand, last time that it moved
+  bool ascending() const { return ascending_; }  // direction of the hand's last motion
   bool pressed() const { return pressed_; }      // below Z = 0 since the tip touched
-  int cycles() const { return cycles_; }         // of the material under the tip, since it was laid there
+  int cycles() const { return cycles_; }         // number since the material was put under the tip
 
-  // All that it is made of, for exhibit/cluster/wall_history.h.
+  // All of its state, for exhibit/cluster/wall_history.h.
   template <class History, class Visit>
   static void visit_state(History& history, Visit&& visit) {
     for (auto& curve : history.curves_) CycleCurve::visit_state(curve, visit);
@@ -47,16 +47,16 @@ class CycleHistory {
   void begin(const scene::TipSample& sample);
 
   std::vector<CycleCurve> curves_;
-  CycleCurve next_;  // since the tip let go: the approach of the cycle to come
+  CycleCurve next_;  // the next cycle's approach, since the tip let go
   std::int32_t material_ = -1;
   std::uint32_t edit_revision_ = 0;
   bool attached_ = false;
-  bool released_ = false;  // the curve of the material is whole
+  bool released_ = false;  // the material's curve is complete
   bool pressed_ = false;
   bool ascending_ = false;
   int cycles_ = 0;
-  double turn_height_m_ = 0;   // the hand's, farthest in its direction
-  double drawn_height_m_ = 0;  // the hand's, at the newest sample that was kept
+  double turn_height_m_ = 0;   // the hand's extreme height in its direction
+  double drawn_height_m_ = 0;  // the hand's height at the newest sample kept
 };
 
 }  // namespace afm::exhibit

@@ -10,10 +10,10 @@
 
 namespace afm::exhibit {
 
-// For how long a jump is shown. A CPU device draws two frames a second: shorter, and a jump might not be seen at all.
+// Time for which a jump is shown. A CPU device draws two frames a second, so a shorter cue might never be drawn.
 inline constexpr double kCueSeconds = 0.5;
 
-// A jump that has just happened.
+// A recent jump.
 struct JumpCue {
   physics::EventKind kind = physics::EventKind::JumpToContact;
   double age_s = 0;  // 0 to kCueSeconds
@@ -26,18 +26,18 @@ constexpr void for_each_field(Visit&& visit, Record&... cue) {
 }
 static_assert(scene::all_fields_described<JumpCue>());
 
-// The jump that is shown: the newest one, but none gives way to the next before kLeastNs, so that a tip that chatters
-// does not flash more than three times a second (WCAG 2.3.1). One thread.
+// Selects the jump to show: the newest one. Each is shown for at least kLeastNs, so that a chattering tip does not
+// flash more than three times a second (WCAG 2.3.1). One thread.
 class JumpCues {
  public:
   static constexpr std::int64_t kLeastNs = 400'000'000;
 
-  // Every event, in the order of their times. Slips are many times a second, and not shown.
+  // Adds an event; call in order of time. Ignores slips, which occur many times a second.
   void add(const scene::TipEvent& event);
 
   std::optional<JumpCue> at(std::int64_t now_ns) const;
 
-  // When the newest one began, though it may be over: a slow frame may show nothing of it.
+  // Time at which the newest cue began, even if it has ended: a slow frame may have missed it.
   std::optional<std::int64_t> begun_ns(std::int64_t now_ns) const;
 
  private:
@@ -50,11 +50,11 @@ class JumpCues {
   std::optional<Shown> shown_, next_;
 };
 
-// What they show of these events, in order of time.
+// The cue that results from these events, in order of time.
 std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::int64_t now_ns);
 
-// The ring of light that shows it: told apart by the way that it goes, not by its colour alone. A jump to contact
-// closes in on the apex, a jump off contact spreads from it; both fade.
+// The ring of light for a jump, distinguished by its motion as well as its colour: for a jump to contact it closes in
+// on the apex, for a jump off contact it spreads from it. Both fade.
 struct CueRing {
   glm::vec3 color{0.0F};  // linear radiance
   double radius = 0;      // in radii of the contact's shade

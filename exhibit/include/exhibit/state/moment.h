@@ -15,7 +15,7 @@
 
 namespace afm::exhibit {
 
-// The events of a finished cycle, magnitudes.
+// Events of a finished cycle, magnitudes.
 struct CycleResult {
   std::string title;
   std::string law;  // "dmt"
@@ -25,20 +25,20 @@ struct CycleResult {
 
 class LiveScan;
 
-// One moment of the demonstration, from the live servo or from a session: all that the wall shows.
+// One moment of the demonstration, from the live servo or from a session: everything that the wall shows.
 struct Moment {
   WallState wall;
   scene::ServoState servo_state = scene::ServoState::Disarmed;
   physics::Phase phase = physics::Phase::WaitForLift;
-  bool retracting = false;  // past the deepest push of this cycle
+  bool retracting = false;  // after the deepest push of this cycle
   bool realtime = false;
-  double slow_motion = 1;  // as in scene::ActiveContact
+  double slow_motion = 1;  // see scene::ActiveContact
   std::string guidance;
-  std::vector<render::DataRow> servo;  // servo_rows()
-  // one per material, empty while it has not been felt; the current one is drawn in front
+  std::vector<render::DataRow> servo;  // see servo_rows()
+  // one per material, empty until it has been felt; the current one is drawn in front
   std::span<const CycleCurve> curves;
-  const LiveScan* scan = nullptr;    // whose images are shown in the place of the curves; none
-  std::vector<CycleResult> results;  // of Centerpiece::Plot
+  const LiveScan* scan = nullptr;    // replaces the curves by its images; may be null
+  std::vector<CycleResult> results;  // results of the finished cycles, for Centerpiece::Plot
 };
 
 template <class Visit, scene::RecordOf<Moment>... Record>
@@ -57,14 +57,14 @@ constexpr void for_each_field(Visit&& visit, Record&... moment) {
 }
 static_assert(scene::all_fields_described<Moment>());
 
-// The moment of the newest state of the tip.
+// The moment for the newest state of the tip.
 Moment moment_of(const scene::TipState& tip, bool retracting);
 
-// The moment of a session at `time_ns`, as the live wall showed it; `curves` has one entry per material.
+// The moment of a session at `time_ns`, as on the live wall. `curves` has one entry per material.
 Moment moment_of(const servo::RecordedSession& session, std::size_t material, std::int64_t time_ns,
                  std::span<const CycleCurve> curves);
 
-// True once the tip is on its way back from the deepest push of its cycle.
+// Returns whether the tip is on its way back from the deepest push of its cycle.
 bool is_retracting(double z_m, double deepest_z_m);
 
 }  // namespace afm::exhibit

@@ -13,26 +13,26 @@
 
 namespace afm::exhibit {
 
-// The middle of the wall: the instrument; in the finale the plot alone; Millet's analogy of what
-// happens; or the instrument at one true scale.
+// Content of the wall's centre: the instrument; the plot, in the finale; Millet's analogy; or the instrument at a
+// single true scale.
 enum class Centerpiece { Instrument, Plot, Analogy, Journey };
 
-// The state that moves, shows or hides the things on the wall. The messages of a wall of several machines and sessions
-// carry every described field but those that DescribedWall.* lists.
+// State that moves, shows or hides the objects on the wall. Sessions and the messages of a wall of several machines
+// contain every described field except those listed in DescribedWall.*.
 struct WallState {
-  std::optional<std::size_t> material{};  // none: no sample lies on the stage yet
+  std::optional<std::size_t> material{};  // empty: no sample on the stage yet
   scene::Tip tip{};
   scene::SurfacePoint surface{};
-  double release_z_m = 0;  // with the parameters that the tip has now; 0: those of the material
+  double release_z_m = 0;  // with the tip's current parameters; 0: with the material's
   std::optional<std::size_t> hovered{};
   std::optional<input::WandState> wand{};
   Centerpiece centerpiece = Centerpiece::Instrument;
-  double journey_orders = 0;   // of Centerpiece::Journey, as in exhibit/journey.h
-  double fade = 0;             // 0..1: how much of everything has dissolved
-  glm::dmat4 navigation{1.0};  // room from room: where sample and instrument have been moved, turned and scaled to
+  double journey_orders = 0;   // used for Centerpiece::Journey; see exhibit/journey.h
+  double fade = 0;             // dissolved share of the picture, 0 to 1
+  glm::dmat4 navigation{1.0};  // room from room: the user's motion, rotation and scaling of sample and instrument
   std::optional<JumpCue> cue{};
-  bool scan = false;  // an image is taken: its panel is in the place of the curve
-  // its line, from the left to the right, as high as the highest place below it; sample's frame, metres
+  bool scan = false;  // a scan is running: its panel replaces the curve
+  // the scan line, from left to right, at the height of the highest place below it; sample's frame, metres
   std::optional<std::array<glm::dvec3, 2>> scan_line{};
 };
 

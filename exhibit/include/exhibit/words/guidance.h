@@ -8,7 +8,7 @@
 
 namespace afm::exhibit {
 
-// The lines of guidance: the steps of the procedure, and the end of the servo.
+// Lines of guidance: the steps of the procedure, and the end of the servo.
 enum class Hint {
   ChooseSample,
   Lift,
@@ -25,24 +25,24 @@ enum class Hint {
   ServoEnded
 };
 
-// Progress of the present cycle.
+// Progress of the current cycle.
 struct StepsDone {
-  bool ascending = false;  // the hand, last time that it moved
+  bool ascending = false;  // direction of the hand's last motion
   bool pressed = false;    // below Z = 0 since the tip touched
-  bool let_go = false;     // since the force came on
+  bool let_go = false;     // since the force was switched on
 };
 
-// Progress as CycleHistory counts it.
+// Progress counted by CycleHistory.
 struct CycleProgress {
   bool ascending = false;
   bool pressed = false;
-  int cycles = 0;  // of the sample under the tip
+  int cycles = 0;  // number on the sample under the tip
 };
 
-// The step of the procedure that comes next, from what has really happened to the tip.
+// Next step of the procedure, derived from the tip's real events.
 Hint next_step(const scene::TipState& tip, const StepsDone& done);
 
-// The device in the hand, whose controls the wall names. Device: one without names for them, found by --haptics auto.
+// The haptic device whose controls the wall names. Device: any device without specific names, found by --haptics auto.
 enum class HandControls { Mouse, Pen, Grip, Gamepad, Device, Simulated };
 enum class Pointer { Mouse, Wand };
 struct Controls {
@@ -50,14 +50,14 @@ struct Controls {
   Pointer pointer = Pointer::Wand;
 };
 
-// Ways back from what is shown instead of the instrument, and the place of the list of keys.
+// How to leave a view that replaces the instrument, and how to show the list of keys.
 enum class Note { Keys, LeaveJourney, LeaveAnalogy };
 const std::string& note_text(const Phrases& phrases, Note note);
 
-// The step in words, with the controls of the device in the hand.
+// Text of the step, with the names of the device's controls.
 std::string step_text(const Phrases& phrases, Hint hint, const Controls& controls);
 
-// One line for the wall: why the force went off, if it did, and the next step.
+// One line for the wall: the reason if the force went off, and the next step.
 std::string guidance_line(const Phrases& phrases, Hint hint, const scene::TipState& tip, const Controls& controls);
 
 }  // namespace afm::exhibit

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Lessons: what the guide says; the instructor's window, with its actions in the order of InstructorAction; the parts
-// of the curve, and the shapes in the same order; items and answers of the questionnaires, each a run.
+// Lessons: prompts; the instructor's window, with its actions in the order of InstructorAction; the parts of the curve,
+// and the shapes in the same order; items and answers of the questionnaires, one run each.
 #define AFM_FOR_EACH_LESSON_PHRASE(PHRASE)                                  \
   PHRASE(KeySkip, "key-skip", "", kLine)                                    \
   PHRASE(KeyTryAgain, "key-try-again", "", kLine)                           \

@@ -2,10 +2,10 @@
 #pragma once
 
 // Every phrase of wall and report: PHRASE(enumerator, key in the files, placeholders, limit of exhibit/phrases.h).
-// Placeholders are words in braces, in the order in which the code fills them; one that ends in "?" may be left out.
+// Placeholders are words in braces, in the order in which the code fills them; one that ends in "?" is optional.
 
-// The procedure's steps, in the order of Hint; why the force is off, in the order of scene::FaultCode; the controls, in
-// the order of HandControls and Pointer; the notes, in the order of Note.
+// Steps of the procedure, in the order of Hint; reasons for a missing force, in the order of scene::FaultCode;
+// controls, in the order of HandControls and Pointer; notes, in the order of Note.
 #define AFM_FOR_EACH_GUIDANCE_PHRASE(PHRASE)                       \
   PHRASE(ChooseSample, "choose-sample", kControlPlaces, kLine)     \
   PHRASE(Lift, "lift", kControlPlaces, kLine)                      \
@@ -66,7 +66,7 @@
   PHRASE(AllSamples, "all-samples", "", kLine)                     \
   PHRASE(OtherParameters, "other-parameters", "", kLine)
 
-// The banner: the servo's state in the order of scene::ServoState, the journey's places from the bench on, scales.
+// Banner: the servo's state in the order of scene::ServoState, the journey's places from the bench on, scales.
 #define AFM_FOR_EACH_BANNER_PHRASE(PHRASE)                            \
   PHRASE(StateOff, "state-off", "", kLine)                            \
   PHRASE(StateArming, "state-arming", "", kLine)                      \
@@ -113,7 +113,7 @@
   PHRASE(PictureBudget, "picture-budget", "time", kLine)              \
   PHRASE(PictureOverBudget, "picture-over-budget", "time budget", kLine)
 
-// Plots and panels of numbers, labels in the scene, the depth meter, the test pattern.
+// Plots and panels of values, labels in the scene, the depth meter, the test pattern.
 #define AFM_FOR_EACH_PANEL_PHRASE(PHRASE)                                \
   PHRASE(PlotTitle, "plot-title", "", kLine)                             \
   PHRASE(PlotTitleAll, "plot-title-all", "", kLine)                      \
@@ -187,7 +187,7 @@
   PHRASE(PatternOneEye, "pattern-one-eye", "", kLine)                    \
   PHRASE(PatternRuler, "pattern-ruler", "distance", kLine)
 
-// The friction loop.
+// Friction loop.
 #define AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)                  \
   PHRASE(FrictionTitle, "friction-title", "", kLine)          \
   PHRASE(FrictionOff, "friction-off", "", kLine)              \
@@ -200,7 +200,7 @@
   PHRASE(FrictionOffset, "friction-offset", "", kLine)        \
   PHRASE(FrictionSlope, "friction-slope", "", kLine)
 
-// The images of a scan and its settings; their faults, in the order of physics::ScanArtefact, whose names end the keys.
+// Scan images and settings; artefacts, in the order of physics::ScanArtefact, whose names are the ends of the keys.
 #define AFM_FOR_EACH_SCAN_PHRASE(PHRASE)                               \
   PHRASE(ScanTitle, "scan-title", "sample", kLine)                     \
   PHRASE(ScanSubtitle, "scan-subtitle", "side rate line lines", kLine) \
@@ -249,7 +249,7 @@
   PHRASE(CauseBlur, "scan-cause-blur", "", kLine)                      \
   PHRASE(CauseBluntTip, "scan-cause-blunt-tip", "", kLine)
 
-// Captions, and what is said, in the order of HeardEvent; numbers with units, one and others, pico to micro; the key Y.
+// Captions and speech, in the order of HeardEvent; numbers with units, singular and plural, pico to micro; the key Y.
 #define AFM_FOR_EACH_SOUND_PHRASE(PHRASE)                       \
   PHRASE(HeardSnapIn, "heard-snap-in", kEventPlaces, kLine)     \
   PHRASE(HeardPullOff, "heard-pull-off", kEventPlaces, kLine)   \
@@ -293,7 +293,7 @@
   PHRASE(PictureShown, "picture-shown", "", kLine)              \
   PHRASE(PictureBlank, "picture-blank", "", kLine)
 
-// The list of keys (F1).
+// List of keys (F1).
 #define AFM_FOR_EACH_KEY_PHRASE(PHRASE)                      \
   PHRASE(Keys, "key-list", "", kLine)                        \
   PHRASE(KeysHidden, "key-list-hide", "", kLine)             \
@@ -384,7 +384,7 @@
   PHRASE(ReportPagesLocked, "report-pages-locked", "", kLine)                               \
   PHRASE(ReportPagesNotLocked, "report-pages-not-locked", "", kLine)
 
-// Language: as in HTML's lang attribute. DecimalMark: between the digits of a number.
+// Language: as in HTML's lang attribute. DecimalMark: separates the digits of a number.
 #define AFM_FOR_EACH_PHRASE(PHRASE)              \
   PHRASE(Language, "language", "", kLine)        \
   PHRASE(DecimalMark, "decimal-mark", "", kLine) \

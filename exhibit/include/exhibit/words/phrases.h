@@ -15,13 +15,13 @@
 
 namespace afm::exhibit {
 
-// Characters that a text may have: on one line of the wall, and as a paragraph of the report.
+// Largest number of characters of a text: one line on the wall, one paragraph in the report.
 inline constexpr std::size_t kLine = 100, kParagraph = 700;
 
-// Placeholders of a guidance line: the controls of the device in the hand.
+// Placeholders of a guidance line: the controls of the haptic device.
 inline constexpr std::string_view kControlPlaces = "up? down? turn-on? choose?";
 
-// Placeholders of a caption and of what is said of an event: its force, and the material under the tip.
+// Placeholders of an event's caption and speech: its force, and the material under the tip.
 inline constexpr std::string_view kEventPlaces = "force? sample?";
 
 #define AFM_PHRASE_NAME(name, key, places, limit) name,
@@ -29,9 +29,9 @@ enum class Phrase : std::size_t { AFM_FOR_EACH_PHRASE(AFM_PHRASE_NAME) };
 #undef AFM_PHRASE_NAME
 
 struct PhraseRow {
-  std::string_view key;     // in the files
+  std::string_view key;     // key in the phrase files
   std::string_view places;  // "tip medium": placeholders without their braces
-  std::size_t limit;        // characters
+  std::size_t limit;        // largest number of characters
 };
 
 #define AFM_PHRASE_ROW(name, key, places, limit) PhraseRow{key, places, limit},
@@ -46,26 +46,26 @@ constexpr std::size_t place_count(Phrase phrase) {
   return count;
 }
 
-// The phrase `steps` rows below: of a run of rows in the order of an enumeration.
+// The phrase `steps` rows below, in a run of rows with the order of an enumeration.
 constexpr Phrase after(Phrase first, std::size_t steps) {
   return static_cast<Phrase>(static_cast<std::size_t>(first) + steps);
 }
 
-// Every word of wall and report in one language, from a file (TOML, assets/guidance) of `key = "text"`. Its table
-// [words] translates words that come from elsewhere: names of materials, media, sources, keys and devices. Const after
-// loading; any thread.
+// All texts of wall and report in one language, from a TOML file of `key = "text"` (assets/guidance). Its table [words]
+// translates words with other origins: names of materials, media, sources, keys and devices. Const after loading; any
+// thread.
 class Phrases {
  public:
-  // Every phrase must be there. The error names file, line and key.
+  // Requires every phrase. The error names file, line and key.
   static core::Result<Phrases> load(const std::string& path);
 
-  // The same for a file of the user's own: what it lacks is as in `base`.
+  // The same for a user's file; phrases that it lacks come from `base`.
   static core::Result<Phrases> load(const std::string& path, const Phrases& base);
 
-  // The text as in the file; for phrases without placeholders.
+  // Text as in the file, for phrases without placeholders.
   const std::string& operator[](Phrase phrase) const { return texts_[static_cast<std::size_t>(phrase)]; }
 
-  // With its placeholders filled, in the order of its row. Numbers get the language's decimal mark.
+  // Text with its placeholders filled, in the order of its row. Numbers get the language's decimal mark.
   template <Phrase phrase, class... Texts>
   std::string text(const Texts&... texts) const {
     static_assert(sizeof...(Texts) == place_count(phrase), "a text for each placeholder of the phrase");
@@ -73,13 +73,13 @@ class Phrases {
     return filled(phrase, values);
   }
 
-  // The same for a phrase chosen at run time; the values stay as they are.
+  // The same for a phrase chosen at run time. Values are not changed.
   std::string filled(Phrase phrase, std::span<const std::string> values) const;
 
-  // The translation of a word, or of the word before a number ("Gold 0.1 N/m"); else the word itself.
+  // Translation of a word, or of the word before a number ("Gold 0.1 N/m"); otherwise the word itself.
   std::string word(const std::string& english) const;
 
-  // The text with this language's decimal mark in its numbers. Versions and addresses stay as they are.
+  // The text with this language's decimal mark in its numbers, but not in versions and addresses.
   std::string number(std::string text) const;
   char decimal_mark() const;
 

@@ -9,13 +9,13 @@
 
 namespace afm::exhibit {
 
-// The hint on the wall: the next step, each shown long enough to be read. One thread.
+// The hint on the wall: the next step of the procedure, shown for long enough to be read. One thread.
 class Procedure {
  public:
   static constexpr std::int64_t kReadableNs = 3'000'000'000;
 
-  // Once a frame. A hint gives way before its time only where the force goes, comes or is off, and with the sample.
-  // "It let go" is shown after every cycle, however fast the next one follows.
+  // Call once a frame. A hint is replaced early only if the force goes, comes or is off, or the sample changes. "It let
+  // go" is shown after every cycle, even if the next one follows at once.
   Hint update(const scene::TipState& tip, const CycleProgress& progress, std::int64_t now_ns);
 
  private:
@@ -25,8 +25,8 @@ class Procedure {
   std::int64_t shown_since_ns_ = 0;
   std::int32_t material_ = -1;
   int cycles_ = 0;
-  bool let_go_ = false;      // since the force came on
-  bool reward_due_ = false;  // it let go, which the wall has not said yet
+  bool let_go_ = false;      // since the force was switched on
+  bool reward_due_ = false;  // the tip has let go, but the wall has not shown it yet
 };
 
 }  // namespace afm::exhibit
