@@ -91,7 +91,10 @@ MachineFacts look_at_machine(const core::Clock& clock, const std::string& progra
   facts.haptics = haptics::probe_devices(servo::environment());
 
   facts.servo_program = std::filesystem::path(program).replace_filename("touchafm-servo").string();
-  facts.servo_program_runs = ::access(facts.servo_program.c_str(), X_OK) == 0;
+  for (const char* name : {"touchafm-guard", "touchafm-servo"}) {
+    const std::string path = std::filesystem::path(program).replace_filename(name).string();
+    if (::access(path.c_str(), X_OK) != 0) facts.missing_program = path;
+  }
   return facts;
 }
 

@@ -35,7 +35,7 @@ struct MachineFacts {
   std::vector<DeviceNode> serial_nodes;
   std::vector<haptics::ProbeLine> haptics;
   std::string servo_program;
-  bool servo_program_runs = false;  // exists and is executable
+  std::string missing_program;  // of the servo and its watchdog, the one that cannot be run; empty: none
 };
 
 // Examines the machine; takes slightly longer than `jitter_seconds`. `program` is the running touchafm.

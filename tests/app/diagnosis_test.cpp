@@ -27,7 +27,6 @@ MachineFacts good_machine() {
   facts.serial_nodes = {{"/dev/ttyACM0", true}};
   facts.haptics = {{"hdapi library libHD.so.3.4", true, "loaded"}, {"hdapi device", true, "Touch"}};
   facts.servo_program = "/usr/bin/touchafm-servo";
-  facts.servo_program_runs = true;
   return facts;
 }
 
@@ -65,7 +64,7 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
          m.jitter.late_us[500] = 10;
          m.jitter.max_us = 500;
        }},
-      {"servo program", Verdict::Missing, "touchafm-servo", [](MachineFacts& m) { m.servo_program_runs = false; }},
+      {"servo program", Verdict::Missing, "touchafm-servo", [](MachineFacts& m) { m.missing_program = m.servo_program; }},
       {"graphics", Verdict::Limited, "Vulkan driver", [](MachineFacts& m) { m.graphics[0].kind = "CPU"; }},
       {"graphics", Verdict::Limited, "sudo usermod -aG render,video",
        [](MachineFacts& m) {

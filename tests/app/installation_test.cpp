@@ -105,7 +105,7 @@ TEST_F(InstalledProgram, HoldsNoPathOfTheMachineThatBuiltIt) {
     EXPECT_EQ(bytes.find(support::source() + "/"), std::string::npos) << file.path();
   }
   std::sort(programs.begin(), programs.end());
-  EXPECT_THAT(programs, ElementsAre("touchafm", "touchafm-bench", "touchafm-hdf5", "touchafm-servo"));
+  EXPECT_THAT(programs, ElementsAre("touchafm", "touchafm-bench", "touchafm-guard", "touchafm-hdf5", "touchafm-servo"));
   for (const fs::directory_entry& file : fs::recursive_directory_iterator(prefix())) {
     EXPECT_TRUE(!fs::is_symlink(file) || fs::read_symlink(file).is_relative()) << file.path();
   }

@@ -364,11 +364,13 @@ TEST(ServoProgram, RefusesASegmentOfAnotherVersionAndPrintsBoth) {
 }
 
 TEST(ServoProgram, NeedsNeitherVulkanNorAWindow) {
-  const auto [code, said] = run({"readelf", "--dynamic", kServoProgram});
-  ASSERT_EQ(code, 0) << said;
-  EXPECT_THAT(said, HasSubstr("libc.so"));
-  for (const char* library : {"libvulkan", "libglfw", "libX11", "libwayland", "libpng"}) {
-    EXPECT_THAT(said, testing::Not(HasSubstr(library)));
+  for (const std::string& program : {kServoProgram, support::built("bin/touchafm-guard")}) {
+    const auto [code, said] = run({"readelf", "--dynamic", program});
+    ASSERT_EQ(code, 0) << said;
+    EXPECT_THAT(said, HasSubstr("libc.so"));
+    for (const char* library : {"libvulkan", "libglfw", "libX11", "libwayland", "libpng"}) {
+      EXPECT_THAT(said, testing::Not(HasSubstr(library)));
+    }
   }
 }
 
