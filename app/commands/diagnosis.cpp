@@ -131,8 +131,9 @@ Finding haptic_device(const MachineFacts& facts) {
 
 Finding servo_program(const MachineFacts& facts) {
   if (facts.missing_program.empty()) return {"servo program", Verdict::Good, facts.servo_program, {}};
-  return {"servo program", Verdict::Missing, facts.missing_program + " does not exist or cannot be run",
-          "reinstall touchafm, or build the targets touchafm-servo and touchafm-guard: its programs belong in one folder"};
+  return {
+      "servo program", Verdict::Missing, facts.missing_program + " does not exist or cannot be run",
+      "reinstall touchafm, or build the targets touchafm-servo and touchafm-guard: its programs belong in one folder"};
 }
 
 }  // namespace
