@@ -28,7 +28,7 @@ class ServoSupervisor {
   using Starter = std::function<core::Result<std::unique_ptr<servo::ServoClient>>()>;
 
   // Called with every servo that has been started, and the material that was under the tip of the one before it.
-  using Started = std::function<void(servo::ServoClient& servo, std::optional<std::size_t> felt_before)>;
+  using Started = std::function<void(servo::ServoClient& servo, std::optional<std::size_t> chosen_before)>;
 
   // `record_folder`: for the sessions of what is felt; empty: none is kept. `audience` hears of every sample and event
   // that update() receives, and must outlive this.

@@ -28,8 +28,8 @@ class ViewControls {
   auto begin() const { return controls_.begin(); }
   auto end() const { return controls_.end(); }
 
-  // A servo has been started; `felt_before` is the material that was under the tip of its predecessor.
-  void servo_started(servo::ServoClient& servo, std::optional<std::size_t> felt_before);
+  // A servo has been started; `chosen_before` is the material that was chosen at its predecessor.
+  void servo_started(servo::ServoClient& servo, std::optional<std::size_t> chosen_before);
 
   // Returns everything to its state after the start, and starts the servo again if it has ended.
   void begin_again();

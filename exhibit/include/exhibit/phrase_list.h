@@ -4,8 +4,7 @@
 // Every phrase of wall and report: PHRASE(enumerator, key in the files, placeholders, limit of exhibit/phrases.h).
 // Placeholders are words in braces, in the order in which the code fills them; one that ends in "?" may be left out.
 
-// The procedure's steps, in the order of Hint; why the force is off, in the order of scene::FaultCode; the controls, in
-// the order of HandControls and Pointer; the notes, in the order of Note.
+// In the order of Hint, scene::FaultCode (why the force is off), HandControls, Pointer and Note.
 #define AFM_FOR_EACH_GUIDANCE_PHRASE(PHRASE)                       \
   PHRASE(ChooseSample, "choose-sample", kControlPlaces, kLine)     \
   PHRASE(Lift, "lift", kControlPlaces, kLine)                      \
@@ -235,6 +234,7 @@
   PHRASE(ScanHandLift, "scan-hand-lift", "", kLine)                    \
   PHRASE(ScanHandHold, "scan-hand-hold", "", kLine)                    \
   PHRASE(ScanHandLed, "scan-hand-led", "", kLine)                      \
+  PHRASE(ScanHandLost, "scan-hand-lost", "", kLine)                    \
   PHRASE(ScanHandTouch, "scan-hand-touch", "", kLine)                  \
   PHRASE(ScanHandLiftOnce, "scan-hand-lift-once", "", kLine)           \
   PHRASE(ScanHandPaints, "scan-hand-paints", "", kLine)                \
