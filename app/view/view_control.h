@@ -47,6 +47,9 @@ class ViewControl {
   // Before the time of the frame is taken; may wait.
   virtual void begin_frame() {}
 
+  // Before anything acts on the input, and again before a wand's press is acted on.
+  virtual void notice(const ViewInput& /*input*/, const ViewFrame& /*frame*/) {}
+
   // Before the hand moves and the servo's news come.
   virtual void take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) {}
 
