@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "app/view/key_list.h"
 #include "exhibit/phrases.h"
@@ -66,6 +67,9 @@ struct LiveKey {
 
 // Every key of the live window, in the order of the list.
 std::span<const LiveKey> live_keys();
+
+// Names of the keys that work in an unattended window, for help and manual.
+std::string keys_of_visitors();
 
 // The list of keys for the wall, without those of staff where nobody attends. Those of MouseHand stand there where the
 // mouse moves the hand.
