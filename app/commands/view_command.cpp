@@ -14,6 +14,7 @@
 #include "app/headset/headset_runtime.h"
 #include "app/lesson/live_lesson.h"
 #include "app/live/live_window.h"
+#include "app/live/view_keys.h"
 #include "app/options/command.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
@@ -362,9 +363,11 @@ void add_view_command(OptionList& program, const CommandContext& context) {
   OptionList command =
       program.add_command("view", "open the live window: choose a sample and feel it; a mouse is enough");
   command.footer(
-      "Press F1 in the window for its keys and buttons.\n\n"
-      "example: touchafm view\n"
-      "         touchafm view --stereo side-by-side --fullscreen --material mica --material pdms-air");
+      fmt::format("Press F1 in the window for its keys and buttons.\n"
+                  "With --kiosk or --unattended these keys work: {}.\n\n"
+                  "example: touchafm view\n"
+                  "         touchafm view --stereo side-by-side --fullscreen --material mica --material pdms-air",
+                  keys_of_visitors()));
   auto options = std::make_shared<ViewOptions>();
   add_stage_options(command, options->files, context);
   add_own_model_options(command, options->files);

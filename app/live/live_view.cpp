@@ -63,6 +63,7 @@ core::Result<void> LiveView::run() {
   parts_.servo.finish();  // releases the hand and saves the session while the last picture is still visible
   if (lost) return tl::unexpected(*lost);
   parts_.picture.finish();
+  if (parts_.turn.failure) return tl::unexpected(*parts_.turn.failure);
   if (parts_.servo.error()) return tl::unexpected(*parts_.servo.error());
   return record_.finish();
 }
@@ -71,12 +72,13 @@ void LiveView::run_frame(std::int64_t now_ns) {
   ViewFrame frame{.now_ns = now_ns, .frame_s = static_cast<double>(now_ns - std::exchange(frame_ns_, now_ns)) * 1e-9};
   const ViewInput input = parts_.windows.poll();
   parts_.turn.leaving = input.close_requested && !settings_.unattended;
+  notice(input, frame);
   for (const ViewEvent& event : input.events) handle(event, now_ns);
   parts_.pointer.follow(input.cursor_px, parts_.hand.mouse().dragging(), now_ns);
   for (ViewControl* control : parts_.controls) control->take(input, frame);
   move_hand(input, frame);
   parts_.servo.update(now_ns);
-  follow_wand(now_ns);
+  follow_wand(input, frame);
   if (parts_.windows.hidden() && !parts_.turn.draws_unseen) {
     parts_.picture.rest();
     parts_.windows.at(0).wait(kHiddenPauseS);
@@ -85,6 +87,10 @@ void LiveView::run_frame(std::int64_t now_ns) {
   parts_.picture.fit(now_ns);
   draw(input, frame);
   pace(now_ns);
+}
+
+void LiveView::notice(const ViewInput& input, const ViewFrame& frame) {
+  for (ViewControl* control : parts_.controls) control->notice(input, frame);
 }
 
 void LiveView::handle(const ViewEvent& input, std::int64_t now_ns) {
@@ -107,10 +113,12 @@ void LiveView::move_hand(const ViewInput& input, const ViewFrame& frame) {
 }
 
 // Moves the hand's frame with the sample.
-void LiveView::follow_wand(std::int64_t now_ns) {
+void LiveView::follow_wand(const ViewInput& input, const ViewFrame& frame) {
   ViewWand& wand = parts_.wand;
   const WallPicture shown = parts_.picture.picture(0);
-  wand.update(now_ns, parts_.servo.link().tip(), 0.5 * (shown.eyes[0].eye_position_m + shown.eyes[1].eye_position_m));
+  wand.update(frame.now_ns, parts_.servo.link().tip(),
+              0.5 * (shown.eyes[0].eye_position_m + shown.eyes[1].eye_position_m));
+  notice(input, frame);
   if (wand.stop_pressed()) parts_.choice.stop_force();
   if (wand.select_pressed()) parts_.choice.press(parts_.pointer.at_wand(), input::ray_of(wand.state()));
   const glm::dmat3 turned(wand.navigation());

@@ -41,9 +41,10 @@ class LiveView {
 
  private:
   void run_frame(std::int64_t now_ns);
+  void notice(const ViewInput& input, const ViewFrame& frame);
   void handle(const ViewEvent& input, std::int64_t now_ns);
   void move_hand(const ViewInput& input, const ViewFrame& frame);
-  void follow_wand(std::int64_t now_ns);
+  void follow_wand(const ViewInput& input, const ViewFrame& frame);
   exhibit::Hint next_hint(std::int64_t now_ns);
   exhibit::Moment moment(ViewFrame& frame);
   void draw(const ViewInput& input, ViewFrame& frame);

@@ -28,8 +28,8 @@ struct LiveWindow {
         sound(settings.sound, given.stage.phrases(), given.stage.titles(), given.clock),
         servo(
             given.start_servo,
-            [this](servo::ServoClient& link, std::optional<std::size_t> felt_before) {
-              controls.servo_started(link, felt_before);
+            [this](servo::ServoClient& link, std::optional<std::size_t> chosen_before) {
+              controls.servo_started(link, chosen_before);
             },
             given.stage.materials.materials.size(), settings.record_folder, sound.narrator()),
         hand(given.stage, servo, {.source = settings.hand, .device = settings.device_controls}),

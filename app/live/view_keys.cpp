@@ -64,7 +64,8 @@ constexpr std::array kRows{
     LiveKey{Key::A, "A", Phrase::KeyAnalogy, [](KeyOwners& owners, std::size_t) { owners.journey->toggle_analogy(); }}
         .outside_lessons(),
     LiveKey{Key::Y, "Y", Phrase::KeySay, [](KeyOwners& owners, std::size_t) { owners.sound->say_state(); }},
-    LiveKey{Key::Q, "Q", Phrase::KeySound, [](KeyOwners& owners, std::size_t) { owners.sound->toggle_sound(); }},
+    LiveKey{Key::Q, "Q", Phrase::KeySound, [](KeyOwners& owners, std::size_t) { owners.sound->toggle_sound(); }}
+        .for_staff(),
     LiveKey{Key::X, "X", Phrase::KeyBlank, [](KeyOwners& owners, std::size_t) { owners.sound->toggle_picture(); }}
         .for_staff(),
     LiveKey{Key::R, "R", Phrase::KeyStartAgain,
@@ -129,6 +130,14 @@ constexpr std::array kRows{
 }  // namespace
 
 std::span<const LiveKey> live_keys() { return kRows; }
+
+std::string keys_of_visitors() {
+  std::string names;
+  for (const LiveKey& key : live_keys()) {
+    if (!key.staff && key.acts(WallUse::Free)) names += (names.empty() ? "" : ", ") + std::string(key.name);
+  }
+  return names;
+}
 
 render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use) {
   render::DataPanel panel;

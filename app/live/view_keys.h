@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "app/view/key_list.h"
 #include "exhibit/words/phrases.h"
@@ -66,6 +67,9 @@ struct LiveKey {
 
 // Every key of the live window, in the order of the printed list.
 std::span<const LiveKey> live_keys();
+
+// Names of the keys that work in an unattended window, for help and manual.
+std::string keys_of_visitors();
 
 // The list of keys for the wall, without staff keys in an unattended window. Mouse keys are listed only when the mouse
 // moves the hand.

@@ -42,7 +42,9 @@ core::Result<void> ServoSupervisor::start() {
 }
 
 core::Result<void> ServoSupervisor::launch(const char* message) {
-  const auto felt_before = link_ ? material() : std::nullopt;
+  // a choice that the servo had not laid yet holds for the next one
+  const std::int32_t chosen = link_ ? link_->chosen() : -1;
+  const auto chosen_before = chosen < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(chosen));
   auto servo = starter_();
   if (!servo) {
     if (link_) error_ = servo.error();
@@ -53,7 +55,7 @@ core::Result<void> ServoSupervisor::launch(const char* message) {
   stream_ = {};
   logged_state_ = scene::ServoState::Disarmed;
   if (message != nullptr) core::log_line(message);
-  started_(*link_, felt_before);
+  started_(*link_, chosen_before);
   return {};
 }
 

@@ -27,8 +27,8 @@ class ServoSupervisor {
  public:
   using Starter = std::function<core::Result<std::unique_ptr<servo::ServoClient>>()>;
 
-  // Called after each start of a servo, with the material that was under its predecessor's tip.
-  using Started = std::function<void(servo::ServoClient& servo, std::optional<std::size_t> felt_before)>;
+  // Called after each start of a servo, with the material that was chosen at its predecessor.
+  using Started = std::function<void(servo::ServoClient& servo, std::optional<std::size_t> chosen_before)>;
 
   // `record_folder`: for session files; empty: none. `audience` receives every sample and event that update() reads,
   // and must outlive the object.

@@ -44,8 +44,8 @@ void ViewChoice::choose(std::size_t material) {
   core::log_line("chosen: " + parts_.stage.materials.materials[material].title);
 }
 
-void ViewChoice::choose_first(std::optional<std::size_t> felt_before) {
-  if (const auto material = felt_before ? felt_before : first_material_) choose(*material);
+void ViewChoice::choose_first(std::optional<std::size_t> chosen_before) {
+  if (const auto material = chosen_before ? chosen_before : first_material_) choose(*material);
 }
 
 void ViewChoice::number(std::size_t number) {
@@ -70,9 +70,8 @@ void ViewChoice::next_scale() {
   scale_ = scene::after(scale_);
   const scene::ScaleModeText& text = scene::text_of(scale_);
   core::log_line(fmt::format("scale {}: {}", text.word, text.meaning));
-  if (const auto current = parts_.servo.material(); current && parts_.servo.running()) {
-    parts_.servo.link().choose(static_cast<std::int32_t>(*current), scale_);
-  }
+  if (!parts_.servo.running() || parts_.servo.link().chosen() < 0) return;
+  parts_.servo.link().choose(parts_.servo.link().chosen(), scale_);  // the sample may still be on its way
 }
 
 void ViewChoice::mark_next_setting() {
@@ -102,9 +101,7 @@ void ViewChoice::stop_force() {
 
 void ViewChoice::take_force_away(std::int64_t now_ns) {
   force_taken_ns_ = now_ns;
-  if (const auto current = parts_.servo.material(); current && parts_.servo.running()) {
-    parts_.servo.link().choose(static_cast<std::int32_t>(*current), scale_);
-  }
+  if (parts_.servo.running()) parts_.servo.link().take_force_away();
 }
 
 void ViewChoice::keep_force_away(std::int64_t now_ns) {

@@ -39,7 +39,7 @@ class ViewChoice {
   std::string spoken(const std::string& line) const;  // speech for this line of guidance
 
   void choose(std::size_t material);
-  void choose_first(std::optional<std::size_t> felt_before);
+  void choose_first(std::optional<std::size_t> chosen_before);
   void number(std::size_t number);  // a key from 1 to 9, from 0
   void press(const Pointed& pointed, const input::Ray& ray);
   void enter();
@@ -52,7 +52,7 @@ class ViewChoice {
   // Makes the servo cut the force now.
   void stop_force();
 
-  // Chooses the sample again, so that a force needs a lift and Turn-On.
+  // Removes the force: the hand must lift and press Turn-On again.
   void take_force_away(std::int64_t now_ns);
 
   // Does the same whenever there is a force. Call once a frame.

@@ -47,6 +47,9 @@ class ViewControl {
   // Called before the frame's time is taken; may wait.
   virtual void begin_frame() {}
 
+  // Called before anything acts on the input, and again before a press of the wand acts.
+  virtual void notice(const ViewInput& /*input*/, const ViewFrame& /*frame*/) {}
+
   // Called before the hand moves and the servo's new samples are read.
   virtual void take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) {}
 

@@ -28,8 +28,8 @@ class ViewControls {
   auto begin() const { return controls_.begin(); }
   auto end() const { return controls_.end(); }
 
-  // Call after a start of a servo; `felt_before` is the material that was under its predecessor's tip.
-  void servo_started(servo::ServoClient& servo, std::optional<std::size_t> felt_before);
+  // Call after a start of a servo; `chosen_before` is the material that was chosen at its predecessor.
+  void servo_started(servo::ServoClient& servo, std::optional<std::size_t> chosen_before);
 
   // Returns everything to its initial state, and restarts the servo if it has ended.
   void begin_again();

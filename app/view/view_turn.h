@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
+#include "core/result.h"
 #include "exhibit/words/guidance.h"
 
 namespace afm::exhibit {
@@ -23,6 +25,7 @@ struct ShownScan {
 // State that controls share with the loop and with each other.
 struct ViewTurn {
   bool leaving = false;                              // the window closes after this frame
+  std::optional<core::Error> failure;                // the reason, if it is one; the program's exit code follows
   bool draws_unseen = false;                         // frames are drawn even while all windows are hidden
   bool paced = false;                                // the frame rate is limited elsewhere, so the loop does not wait
   bool blank = false;                                // picture hidden, for users who rely on sound and touch

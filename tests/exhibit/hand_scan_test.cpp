@@ -282,6 +282,11 @@ TEST(LeadingScan, SaysWhatTheHandCanDo) {
   EXPECT_THAT(said(led), StartsWith("Hold Turn-On"));
   tip.led = 1;
   EXPECT_THAT(said(led), HasSubstr("go along"));
+  tip.led = 0;
+  tip.lead_lost = 1;
+  EXPECT_THAT(said(led), HasSubstr("let go of Turn-On, then hold it again"));
+  tip.lead_lost = 0;
+  tip.led = 1;
   EXPECT_THAT(said(painted), StartsWith("Lower the tip"));
   tip.phase = physics::Phase::Attached;
   EXPECT_THAT(said(painted), StartsWith("Lift the tip off the sample once"));

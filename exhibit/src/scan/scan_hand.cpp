@@ -86,6 +86,7 @@ std::optional<std::string> hand_guidance(const LiveScan& scan, const scene::TipS
     return phrases[other && force ? Phrase::ScanHandLiftOnce : Phrase::ScanHandPaints];
   }
   if (tip.led != 0) return phrases[Phrase::ScanHandLed];
+  if (tip.lead_lost != 0) return phrases[Phrase::ScanHandLost];
   return phrases[force ? Phrase::ScanHandHold : Phrase::ScanHandLift];
 }
 

@@ -174,6 +174,15 @@ void ServoClient::go_on() {
 void ServoClient::choose(std::int32_t material, scene::ScaleMode mode) {
   selection_.material = material;
   selection_.scale_mode = mode;
+  // a release that the servo has not seen yet must not be overwritten
+  if (tip_.acknowledged.selection == selection_.revision) selection_.release = 0;
+  ++selection_.revision;
+  side_.store(selection_);
+}
+
+void ServoClient::take_force_away() {
+  if (selection_.material < 0) return;
+  selection_.release = 1;
   ++selection_.revision;
   side_.store(selection_);
 }

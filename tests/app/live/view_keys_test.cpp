@@ -40,6 +40,14 @@ TEST(LiveKeys, AreThoseOfTheManual) {
   EXPECT_EQ(manual_keys(), names);
 }
 
+TEST(LiveKeys, OfAKioskAreThoseOfTheManual) {
+  const auto manual = core::read_file(support::source("docs/manual.md"));
+  ASSERT_TRUE(manual.has_value());
+  std::string one_line = *manual;
+  std::replace(one_line.begin(), one_line.end(), '\n', ' ');
+  EXPECT_THAT(one_line, testing::HasSubstr("these keys work: " + keys_of_visitors() + "."));
+}
+
 TEST(LiveKeys, AreBoundOnce) {
   for (const LiveKey& one : live_keys()) {
     EXPECT_LE(one.key, one.last) << one.name;
@@ -68,7 +76,8 @@ TEST(LiveKeys, OfAnUnattendedWindowAreThoseOfVisitors) {
   for (const char* kept : {"Choose a sample", "Move the hand", "Turn-On", "Stop the force", "Start again"}) {
     EXPECT_THAT(list, testing::HasSubstr(kept));
   }
-  for (const char* locked : {"Quit", "Full screen", "Save the picture", "Swap the eyes", "Test pattern", "Hide"}) {
+  for (const char* locked :
+       {"Sound off, and on", "Quit", "Full screen", "Save the picture", "Swap the eyes", "Test pattern", "Hide"}) {
     EXPECT_THAT(list, testing::Not(testing::HasSubstr(locked)));
   }
 }

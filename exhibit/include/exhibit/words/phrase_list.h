@@ -235,6 +235,7 @@
   PHRASE(ScanHandLift, "scan-hand-lift", "", kLine)                    \
   PHRASE(ScanHandHold, "scan-hand-hold", "", kLine)                    \
   PHRASE(ScanHandLed, "scan-hand-led", "", kLine)                      \
+  PHRASE(ScanHandLost, "scan-hand-lost", "", kLine)                    \
   PHRASE(ScanHandTouch, "scan-hand-touch", "", kLine)                  \
   PHRASE(ScanHandLiftOnce, "scan-hand-lift-once", "", kLine)           \
   PHRASE(ScanHandPaints, "scan-hand-paints", "", kLine)                \
