@@ -42,6 +42,9 @@ class Option {
   Option& existing_folder();
   Option& writable_file();  // refused before the work whose result it would lose
 
+  // Left out of the help, the man page and the completion: for other programs of ours.
+  Option& hidden();
+
   // Of a list: one value each time the option is given.
   Option& one_value_each();
 
