@@ -29,7 +29,12 @@ void ClusterControl::share_scan() {
 }
 
 // Before the samples of a hand that paints.
-void ClusterControl::take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) { share_scan(); }
+void ClusterControl::take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) {
+  share_scan();
+  if (parts_.turn.failure) return;
+  parts_.turn.failure = master_.rival();
+  parts_.turn.leaving = parts_.turn.leaving || parts_.turn.failure;
+}
 
 // Sends the inputs of this frame. The moment becomes what the others have: what had no room is missing here too.
 void ClusterControl::add_to_moment(exhibit::Moment& now, ViewFrame& frame) {
