@@ -29,7 +29,12 @@ void ClusterControl::share_scan() {
 }
 
 // Shares the scan before the samples of a painting hand arrive.
-void ClusterControl::take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) { share_scan(); }
+void ClusterControl::take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) {
+  share_scan();
+  if (parts_.turn.failure) return;
+  parts_.turn.failure = master_.rival();
+  parts_.turn.leaving = parts_.turn.leaving || parts_.turn.failure;
+}
 
 // Sends this frame's inputs and replaces the moment by what was sent, so that this machine also lacks what did not fit.
 void ClusterControl::add_to_moment(exhibit::Moment& now, ViewFrame& frame) {

@@ -102,6 +102,23 @@ void ClusterMaster::barrier(const std::function<void()>& while_waiting) {
   for (const std::string& line : membership_.end()) core::log_line(line);
 }
 
+std::optional<core::Error> ClusterMaster::rival() {
+  using Rival = cluster::MasterLink::Rival;
+  const Rival rival = link_->rival();
+  if (rival == Rival::Earlier) {
+    return core::Error{core::ErrorCategory::WrongUsage,
+                       "another master, which started earlier, drives a wall in this network and domain: end it first, "
+                       "or give one of the two another --domain"};
+  }
+  const bool later = rival == Rival::Later;
+  if (later && !rival_logged_) {
+    core::log_line(
+        "cluster: another master drives a wall in this network and domain; it started later and should end by itself");
+  }
+  rival_logged_ = later;
+  return std::nullopt;
+}
+
 void ClusterMaster::log_summary() const {
   for (const cluster::Membership::Node& node : membership_.nodes()) {
     core::log_line(

@@ -47,6 +47,10 @@ class ClusterMaster {
   // Waits until all connected nodes have drawn the frame, then lets them show it.
   void barrier(const std::function<void()>& while_waiting);
 
+  // The reason to end, if another master that started earlier drives the wall. Logs one that started later. Once a
+  // frame.
+  std::optional<core::Error> rival();
+
   // Logs one line of statistics at the end of a run.
   void log_summary() const;
 
@@ -65,6 +69,7 @@ class ClusterMaster {
   std::int64_t longest_wait_ns_ = 0;
   std::int64_t history_sent_ns_ = 0;
   bool history_wanted_ = false;
+  bool rival_logged_ = false;
 };
 
 // Text of the wall's banner for the nodes in the mask; empty if none is missing.

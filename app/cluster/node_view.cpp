@@ -79,19 +79,23 @@ void NodeView::take_records() {
   }
 }
 
-// Takes all messages. Returns the new description if the master shows another wall.
-std::optional<cluster::NodeLink::Document> NodeView::take() {
-  if (auto model = link_.model()) {
-    if (model->bytes != place_.model) return model;
-    place_.session = model->header.session;
-    forget();
+// Takes all messages. Returns true if another wall is prepared.
+bool NodeView::take(const Prepare& prepare) {
+  if (const auto model = link_.model()) {
+    if (model->bytes == place_.model) {
+      place_.session = model->header.session;
+      forget();
+    } else if (model->bytes != refused_) {
+      if (prepare(*model)) return true;
+      refused_ = model->bytes;  // one line for each, however often it comes
+    }
   }
   take_records();
   if (const auto history = link_.history(); history && history->header.session == place_.session) {
     if (!knows_history_) restore(history->bytes);
   }
   if (auto frame = link_.frame()) next_ = frame;
-  return std::nullopt;
+  return false;
 }
 
 void NodeView::apply_until(std::uint64_t journal) {
@@ -234,9 +238,9 @@ void NodeView::draw(const cluster::NodeLink::Came& came) {
   shown_ = message;
 }
 
-std::optional<cluster::NodeLink::Document> NodeView::run() {
+bool NodeView::run(const Prepare& prepare) {
   while (!core::interrupted() && !leaves()) {
-    if (auto other = take()) return other;
+    if (take(prepare)) return true;
     picture_.fit(clock_.now_ns());
     if (next_) {
       draw(*std::exchange(next_, std::nullopt));
@@ -246,7 +250,7 @@ std::optional<cluster::NodeLink::Document> NodeView::run() {
     }
   }
   picture_.finish();
-  return std::nullopt;
+  return false;
 }
 
 }  // namespace afm::app

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,12 +33,15 @@ class NodeView {
   NodeView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewDisplay& display,
            cluster::NodeLink& link, Place place, KeyList key_list, const core::Clock& clock);
 
-  // Runs until the window is closed or a signal arrives. If a master shows another wall, returns its description.
-  std::optional<cluster::NodeLink::Document> run();
+  // Prepares another wall; false: it cannot be shown, and this one goes on.
+  using Prepare = std::function<bool(const cluster::NodeLink::Document& other)>;
+
+  // Runs until the window is closed or a signal arrives; returns true if another wall is prepared instead.
+  bool run(const Prepare& prepare);
 
  private:
   bool leaves();
-  std::optional<cluster::NodeLink::Document> take();
+  bool take(const Prepare& prepare);
   void take_records();
   void restore(std::span<const std::byte> document);
   void forget();
@@ -56,6 +60,7 @@ class NodeView {
   ViewPicture& picture_;
   cluster::NodeLink& link_;
   Place place_;
+  std::vector<std::byte> refused_;  // newest description that could not be prepared
   const core::Clock& clock_;
   std::vector<curves::SampleModel> felt_;
   exhibit::FrameBuilder frames_;

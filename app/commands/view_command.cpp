@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "app/commands/view_people.h"
 #include "app/headset/headset_runtime.h"
 #include "app/lesson/live_lesson.h"
 #include "app/live/live_window.h"
@@ -22,7 +21,6 @@
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"
-#include "app/view/speech_choice.h"
 #include "core/exit_code.h"
 #include "core/interruption.h"
 #include "core/log.h"
@@ -34,7 +32,6 @@
 #include "render/monitor.h"
 #include "servo/haptic_choice.h"
 #include "servo/keep_running.h"
-#include "servo/session_file.h"
 
 namespace afm::app {
 
@@ -51,40 +48,6 @@ core::Result<void> check_validation(render::Context& context) {
   if (messages.empty()) return {};
   return core::failure(core::ErrorCategory::Failed,
                        fmt::format("the Vulkan validation layer reported {} messages; see above", messages.size()));
-}
-
-// Controls of the device that a person moves.
-exhibit::HandControls controls_of(const servo::HapticChoice& choice) {
-  using exhibit::HandControls;
-  static constexpr std::array<std::pair<std::string_view, HandControls>, 3> kControls{
-      {{"hdapi", HandControls::Pen}, {"haply", HandControls::Grip}, {"gamepad", HandControls::Gamepad}}};
-  if (!choice.replay_file.empty()) return HandControls::Simulated;
-  if (choice.device == nullptr) return HandControls::Device;
-  const auto* known = std::find_if(kControls.begin(), kControls.end(),
-                                   [&](const auto& row) { return row.first == choice.device->word; });
-  return known == kControls.end() ? HandControls::Device : known->second;
-}
-
-// Selects the source of a simulated hand, and the settings for a recorded hand.
-core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& device, ViewSettings& settings) {
-  const auto choice = servo::parse_haptic_choice(device);
-  if (!choice) return tl::unexpected(choice.error());
-  if (choice->person == servo::HapticChoice::Person::Simulated) settings.hand = HandSource::Simulated;
-  settings.device_controls = controls_of(*choice);
-  if (choice->replay_file.empty()) return {};
-  const auto session = servo::load_session(choice->replay_file);
-  if (!session) return tl::unexpected(session.error());
-  const auto& materials = stage.materials.materials;
-  const auto found =
-      std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == session->material; });
-  if (found == materials.end()) {
-    return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("the session {} was recorded on {}, which is not on the wall: add --material {}",
-                                     choice->replay_file, session->material, session->material));
-  }
-  settings.scale = session->samples.front().scale_mode;
-  settings.first_material = static_cast<std::size_t>(found - materials.begin());
-  return {};
 }
 
 // Width to height of an eye's picture. A missing display is reported later, when the windows open.
@@ -212,8 +175,10 @@ void add_servo_options(OptionList& command, ViewOptions& options) {
 void add_exhibition_options(OptionList& command, ViewOptions& options) {
   command.add_option("--record", options.settings.record_folder, "record into DIR, one session per sample")
       .type_name("DIR");
-  command.add_flag("--kiosk", options.kiosk,
-                   "run unattended and reopen the window whenever it fails; SIGTERM or Ctrl-C ends the program");
+  command.add_flag(
+      "--kiosk", options.kiosk,
+      "run unattended and reopen the window whenever it fails or hangs; SIGTERM or Ctrl-C ends the program");
+  command.add_option("--kept", options.kept, "descriptor for the signs of life of a kiosk's window").hidden();
   command.add_flag("--unattended", options.settings.unattended,
                    "lock the operators' keys; when no visitor is present, reset the wall and demonstrate the samples "
                    "in turn; SIGTERM or Ctrl-C ends the program");
@@ -226,14 +191,6 @@ void add_exhibition_options(OptionList& command, ViewOptions& options) {
       .type_name("SECONDS");
   add_scale_option(command, options.settings.scale);
   add_friction_option(command, options.friction);
-}
-
-core::Result<void> set_speech(bool wanted, const exhibit::Stage& stage, ViewSettings& settings) {
-  if (!wanted) return {};
-  auto program = choose_speech_program(stage.phrases()[exhibit::Phrase::Language]);
-  if (!program) return tl::unexpected(program.error());
-  settings.sound.speech = std::move(*program);
-  return {};
 }
 
 // The wall's other machines; null if this machine shows the wall by itself.
@@ -305,8 +262,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   const auto wand_choice = parse_wand_choice(options.wand);
   if (!wand_choice) return tl::unexpected(wand_choice.error());
   settings.head_script = wand_choice->head_script;
-  if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
-  if (auto set = set_speech(options.speech, *stage, settings); !set) return set;
+  if (auto set = set_people(options, *stage, settings); !set) return set;
   auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
   if (!wand) return tl::unexpected(wand.error());
   const auto model =
@@ -388,6 +344,7 @@ void add_view_command(OptionList& program, const CommandContext& context) {
     const core::CodeOfInterruption released(core::ExitCode::Done);
     std::vector<std::string> arguments = context.arguments;
     std::replace(arguments.begin(), arguments.end(), std::string("--kiosk"), std::string("--unattended"));
+    arguments.insert(arguments.end(), {"--kept", std::to_string(servo::kBeatDescriptor)});
     return servo::keep_running(context.program_path, arguments);
   });
 }

@@ -27,7 +27,8 @@ struct ViewOptions {
   double frame_rate = 0;  // 0: the display's
   bool speech = false;
   bool headset = false;
-  bool kiosk = false;  // an unattended window that reopens after a failure
+  bool kiosk = false;  // an unattended window that reopens after a failure or a hang
+  int kept = -1;       // descriptor at which the window of a kiosk beats; -1: none
   servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = 10.0}};
   std::int64_t spin_us = 0;
   WandOptions wand;

@@ -8,6 +8,7 @@
 #include "app/lesson/instructor_control.h"
 #include "app/lesson/lesson_control.h"
 #include "app/live/journey_control.h"
+#include "app/live/kept_control.h"
 #include "app/live/place_control.h"
 #include "app/live/scan_control.h"
 #include "app/live/sound_control.h"
@@ -35,6 +36,7 @@ LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const
       unattended_(settings.unattended),
       owners_{.parts = parts} {
   const bool worn = features.headset != nullptr;
+  if (settings.kept) add<KeptControl>(*settings.kept);
   if (worn) add<HeadsetControl>(*features.headset);
   if (features.instructor != nullptr && features.lesson != nullptr) {
     add<InstructorControl>(*features.lesson, *features.instructor, [this](render::Key key) { press(key); });

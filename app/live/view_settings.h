@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,10 @@
 #include "exhibit/words/guidance.h"
 #include "input/simulated_head.h"
 #include "scene/shared/scale_modes.h"
+
+namespace afm::servo {
+class KeptBeat;
+}
 
 namespace afm::app {
 
@@ -26,6 +31,7 @@ struct ViewSettings {
   double idle_s = 60;         // seconds without input before the demonstration starts
   std::string record_folder;  // receives session files; empty: none is written
   LiveSoundSettings sound;
+  std::shared_ptr<servo::KeptBeat> kept;  // of a kiosk's window; shared because settings are copied
 };
 
 }  // namespace afm::app

@@ -62,9 +62,9 @@ CommandDescription describe_command(const CLI::App& app) {
                              .alternatives = {},
                              .commands = {}};
   for (const CLI::Option* option : app.get_options()) {
-    // CLI11 gives a group of options a help flag but never shows it
-    const bool hidden = app.get_name().empty() && option == app.get_help_ptr();
-    if (!hidden) command.options.push_back(describe_option(*option));
+    // CLI11 gives a group of options a help flag that it never shows
+    const bool help_of_group = app.get_name().empty() && option == app.get_help_ptr();
+    if (!help_of_group && !option->get_group().empty()) command.options.push_back(describe_option(*option));
   }
   for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
     const CommandDescription inner = describe_command(*below);
@@ -166,6 +166,11 @@ Option& Option::writable_file() {
 
 Option& Option::one_value_each() {
   option_->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  return *this;
+}
+
+Option& Option::hidden() {
+  option_->group("");
   return *this;
 }
 

@@ -43,6 +43,9 @@ class Option {
   Option& existing_folder();
   Option& writable_file();  // checked early, so that no result is lost after long work
 
+  // Leaves the option out of help, man page and completion: for our own programs.
+  Option& hidden();
+
   // For a list: one value each time the option is given.
   Option& one_value_each();
 

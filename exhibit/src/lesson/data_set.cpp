@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -33,6 +35,8 @@ constexpr std::size_t kCodeLetters = 6;
 constexpr const char* kParticipantColumns = "participant_id\torder\tage_band\tcomfort\n";
 constexpr const char* kFirstDay = "first_day";
 constexpr mode_t kEventsMode = 0666;
+constexpr auto kLockPatience = std::chrono::seconds(5);
+constexpr auto kLockPause = std::chrono::milliseconds(10);
 
 struct ColumnRow {
   const char* name;
@@ -93,12 +97,21 @@ core::Error failed(const std::string& what, const std::string& path, int error) 
   return {core::ErrorCategory::Failed, fmt::format("cannot {} {}: {}", what, path, core::system_error(error))};
 }
 
-// Locks the study's folder against other processes.
+// Locks the study's folder against other processes. Other lessons hold the lock for milliseconds, but anybody who may
+// read the folder can hold it for longer.
 core::Result<core::FileDescriptor> lock(const std::string& folder) {
   core::FileDescriptor held(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!held.is_open()) return tl::unexpected(failed("open", folder, errno));
-  while (::flock(held.get(), LOCK_EX) != 0) {
-    if (errno != EINTR) return tl::unexpected(failed("lock", folder, errno));
+  const auto end = std::chrono::steady_clock::now() + kLockPatience;
+  while (::flock(held.get(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK && errno != EINTR) return tl::unexpected(failed("lock", folder, errno));
+    if (std::chrono::steady_clock::now() > end) {
+      return core::failure(core::ErrorCategory::Failed,
+                           fmt::format("cannot lock {} within {} s: another program holds its lock; \"fuser -v {}\" "
+                                       "names it; end it, and try again",
+                                       folder, kLockPatience.count(), folder));
+    }
+    std::this_thread::sleep_for(kLockPause);
   }
   return held;
 }
@@ -264,10 +277,12 @@ core::Result<DataSet> DataSet::create(const Lesson& lesson, const DataSetEntry& 
   const std::string task = data.participant_folder_ + "/task-" + lesson.id;
   data.events_path_ = task + "_events.tsv";
   std::error_code error;
-  fs::create_directories(data.participant_folder_, error);
-  if (error) return tl::unexpected(failed("make", data.participant_folder_, error.value()));
+  fs::create_directories(data.folder_, error);
+  if (error) return tl::unexpected(failed("make", data.folder_, error.value()));
   const auto held = lock(data.folder_);
   if (!held) return tl::unexpected(held.error());
+  fs::create_directories(data.participant_folder_, error);
+  if (error) return tl::unexpected(failed("make", data.participant_folder_, error.value()));
   if (auto free = check_not_done(lesson, entry.folder, entry.code); !free) return tl::unexpected(free.error());
   auto participants = load_participants(data.folder_);
   if (!participants) return tl::unexpected(participants.error());

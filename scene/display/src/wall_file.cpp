@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <initializer_list>
@@ -16,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/whole_file.h"
 #include "physics/quantity_text.h"
 #include "scene/config/toml_file.h"
 #include "scene/display/wall.h"
@@ -300,8 +300,10 @@ Wall read_wall(const toml::table& root, const std::string& path) {
 
 // True for a ParaView configuration under another name; no TOML file begins like that.
 bool begins_like_xml(const std::string& path) {
-  char first = 0;
-  return std::ifstream(path) >> first && first == '<';
+  const auto beginning = core::read_beginning(path, 256);  // may begin with blank lines
+  if (!beginning) return false;
+  const std::size_t first = beginning->find_first_not_of(" \t\r\n");
+  return first != std::string::npos && (*beginning)[first] == '<';
 }
 
 }  // namespace
