@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "app/view/speech_choice.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "servo/haptic_choice.h"
 #include "servo/keep_running.h"
 #include "servo/session_file.h"
