@@ -54,14 +54,8 @@ core::Result<void> check_validation(render::Context& context) {
 
 // Name of the controls of a device that a real hand moves.
 exhibit::HandControls controls_of(const servo::HapticChoice& choice) {
-  using exhibit::HandControls;
-  static constexpr std::array<std::pair<std::string_view, HandControls>, 3> kControls{
-      {{"hdapi", HandControls::Pen}, {"haply", HandControls::Grip}, {"gamepad", HandControls::Gamepad}}};
-  if (!choice.replay_file.empty()) return HandControls::Simulated;
-  if (choice.device == nullptr) return HandControls::Device;
-  const auto* known = std::find_if(kControls.begin(), kControls.end(),
-                                   [&](const auto& row) { return row.first == choice.device->word; });
-  return known == kControls.end() ? HandControls::Device : known->second;
+  if (!choice.replay_file.empty()) return exhibit::HandControls::Simulated;
+  return choice.device != nullptr ? choice.device->controls : exhibit::HandControls::Device;
 }
 
 // Selects who moves a simulated hand, and the settings under which a recorded hand is played.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "exhibit/phrases.h"
+#include "haptics/hand_controls.h"
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
@@ -42,8 +43,7 @@ struct CycleProgress {
 // The step of the procedure that comes next, from what has really happened to the tip.
 Hint next_step(const scene::TipState& tip, const StepsDone& done);
 
-// The device in the hand, whose controls the wall names. Device: one without names for them, found by --haptics auto.
-enum class HandControls { Mouse, Pen, Grip, Gamepad, Device, Simulated };
+using haptics::HandControls;
 enum class Pointer { Mouse, Wand };
 struct Controls {
   HandControls hand = HandControls::Simulated;
