@@ -16,8 +16,9 @@ struct CurveOptions {
   curves::PathOptions path;
   std::vector<std::string> sweeps;  // "key=from:to:count"
   bool json = false;
-  std::string format;   // csv, json, svg, tab, h5, afm-workshop; empty: by the ending of `out`, else csv
-  std::string out;      // a file, or empty for stdout
+  std::string
+      format;       // csv, json, svg or a word of curves::writable_formats(); empty: by the ending of `out`, else csv
+  std::string out;  // a file, or empty for stdout
   std::string overlay;  // a measured curve, drawn over the model in an svg
 };
 

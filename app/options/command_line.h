@@ -38,7 +38,7 @@ class Option {
   Option& within(int least, int most);
   Option& within(double least, double most);
   Option& one_of(std::initializer_list<int> values);
-  Option& one_of(std::initializer_list<const char*> words);
+  Option& one_of(const std::vector<std::string>& words);
   Option& existing_folder();
   Option& writable_file();  // refused before the work whose result it would lose
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/result.h"
 #include "curves/recorded_curve.h"
@@ -12,7 +13,7 @@
 // Reading and writing of force-distance curves; docs/curves.md says what each format holds.
 namespace afm::curves {
 
-// In the order in which a file's content is looked at; what is done with each is a row of kCurveRows in
+// In the order in which a file's content is looked at; what is done with each is a row of kCurves in
 // curve_file.cpp (docs/adding-a-curve-format.md).
 enum class CurveFormat {
   TouchAfmCsv,     // output of `touchafm curve`
@@ -30,8 +31,15 @@ inline constexpr const char* kCurveFiles =
 // Whether the beginning of a regular file is that of a curve.
 bool is_curve_file(const std::string& path);
 
-// "tab", "h5", "afm-workshop", as command lines name the formats that write_curve() writes.
-std::optional<CurveFormat> writable_format(std::string_view name);
+// Format that write_curve() writes.
+struct WritableFormat {
+  CurveFormat format = CurveFormat::Tab;
+  std::string_view word;  // name on command lines, and the ending of files: "tab"
+  bool binary = false;
+};
+
+// In the order of CurveFormat.
+std::vector<WritableFormat> writable_formats();
 
 // How a recording becomes forces and which of several is meant. A given calibration replaces the file's: forces scale
 // with the spring constant and the sensitivity that they were made with.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,9 +25,6 @@ inline constexpr const char* kImageFiles = "Gwyddion .gwy or .gsf, Nanoscope .sp
 
 // "Nanoscope", as a sentence names it.
 std::string_view name_of(ImageFormat format);
-
-// The format that a file has by its first bytes, 512 of which are enough; none: it is no image.
-std::optional<ImageFormat> image_format_of(std::string_view bytes);
 
 // Whether the first bytes of a regular file are those of an image.
 bool is_image_file(const std::string& path);
