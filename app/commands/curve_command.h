@@ -16,7 +16,8 @@ struct CurveOptions {
   curves::PathOptions path;
   std::vector<std::string> sweeps;  // "key=from:to:count"
   bool json = false;
-  std::string format;   // csv, json, svg, tab, h5 or afm-workshop; empty: by the file extension of `out`, else csv
+  // csv, json, svg or a word of curves::writable_formats(); empty: by the file extension of `out`, else csv
+  std::string format;
   std::string out;      // output file; empty: stdout
   std::string overlay;  // measured curve, drawn over the model in an SVG
 };

@@ -20,19 +20,13 @@ namespace afm::app {
 
 namespace {
 
-// Name of the controls of a device that a real hand moves.
+// Controls of the device that a person moves.
 exhibit::HandControls controls_of(const servo::HapticChoice& choice) {
-  using exhibit::HandControls;
-  static constexpr std::array<std::pair<std::string_view, HandControls>, 3> kControls{
-      {{"hdapi", HandControls::Pen}, {"haply", HandControls::Grip}, {"gamepad", HandControls::Gamepad}}};
-  if (!choice.replay_file.empty()) return HandControls::Simulated;
-  if (choice.device == nullptr) return HandControls::Device;
-  const auto* known = std::find_if(kControls.begin(), kControls.end(),
-                                   [&](const auto& row) { return row.first == choice.device->word; });
-  return known == kControls.end() ? HandControls::Device : known->second;
+  if (!choice.replay_file.empty()) return exhibit::HandControls::Simulated;
+  return choice.device != nullptr ? choice.device->controls : exhibit::HandControls::Device;
 }
 
-// Selects who moves a simulated hand, and the settings under which a recorded hand is played.
+// Selects the source of a simulated hand, and the settings for a recorded hand.
 core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& device, ViewSettings& settings) {
   const auto choice = servo::parse_haptic_choice(device);
   if (!choice) return tl::unexpected(choice.error());

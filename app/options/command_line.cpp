@@ -146,7 +146,7 @@ Option& Option::one_of(std::initializer_list<int> values) {
   return *this;
 }
 
-Option& Option::one_of(std::initializer_list<const char*> words) {
+Option& Option::one_of(const std::vector<std::string>& words) {
   option_->check(CLI::IsMember(words));
   return *this;
 }

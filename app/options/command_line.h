@@ -39,7 +39,7 @@ class Option {
   Option& within(int least, int most);
   Option& within(double least, double most);
   Option& one_of(std::initializer_list<int> values);
-  Option& one_of(std::initializer_list<const char*> words);
+  Option& one_of(const std::vector<std::string>& words);
   Option& existing_folder();
   Option& writable_file();  // checked early, so that no result is lost after long work
 

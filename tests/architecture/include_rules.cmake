@@ -9,7 +9,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/production.cmake)
 # lowest first; a folder may include itself, and these
 set(arrows_core "")
 set(arrows_physics "")
-set(arrows_scene/config core)
+set(arrows_scene/config core physics)
 set(arrows_scene/shared core physics)
 set(arrows_scene/display core physics scene/config)
 set(arrows_scene/samples core physics scene/config scene/shared)
@@ -29,7 +29,7 @@ set(arrows_app core physics scene/config scene/shared scene/display scene/sample
 
 set(libraries_core tl)
 set(libraries_physics "")
-set(libraries_scene/config fmt toml\\+\\+)
+set(libraries_scene/config glm fmt toml\\+\\+)
 set(libraries_scene/shared glm fmt)
 set(libraries_scene/display glm fmt toml\\+\\+ pugixml)
 set(libraries_scene/samples fmt toml\\+\\+ tl)

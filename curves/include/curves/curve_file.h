@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/result.h"
 #include "curves/recorded_curve.h"
@@ -12,7 +13,7 @@
 // Reading and writing of force-distance curves. docs/curves.md describes the contents of each format.
 namespace afm::curves {
 
-// In the order in which a file's content is tested. Each format's functions are a row of kCurveRows in curve_file.cpp
+// In the order in which a file's content is tested. Each format's functions are a row of kCurves in curve_file.cpp
 // (docs/adding-a-curve-format.md).
 enum class CurveFormat {
   TouchAfmCsv,     // output of `touchafm curve`
@@ -30,8 +31,15 @@ inline constexpr const char* kCurveFiles =
 // Returns whether a regular file begins like a curve.
 bool is_curve_file(const std::string& path);
 
-// "tab", "h5" or "afm-workshop": names on the command line of the formats that write_curve() writes.
-std::optional<CurveFormat> writable_format(std::string_view name);
+// Format that write_curve() writes.
+struct WritableFormat {
+  CurveFormat format = CurveFormat::Tab;
+  std::string_view word;  // name on command lines, and the ending of files: "tab"
+  bool binary = false;
+};
+
+// In the order of CurveFormat.
+std::vector<WritableFormat> writable_formats();
 
 // How to convert a recording to forces, and which curve to read. A given calibration replaces the file's: forces scale
 // with their original spring constant and sensitivity.

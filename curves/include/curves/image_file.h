@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,9 +26,6 @@ inline constexpr const char* kImageFiles = "Gwyddion .gwy or .gsf, Nanoscope .sp
 
 // "Nanoscope", for use in a sentence.
 std::string_view name_of(ImageFormat format);
-
-// Detects the format from a file's first bytes, of which 512 suffice; empty: not an image.
-std::optional<ImageFormat> image_format_of(std::string_view bytes);
 
 // Returns whether a regular file begins like an image.
 bool is_image_file(const std::string& path);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "exhibit/words/phrases.h"
+#include "haptics/hand_controls.h"
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
@@ -42,8 +43,7 @@ struct CycleProgress {
 // Next step of the procedure, derived from the tip's real events.
 Hint next_step(const scene::TipState& tip, const StepsDone& done);
 
-// The haptic device whose controls the wall names. Device: any device without specific names, found by --haptics auto.
-enum class HandControls { Mouse, Pen, Grip, Gamepad, Device, Simulated };
+using haptics::HandControls;
 enum class Pointer { Mouse, Wand };
 struct Controls {
   HandControls hand = HandControls::Simulated;
