@@ -15,6 +15,7 @@
 #include "exhibit/exhibit_setup.h"
 #include "exhibit/frame_builder.h"
 #include "exhibit/scan/live_scan.h"
+#include "render/window_sight.h"
 
 namespace afm::app {
 
@@ -70,6 +71,8 @@ class NodeView {
   std::int64_t swapped_ns_ = 0;
   std::uint64_t lost_records_ = 0;
   std::uint32_t late_swaps_ = 0;
+  std::uint32_t stops_ = 0;
+  render::WindowSight sight_;
 };
 
 }  // namespace afm::app

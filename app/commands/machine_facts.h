@@ -27,6 +27,8 @@ struct MachineFacts {
   std::vector<render::DeviceDescription> graphics;
   std::string graphics_refusal;  // why there are none
   std::string display;           // empty: none
+  std::string saver;             // ways to keep the screen saver off while a window is open
+  bool saver_stays_off = false;
   std::string headset_manifest;  // of OpenXR's runtime; empty: none is installed
   std::string headset;           // what the runtime says; empty: it does not answer
   std::string headset_refusal;   // then why not

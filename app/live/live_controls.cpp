@@ -10,6 +10,7 @@
 #include "app/live/journey_control.h"
 #include "app/live/place_control.h"
 #include "app/live/scan_control.h"
+#include "app/live/sight_control.h"
 #include "app/live/sound_control.h"
 #include "app/live/view_settings.h"
 #include "app/live/visitor_control.h"
@@ -36,6 +37,7 @@ LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const
       owners_{.parts = parts} {
   const bool worn = features.headset != nullptr;
   if (worn) add<HeadsetControl>(*features.headset);
+  if (!worn) add<SightControl>();
   if (features.instructor != nullptr && features.lesson != nullptr) {
     add<InstructorControl>(*features.lesson, *features.instructor, [this](render::Key key) { press(key); });
   }

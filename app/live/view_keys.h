@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "app/view/key_list.h"
 #include "exhibit/phrases.h"
@@ -68,8 +69,8 @@ struct LiveKey {
 std::span<const LiveKey> live_keys();
 
 // The list of keys for the wall, without those of staff where nobody attends. Those of MouseHand stand there where the
-// mouse moves the hand.
+// mouse moves the hand. `letters`: the labels of the keys A to Z, as render::Window::letters() returns them.
 render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases,
-                           WallUse use = WallUse::Free);
+                           WallUse use = WallUse::Free, std::string_view letters = {});
 
 }  // namespace afm::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
+
 #include "exhibit/phrases.h"
 #include "render/frame.h"
 
@@ -9,7 +11,8 @@ namespace afm::app {
 enum class HandSource { Mouse, Simulated, Device };
 enum class WallUse { Free, Lesson };
 
-// Makes the list of keys on the wall. An unattended wall leaves out the keys of staff.
-using KeyList = render::DataPanel (*)(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use);
+// Makes the list of keys on the wall. An unattended wall leaves out the keys of staff. `letters`: render::Window.
+using KeyList = render::DataPanel (*)(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use,
+                                      std::string_view letters);
 
 }  // namespace afm::app

@@ -79,9 +79,10 @@ class ViewPanels {
   void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece, const std::string& caption) const;
 
   // Adds the panels of this moment to a frame: the parameters or the tab that opens them, the curve that follows from
-  // what was changed, the keys; removes hidden panels.
+  // what was changed, the keys; removes hidden panels. `letters` as in KeyList.
   void add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
-              const std::string& material_title, const scene::TipState& tip, HandSource hand);
+              const std::string& material_title, const scene::TipState& tip, HandSource hand,
+              std::string_view letters = {});
 
  private:
   bool toggle(RightPanel panel) {

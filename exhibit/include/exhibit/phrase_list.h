@@ -4,8 +4,7 @@
 // Every phrase of wall and report: PHRASE(enumerator, key in the files, placeholders, limit of exhibit/phrases.h).
 // Placeholders are words in braces, in the order in which the code fills them; one that ends in "?" may be left out.
 
-// The procedure's steps, in the order of Hint; why the force is off, in the order of scene::FaultCode; the controls, in
-// the order of HandControls and Pointer; the notes, in the order of Note.
+// Steps in the order of Hint; why the force is off (scene::FaultCode); controls (HandControls, Pointer); notes (Note).
 #define AFM_FOR_EACH_GUIDANCE_PHRASE(PHRASE)                       \
   PHRASE(ChooseSample, "choose-sample", kControlPlaces, kLine)     \
   PHRASE(Lift, "lift", kControlPlaces, kLine)                      \
@@ -66,13 +65,14 @@
   PHRASE(AllSamples, "all-samples", "", kLine)                     \
   PHRASE(OtherParameters, "other-parameters", "", kLine)
 
-// The banner: the servo's state in the order of scene::ServoState, the journey's places from the bench on, scales.
+// The banner: states in the order of scene::ServoState, and Stopped; the journey's places from the bench on; scales.
 #define AFM_FOR_EACH_BANNER_PHRASE(PHRASE)                            \
   PHRASE(StateOff, "state-off", "", kLine)                            \
   PHRASE(StateArming, "state-arming", "", kLine)                      \
   PHRASE(StateOn, "state-on", "", kLine)                              \
   PHRASE(StateReleasing, "state-releasing", "", kLine)                \
   PHRASE(StateFault, "state-fault", "", kLine)                        \
+  PHRASE(StateStopped, "state-stopped", "", kLine)                    \
   PHRASE(NotRealTime, "not-real-time", "", kLine)                     \
   PHRASE(RealTime, "real-time", "", kLine)                            \
   PHRASE(SlowMotion, "slow-motion", "factor", kLine)                  \
