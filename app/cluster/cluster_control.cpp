@@ -6,6 +6,7 @@
 #include "app/cluster/cluster_master.h"
 #include "app/display/view_picture.h"
 #include "app/view/servo_supervisor.h"
+#include "app/view/view_choice.h"
 #include "app/view/view_hand.h"
 #include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
@@ -19,6 +20,9 @@ namespace afm::app {
 
 ClusterControl::ClusterControl(ViewParts& parts, ClusterMaster& master) : parts_(parts), master_(master) {
   parts_.turn.draws_unseen = true;
+  if (master_.nodes_show_sample()) {
+    parts_.turn.seen_elsewhere_ns = [this](std::int64_t now_ns) { return master_.seen_ns(now_ns); };
+  }
   parts_.servo.hear([this](const scene::TipSample& sample) { master_.hear(sample); });
   parts_.servo.hear_jumps([this](const scene::TipEvent& event) { master_.hear(event); });
 }
@@ -31,6 +35,7 @@ void ClusterControl::share_scan() {
 // Shares the scan before the samples of a painting hand arrive.
 void ClusterControl::take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) {
   share_scan();
+  if (master_.take_stop()) parts_.choice.stop_force();
   if (parts_.turn.failure) return;
   parts_.turn.failure = master_.rival();
   parts_.turn.leaving = parts_.turn.leaving || parts_.turn.failure;

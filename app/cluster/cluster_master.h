@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/view/parameter_edits.h"
@@ -24,9 +25,9 @@ namespace afm::app {
 // barrier's patience, and keeps calling the heartbeat meanwhile.
 class ClusterMaster {
  public:
-  // All must outlive it.
-  ClusterMaster(std::unique_ptr<cluster::MasterLink> link, const scene::Wall& wall, std::size_t materials,
-                const core::Clock& clock);
+  // All must outlive it. `contact_m`: the contact point, in the room.
+  ClusterMaster(std::unique_ptr<cluster::MasterLink> link, const scene::Wall& wall, const glm::dvec3& contact_m,
+                std::size_t materials, const core::Clock& clock);
 
   // Sends the sample to every node. Call in the order of the samples.
   void hear(const scene::TipSample& sample) { link_->record(cluster::JournalRecord(sample)); }
@@ -51,12 +52,31 @@ class ClusterMaster {
   // frame.
   std::optional<core::Error> rival();
 
+  // True if a screen of a node shows the sample.
+  bool nodes_show_sample() const;
+
+  // Newest time at which a node that shows the sample had drawn it for people who see it; `now_ns` while such a node is
+  // awaited.
+  std::int64_t seen_ns(std::int64_t now_ns) const;
+
+  // True once after each press of Stop at a node.
+  bool take_stop() { return std::exchange(stop_pressed_, false); }
+
   // Logs one line of statistics at the end of a run.
   void log_summary() const;
 
  private:
   void record_edits(ParameterEdits& edits);
   void take_answers();
+
+  // What the answers of a node have told.
+  struct Told {
+    bool shows_sample = false;
+    bool heard = false;
+    std::uint32_t stops = 0;
+    std::int64_t seen_ns = 0;  // arrival of the newest answer from where people see the picture
+  };
+  void follow(const cluster::ReadyMessage& ready, std::int64_t came_ns);
 
   std::unique_ptr<cluster::MasterLink> link_;
   cluster::Membership membership_;
@@ -70,6 +90,8 @@ class ClusterMaster {
   std::int64_t history_sent_ns_ = 0;
   bool history_wanted_ = false;
   bool rival_logged_ = false;
+  std::vector<Told> told_;  // one a node
+  bool stop_pressed_ = false;
 };
 
 // Text of the wall's banner for the nodes in the mask; empty if none is missing.

@@ -138,8 +138,10 @@ core::Result<std::unique_ptr<ClusterMaster>> start_cluster(const ClusterOptions&
   core::log_line(fmt::format("cluster: {} nodes, interface {}, domain {}, {}", stage.wall.nodes.size(),
                              network.interface_address, network.domain,
                              network.peers.empty() ? "multicast" : "no multicast"));
+  auto master = std::make_unique<ClusterMaster>(std::move(opened->link), stage.wall, stage.wall_scene.contact_m(),
+                                                stage.materials.materials.size(), clock);
   scene::keep_outputs_of(std::nullopt, stage.wall);
-  return std::make_unique<ClusterMaster>(std::move(opened->link), stage.wall, stage.materials.materials.size(), clock);
+  return master;
 }
 
 }  // namespace afm::app

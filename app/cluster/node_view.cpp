@@ -38,17 +38,19 @@ NodeView::NodeView(const exhibit::Stage& stage, const std::vector<curves::Sample
       felt_(materials),
       frames_(stage.wall_scene, felt_, stage.eyes),
       panels_(stage.wall_scene, materials, key_list),
-      history_(materials.size()) {
+      history_(materials.size()),
+      sight_(display.windows().all(), clock) {
   panels_.set_friction(&history_.friction);
 }
 
-// Handles the staff keys that concern only this machine; returns whether to leave.
+// Handles Stop and the staff keys that concern only this machine; returns whether to leave.
 bool NodeView::leaves() {
   const ViewInput input = windows_.poll();
   bool leaves = input.close_requested;
   for (const ViewEvent& event : input.events) {
     if (event.event.kind != render::WindowEvent::Kind::KeyDown) continue;
     leaves = leaves || event.event.key == render::Key::Escape;
+    if (event.event.key == render::Key::Enter) ++stops_;
     if (event.event.key == render::Key::F11) windows_.toggle_full_screen();
     if (event.event.key == render::Key::F12) picture_.save();
   }
@@ -183,6 +185,8 @@ cluster::ReadyMessage NodeView::answer_to(const cluster::FrameMessage& message, 
   ready.swapped_ns = swapped_ns_;
   ready.lost_records = lost_records_;
   ready.late_swaps = late_swaps_;
+  ready.stops = stops_;
+  ready.unseen = sight_.unseen_since_ns() ? 1 : 0;
   return ready;
 }
 

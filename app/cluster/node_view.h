@@ -16,6 +16,7 @@
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/scan/live_scan.h"
+#include "render/window_sight.h"
 
 namespace afm::app {
 
@@ -75,6 +76,8 @@ class NodeView {
   std::int64_t swapped_ns_ = 0;
   std::uint64_t lost_records_ = 0;
   std::uint32_t late_swaps_ = 0;
+  std::uint32_t stops_ = 0;
+  render::WindowSight sight_;
 };
 
 }  // namespace afm::app

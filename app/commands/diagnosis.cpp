@@ -80,6 +80,12 @@ Finding display(const MachineFacts& facts) {
           "log in to a desktop, or run: export DISPLAY=:0"};
 }
 
+Finding saver(const MachineFacts& facts) {
+  if (facts.display.empty()) return {"screen saver", Verdict::Good, "no display to blank", {}};
+  if (facts.saver_stays_off) return {"screen saver", Verdict::Good, facts.saver, {}};
+  return {"screen saver", Verdict::Limited, facts.saver, "xset s off -dpms"};
+}
+
 Finding headset(const MachineFacts& facts) {
   if (facts.headset_manifest.empty()) return {"headset", Verdict::Good, "no OpenXR runtime is installed", {}};
   if (!facts.headset.empty()) return {"headset", Verdict::Good, facts.headset, {}};
@@ -146,6 +152,7 @@ std::vector<Finding> diagnose(const MachineFacts& facts) {
           servo_program(facts),
           graphics(facts),
           display(facts),
+          saver(facts),
           headset(facts),
           haptic_device(facts),
           haptic_port(facts),

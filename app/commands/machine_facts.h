@@ -27,6 +27,8 @@ struct MachineFacts {
   std::vector<render::DeviceDescription> graphics;
   std::string graphics_refusal;  // reason why there are none
   std::string display;           // name; empty: none
+  std::string saver;             // ways to keep the screen saver off while a window is open
+  bool saver_stays_off = false;
   std::string headset_manifest;  // file of the OpenXR runtime; empty: none is installed
   std::string headset;           // description by the runtime; empty: it does not answer
   std::string headset_refusal;   // reason if it does not answer

@@ -113,6 +113,10 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
   }
   core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}; F1 shows the keys", drawing.eye_width,
                              drawing.eye_height, display->context_->device_name()));
+  if (!display->awake_.works()) {
+    core::log_line(fmt::format("the screen saver may blank the wall: X's: {}; org.freedesktop.ScreenSaver: {}",
+                               display->awake_.x_server().said, display->awake_.session().said));
+  }
   return display;
 }
 

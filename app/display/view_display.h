@@ -13,6 +13,7 @@
 #include "app/display/view_windows.h"
 #include "core/result.h"
 #include "render/context.h"
+#include "render/saver_inhibition.h"
 
 namespace afm::app {
 
@@ -62,6 +63,7 @@ class ViewDisplay {
   std::unique_ptr<ViewHeadset> headset_;
   std::optional<ViewPicture> picture_;
   std::unique_ptr<InstructorWindow> instructor_;
+  render::SaverInhibition awake_;
 };
 
 }  // namespace afm::app

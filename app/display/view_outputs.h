@@ -31,6 +31,9 @@ struct ViewOutput {
   render::Composition composition(std::optional<scene::StereoMode> other_mode, scene::EyeOrder other_order) const;
 };
 
+// True for a point of the screen, or of its edge: tiles that meet in it both hold it.
+bool holds(const scene::Screen& screen, const glm::dvec3& point_m);
+
 // Values of --size, --monitor and --fullscreen: one window, whatever outputs the wall file has.
 struct WindowOptions {
   std::optional<glm::uvec2> size_px;

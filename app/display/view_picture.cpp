@@ -245,6 +245,7 @@ void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::i
   while_waiting();
   if (!presenter_.begin(pictures_, while_waiting)) {
     times_.hidden();
+    if (!refused_since_ns_) refused_since_ns_ = now_ns;
     before_showing();
     return;
   }
@@ -265,6 +266,7 @@ void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::i
   }
   before_showing();
   presenter_.show();
+  refused_since_ns_.reset();
   times_.shown(now_ns);
   while_waiting();
   if (budget_) budget_->follow(renderer_);

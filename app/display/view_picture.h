@@ -69,6 +69,9 @@ class ViewPicture {
   // Call instead of show() while the windows are invisible.
   void rest() { times_.hidden(); }
 
+  // Time since when no window has accepted a picture, as where the display has no use for one; none while one does.
+  std::optional<std::int64_t> refused_since_ns() const { return refused_since_ns_; }
+
   // Waits for the last screenshots; logs them and the frame times.
   void finish();
 
@@ -134,6 +137,7 @@ class ViewPicture {
   glm::uvec2 eye_size_px_;                       // current size in the renderer
   glm::uvec2 wanted_eye_px_{0};
   std::int64_t windows_steady_since_ns_ = 0;
+  std::optional<std::int64_t> refused_since_ns_;
   double drawn_ipd_m_;  // eye distance of the drawing: the viewer's, or less for comfort
   exhibit::ComfortClamp comfort_;
   std::optional<DynamicResolution> budget_;

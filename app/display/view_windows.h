@@ -39,6 +39,9 @@ class ViewWindows {
   std::vector<render::Window*> all() const;
   bool hidden() const;  // all of them are invisible
 
+  // Windows whose screen holds a point of the room.
+  std::vector<render::Window*> that_show(const glm::dvec3& point_m) const;
+
   // Switches all windows that have no rectangle in the wall file.
   void toggle_full_screen();
 
@@ -49,6 +52,7 @@ class ViewWindows {
   void log_monitor_change(std::size_t window, const render::WindowInput& input) const;
 
   std::vector<std::unique_ptr<render::Window>> windows_;
+  std::vector<scene::Screen> screens_;
   std::vector<std::string> names_;                      // names of the outputs in the wall file
   std::vector<std::optional<scene::PixelRect>> rects_;  // rectangles of the outputs that have one
   std::vector<glm::dvec2> cursors_;                     // cursor in each window

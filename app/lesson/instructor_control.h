@@ -29,6 +29,7 @@ class InstructorControl final : public ViewControl {
   void shown(const ViewFrame& frame, const Beat& beat) override;
 
  private:
+  void press(render::Key key);
   void act(exhibit::InstructorAction action, std::int64_t now_ns);
 
   ViewParts& parts_;

@@ -11,6 +11,7 @@
 #include "app/live/kept_control.h"
 #include "app/live/place_control.h"
 #include "app/live/scan_control.h"
+#include "app/live/sight_control.h"
 #include "app/live/sound_control.h"
 #include "app/live/view_settings.h"
 #include "app/live/visitor_control.h"
@@ -38,6 +39,7 @@ LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const
   const bool worn = features.headset != nullptr;
   if (settings.kept) add<KeptControl>(*settings.kept);
   if (worn) add<HeadsetControl>(*features.headset);
+  if (!worn) add<SightControl>();
   if (features.instructor != nullptr && features.lesson != nullptr) {
     add<InstructorControl>(*features.lesson, *features.instructor, [this](render::Key key) { press(key); });
   }

@@ -32,7 +32,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr double kHiddenPauseS = 0.05;  // time between two heartbeats while the windows are invisible
+constexpr double kHiddenPauseS = 0.02;  // time between two heartbeats while the windows are invisible
 
 }  // namespace
 
@@ -81,6 +81,7 @@ void LiveView::run_frame(std::int64_t now_ns) {
   follow_wand(input, frame);
   if (parts_.windows.hidden() && !parts_.turn.draws_unseen) {
     parts_.picture.rest();
+    heartbeat_of(parts_)();
     parts_.windows.at(0).wait(kHiddenPauseS);
     return;
   }
@@ -143,10 +144,14 @@ exhibit::Moment LiveView::moment(ViewFrame& frame) {
   now.wall.hovered = frame.pointed.swatch;
   now.wall.wand = parts_.pointer.drawn(frame.pointed, frame.now_ns);
   now.guidance = parts_.controls.guidance(parts_.stage.phrases());
+  if (parts_.panels.shown() == "keys") now.letters = parts_.windows.at(0).letters();
   now.wall.cue = parts_.servo.cues().at(servo.tip().time_ns);
   now.servo = exhibit::servo_rows(servo.tip(), servo.timing(), servo.device(), parts_.stage.phrases());
   if (auto row = parts_.picture.quality_row()) now.servo.push_back(std::move(*row));
-  if (!parts_.servo.running()) now.servo_state = scene::ServoState::Fault;
+  if (!parts_.servo.running()) {
+    now.servo_state = scene::ServoState::Fault;
+    now.stopped = false;
+  }
   for (ViewControl* control : parts_.controls) control->add_to_moment(now, frame);
   return now;
 }

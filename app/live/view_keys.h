@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "app/view/key_list.h"
 #include "exhibit/words/phrases.h"
@@ -72,8 +73,8 @@ std::span<const LiveKey> live_keys();
 std::string keys_of_visitors();
 
 // The list of keys for the wall, without staff keys in an unattended window. Mouse keys are listed only when the mouse
-// moves the hand.
+// moves the hand. `letters`: labels of the keys A to Z, as render::Window::letters() returns them.
 render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases,
-                           WallUse use = WallUse::Free);
+                           WallUse use = WallUse::Free, std::string_view letters = {});
 
 }  // namespace afm::app

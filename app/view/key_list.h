@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
+
 #include "exhibit/words/phrases.h"
 #include "render/frame.h"
 
@@ -9,7 +11,8 @@ namespace afm::app {
 enum class HandSource { Mouse, Simulated, Device };
 enum class WallUse { Free, Lesson };
 
-// Makes the list of keys on the wall. An unattended wall omits staff keys.
-using KeyList = render::DataPanel (*)(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use);
+// Makes the list of keys on the wall. An unattended wall omits staff keys. `letters`: as render::Window::letters().
+using KeyList = render::DataPanel (*)(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use,
+                                      std::string_view letters);
 
 }  // namespace afm::app

@@ -234,7 +234,8 @@ void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece center
 }
 
 void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
-                        const std::string& material_title, const scene::TipState& tip, HandSource hand) {
+                        const std::string& material_title, const scene::TipState& tip, HandSource hand,
+                        std::string_view letters) {
   const bool changeable = material && use_ == WallUse::Free;
   if (changeable) add_parameters(frame, pointed, *material);
   render::FramePanels& panels = frame.panels;
@@ -244,7 +245,7 @@ void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::
     panels.banner.placement = banner;
   }
   if (keys_shown_) {
-    show_right(panels, panels.data, key_list_(hand, unattended_, phrases(), use_));
+    show_right(panels, panels.data, key_list_(hand, unattended_, phrases(), use_, letters));
   } else if (changeable && !hidden_) {
     add_right(panels, pointed, *material, material_title, tip);
   }
@@ -258,7 +259,7 @@ void add_panels(const exhibit::Stage& stage, ViewPanels& panels, const exhibit::
                             : std::optional(static_cast<std::size_t>(panelled.tip.material));
   panels.add_to(frame, panelled.pointed, material,
                 material ? stage.phrases().word(stage.materials.materials[*material].title) : "", panelled.tip,
-                panelled.hand);
+                panelled.hand, moment.letters);
   panels.add_note(frame, moment.wall.centerpiece, caption);
 }
 

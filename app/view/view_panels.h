@@ -82,9 +82,10 @@ class ViewPanels {
   void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece, const std::string& caption) const;
 
   // Adds the current panels to a frame: the parameters or the tab that opens them, the curve computed from changed
-  // parameters, and the keys. Removes hidden panels.
+  // parameters, and the keys. Removes hidden panels. `letters` as in KeyList.
   void add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
-              const std::string& material_title, const scene::TipState& tip, HandSource hand);
+              const std::string& material_title, const scene::TipState& tip, HandSource hand,
+              std::string_view letters = {});
 
  private:
   bool toggle(RightPanel panel) {

@@ -168,6 +168,11 @@ TEST_F(ViewTest, AHandGoesThroughTheWholeProcedureWithAMouse) {
   xdotool("key Return");
   ASSERT_TRUE(view.says("force off: Stop was pressed")) << view.said();
 
+  drag_hand(0.150);
+  ASSERT_TRUE(turn_on(view)) << view.said();
+  xdotool("key KP_Enter");
+  ASSERT_TRUE(view.says("force off: Stop was pressed")) << view.said();
+
   // a stiffer lever, by pointing at its + : felt once the force is gone
   xdotool("key F2");
   click(pixel_of(render::ControlTarget{render::ControlTarget::Kind::More, 1}));
@@ -194,9 +199,9 @@ TEST_F(ViewTest, GoesThroughEveryStereoModeOfThisDisplayWhileItRuns) {
   ASSERT_TRUE(view.says("stereo: frame-packed-1080p")) << view.said();
   xdotool("key s");
   ASSERT_TRUE(view.says("eyes swapped")) << view.said();
-  xdotool("key bracketright");
+  xdotool("key F8");
   ASSERT_TRUE(view.says("between the eyes: 64 mm")) << view.said();
-  xdotool("key bracketleft");
+  xdotool("key F7");
   ASSERT_TRUE(view.says("between the eyes: 63 mm")) << view.said();
   ASSERT_TRUE(view.says("from the eyes: ")) << "the depth meter: " << view.said();
   xdotool("key b");

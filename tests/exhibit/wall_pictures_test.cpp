@@ -154,7 +154,7 @@ TEST(DepthReport, WarnsBeyondADegreeAndNamesTheEyesThatWouldDiverge) {
   EXPECT_THAT(depth_text(near, test::english()), HasSubstr("beyond 1\u00b0: press B or step back"));
   EXPECT_THAT(
       depth_text(report_depth({.nearest_m = 1.0, .farthest_m = 2.5}, 2.5, 0.063, Relief::NarrowEyes), test::english()),
-      HasSubstr("press [ or step back"))
+      HasSubstr("press F7 or step back"))
       << "B changes nothing where the contact is in the wall's plane";
   const DepthReport far = report_depth({.nearest_m = 2.5, .farthest_m = 10.0}, 2.5, 0.063, Relief::BringToWall);
   EXPECT_THAT(depth_text(far, test::english()), HasSubstr("too deep for eyes less than 48 mm apart"));

@@ -33,13 +33,14 @@ struct StateSign {
   glm::vec3 color;
 };
 
-// In the order of scene::ServoState.
-const std::array<StateSign, 5> kStateSigns{{{render::StateShape::Square, {0.70F, 0.74F, 0.80F}},
+// In the order of scene::ServoState, then that of a stopped force: that of no force.
+const std::array<StateSign, 6> kStateSigns{{{render::StateShape::Square, {0.70F, 0.74F, 0.80F}},
                                             {render::StateShape::Triangle, {0.94F, 0.89F, 0.26F}},
                                             {render::StateShape::Circle, {0.34F, 0.85F, 0.60F}},
                                             {render::StateShape::Diamond, {0.90F, 0.62F, 0.0F}},
-                                            {render::StateShape::Cross, {0.95F, 0.35F, 0.25F}}}};
-static_assert(after(Phrase::StateOff, core::kEnumerators<scene::ServoState>.size()) == Phrase::NotRealTime);
+                                            {render::StateShape::Cross, {0.95F, 0.35F, 0.25F}},
+                                            {render::StateShape::Square, {0.70F, 0.74F, 0.80F}}}};
+static_assert(after(Phrase::StateOff, kStateSigns.size()) == Phrase::NotRealTime);
 
 // "33.1 nm": length shown by one metre of the wall.
 std::string scale_text(double m_per_m) {
@@ -189,12 +190,13 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
 
 render::Banner FrameBuilder::banner(const Moment& moment) const {
   const Phrases& phrases = *phrases_;
-  const std::size_t state = core::index_of(moment.servo_state);
+  const Phrase word = state_phrase(moment.servo_state, moment.stopped);
+  const StateSign& sign = kStateSigns[static_cast<std::size_t>(word) - static_cast<std::size_t>(Phrase::StateOff)];
   render::Banner banner;
   banner.guidance = moment.guidance;
-  banner.state_word = phrases[after(Phrase::StateOff, state)];
-  banner.state_shape = kStateSigns[state].shape;
-  banner.state_color = kStateSigns[state].color;
+  banner.state_word = phrases[word];
+  banner.state_shape = sign.shape;
+  banner.state_color = sign.color;
   if (!moment.realtime) banner.warning = phrases[Phrase::NotRealTime];
   if (moment.slow_motion > 1.0) {
     banner.warning = phrases.text<Phrase::SlowMotion>(fmt::format("{:.3g}", moment.slow_motion)) +

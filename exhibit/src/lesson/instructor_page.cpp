@@ -7,6 +7,7 @@
 
 #include "exhibit/frame/wall_pictures.h"
 #include "exhibit/lesson/lesson_panel.h"
+#include "exhibit/state/moment.h"
 
 namespace afm::exhibit {
 
@@ -47,7 +48,7 @@ render::DataPanel panel_of(const InstructorState& state, std::size_t letters, co
   add(Phrase::InstructorParticipant, state.participant.empty() ? phrases[Phrase::InstructorNobody] : state.participant);
   add(Phrase::InstructorWaits, phrases[awaited(prompt.wants)]);
   add(Phrase::InstructorForce,
-      phrases[state.hand_off ? Phrase::InstructorForceKeptOff : after(Phrase::StateOff, core::index_of(state.hand))]);
+      phrases[state.hand_off ? Phrase::InstructorForceKeptOff : state_phrase(state.hand, state.stopped)]);
   add(Phrase::InstructorTime,
       phrases.text<Phrase::InstructorMinutes>(fmt::format("{:.0f}", std::floor(state.elapsed_s / 60.0)),
                                               std::to_string(state.planned_min)));

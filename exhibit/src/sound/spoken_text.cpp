@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "core/enumerators.h"
+#include "exhibit/state/moment.h"
 
 namespace afm::exhibit {
 
@@ -82,7 +83,7 @@ std::string said_of_state(const Phrases& phrases, const scene::TipState& tip, co
   std::string said;
   const auto add = [&said](const std::string& sentence) { said += (said.empty() ? "" : ". ") + sentence; };
   if (tip.material >= 0) add(sample);
-  add(phrases[after(Phrase::StateOff, core::index_of(tip.servo_state))]);
+  add(phrases[state_phrase(tip.servo_state, is_stopped(tip))]);
   if (tip.servo_state == scene::ServoState::Running && tip.phase != physics::Phase::WaitForLift) {
     const std::string force = spoken_force(phrases, tip.tip.force_n);
     const bool none = tip.tip.force_n == 0.0;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/enumerators.h"
+
 namespace afm::exhibit {
 
 namespace {
@@ -22,6 +24,14 @@ Moment moment_from(const TipRecord& record) {
 
 }  // namespace
 
+bool is_stopped(const scene::TipState& tip) { return tip.fault == scene::FaultCode::StopPressed; }
+
+Phrase state_phrase(scene::ServoState state, bool stopped) {
+  static_assert(after(Phrase::StateOff, core::kEnumerators<scene::ServoState>.size()) == Phrase::StateStopped);
+  if (stopped && state == scene::ServoState::Fault) return Phrase::StateStopped;
+  return after(Phrase::StateOff, core::index_of(state));
+}
+
 bool is_retracting(double z_m, double deepest_z_m) { return z_m > deepest_z_m + kTurnM; }
 
 Moment moment_of(const scene::TipState& tip, bool retracting) {
@@ -29,6 +39,7 @@ Moment moment_of(const scene::TipState& tip, bool retracting) {
   if (tip.material >= 0) now.wall.material = static_cast<std::size_t>(tip.material);
   now.wall.release_z_m = tip.active.release_z_m;
   now.retracting = retracting;
+  now.stopped = is_stopped(tip);
   now.realtime = tip.realtime != 0;
   now.slow_motion = tip.active.slow_motion;
   return now;
@@ -46,6 +57,7 @@ Moment moment_of(const servo::RecordedSession& session, std::size_t material, st
   then.wall.material = material;
   then.wall.cue = jump_cue(session.events, time_ns);
   then.retracting = lowest != after && is_retracting(sample.tip.z_m, lowest->tip.z_m);
+  then.stopped = sample.renderer == scene::RendererLink::Stopped;
   then.realtime = session.realtime;
   then.slow_motion = session.slow_motion;
   then.curves = curves;

@@ -80,10 +80,12 @@ TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   EXPECT_THAT(core::read_file(swapchains).value_or("none"), StartsWith("barrier"));
 
   // sample, eyes, parameters, eye distance, stereo mode, head; once the servo has the sample, friction loop and scan
-  press_at_master("2 s F2 bracketright v Left");
+  press_at_master("2 s F2 F8 v Left");
   ASSERT_TRUE(hand->says("chosen: Gold")) << hand->said();
   ASSERT_TRUE(hand->says("eyes swapped")) << hand->said();
   ASSERT_TRUE(hand->says("Press Turn-On")) << hand->said();
+  xdotool("search --name 'output 1' windowfocus --sync key KP_Enter");
+  ASSERT_TRUE(hand->says("force off: Stop was pressed")) << "at a node: " << hand->said();
   press_at_master("f i");
   ASSERT_TRUE(hand->says("scan: Gold")) << hand->said();
   EXPECT_TRUE(all_same()) << hand->said();

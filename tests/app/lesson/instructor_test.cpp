@@ -85,6 +85,8 @@ TEST_F(InstructorTest, GoesOnTakesTheForceAwaySkipsAndStopsFromTheSecondMonitor)
   ASSERT_TRUE(view.says("Words of feel")) << view.said();
   ASSERT_TRUE(view.says("jump to contact")) << view.said();
   picture("cycle");
+  key("KP_Enter");
+  ASSERT_TRUE(view.says("force off: Stop was pressed")) << view.said();
 
   click(InstructorAction::HandOff);
   ASSERT_TRUE(view.says("instructor: the force is off")) << view.said();

@@ -9,6 +9,7 @@
 
 #include "exhibit/state/cycle_curve.h"
 #include "exhibit/state/wall_state.h"
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 #include "scene/shared/tip_blocks.h"
 #include "servo/session_file.h"
@@ -29,11 +30,13 @@ class LiveScan;
 struct Moment {
   WallState wall;
   scene::ServoState servo_state = scene::ServoState::Disarmed;
+  bool stopped = false;  // in Fault: a person has stopped the force
   physics::Phase phase = physics::Phase::WaitForLift;
   bool retracting = false;  // after the deepest push of this cycle
   bool realtime = false;
   double slow_motion = 1;  // see scene::ActiveContact
   std::string guidance;
+  std::string letters;                 // labels of the keyboard, as render::Window::letters() returns them
   std::vector<render::DataRow> servo;  // see servo_rows()
   // one per material, empty until it has been felt; the current one is drawn in front
   std::span<const CycleCurve> curves;
@@ -45,17 +48,25 @@ template <class Visit, scene::RecordOf<Moment>... Record>
 constexpr void for_each_field(Visit&& visit, Record&... moment) {
   visit("wall", moment.wall...);
   visit("servo_state", moment.servo_state...);
+  visit("stopped", moment.stopped...);
   visit("phase", moment.phase...);
   visit("retracting", moment.retracting...);
   visit("realtime", moment.realtime...);
   visit("slow_motion", moment.slow_motion...);
   visit("guidance", moment.guidance...);
+  visit("letters", moment.letters...);
   visit("servo", moment.servo...);
   visit("curves", moment.curves...);
   visit("scan", moment.scan...);
   visit("results", moment.results...);
 }
 static_assert(scene::all_fields_described<Moment>());
+
+// True if a person has stopped the force: no fault, though its state is the same.
+bool is_stopped(const scene::TipState& tip);
+
+// Word for the state of the force.
+Phrase state_phrase(scene::ServoState state, bool stopped);
 
 // The moment for the newest state of the tip.
 Moment moment_of(const scene::TipState& tip, bool retracting);

@@ -3,9 +3,7 @@
 
 // Every phrase of wall and report: PHRASE(enumerator, key in the files, placeholders, limit of exhibit/phrases.h).
 // Placeholders are words in braces, in the order in which the code fills them; one that ends in "?" is optional.
-
-// Steps of the procedure, in the order of Hint; reasons for a missing force, in the order of scene::FaultCode;
-// controls, in the order of HandControls and Pointer; notes, in the order of Note.
+// Steps in the order of Hint; reasons for a missing force (scene::FaultCode); controls (HandControls, Pointer); Note.
 #define AFM_FOR_EACH_GUIDANCE_PHRASE(PHRASE)                       \
   PHRASE(ChooseSample, "choose-sample", kControlPlaces, kLine)     \
   PHRASE(Lift, "lift", kControlPlaces, kLine)                      \
@@ -66,13 +64,15 @@
   PHRASE(AllSamples, "all-samples", "", kLine)                     \
   PHRASE(OtherParameters, "other-parameters", "", kLine)
 
-// Banner: the servo's state in the order of scene::ServoState, the journey's places from the bench on, scales.
+// Banner: the servo's state in the order of scene::ServoState, and Stopped; the journey's places from the bench on;
+// scales.
 #define AFM_FOR_EACH_BANNER_PHRASE(PHRASE)                            \
   PHRASE(StateOff, "state-off", "", kLine)                            \
   PHRASE(StateArming, "state-arming", "", kLine)                      \
   PHRASE(StateOn, "state-on", "", kLine)                              \
   PHRASE(StateReleasing, "state-releasing", "", kLine)                \
   PHRASE(StateFault, "state-fault", "", kLine)                        \
+  PHRASE(StateStopped, "state-stopped", "", kLine)                    \
   PHRASE(NotRealTime, "not-real-time", "", kLine)                     \
   PHRASE(RealTime, "real-time", "", kLine)                            \
   PHRASE(SlowMotion, "slow-motion", "factor", kLine)                  \
