@@ -64,8 +64,7 @@
   PHRASE(AllSamples, "all-samples", "", kLine)                     \
   PHRASE(OtherParameters, "other-parameters", "", kLine)
 
-// Banner: the servo's state in the order of scene::ServoState, and Stopped; the journey's places from the bench on;
-// scales.
+// Banner: states in the order of scene::ServoState, and Stopped; places of the journey from the bench on; scales.
 #define AFM_FOR_EACH_BANNER_PHRASE(PHRASE)                            \
   PHRASE(StateOff, "state-off", "", kLine)                            \
   PHRASE(StateArming, "state-arming", "", kLine)                      \
