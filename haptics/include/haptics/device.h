@@ -12,8 +12,6 @@
 // its axes are parallel to the room's.
 namespace afm::haptics {
 
-struct RealtimeGrant;
-
 struct DeviceSpec {
   std::string name;
   double max_force_n = 0;                                              // nominal peak
@@ -94,8 +92,8 @@ class HapticDevice {
   virtual DeviceSample read(std::int64_t now_ns) noexcept = 0;
   virtual void write(const ForceCommand& command) noexcept = 0;
 
-  // Scheduling of the driver's own thread on the way to the hand; null: it has none.
-  virtual const RealtimeGrant* driver_grant() const noexcept { return nullptr; }
+  // False if the driver has a thread on the way to the hand that did not get the servo's scheduling.
+  virtual bool driver_is_realtime() const noexcept { return true; }
 
   // Next motion of the simulated user. A real device ignores it.
   virtual void follow(const scene::HandScript& /*script*/) noexcept {}

@@ -19,7 +19,7 @@ class DriverThread {
 
   void join();  // nothing if it was not started
 
-  const RealtimeGrant& grant() const noexcept { return grant_; }
+  bool is_realtime() const noexcept { return grant_.priority > 0; }
 
  private:
   RealtimeGrant grant_;

@@ -53,7 +53,7 @@ class HaplyDevice final : public HapticDevice {
   const DeviceSpec& spec() const noexcept override { return spec_; }
   DeviceSample read(std::int64_t now_ns) noexcept override;
   void write(const ForceCommand& command) noexcept override;
-  const RealtimeGrant* driver_grant() const noexcept override { return &thread_.grant(); }
+  bool driver_is_realtime() const noexcept override { return thread_.is_realtime(); }
 
  private:
   struct Frame {

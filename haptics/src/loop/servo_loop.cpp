@@ -123,8 +123,7 @@ void ServoLoop::note_grant(const RealtimeGrant& grant) noexcept {
   timing_.policy_fifo = grant.priority > 0 ? 1 : 0;
   timing_.priority = static_cast<std::uint32_t>(std::max(0, grant.priority));
   timing_.pages_locked = grant.pages_locked ? 1 : 0;
-  const RealtimeGrant* driver = device_.driver_grant();
-  state_.realtime = grant.realtime() && (driver == nullptr || driver->priority > 0) ? 1 : 0;
+  state_.realtime = grant.realtime() && device_.driver_is_realtime() ? 1 : 0;
 }
 
 void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
