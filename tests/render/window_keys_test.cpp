@@ -101,8 +101,8 @@ TEST(KeysOfALayout, AreTheirPlacesWhereItLacksLetters) {
 TEST(KeysOfALayout, HaveNoOtherSigns) {
   for (const auto& [layout, keyboard] : kKeyboards) {
     for (const char place : {'[', ']', '\\', '\'', '`', '.'}) {
-      const char32_t label =
-          labels_of(layout)(place).size() == 1 ? static_cast<char32_t>(labels_of(layout)(place)[0]) : 0;
+      const std::string printed = labels_of(layout)(place);
+      const char32_t label = static_cast<unsigned char>(printed.size() == 1 ? printed.front() : '\0');
       if (label == U'+' || label == U'-') continue;
       EXPECT_EQ(pressed(layout, place, label), Key::Other) << layout << place;
     }

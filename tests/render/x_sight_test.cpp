@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "output/x_sight.h"
 
-#include <X11/Xatom.h>
-#include <X11/Xlib.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -10,6 +8,10 @@
 #include <string>
 
 #include "support/virtual_display.h"
+
+// behind all others, since its macros spoil their names
+#include <X11/Xatom.h>
+#include <X11/Xlib.h>
 
 // A window on an X server without a screen, and a window manager that is played by the test.
 namespace afm::render {
@@ -30,11 +32,11 @@ class SightOfAWindow : public ::testing::Test {
     XMapWindow(display_.get(), window_);
   }
 
-  Window make_window(int x, int y, unsigned width, unsigned height) const {
+  ::Window make_window(int x, int y, unsigned width, unsigned height) const {
     return XCreateSimpleWindow(display_.get(), root_, x, y, width, height, 0, 0, 0);
   }
   Atom atom(const char* name) const { return XInternAtom(display_.get(), name, False); }
-  void set(Window window, const char* property, Atom type, long value) const {
+  void set(::Window window, const char* property, Atom type, long value) const {
     XChangeProperty(display_.get(), window, atom(property), type, 32, PropModeReplace,
                     reinterpret_cast<const unsigned char*>(&value), 1);
   }
@@ -46,7 +48,7 @@ class SightOfAWindow : public ::testing::Test {
 
   support::VirtualDisplay server_{320, 240};
   DisplayPointer display_{nullptr, XCloseDisplay};
-  Window root_ = 0, window_ = 0;
+  ::Window root_ = 0, window_ = 0;
   std::unique_ptr<XSight> sight_;
 };
 
@@ -60,10 +62,10 @@ TEST_F(SightOfAWindow, EndsWhileItIsNotMapped) {
 }
 
 TEST_F(SightOfAWindow, EndsWhereAnotherOneCoversItWhole) {
-  const Window part = make_window(0, 0, 60, 240);
+  const ::Window part = make_window(0, 0, 60, 240);
   XMapRaised(display_.get(), part);
   EXPECT_EQ(sight(), Sight::Seen);
-  const Window rest = make_window(60, 0, 260, 240);
+  const ::Window rest = make_window(60, 0, 260, 240);
   XMapRaised(display_.get(), rest);
   EXPECT_EQ(sight(), Sight::Covered) << "by two together";
   XUnmapWindow(display_.get(), part);
@@ -84,7 +86,7 @@ TEST_F(SightOfAWindow, EndsOnAnotherWorkspaceOfAWindowManagerThatComposites) {
   set(root_, "_NET_SUPPORTING_WM_CHECK", XA_WINDOW, static_cast<long>(make_window(0, 0, 1, 1)));
   EXPECT_EQ(sight(), Sight::Seen);
   const DisplayPointer other = connect(server_.name());
-  const Window others = XCreateSimpleWindow(other.get(), root_, 0, 0, 1, 1, 0, 0, 0);
+  const ::Window others = XCreateSimpleWindow(other.get(), root_, 0, 0, 1, 1, 0, 0, 0);
   XSetSelectionOwner(other.get(), XInternAtom(other.get(), "_NET_WM_CM_S0", False), others, CurrentTime);
   XSync(other.get(), False);
   EXPECT_EQ(sight(), Sight::Seen) << "another program composites";
