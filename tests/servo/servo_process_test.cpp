@@ -364,7 +364,7 @@ TEST(ServoProgram, RefusesASegmentOfAnotherVersionAndPrintsBoth) {
 }
 
 TEST(ServoProgram, NeedsNeitherVulkanNorAWindow) {
-  for (const std::string& program : {kServoProgram, support::built("bin/touchafm-guard")}) {
+  for (const std::string& program : {kServoProgram, afm::support::built("bin/touchafm-guard")}) {
     const auto [code, said] = run({"readelf", "--dynamic", program});
     ASSERT_EQ(code, 0) << said;
     EXPECT_THAT(said, HasSubstr("libc.so"));
