@@ -37,7 +37,7 @@ struct MachineFacts {
   std::vector<DeviceNode> serial_nodes;
   std::vector<haptics::ProbeLine> haptics;
   std::string servo_program;
-  std::string missing_program;  // of the servo and its watchdog, the one that cannot be run; empty: none
+  std::string missing_program;  // servo or watchdog, if it cannot be run; empty: none is missing
 };
 
 // Examines the machine; takes slightly longer than `jitter_seconds`. `program` is the running touchafm.

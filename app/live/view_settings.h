@@ -31,7 +31,7 @@ struct ViewSettings {
   double idle_s = 60;         // seconds without input before the demonstration starts
   std::string record_folder;  // receives session files; empty: none is written
   LiveSoundSettings sound;
-  std::shared_ptr<servo::KeptBeat> kept;  // of a kiosk's window; shared because settings are copied
+  std::shared_ptr<servo::KeptBeat> kept;  // beat of a kiosk's window; shared because settings are copied
 };
 
 }  // namespace afm::app

@@ -17,7 +17,7 @@ namespace afm::app {
 namespace view_keyboard_test {
 
 struct Pressed {
-  const char* key;   // of xdotool: a label, or the number of the key's place
+  const char* key;   // argument of xdotool: a label, or the number of the key's place
   const char* says;  // line of the log
 };
 

@@ -158,7 +158,6 @@ TEST_F(ClusterLinkTest, OfTwoMastersTheLaterOneMustEndAndTheNodesComeBackToTheOt
 
   masters[first_stays ? 1 : 0].reset();
   const MasterLink& stays = *masters[first_stays ? 0 : 1];
-  shown.reset();
   const auto comes_back = [&] {
     go_on();
     return stays.rival() == Rival::None && shown && shown->header.session == stays.session();

@@ -89,7 +89,7 @@ class ViewInAHeadset : public ::testing::Test {
                                 const std::function<void()>& give_back) {
     for (int attempt = 0; attempt < 5; ++attempt) {
       take();
-      if (view.says("force off: nobody sees the picture in the headset", std::chrono::seconds(5))) return true;
+      if (view.says("force off: nobody sees the picture", std::chrono::seconds(5))) return true;
       give_back();
       if (!view.says("force on")) return false;
     }

@@ -55,7 +55,7 @@ struct SaverInhibition::Connections {
       return {.said = "no session bus"};
     }
     sd_bus_set_method_call_timeout(bus, kBusTimeoutUs);
-    sd_bus_error error = SD_BUS_ERROR_NULL;
+    sd_bus_error error{};
     const int called = sd_bus_call_method(bus, kService, kObject, kService, "Inhibit", &error, nullptr, "ss",
                                           "TouchAFM", "the wall is in use");
     const std::string reason = error.message != nullptr ? error.message : std::strerror(-called);

@@ -17,9 +17,9 @@ namespace afm::render {
 
 namespace {
 
-constexpr std::uint32_t kMostValues = 64;             // of a property
-constexpr std::uint32_t kEveryDesktop = 0xFFFFFFFFU;  // of _NET_WM_DESKTOP
-constexpr std::uint8_t kSaverOn = 1;                  // of MIT-SCREEN-SAVER
+constexpr std::uint32_t kMostValues = 64;             // length limit of a property
+constexpr std::uint32_t kEveryDesktop = 0xFFFFFFFFU;  // value of _NET_WM_DESKTOP
+constexpr std::uint8_t kSaverOn = 1;                  // state in MIT-SCREEN-SAVER
 
 struct Free {
   void operator()(void* reply) const { std::free(reply); }

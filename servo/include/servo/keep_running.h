@@ -14,7 +14,7 @@ namespace afm::servo {
 // Limits of a program that is kept running. They count the time in which this process runs, so that neither a sleeping
 // machine nor a stopped keeper looks like a program that hangs.
 struct KeepLimits {
-  std::chrono::milliseconds start{120'000};   // until the first beat
+  std::chrono::milliseconds start{120'000};   // patience before the first beat
   std::chrono::milliseconds silence{10'000};  // between two beats
   std::chrono::milliseconds end{8'000};       // after SIGTERM; longer than a program needs that ends by itself
 };
