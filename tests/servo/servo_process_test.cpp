@@ -250,10 +250,11 @@ TEST(ServoProcess, InheritsTheTwoDescriptorsAndNoOthers) {
     if (std::stoi(entry.path().filename()) > STDERR_FILENO)
       targets.push_back(std::filesystem::read_symlink(entry.path()));
   }
-  // and what it opened itself: its watchdog's socket, its signals and its monitor's wake-up
+  // and what it opened itself: its watchdog's socket, a second descriptor of its renderer's, its signals and its
+  // monitor's wake-up
   EXPECT_THAT(targets,
               testing::UnorderedElementsAre(HasSubstr("memfd:touchafm"), HasSubstr("socket:"), HasSubstr("socket:"),
-                                            HasSubstr("signalfd"), HasSubstr("eventfd")));
+                                            HasSubstr("socket:"), HasSubstr("signalfd"), HasSubstr("eventfd")));
 }
 
 TEST(ServoProcess, SaysWhatIsMissingWhenItCannotBeStarted) {

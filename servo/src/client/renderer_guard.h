@@ -12,7 +12,7 @@ namespace afm::servo {
 // Second guard of the hand, a thread of the renderer, for a servo whose watchdog is gone too: zero force once the servo
 // has ended or not ticked for kRendererReleaseMs, and its end after kRendererKillMs. Silent as long as the watchdog is
 // there, which acts first.
-inline constexpr int kRendererReleaseMs = 200;
+inline constexpr int kRendererReleaseMs = 60;  // three times the watchdog's
 inline constexpr int kRendererKillMs = 1500;
 inline constexpr int kRendererCloseMs = 3000;  // longer than a servo's own ways to end
 class RendererGuard {
