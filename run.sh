@@ -5,6 +5,6 @@ set -euo pipefail
 cd "$(dirname "$0")"
 
 scripts/install-packages
-scripts/build release touchafm touchafm-bench touchafm-hdf5 touchafm-servo
+scripts/build release touchafm touchafm-bench touchafm-guard touchafm-hdf5 touchafm-servo
 if [ $# -eq 0 ]; then set -- --out out; fi
 exec build/release/bin/touchafm demo "$@"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `touchafm bench physics` starts: apart from touchafm, so that touchafm needs no benchmark library.
+// Started by `touchafm bench physics`. A separate program, so that touchafm itself needs no benchmark library.
 #include <cstdio>
 #include <filesystem>
 #include <string>

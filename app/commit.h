@@ -3,7 +3,7 @@
 
 namespace afm::app {
 
-// Name of the commit that was built: cmake/WriteCommit.cmake writes the definition, which only touchafm links.
+// Hash of the commit that was built, defined by cmake/WriteCommit.cmake. Only touchafm links the definition.
 extern const char* const kCommit;
 
 }  // namespace afm::app

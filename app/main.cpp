@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Only main(): the linker hides our instances of the standard library's templates where they come from an archive
-// (--exclude-libs), not where they come from this object, and a driver would call them instead of its own.
+// Only main(): the linker hides our template instances of the standard library if they come from an archive
+// (--exclude-libs) but not if they come from this object, and a driver would call them instead of its own.
 #include "app/commit.h"
 #include "app/program.h"
 #include "core/run_main.h"

@@ -16,7 +16,7 @@
 #include "core/exit_code.h"
 #include "core/run_main.h"
 #include "core/version.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 
 namespace afm::app {
 
@@ -24,8 +24,8 @@ namespace {
 
 using core::fail;
 
-// share/touchafm below the folder above bin (a build) or above libexec/touchafm (an installation, wherever it was
-// moved).
+// Finds share/touchafm below the folder above bin (a build) or above libexec/touchafm (an installation, which may have
+// been moved).
 std::string find_assets(const std::filesystem::path& program) {
   const std::filesystem::path folder = program.parent_path();
   const std::filesystem::path built = folder.parent_path() / "share" / "touchafm";
@@ -43,7 +43,7 @@ std::string language_of_environment() {
   return exhibit::language_of_locale(values);
 }
 
-// The command line would only say that a command is missing.
+// Detected here, because the parser would only report a missing command.
 bool names_unknown_command(int count, char** arguments) {
   if (count < 2 || arguments[1][0] == '-') return false;
   const std::string_view name = arguments[1];

@@ -11,10 +11,10 @@ inline constexpr const char* kProgramHelp =
     "Exit codes: 0 done, 1 the run failed or was interrupted, 2 wrong usage, 3 bad input file, 4 a required device is "
     "missing.";
 
-// The whole program, but for what surrounds main(); returns its exit code. `commit`: for --version.
+// The whole program, called by main(). Returns its exit code. `commit` is printed by --version.
 int run_program(int count, char** arguments, const char* commit);
 
-// All of kCommands. The context must outlive the command line.
+// Adds all of kCommands. The context must outlive the command line.
 inline void add_commands(CommandLine& program, const CommandContext& context) {
   for (const Command& command : kCommands) command.add(program, context);
 }

@@ -48,11 +48,11 @@ add_custom_target(reference
   DEPENDS ${reference}/touchafm.1.gz ${reference}/touchafm.bash ${reference}/changelog.gz ${reference}/changelog.Debian.gz)
 
 # What `cmake --install` needs; it does not build everything first.
-add_custom_target(installed DEPENDS touchafm touchafm-bench touchafm-hdf5 touchafm-servo reference)
+add_custom_target(installed DEPENDS touchafm touchafm-bench touchafm-guard touchafm-hdf5 touchafm-servo reference)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 
 set(libexec libexec/touchafm)
-install(TARGETS touchafm touchafm-bench touchafm-hdf5 touchafm-servo DESTINATION ${libexec})
+install(TARGETS touchafm touchafm-bench touchafm-guard touchafm-hdf5 touchafm-servo DESTINATION ${libexec})
 file(CREATE_LINK ../${libexec}/touchafm ${reference}/touchafm SYMBOLIC)
 install(FILES ${reference}/touchafm DESTINATION bin)
 install(DIRECTORY ${assets}/guidance ${assets}/lessons ${assets}/models ${assets}/walls ${assets}/wands DESTINATION share/touchafm

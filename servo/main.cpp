@@ -6,8 +6,9 @@
 
 #include <charconv>
 #include <cstdint>
-#include <cstring>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -20,13 +21,13 @@
 #include "haptics/servo_loop.h"
 #include "scene/shared/shared_segment.h"
 #include "servo/haptic_choice.h"
+#include "servo/release_link.h"
 #include "servo/renderer_monitor.h"
 #include "servo/servo_handover.h"
 #include "servo/watchdog.h"
 
 // touchafm-servo: the process that holds the hand. Its main thread is the servo; a second thread watches the renderer;
-// a third, which is not real-time, prepares the changes that visitors make. The same program is also its own watchdog,
-// as a second process.
+// a third, which is not real-time, prepares the changes that visitors make. touchafm-guard, a process, watches it.
 namespace {
 
 using namespace std::string_view_literals;
@@ -35,7 +36,6 @@ using afm::core::ExitCode;
 struct Options {
   int segment = -1;
   int parent_socket = -1;
-  int watched_servo = -1;  // set: this process is the watchdog of the servo behind this socket
   afm::haptics::ServoSettings settings;
   int dead_man = 0;  // 0 or 1
   std::string_view haptics = "sim";
@@ -55,7 +55,6 @@ std::optional<Options> parse_options(int count, char** arguments) {
     const std::string_view value = arguments[i + 1];
     const bool parsed = (name == "--segment"sv && parse(value, options.segment)) ||
                         (name == "--parent-socket"sv && parse(value, options.parent_socket)) ||
-                        (name == "--watch-servo"sv && parse(value, options.watched_servo)) ||
                         (name == "--rate"sv && parse(value, options.settings.rate_hz)) ||
                         (name == "--linger"sv && parse(value, options.settings.linger_s)) ||
                         (name == "--max-force"sv && parse(value, options.settings.max_force_n)) ||
@@ -64,27 +63,23 @@ std::optional<Options> parse_options(int count, char** arguments) {
     if (name == "--haptics"sv) options.haptics = value;
     if (!parsed) return std::nullopt;
   }
-  if (options.segment < 0 || (options.parent_socket < 0) == (options.watched_servo < 0)) return std::nullopt;
+  if (options.segment < 0 || options.parent_socket < 0) return std::nullopt;
   options.settings.dead_man = options.dead_man != 0;
   return options;
 }
 
-// Turns SIGINT and SIGTERM into readable events; every thread created from here on inherits the mask.
+// Turns the signals that end a program into readable events; every thread created from here on inherits the mask. The
+// kernel sends SIGHUP, too, to a stopped servo whose renderer has died.
 afm::core::FileDescriptor catch_signals() {
   sigset_t ending;
   ::sigemptyset(&ending);
-  ::sigaddset(&ending, SIGINT);
-  ::sigaddset(&ending, SIGTERM);
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) ::sigaddset(&ending, signal);
   ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);
   return afm::core::FileDescriptor(::signalfd(-1, &ending, SFD_CLOEXEC));
 }
 
-ExitCode watch(const Options& options) {
-  const afm::core::FileDescriptor servo(options.watched_servo);
-  auto segment = afm::scene::SharedSegment::attach(afm::core::FileDescriptor(options.segment));
-  if (!segment) return ExitCode::RunFailed;  // the servo fails for the same reason, and reports it
-  afm::servo::watch_servo(servo, *segment);
-  return ExitCode::Done;
+std::string guard_program() {
+  return std::filesystem::path(afm::servo::executable_path()).replace_filename("touchafm-guard").string();
 }
 
 ExitCode run(const Options& options) {
@@ -96,13 +91,14 @@ ExitCode run(const Options& options) {
   }
   // a device may start threads, which must leave the signals to the monitor
   const afm::core::FileDescriptor signals = catch_signals();
-  const auto watchdog = afm::servo::Watchdog::start(afm::servo::executable_path(), segment->descriptor());
+  const auto watchdog = afm::servo::Watchdog::start(guard_program(), segment->descriptor());
   if (!watchdog) {
     afm::core::log_line(watchdog.error().message);
     return afm::core::exit_code(watchdog.error().category);
   }
   const afm::core::MonotonicClock clock;
-  const auto offer = [&](const afm::haptics::ReleasePath& path) { (*watchdog)->offer(path); };
+  afm::servo::ReleaseLink link((*watchdog)->descriptor(), parent_socket.get());
+  const auto offer = [&](const afm::haptics::ReleasePath& path) { link.offer(path); };
   const auto choice = afm::servo::parse_haptic_choice(options.haptics);
   auto opened = choice ? afm::servo::open_haptic_device(*choice, clock, offer) : tl::unexpected(choice.error());
   if (!opened) {
@@ -119,7 +115,7 @@ ExitCode run(const Options& options) {
   {
     const afm::haptics::EditThread edits((*loop)->edits());
     const afm::servo::RendererMonitor watch(
-        **loop, std::move(parent_socket), signals, (*watchdog)->descriptor(),
+        **loop, std::move(parent_socket), signals, (*watchdog)->descriptor(), link,
         {.seconds = options.settings.linger_s,
          .program = afm::servo::executable_path(),
          .segment = segment->descriptor(),
@@ -129,7 +125,7 @@ ExitCode run(const Options& options) {
     for (const std::string& note : grant.notes) afm::core::log_line(note);
     (*loop)->note_grant(grant);
     exit = (*loop)->run(clock);
-    (*watchdog)->expect_end();
+    link.expect_end();
   }
   if (exit == afm::haptics::ServoExit::RendererDied) {
     afm::core::log_line("the renderer died: force released");
@@ -148,6 +144,5 @@ int main(int count, char** arguments) {
     afm::core::log_line("touchafm starts this program; run 'touchafm demo --out DIR' instead");
     return static_cast<int>(ExitCode::WrongUsage);
   }
-  return afm::core::report_exceptions(
-      [&] { return static_cast<int>(options->watched_servo < 0 ? run(*options) : watch(*options)); });
+  return afm::core::report_exceptions([&] { return static_cast<int>(run(*options)); });
 }

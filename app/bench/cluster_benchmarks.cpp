@@ -31,12 +31,12 @@ struct ClusterBenchOptions {
   ClusterTimingPlan plan;
   std::string interface_address = "127.0.0.1";
   std::uint32_t domain = cluster::ClusterNetwork::kUsualDomain;
-  int answer = -1;  // as this node, instead of measuring
+  int answer = -1;  // answers as this node instead of measuring
   bool elsewhere = false;
   bool json = false;
 };
 
-// The nodes on this machine, ended with this object.
+// The nodes on this machine. Destroying the object ends them.
 class LocalNodes {
  public:
   static core::Result<std::unique_ptr<LocalNodes>> start(const std::string& program,

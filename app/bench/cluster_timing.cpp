@@ -22,11 +22,11 @@ namespace afm::app {
 
 namespace {
 
-constexpr int kSamplesAFrame = 17;  // of a servo at 1 kHz
+constexpr int kSamplesAFrame = 17;  // one frame of a servo at 1 kHz
 constexpr auto kDrawing = std::chrono::milliseconds(2);
-constexpr std::int64_t kComeNs = 20'000'000'000;  // for the nodes to be there
-// A reader that has just joined misses what was written before its writer knew of it. A node of a wall gets that with
-// the history; here it is not counted as lost, and every node has noticed it after these frames.
+constexpr std::int64_t kComeNs = 20'000'000'000;  // longest wait until the nodes have joined
+// A new reader misses what was written before its writer discovered it. A real node gets those records with the
+// history; here the first frames are not counted as lost, and by this number every node has noticed the gap.
 constexpr int kFramesToJoin = 30;
 constexpr double kMsPerNs = 1e-6;
 
@@ -36,7 +36,7 @@ double process_cpu_s() {
   return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-// When each node has shown a frame, in the master's time.
+// Times at which each node has shown a frame, on the master's clock.
 class SwapTimes {
  public:
   explicit SwapTimes(std::uint32_t nodes) : clocks_(nodes) {}
@@ -65,7 +65,7 @@ class SwapTimes {
   }
 
  private:
-  std::vector<cluster::ClockOffset> clocks_;  // of the nodes
+  std::vector<cluster::ClockOffset> clocks_;  // one for each node
   std::map<std::uint64_t, std::vector<std::pair<std::uint32_t, std::int64_t>>> shown_;
   std::map<std::uint64_t, std::int64_t> sent_;
 };
@@ -76,13 +76,13 @@ cluster::FrameMessage still_frame() {
   return frame;
 }
 
-// One wall's frames.
+// Sends the frames of one wall.
 class TimedMaster {
  public:
   TimedMaster(cluster::MasterLink& link, const ClusterTimingPlan& plan, const core::Clock& clock)
       : link_(link), plan_(plan), clock_(clock), membership_(names(plan.nodes)), times_(plan.nodes) {}
 
-  // Whether the frame is one in which all nodes were there.
+  // Returns whether all nodes took part in the frame.
   bool frame(ClusterTiming* timing) {
     const std::int64_t begun_ns = clock_.now_ns();
     scene::TipSample sample;
@@ -108,14 +108,14 @@ class TimedMaster {
     return membership_.missing() == 0;
   }
 
-  // `before`: the nodes when the measurement began.
+  // `before`: state of the nodes when the measurement began.
   void finish(ClusterTiming& timing, std::span<const cluster::Membership::Node> before) const {
     times_.finish(timing);
     for (std::size_t i = 0; i < before.size(); ++i) {
       const cluster::Membership::Node& node = membership_.nodes()[i];
       const std::uint64_t lost = node.newest.lost_records, lost_before = before[i].newest.lost_records;
       timing.timeouts.push_back(node.timeouts - before[i].timeouts);
-      // fewer than before: it was started anew
+      // fewer than before: the node was restarted
       timing.lost.push_back(lost >= lost_before ? lost - lost_before : lost);
     }
   }

@@ -19,9 +19,9 @@
 #include "core/log.h"
 #include "core/version.h"
 #include "curves/image_file.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/topography_model.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/models/topography_model.h"
 #include "render/context.h"
 #include "render/renderer.h"
 
@@ -43,10 +43,10 @@ struct Figures {
   std::vector<WorkFigure> work;
   std::array<core::Percentiles, kReleases.size()> release_ms;  // in the order of kReleases
   ServoWake wake;
-  std::string renderer;  // what drew
+  std::string renderer;  // name of the graphics device
 };
 
-// The servo beside the real renderer, which draws the wall with no window and no limit to its rate.
+// Measures the servo next to the real renderer, which draws the wall without a window at full rate.
 core::Result<void> measure_beside_renderer(const CommandContext& context, const HapticsBenchOptions& options,
                                            Figures& figures) {
   exhibit::ExhibitFiles files;
@@ -78,7 +78,7 @@ core::Result<void> measure_beside_renderer(const CommandContext& context, const 
 
 core::Result<MeasuredSurface> measured_surface(const std::string& file) {
   if (file.empty()) return largest_measured_surface();
-  constexpr double kStrokeM = 40e-9;  // of the paper's materials, about
+  constexpr double kStrokeM = 40e-9;  // roughly the stroke of the paper's materials
   auto model = exhibit::load_topography_model(file, {});
   if (!model) return tl::unexpected(model.error());
   const scene::TopographyScale scale = exhibit::topography_scale(*model, kStrokeM);
@@ -93,7 +93,7 @@ core::Result<Figures> measure_all(const CommandContext& context, const HapticsBe
   auto work = measure_servo_work(options.ticks, *surface);
   if (!work) return tl::unexpected(work.error());
   figures.work = std::move(*work);
-  // before the renderer, whose threads a fork would lose
+  // before the renderer starts, because a fork would lose its threads
   for (std::size_t i = 0; i < kReleases.size(); ++i) {
     auto lasted_ms = measure_reaction(context.program_path, kReleases[i], options.rounds);
     if (!lasted_ms) return tl::unexpected(lasted_ms.error());

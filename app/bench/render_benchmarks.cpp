@@ -20,18 +20,18 @@
 #include "core/clock.h"
 #include "core/log.h"
 #include "core/version.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "render/context.h"
 
 namespace afm::app {
 
 namespace {
 
-constexpr std::uint32_t kHills = 256;  // quads each way
-constexpr std::uint32_t kBoxes = 10;   // each way
+constexpr std::uint32_t kHills = 256;  // quads along each side
+constexpr std::uint32_t kBoxes = 10;   // boxes along each side
 constexpr double kWallBar_ms = 1000.0 / 30.0;
 constexpr double kHeadMovingBar_ms = 1000.0 / 15.0;
-constexpr double kAtRestBar_ms = 5.0;  // of all processors
+constexpr double kAtRestBar_ms = 5.0;  // summed over all processors
 constexpr double kFirstFrameBar_ms = 1000.0;
 
 struct RenderBenchOptions {
@@ -51,7 +51,7 @@ core::Result<exhibit::Stage> load_wall(const RenderBenchOptions& options) {
   return exhibit::load_exhibit(options.files);
 }
 
-// From before the device is opened to the end of the first stereo frame of the wall.
+// Time from before the device is opened to the end of the wall's first stereo frame.
 core::Result<double> first_frame_ms(const RenderBenchOptions& options) {
   const core::MonotonicClock clock;
   const auto stage = load_wall(options);
@@ -76,7 +76,7 @@ std::string in_quotes(const std::string& text) {
   return result + "'";
 }
 
-// Times of this program in a separate process, whose driver finds first an empty shader cache and then a full one.
+// Measured in a separate process, first with an empty and then with a full shader cache of the driver.
 core::Result<FirstFrame> first_frames(const std::string& program, const RenderBenchOptions& options) {
   std::string folder = (std::filesystem::temp_directory_path() / "touchafm-shader-cache-XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) {
@@ -115,7 +115,7 @@ core::Result<std::vector<RenderSubject>> subjects_of(const RenderBenchOptions& o
   return subjects;
 }
 
-// The figures of the wall that have a bar: of the first way, which is the usual one.
+// The wall's figures with a limit, measured with the first and usual way of drawing.
 struct WallFigures {
   double frame_ms = 0, head_moving_ms = 0, at_rest_processor_ms = 0;
 };

@@ -11,10 +11,10 @@
 
 #include "core/check.h"
 #include "curves/sample_model.h"
-#include "exhibit/cycle_curve.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/guidance.h"
-#include "exhibit/wall_pictures.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/frame/wall_pictures.h"
+#include "exhibit/state/cycle_curve.h"
+#include "exhibit/words/guidance.h"
 #include "scene/gltf/gltf_loader.h"
 
 namespace afm::app {
@@ -26,7 +26,7 @@ constexpr int kFrames = 24;
 // ---- the wall ----
 
 constexpr std::size_t kFeltMaterial = 1;
-constexpr double kTopOfRelease = 1.3, kBottomOfRelease = -0.3;  // of Z_joc
+constexpr double kTopOfRelease = 1.3, kBottomOfRelease = -0.3;  // in units of Z_joc
 constexpr int kTicksPerFrame = 40;
 constexpr double kHeadSway_m = 0.03;
 
@@ -147,7 +147,7 @@ scene::Primitive cube() {
   return primitive;
 }
 
-// A viewer who sways before the screen, as far as a person who stands does.
+// Eyes of a viewer who sways in front of the screen like a standing person.
 core::Result<std::array<scene::EyeView, 2>> eyes_of_moved_head(const exhibit::Stage& stage, double turn_rad) {
   const scene::Viewer& viewer = stage.wall.viewers.front();
   scene::HeadPose head = viewer.sweet_spot;

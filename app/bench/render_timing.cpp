@@ -23,7 +23,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr int kSettlingFrames = 2;  // of each round: the device comes from another scene
+constexpr int kSettlingFrames = 2;  // frames skipped at the start of each round, after the change of scene
 constexpr std::size_t kMostOutput = 65536;
 
 struct Way {
@@ -53,7 +53,7 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// One subject drawn in one way.
+// One subject, drawn in one way.
 class Drawing {
  public:
   Drawing(render::Context& context, const RenderSubject& subject, const Way& way, render::Renderer renderer)
@@ -115,11 +115,11 @@ class Drawing {
   std::vector<render::FrameState> frames_;
   std::size_t drawn_ = 0;
   std::vector<double> times_ms_, processor_ms_;
-  double redrawn_ = 0;  // the sum of all frames
+  double redrawn_ = 0;  // sum over all frames
   std::vector<render::PassTimes> passes_;
 };
 
-// By pairs within a round, against the first way of the same subject; peers against that of the last subject.
+// Compares within a round: each way with the first way of its subject, each peer with that of the last subject.
 void set_ratios(std::vector<RenderFigure>& figures) {
   const RenderFigure* base = nullptr;
   for (RenderFigure& figure : figures) {
@@ -162,7 +162,7 @@ core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& sub
   for (const RenderSubject& subject : subjects) {
     for (const Way& way : kWays) {
       if (way.pass_mode == render::PassMode::Multiview && !context->draws_both_eyes_at_once()) continue;
-      if (way.redraw == render::Redraw::Everything && subject.eyes_move) continue;  // nothing else ever is
+      if (way.redraw == render::Redraw::Everything && subject.eyes_move) continue;  // always everything
       render::RendererOptions drawing = subject.drawing;
       drawing.samples = plan.samples;
       drawing.pass_mode = way.pass_mode;

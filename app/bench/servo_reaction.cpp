@@ -36,7 +36,7 @@ bool holds(scene::RendererSide& side) {
   return state && state->servo_state == scene::ServoState::Running && std::abs(state->hand.force_n[1]) > kHeld_n;
 }
 
-// Lets `act` be done over and over until the condition holds.
+// Repeats `act` until the condition holds.
 bool until(const std::function<void()>& act, const std::function<bool()>& condition) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (!condition()) {
@@ -49,7 +49,8 @@ bool until(const std::function<void()>& act, const std::function<bool()>& condit
 
 std::atomic<bool> stop_pressed{false};
 
-// The renderer: its person holds the tip on the sample once, and it goes on beating until it dies; SIGUSR1 is its Stop.
+// The renderer's process: a simulated person puts the tip on the sample once, and the heartbeat goes on until the
+// process dies. SIGUSR1 means Stop.
 [[noreturn]] void draw(const std::string& servo_program, scene::SharedSegment& segment) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   ::signal(SIGUSR1, [](int) { stop_pressed = true; });
@@ -80,7 +81,7 @@ std::atomic<bool> stop_pressed{false};
   for (;;) until(beat, [] { return false; });
 }
 
-// Sends the signal and returns how long the force lasted; empty if there was none to begin with.
+// Sends the signal and returns how long the force lasted. Empty if there was no force before it.
 std::optional<double> one_round(const std::string& servo_program, const Release& release) {
   auto segment = scene::SharedSegment::create(mica_alone(), 0);
   if (!segment) return std::nullopt;
@@ -108,7 +109,7 @@ std::optional<double> one_round(const std::string& servo_program, const Release&
   }
   ::kill(renderer, SIGKILL);
   ::waitpid(renderer, nullptr, 0);
-  // its servo has become this process's child
+  // the orphaned servo is now this process's child
   ::waitpid(-1, nullptr, 0);
   return lasted_ms;
 }

@@ -12,12 +12,12 @@
 
 namespace afm::app {
 
-// What ends the force, sent as a signal to the renderer's process, and within how long the hand must feel none.
+// A signal to the renderer's process that must end the force, and the longest time until the force is zero.
 struct Release {
   const char* name;
-  const char* what;  // happens to the renderer while the hand is held
+  const char* what;  // event in the renderer while the hand is held
   int signal;
-  scene::FaultCode fault;  // that the servo then says
+  scene::FaultCode fault;  // expected fault of the servo
   double bar_ms;
 };
 
@@ -25,10 +25,10 @@ inline constexpr std::array kReleases{Release{"killed", "is killed", SIGKILL, sc
                                       Release{"stopped", "is stopped", SIGSTOP, scene::FaultCode::RendererHung, 350.0},
                                       Release{"stop-key", "sends Stop", SIGUSR1, scene::FaultCode::StopPressed, 30.0}};
 
-// Time from the signal to zero force, milliseconds, one value per round. In each round a renderer in a separate process
-// starts touchafm-servo from the folder of `program` and holds the tip on the sample; then it is sent the signal.
-// Repeats a round in which the load on the machine made the servo release the hand early. The caller has one thread
-// only. Two seconds a round.
+// Times from the signal to zero force, milliseconds, one value per round of about two seconds. In each round a separate
+// renderer process starts touchafm-servo from the folder of `program`, holds the tip on the sample and gets the signal.
+// Repeats a round in which load on the machine made the servo release the hand early. Forks, so the caller must have
+// only one thread.
 core::Result<std::vector<double>> measure_reaction(const std::string& program, const Release& release, int rounds);
 
 }  // namespace afm::app

@@ -22,8 +22,8 @@ namespace afm::app {
 
 namespace {
 
-constexpr double kDearestBar_us = 20.0;  // of the design
-// CHAI3D's custom effect on a field of 128 x 128, flat out on a machine of this class
+constexpr double kDearestBar_us = 20.0;  // limit set by the design
+// CHAI3D's custom effect on a field of 128 x 128 at full speed, on a comparable machine
 constexpr double kFieldP50_us = 0.8;
 constexpr double kFieldP99_us = 1.0;
 
@@ -43,7 +43,7 @@ struct WorkCase {
   double p99_bar_us;
 };
 
-// The paper's law against CHAI3D's, on a measured surface too, every other one, and a lever with mass.
+// The paper's law and CHAI3D's, both also on a measured surface; every other law; and a lever with mass.
 std::vector<WorkCase> work_cases(const MeasuredSurface& measured) {
   using physics::Law;
   std::vector<WorkCase> all{{"paper on a plane", Law::Paper, false, Ground::Plane, 0, kFieldP99_us},
@@ -56,7 +56,7 @@ std::vector<WorkCase> work_cases(const MeasuredSurface& measured) {
   return all;
 }
 
-// Waves and steps, as steep as a cleaved face.
+// A surface with waves and steps as steep as a cleaved face.
 scene::SharedHeightField rough_surface() {
   scene::SharedHeightField field{
       .columns = scene::kMaxHeightFieldSide, .rows = scene::kMaxHeightFieldSide, .spacing_m = 1e-9};
@@ -93,7 +93,7 @@ class Bench {
     side_.store(scene::Selection{.material = 0, .revision = 1});
   }
 
-  // One tick, and how long it took.
+  // Runs one tick and returns its duration.
   double tick_us() {
     direct();
     side_.store(scene::RendererHeartbeat{.time_ns = now_ns_, .frame = tick_});
@@ -112,7 +112,7 @@ class Bench {
   bool force_is_on() { return side_.tip_state()->servo_state == scene::ServoState::Running; }
 
  private:
-  // The person: lifts, presses Turn-On, then moves up and down without end, and to and fro.
+  // The simulated person: lifts, presses Turn-On, then moves up and down and sideways without end.
   void direct() {
     if (tick_ == kWarmUpTicks / 2) aim(kTop_m, true);
     if (tick_ == kWarmUpTicks / 2 + 100) aim(kTop_m, false);

@@ -12,11 +12,10 @@
 
 namespace afm::app {
 
-// Mica under a silicon nitride tip on a sample whose +z points up, as in docs/physics.md: the sample of the servo
-// benchmarks.
+// Sample of the servo benchmarks: mica under a silicon nitride tip, as in docs/physics.md, +z upwards.
 scene::SharedModel mica_alone();
 
-// Work of a servo tick with one law of force, microseconds.
+// Duration of a servo tick with one force law, microseconds.
 struct WorkFigure {
   std::string name;
   core::Percentiles us;
@@ -26,18 +25,18 @@ struct WorkFigure {
   bool met() const { return (p50_bar_us == 0 || us.p50 <= p50_bar_us) && us.p99 <= p99_bar_us; }
 };
 
-// A topography as an instrument measures it, and the scale on which the hand feels it.
+// A topography as measured by an instrument, and the scale at which the hand feels it.
 struct MeasuredSurface {
   std::string name;
   scene::Topography topography;
   scene::TopographyScale scale;
 };
 
-// One with the most points that are felt: hills and steps, with noise from point to point.
+// A surface with the largest number of points that can be felt: hills and steps with noise at each point.
 MeasuredSurface largest_measured_surface();
 
-// Ticks a servo loop with the simulated hand flat out, in simulated time, through one cycle after the other with the
-// force on, and times every tick. Each law in turn; the paper's also over a plane and over the measured surface.
+// Ticks a servo loop with the simulated hand at full speed, in simulated time, through repeated cycles with the force
+// on, and times every tick. Measures each law in turn, the paper's also over a plane and over the measured surface.
 core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks, const MeasuredSurface& measured);
 
 }  // namespace afm::app

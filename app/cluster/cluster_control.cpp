@@ -6,12 +6,13 @@
 #include "app/cluster/cluster_master.h"
 #include "app/display/view_picture.h"
 #include "app/view/servo_supervisor.h"
+#include "app/view/view_choice.h"
 #include "app/view/view_hand.h"
 #include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scan/scan_panels.h"
 #include "servo/servo_client.h"
 
@@ -19,6 +20,9 @@ namespace afm::app {
 
 ClusterControl::ClusterControl(ViewParts& parts, ClusterMaster& master) : parts_(parts), master_(master) {
   parts_.turn.draws_unseen = true;
+  if (master_.nodes_show_sample()) {
+    parts_.turn.seen_elsewhere_ns = [this](std::int64_t now_ns) { return master_.seen_ns(now_ns); };
+  }
   parts_.servo.hear([this](const scene::TipSample& sample) { master_.hear(sample); });
   parts_.servo.hear_jumps([this](const scene::TipEvent& event) { master_.hear(event); });
 }
@@ -28,10 +32,16 @@ void ClusterControl::share_scan() {
   master_.follow_scan(shown.scan, shown.material, shown.begun);
 }
 
-// Before the samples of a hand that paints.
-void ClusterControl::take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) { share_scan(); }
+// Shares the scan before the samples of a painting hand arrive.
+void ClusterControl::take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) {
+  share_scan();
+  if (master_.take_stop()) parts_.choice.stop_force();
+  if (parts_.turn.failure) return;
+  parts_.turn.failure = master_.rival();
+  parts_.turn.leaving = parts_.turn.leaving || parts_.turn.failure;
+}
 
-// Sends the inputs of this frame. The moment becomes what the others have: what had no room is missing here too.
+// Sends this frame's inputs and replaces the moment by what was sent, so that this machine also lacks what did not fit.
 void ClusterControl::add_to_moment(exhibit::Moment& now, ViewFrame& frame) {
   message_ = {};
   exhibit::set_moment(now, parts_.servo.link().tip(), frame.caption, parts_.turn.blank, message_);

@@ -9,8 +9,8 @@ namespace afm::app {
 class ClusterMaster;
 struct ViewParts;
 
-// The other machines of the wall: they get the inputs of each frame, and all show it together. Behind all controls that
-// change what is shown.
+// Connects the live window to the other machines of the wall: sends them the inputs of each frame, and all show it
+// together. Must come after all controls that change the picture.
 class ClusterControl final : public ViewControl {
  public:
   // Both must outlive it.
@@ -28,7 +28,7 @@ class ClusterControl final : public ViewControl {
 
   ViewParts& parts_;
   ClusterMaster& master_;
-  cluster::FrameMessage message_{};  // inputs of this frame
+  cluster::FrameMessage message_{};  // inputs of the current frame
 };
 
 }  // namespace afm::app

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/display/view_outputs.h"
 #include "core/log.h"
 #include "exhibit/cluster/wall_history.h"
 
@@ -13,8 +14,8 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kHistoryPauseNs = 500'000'000;  // between two answers to nodes that lack what was felt
-constexpr int kBeatMs = 2;                             // between two signs of life while the barrier waits
+constexpr std::int64_t kHistoryPauseNs = 500'000'000;  // shortest time between two histories sent to nodes
+constexpr int kBeatMs = 2;                             // time between two heartbeats while the barrier waits
 
 std::vector<std::string> names_of(const std::vector<scene::WallNode>& nodes) {
   std::vector<std::string> names;
@@ -25,9 +26,41 @@ std::vector<std::string> names_of(const std::vector<scene::WallNode>& nodes) {
 
 }  // namespace
 
-ClusterMaster::ClusterMaster(std::unique_ptr<cluster::MasterLink> link, const scene::Wall& wall, std::size_t materials,
-                             const core::Clock& clock)
-    : link_(std::move(link)), membership_(names_of(wall.nodes)), clock_(clock), edits_(materials) {}
+ClusterMaster::ClusterMaster(std::unique_ptr<cluster::MasterLink> link, const scene::Wall& wall,
+                             const glm::dvec3& contact_m, std::size_t materials, const core::Clock& clock)
+    : link_(std::move(link)),
+      membership_(names_of(wall.nodes)),
+      clock_(clock),
+      edits_(materials),
+      told_(wall.nodes.size()) {
+  for (const scene::Output& output : wall.outputs) {
+    if (output.node && holds(wall.screens[output.screen], contact_m)) told_[*output.node].shows_sample = true;
+  }
+}
+
+bool ClusterMaster::nodes_show_sample() const {
+  return std::any_of(told_.begin(), told_.end(), [](const Told& told) { return told.shows_sample; });
+}
+
+void ClusterMaster::follow(const cluster::ReadyMessage& ready, std::int64_t came_ns) {
+  if (ready.header.node >= told_.size()) return;
+  Told& told = told_[ready.header.node];
+  // a node that begins again counts from none
+  if (std::exchange(told.heard, true) && ready.stops > told.stops) stop_pressed_ = true;
+  told.stops = ready.stops;
+  if (ready.state == cluster::NodeState::Drawing && ready.unseen == 0) told.seen_ns = came_ns;
+}
+
+std::int64_t ClusterMaster::seen_ns(std::int64_t now_ns) const {
+  const std::span<const cluster::Membership::Node> nodes = membership_.nodes();
+  std::int64_t newest_ns = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!told_[i].shows_sample) continue;
+    const bool there = nodes[i].awaited && nodes[i].newest.unseen == 0;
+    newest_ns = std::max(newest_ns, there ? now_ns : told_[i].seen_ns);
+  }
+  return newest_ns;
+}
 
 void ClusterMaster::record_edits(ParameterEdits& edits) {
   for (std::size_t i = 0; i < edits_.size(); ++i) {
@@ -82,6 +115,7 @@ void ClusterMaster::built(std::uint64_t digest) { membership_.begin(number_, dig
 void ClusterMaster::take_answers() {
   while (const auto answer = link_->answer()) {
     membership_.answer(answer->ready, answer->came_ns);
+    follow(answer->ready, answer->came_ns);
     history_wanted_ = history_wanted_ || answer->ready.wants_history != 0;
   }
 }
@@ -100,6 +134,23 @@ void ClusterMaster::barrier(const std::function<void()>& while_waiting) {
   ++waited_frames_;
   link_->swap(number_);
   for (const std::string& line : membership_.end()) core::log_line(line);
+}
+
+std::optional<core::Error> ClusterMaster::rival() {
+  using Rival = cluster::MasterLink::Rival;
+  const Rival rival = link_->rival();
+  if (rival == Rival::Earlier) {
+    return core::Error{core::ErrorCategory::WrongUsage,
+                       "another master, which started earlier, drives a wall in this network and domain: end it first, "
+                       "or give one of the two another --domain"};
+  }
+  const bool later = rival == Rival::Later;
+  if (later && !rival_logged_) {
+    core::log_line(
+        "cluster: another master drives a wall in this network and domain; it started later and should end by itself");
+  }
+  rival_logged_ = later;
+  return std::nullopt;
 }
 
 void ClusterMaster::log_summary() const {

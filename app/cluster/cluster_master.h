@@ -6,68 +6,95 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/view/parameter_edits.h"
 #include "cluster/master_link.h"
 #include "cluster/membership.h"
 #include "core/clock.h"
-#include "exhibit/cycle_history.h"
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/scan/live_scan.h"
+#include "exhibit/state/cycle_history.h"
 #include "scene/display/wall.h"
 
 namespace afm::app {
 
-// The live window as the master of a wall of several machines: sends the inputs of each frame, waits until every node
-// that is there has drawn it, and lets all show it. Main thread only; nothing here waits for the network longer than
-// the barrier's patience, during which the caller's heartbeat goes on.
+// The live window as the master of a wall of several machines: sends the inputs of each frame, waits until every
+// connected node has drawn it, and lets all show it. Main thread only. Waits for the network no longer than the
+// barrier's patience, and keeps calling the heartbeat meanwhile.
 class ClusterMaster {
  public:
-  // All must outlive it.
-  ClusterMaster(std::unique_ptr<cluster::MasterLink> link, const scene::Wall& wall, std::size_t materials,
-                const core::Clock& clock);
+  // All must outlive it. `contact_m`: the contact point, in the room.
+  ClusterMaster(std::unique_ptr<cluster::MasterLink> link, const scene::Wall& wall, const glm::dvec3& contact_m,
+                std::size_t materials, const core::Clock& clock);
 
-  // For every node, in their order.
+  // Sends the sample to every node. Call in the order of the samples.
   void hear(const scene::TipSample& sample) { link_->record(cluster::JournalRecord(sample)); }
   void hear(const scene::TipEvent& event) { link_->record(cluster::JournalRecord(event)); }
   void forget() { link_->record(cluster::JournalRecord()); }
 
-  // The scan that is shown, or none; `begun` counts those that were begun. Before what the hand does in a frame, and
-  // again before it is sent.
+  // Follows the visible scan, null if none; `begun` is the number of scans started. Call before a frame applies the
+  // hand's motion, and again before the frame is sent.
   void follow_scan(const exhibit::LiveScan* scan, std::size_t material, std::uint64_t begun);
 
-  // Sends the next frame, and what was felt before to a node that asks for it.
+  // Sends the next frame, and the history to a node that asks for it.
   void send(cluster::FrameMessage& frame, ParameterEdits& edits, const exhibit::CycleHistory& cycles,
             const exhibit::FrictionHistory& friction);
 
-  // The frame has been built as it was sent.
+  // Reports that the frame was built as it was sent; `digest` is of its contents.
   void built(std::uint64_t digest);
 
-  // Waits until all that are awaited have drawn the frame, then lets them show it.
+  // Waits until all connected nodes have drawn the frame, then lets them show it.
   void barrier(const std::function<void()>& while_waiting);
 
-  // One line of numbers, at the end.
+  // The reason to end, if another master that started earlier drives the wall. Logs one that started later. Once a
+  // frame.
+  std::optional<core::Error> rival();
+
+  // True if a screen of a node shows the sample.
+  bool nodes_show_sample() const;
+
+  // Newest time at which a node that shows the sample had drawn it for people who see it; `now_ns` while such a node is
+  // awaited.
+  std::int64_t seen_ns(std::int64_t now_ns) const;
+
+  // True once after each press of Stop at a node.
+  bool take_stop() { return std::exchange(stop_pressed_, false); }
+
+  // Logs one line of statistics at the end of a run.
   void log_summary() const;
 
  private:
   void record_edits(ParameterEdits& edits);
   void take_answers();
 
+  // What the answers of a node have told.
+  struct Told {
+    bool shows_sample = false;
+    bool heard = false;
+    std::uint32_t stops = 0;
+    std::int64_t seen_ns = 0;  // arrival of the newest answer from where people see the picture
+  };
+  void follow(const cluster::ReadyMessage& ready, std::int64_t came_ns);
+
   std::unique_ptr<cluster::MasterLink> link_;
   cluster::Membership membership_;
   const core::Clock& clock_;
-  std::vector<std::optional<cluster::EditRecord>> edits_;  // as they were recorded last
-  std::vector<cluster::ScanRecord> scan_;                  // likewise
+  std::vector<std::optional<cluster::EditRecord>> edits_;  // newest recorded edit of each material
+  std::vector<cluster::ScanRecord> scan_;                  // newest recorded state of the scan
   std::uint64_t scan_begun_ = 0;
   std::uint64_t number_ = 0;
   std::uint64_t waited_frames_ = 0;
   std::int64_t longest_wait_ns_ = 0;
   std::int64_t history_sent_ns_ = 0;
   bool history_wanted_ = false;
+  bool rival_logged_ = false;
+  std::vector<Told> told_;  // one a node
+  bool stop_pressed_ = false;
 };
 
-// The words of the wall's banner for the nodes of the mask; empty if none.
+// Text of the wall's banner for the nodes in the mask; empty if none is missing.
 std::string missing_text(std::uint64_t missing, const scene::Wall& wall, const exhibit::Phrases& phrases);
 void add_warning(const std::string& text, render::Banner& banner);
 

@@ -14,9 +14,9 @@ namespace afm::app {
 
 namespace {
 
-constexpr int kListenMs = 1500;  // for another master: longer than DDS needs to find it
+constexpr int kListenMs = 1500;  // wait for another master; longer than DDS needs to discover one
 
-// The texts of the files, so that no other machine needs them.
+// Contains the texts of the files, so that the other machines need no files.
 core::Result<exhibit::WallModel> wall_model(const exhibit::ExhibitFiles& files, const WallChoice& choice,
                                             const std::string& program, const exhibit::Stage& stage) {
   exhibit::WallModel model;
@@ -138,8 +138,10 @@ core::Result<std::unique_ptr<ClusterMaster>> start_cluster(const ClusterOptions&
   core::log_line(fmt::format("cluster: {} nodes, interface {}, domain {}, {}", stage.wall.nodes.size(),
                              network.interface_address, network.domain,
                              network.peers.empty() ? "multicast" : "no multicast"));
+  auto master = std::make_unique<ClusterMaster>(std::move(opened->link), stage.wall, stage.wall_scene.contact_m(),
+                                                stage.materials.materials.size(), clock);
   scene::keep_outputs_of(std::nullopt, stage.wall);
-  return std::make_unique<ClusterMaster>(std::move(opened->link), stage.wall, stage.materials.materials.size(), clock);
+  return master;
 }
 
 }  // namespace afm::app

@@ -17,30 +17,30 @@ namespace afm::app {
 
 struct ClusterOptions {
   bool wanted = false;
-  std::string interface_address;  // empty: the one that leads to the first node
+  std::string interface_address;  // empty: the interface that leads to the first node
   std::uint32_t domain = cluster::ClusterNetwork::kUsualDomain;
 };
 
-// --cluster of the machine with the hand, which it returns; its --interface and --domain; --domain alone.
+// Adds --cluster, which starts the machine with the hand and is returned, --interface and --domain. The second function
+// adds --domain only.
 Option add_cluster_options(OptionList& command, ClusterOptions& options);
 void add_network_options(OptionList& command, ClusterOptions& options);
 void add_domain_option(OptionList& command, std::uint32_t& domain);
 
-// The network of the machine with the hand. Fails as interface_towards and address_of_host do.
+// Network of the machine with the hand. Fails as interface_towards and address_of_host do.
 core::Result<cluster::ClusterNetwork> master_network(const ClusterOptions& options, const scene::Wall& wall);
 
-// WrongUsage: the wall has outputs on other machines, which one window would not show.
+// WrongUsage if the wall has outputs on other machines, which one window would not show.
 core::Result<void> check_one_machine(const scene::Wall& wall, const WindowOptions& window);
 
-// What of the wall no file says.
+// Parts of the wall's description that are in no file.
 struct WallChoice {
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   exhibit::PictureOptions picture;
   render::PanelContrast contrast = render::PanelContrast::Normal;
 };
 
-// The network, opened as that of the machine with the hand. WrongUsage: the wall has no nodes, or another machine
-// drives it.
+// The network, opened as the machine with the hand. WrongUsage if the wall has no nodes or another machine drives it.
 struct OpenedMaster {
   cluster::ClusterNetwork network;
   std::unique_ptr<cluster::MasterLink> link;
@@ -49,7 +49,7 @@ core::Result<OpenedMaster> open_master(const ClusterOptions& options, const exhi
                                        const WallChoice& choice, const std::string& program,
                                        const exhibit::Stage& stage, const core::Clock& clock);
 
-// Opens the network and leaves the outputs of this machine in the wall of the stage, which must outlive the master.
+// Opens the network and keeps only this machine's outputs in the wall of the stage, which must outlive the master.
 core::Result<std::unique_ptr<ClusterMaster>> start_cluster(const ClusterOptions& options,
                                                            const exhibit::ExhibitFiles& files, const WallChoice& choice,
                                                            const std::string& program, exhibit::Stage& stage,

@@ -9,9 +9,9 @@
 #include "app/cluster/cluster_master.h"
 #include "core/interruption.h"
 #include "core/log.h"
-#include "exhibit/blank_picture.h"
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
+#include "exhibit/frame/blank_picture.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 
@@ -19,11 +19,11 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kCatchUpNs = 40'000'000;        // that a frame waits for the samples before it
-constexpr std::int64_t kSwapNs = 400'000'000;          // that it waits to be shown: longer than the master may wait
-constexpr std::int64_t kMasterGoneNs = 2'000'000'000;  // without a frame
-constexpr std::size_t kMostRecords = 60'000;           // of a minute of the servo
-constexpr int kPauseMs = 10;                           // between two looks at the windows
+constexpr std::int64_t kCatchUpNs = 40'000'000;        // longest wait of a frame for the samples before it
+constexpr std::int64_t kSwapNs = 400'000'000;          // longest wait for the signal to show; exceeds the master's
+constexpr std::int64_t kMasterGoneNs = 2'000'000'000;  // time without a frame after which the master counts as lost
+constexpr std::size_t kMostRecords = 60'000;           // one minute of the servo
+constexpr int kPauseMs = 10;                           // time between two checks of the windows
 
 }  // namespace
 
@@ -38,17 +38,19 @@ NodeView::NodeView(const exhibit::Stage& stage, const std::vector<curves::Sample
       felt_(materials),
       frames_(stage.wall_scene, felt_, stage.eyes),
       panels_(stage.wall_scene, materials, key_list),
-      history_(materials.size()) {
+      history_(materials.size()),
+      sight_(display.windows().all(), clock) {
   panels_.set_friction(&history_.friction);
 }
 
-// The keys of staff that concern this machine alone.
+// Handles Stop and the staff keys that concern only this machine; returns whether to leave.
 bool NodeView::leaves() {
   const ViewInput input = windows_.poll();
   bool leaves = input.close_requested;
   for (const ViewEvent& event : input.events) {
     if (event.event.kind != render::WindowEvent::Kind::KeyDown) continue;
     leaves = leaves || event.event.key == render::Key::Escape;
+    if (event.event.key == render::Key::Enter) ++stops_;
     if (event.event.key == render::Key::F11) windows_.toggle_full_screen();
     if (event.event.key == render::Key::F12) picture_.save();
   }
@@ -70,7 +72,7 @@ void NodeView::restore(std::span<const std::byte> document) {
   for (const cluster::EditRecord& edit : history_.edits) panels_.edits().follow(edit);
 }
 
-// One that cannot be applied leaves a hole, which the next history fills.
+// Applies the records in order. A record that cannot be applied leaves a gap, which the next history fills.
 void NodeView::take_records() {
   while (const auto record = link_.record()) {
     if (record->session != place_.session || !exhibit::is_applicable(record->record)) continue;
@@ -79,19 +81,23 @@ void NodeView::take_records() {
   }
 }
 
-// Everything that has come; another wall, if it is one.
-std::optional<cluster::NodeLink::Document> NodeView::take() {
-  if (auto model = link_.model()) {
-    if (model->bytes != place_.model) return model;
-    place_.session = model->header.session;
-    forget();
+// Takes all messages. Returns true if another wall is prepared.
+bool NodeView::take(const Prepare& prepare) {
+  if (const auto model = link_.model()) {
+    if (model->bytes == place_.model) {
+      place_.session = model->header.session;
+      forget();
+    } else if (model->bytes != refused_) {
+      if (prepare(*model)) return true;
+      refused_ = model->bytes;  // one line for each, however often it comes
+    }
   }
   take_records();
   if (const auto history = link_.history(); history && history->header.session == place_.session) {
     if (!knows_history_) restore(history->bytes);
   }
   if (auto frame = link_.frame()) next_ = frame;
-  return std::nullopt;
+  return false;
 }
 
 void NodeView::apply_until(std::uint64_t journal) {
@@ -111,7 +117,7 @@ void NodeView::apply_until(std::uint64_t journal) {
   }
 }
 
-// A scan that a hand paints needs every sample; any other follows from its changes.
+// Applies every sample to a scan that a hand paints; any other scan follows from the changes of its settings.
 void NodeView::apply_to_scan(const cluster::JournalRecord& record) {
   using Kind = cluster::JournalKind;
   if (record.kind() == Kind::Sample && scan_) scan_->follow_hand(record.sample());
@@ -129,7 +135,7 @@ void NodeView::apply_to_scan(const cluster::JournalRecord& record) {
   }
 }
 
-// One that began before this node came, or is far ahead, is computed anew.
+// Recomputes a scan that began before this node joined, or that is far ahead.
 void NodeView::follow_scan(const cluster::ShownMoment& shown) {
   if ((shown.flags & cluster::ShownMoment::kScan) == 0 || history_.scan.empty()) return scan_.reset();
   const bool truth = (shown.flags & cluster::ShownMoment::kTruth) != 0;
@@ -147,7 +153,7 @@ void NodeView::follow_scan(const cluster::ShownMoment& shown) {
   if (scan_->progress().truth != truth) scan_->show_truth(truth);
 }
 
-// False: it lacks what was felt before this frame.
+// Returns false while records from before this frame are missing.
 bool NodeView::catch_up(std::uint64_t journal) {
   const std::int64_t until_ns = clock_.now_ns() + kCatchUpNs;
   for (;;) {
@@ -155,7 +161,7 @@ bool NodeView::catch_up(std::uint64_t journal) {
     if (!knows_history_ || history_.journal > journal) return false;
     if (history_.journal == journal) return true;
     if (clock_.now_ns() >= until_ns) {
-      // the end is missing: a new history brings it
+      // the newest records are missing: a new history brings them
       knows_history_ = false;
       return false;
     }
@@ -164,7 +170,7 @@ bool NodeView::catch_up(std::uint64_t journal) {
   }
 }
 
-// Materials that this wall has.
+// Returns whether this wall has the message's materials.
 bool NodeView::fits(const cluster::FrameMessage& message) const {
   const auto count = static_cast<std::int32_t>(felt_.size());
   return message.tip.material < count && message.moment.hovered < count;
@@ -179,6 +185,8 @@ cluster::ReadyMessage NodeView::answer_to(const cluster::FrameMessage& message, 
   ready.swapped_ns = swapped_ns_;
   ready.lost_records = lost_records_;
   ready.late_swaps = late_swaps_;
+  ready.stops = stops_;
+  ready.unseen = sight_.unseen_since_ns() ? 1 : 0;
   return ready;
 }
 
@@ -204,7 +212,7 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   shown_ns_ = clock_.now_ns();
 }
 
-// Not longer than until the master must have given up waiting, or has gone on.
+// Waits no longer than until the master must have given up or continued.
 void NodeView::wait_for_swap(const cluster::FrameMessage& message) {
   const std::int64_t until_ns = clock_.now_ns() + kSwapNs;
   for (;;) {
@@ -234,9 +242,9 @@ void NodeView::draw(const cluster::NodeLink::Came& came) {
   shown_ = message;
 }
 
-std::optional<cluster::NodeLink::Document> NodeView::run() {
+bool NodeView::run(const Prepare& prepare) {
   while (!core::interrupted() && !leaves()) {
-    if (auto other = take()) return other;
+    if (take(prepare)) return true;
     picture_.fit(clock_.now_ns());
     if (next_) {
       draw(*std::exchange(next_, std::nullopt));
@@ -246,7 +254,7 @@ std::optional<cluster::NodeLink::Document> NodeView::run() {
     }
   }
   picture_.finish();
-  return std::nullopt;
+  return false;
 }
 
 }  // namespace afm::app

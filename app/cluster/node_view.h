@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -12,32 +13,36 @@
 #include "core/clock.h"
 #include "curves/sample_model.h"
 #include "exhibit/cluster/wall_history.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
 #include "exhibit/scan/live_scan.h"
+#include "render/window_sight.h"
 
 namespace afm::app {
 
-// A machine of a wall without the hand: builds every frame from the inputs that the master sends, and shows it together
-// with all others. It starts no servo and opens no haptic device. Main thread only.
+// A machine of a wall without the haptic device: builds every frame from the master's inputs and shows it together with
+// all other machines. Starts no servo and opens no haptic device. Main thread only.
 class NodeView {
  public:
   struct Place {
-    std::uint32_t node = 0;     // of Wall::nodes
-    std::uint64_t session = 0;  // of the master whose wall this is
+    std::uint32_t node = 0;     // index in Wall::nodes
+    std::uint64_t session = 0;  // session of the wall's master
     std::vector<std::byte> model;
   };
 
-  // All must outlive it; `key_list` is that of the master's window.
+  // All must outlive it; `key_list` is the one of the master's window.
   NodeView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewDisplay& display,
            cluster::NodeLink& link, Place place, KeyList key_list, const core::Clock& clock);
 
-  // Until the window is closed or a signal comes; or until a master shows another wall, whose description it returns.
-  std::optional<cluster::NodeLink::Document> run();
+  // Prepares another wall; false: it cannot be shown, and this one goes on.
+  using Prepare = std::function<bool(const cluster::NodeLink::Document& other)>;
+
+  // Runs until the window is closed or a signal arrives; returns true if another wall is prepared instead.
+  bool run(const Prepare& prepare);
 
  private:
   bool leaves();
-  std::optional<cluster::NodeLink::Document> take();
+  bool take(const Prepare& prepare);
   void take_records();
   void restore(std::span<const std::byte> document);
   void forget();
@@ -56,6 +61,7 @@ class NodeView {
   ViewPicture& picture_;
   cluster::NodeLink& link_;
   Place place_;
+  std::vector<std::byte> refused_;  // newest description that could not be prepared
   const core::Clock& clock_;
   std::vector<curves::SampleModel> felt_;
   exhibit::FrameBuilder frames_;
@@ -63,13 +69,15 @@ class NodeView {
   exhibit::WallHistory history_;
   bool knows_history_ = false;
   std::optional<exhibit::LiveScan> scan_;
-  std::deque<cluster::NodeLink::Numbered> records_;  // that have come and are not applied yet
+  std::deque<cluster::NodeLink::Numbered> records_;  // received and not yet applied
   std::optional<cluster::NodeLink::Came> next_;
-  std::optional<cluster::FrameMessage> shown_;  // the newest
+  std::optional<cluster::FrameMessage> shown_;  // newest frame on screen
   std::int64_t shown_ns_ = 0;
   std::int64_t swapped_ns_ = 0;
   std::uint64_t lost_records_ = 0;
   std::uint32_t late_swaps_ = 0;
+  std::uint32_t stops_ = 0;
+  render::WindowSight sight_;
 };
 
 }  // namespace afm::app

@@ -30,7 +30,7 @@ namespace afm::app {
 namespace {
 
 using core::wrong_usage;
-// As those of a contact.
+// The same range as for a contact.
 constexpr QuantityRange<physics::Stiffness> kSpringConstants{physics::Stiffness(1e-6), physics::Stiffness(1e6)};
 
 core::Result<curves::AnalysedCurve> load_analysed(const std::string& file, const curves::CurveReading& reading,
@@ -50,7 +50,8 @@ std::string contact_method_names() {
 
 enum class FileKind { Curve, Image, Session };
 
-// What analyse_curve_file() takes, in the words of help and messages; a file is what it begins as.
+// Kinds of file that analyse_curve_file() reads, with their names in help and messages. The first bytes decide the
+// kind.
 struct FileKindRow {
   FileKind kind;
   const char* word;
@@ -73,7 +74,7 @@ std::string known_files() {
   return text;
 }
 
-// An Igor file may be an image or a curve: an image is the more special.
+// An Igor file may hold an image or a curve: tries the image first, because its requirements are stricter.
 const FileKindRow* row_of(const std::string& file) {
   const auto found =
       std::find_if(kFileKinds.rbegin(), kFileKinds.rend(), [&](const FileKindRow& row) { return row.begins(file); });
@@ -87,7 +88,7 @@ core::Result<FileKind> kind_of(const std::string& file) {
                        fmt::format("cannot analyse {}: it is of no known kind; known are {}", file, known_files()));
 }
 
-// An option that is of use for one kind of file alone.
+// An option that applies to only one kind of file.
 struct OptionOfKind {
   Option option;
   const char* name;
@@ -104,7 +105,7 @@ core::Result<void> check_options(const std::string& file, const std::vector<Opti
   return {};
 }
 
-// They write into `options` while the parser lives.
+// The options write into `options` while the parser lives.
 std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions& options) {
   std::vector<OptionOfKind> added;
   const auto for_curves = [&added](const char* name, const Option& option) {

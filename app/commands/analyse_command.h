@@ -13,20 +13,20 @@ namespace afm::app {
 // Options of `touchafm analyse`; empty text: not given.
 struct AnalyseOptions {
   std::string file;
-  curves::CurveReading reading;                          // in place of what the file says
-  std::optional<physics::ContactMethod> contact_method;  // none: by the curve
-  std::string beside;                                    // another curve to compare with, measured or computed
+  curves::CurveReading reading;                          // overrides the file's own settings
+  std::optional<physics::ContactMethod> contact_method;  // empty: chosen from the curve
+  std::string beside;                                    // second curve for comparison, measured or computed
   bool json = false;
-  std::string out;      // an SVG of the curve, beside the text
-  std::string channel;  // of an image
+  std::string out;      // SVG of the curve, in addition to the text
+  std::string channel;  // name of an image's channel
   physics::Levelling levelling = physics::Levelling::Plane;
 };
 
-// "70nm/V" in metres per volt. WrongUsage: another text, or not positive.
+// Converts "70nm/V" to metres per volt. WrongUsage if the text is malformed or the value not positive.
 core::Result<double> parse_sensitivity(std::string_view text);
 
-// Reads, analyses, compares; prints the figures to stdout. Of an image, by the file's first bytes: size, channels and
-// statistics.
+// Reads, analyses and compares a curve; prints the figures to stdout. For an image, recognised by its first bytes,
+// prints size, channels and statistics.
 core::Result<void> analyse_curve_file(const AnalyseOptions& options);
 
 }  // namespace afm::app

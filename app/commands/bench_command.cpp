@@ -17,7 +17,7 @@
 namespace afm::app {
 namespace {
 
-// In the place of this program. Gives back why it could not be.
+// Replaces this process by the benchmark program. Returns only on failure, with the reason.
 core::Result<void> become_benchmarks(const std::string& program, bool as_json) {
   std::string path = std::filesystem::path(program).replace_filename("touchafm-bench").string();
   std::string json = "--json";

@@ -2,9 +2,14 @@
 #include "app/commands/curve_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include "app/options/command.h"
 #include "app/options/standard_output.h"
@@ -22,7 +27,27 @@ namespace {
 
 using core::wrong_usage;
 
-constexpr const char* kFormats = "csv, json, svg, tab, h5, afm-workshop";
+constexpr std::array kOwnFormats{"csv", "json", "svg"};  // the others are those of curve files
+
+std::vector<std::string> file_format_words() {
+  std::vector<std::string> words;
+  for (const curves::WritableFormat& row : curves::writable_formats()) words.emplace_back(row.word);
+  return words;
+}
+
+// The words after --format.
+std::vector<std::string> format_words() {
+  std::vector<std::string> words(kOwnFormats.begin(), kOwnFormats.end());
+  for (std::string& word : file_format_words()) words.push_back(std::move(word));
+  return words;
+}
+
+std::optional<curves::WritableFormat> file_format_of(std::string_view word) {
+  for (const curves::WritableFormat& row : curves::writable_formats()) {
+    if (row.word == word) return row;
+  }
+  return std::nullopt;
+}
 
 core::Result<std::string> output_format(const CurveOptions& options) {
   if (options.json && !options.format.empty() && options.format != "json") {
@@ -30,8 +55,8 @@ core::Result<std::string> output_format(const CurveOptions& options) {
   }
   if (options.json) return "json";
   if (!options.format.empty()) return options.format;
-  for (const char* ending : {"json", "svg", "tab", "h5"}) {
-    if (options.out.ends_with(fmt::format(".{}", ending))) return ending;
+  for (const std::string& word : format_words()) {
+    if (options.out.ends_with("." + word)) return word;
   }
   return "csv";
 }
@@ -40,8 +65,8 @@ core::Result<void> write_text(const std::string& text, const std::string& path) 
   return path.empty() ? write_stdout(text) : core::write_file(path, text);
 }
 
-// The measured curve on the model: its contact point where the model's is, its baseline at zero force. What an
-// instrument calls zero is no property of the contact.
+// Puts the measured curve on the model, with both contact points together and its baseline at zero force, because an
+// instrument's zero is not a property of the contact.
 core::Result<void> add_overlay(const std::string& file, const curves::CurveRun& run, curves::SvgPlot& plot) {
   auto recorded = curves::load_curve(file);
   if (!recorded) return tl::unexpected(recorded.error());
@@ -81,15 +106,20 @@ core::Result<std::string> curve_text(const CurveOptions& options, const curves::
     }
     return curves::svg(plot);
   }
-  const auto file_format = curves::writable_format(format);
-  if (!file_format) return wrong_usage(fmt::format("unknown format \"{}\"; choose {}", format, kFormats));
-  return curves::curve_bytes(*file_format, curves::recorded_curve(run));
+  const auto file_format = file_format_of(format);
+  if (!file_format) {
+    return wrong_usage(fmt::format("unknown format \"{}\"; choose {}", format, fmt::join(format_words(), ", ")));
+  }
+  return curves::curve_bytes(file_format->format, curves::recorded_curve(run));
 }
 
 core::Result<void> write_curve(const CurveOptions& options, const curves::ContactSetup& setup,
                                const std::string& format) {
   if (!options.overlay.empty() && format != "svg") return wrong_usage("--overlay needs a plot; add --format svg");
-  if (format == "h5" && options.out.empty()) return wrong_usage("--format h5 is binary; name a file with --out");
+  const auto file_format = file_format_of(format);
+  if (file_format && file_format->binary && options.out.empty()) {
+    return wrong_usage(fmt::format("--format {} is binary; name a file with --out", format));
+  }
   curves::PathOptions path = options.path;
   path.events_only = format == "json";
   const auto run = curves::run_curve(setup, path);
@@ -126,7 +156,7 @@ core::Result<void> write_sweep(const CurveOptions& options, const curves::Contac
       options.out);
 }
 
-// A number that is swept need not be given as well.
+// Sets each swept value to the sweep's first, so that the user need not give it as well.
 ContactOptions with_swept_values(ContactOptions contact, const std::vector<std::string>& sweeps) {
   for (const std::string& sweep : sweeps) {
     const std::size_t equals = sweep.find('='), colon = sweep.find(':');
@@ -192,9 +222,9 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
   command.add_flag("--json", options->json, "print the events in SI units as JSON instead of the samples");
   command
       .add_option("--format", options->format,
-                  std::string("csv, json, svg, tab or h5 (afmformats), or afm-workshop; default: from the ending of "
-                              "--out, otherwise csv"))
-      .one_of({"csv", "json", "svg", "tab", "h5", "afm-workshop"})
+                  fmt::format("{}, or for other programs {}; default: from the ending of --out, otherwise csv",
+                              fmt::join(kOwnFormats, ", "), fmt::join(file_format_words(), ", ")))
+      .one_of(format_words())
       .type_name("FORMAT");
   command
       .add_option("--overlay", options->overlay,

@@ -16,9 +16,10 @@ struct CurveOptions {
   curves::PathOptions path;
   std::vector<std::string> sweeps;  // "key=from:to:count"
   bool json = false;
-  std::string format;   // csv, json, svg, tab, h5, afm-workshop; empty: by the ending of `out`, else csv
-  std::string out;      // a file, or empty for stdout
-  std::string overlay;  // a measured curve, drawn over the model in an svg
+  // csv, json, svg or a word of curves::writable_formats(); empty: by the file extension of `out`, else csv
+  std::string format;
+  std::string out;      // output file; empty: stdout
+  std::string overlay;  // measured curve, drawn over the model in an SVG
 };
 
 // Computes the curve or the sweep and writes it; nothing is written if anything fails.

@@ -24,10 +24,10 @@
 #include "core/log.h"
 #include "curves/measured_material.h"
 #include "curves/sweep.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/shared_model.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/models/shared_model.h"
+#include "exhibit/models/topography_model.h"
 #include "exhibit/sound/session_sound.h"
-#include "exhibit/topography_model.h"
 #include "haptics/scaling.h"
 #include "haptics/simulated_device.h"
 #include "render/context.h"
@@ -38,7 +38,7 @@ namespace afm::app {
 
 namespace {
 
-// Fig. 5 is drawn larger than the live wall.
+// Fig. 5 is larger than the live wall's picture.
 constexpr std::uint32_t kFigureEyeWidth = 1440;
 constexpr std::uint64_t kMostVariations = 9;
 constexpr double kCommonPushM = 0.012;  // clear of the end of the workspace
@@ -54,14 +54,14 @@ struct DemoOptions {
   curves::ModelName model{.text = "paper"};
   scene::ScaleMode scale = scene::ScaleMode::Fit;
   physics::FrictionLaw friction = physics::FrictionLaw::None;
-  std::string probe;     // a lever and tip instead of the materials' own; empty: none
-  std::string measured;  // a curve file to be felt too; empty: none
-  bool sound = false;    // a file for each session
+  std::string probe;     // replaces the materials' lever and tip; empty: does not
+  std::string measured;  // additional curve file to feel; empty: none
+  bool sound = false;    // writes a sound file for each session
   SoundOptions sound_options;
   std::vector<std::string> vary;  // "spring-constant=0.1N/m:0.4N/m:3"
 };
 
-// On the common scale the sample lies lower.
+// Moves the path to the sample, which is lower on the common scale.
 input::HandPath on_scale(scene::ScaleMode scale, input::HandPath path) {
   if (scale == scene::ScaleMode::Common) {
     path.push_m = haptics::Scaling::common_zero_m(haptics::SimulatedDevice().spec()) - kCommonPushM;
@@ -71,7 +71,8 @@ input::HandPath on_scale(scene::ScaleMode scale, input::HandPath path) {
 
 void say(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
 
-// The curve file as one more material of the stage, on the lever of the first built-in one where it knows no better.
+// Loads the curve file as an additional material of the stage. Uses the lever of the first built-in material if the
+// file has none.
 core::Result<std::optional<curves::MeasuredMaterial>> load_measured(const DemoOptions& options) {
   if (options.measured.empty()) return std::nullopt;
   const auto library = scene::load_materials(options.files.assets_dir + "/materials.toml");
@@ -81,7 +82,7 @@ core::Result<std::optional<curves::MeasuredMaterial>> load_measured(const DemoOp
   return std::move(*measured);
 }
 
-// Each material with the probe under it, as it is asked to be felt.
+// A material as it will be felt, with the chosen probe.
 core::Result<curves::ContactSetup> setup_of(scene::MaterialEntry entry, const DemoOptions& options) {
   if (!options.probe.empty()) {
     const auto probes = scene::load_probes(options.files.assets_dir + "/probes.toml");
@@ -93,7 +94,7 @@ core::Result<curves::ContactSetup> setup_of(scene::MaterialEntry entry, const De
   return curves::ContactSetup{std::move(entry), {}, options.model, options.friction};
 }
 
-// The material once more for each value of each axis, titled with that value.
+// Copies of the material, one for each value of each varied parameter; the value is in the title.
 core::Result<std::vector<curves::SampleModel>> variations_of(const curves::SampleModel& material,
                                                              const DemoOptions& options) {
   std::vector<curves::SampleModel> variations;
@@ -320,7 +321,7 @@ core::Result<void> read_model(const std::string& text, DemoOptions& options) {
   return {};
 }
 
-// What is felt, and how.
+// Options for the samples and how they are felt.
 void add_sample_options(OptionList& command, DemoOptions& options, const CommandContext& context) {
   command
       .add_option("--material", options.files.shown,

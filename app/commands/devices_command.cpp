@@ -28,10 +28,10 @@ struct Row {
   const char* kind;
   std::string device;
   bool usable = false;
-  std::string detail;  // what it is, or why it cannot be used
+  std::string detail;  // description, or the reason why it is unusable
 };
 
-// A tracker sends at least 60 frames a second.
+// Long enough for a tracker, which sends at least 60 frames a second.
 constexpr std::int64_t kListenNs = 300'000'000;
 
 void look_for_hid_wands(const std::vector<input::HidMapping>& mappings, std::vector<Row>& rows) {
@@ -82,7 +82,7 @@ void look_for_monitors(std::vector<Row>& rows) {
   if (monitors->empty()) rows.push_back({"monitor", "any", false, "no monitor of this display is switched on"});
 }
 
-// Those that can connect the machines of a wall.
+// Lists the network interfaces that can connect the machines of a wall.
 void look_for_interfaces(std::vector<Row>& rows) {
   for (const cluster::NetworkInterface& one : cluster::network_interfaces()) {
     rows.push_back({"network", one.name, one.up,
@@ -91,7 +91,7 @@ void look_for_interfaces(std::vector<Row>& rows) {
   }
 }
 
-// Where wands and trackers are looked for.
+// Places to search for wands and trackers.
 struct WandPlaces {
   std::vector<input::HidMapping> mappings;
   input::DtrackSettings tracker;

@@ -10,18 +10,18 @@ namespace afm::app {
 
 enum class Verdict {
   Good,
-  Limited,  // TouchAFM works, and less well than it could
-  Missing,  // something that a person may want does not work
+  Limited,  // works, but not as well as it could
+  Missing,  // an optional feature does not work
 };
 
 struct Finding {
   std::string check;
   Verdict verdict = Verdict::Good;
   std::string found;
-  std::string fix;  // the fix: a command to type or an instruction; empty if good
+  std::string fix;  // command or instruction that fixes it; empty if good
 };
 
-// One finding a check, in a fixed order.
+// Returns one finding per check, in a fixed order.
 std::vector<Finding> diagnose(const MachineFacts& facts);
 
 const char* word(Verdict verdict);

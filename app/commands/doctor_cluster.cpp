@@ -16,20 +16,19 @@
 #include "app/commands/findings_json.h"
 #include "cluster/clock_offset.h"
 #include "cluster/master_link.h"
-#include "core/interruption.h"
 #include "core/percentiles.h"
 #include "core/printable.h"
 #include "exhibit/cluster/frame_inputs.h"
 #include "exhibit/cluster/wall_history.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/recorded_wall.h"
 
 namespace afm::app {
 
 namespace {
 
 constexpr auto kBetweenFrames = std::chrono::milliseconds(50);
-constexpr std::size_t kEnoughAnswers = 10;  // of each node
-constexpr double kSlowRoundMs = 5.0;        // of an idle network
+constexpr std::size_t kEnoughAnswers = 10;  // needed from each node
+constexpr double kSlowRoundMs = 5.0;        // limit for an idle network
 
 struct NodeAnswers {
   std::optional<cluster::ReadyMessage> newest;
@@ -46,7 +45,7 @@ struct NodeAnswers {
   }
 };
 
-// The frames of a wall at rest, until every node has answered often enough.
+// Sends frames of a wall at rest until every node has answered often enough.
 std::vector<NodeAnswers> ask_nodes(cluster::MasterLink& link, const exhibit::Stage& stage, double seconds,
                                    const core::Clock& clock) {
   std::vector<NodeAnswers> nodes(stage.wall.nodes.size());
@@ -58,7 +57,7 @@ std::vector<NodeAnswers> ask_nodes(cluster::MasterLink& link, const exhibit::Sta
   frame.view.ipd_m = frame.view.drawn_ipd_m = stage.wall.viewers.front().ipd_m;
   const std::int64_t until_ns = clock.now_ns() + static_cast<std::int64_t>(seconds * 1e9);
   std::uint64_t number = 0;
-  while (clock.now_ns() < until_ns && !core::interrupted()) {
+  while (clock.now_ns() < until_ns) {
     link.send(++number, frame);
     std::this_thread::sleep_for(kBetweenFrames);
     bool wanted = false;
@@ -131,7 +130,6 @@ void print_findings(const std::vector<Finding>& findings, bool as_json) {
 }  // namespace
 
 core::Result<void> examine_cluster(const CommandContext& context, const ClusterCheck& check) {
-  const core::OrderlyEnd by_itself;
   const core::MonotonicClock clock;
   exhibit::ExhibitFiles files = check.files;
   files.wall = check.wall;

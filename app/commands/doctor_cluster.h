@@ -9,15 +9,15 @@
 namespace afm::app {
 
 struct ClusterCheck {
-  std::string wall;  // a file
+  std::string wall;  // path of the wall file
   ClusterOptions cluster;
   exhibit::ExhibitFiles files;
-  double seconds = 20;  // for the nodes to answer
+  double seconds = 20;  // longest wait for the nodes' answers
   bool json = false;
 };
 
-// Plays the machine with the hand: checks interface, hosts and network, and asks every node of the wall who it is.
-// Prints a line for each check, and fails if the wall would not be whole.
+// Acts as the machine with the hand: checks interface, hosts and network, and asks every node of the wall to identify
+// itself. Prints a line for each check. Fails if a part of the wall would be missing.
 core::Result<void> examine_cluster(const CommandContext& context, const ClusterCheck& check);
 
 }  // namespace afm::app

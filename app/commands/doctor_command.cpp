@@ -29,15 +29,15 @@ constexpr double kDefaultSeconds = 2.0;
 constexpr double kShortest = 0.1;
 constexpr double kLongest = 600.0;
 
-// What a lab asks of its machine: of the servo itself, over a minute.
+// Requirements on the servo of a lab machine, over a minute.
 constexpr double kLabSeconds = 60.0;
-constexpr double kLabLateness_us = 200.0;  // for 99.9 % of the ticks
+constexpr double kLabLateness_us = 200.0;  // limit for 99.9 % of the ticks
 
 struct DoctorOptions {
   double seconds = kDefaultSeconds;
   bool lab = false;
   bool json = false;
-  std::string bundle;  // a file for a fault report; empty: none
+  std::string bundle;  // file for a fault report; empty: none
 };
 
 // Rows of the printed histogram, microseconds; the last one is open.
@@ -53,7 +53,7 @@ std::string histogram(const char* what, std::span<const std::uint32_t> late_us, 
     const auto end = last ? late_us.end() : late_us.begin() + to_us;
     const std::uint64_t ticks = std::accumulate(begin, end, std::uint64_t{0});
     const double share = static_cast<double>(ticks) / static_cast<double>(std::max<std::uint64_t>(1, all));
-    // a bar for every row that is not empty
+    // at least one character for every row with ticks
     const auto bar = static_cast<std::size_t>(ticks == 0 ? 0.0 : std::max(1.0, kBarLength * share));
     const std::string range = last ? fmt::format("{} and more", from_us) : fmt::format("{} to {}", from_us, to_us);
     text += fmt::format("{:>13} \u00b5s {:>9}  {}\n", range, ticks, std::string(bar, '#'));
@@ -88,7 +88,7 @@ std::string json(const MachineFacts& facts, const std::vector<Finding>& findings
   return root.dump() + "\n";
 }
 
-// The real servo, with the simulated hand.
+// Runs the real servo with the simulated hand.
 core::Result<void> examine_servo(const std::string& program, bool as_json) {
   core::log_line(fmt::format("running the servo for {} s", kLabSeconds));
   const auto wake = measure_servo_wake(program, kLabSeconds);

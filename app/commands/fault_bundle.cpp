@@ -2,17 +2,16 @@
 #include "app/commands/fault_bundle.h"
 
 #include <fmt/format.h>
-#include <pwd.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <fstream>
-#include <sstream>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "app/commands/private_words.h"
 #include "core/printable.h"
 #include "core/version.h"
 
@@ -20,30 +19,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::size_t kShortestName = 3;
-
-bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
-void replace_word(std::string& text, const std::string& word, std::string_view by) {
-  if (word.size() < kShortestName) return;
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at)) {
-    const std::size_t end = at + word.size();
-    const bool whole = (at == 0 || !in_word(text[at - 1])) && (end == text.size() || !in_word(text[end]));
-    if (whole) text.replace(at, word.size(), by);
-    at += whole ? by.size() : word.size();
-  }
-}
-
-// /home/NAME of any user.
-void replace_homes(std::string& text) {
-  constexpr std::string_view kHomes = "/home/";
-  for (std::size_t at = text.find(kHomes); at != std::string::npos; at = text.find(kHomes, at)) {
-    const std::size_t end = text.find_first_of("/ \t\n\"':,;)", at + kHomes.size());
-    text.replace(at, std::min(end, text.size()) - at, "~");
-  }
-}
-
-// The value behind the first line of a file that begins with `key`, without quotes.
+// Value in the first line of the file that begins with `key`, without quotes.
 std::string line_of(const char* path, std::string_view key) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
@@ -64,31 +40,18 @@ std::string nodes_text(const char* what, const std::vector<DeviceNode>& nodes) {
   return text;
 }
 
+// Names of the devices that were found, as a line has them before its figures.
+std::vector<std::string> names_of(const std::vector<haptics::ProbeLine>& lines) {
+  std::vector<std::string> names;
+  for (const haptics::ProbeLine& line : lines) {
+    const std::string said = core::printable(line.said);
+    const std::size_t end = said.find(": ");
+    if (line.usable && end != std::string::npos && end > 0) names.push_back(said.substr(0, end));
+  }
+  return names;
+}
+
 }  // namespace
-
-PrivateWords private_words() {
-  PrivateWords secrets;
-  // NOLINTNEXTLINE(concurrency-mt-unsafe): the command has no other thread that asks
-  if (const passwd* const user = ::getpwuid(::getuid()); user != nullptr) {
-    secrets.home = user->pw_dir;
-    if (::getuid() != 0) secrets.user = user->pw_name;
-  }
-  utsname names{};
-  if (::uname(&names) == 0) secrets.host = names.nodename;
-  return secrets;
-}
-
-std::string without(const PrivateWords& secrets, std::string text) {
-  if (secrets.home.size() >= kShortestName) {
-    for (std::size_t at = text.find(secrets.home); at != std::string::npos; at = text.find(secrets.home, at + 1)) {
-      text.replace(at, secrets.home.size(), "~");
-    }
-  }
-  replace_homes(text);
-  replace_word(text, secrets.user, "USER");
-  replace_word(text, secrets.host, "HOST");
-  return text;
-}
 
 std::string fault_bundle(const MachineFacts& facts, const std::string& findings) {
   utsname machine{};
@@ -97,8 +60,8 @@ std::string fault_bundle(const MachineFacts& facts, const std::string& findings)
       "TouchAFM fault report\n"
       "=====================\n\n"
       "Please add: what you did, what you saw, what you expected, and everything that touchafm printed.\n"
-      "This report leaves out the names of people, of this computer and of home folders. Read it before you send "
-      "it.\n\n");
+      "This report leaves out the names of people and computers, of folders that are not the system's, and of devices "
+      "beyond their model. Read it before you send it.\n\n");
   text += fmt::format("touchafm {}\ncompiler: {}\nsystem: {}, {}\nkernel: {}\nprocessor: {}, {} in use\nmemory: {}\n",
                       core::kVersion, __VERSION__, line_of("/etc/os-release", "PRETTY_NAME"), machine.machine,
                       facts.kernel, line_of("/proc/cpuinfo", "model name"), ::sysconf(_SC_NPROCESSORS_ONLN),
@@ -116,6 +79,13 @@ std::string fault_bundle(const MachineFacts& facts, const std::string& findings)
                         core::printable(line.said));
   }
   text += "\nFindings of touchafm doctor\n---------------------------\n" + findings;
+  for (const std::string& name : names_of(facts.haptics)) {
+    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at)) {
+      const std::string model = model_of(name);
+      text.replace(at, name.size(), model);
+      at += model.size();
+    }
+  }
   return without(private_words(), std::move(text));
 }
 

@@ -71,17 +71,18 @@ core::Result<scene::MaterialLibrary> load_library(const exhibit::ExhibitFiles& f
   return library;
 }
 
-// What is wrong with a lesson's materials, with the file that names them.
+// Adds the name of the lesson file to an error in its materials.
 core::Error of_lesson_file(const LessonOptions& options, const core::Error& error) {
   return {core::ErrorCategory::BadInputFile, fmt::format("lesson file {}: {}", options.lesson, error.message)};
 }
 
-// A lesson's own numbers: the same for a code, whatever was done before. Readers of JSON hold integers of 53 bits.
+// Seed for a participant's lesson, always the same for the same code. Fits into 53 bits, the integers that every JSON
+// reader holds exactly.
 std::uint64_t seed_of(const std::string& code, const exhibit::Lesson& lesson) {
   return core::fnv1a(code + "/" + lesson.id) >> 11U;
 }
 
-// Without a window and in simulated time.
+// Runs the lesson without a window, in simulated time.
 core::Result<void> run_simulated(const LessonOptions& options) {
   const auto participant =
       exhibit::SimulatedParticipant::parse(std::string_view(options.participant).substr(kSimulated.size()));
@@ -114,13 +115,13 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   return {};
 }
 
-// A folder without files, as a participant who does not take part leaves it.
+// Removes a folder that a participant who declined has left without files.
 void remove_empty(const std::string& folder) {
   std::error_code not_empty;
   std::filesystem::remove(folder, not_empty);
 }
 
-// In the live window.
+// Runs the lesson in the live window.
 core::Result<void> run_live(const LessonOptions& options, const std::string& program) {
   auto lesson = exhibit::load_lesson(options.lesson);
   if (!lesson) return tl::unexpected(lesson.error());

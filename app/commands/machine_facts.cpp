@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/commands/machine_facts.h"
 
+#include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>
@@ -12,6 +13,7 @@
 #include <string_view>
 
 #include "app/headset/headset_runtime.h"
+#include "render/saver_inhibition.h"
 #include "servo/haptic_choice.h"
 #include "servo/servo_client.h"
 
@@ -79,6 +81,12 @@ MachineFacts look_at_machine(const core::Clock& clock, const std::string& progra
     facts.graphics_refusal = graphics.error().message;
   }
   facts.display = display();
+  if (!facts.display.empty()) {
+    const render::SaverInhibition saver;
+    facts.saver = fmt::format("X's screen saver: {}; org.freedesktop.ScreenSaver: {}", saver.x_server().said,
+                              saver.session().said);
+    facts.saver_stays_off = saver.works();
+  }
   facts.headset_manifest = headset_manifest();
   if (!facts.headset_manifest.empty()) {
     const auto headset = find_headset();
@@ -91,7 +99,10 @@ MachineFacts look_at_machine(const core::Clock& clock, const std::string& progra
   facts.haptics = haptics::probe_devices(servo::environment());
 
   facts.servo_program = std::filesystem::path(program).replace_filename("touchafm-servo").string();
-  facts.servo_program_runs = ::access(facts.servo_program.c_str(), X_OK) == 0;
+  for (const char* name : {"touchafm-guard", "touchafm-servo"}) {
+    const std::string path = std::filesystem::path(program).replace_filename(name).string();
+    if (::access(path.c_str(), X_OK) != 0) facts.missing_program = path;
+  }
   return facts;
 }
 

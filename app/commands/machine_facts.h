@@ -14,28 +14,30 @@ namespace afm::app {
 // A device file in /dev.
 struct DeviceNode {
   std::string path;
-  bool accessible = false;  // for reading and writing, by this user
+  bool accessible = false;  // the current user may read and write it
 };
 
 // Facts about this machine, without a verdict.
 struct MachineFacts {
-  std::string kernel;  // release, and how far it can be preempted
+  std::string kernel;  // release and preemption model
   std::uint64_t priority_limit = 0;
   std::optional<std::uint64_t> locked_memory_limit_bytes;  // empty: unlimited
   bool pages_can_be_locked = false;
   SchedulingLatency jitter;
   std::vector<render::DeviceDescription> graphics;
-  std::string graphics_refusal;  // why there are none
-  std::string display;           // empty: none
-  std::string headset_manifest;  // of OpenXR's runtime; empty: none is installed
-  std::string headset;           // what the runtime says; empty: it does not answer
-  std::string headset_refusal;   // then why not
+  std::string graphics_refusal;  // reason why there are none
+  std::string display;           // name; empty: none
+  std::string saver;             // ways to keep the screen saver off while a window is open
+  bool saver_stays_off = false;
+  std::string headset_manifest;  // file of the OpenXR runtime; empty: none is installed
+  std::string headset;           // description by the runtime; empty: it does not answer
+  std::string headset_refusal;   // reason if it does not answer
   std::vector<DeviceNode> render_nodes;
   std::vector<DeviceNode> hid_nodes;
   std::vector<DeviceNode> serial_nodes;
   std::vector<haptics::ProbeLine> haptics;
   std::string servo_program;
-  bool servo_program_runs = false;  // is there and may be executed
+  std::string missing_program;  // servo or watchdog, if it cannot be run; empty: none is missing
 };
 
 // Examines the machine; takes slightly longer than `jitter_seconds`. `program` is the running touchafm.

@@ -65,7 +65,7 @@ core::Result<std::shared_ptr<const physics::LawTables>> tables_of(const curves::
   }
 }
 
-// Every known material and probe with its chief numbers, a line each.
+// One line for every known material and probe, with its main values.
 core::Result<std::string> material_list(const ContactOptions& options) {
   const auto materials = load_materials(options);
   if (!materials) return tl::unexpected(materials.error());
@@ -90,8 +90,8 @@ core::Result<std::string> material_list(const ContactOptions& options) {
   return text;
 }
 
-// One contact for people: each number with its source, the place on the adhesion map, the law and why, and the
-// figures of a cycle.
+// Describes one contact: each value with its source, its position on the adhesion map, the law and why it was chosen,
+// and the figures of a cycle.
 core::Result<std::string> material_text(const curves::ContactSetup& setup) {
   const auto tables = tables_of(setup);
   if (!tables) return tl::unexpected(tables.error());

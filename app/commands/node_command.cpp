@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "app/cluster/cluster_start.h"
 #include "app/cluster/node_view.h"
@@ -31,12 +32,12 @@ namespace {
 struct NodeOptions {
   std::string name;
   std::string interface_address;
-  std::string master;  // host; empty: found by multicast
+  std::string master;  // host name; empty: found by multicast
   std::uint32_t domain = cluster::ClusterNetwork::kUsualDomain;
   DisplayOptions display;
 };
 
-// For the texts of the master's files, gone with this object.
+// A temporary folder for the texts of the master's files, removed by the destructor.
 class PrivateFolder {
  public:
   static core::Result<std::unique_ptr<PrivateFolder>> create() {
@@ -69,7 +70,7 @@ core::Result<cluster::ClusterNetwork> node_network(const NodeOptions& options) {
     if (!address) return tl::unexpected(address.error());
     network.peers.push_back(std::move(*address));
   } else if (!found->multicast) {
-    network.peers.push_back(found->address);  // the loopback interface: all on one machine
+    network.peers.push_back(found->address);  // the loopback interface: all nodes on one machine
   }
   return network;
 }
@@ -83,7 +84,7 @@ core::Result<std::uint32_t> place_of(const std::string& name, const scene::Wall&
   return core::wrong_usage(fmt::format("the master's wall has no node \"{}\"; choose from: {}", name, list));
 }
 
-// The master hears why, before this program ends.
+// Reports the reason to the master before this program ends.
 core::Error refuse(cluster::NodeLink& link, const cluster::ClusterHeader& header, std::uint32_t node,
                    cluster::NodeState state, std::uint64_t here, std::uint64_t there) {
   constexpr auto kToBeSent = std::chrono::milliseconds(500);
@@ -100,17 +101,21 @@ core::Error refuse(cluster::NodeLink& link, const cluster::ClusterHeader& header
 }
 
 struct NodeStage {
-  std::uint32_t node = 0;  // its place in the wall
+  cluster::NodeLink::Document document;
+  std::uint32_t node = 0;  // its index in the wall
+  exhibit::WallModel model;
   exhibit::Stage stage;
+  std::vector<curves::SampleModel> materials;
 };
 
-// The master's files are gone from the disk when this returns: a node that is killed while it shows them leaves none.
-core::Result<NodeStage> load_stage(const std::string& name, const cluster::ClusterHeader& header,
-                                   const exhibit::WallModel& model, const CommandContext& context,
-                                   cluster::NodeLink& link) {
+// Deletes the master's files from the disk before it returns, so that a node killed while it shows them leaves none.
+core::Result<std::unique_ptr<NodeStage>> load_stage(const std::string& name, cluster::NodeLink::Document document,
+                                                    const CommandContext& context, cluster::NodeLink& link) {
+  auto model = exhibit::read_wall_model(document.bytes);
+  if (!model) return tl::unexpected(model.error());
   const auto folder = PrivateFolder::create();
   if (!folder) return tl::unexpected(folder.error());
-  const auto files = exhibit::unpack(model, context.assets_dir, (*folder)->path());
+  const auto files = exhibit::unpack(*model, context.assets_dir, (*folder)->path());
   if (!files) return tl::unexpected(files.error());
   const auto wall = scene::load_wall(files->wall);
   if (!wall) return tl::unexpected(wall.error());
@@ -118,45 +123,55 @@ core::Result<NodeStage> load_stage(const std::string& name, const cluster::Clust
   if (!node) return tl::unexpected(node.error());
   const auto build = exhibit::build_digest(context.program_path);
   if (!build) return tl::unexpected(build.error());
-  if (*build != model.build) {
-    return tl::unexpected(refuse(link, header, *node, cluster::NodeState::OtherBuild, *build, model.build));
+  if (*build != model->build) {
+    return tl::unexpected(refuse(link, document.header, *node, cluster::NodeState::OtherBuild, *build, model->build));
   }
   auto stage = exhibit::load_exhibit(*files);
   if (!stage) return tl::unexpected(stage.error());
-  if (const std::uint64_t here = scene::digest(stage->wall_scene.scene()); here != model.scene) {
-    return tl::unexpected(refuse(link, header, *node, cluster::NodeState::OtherScene, here, model.scene));
+  if (const std::uint64_t here = scene::digest(stage->wall_scene.scene()); here != model->scene) {
+    return tl::unexpected(refuse(link, document.header, *node, cluster::NodeState::OtherScene, here, model->scene));
   }
+  auto materials = felt_samples(*stage, model->friction);
+  if (!materials) return tl::unexpected(materials.error());
   scene::keep_outputs_of(*node, stage->wall);
-  return NodeStage{*node, std::move(*stage)};
+  return std::make_unique<NodeStage>(
+      NodeStage{std::move(document), *node, std::move(*model), std::move(*stage), std::move(*materials)});
 }
 
-// Shows one wall; the description of the next one, if a master has another.
-core::Result<std::optional<cluster::NodeLink::Document>> show_wall(const NodeOptions& options,
-                                                                   const cluster::NodeLink::Document& document,
-                                                                   const CommandContext& context,
-                                                                   cluster::NodeLink& link, const core::Clock& clock) {
-  const auto model = exhibit::read_wall_model(document.bytes);
-  if (!model) return tl::unexpected(model.error());
-  auto loaded = load_stage(options.name, document.header, *model, context, link);
-  if (!loaded) return tl::unexpected(loaded.error());
-  exhibit::Stage& stage = loaded->stage;
-  const auto materials = felt_samples(stage, model->friction);
-  if (!materials) return tl::unexpected(materials.error());
+// Shows one wall. Returns the next one if a master has another. A description that cannot be loaded ends nothing here,
+// and `earlier`, the wall before, is forgotten once this one's windows are open.
+core::Result<std::unique_ptr<NodeStage>> show_wall(const NodeOptions& options, NodeStage& shown,
+                                                   std::unique_ptr<NodeStage>& earlier, const CommandContext& context,
+                                                   cluster::NodeLink& link, const core::Clock& clock) {
   DisplayOptions display_options = options.display;
-  display_options.picture = model->picture;
-  display_options.contrast = model->contrast;
+  display_options.picture = shown.model.picture;
+  display_options.contrast = shown.model.contrast;
   display_options.swap = render::Swap::WithOthers;
-  auto display = ViewDisplay::open(stage, display_options, nullptr, clock);
+  auto display = ViewDisplay::open(shown.stage, display_options, nullptr, clock);
   if (!display) return tl::unexpected(display.error());
+  earlier.reset();
   core::log_line(
-      fmt::format("cluster: node {} of the wall, {} of its outputs", options.name, stage.wall.outputs.size()));
-  NodeView view(stage, *materials, **display, link,
-                {.node = loaded->node, .session = document.header.session, .model = document.bytes}, key_list, clock);
+      fmt::format("cluster: node {} of the wall, {} of its outputs", options.name, shown.stage.wall.outputs.size()));
+  NodeView view(shown.stage, shown.materials, **display, link,
+                {.node = shown.node, .session = shown.document.header.session, .model = shown.document.bytes}, key_list,
+                clock);
+  std::unique_ptr<NodeStage> next;
+  const auto prepare = [&](const cluster::NodeLink::Document& other) {
+    auto loaded = load_stage(options.name, other, context, link);
+    if (!loaded) {
+      core::log_line(fmt::format("cluster: another wall was announced, but cannot be shown: {}; this one goes on",
+                                 loaded.error().message));
+      return false;
+    }
+    next = std::move(*loaded);
+    return true;
+  };
   try {
-    return view.run();
+    view.run(prepare);
   } catch (const render::DeviceFailure& failure) {
     return core::failure(core::ErrorCategory::Failed, failure.what());
   }
+  return next;
 }
 
 core::Result<void> run_node(const NodeOptions& options, const CommandContext& context) {
@@ -169,17 +184,28 @@ core::Result<void> run_node(const NodeOptions& options, const CommandContext& co
   if (!link) return tl::unexpected(link.error());
   core::log_line(fmt::format("cluster: node {} waits for the machine with the hand on {}, domain {}", options.name,
                              network->interface_address, network->domain));
-  std::optional<cluster::NodeLink::Document> document;
+  std::unique_ptr<NodeStage> shown, earlier;
   while (!core::interrupted()) {
-    if (!document) document = (*link)->model();
-    if (!document) {
-      (*link)->wait(50);
+    if (!shown) {
+      auto document = (*link)->model();
+      if (!document) {
+        (*link)->wait(50);
+        continue;
+      }
+      auto loaded = load_stage(options.name, std::move(*document), context, **link);
+      if (!loaded) return tl::unexpected(loaded.error());
+      shown = std::move(*loaded);
+    }
+    auto next = show_wall(options, *shown, earlier, context, **link, clock);
+    if (!next && earlier) {
+      core::log_line(fmt::format("cluster: the next wall cannot be shown here: {}; showing the one before again",
+                                 next.error().message));
+      shown = std::move(earlier);
       continue;
     }
-    auto next = show_wall(options, *document, context, **link, clock);
     if (!next) return tl::unexpected(next.error());
     if (!*next) return {};
-    document = std::move(*next);
+    earlier = std::exchange(shown, std::move(*next));
   }
   return {};
 }

@@ -18,13 +18,13 @@
 #include "app/options/pixel_size_option.h"
 #include "app/view/view_panels.h"
 #include "core/log.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/model_view.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/frame/recorded_wall.h"
+#include "exhibit/frame/wall_drawing.h"
+#include "exhibit/models/model_view.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
-#include "exhibit/wall_drawing.h"
 #include "render/context.h"
 #include "servo/session_file.h"
 
@@ -34,10 +34,10 @@ namespace {
 
 struct RenderOptions {
   std::string session;
-  std::optional<double> journey_orders;  // instead of a session
-  std::string material = "mica";         // of the journey
+  std::optional<double> journey_orders;  // drawn instead of a session
+  std::string material = "mica";         // material of the journey
   bool analogy = false;
-  exhibit::ModelChoice model;  // instead of both
+  exhibit::ModelChoice model;  // drawn instead of session or journey
   bool describe = false;
   bool json = false;
   std::string out;
@@ -46,7 +46,7 @@ struct RenderOptions {
   exhibit::ExhibitFiles files;
 };
 
-// The wall as it was, as far as the session records it: the paper's three materials together, any other one alone.
+// The wall as far as the session records it: the paper's three materials together, any other material by itself.
 exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::ExhibitFiles files) {
   const auto& paper = scene::kPaperMaterials;
   if (!session.wall.empty() && files.shown.empty()) files.shown = session.shown;
@@ -65,7 +65,7 @@ exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::
   return files;
 }
 
-// Width to height of an eye's picture, where the size is given: the paper's wall takes them on, so that nothing is
+// Width to height of an eye's picture if the size is given. The paper's wall takes this ratio, so that nothing is
 // stretched.
 std::optional<double> aspect_of(const exhibit::PictureOptions& picture, scene::StereoMode usual) {
   if (!picture.size_px || picture.size_px->x == 0 || picture.size_px->y == 0) return std::nullopt;
@@ -90,7 +90,7 @@ core::Result<void> draw(
 }
 
 core::Result<void> run_journey(const RenderOptions& options) {
-  // the option's range lets what is no number pass
+  // the option's range check lets NaN through
   if (!std::isfinite(*options.journey_orders)) {
     return core::failure(core::ErrorCategory::WrongUsage,
                          fmt::format("--journey: {:g} is outside the journey; give 0 to {:g}", *options.journey_orders,
@@ -146,7 +146,7 @@ core::Result<void> run_model(const RenderOptions& options) {
   return exhibit::write_wall(pictures, options.out);
 }
 
-// The head, the eyes and the mode that the frame was drawn for, as far as the user does not say others.
+// Sets head, eyes and mode of the recorded frame, unless the user overrides them.
 void look_as(const servo::WallFrame& frame, scene::Wall& wall, exhibit::PictureOptions& picture) {
   wall.viewers.front().sweet_spot = exhibit::head_of(frame.head);
   if (!picture.ipd_m) picture.ipd_m = frame.ipd_m;
@@ -159,7 +159,7 @@ void look_as(const servo::WallFrame& frame, scene::Wall& wall, exhibit::PictureO
   }
 }
 
-// The frame that was on the live wall.
+// Draws the frame as it was on the live wall.
 core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::SampleModel>& models,
                               const servo::RecordedSession& session, std::int64_t time_ns,
                               const RenderOptions& options) {
@@ -202,7 +202,7 @@ core::Result<void> run_render(const RenderOptions& options) {
   const auto seen = scene::parse_stereo_mode(session->wall.empty() ? "" : session->wall.front().stereo);
   files.aspect = aspect_of(options.picture, seen.value_or(scene::StereoMode::SideBySide));
   auto stage = exhibit::load_exhibit(files);
-  if (!stage && stage.error().category == core::ErrorCategory::WrongUsage) {  // of the materials that it names
+  if (!stage && stage.error().category == core::ErrorCategory::WrongUsage) {  // unusable materials in the session file
     return core::failure(core::ErrorCategory::BadInputFile,
                          fmt::format("session file {}: {}", options.session, stage.error().message));
   }
@@ -227,7 +227,7 @@ core::Result<void> run_render(const RenderOptions& options) {
     models.push_back(std::move(*one));
   }
   const double length_s = session->seconds_since_start(session->samples.back().time_ns);
-  constexpr double kRoundingS = 0.0005;  // of the length as it is printed
+  constexpr double kRoundingS = 0.0005;  // rounding of the printed length
   if (!(options.at_s >= 0.0 && options.at_s <= length_s + kRoundingS)) {
     return core::failure(
         core::ErrorCategory::WrongUsage,
@@ -246,7 +246,7 @@ core::Result<void> run_render(const RenderOptions& options) {
   return draw(*stage, models, moment, options.picture, options.out);
 }
 
-// What is said of a model.
+// Options for drawing a model.
 void add_model_options(OptionList& command, const Option& gltf, RenderOptions& options) {
   exhibit::ModelChoice& model = options.model;
   command.add_option("--camera", model.camera, "name of a camera in the model, or auto for a view of the whole model")

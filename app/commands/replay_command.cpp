@@ -24,7 +24,7 @@ struct ReplayOptions {
   std::string session;
   servo::ReplayRange range;
   bool json = false;
-  std::string sound;  // a file; empty: none is written
+  std::string sound;  // file; empty: none is written
   SoundOptions sound_options;
 };
 

@@ -20,7 +20,7 @@
 #include "core/log.h"
 #include "core/whole_file.h"
 #include "curves/image_output.h"
-#include "exhibit/image_picture.h"
+#include "exhibit/scan/image_picture.h"
 #include "physics/imaging/scan_artefact.h"
 #include "physics/imaging/scan_truth.h"
 #include "render/image_file.h"
@@ -34,7 +34,7 @@ using physics::ScanImage;
 constexpr std::array kAngles{physics::Unit{"deg", 180.0 / std::numbers::pi, true}};
 constexpr physics::Units kAngleUnits{"an angle", kAngles};
 constexpr int kFewestPixels = 2;
-constexpr std::size_t kManyLines = 1024;  // a scan of so many takes seconds, and says how far it is
+constexpr std::size_t kManyLines = 1024;  // scans with at least this many lines take seconds and report progress
 
 struct DirectionName {
   const char* name;
@@ -43,7 +43,7 @@ struct DirectionName {
 constexpr std::array kDirections{DirectionName{"down", physics::SlowDirection::Down},
                                  DirectionName{"up", physics::SlowDirection::Up}};
 
-// An image and what became of it.
+// An image, its settings, and the lines with each detected artefact.
 struct Scan {
   ScanImage image;
   physics::ScanSettings settings;
@@ -245,7 +245,7 @@ void add_area_options(OptionList& command, ScanOptions& options) {
 void add_setting_options(OptionList& command, ScanOptions& options) {
   const physics::ScanSettings usual;
   for (const physics::ScanField& field : physics::kScanFields) {
-    // the contact's options have it
+    // already an option of the contact
     if (curves::find_contact_parameter(field.option) != nullptr) continue;
     const bool of_material = field.name == "adhesion" || field.name == "snap_in";
     const QuantityDomain domain{field.units->sort, field.units->units,

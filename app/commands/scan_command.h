@@ -17,22 +17,22 @@ namespace afm::app {
 // Options of `touchafm scan`; empty text and zero: not given.
 struct ScanOptions {
   ContactOptions contact;
-  physics::Length size;  // zero: of the drawn sample
+  physics::Length size;  // zero: the size of the drawn sample
   std::size_t pixels = 256;
   physics::Length x_centre, y_centre;
   physics::SlowDirection direction = physics::SlowDirection::Down;
   physics::Feedback feedback = physics::Feedback::On;
-  std::vector<std::pair<const physics::ScanField*, double>> settings;  // given ones, in SI
-  physics::TipShape tip;  // its radius is that of the contact, its second apex that of the settings
+  std::vector<std::pair<const physics::ScanField*, double>> settings;  // explicitly given settings, in SI
+  physics::TipShape tip;  // without radius and second apex, which come from contact and settings
   std::uint32_t seed = 1;
   bool show_truth = false;
   bool json = false;
-  std::string channel;  // empty: all of them, in a .gsf the height
+  std::string channel;  // empty: all channels, or the height in a .gsf
   std::string out;
   std::string picture;
 };
 
-// Scans, then writes. Each file is whole or absent.
+// Scans, then writes. Each file is written completely or not at all.
 core::Result<void> write_scan_command(const ScanOptions& options);
 
 }  // namespace afm::app

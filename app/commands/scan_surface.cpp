@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "curves/sample_model.h"
-#include "exhibit/drawn_surface.h"
+#include "exhibit/models/drawn_surface.h"
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
 #include "physics/imaging/morphology.h"

@@ -4,16 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "app/commands/view_people.h"
 #include "app/headset/headset_runtime.h"
 #include "app/lesson/live_lesson.h"
 #include "app/live/live_window.h"
+#include "app/live/view_keys.h"
 #include "app/options/command.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
@@ -21,26 +21,24 @@
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"
-#include "app/view/speech_choice.h"
 #include "core/exit_code.h"
 #include "core/interruption.h"
 #include "core/log.h"
 #include "curves/sample_model.h"
 #include "exhibit/lesson/lesson_samples.h"
-#include "exhibit/shared_model.h"
-#include "exhibit/topography_model.h"
+#include "exhibit/models/shared_model.h"
+#include "exhibit/models/topography_model.h"
 #include "render/context.h"
 #include "render/monitor.h"
 #include "servo/haptic_choice.h"
 #include "servo/keep_running.h"
-#include "servo/session_file.h"
 
 namespace afm::app {
 
 namespace {
 
 constexpr std::uint32_t kSmallestWindow = 64, kLargestWindow = 16384;
-constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // a second; the servo lets go after 250 ms of silence
+constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // per second; below 4 the servo trips
 
 constexpr QuantityRange kForceLimits{physics::Force(haptics::kLeastForceLimitN), physics::Force(2.0)};
 
@@ -52,41 +50,7 @@ core::Result<void> check_validation(render::Context& context) {
                        fmt::format("the Vulkan validation layer reported {} messages; see above", messages.size()));
 }
 
-// Name of the controls of a device that a real hand moves.
-exhibit::HandControls controls_of(const servo::HapticChoice& choice) {
-  using exhibit::HandControls;
-  static constexpr std::array<std::pair<std::string_view, HandControls>, 3> kControls{
-      {{"hdapi", HandControls::Pen}, {"haply", HandControls::Grip}, {"gamepad", HandControls::Gamepad}}};
-  if (!choice.replay_file.empty()) return HandControls::Simulated;
-  if (choice.device == nullptr) return HandControls::Device;
-  const auto* known = std::find_if(kControls.begin(), kControls.end(),
-                                   [&](const auto& row) { return row.first == choice.device->word; });
-  return known == kControls.end() ? HandControls::Device : known->second;
-}
-
-// Selects who moves a simulated hand, and the settings under which a recorded hand is played.
-core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& device, ViewSettings& settings) {
-  const auto choice = servo::parse_haptic_choice(device);
-  if (!choice) return tl::unexpected(choice.error());
-  if (choice->person == servo::HapticChoice::Person::Simulated) settings.hand = HandSource::Simulated;
-  settings.device_controls = controls_of(*choice);
-  if (choice->replay_file.empty()) return {};
-  const auto session = servo::load_session(choice->replay_file);
-  if (!session) return tl::unexpected(session.error());
-  const auto& materials = stage.materials.materials;
-  const auto found =
-      std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == session->material; });
-  if (found == materials.end()) {
-    return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("the session {} was recorded on {}, which is not on the wall: add --material {}",
-                                     choice->replay_file, session->material, session->material));
-  }
-  settings.scale = session->samples.front().scale_mode;
-  settings.first_material = static_cast<std::size_t>(found - materials.begin());
-  return {};
-}
-
-// Width to height of an eye's picture. That there is no display is said when the windows open.
+// Width to height of an eye's picture. A missing display is reported later, when the windows open.
 double expected_aspect(const DisplayOptions& display) {
   const auto monitors = render::list_monitors();
   const glm::uvec2 window = expected_size(display.window, monitors.value_or(std::vector<render::Monitor>{}));
@@ -211,8 +175,10 @@ void add_servo_options(OptionList& command, ViewOptions& options) {
 void add_exhibition_options(OptionList& command, ViewOptions& options) {
   command.add_option("--record", options.settings.record_folder, "record into DIR, one session per sample")
       .type_name("DIR");
-  command.add_flag("--kiosk", options.kiosk,
-                   "run unattended and reopen the window whenever it fails; SIGTERM or Ctrl-C ends the program");
+  command.add_flag(
+      "--kiosk", options.kiosk,
+      "run unattended and reopen the window whenever it fails or hangs; SIGTERM or Ctrl-C ends the program");
+  command.add_option("--kept", options.kept, "descriptor for the signs of life of a kiosk's window").hidden();
   command.add_flag("--unattended", options.settings.unattended,
                    "lock the operators' keys; when no visitor is present, reset the wall and demonstrate the samples "
                    "in turn; SIGTERM or Ctrl-C ends the program");
@@ -227,15 +193,7 @@ void add_exhibition_options(OptionList& command, ViewOptions& options) {
   add_friction_option(command, options.friction);
 }
 
-core::Result<void> set_speech(bool wanted, const exhibit::Stage& stage, ViewSettings& settings) {
-  if (!wanted) return {};
-  auto program = choose_speech_program(stage.phrases()[exhibit::Phrase::Language]);
-  if (!program) return tl::unexpected(program.error());
-  settings.sound.speech = std::move(*program);
-  return {};
-}
-
-// Those of the wall; none where this machine shows it alone.
+// The wall's other machines; null if this machine shows the wall by itself.
 core::Result<std::unique_ptr<ClusterMaster>> other_machines(const ViewOptions& options, const std::string& program,
                                                             exhibit::Stage& stage, const core::Clock& clock) {
   if (options.cluster.wanted) {
@@ -269,7 +227,7 @@ core::Result<std::unique_ptr<render::HeadsetRuntime>> headset_of(const ViewOptio
 
 core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction) {
   std::vector<curves::SampleModel> materials;
-  // the paper's law has no friction: with one the window begins with the law of the adhesion map
+  // the paper's law has no friction: with friction, begins with the law of the adhesion map
   curves::ModelName law;
   law.automatic = friction != physics::FrictionLaw::None;
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
@@ -287,7 +245,7 @@ core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stag
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson) {
   const core::CodeOfInterruption released(core::ExitCode::Done);
   const core::MonotonicClock clock;
-  // first: without a headset nothing else is loaded
+  // first, so that nothing else is loaded if there is no headset
   const auto runtime = headset_of(options);
   if (!runtime) return tl::unexpected(runtime.error());
   exhibit::ExhibitFiles files = options.files;
@@ -304,8 +262,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   const auto wand_choice = parse_wand_choice(options.wand);
   if (!wand_choice) return tl::unexpected(wand_choice.error());
   settings.head_script = wand_choice->head_script;
-  if (auto set = set_hand(*stage, options.servo.haptic_device, settings); !set) return set;
-  if (auto set = set_speech(options.speech, *stage, settings); !set) return set;
+  if (auto set = set_people(options, *stage, settings); !set) return set;
   auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
   if (!wand) return tl::unexpected(wand.error());
   const auto model =
@@ -362,9 +319,11 @@ void add_view_command(OptionList& program, const CommandContext& context) {
   OptionList command =
       program.add_command("view", "open the live window: choose a sample and feel it; a mouse is enough");
   command.footer(
-      "Press F1 in the window for its keys and buttons.\n\n"
-      "example: touchafm view\n"
-      "         touchafm view --stereo side-by-side --fullscreen --material mica --material pdms-air");
+      fmt::format("Press F1 in the window for its keys and buttons.\n"
+                  "With --kiosk or --unattended these keys work: {}.\n\n"
+                  "example: touchafm view\n"
+                  "         touchafm view --stereo side-by-side --fullscreen --material mica --material pdms-air",
+                  keys_of_visitors()));
   auto options = std::make_shared<ViewOptions>();
   add_stage_options(command, options->files, context);
   add_own_model_options(command, options->files);
@@ -385,6 +344,7 @@ void add_view_command(OptionList& program, const CommandContext& context) {
     const core::CodeOfInterruption released(core::ExitCode::Done);
     std::vector<std::string> arguments = context.arguments;
     std::replace(arguments.begin(), arguments.end(), std::string("--kiosk"), std::string("--unattended"));
+    arguments.insert(arguments.end(), {"--kept", std::to_string(servo::kBeatDescriptor)});
     return servo::keep_running(context.program_path, arguments);
   });
 }

@@ -12,13 +12,13 @@
 #include "app/options/command.h"
 #include "app/view/view_wand.h"
 #include "core/result.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "physics/friction/friction.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
 
-// What the live window is opened with.
+// Options of the live window.
 struct ViewOptions {
   exhibit::ExhibitFiles files;
   DisplayOptions display;
@@ -27,26 +27,27 @@ struct ViewOptions {
   double frame_rate = 0;  // 0: the display's
   bool speech = false;
   bool headset = false;
-  bool kiosk = false;  // an unattended window that is opened again whenever it fails
+  bool kiosk = false;  // an unattended window that reopens after a failure or a hang
+  int kept = -1;       // descriptor at which the window of a kiosk beats; -1: none
   servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = 10.0}};
   std::int64_t spin_us = 0;
   WandOptions wand;
   ClusterOptions cluster;
 };
 
-// A lesson that guides through the window.
+// A lesson to run in the window.
 struct ViewLesson {
   exhibit::Lesson lesson;
   std::optional<exhibit::DataSetEntry> study;
 };
 
-// Opens the window and runs it to its end; `lesson` may be null. `program` is the running touchafm.
+// Opens the window and runs it until it ends; `lesson` may be null. `program` is the running touchafm.
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson = nullptr);
 
-// The samples of the stage as the servo gets them, with the surfaces that the stage draws.
+// The samples of the stage as the servo needs them, with the surfaces that the stage draws.
 core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction);
 
-// Options of the window that a lesson has too: picture, wand, device, sound and speech.
+// Window options that a lesson shares: picture, wand, device, sound and speech.
 void add_window_options(OptionList& command, ViewOptions& options);
 
 }  // namespace afm::app

@@ -18,11 +18,11 @@
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
 #include "cluster/network.h"
-#include "exhibit/calibration.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/stage_place.h"
-#include "exhibit/wall_drawing.h"
-#include "exhibit/wall_layout.h"
+#include "exhibit/frame/calibration.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/wall_drawing.h"
+#include "exhibit/scenery/stage_place.h"
+#include "exhibit/scenery/wall_layout.h"
 #include "scene/display/disparity.h"
 
 namespace afm::app {
@@ -31,13 +31,13 @@ namespace {
 
 struct WallOptions {
   std::string file;
-  std::optional<scene::HeadPose> head;  // instead of the viewer's sweet spot
+  std::optional<scene::HeadPose> head;  // replaces the viewer's sweet spot
   bool json = false;
   bool test_pattern = false;
   bool start = false;
   std::string out;
   exhibit::PictureOptions picture;
-  exhibit::ExhibitFiles files;  // its language
+  exhibit::ExhibitFiles files;  // only its language is used
 };
 
 core::Result<scene::HeadPose> parse_head(std::string_view text) {
@@ -74,7 +74,7 @@ nlohmann::json row_major(const glm::dmat4& m) {
   return values;
 }
 
-// What a screen shares with those that overlap it, and how its outputs correct it.
+// Adds a screen's overlaps with other screens and its outputs' corrections.
 void add_corrections(const scene::Wall& wall, std::size_t screen, nlohmann::json& entry) {
   if (const auto& blend = wall.screens[screen].blend) {
     nlohmann::json edges = nlohmann::json::object();
@@ -149,7 +149,7 @@ void explain_screen(const scene::Wall& wall, const scene::Screen& screen, const 
   if (screen.blend) explain_blend(wall, *screen.blend);
 }
 
-// Pixels that are not square on the screen make circles oval, but for the modes whose display stretches them back.
+// Explains distortion: non-square pixels make circles oval, except in modes whose display stretches the picture back.
 void explain_output(const scene::Wall& wall, const scene::Output& output) {
   const scene::Screen& screen = wall.screens[output.screen];
   const glm::uvec2 size = output.rect.size_px;
@@ -182,15 +182,15 @@ void explain_output(const scene::Wall& wall, const scene::Output& output) {
   }
 }
 
-// How the scene finds its place on this wall, and whether it can be read from there.
+// Explains how the scene is placed on this wall, and whether its text is readable from the head's position.
 void explain_composition(const scene::Wall& wall, const scene::HeadPose& head) {
   const exhibit::StagePlace stage = exhibit::stage_place(wall);
   const exhibit::WallShape shape = exhibit::wall_shape(stage);
   constexpr auto kPanels = std::to_array({"next to the instrument", "below the shelf", "on the side screens"});
   std::printf("composition: scene on screen %s, panels %s\n", stage.main.name.c_str(),
               kPanels[static_cast<std::size_t>(shape.arrangement)]);
-  constexpr double kSmallestLetterM = 0.030;   // the em square of what is smallest, on the paper's wall
-  constexpr double kReadableArcMinutes = 9.0;  // of an em square: a small letter has half of it
+  constexpr double kSmallestLetterM = 0.030;   // em square of the smallest text on the paper's wall
+  constexpr double kReadableArcMinutes = 9.0;  // em square of readable text; a small letter has half of it
   constexpr double kArcMinutesPerRad = 3437.75;
   const double distance_m = glm::distance(head.position_m, stage.main.center());
   const double letters = kSmallestLetterM * shape.unit_m / distance_m * kArcMinutesPerRad;
@@ -202,7 +202,7 @@ void explain_composition(const scene::Wall& wall, const scene::HeadPose& head) {
   }
 }
 
-// A scene of one point that is never shown: only the pattern is drawn.
+// A scene of one invisible point, because only the pattern is drawn.
 scene::Scene nothing() {
   scene::Scene scene;
   scene.materials.push_back({});
@@ -234,7 +234,7 @@ core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions&
   return drawing->write(scene, millimetre_m, build, options.out);
 }
 
-// For each node the line that starts it, and at the end the one for this machine.
+// Prints the command that starts each node, and finally the one for this machine.
 core::Result<void> print_start(const scene::Wall& wall, const std::string& file) {
   if (wall.nodes.empty()) {
     return core::wrong_usage(

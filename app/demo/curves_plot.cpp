@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "curves/svg_plot.h"
-#include "exhibit/cycle_curve.h"
+#include "exhibit/state/cycle_curve.h"
 
 namespace afm::app {
 
@@ -22,7 +22,7 @@ struct Window {
   double force_min_nn = -kInfinity;
 };
 
-// What lies outside breaks the line.
+// Points outside the window break the line.
 std::vector<curves::SvgPoint> points_within(const std::vector<render::PlotPoint>& points, const Window& window) {
   constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
   std::vector<curves::SvgPoint> result;
@@ -55,7 +55,7 @@ curves::SvgPlot plot_within(std::span<const LabelledSession> sessions, Phrase ti
   return plot;
 }
 
-// Round the smallest loop, if that is hard to see beside the largest.
+// Window around the smallest loop, if it is hard to see next to the largest.
 std::optional<Window> window_of_smallest(std::span<const LabelledSession> sessions) {
   const scene::TipEvent* smallest = nullptr;
   double largest_m = 0.0;

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "servo/session_file.h"
 
 namespace afm::app {
@@ -14,8 +14,8 @@ struct LabelledSession {
   const servo::RecordedSession* session = nullptr;
 };
 
-// The whole curves of the sessions as plots: all together, and, where the largest loop dwarfs the smallest, the same
-// around that. Self-contained SVG elements, one below the other.
+// Plots of the sessions' whole curves: one with all of them and, if the largest loop dwarfs the smallest, another
+// around the smallest. Self-contained SVG elements, one below the other.
 std::string curves_svg(std::span<const LabelledSession> sessions, const exhibit::Phrases& phrases);
 
 }  // namespace afm::app

@@ -7,7 +7,7 @@
 
 #include "app/demo/demonstration.h"
 #include "core/check.h"
-#include "exhibit/film_strip.h"
+#include "exhibit/frame/film_strip.h"
 
 namespace afm::app {
 
@@ -22,7 +22,7 @@ exhibit::CycleResult result_of(const Measurement& m) {
   return {m.title, m.law, m.hysteretic, events.f_attr_n, events.f_ad_n, events.z_jtc_m, events.z_joc_m};
 }
 
-// The times of the first and the last sample in contact.
+// Times of the first and the last sample in contact.
 std::pair<std::int64_t, std::int64_t> contact_of(const servo::RecordedSession& session) {
   const auto attached = [](const scene::TipSample& sample) { return sample.phase == physics::Phase::Attached; };
   const auto first = std::find_if(session.samples.begin(), session.samples.end(), attached);

@@ -8,7 +8,7 @@
 #include "app/demo/measurement.h"
 #include "app/demo/report.h"
 #include "core/result.h"
-#include "exhibit/frame_builder.h"
+#include "exhibit/frame/frame_builder.h"
 #include "render/renderer.h"
 #include "servo/session_file.h"
 
@@ -16,13 +16,13 @@ namespace afm::app {
 
 struct Figure {
   std::string file;     // "fig5a.png"
-  std::string caption;  // what is seen
+  std::string caption;  // description below the picture
   exhibit::Moment moment;
 };
 
-// The pictures (a) to (e) of the paper's Fig. 5, as moments of recorded sessions: the pull just after the jump to
-// contact, the deepest push, the last moment before the jump off contact, the tip free again, and all curves together.
-// `curves` receives one curve per material for each moment and must outlive the figures.
+// Pictures (a) to (e) of the paper's Fig. 5, as moments of recorded sessions: the pull just after the jump to contact,
+// the deepest push, the last moment before the jump off contact, the free tip, and all curves together. `curves`
+// receives one curve per material for each moment and must outlive the figures.
 class FigurePlan {
  public:
   FigurePlan(const std::vector<servo::RecordedSession>& sessions, const std::vector<Measurement>& measurements,
@@ -35,8 +35,7 @@ class FigurePlan {
   std::vector<Figure> figures_;
 };
 
-// A material and those variations that are its, together in the same picture as (e). `materials()` is what its
-// FrameBuilder draws from.
+// A material and its own variations together in the same picture as (e). The FrameBuilder must draw from `materials()`.
 class VariationFigure {
  public:
   VariationFigure(const servo::RecordedSession& base, const Measurement& measurement, const curves::SampleModel& model,
@@ -53,7 +52,7 @@ class VariationFigure {
   exhibit::Moment moment_;
 };
 
-// Ten places of the journey of scale on the first material, one for each order of magnitude, as a film strip.
+// A film strip of ten places of the journey of scale on the first material, one for each order of magnitude.
 render::Image journey_strip(const exhibit::FrameBuilder& frames, render::Renderer& renderer);
 
 }  // namespace afm::app

@@ -12,14 +12,14 @@
 #include <utility>
 
 #include "core/log.h"
-#include "exhibit/servo_rows.h"
-#include "exhibit/shared_model.h"
+#include "exhibit/models/shared_model.h"
+#include "exhibit/panels/servo_rows.h"
 
 namespace afm::app {
 
 namespace {
 
-constexpr double kPatienceSeconds = 20.0;  // beyond the time that the step itself takes
+constexpr double kPatienceSeconds = 20.0;  // added to the duration of the step itself
 constexpr int kMostServosLost = 5;
 
 }  // namespace
@@ -138,7 +138,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   person_.update(now_ns, servo_.tip());
   servo_.script(person_.hand());
 
-  // the wand's ray and button choose, as they would in a visitor's hand
+  // chooses with the wand's ray and button, like a visitor
   const input::WandState wand = person_.wand(now_ns);
   const input::Selector::Result pointing = selector_.update(wand, between_eyes_m_, targets_);
   if (pointing.chosen) servo_.choose(static_cast<std::int32_t>(*pointing.chosen), plan_.scale);

@@ -9,10 +9,10 @@
 #include "app/demo/report.h"
 #include "app/options/dynamic_resolution.h"
 #include "core/clock.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/guidance.h"
-#include "exhibit/moment.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/state/moment.h"
+#include "exhibit/words/guidance.h"
 #include "input/simulated_person.h"
 #include "physics/curve_analysis.h"
 #include "render/renderer.h"
@@ -26,9 +26,9 @@ namespace afm::app {
 struct DemoPlan {
   std::vector<curves::SampleModel> materials;
   std::vector<std::vector<curves::SampleModel>> variations;  // one list per material
-  std::vector<scene::SharedMeasuredCurve> curves;            // of measured materials
-  std::optional<physics::CurveFeatures> recorded;            // what the analysis says of the measured material
-  double frame_budget_ms = 0;                                // as --frame-budget
+  std::vector<scene::SharedMeasuredCurve> curves;            // curves of measured materials
+  std::optional<physics::CurveFeatures> recorded;            // analysis of the measured material
+  double frame_budget_ms = 0;                                // see --frame-budget
   scene::ScaleMode scale = scene::ScaleMode::Fit;
 };
 
@@ -38,12 +38,12 @@ class Demonstration {
  public:
   using Progress = std::function<void(const std::string&)>;
 
-  // Calls `chosen` after the first frame in which the ray selects a sample. All arguments must outlive it.
+  // Calls `chosen` after the first frame in which the ray selects a sample. All arguments must outlive the object.
   Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, render::Renderer& renderer,
                 servo::ServoClient& servo, const core::Clock& clock, const input::HandPath& path,
                 std::function<void()> chosen);
 
-  // Runs until every cycle is done. Fails if the servo dies or an expected event does not occur. Fills the sessions,
+  // Runs until all cycles are done. Fails if the servo dies or an expected event does not occur. Fills the sessions,
   // variations, frame times and servo timing of the result.
   core::Result<void> run(DemoResult& result, const Progress& progress);
 
@@ -61,14 +61,14 @@ class Demonstration {
   const exhibit::WallScene& wall_scene_;
   const exhibit::Phrases& phrases_;
   const DemoPlan& plan_;
-  std::vector<curves::SampleModel> materials_;  // as they are felt now
+  std::vector<curves::SampleModel> materials_;  // as currently felt
   exhibit::FrameBuilder frames_;
   render::Renderer& renderer_;
   servo::ServoClient& servo_;
   const core::Clock& clock_;
   std::optional<DynamicResolution> budget_;
   input::HandPath path_;
-  std::function<void()> chosen_;  // empty once it was called
+  std::function<void()> chosen_;  // called once, then empty
   input::SimulatedPerson person_;
   input::Selector selector_;
   std::vector<input::Target> targets_;

@@ -11,10 +11,10 @@ namespace afm::app {
 
 namespace {
 
-// What a recording has not is 0 in both.
+// 0 if both are equal, as for a feature that a recording lacks, which is 0 in both.
 double relative(double value, double reference) { return value == reference ? 0.0 : value / reference - 1.0; }
 
-// The hardest pull of the branch on which the tip is drawn off.
+// Strongest attraction on the retract branch.
 double hardest_pull_n(const physics::LawTables& tables) {
   constexpr int kSteps = 10000;
   const physics::Length way = tables.figures.z_joc - tables.pressed_to;
@@ -26,7 +26,7 @@ double hardest_pull_n(const physics::LawTables& tables) {
   return hardest;
 }
 
-// A curve that lets go gradually has its pull-off where it is pulled hardest, and no jump there.
+// A curve that releases gradually has its pull-off at the strongest attraction and no jump there.
 void compare_with(const physics::CurveFeatures& recorded, const physics::LawTables& tables, Measurement& m) {
   const physics::Length zero = recorded.contact_point.value_or(physics::Length());
   m.recorded = true;
@@ -73,7 +73,7 @@ double Measurement::error_bound() const { return recorded ? kRecordingErrorBound
 double Measurement::worst_error() const {
   if (!judged) return 0.0;
   const CycleEvents e = error_vs_calculation();
-  // heights of a recording are as uncertain as its bins are wide
+  // heights are not compared, because a recording has them only to the width of its bins
   if (recorded) return std::max({std::abs(e.f_attr_n), std::abs(e.f_ad_n), std::abs(error_of_loop_energy())});
   return std::max({std::abs(e.f_attr_n), std::abs(e.f_ad_n), std::abs(e.z_jtc_m), std::abs(e.z_joc_m)});
 }

@@ -23,45 +23,45 @@ struct CycleEvents {
   double z_joc_m = 0;
 };
 
-// Results of a recorded cycle, with the values of the law and of the experiments.
+// Results of a recorded cycle, with the values from the law and from the experiments.
 struct Measurement {
   std::string material;
   std::string title;
   std::string law;          // "dmt"
-  bool hysteretic = true;   // false: so stiff a lever jumps nowhere, and there is nothing to compare
-  bool judged = true;       // false: inertia and noise move the jumps of a dynamic lever; no error is made of that
-  CycleEvents measured;     // from the events: where the path crossed the folds inside a tick
-  CycleEvents calculation;  // the folds of the law, solved when its tables were built; of a recording, its analysis
-  bool recorded = false;    // an instrument's curve, which need not snap in or pull off: then those are 0
+  bool hysteretic = true;   // false: the lever is too stiff for jumps, so there is nothing to compare
+  bool judged = true;       // false: inertia and noise move a dynamic lever's jumps, so their error is not judged
+  CycleEvents measured;     // from the events, which have the exact crossing of the folds within a tick
+  CycleEvents calculation;  // folds of the law, solved with its tables; for a recording, its analysis
+  bool recorded = false;    // an instrument's curve, which may have no snap-in or pull-off; their values are then 0
   bool snaps_in = true;
   bool pulls_off = true;
   double fold_n = 0;                  // attraction of the calculation just before the jump to contact
-  double loop_energy_j = 0;           // of the law as it is felt
-  double recorded_loop_energy_j = 0;  // of the recording
-  double sampled_f_attr_n = 0;  // from the ticks alone: the first one in contact, the strongest pull of the retract
+  double loop_energy_j = 0;           // loop energy of the law as felt
+  double recorded_loop_energy_j = 0;  // loop energy of the recording
+  double sampled_f_attr_n = 0;  // from the ticks only: the first one in contact, and the strongest pull of the retract
   double sampled_f_ad_n = 0;
   std::optional<double> experiment_f_attr_n;
   std::optional<double> experiment_f_ad_n;
 
-  // Relative; that of a jump to contact at Z = 0 (JKR) relative to Z_joc.
+  // Relative errors; for a jump to contact at Z = 0 (JKR), relative to Z_joc.
   CycleEvents error_vs_calculation() const;
-  double error_of_loop_energy() const;  // of a recording; else 0
+  double error_of_loop_energy() const;  // relative, for a recording; otherwise 0
   std::optional<double> experiment_error_f_attr() const;
   std::optional<double> experiment_error_f_ad() const;
-  double worst_error() const;  // the largest relative error against the calculation; 0 where nothing is judged
+  double worst_error() const;  // largest relative error against the calculation; 0 if nothing is judged
   double error_bound() const;
 };
 
-// Required accuracy of a run; the second value is for a measured curve, whose noise is smoothed.
+// Largest accepted relative error. The second value is for a measured curve, whose noise is smoothed.
 inline constexpr double kEventErrorBound = 1e-3;
 inline constexpr double kRecordingErrorBound = 1e-2;
 
-// Fails if the cycle of a law with hysteresis has no jump to contact or no jump off contact. `material` is what the
-// session was felt with; `recorded`, where that is an instrument's curve, its analysis, else null.
+// Fails if the law has hysteresis but the cycle has no jump to contact or no jump off contact. `material` is the one
+// felt in the session; `recorded` is the analysis of an instrument's curve, otherwise null.
 core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::SampleModel& material,
                                   const physics::CurveFeatures* recorded = nullptr);
 
-// Failed, with one line, if it is worse than its error bound.
+// Failed, with one line of text, if the error exceeds its bound.
 core::Result<void> check_accuracy(const Measurement& m);
 
 }  // namespace afm::app

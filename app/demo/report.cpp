@@ -100,7 +100,7 @@ class EventRows {
   struct Name {
     std::string sample;
     const char* quantity;
-    const char* unit;  // of values in SI times 1e9
+    const char* unit;  // unit of the values, which are SI times 1e9
   };
 
   void note(const std::string& sample, const std::string& text) {
@@ -139,7 +139,7 @@ std::string events_table(const DemoResult& result, const Phrases& phrases) {
   return html_scrolled(head + rows.html() + "</table>") + "\n";
 }
 
-// In the unit that leaves 1 to 1000 before the point: "11.49 ms".
+// Uses the unit that leaves 1 to 1000 before the point: "11.49 ms".
 std::string time_text(double seconds) {
   static constexpr std::array<std::pair<double, const char*>, 3> kTimeUnits{
       {{1.0, "s"}, {1e-3, "ms"}, {1e-6, "\u00b5s"}}};

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/demo/measurement.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 #include "scene/shared/shared_blocks.h"
 #include "servo/session_file.h"
@@ -17,7 +17,7 @@ namespace afm::app {
 
 // One cycle on a sample whose parameters were changed while the servo ran.
 struct Variation {
-  std::size_t material = 0;  // of which material it is a variation
+  std::size_t material = 0;  // index of the original material
   curves::SampleModel model;
   servo::RecordedSession session;
   Measurement measurement;
@@ -25,7 +25,7 @@ struct Variation {
 
 // Results of a run of the demo.
 struct DemoResult {
-  std::vector<servo::RecordedSession> sessions;  // one per material, in the file's order
+  std::vector<servo::RecordedSession> sessions;  // one per material, in the order of the materials file
   std::vector<Measurement> measurements;
   std::vector<Variation> variations;
   scene::ServoTiming servo;
@@ -43,14 +43,14 @@ nlohmann::json summary_json(const DemoResult& result);
 
 struct ReportPicture {
   std::string caption;
-  std::string png;  // the bytes of the file
+  std::string png;  // contents of the file
 };
 
-// One HTML file that opens anywhere: pictures and plots are inside it.
+// Returns one self-contained HTML file with all pictures and plots.
 std::string report_html(const DemoResult& result, const std::vector<ReportPicture>& pictures,
                         const std::string& curves_svg, const exhibit::Phrases& phrases);
 
-// Every sample of a session as CSV with a # header that holds every parameter and event.
+// Every sample of a session as CSV, with all parameters and events in a # header.
 std::string session_csv(const servo::RecordedSession& session);
 
 }  // namespace afm::app

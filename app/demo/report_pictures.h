@@ -15,13 +15,13 @@ namespace afm::app {
 // thread.
 class ReportPictures {
  public:
-  // All must outlive it.
+  // All arguments must outlive the object.
   ReportPictures(render::Context& context, render::Renderer& renderer, const OutputFolder& out);
 
   // Saves the renderer's newest frame, side by side. Waits only if ScreenshotQueue::kMostPictures are pending.
   void add(const std::string& file, const std::string& caption);
 
-  // All of them, in order; Failed if one could not be written.
+  // Returns all pictures, in order. Failed if one could not be written.
   core::Result<std::vector<ReportPicture>> finish();
 
  private:

@@ -24,7 +24,7 @@ void FrameTimes::hidden() { last_ns_ = -1; }
 
 std::string FrameTimes::text() const {
   if (times_ == 0) return {};
-  // report the upper edge of a bin
+  // the upper edge of the bin
   const double longest_ms = static_cast<double>(longest_ns_) * 1e-6;
   const auto ms = [&](double bins) { return std::min(bins * static_cast<double>(kBinNs) * 1e-6, longest_ms); };
   const core::Percentiles bins = core::percentiles(bins_, static_cast<std::uint32_t>(longest_ns_ / kBinNs + 1));

@@ -23,7 +23,7 @@ class FrameTimes {
  private:
   static constexpr std::int64_t kBinNs = 100'000;
 
-  std::array<std::uint32_t, 10'001> bins_{};  // up to a second; the last holds all that is longer
+  std::array<std::uint32_t, 10'001> bins_{};  // one bin per 100 us, up to a second; the last holds everything longer
   std::int64_t longest_ns_ = 0, total_ns_ = 0, last_ns_ = -1;
   std::uint64_t frames_ = 0, times_ = 0;
 };

@@ -82,7 +82,7 @@ InstructorWindow::Input InstructorWindow::poll(const exhibit::LessonPrompt& prom
   return result;
 }
 
-// The page has the window's proportions.
+// Gives the page the window's proportions.
 void InstructorWindow::follow_size() {
   const glm::uvec2 size_px = window_.size_px();
   if (size_px == size_px_ || size_px.x == 0 || size_px.y == 0) return;

@@ -21,19 +21,19 @@ namespace afm::app {
 // The window in which an instructor follows a lesson, on a monitor that the participant does not see. Main thread only.
 class InstructorWindow {
  public:
-  // `place`: a monitor's name or number, which it fills; or kFree for a window that can be moved. DeviceMissing: there
-  // is no such monitor. Before the Context, which it must outlive.
+  // `place`: name or number of a monitor to fill, or kFree for a movable window. DeviceMissing if there is no such
+  // monitor. Open it before the Context, and keep it until the Context is gone.
   static constexpr const char* kFree = "window";
   static core::Result<render::Window> open_window(const std::string& place,
                                                   const std::vector<render::Monitor>& monitors);
 
-  // Draws into that window. All must outlive it.
+  // Prepares drawing into that window. All arguments must outlive the object.
   static core::Result<std::unique_ptr<InstructorWindow>> create(render::Context& context, render::Window& window,
                                                                 const exhibit::Phrases& phrases,
                                                                 render::PanelContrast contrast);
 
-  // What the instructor did since the last call: with the keys 1 to 4, or by a click on an action that acts at
-  // `prompt`. Other keys that were pressed are the wall's.
+  // The instructor's input since the last call: keys 1 to 4, or a click on an action that applies to `prompt`. All
+  // other keys belong to the wall.
   struct Input {
     std::vector<exhibit::InstructorAction> actions;
     std::vector<render::Key> keys;
@@ -41,7 +41,7 @@ class InstructorWindow {
   };
   Input poll(const exhibit::LessonPrompt& prompt);
 
-  // Once a frame; draws what has changed, and every second anew, since others may have painted over it.
+  // Call once a frame. Draws what has changed, and redraws every second, since another window may have covered it.
   void show(const exhibit::InstructorState& state, std::int64_t now_ns, const std::function<void()>& while_waiting);
 
  private:

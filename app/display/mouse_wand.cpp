@@ -15,14 +15,14 @@ input::Ray MouseWand::ray(const WallPicture& picture, const glm::dvec2& cursor_p
   const auto source = scene::source_of_pixel(mode, picture.composition.order, picture.place.size_px, glm::uvec2(pixel));
   glm::dvec2 uv = source.uv + (in_picture - pixel - 0.5) * source.uv_per_pixel;
 
-  // where both eyes see the cursor, or none does, it points from their middle
+  // from the middle of the eyes if both or neither see the cursor
   glm::dvec3 eye = 0.5 * (picture.eyes[0].eye_position_m + picture.eyes[1].eye_position_m);
   if (source.eye == scene::PixelEye::Blank) {
     uv = in_picture / glm::dvec2(picture.place.size_px);
   } else if (source.eye != scene::PixelEye::Both && !scene::is_interleaved(mode)) {
     eye = picture.eyes[source.eye == scene::PixelEye::Left ? 0 : 1].eye_position_m;
   }
-  // a projector's correction comes after the layout
+  // a projector's correction is applied after the layout
   const auto warped = picture.composition.warp ? scene::warped_place(*picture.composition.warp, uv) : std::nullopt;
   if (warped) uv = warped->picture;
   const glm::dvec3 keystone = picture.composition.picture_from_output * glm::dvec3(uv, 1.0);

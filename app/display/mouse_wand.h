@@ -14,24 +14,24 @@ namespace afm::app {
 
 // Projection of the wall into a window.
 struct WallPicture {
-  render::PicturePlace place;  // of the composed picture in the window
+  render::PicturePlace place;  // place of the composed picture in the window
   render::Composition composition;
   std::array<scene::EyeView, 2> eyes;  // left and right picture
-  scene::Screen screen;                // that the picture fills
+  scene::Screen screen;                // screen filled by the picture
 };
 
-// The mouse as a wand. What it points at is what lies behind the cursor for the eye whose picture the cursor is on, or
-// for the middle of the eyes where both share the picture; the wand that is drawn rests at its grip and is turned
-// towards that. Const; room frame, metres.
+// The mouse as a wand. The wand points at the object behind the cursor, for the eye whose picture the cursor is on, or
+// for the middle of the eyes if both share the picture. It is drawn resting at its grip and turned to that object.
+// Const; room frame, metres.
 class MouseWand {
  public:
-  // `stage` is the plane of wall_point().
+  // `stage` defines the plane of wall_point().
   MouseWand(const scene::Screen& stage, const glm::dvec3& grip_m) : stage_(stage), grip_m_(grip_m) {}
 
   // Ray from the eye through the cursor, in pixels of the window; extrapolated beyond the picture's border.
   input::Ray ray(const WallPicture& picture, const glm::dvec2& cursor_px) const;
 
-  // The wand as it is drawn, turned towards `target_m`.
+  // The wand to draw, turned to `target_m`.
   input::WandState towards(const glm::dvec3& target_m, std::int64_t now_ns) const;
 
   // Intersection of the ray with the wall's plane.

@@ -8,22 +8,22 @@
 
 namespace afm::app {
 
-// Distinguishes a headset's frozen picture from a slow one. It may stand still for 250 ms; where one of the last
-// pictures took longer than half of that, for twice as long as that one, up to 2 s.
+// Distinguishes a headset's frozen picture from a slow one. A picture is frozen after 250 ms; if one of the last
+// pictures took more than half of that, after twice that picture's time, up to 2 s.
 class PictureAge {
  public:
-  // A picture is shown, at a time of a monotonic clock.
+  // Reports a new picture, at a time of a monotonic clock.
   void shown(std::int64_t now_ns);
 
-  // Nobody sees the picture: the time until the next one says nothing.
+  // Reports that nobody sees the picture, so the time until the next one does not count.
   void unseen() { shown_ns_.reset(); }
 
-  // For longer than it may. False where nobody sees it.
+  // Returns whether the picture is frozen. False while nobody sees it.
   bool stands_still(std::int64_t now_ns) const;
 
  private:
   std::optional<std::int64_t> shown_ns_;
-  std::array<std::int64_t, 8> took_ns_{};  // the last pictures, each since the one before it
+  std::array<std::int64_t, 8> took_ns_{};  // times between the last pictures
   std::size_t next_ = 0;
 };
 

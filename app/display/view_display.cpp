@@ -14,7 +14,7 @@
 
 namespace afm::app {
 
-// For the windows as they have opened; panels are as sharp as the finest one's screen.
+// Sizes for the windows as they have opened. Panels are as sharp as the screen with the finest pixels.
 render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const DisplayOptions& options) const {
   render::RendererOptions drawing;
   if (options.eye_width > 0) {
@@ -32,7 +32,7 @@ render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const 
   return drawing;
 }
 
-// The pixels that the runtime recommends; panels as sharp as a right angle of these at the wall's distance.
+// Uses the eye size that the runtime recommends. Panels are as sharp as its pixels are at the wall's distance.
 render::RendererOptions ViewDisplay::drawing_in_headset(const exhibit::Stage& stage, glm::uvec2 eye_px) {
   const double wall_m = glm::distance(stage.wall.viewers.front().sweet_spot.position_m, stage.screen.center());
   render::RendererOptions drawing;
@@ -43,7 +43,7 @@ render::RendererOptions ViewDisplay::drawing_in_headset(const exhibit::Stage& st
   return drawing;
 }
 
-// Refuses a mode that the display cannot show, and says when the pictures of a wall of several machines change.
+// Rejects a mode that the display cannot show, and logs when the machines of a wall change their pictures.
 core::Result<void> ViewDisplay::check_outputs(render::Swap swap) const {
   if (swap == render::Swap::WithOthers) {
     core::log_line(presenter_->swaps_with_others()
@@ -113,6 +113,10 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
   }
   core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}; F1 shows the keys", drawing.eye_width,
                              drawing.eye_height, display->context_->device_name()));
+  if (!display->awake_.works()) {
+    core::log_line(fmt::format("the screen saver may blank the wall: X's: {}; org.freedesktop.ScreenSaver: {}",
+                               display->awake_.x_server().said, display->awake_.session().said));
+  }
   return display;
 }
 

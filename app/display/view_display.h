@@ -13,6 +13,7 @@
 #include "app/display/view_windows.h"
 #include "core/result.h"
 #include "render/context.h"
+#include "render/saver_inhibition.h"
 
 namespace afm::app {
 
@@ -20,22 +21,22 @@ namespace afm::app {
 struct DisplayOptions {
   exhibit::PictureOptions picture;
   WindowOptions window;
-  std::uint32_t eye_width = 0;     // 0: the windows'
+  std::uint32_t eye_width = 0;     // 0: from the windows
   double frame_budget_ms = 0;      // 0: none
-  double comfort_deg = 1;          // how much more or less the eyes may turn in than for the wall
-  std::string saved_folder = ".";  // for the pictures that are saved
-  bool validate = false;           // every Vulkan call
+  double comfort_deg = 1;          // largest change of the eyes' convergence from that for the wall
+  std::string saved_folder = ".";  // receives the saved pictures
+  bool validate = false;           // check every Vulkan call
   render::PanelContrast contrast = render::PanelContrast::Normal;
-  render::Swap swap = render::Swap::Alone;  // with the other machines of a wall
-  std::string instructor;  // where the instructor's window is, as open_window() takes it; empty: there is none
+  render::Swap swap = render::Swap::Alone;  // synchronisation with the other machines of a wall
+  std::string instructor;                   // place of the instructor's window, for open_window(); empty: there is none
 };
 
-// The windows of the live view with all that draws into them. Main thread only.
+// The windows of the live view with everything that draws into them. Main thread only.
 class ViewDisplay {
  public:
-  // `stage` must outlive it. Fails as plan_view, ViewWindows and Context do, or where the display has not what the
-  // stereo mode needs. `runtime`: of the headset that shows the picture, whose left eye the windows then mirror; it may
-  // be null, and must outlive it, as the clock.
+  // `stage` must outlive the object. Fails as plan_view, ViewWindows and Context do, or if the display does not suit
+  // the stereo mode. `runtime` is that of the headset that shows the picture, whose left eye the windows then mirror;
+  // it may be null, and must outlive the object, as must the clock.
   static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayOptions& options,
                                                          render::HeadsetRuntime* runtime, const core::Clock& clock);
   ViewDisplay(const ViewDisplay&) = delete;
@@ -44,8 +45,8 @@ class ViewDisplay {
   ViewWindows& windows() { return *windows_; }
   ViewPicture& picture() { return *picture_; }
   render::Context& context() { return *context_; }
-  InstructorWindow* instructor() { return instructor_.get(); }  // null: there is none
-  ViewHeadset* headset() { return headset_.get(); }             // null: none
+  InstructorWindow* instructor() { return instructor_.get(); }  // may be null
+  ViewHeadset* headset() { return headset_.get(); }             // may be null
 
  private:
   ViewDisplay() = default;
@@ -62,6 +63,7 @@ class ViewDisplay {
   std::unique_ptr<ViewHeadset> headset_;
   std::optional<ViewPicture> picture_;
   std::unique_ptr<InstructorWindow> instructor_;
+  render::SaverInhibition awake_;
 };
 
 }  // namespace afm::app

@@ -16,16 +16,16 @@ namespace {
 
 using Turn = render::Headset::Turn;
 
-constexpr double kRestingHalfWidth = 1.0;  // tangent of half the width of what somebody at the sweet spot sees
-constexpr double kLevelNormal = 0.1;       // of a screen that is a wall: how much of its normal is level, at least
-constexpr double kUnusedFarM = 100.0;      // of a projection without a far plane
+constexpr double kRestingHalfWidth = 1.0;  // tangent of half the horizontal view from the sweet spot
+constexpr double kLevelNormal = 0.1;       // smallest horizontal part of the normal of an upright screen
+constexpr double kUnusedFarM = 100.0;      // far plane for an unlimited projection
 
 MirroredEye mirrored(const scene::HeadPose& left, const scene::FieldOfView& fov,
                      const std::array<scene::EyeView, 2>& eyes, double wall_m) {
   return {.eyes = eyes, .screen = scene::screen_of_fov(left, fov, wall_m)};
 }
 
-// Both eyes in the middle: there is nobody yet.
+// Places both eyes in the middle while nobody wears the headset.
 MirroredEye resting_eyes(const scene::HeadPose& head, glm::uvec2 eye_px, double wall_m) {
   const double half_height = kRestingHalfWidth * static_cast<double>(eye_px.y) / static_cast<double>(eye_px.x);
   const scene::FieldOfView fov{.left_rad = -std::atan(kRestingHalfWidth),
@@ -42,7 +42,7 @@ MirroredEye resting_eyes(const scene::HeadPose& head, glm::uvec2 eye_px, double 
 scene::HeadPose room_from_headset_floor(const scene::Wall& wall, const scene::Screen& screen) {
   const glm::dvec3 viewer = wall.viewers.front().sweet_spot.position_m;
   glm::dvec3 ahead = -screen.normal();
-  // somebody who looks down at a table faces its far edge
+  // a person looking down at a table faces its far edge
   if (std::hypot(ahead.x, ahead.z) < kLevelNormal) ahead = screen.upper_left - screen.lower_left;
   return {.position_m = {viewer.x, scene::floor_height_m(wall), viewer.z},
           .room_from_head = glm::angleAxis(std::atan2(-ahead.x, -ahead.z), glm::dvec3(0.0, 1.0, 0.0))};
@@ -86,7 +86,7 @@ void ViewHeadset::note_unseen() {
   if (!unseen_since_ns_) unseen_since_ns_ = clock_.now_ns();
 }
 
-// Changes that need no new state of the session, whose states headset_ reports itself.
+// Logs changes within the same session state; headset_ itself reports changes of the state.
 void ViewHeadset::log_turn(render::Headset::Turn before) const {
   if (turn_ == Turn::Hidden && before == Turn::Frame)
     core::log_line("headset: hidden: its runtime shows something else, or nothing");
@@ -116,7 +116,7 @@ std::optional<double> ViewHeadset::pose_age_s() const {
 
 MirroredEye ViewHeadset::locate_eyes(const std::function<void()>& while_waiting) {
   if (!wants_picture()) return resting_;
-  note_unseen();  // until it is shown: the runtime may lend no image
+  note_unseen();  // cleared when it is shown, as the runtime may provide no image
   const auto eyes = headset_->locate_eyes(while_waiting);
   if (!eyes) return resting_;
   const auto& [left, right] = *eyes;

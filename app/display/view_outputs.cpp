@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 namespace afm::app {
@@ -47,7 +49,7 @@ core::Result<render::WindowOptions> placed(const scene::Output& output, const st
   return window;
 }
 
-// A window holds one screen: a pair of projectors beside each other is one picture side by side.
+// Plans one window, which shows one screen: a pair of projectors side by side is one side-by-side picture.
 core::Result<std::vector<ViewOutput>> one_window(const scene::Wall& wall, const scene::Screen& stage,
                                                  const exhibit::PictureOptions& options, const WindowOptions& wanted,
                                                  const std::vector<render::Monitor>& monitors) {
@@ -83,6 +85,18 @@ core::Result<std::vector<ViewOutput>> one_window(const scene::Wall& wall, const 
 }
 
 }  // namespace
+
+bool holds(const scene::Screen& screen, const glm::dvec3& point_m) {
+  constexpr double kEdge = 0.01;  // share of the screen's size
+  const glm::dvec3 from_corner_m = point_m - screen.lower_left;
+  const auto within = [&](const glm::dvec3& side_m) {
+    const double share = glm::dot(from_corner_m, side_m) / glm::dot(side_m, side_m);
+    return share >= -kEdge && share <= 1.0 + kEdge;
+  };
+  const double before_m = std::abs(glm::dot(from_corner_m, screen.normal()));
+  return within(screen.lower_right - screen.lower_left) && within(screen.upper_left - screen.lower_left) &&
+         before_m <= kEdge * screen.width_m();
+}
 
 core::Result<std::string> monitor_name(const std::string& who, const std::string& wanted,
                                        const std::vector<render::Monitor>& monitors) {

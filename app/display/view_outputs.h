@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "render/monitor.h"
 #include "render/presenter.h"
 #include "render/window.h"
@@ -16,10 +16,10 @@ namespace afm::app {
 
 // One window of the live view: its part of the wall and its place on the desktop.
 struct ViewOutput {
-  std::string name;  // as the wall file says; empty: a window that no wall file places
+  std::string name;  // name in the wall file; empty: a window without a place in a wall file
   scene::Screen screen;
-  scene::StereoMode mode = scene::StereoMode::Mono;  // at first
-  std::optional<scene::Eye> eye;                     // whose picture it is in mode dual
+  scene::StereoMode mode = scene::StereoMode::Mono;  // initial mode
+  std::optional<scene::Eye> eye;                     // eye shown in mode dual
   scene::EyeOrder order = scene::EyeOrder::Straight;
   glm::dmat3 picture_from_output{1.0};
   std::shared_ptr<const scene::WarpMesh> warp{};  // as in render::Composition
@@ -27,34 +27,37 @@ struct ViewOutput {
   render::PictureFit fit = render::PictureFit::Proportions;
   render::WindowOptions window;
 
-  // In another mode, if there is one, and with the eyes exchanged once more, or not.
+  // The composition in another mode, if given, with the eyes optionally exchanged once more.
   render::Composition composition(std::optional<scene::StereoMode> other_mode, scene::EyeOrder other_order) const;
 };
 
-// --size, --monitor and --fullscreen: one window, whatever outputs the wall file has.
+// True for a point of the screen, or of its edge: tiles that meet in it both hold it.
+bool holds(const scene::Screen& screen, const glm::dvec3& point_m);
+
+// Values of --size, --monitor and --fullscreen: one window, whatever outputs the wall file has.
 struct WindowOptions {
   std::optional<glm::uvec2> size_px;
-  std::string monitor;  // name or number; empty: none in particular
+  std::string monitor;  // name or number; empty: any
   bool full_screen = false;
 };
 
-// Name of the monitor of that name or number. DeviceMissing, listing them, if there is none; `who` begins the message:
-// "--monitor".
+// Finds a monitor by its name or number and returns its name. DeviceMissing, listing the monitors, if there is none.
+// `who` begins the message: "--monitor".
 core::Result<std::string> monitor_name(const std::string& who, const std::string& wanted,
                                        const std::vector<render::Monitor>& monitors);
 
-// Expected size of the window, as far as it is known before the window opens.
+// Size of the window as expected before it opens.
 glm::uvec2 expected_size(const WindowOptions& window, const std::vector<render::Monitor>& monitors);
 
-// The wall file's outputs, each in its place; or one window of the whole stage, in mode dual one for each eye.
-// `monitors` are those of this desktop. DeviceMissing, naming output and monitors: a monitor is not there, or an
-// output lies, with a corner at least, on none of them. WrongUsage: mode dual where an output shows no eye, more
-// windows than there can be. `stage` is what one window shows, as Stage::screen.
+// Plans a window for each of the wall file's outputs, or one window for the whole stage, or in mode dual one for each
+// eye. `monitors` are those of this desktop; `stage` is the content of a single window, as Stage::screen.
+// DeviceMissing, naming output and monitors, if a monitor does not exist or a corner of an output is on none of them.
+// WrongUsage if an output in mode dual has no eye, or if there are too many windows.
 core::Result<std::vector<ViewOutput>> plan_view(const scene::Wall& wall, const scene::Screen& stage,
                                                 const exhibit::PictureOptions& options, const WindowOptions& window,
                                                 const std::vector<render::Monitor>& monitors);
 
-// The largest eye images whose picture fits into the output's window, at the proportions of its screen or of its
+// Size of the largest eye images whose picture fits into the output's window, with the proportions of its screen or
 // window.
 glm::uvec2 eye_size_for(const exhibit::Stage& stage, const ViewOutput& output, scene::StereoMode mode,
                         glm::uvec2 window_px);

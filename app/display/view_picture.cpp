@@ -9,18 +9,18 @@
 #include <glm/geometric.hpp>
 
 #include "core/log.h"
-#include "exhibit/calibration.h"
 #include "exhibit/cluster/frame_inputs.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/calibration.h"
+#include "exhibit/frame/recorded_wall.h"
 
 namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kSteadyNs = 250'000'000;  // a window that keeps its size for so long is drawn sharp
+constexpr std::int64_t kSteadyNs = 250'000'000;  // a window is drawn sharp once its size has been stable for this long
 
-constexpr std::int64_t kMeasureNs = 250'000'000;      // between two measurements of depth
-constexpr std::int64_t kDepthLogNs = 10'000'000'000;  // between two lines in the log
+constexpr std::int64_t kMeasureNs = 250'000'000;      // time between two measurements of depth
+constexpr std::int64_t kDepthLogNs = 10'000'000'000;  // time between two depth lines in the log
 
 }  // namespace
 
@@ -70,7 +70,7 @@ void ViewPicture::fit(std::int64_t now_ns) {
   if (auto resized = renderer_.resize(wanted.x, wanted.y); !resized) core::log_line(resized.error().message);
 }
 
-// Who shows the same eyes before the same screen gets what is drawn once.
+// Outputs with the same screen and eyes share one rendering.
 void ViewPicture::share_out() {
   shares_.clear();
   pictures_.clear();
@@ -118,7 +118,7 @@ void ViewPicture::follow(const cluster::ShownView& view) {
   drawn_ipd_m_ = view.drawn_ipd_m;
   head_ = exhibit::head_of(view.head);
   auto mode = view.mode < 0 ? std::nullopt : std::optional(static_cast<scene::StereoMode>(view.mode));
-  if (mode && !can_show(*mode)) mode.reset();  // its own, rather than none
+  if (mode && !can_show(*mode)) mode.reset();  // back to its own mode
   const bool swapped = (view.flags & Shown::kSwapped) != 0;
   const auto order = swapped ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight;
   const bool calibrating = (view.flags & Shown::kCalibration) != 0;
@@ -141,7 +141,7 @@ void ViewPicture::swap_eyes() {
   core::log_line(straight ? "eyes swapped" : "eyes not swapped");
 }
 
-// Dual needs a window for each eye.
+// Mode dual needs a window for each eye.
 bool ViewPicture::can_show(scene::StereoMode mode) const {
   const bool pairs = std::all_of(outputs_.begin(), outputs_.end(), [](const auto& output) { return output.eye; });
   return presenter_.check_mode(mode) && (mode != scene::StereoMode::Dual || pairs);
@@ -153,7 +153,7 @@ void ViewPicture::change_mode(Step step) {
   do {
     index = (index + (step == Step::Next ? 1 : kCount - 1)) % kCount;
   } while (!can_show(scene::kStereoModes[index].mode));
-  // where the first output's own mode comes round again, so do the others'
+  // the first output's own mode restores the other outputs' modes too
   other_mode_ = scene::kStereoModes[index].mode;
   if (other_mode_ == outputs_.front().mode) other_mode_.reset();
   share_out();
@@ -185,7 +185,7 @@ WallPicture ViewPicture::picture(std::size_t window) const {
           .screen = share->screen};
 }
 
-// What an earlier frame asked of the eyes; logs when that begins to be too much, and now and then.
+// Measures the eyes' effort in an earlier frame. Logs when it becomes excessive, and now and then.
 void ViewPicture::measure_depth(exhibit::Relief relief, std::int64_t now_ns) {
   if (follows_ || shares_.front().flat || calibrating_ || now_ns - depth_measured_ns_ < kMeasureNs) return;
   depth_measured_ns_ = now_ns;
@@ -206,8 +206,8 @@ void ViewPicture::measure_depth(exhibit::Relief relief, std::int64_t now_ns) {
 
 void ViewPicture::save() { ++to_save_; }
 
-// As people see it on the screen, not as a projector gets it: neither warped nor blended. A mode with a picture for
-// each eye is saved side by side. What finds no place in the saver waits for a later frame.
+// Saves the picture as seen on the screen, neither warped nor blended. A mode with one picture per eye is saved side by
+// side. A picture that does not fit into the saver's queue waits for a later frame.
 void ViewPicture::save_newest() {
   log_update(saver_.collect());
   if (to_save_ == 0) return;
@@ -245,6 +245,7 @@ void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::i
   while_waiting();
   if (!presenter_.begin(pictures_, while_waiting)) {
     times_.hidden();
+    if (!refused_since_ns_) refused_since_ns_ = now_ns;
     before_showing();
     return;
   }
@@ -265,6 +266,7 @@ void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::i
   }
   before_showing();
   presenter_.show();
+  refused_since_ns_.reset();
   times_.shown(now_ns);
   while_waiting();
   if (budget_) budget_->follow(renderer_);

@@ -15,9 +15,9 @@
 #include "app/display/view_windows.h"
 #include "app/options/dynamic_resolution.h"
 #include "cluster/frame_message.h"
-#include "exhibit/comfort_clamp.h"
-#include "exhibit/depth_report.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/comfort_clamp.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/panels/depth_report.h"
 #include "render/depth_meter.h"
 #include "render/presenter.h"
 #include "render/renderer.h"
@@ -27,47 +27,50 @@ namespace afm::app {
 
 struct PictureSettings {
   double ipd_m = 0.063;
-  glm::uvec2 eye_px{0};         // as the renderer was made
-  bool fixed_eye_size = false;  // else the eyes get as many pixels as the windows have for them
-  double comfort_rad = scene::kComfortableDisparityRad;  // how much more or less the eyes may turn in than for the wall
-  double frame_budget_ms = 0;                            // frames are drawn coarser to stay within it; 0: as they are
-  std::string saved_folder = ".";                        // for the pictures that are saved
-  ViewHeadset* headset = nullptr;                        // whose left eye the window mirrors; must outlive it; none
+  glm::uvec2 eye_px{0};                                  // size with which the renderer was made
+  bool fixed_eye_size = false;                           // false: the eyes get as many pixels as the windows can show
+  double comfort_rad = scene::kComfortableDisparityRad;  // largest change of convergence from the wall's
+  double frame_budget_ms = 0;                            // resolution drops to keep frames within it; 0: never
+  std::string saved_folder = ".";                        // receives the saved pictures
+  ViewHeadset* headset = nullptr;  // mirrored in the window (left eye); must outlive the object; may be null
 };
 
 // Picture of the wall in the live windows: eyes, layout and size. Main thread only.
 class ViewPicture {
  public:
-  // All but the settings must outlive it. `outputs` has one entry a window.
+  // All arguments except the settings must outlive the object. `outputs` has one entry per window.
   ViewPicture(const exhibit::Stage& stage, const std::vector<ViewOutput>& outputs, render::Context& context,
               const ViewWindows& windows, render::Renderer& renderer, render::Presenter& presenter,
               const PictureSettings& settings);
 
-  // Once a frame: the eye images get the pixels that the windows have for them, once those have stopped changing; and
-  // the eyes the distance at which the depth that was measured last is comfortable.
+  // Call once a frame. Gives the eye images as many pixels as the windows can show, once their size is stable, and sets
+  // the eye distance at which the newest measured depth is comfortable.
   void fit(std::int64_t now_ns);
 
-  // The eyes of a head somewhere before the wall; behind a screen, its picture stays as it was. With a headset they are
-  // its own.
+  // Sets the eyes of a head anywhere in front of the wall. A screen keeps its picture if the head is behind it. A
+  // headset overrides these eyes with its own.
   void look_from(const scene::HeadPose& head);
 
   void swap_eyes();
 
-  // The next mode that these windows can show, or the one before.
+  // Direction through the modes that these windows can show.
   enum class Step { Next, Previous };
   void change_mode(Step step);
 
-  // Changes the viewer's eye distance, within the human range.
+  // Changes the viewer's eye distance within the human range.
   void widen_eyes(double by_m);
 
-  // Shows the calibration picture instead of the scene, or the scene again.
+  // Switches between the calibration picture and the scene.
   void toggle_calibration();
 
-  // Saves the next frame of the first window as a new PNG file without delaying the drawing.
+  // Saves the next frame of the first window as a new PNG file without delaying the rendering.
   void save();
 
-  // To be called instead of show() while the windows are invisible.
+  // Call instead of show() while the windows are invisible.
   void rest() { times_.hidden(); }
+
+  // Time since when no window has accepted a picture, as where the display has no use for one; none while one does.
+  std::optional<std::int64_t> refused_since_ns() const { return refused_since_ns_; }
 
   // Waits for the last screenshots; logs them and the frame times.
   void finish();
@@ -75,7 +78,7 @@ class ViewPicture {
   // Projection and area of the next frame in a window.
   WallPicture picture(std::size_t window) const;
 
-  // For whom and how it is drawn now, with the keys' changes.
+  // Current viewer and drawing options, including key changes.
   struct Viewing {
     scene::HeadPose head;
     double ipd_m = 0;
@@ -84,29 +87,30 @@ class ViewPicture {
   };
   Viewing viewing() const { return {head_, drawn_ipd_m_, mode(), other_order_}; }
 
-  // The same for the other machines of a wall, and there: from then on the depth is the one that was told.
+  // The viewing as sent to the other machines of a wall, and its counterpart there, which from then on uses the
+  // master's measured depth.
   cluster::ShownView told() const;
   void follow(const cluster::ShownView& view);
 
-  // As measured last; without text before the first measurement, and where both eyes see the same.
+  // Newest measurement; empty text before the first one, and while both eyes see the same.
   const exhibit::DepthReport& depth() const { return depth_; }
 
   // Current resolution under the frame budget; empty without a budget.
   std::optional<render::DataRow> quality_row() const;
 
-  // Draws and shows a frame in all windows, with the depth meter in it, which advises `relief`; calls `while_waiting`
-  // often, and `before_showing` once all is drawn: it may wait until other machines have drawn it too.
+  // Draws and shows a frame with its depth meter in all windows; the meter advises `relief`. Calls `while_waiting`
+  // often, and `before_showing` after drawing, which may wait for other machines.
   void show(
       render::FrameState& frame, exhibit::Relief relief, std::int64_t now_ns,
       const std::function<void()>& while_waiting, const std::function<void()>& before_showing = [] {});
 
  private:
-  // A picture that is drawn once and shown in one or more windows: a screen for two eyes or for the midpoint between
+  // A picture that is drawn once and shown in one or more windows: one screen for two eyes or for the midpoint between
   // them.
   struct Share {
     scene::Screen screen;
     bool flat = false;
-    std::array<scene::EyeView, 2> eyes;  // left and right, or twice the middle
+    std::array<scene::EyeView, 2> eyes;  // left and right, or the midpoint twice
     std::vector<std::size_t> windows;
   };
 
@@ -125,20 +129,21 @@ class ViewPicture {
   render::Renderer& renderer_;
   render::Presenter& presenter_;
   PictureSettings settings_;
-  std::optional<scene::StereoMode> other_mode_;  // than the outputs' own
+  std::optional<scene::StereoMode> other_mode_;  // overrides the outputs' own mode
   scene::EyeOrder other_order_ = scene::EyeOrder::Straight;
   std::vector<Share> shares_;
-  std::vector<render::WindowPicture> pictures_;  // one a window
-  scene::HeadPose head_;                         // the eyes are drawn for
-  glm::uvec2 eye_size_px_;                       // as the renderer draws
+  std::vector<render::WindowPicture> pictures_;  // one per window
+  scene::HeadPose head_;                         // head for which the eyes are drawn
+  glm::uvec2 eye_size_px_;                       // current size in the renderer
   glm::uvec2 wanted_eye_px_{0};
   std::int64_t windows_steady_since_ns_ = 0;
-  double drawn_ipd_m_;  // what the eyes are drawn for: the viewer's, or less for comfort
+  std::optional<std::int64_t> refused_since_ns_;
+  double drawn_ipd_m_;  // eye distance of the drawing: the viewer's, or less for comfort
   exhibit::ComfortClamp comfort_;
   std::optional<DynamicResolution> budget_;
   render::ScreenshotQueue saver_;
-  std::size_t to_save_ = 0;       // pictures that were asked for
-  std::size_t saved_number_ = 0;  // of the newest file
+  std::size_t to_save_ = 0;       // pending requests
+  std::size_t saved_number_ = 0;  // number of the newest file
   render::DepthMeter depth_meter_;
   exhibit::DepthReport depth_;
   FrameTimes times_;
@@ -146,11 +151,11 @@ class ViewPicture {
   std::int64_t depth_logged_ns_ = 0;
   std::int64_t mirrored_ns_ = 0;
   bool calibrating_ = false;
-  bool follows_ = false;  // another machine decides how it is drawn
+  bool follows_ = false;  // follows another machine's drawing options
 };
 
-// The eye images that the windows have room for, as large as the largest of them needs, in another mode than the
-// outputs' own if there is one; 0 x 0 as long as nobody sees any.
+// Eye image size that the windows can show, as large as the largest needs, in `other_mode` or else in the outputs' own
+// modes; 0 x 0 while all windows are invisible.
 glm::uvec2 eye_size_for_all(const exhibit::Stage& stage, const std::vector<ViewOutput>& outputs,
                             std::optional<scene::StereoMode> other_mode, const ViewWindows& windows);
 

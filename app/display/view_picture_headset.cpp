@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture in a headset, and its left eye's in the window.
+// Part of ViewPicture for a headset, whose left eye the window mirrors.
 #include "app/display/view_picture.h"
 
 namespace afm::app {
 
 namespace {
 
-// Less often than any display shows pictures: the headset must not wait for the window.
+// Longer than a frame of any display, so that the headset never waits for the window.
 constexpr std::int64_t kMirrorNs = 33'000'000;
 
 }  // namespace
@@ -14,7 +14,7 @@ constexpr std::int64_t kMirrorNs = 33'000'000;
 void ViewPicture::show_in_headset(render::FrameState& frame, std::int64_t now_ns,
                                   const std::function<void()>& while_waiting) {
   ViewHeadset& headset = *settings_.headset;
-  // the eyes are located once nothing else is to be waited for
+  // last, so that the eyes' pose is as new as possible
   renderer_.wait_until_ready(while_waiting);
   const MirroredEye seen = headset.locate_eyes(while_waiting);
   frame.eyes = seen.eyes;
@@ -31,7 +31,7 @@ void ViewPicture::show_in_headset(render::FrameState& frame, std::int64_t now_ns
   share.screen = seen.screen;
   const bool mirrors = now_ns - mirrored_ns_ >= kMirrorNs;
   if ((mirrors || to_save_ > 0) && frame.panels_apart > 0) {
-    // window and screenshots show the eyes' pictures, which need all panels for it
+    // window and screenshots show the eyes' pictures and so need all panels in them
     frame.panels_apart = 0;
     renderer_.wait_until_ready(while_waiting);
     renderer_.render(frame);

@@ -19,6 +19,7 @@ core::Result<ViewWindows> ViewWindows::open(const std::vector<ViewOutput>& outpu
       return core::failure(window.error().category, who + window.error().message);
     }
     windows.windows_.push_back(std::make_unique<render::Window>(std::move(*window)));
+    windows.screens_.push_back(output.screen);
     windows.names_.push_back(output.name);
     windows.rects_.push_back(output.window.rect);
   }
@@ -56,6 +57,14 @@ std::vector<render::Window*> ViewWindows::all() const {
   all.reserve(windows_.size());
   for (const auto& window : windows_) all.push_back(window.get());
   return all;
+}
+
+std::vector<render::Window*> ViewWindows::that_show(const glm::dvec3& point_m) const {
+  std::vector<render::Window*> found;
+  for (std::size_t i = 0; i < windows_.size(); ++i) {
+    if (holds(screens_[i], point_m)) found.push_back(windows_[i].get());
+  }
+  return found;
 }
 
 bool ViewWindows::hidden() const {

@@ -20,26 +20,29 @@ struct ViewEvent {
 // Input from all windows since the last call.
 struct ViewInput {
   std::vector<ViewEvent> events;
-  std::size_t window = 0;  // that the cursor was in last
+  std::size_t window = 0;  // newest window under the cursor
   glm::dvec2 cursor_px{0.0};
   bool close_requested = false;
 };
 
-// The windows of the live view, which share a person's input. Main thread only.
+// The windows of the live view, which share one person's input. Main thread only.
 class ViewWindows {
  public:
-  // Fails as render::Window::open does, naming the output.
+  // Fails as render::Window::open does; the error names the output.
   static core::Result<ViewWindows> open(const std::vector<ViewOutput>& outputs);
 
-  // Without waiting; logs monitors that are lost and come back.
+  // Returns at once. Logs lost and returning monitors.
   ViewInput poll();
 
   std::size_t count() const { return windows_.size(); }
   render::Window& at(std::size_t window) const { return *windows_[window]; }
   std::vector<render::Window*> all() const;
-  bool hidden() const;  // nobody sees any of them
+  bool hidden() const;  // all of them are invisible
 
-  // Of all that the wall file does not place by a rectangle.
+  // Windows whose screen holds a point of the room.
+  std::vector<render::Window*> that_show(const glm::dvec3& point_m) const;
+
+  // Switches all windows that have no rectangle in the wall file.
   void toggle_full_screen();
 
   // Converts a point in a window to desktop coordinates, for a drag from one window into another.
@@ -49,10 +52,11 @@ class ViewWindows {
   void log_monitor_change(std::size_t window, const render::WindowInput& input) const;
 
   std::vector<std::unique_ptr<render::Window>> windows_;
-  std::vector<std::string> names_;                      // of the outputs in the wall file
-  std::vector<std::optional<scene::PixelRect>> rects_;  // of those that have their place by one
-  std::vector<glm::dvec2> cursors_;                     // in each of them
-  std::vector<glm::dvec2> origins_;                     // on the desktop
+  std::vector<scene::Screen> screens_;
+  std::vector<std::string> names_;                      // names of the outputs in the wall file
+  std::vector<std::optional<scene::PixelRect>> rects_;  // rectangles of the outputs that have one
+  std::vector<glm::dvec2> cursors_;                     // cursor in each window
+  std::vector<glm::dvec2> origins_;                     // position of each window on the desktop
   std::size_t window_ = 0;
 };
 

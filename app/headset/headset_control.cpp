@@ -25,7 +25,7 @@ void HeadsetControl::begin_frame() {
   parts_.wand.hold(headset_.wand(now_ns));
   parts_.picture.look_from(headset_.head());
 
-  // the hand that holds the controller feels each ring of light begin
+  // the hand with the controller feels a pulse when a ring of light begins
   const auto ring_ns = parts_.servo.cues().begun_ns(now_ns);
   if (ring_ns && ring_ns != felt_ring_ns_) headset_.pulse();
   felt_ring_ns_ = ring_ns;

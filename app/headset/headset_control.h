@@ -11,7 +11,7 @@ namespace afm::app {
 class ViewHeadset;
 struct ViewParts;
 
-// A headset that shows the picture: the runtime's frames, the wearer's sight, and the controller as a wand.
+// Headset in the live window: the runtime's frames, whether the wearer sees them, and the controller as a wand.
 class HeadsetControl final : public ViewControl {
  public:
   // Both must outlive it.
@@ -23,7 +23,7 @@ class HeadsetControl final : public ViewControl {
  private:
   ViewParts& parts_;
   ViewHeadset& headset_;
-  std::optional<std::int64_t> felt_ring_ns_;  // begin of the newest ring of light that the controller has felt
+  std::optional<std::int64_t> felt_ring_ns_;  // beginning of the newest ring of light that the controller has signalled
 };
 
 }  // namespace afm::app

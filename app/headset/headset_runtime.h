@@ -9,14 +9,14 @@
 
 namespace afm::app {
 
-// The manifest of the runtime that OpenXR's loader takes; empty if there is none.
+// Path of the manifest that OpenXR's loader uses; empty if there is none.
 std::string headset_manifest();
 
-// Connects to that runtime. Its loader says on stderr nothing more than the error does, unless XR_LOADER_DEBUG asks for
-// it: so before any other thread is started.
+// Connects to the runtime. The loader prints nothing to stderr in addition to the error, unless XR_LOADER_DEBUG is set.
+// Changes the environment, so call it before starting any other thread.
 core::Result<std::unique_ptr<render::HeadsetRuntime>> connect_headset();
 
-// What it says of itself, and the same in words: "Index through SteamVR 1.2.3, head-mounted display, ...".
+// The runtime's description of itself, and the same as text: "Index through SteamVR 1.2.3, head-mounted display, ...".
 core::Result<render::HeadsetDescription> find_headset();
 std::string text_of(const render::HeadsetDescription& headset);
 

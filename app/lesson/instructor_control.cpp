@@ -9,6 +9,7 @@
 #include "app/view/view_choice.h"
 #include "app/view/view_parts.h"
 #include "core/log.h"
+#include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
@@ -26,10 +27,16 @@ InstructorControl::InstructorControl(ViewParts& parts, LiveLesson& lesson, Instr
 void InstructorControl::take(const ViewInput& /*input*/, const ViewFrame& frame) {
   const InstructorWindow::Input input = window_.poll(lesson_.prompt());
   for (const exhibit::InstructorAction action : input.actions) act(action, frame.now_ns);
-  for (const render::Key key : input.keys) press_key_(key);
+  for (const render::Key key : input.keys) press(key);
   parts_.turn.leaving = parts_.turn.leaving || input.close_requested;
   if (stop_asked_ns_ && frame.now_ns - *stop_asked_ns_ > kAskedNs) stop_asked_ns_.reset();
   if (hand_off_) parts_.choice.stop_force();
+}
+
+// Enter is Stop alone: at the wall it would also answer for the participant.
+void InstructorControl::press(render::Key key) {
+  if (key != render::Key::Enter) return press_key_(key);
+  parts_.choice.stop_force();
 }
 
 void InstructorControl::act(exhibit::InstructorAction action, std::int64_t now_ns) {
@@ -57,6 +64,7 @@ void InstructorControl::act(exhibit::InstructorAction action, std::int64_t now_n
 void InstructorControl::shown(const ViewFrame& frame, const Beat& beat) {
   exhibit::InstructorState state = lesson_.instructor_state();
   state.hand = parts_.servo.running() ? parts_.servo.link().tip().servo_state : scene::ServoState::Fault;
+  state.stopped = parts_.servo.running() && exhibit::is_stopped(parts_.servo.link().tip());
   state.hand_off = hand_off_;
   state.stop_asked = stop_asked_ns_.has_value();
   window_.show(state, frame.now_ns, beat);

@@ -18,10 +18,10 @@ class InstructorWindow;
 class LiveLesson;
 struct ViewParts;
 
-// The instructor of a lesson, at a window of their own.
+// The instructor of a lesson, who uses a separate window.
 class InstructorControl final : public ViewControl {
  public:
-  // `press_key` gets the keys that belong to the wall. All must outlive it.
+  // `press_key` receives the keys that belong to the wall. All arguments must outlive the object.
   InstructorControl(ViewParts& parts, LiveLesson& lesson, InstructorWindow& window,
                     std::function<void(render::Key)> press_key);
 
@@ -29,13 +29,14 @@ class InstructorControl final : public ViewControl {
   void shown(const ViewFrame& frame, const Beat& beat) override;
 
  private:
+  void press(render::Key key);
   void act(exhibit::InstructorAction action, std::int64_t now_ns);
 
   ViewParts& parts_;
   LiveLesson& lesson_;
   InstructorWindow& window_;
   std::function<void(render::Key)> press_key_;
-  bool hand_off_ = false;  // the instructor keeps the force away
+  bool hand_off_ = false;  // the instructor has disabled the force
   std::optional<std::int64_t> stop_asked_ns_;
 };
 

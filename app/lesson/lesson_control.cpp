@@ -12,10 +12,10 @@
 #include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
 #include "app/view/view_wand.h"
-#include "exhibit/blank_picture.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/moment.h"
-#include "exhibit/panel_hit.h"
+#include "exhibit/frame/blank_picture.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/panels/panel_hit.h"
+#include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
@@ -38,7 +38,7 @@ bool LessonControl::number(std::size_t number) {
 
 void LessonControl::step(int steps) { lesson_.step(steps); }
 
-// Enter takes the force away whatever else it does. Where the lesson waits for it and there is none, it only goes on.
+// Enter removes the force whatever else it does. Without a force, in a lesson that waits for Enter, it only continues.
 void LessonControl::enter() {
   const bool waits = lesson_.prompt().wants != exhibit::LessonPrompt::Wants::Cycle;
   if (!waits || parts_.servo.link().tip().servo_state != scene::ServoState::Disarmed) parts_.choice.stop_force();
@@ -46,7 +46,7 @@ void LessonControl::enter() {
   lesson_.enter();
 }
 
-// An answer, or a sample where it may be chosen.
+// Handles the choice of an answer or, if allowed, of a sample.
 void LessonControl::press(const Pointed& pointed, const input::Ray& ray) {
   if (const auto target = target_at(ray)) return lesson_.press(*target);
   if (pointed.swatch && lesson_.chooses_sample()) parts_.choice.choose(*pointed.swatch);
@@ -86,7 +86,7 @@ void LessonControl::update(const ViewFrame& frame) {
   if (asks() || !lesson_.has_force()) parts_.choice.keep_force_away(frame.now_ns);
 }
 
-// A blind sample looks like the first one, whichever it is, and nothing is written beside it.
+// A blind sample looks like the first one, whichever it is, and has no labels.
 void LessonControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
   if (!lesson_.prompt().hidden) return;
   if (now.wall.material) now.wall.material = 0;
@@ -120,7 +120,7 @@ void LessonControl::add_to_picture(render::FrameState& picture, const ViewFrame&
   }
 }
 
-// Where the hand has nothing to do, the line above is the question, or how to go on.
+// While the hand has nothing to do, the line above the wall is the question, or how to continue.
 std::optional<std::string> LessonControl::guidance(const exhibit::Phrases& phrases) const {
   const exhibit::LessonPrompt& prompt = lesson_.prompt();
   if (prompt.wants == exhibit::LessonPrompt::Wants::Cycle) {
@@ -130,7 +130,7 @@ std::optional<std::string> LessonControl::guidance(const exhibit::Phrases& phras
   return prompt.words.size() <= exhibit::kLine ? prompt.words : prompt.title;
 }
 
-// The words of a prompt are spoken once, before the next step of the hand.
+// Speaks the text of a prompt once, before the next step of the hand.
 std::string LessonControl::spoken(const std::string& line) {
   const bool by_hand = lesson_.prompt().wants == exhibit::LessonPrompt::Wants::Cycle;
   std::string words = lesson_.speech();

@@ -16,7 +16,7 @@ namespace afm::app {
 class LiveLesson;
 struct ViewParts;
 
-// A lesson at the live window: a guide on top of everything else.
+// A lesson at the live window, as a guide for the other controls.
 class LessonControl final : public ViewControl, public ViewGuide {
  public:
   // Both must outlive it.
@@ -40,11 +40,11 @@ class LessonControl final : public ViewControl, public ViewGuide {
  private:
   std::optional<exhibit::LessonTarget> target_at(const input::Ray& ray) const;
   void follow_hand();
-  bool asks() const;  // a person's answer is due
+  bool asks() const;  // an answer is due
 
   ViewParts& parts_;
   LiveLesson& lesson_;
-  std::string said_, line_;  // spoken words of the newest prompt, and the guidance behind them
+  std::string said_, line_;  // spoken text of the newest prompt, and the guidance after it
 };
 
 }  // namespace afm::app

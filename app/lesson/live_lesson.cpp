@@ -46,7 +46,7 @@ void LiveLesson::update() {
   prompt_ = std::move(next);
 }
 
-// After whatever the person did: the files begin with the consent, and end with the lesson.
+// Called after each action: the files begin with the consent, and end with the lesson.
 void LiveLesson::acted() {
   if (study_ && run_.consented() && !data_ && !error_) {
     if (auto begun = begin_data(); !begun) {
@@ -93,7 +93,7 @@ bool LiveLesson::chooses_sample() const { return prompt_.wants == Wants::Cycle &
 void LiveLesson::number(std::size_t number) {
   if (prompt_.wants != Wants::Answer || number >= prompt_.answers.size()) return;
   if (is_scale(prompt_)) {
-    // the keys stand for the whole scale
+    // the nine keys cover the whole scale
     return mark_.set_marked(number * (prompt_.answers.size() - 1) / (exhibit::kMostNumberedAnswers - 1));
   }
   run_.answer(number, now_s());
@@ -167,7 +167,7 @@ void LiveLesson::stop() {
   acted();
 }
 
-// A blind sample is shown only where the condition asks for a picture.
+// Shows a blind sample only if the condition includes the picture.
 bool LiveLesson::shows_scene() const {
   if (prompt_.condition) return *prompt_.condition != Condition::Haptics;
   return !prompt_.hidden;

@@ -15,74 +15,74 @@
 #include "exhibit/lesson/lesson.h"
 #include "exhibit/lesson/lesson_panel.h"
 #include "exhibit/lesson/lesson_run.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
 
-// A lesson at the live window: what it asks for, the person's answers, the sample that it lays under the tip, and what
-// is kept of it. Main thread.
+// A lesson at the live window: its prompts, the person's answers, the sample under the tip, and the data that are kept.
+// Main thread only.
 class LiveLesson {
  public:
-  // `study`: where results go; without one nothing is kept and nobody is asked. Lesson, samples, phrases and clock must
-  // outlive it.
+  // `study`: where to store results; empty: nothing is kept and no consent is requested. Lesson, samples, phrases and
+  // clock must outlive the object.
   LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::SampleModel>& samples,
              const exhibit::Phrases& phrases, const std::optional<exhibit::DataSetEntry>& study,
              const core::Clock& clock);
 
-  // Once a frame.
+  // Call once a frame.
   void update();
 
   const exhibit::LessonPrompt& prompt() const { return prompt_; }
   const exhibit::Lesson& lesson() const { return lesson_; }
   bool over() const { return prompt_.wants == exhibit::LessonPrompt::Wants::Nothing; }
 
-  // Whether keys and swatches choose a sample: in free exploration of several.
+  // Returns whether keys and swatches choose a sample: in free exploration of several.
   bool chooses_sample() const;
 
   void number(std::size_t number);  // keys 1 to 9, from 0
   void press(const exhibit::LessonTarget& target);
   void enter();
-  void step(int steps);  // of the mark of a scale
+  void step(int steps);  // moves the mark on a scale
   void skip();
   void try_again();
-  void next();  // of the instructor: goes on where the person would press Enter
-  void stop();  // of the instructor: the lesson ends here
+  void next();  // instructor: continues as Enter does
+  void stop();  // instructor: ends the lesson
 
-  // Once a frame, where a person moves the hand: its height moves the mark, and Turn-On answers or goes on, where the
-  // lesson waits for no cycle.
+  // Call once a frame if a person moves the hand. The height moves the mark; Turn-On answers or continues, unless the
+  // lesson waits for a cycle.
   void hand_moved(double height_m, std::uint64_t presses);
-  bool takes_hand() const;  // so that the hand needs no force
+  bool takes_hand() const;  // the hand answers, so it needs no force
 
-  // The answer under the mark, if that has moved since the last call.
+  // The marked answer, if the mark has moved since the last call.
   std::optional<std::string> newly_marked();
 
   std::vector<exhibit::LessonTarget> targets() const { return lesson_targets(prompt_, mark_.marked(), phrases_); }
   render::DataPanel panel() const { return lesson_panel(prompt_, phrases_); }
 
-  // What is to be spoken before the line of guidance, since the prompt is a new one.
+  // Text to speak before the guidance when the prompt is new; empty otherwise.
   std::string speech() const { return lesson_speech(prompt_, phrases_); }
 
-  // All of it but the hand.
+  // The page's state except that of the hand.
   exhibit::InstructorState instructor_state() const;
 
-  // Sound was asked for, and there is none from now on: what is kept says so. Once a frame.
+  // Records in the kept data that sound was requested but is no longer available. Call once a frame.
   void sound_is_lost();
 
-  // What this prompt leaves a participant: the scene on the wall, tones, the force.
+  // What the current prompt allows a participant: the scene on the wall, tones, the force.
   bool shows_scene() const;
   bool has_tones() const;
   bool has_force() const;
 
-  // Sees to it that the sample that is asked for gets under the tip; blind ones are laid anew for each cycle, so that
-  // nobody knows by the pause whether it is another one. Once a frame.
+  // Puts the requested sample under the tip. Lays a blind sample again for each cycle, even the same one, so that the
+  // pause does not reveal whether it has changed. Call once a frame.
   void lay_sample(servo::ServoClient& servo);
-  void forget_laid() { laid_.reset(); }  // another servo runs, or everything begins again
+  void forget_laid() { laid_.reset(); }  // after a new servo or a restart of the wall
 
-  // A jump of the tip; `servo` says of which sample.
+  // Handles a jump of the tip on the servo's current sample.
   void happened(const scene::TipEvent& event, const servo::ServoClient& servo);
 
-  // The window ends: what is under way is stopped. The error of what could not be kept.
+  // Stops the running lesson when the window ends. Returns the error if results could not be stored.
   core::Result<void> finish();
 
  private:
@@ -105,14 +105,14 @@ class LiveLesson {
   std::optional<exhibit::DataSet> data_;
   std::optional<core::Error> error_;
   bool sound_lost_noted_ = false;
-  std::size_t right_ = 0, judged_ = 0;  // of the counted trials
+  std::size_t right_ = 0, judged_ = 0;  // number of counted trials
   exhibit::LessonRun run_;
   exhibit::LessonPrompt prompt_;
   exhibit::HandAnswer mark_;
   std::optional<std::size_t> told_mark_;
   std::optional<Laid> laid_;
-  std::uint32_t edit_ = 0;    // of the variant under the tip; 0: as loaded
-  std::vector<bool> varied_;  // materials whose parameters were changed
+  std::uint32_t edit_ = 0;    // revision of the variant under the tip; 0: parameters as loaded
+  std::vector<bool> varied_;  // true for materials with changed parameters
 };
 
 }  // namespace afm::app

@@ -5,11 +5,12 @@
 #include "app/view/view_parts.h"
 #include "core/clock.h"
 #include "core/log.h"
-#include "exhibit/moment.h"
+#include "exhibit/state/moment.h"
 
 namespace afm::app {
 
-// The picture's scale is not the hand's while it travels, so that there must be no force.
+// Starts or leaves the journey. While it travels, the picture's scale differs from the hand's, so there must be no
+// force.
 void JourneyControl::turn_round() {
   travel_.turn_round(parts_.clock.now_ns());
   core::log_line("the journey of scale was reversed");

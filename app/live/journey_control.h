@@ -2,13 +2,13 @@
 #pragma once
 
 #include "app/view/view_control.h"
-#include "exhibit/journey.h"
+#include "exhibit/scenery/journey.h"
 
 namespace afm::app {
 
 struct ViewParts;
 
-// What the window shows instead of the instrument: the journey of scale, and the analogy.
+// Replaces the instrument in the window by the journey of scale or the analogy.
 class JourneyControl final : public ViewControl {
  public:
   JourneyControl(ViewParts& parts, exhibit::JourneyTravel::Motion motion) : parts_(parts), travel_(motion) {}

@@ -8,8 +8,10 @@
 #include "app/lesson/instructor_control.h"
 #include "app/lesson/lesson_control.h"
 #include "app/live/journey_control.h"
+#include "app/live/kept_control.h"
 #include "app/live/place_control.h"
 #include "app/live/scan_control.h"
+#include "app/live/sight_control.h"
 #include "app/live/sound_control.h"
 #include "app/live/view_settings.h"
 #include "app/live/visitor_control.h"
@@ -27,15 +29,17 @@ Control& LiveControls::add(Arguments&&... arguments) {
   return added;
 }
 
-// In the order of ViewControl's calls: a lesson hides what a scan shows, sound tells of both, and the other machines
-// get the result.
+// In the order of ViewControl's calls: a lesson hides the scan's panels, the sound follows both, and the other machines
+// receive the result.
 LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const LiveFeatures& features)
     : parts_(parts),
       use_(features.lesson == nullptr ? WallUse::Free : WallUse::Lesson),
       unattended_(settings.unattended),
       owners_{.parts = parts} {
   const bool worn = features.headset != nullptr;
+  if (settings.kept) add<KeptControl>(*settings.kept);
   if (worn) add<HeadsetControl>(*features.headset);
+  if (!worn) add<SightControl>();
   if (features.instructor != nullptr && features.lesson != nullptr) {
     add<InstructorControl>(*features.lesson, *features.instructor, [this](render::Key key) { press(key); });
   }

@@ -16,18 +16,18 @@ class ViewHeadset;
 struct ViewParts;
 struct ViewSettings;
 
-// Features that a live window may lack; null: it has no such control. None is owned.
+// Optional features of a live window; null: no such control. None is owned.
 struct LiveFeatures {
-  ViewHeadset* headset = nullptr;          // shows the picture
-  ClusterMaster* cluster = nullptr;        // the other machines of the wall
-  LiveLesson* lesson = nullptr;            // guides through the window
-  InstructorWindow* instructor = nullptr;  // follows that lesson
+  ViewHeadset* headset = nullptr;          // draws the picture if set
+  ClusterMaster* cluster = nullptr;        // other machines of the wall
+  LiveLesson* lesson = nullptr;            // lesson to run
+  InstructorWindow* instructor = nullptr;  // the lesson's second window
 };
 
-// Makes the controls of a live window and leads its keys to them.
+// Creates the controls of a live window and routes its keys to them.
 class LiveControls {
  public:
-  // `parts` and all features must outlive it. The controls are added to those of `parts`.
+  // `parts` and all features must outlive the object. Adds the controls to those of `parts`.
   LiveControls(ViewParts& parts, const ViewSettings& settings, const LiveFeatures& features);
   ~LiveControls();
   LiveControls(const LiveControls&) = delete;

@@ -21,10 +21,10 @@
 #include "core/clock.h"
 #include "core/interruption.h"
 #include "core/log.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/servo_rows.h"
-#include "exhibit/shared_model.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/models/shared_model.h"
+#include "exhibit/panels/servo_rows.h"
 #include "render/device_failure.h"
 #include "servo/servo_client.h"
 
@@ -32,7 +32,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr double kHiddenPauseS = 0.05;  // between two heartbeats of a window that nobody sees
+constexpr double kHiddenPauseS = 0.02;  // time between two heartbeats while the windows are invisible
 
 }  // namespace
 
@@ -63,6 +63,7 @@ core::Result<void> LiveView::run() {
   parts_.servo.finish();  // releases the hand and saves the session while the last picture is still visible
   if (lost) return tl::unexpected(*lost);
   parts_.picture.finish();
+  if (parts_.turn.failure) return tl::unexpected(*parts_.turn.failure);
   if (parts_.servo.error()) return tl::unexpected(*parts_.servo.error());
   return record_.finish();
 }
@@ -71,20 +72,26 @@ void LiveView::run_frame(std::int64_t now_ns) {
   ViewFrame frame{.now_ns = now_ns, .frame_s = static_cast<double>(now_ns - std::exchange(frame_ns_, now_ns)) * 1e-9};
   const ViewInput input = parts_.windows.poll();
   parts_.turn.leaving = input.close_requested && !settings_.unattended;
+  notice(input, frame);
   for (const ViewEvent& event : input.events) handle(event, now_ns);
   parts_.pointer.follow(input.cursor_px, parts_.hand.mouse().dragging(), now_ns);
   for (ViewControl* control : parts_.controls) control->take(input, frame);
   move_hand(input, frame);
   parts_.servo.update(now_ns);
-  follow_wand(now_ns);
+  follow_wand(input, frame);
   if (parts_.windows.hidden() && !parts_.turn.draws_unseen) {
     parts_.picture.rest();
+    heartbeat_of(parts_)();
     parts_.windows.at(0).wait(kHiddenPauseS);
     return;
   }
   parts_.picture.fit(now_ns);
   draw(input, frame);
   pace(now_ns);
+}
+
+void LiveView::notice(const ViewInput& input, const ViewFrame& frame) {
+  for (ViewControl* control : parts_.controls) control->notice(input, frame);
 }
 
 void LiveView::handle(const ViewEvent& input, std::int64_t now_ns) {
@@ -106,11 +113,13 @@ void LiveView::move_hand(const ViewInput& input, const ViewFrame& frame) {
                     .now_ns = frame.now_ns});
 }
 
-// The sample's new place is where the hand finds it.
-void LiveView::follow_wand(std::int64_t now_ns) {
+// Moves the hand's frame with the sample.
+void LiveView::follow_wand(const ViewInput& input, const ViewFrame& frame) {
   ViewWand& wand = parts_.wand;
   const WallPicture shown = parts_.picture.picture(0);
-  wand.update(now_ns, parts_.servo.link().tip(), 0.5 * (shown.eyes[0].eye_position_m + shown.eyes[1].eye_position_m));
+  wand.update(frame.now_ns, parts_.servo.link().tip(),
+              0.5 * (shown.eyes[0].eye_position_m + shown.eyes[1].eye_position_m));
+  notice(input, frame);
   if (wand.stop_pressed()) parts_.choice.stop_force();
   if (wand.select_pressed()) parts_.choice.press(parts_.pointer.at_wand(), input::ray_of(wand.state()));
   const glm::dmat3 turned(wand.navigation());
@@ -121,7 +130,7 @@ void LiveView::follow_wand(std::int64_t now_ns) {
 exhibit::Hint LiveView::next_hint(std::int64_t now_ns) {
   const scene::TipState& tip = parts_.servo.link().tip();
   const exhibit::CycleHistory& cycles = parts_.servo.cycles();
-  // the pull of the sample jerks the hand down on its way up, which is no new approach
+  // the sample's pull jerks the rising hand down, which is not a new approach
   const bool ascending = cycles.ascending() || (cycles.pressed() && tip.tip.z_m > 0.0);
   return procedure_.update(tip, {ascending, cycles.pressed(), cycles.cycles()}, now_ns);
 }
@@ -135,10 +144,14 @@ exhibit::Moment LiveView::moment(ViewFrame& frame) {
   now.wall.hovered = frame.pointed.swatch;
   now.wall.wand = parts_.pointer.drawn(frame.pointed, frame.now_ns);
   now.guidance = parts_.controls.guidance(parts_.stage.phrases());
+  if (parts_.panels.shown() == "keys") now.letters = parts_.windows.at(0).letters();
   now.wall.cue = parts_.servo.cues().at(servo.tip().time_ns);
   now.servo = exhibit::servo_rows(servo.tip(), servo.timing(), servo.device(), parts_.stage.phrases());
   if (auto row = parts_.picture.quality_row()) now.servo.push_back(std::move(*row));
-  if (!parts_.servo.running()) now.servo_state = scene::ServoState::Fault;
+  if (!parts_.servo.running()) {
+    now.servo_state = scene::ServoState::Fault;
+    now.stopped = false;
+  }
   for (ViewControl* control : parts_.controls) control->add_to_moment(now, frame);
   return now;
 }

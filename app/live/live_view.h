@@ -8,7 +8,7 @@
 
 #include "app/live/view_record.h"
 #include "core/result.h"
-#include "exhibit/procedure.h"
+#include "exhibit/words/procedure.h"
 #include "render/key.h"
 
 namespace afm::exhibit {
@@ -21,29 +21,30 @@ struct ViewEvent;
 struct ViewInput;
 
 // The loop of the live window: takes the input, moves the hand, follows the servo, and shows its newest state in every
-// frame. All else is done by the controls of `parts`. Main thread only.
+// frame. The controls of `parts` do everything else. Main thread only.
 class LiveView {
  public:
   struct Settings {
     double most_frames_per_s = 60.0;
     std::string frame_log;    // a file; empty: none is written
-    bool unattended = false;  // closing a window does not end it
+    bool unattended = false;  // closing a window does not end the loop
   };
 
-  // `press_key` gets every key that goes down. All must outlive it.
+  // `press_key` receives every key press. All arguments must outlive the object.
   LiveView(ViewParts& parts, std::function<void(render::Key)> press_key, Settings settings);
   ~LiveView();
 
-  // Runs until a window is closed, a control leaves, SIGINT or SIGTERM. Fails when the servo cannot be started, at the
-  // end if it has died and was not started again, and at once, with the servo ended in order, if the graphics device or
-  // the display is lost.
+  // Runs until a window is closed, a control leaves, or SIGINT or SIGTERM arrives. Fails if the servo cannot be
+  // started, at the end if it has died and was not restarted, and at once, after ending the servo cleanly, if the
+  // graphics device or the display is lost.
   core::Result<void> run();
 
  private:
   void run_frame(std::int64_t now_ns);
+  void notice(const ViewInput& input, const ViewFrame& frame);
   void handle(const ViewEvent& input, std::int64_t now_ns);
   void move_hand(const ViewInput& input, const ViewFrame& frame);
-  void follow_wand(std::int64_t now_ns);
+  void follow_wand(const ViewInput& input, const ViewFrame& frame);
   exhibit::Hint next_hint(std::int64_t now_ns);
   exhibit::Moment moment(ViewFrame& frame);
   void draw(const ViewInput& input, ViewFrame& frame);

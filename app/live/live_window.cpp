@@ -14,22 +14,22 @@
 #include "app/view/view_parts.h"
 #include "app/view/view_pointer.h"
 #include "app/view/view_wand.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
 
 namespace {
 
-// Owns what the controls share, in the order in which it must end.
+// Owns the objects that the controls share, in reverse order of their destruction.
 struct LiveWindow {
   LiveWindow(const LiveWindowParts& given, const ViewSettings& settings)
       : panels(given.stage.wall_scene, given.materials, key_list),
         sound(settings.sound, given.stage.phrases(), given.stage.titles(), given.clock),
         servo(
             given.start_servo,
-            [this](servo::ServoClient& link, std::optional<std::size_t> felt_before) {
-              controls.servo_started(link, felt_before);
+            [this](servo::ServoClient& link, std::optional<std::size_t> chosen_before) {
+              controls.servo_started(link, chosen_before);
             },
             given.stage.materials.materials.size(), settings.record_folder, sound.narrator()),
         hand(given.stage, servo, {.source = settings.hand, .device = settings.device_controls}),
@@ -55,7 +55,7 @@ struct LiveWindow {
   LiveWindow& operator=(const LiveWindow&) = delete;
 
   ViewPanels panels;
-  LiveSound sound;  // before the servo, whose listener it hears
+  LiveSound sound;  // before the servo, whose listener it uses
   ServoSupervisor servo;
   ViewHand hand;
   ViewPointer pointer;

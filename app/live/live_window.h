@@ -25,7 +25,7 @@ class ViewPicture;
 class ViewWand;
 class ViewWindows;
 
-// What a live window is made of.
+// Components of a live window.
 struct LiveWindowParts {
   const exhibit::Stage& stage;
   const std::vector<curves::SampleModel>& materials;
@@ -36,8 +36,8 @@ struct LiveWindowParts {
   std::function<core::Result<std::unique_ptr<servo::ServoClient>>()> start_servo;
 };
 
-// The live window: a person's mouse points, chooses and moves the hand of the servo; every frame shows the newest state
-// of the tip. Returns as LiveView::run() does.
+// Runs the live window: the mouse points, chooses samples and moves the servo's simulated hand; every frame shows the
+// newest state of the tip. Returns as LiveView::run() does.
 core::Result<void> run_live_window(const LiveWindowParts& parts, const ViewSettings& settings,
                                    const LiveFeatures& features);
 

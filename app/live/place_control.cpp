@@ -12,8 +12,8 @@
 #include "app/view/view_parts.h"
 #include "app/view/view_wand.h"
 #include "core/log.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/moment.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/state/moment.h"
 #include "servo/frame_log.h"
 #include "servo/servo_client.h"
 

@@ -12,20 +12,20 @@ namespace afm::app {
 
 struct ViewParts;
 
-// Where the viewer's head is, and how far the scene was moved.
+// Position of the viewer's head, and offset of the scene.
 class PlaceControl final : public ViewControl {
  public:
   enum class Eyes { Followed, OfHeadset };
 
-  // `script` of a head that no tracker follows; may be empty.
+  // `script` moves a head if there is no tracker; may be empty.
   PlaceControl(ViewParts& parts, const std::vector<input::HeadKey>& script, Eyes eyes);
 
   void move_head(double right_m, double up_m, double nearer_m);
 
-  // Scene and head return to where they were at the start.
+  // Returns scene and head to their initial places.
   void bring_home();
 
-  // The contact comes into the wall's plane, where both eyes see it in one place.
+  // Moves the contact into the wall's plane, where both eyes see it at the same place.
   void bring_to_wall();
 
   void update(const ViewFrame& frame) override;
@@ -40,7 +40,7 @@ class PlaceControl final : public ViewControl {
   ViewParts& parts_;
   Eyes eyes_;
   ViewHead head_;
-  input::SimulatedHead simulated_head_;  // used where no tracker follows a head
+  input::SimulatedHead simulated_head_;  // used if there is no tracker
   glm::dmat4 to_wall_{1.0};              // applied after the wand's navigation
 };
 

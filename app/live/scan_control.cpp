@@ -16,7 +16,7 @@
 #include "core/clock.h"
 #include "core/enumerators.h"
 #include "core/log.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 #include "haptics/sample_axes.h"
@@ -26,15 +26,15 @@ namespace afm::app {
 
 namespace {
 
-constexpr double kSimulatedMPerS = 0.1;     // of a simulated hand that paints
-constexpr double kSimulatedLineM = 0.0015;  // between its lines
-constexpr double kPressedM = -0.004;        // its aim, below the height at which the tip touches
+constexpr double kSimulatedMPerS = 0.1;     // speed of a simulated hand that paints
+constexpr double kSimulatedLineM = 0.0015;  // distance between its lines
+constexpr double kPressedM = -0.004;        // height of its aim, below the height of contact
 
 // Words for the log, in the order of scene::ScanHand.
 constexpr const char* kHandTexts[] = {"scan: the tip scans alone", "scan: the tip leads the hand",
                                       "scan: the hand takes the image"};
 
-// A simulated hand's way over the square, in its metres: to and fro, line by line from the top, again and again.
+// Path of a simulated hand over the square, metres of the hand: back and forth, line by line from the top, repeatedly.
 glm::dvec2 raster_m(double side_m, double seconds) {
   const double line_s = side_m / kSimulatedMPerS;
   const double lines = std::floor(side_m / kSimulatedLineM);
@@ -57,7 +57,7 @@ void ScanControl::toggle() {
   begin();
 }
 
-// Of the material under the tip; with the settings of the scan before, if there is one.
+// Scans the material under the tip, with the previous scan's settings if there was one.
 void ScanControl::begin() {
   const auto material = parts_.servo.material();
   if (!material) return core::log_line("scan: choose a sample first");
@@ -96,7 +96,7 @@ void ScanControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
   if (scan_) exhibit::show_scan(*scan_, now);
 }
 
-// What the hand can do in the scan, or what is wrong with its image; nothing where the procedure has to be said.
+// Advice on the hand's role in the scan or on a fault of the image; empty if the procedure's next step must be shown.
 std::optional<std::string> ScanControl::guidance(const exhibit::Phrases& phrases) const {
   const scene::TipState& tip = parts_.servo.link().tip();
   if (has_hand()) return exhibit::hand_guidance(*scan_, tip, phrases);
@@ -104,7 +104,7 @@ std::optional<std::string> ScanControl::guidance(const exhibit::Phrases& phrases
   return exhibit::scan_guidance(*scan_, phrases);
 }
 
-// The ticks of a hand's image are those of the servo before.
+// A hand-painted image counts the previous servo's ticks, so another servo begins a new one.
 void ScanControl::restart(Restart what) {
   if (what == Restart::Everything || (what == Restart::Servo && has_hand())) end();
 }
@@ -125,7 +125,7 @@ std::optional<exhibit::HandPart> ScanControl::hand_part(const exhibit::ScanSubje
                            .first_tick = servo.tip().tick};
 }
 
-// The next part of the hand; where there is no scan yet, the first.
+// Changes the hand's mode; without a scan, begins one in the first mode.
 void ScanControl::next_hand() {
   if (!parts_.servo.material()) return core::log_line("scan: choose a sample first");
   constexpr auto kParts = core::kEnumerators<scene::ScanHand>;
@@ -149,14 +149,14 @@ void ScanControl::toggle_truth() {
   core::log_line(scan_->progress().truth ? "scan: showing what the tip could not reach" : "scan: showing the retrace");
 }
 
-// In the frame loop: what a frame has to do is a fraction of a millisecond, and bounded however late the frame is.
+// Runs in the frame loop: the work of a frame takes a fraction of a millisecond and is bounded even after a late frame.
 void ScanControl::update(const ViewFrame& frame) {
   if (!scan_) return;
   if (const auto material = parts_.servo.material(); material && *material != material_) return begin();
   const double seconds = static_cast<double>(frame.now_ns - std::exchange(scanned_ns_, frame.now_ns)) * 1e-9;
   if (!has_hand()) return scan_->advance(seconds);
   if (!parts_.servo.running()) return;
-  // another scale, on which the hand reaches another square
+  // another scale, at which the hand reaches another square
   if (const exhibit::HandSize size = hand_size(); size != size_) return begin();
   const scene::TipState& tip = parts_.servo.link().tip();
   const glm::dvec2 place_m(tip.surface.xy_m[0], tip.surface.xy_m[1]);
@@ -167,7 +167,7 @@ void ScanControl::update(const ViewFrame& frame) {
   parts_.servo.link().lead(lead);
 }
 
-// What a hand that is not a person's does in a scan, once it has its force: it goes along, or it paints.
+// Moves a simulated hand in a scan once it has a force: it follows the tip, or it paints.
 void ScanControl::take(const ViewInput& /*input*/, const ViewFrame& frame) {
   if (!has_hand() || !parts_.servo.running()) return;
   const scene::TipState& tip = parts_.servo.link().tip();
@@ -176,7 +176,7 @@ void ScanControl::take(const ViewInput& /*input*/, const ViewFrame& frame) {
   if (parts_.hand.source() == HandSource::Simulated) move_simulated_hand(frame.frame_s);
 }
 
-// The simulated hand's contact point is the origin of its device.
+// Moves the simulated hand. The origin of its device is the contact point.
 void ScanControl::move_simulated_hand(double frame_s) {
   const scene::TipState& tip = parts_.servo.link().tip();
   const glm::dvec3 place_m(tip.hand.position_m[0], tip.hand.position_m[1], tip.hand.position_m[2]);
@@ -185,7 +185,7 @@ void ScanControl::move_simulated_hand(double frame_s) {
   const bool at_top = tip.phase == physics::Phase::Free && tip.tip.z_m > tip.active.release_z_m;
   if (script_.revision == 0) {
     if (!force || !at_top) return;
-    script_.revision = parts_.hand.person().hand().revision + 1'000'000;  // none of the person's own
+    script_.revision = parts_.hand.person().hand().revision + 1'000'000;  // never used by the person
     aim_m_ = place_m;
     way_s_ = 0;
   }
@@ -206,7 +206,7 @@ void ScanControl::move_simulated_hand(double frame_s) {
   parts_.hand.replace_person(script_);
 }
 
-// To the simulated person, who begins again.
+// Returns the hand to the simulated person, who begins again.
 void ScanControl::give_hand_back() {
   if (std::exchange(script_, {}).revision == 0) return;
   parts_.hand.replace_person({});

@@ -14,7 +14,7 @@ namespace afm::app {
 
 struct ViewParts;
 
-// The image that the live window takes of the sample under the tip.
+// Controls the scan of the sample under the tip in the live window.
 class ScanControl final : public ViewControl {
  public:
   explicit ScanControl(ViewParts& parts);
@@ -41,16 +41,16 @@ class ScanControl final : public ViewControl {
 
   ViewParts& parts_;
   std::optional<exhibit::LiveScan> scan_;
-  std::size_t material_ = 0;     // under the tip of this scan
+  std::size_t material_ = 0;     // index of the scanned material
   std::uint64_t begun_ = 0;      // number of scans started
   std::int64_t scanned_ns_ = 0;  // time up to which the scan was advanced
   scene::ScanHand hand_ = scene::ScanHand::Apart;
   bool feedback_ = true;
-  exhibit::HandSize size_;  // at the beginning of this scan
+  exhibit::HandSize size_;  // as at the beginning of this scan
   exhibit::LeadingScan leading_;
-  scene::HandScript script_;  // moves the simulated hand; revision 0: it does not
+  scene::HandScript script_;  // moves the simulated hand; revision 0: inactive
   glm::dvec3 aim_m_{0.0};
-  double way_s_ = 0;  // time on its way over the sample
+  double way_s_ = 0;  // time since the beginning of its path over the sample
 };
 
 }  // namespace afm::app

@@ -7,8 +7,8 @@
 #include "app/view/view_controls.h"
 #include "app/view/view_parts.h"
 #include "core/log.h"
-#include "exhibit/blank_picture.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/blank_picture.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scan/live_scan.h"
 #include "servo/servo_client.h"
 
@@ -32,7 +32,7 @@ void SoundControl::update(const ViewFrame& /*frame*/) {
   exhibit::Narrator::Step step{.hint = parts_.turn.hint, .guidance = parts_.choice.spoken(line), .scan_lines = {}};
   if (!parts_.servo.running()) step.hint = exhibit::Hint::ServoEnded;
   if (parts_.turn.scan.scan != nullptr) {
-    constexpr std::uint32_t kLine = 2 * exhibit::LiveScan::kPixels;  // trace and retrace
+    constexpr std::uint32_t kLine = 2 * exhibit::LiveScan::kPixels;  // pixels of trace and retrace together
     const exhibit::ScanProgress& progress = parts_.turn.scan.scan->progress();
     step.scan_lines = progress.frame * exhibit::LiveScan::kPixels + progress.pixel / kLine;
   }

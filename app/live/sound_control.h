@@ -7,7 +7,7 @@ namespace afm::app {
 
 struct ViewParts;
 
-// What is told to people who hear the window; the picture can be blank for them.
+// Sound of the live window. The picture can be blank for people who only listen.
 class SoundControl final : public ViewControl {
  public:
   explicit SoundControl(ViewParts& parts) : parts_(parts) {}

@@ -13,9 +13,9 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::size_t kToldAfter = 3600;  // frames: about a minute
+constexpr std::size_t kToldAfter = 3600;  // number of frames between two log lines: about a minute
 constexpr double kSmoothing = 0.05;
-constexpr double kLongestLatencyS = 0.25;  // a longer one says that the window stood still
+constexpr double kLongestLatencyS = 0.25;  // longer values mean that the window was stopped
 
 }  // namespace
 

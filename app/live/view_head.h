@@ -17,16 +17,16 @@ class ViewHead {
   // The wall must outlive it.
   explicit ViewHead(const scene::Wall& wall) : wall_(wall), tracker_(wall.viewers.front().sweet_spot) {}
 
-  // Once a frame, with the newest pose and when it came, if there is one. Empty as long as no head has been tracked. A
-  // place where no head can be is logged, and counts as a head that is lost.
+  // Call once a frame, with the newest pose and its arrival time if there is one. Empty until a head has been tracked.
+  // An impossible place of the head is logged and counts as lost.
   std::optional<scene::HeadPose> update(const std::optional<scene::HeadPose>& pose, std::int64_t pose_ns,
                                         std::int64_t now_ns);
 
-  // The frame of the last update() has been presented: how long after its pose came, in seconds, if it was the first to
-  // show it. Logs the latencies once a minute.
+  // Call when the frame of the last update() has been presented. If it was the first with its pose, returns the seconds
+  // since the pose arrived. Logs the latencies once a minute.
   std::optional<double> presented(std::int64_t now_ns);
 
-  // Logs the latencies since they were last logged.
+  // Logs the latencies since the last such line.
   void log_latency();
 
  private:
@@ -36,9 +36,9 @@ class ViewHead {
   input::HeadTracker tracker_;
   bool doubted_ = false;
   bool tracked_ = false;
-  std::int64_t cause_ns_ = 0;    // when the pose of this frame came
-  std::int64_t counted_ns_ = 0;  // of the pose that was counted last
-  double latency_s_ = 0.03;      // smoothed; at first a guess of two frames
+  std::int64_t cause_ns_ = 0;    // arrival time of this frame's pose
+  std::int64_t counted_ns_ = 0;  // arrival time of the newest counted pose
+  double latency_s_ = 0.03;      // smoothed; initially a guess of two frames
   std::vector<double> latencies_ms_;
 };
 

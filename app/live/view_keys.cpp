@@ -52,7 +52,7 @@ constexpr std::array kRows{
     LiveKey{Key::Tab, "Tab", Phrase::KeyNextSetting,
             [](KeyOwners& owners, std::size_t) { owners.parts.choice.mark_next_setting(); }}
         .outside_lessons(),
-    LiveKey{Key::Equal, "+", Phrase::KeyChangeSetting,
+    LiveKey{Key::Plus, "+", Phrase::KeyChangeSetting,
             [](KeyOwners& owners, std::size_t) { owners.parts.choice.step_setting(1); }},
     LiveKey{Key::Minus, "-", Phrase::KeyChangeSetting,
             [](KeyOwners& owners, std::size_t) { owners.parts.choice.step_setting(-1); }},
@@ -64,7 +64,8 @@ constexpr std::array kRows{
     LiveKey{Key::A, "A", Phrase::KeyAnalogy, [](KeyOwners& owners, std::size_t) { owners.journey->toggle_analogy(); }}
         .outside_lessons(),
     LiveKey{Key::Y, "Y", Phrase::KeySay, [](KeyOwners& owners, std::size_t) { owners.sound->say_state(); }},
-    LiveKey{Key::Q, "Q", Phrase::KeySound, [](KeyOwners& owners, std::size_t) { owners.sound->toggle_sound(); }},
+    LiveKey{Key::Q, "Q", Phrase::KeySound, [](KeyOwners& owners, std::size_t) { owners.sound->toggle_sound(); }}
+        .for_staff(),
     LiveKey{Key::X, "X", Phrase::KeyBlank, [](KeyOwners& owners, std::size_t) { owners.sound->toggle_picture(); }}
         .for_staff(),
     LiveKey{Key::R, "R", Phrase::KeyStartAgain,
@@ -99,10 +100,10 @@ constexpr std::array kRows{
     LiveKey{Key::C, "C", Phrase::KeyStereoMode,
             [](KeyOwners& owners, std::size_t) { owners.parts.picture.change_mode(ViewPicture::Step::Previous); }}
         .for_staff(),
-    LiveKey{Key::LeftBracket, "[", Phrase::KeyEyeDistance,
+    LiveKey{Key::F7, "F7", Phrase::KeyEyeDistance,
             [](KeyOwners& owners, std::size_t) { owners.parts.picture.widen_eyes(-kEyeStepM); }}
         .for_staff(),
-    LiveKey{Key::RightBracket, "]", Phrase::KeyEyeDistance,
+    LiveKey{Key::F8, "F8", Phrase::KeyEyeDistance,
             [](KeyOwners& owners, std::size_t) { owners.parts.picture.widen_eyes(kEyeStepM); }}
         .for_staff(),
     LiveKey{Key::G, "G", Phrase::KeyTestPattern,
@@ -126,11 +127,38 @@ constexpr std::array kRows{
     LiveKey{Key::F1, "F1", Phrase::Keys, [](KeyOwners& owners, std::size_t) { owners.parts.panels.toggle_keys(); }},
 };
 
+// Character number `number` of a text in UTF-8.
+std::string character(std::string_view text, std::size_t number) {
+  const auto begins = [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; };
+  std::string found;
+  std::size_t characters = 0;
+  for (const char byte : text) {
+    if (begins(byte)) ++characters;
+    if (characters == number + 1) found += byte;
+  }
+  return found;
+}
+
+// Name of a key on the wall: for a letter, the label of its key.
+std::string shown_name(const LiveKey& key, const exhibit::Phrases& phrases, std::string_view letters) {
+  if (key.key < Key::A || key.key > Key::Z || letters.empty()) return phrases.word(key.name);
+  return character(letters, static_cast<std::size_t>(key.key) - static_cast<std::size_t>(Key::A));
+}
+
 }  // namespace
 
 std::span<const LiveKey> live_keys() { return kRows; }
 
-render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use) {
+std::string keys_of_visitors() {
+  std::string names;
+  for (const LiveKey& key : live_keys()) {
+    if (!key.staff && key.acts(WallUse::Free)) names += (names.empty() ? "" : ", ") + std::string(key.name);
+  }
+  return names;
+}
+
+render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use,
+                           std::string_view letters) {
   render::DataPanel panel;
   panel.title = phrases[Phrase::Keys];
   panel.subtitle = phrases[Phrase::KeysHidden];
@@ -138,13 +166,13 @@ render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phra
   for (const LiveKey& key : live_keys()) {
     const bool shown = key.press != nullptr || hand == HandSource::Mouse;
     if (key.text == Phrase::Keys || !shown || !key.acts(use) || (key.staff && unattended)) continue;
-    const std::string name = phrases.word(key.name);
+    const std::string name = shown_name(key, phrases, letters);
     if (key.text == text_above) {
       panel.rows.back().value += ", " + name;
       continue;
     }
     text_above = key.text;
-    // without notes below them: with those the rows would stand on one another
+    // without notes, which would make the rows overlap
     panel.rows.push_back({phrases[key.text], name + (key.mouse ? ", " + phrases[*key.mouse] : ""), ""});
   }
   return panel;

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "app/view/key_list.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 #include "render/key.h"
 
@@ -19,36 +21,36 @@ class ScanControl;
 class SoundControl;
 struct ViewParts;
 
-// Whoever acts on a key: what all controls share, or a control.
+// Possible receivers of a key: the parts that all controls share, or one control.
 struct KeyOwners {
   ViewParts& parts;
   PlaceControl* place = nullptr;
   JourneyControl* journey = nullptr;
-  LessonControl* lesson = nullptr;  // for rows of lessons only; null without a lesson
+  LessonControl* lesson = nullptr;  // null without a lesson; used only by rows of lessons
   ScanControl* scan = nullptr;
   SoundControl* sound = nullptr;
 };
 
-// A key of the live window, or a run of keys that do the same with a number each.
+// A key of the live window, or a run of consecutive keys with the same action and a number each.
 struct LiveKey {
   render::Key key;
-  const char* name;      // as docs/manual.md prints it; the wall translates it
-  exhibit::Phrase text;  // on the list of keys; neighbours of the same text share a line; Keys: not listed
-  void (*press)(KeyOwners& owners, std::size_t number);  // 0 for the run's first key; null: MouseHand follows the key
-  std::optional<exhibit::Phrase> mouse{};                // does the same
-  render::Key last = key;                                // of the run
-  bool staff = false;                                    // does nothing in an unattended window
-  bool not_in_lessons = false;                           // would change what a lesson asks, or give it away
+  const char* name;      // as printed in docs/manual.md; the wall translates it
+  exhibit::Phrase text;  // text on the list of keys; neighbours with the same text share a line; Keys: not listed
+  void (*press)(KeyOwners& owners, std::size_t number);  // 0: the run's first key; null: MouseHand's
+  std::optional<exhibit::Phrase> mouse{};                // mouse action with the same effect
+  render::Key last = key;                                // last key of the run
+  bool staff = false;                                    // ignored in an unattended window
+  bool not_in_lessons = false;  // ignored in lessons, because it would change or reveal the answer
   bool lessons_only = false;
 
-  // The same row, for staff alone.
+  // The same row, for staff only.
   constexpr LiveKey for_staff() const {
     LiveKey row = *this;
     row.staff = true;
     return row;
   }
 
-  // The same row, without effect in a lesson; and in a lesson alone.
+  // The same row, outside lessons only, or in lessons only.
   constexpr LiveKey outside_lessons() const {
     LiveKey row = *this;
     row.not_in_lessons = true;
@@ -64,12 +66,15 @@ struct LiveKey {
   bool holds(render::Key other) const { return other >= key && other <= last; }
 };
 
-// Every key of the live window, in the order of the list.
+// Every key of the live window, in the order of the printed list.
 std::span<const LiveKey> live_keys();
 
-// The list of keys for the wall, without those of staff where nobody attends. Those of MouseHand stand there where the
-// mouse moves the hand.
+// Names of the keys that work in an unattended window, for help and manual.
+std::string keys_of_visitors();
+
+// The list of keys for the wall, without staff keys in an unattended window. Mouse keys are listed only when the mouse
+// moves the hand. `letters`: labels of the keys A to Z, as render::Window::letters() returns them.
 render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phrases& phrases,
-                           WallUse use = WallUse::Free);
+                           WallUse use = WallUse::Free, std::string_view letters = {});
 
 }  // namespace afm::app

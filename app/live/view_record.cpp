@@ -9,8 +9,8 @@
 #include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
 #include "core/clock.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/recorded_wall.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {

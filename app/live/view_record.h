@@ -16,19 +16,19 @@ namespace afm::app {
 struct ViewFrame;
 struct ViewParts;
 
-// What is kept of each frame: its wall in the session, and its row in the frame log. Main thread only.
+// Stores each frame: its wall in the session, and its row in the frame log. Main thread only.
 class ViewRecord {
  public:
   // `parts` must outlive it.
   explicit ViewRecord(ViewParts& parts) : parts_(parts) {}
 
-  // A frame log in this file; empty: none.
+  // Opens the frame log in this file; empty: none.
   core::Result<void> begin(const std::string& frame_log);
 
-  // The wall as it is shown now, so that it can be drawn again.
+  // Stores the current wall, so that it can be drawn again.
   void keep(const exhibit::Moment& now);
 
-  // The frame was presented just now.
+  // Call right after the frame was presented.
   void presented(const ViewFrame& frame);
 
   core::Result<void> finish();

@@ -12,12 +12,13 @@ namespace afm::app {
 
 struct ViewParts;
 
-// A live window that nobody attends: it begins again for every visitor, and demonstrates itself without one.
+// A live window without staff: restarts for every visitor, and demonstrates itself while there is none.
 class VisitorControl final : public ViewControl {
  public:
   // `idle_s`: seconds without input before the demonstration starts.
   VisitorControl(ViewParts& parts, double idle_s);
 
+  void notice(const ViewInput& input, const ViewFrame& frame) override;
   void take(const ViewInput& input, const ViewFrame& frame) override;
   std::optional<std::string> guidance(const exhibit::Phrases& phrases) const override;
 
@@ -28,6 +29,7 @@ class VisitorControl final : public ViewControl {
   ViewParts& parts_;
   input::IdleWatch watch_;
   glm::dvec3 hand_seen_m_{0.0};  // position of a device's hand at its last motion
+  std::uint32_t presses_seen_ = 0;
   std::int64_t wand_seen_ns_ = 0;
   glm::dvec2 cursor_seen_px_{0.0};
 };

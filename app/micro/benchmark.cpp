@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kRepetitionLasts_s = 0.03;
 
-// Google Benchmark 1.7 (Debian 12) says that an error occurred, 1.9 (Debian 13) that the run was skipped.
+// Google Benchmark 1.7 (Debian 12) reports that an error occurred, 1.9 (Debian 13) that the run was skipped.
 template <class Run>
 std::optional<std::string> failure_of(const Run& run) {
   if constexpr (requires { run.error_occurred; }) {
@@ -27,7 +27,7 @@ std::optional<std::string> failure_of(const Run& run) {
   }
 }
 
-// Keeps the times of one turn of the loop instead of printing them.
+// Collects the times of one loop iteration instead of printing them.
 class Collector : public benchmark::BenchmarkReporter {
  public:
   explicit Collector(BenchmarkClock clock) : clock_(clock) {}

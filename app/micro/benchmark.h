@@ -14,17 +14,17 @@ namespace afm::app {
 // Processor time excludes other programs; wall time is the time that a person waits.
 enum class BenchmarkClock { Processor, Wall };
 
-// One thing to measure. `run` is a Google Benchmark: set up, loop over the state, and the loop alone is timed.
+// One operation to measure. `run` is a Google Benchmark: it sets up, then loops over the state; only the loop is timed.
 struct BenchmarkCase {
   std::string name;
-  double bar_s = 0.0;  // what one operation may take
+  double bar_s = 0.0;  // longest accepted time of one operation
   BenchmarkClock clock = BenchmarkClock::Processor;
-  double operations = 1.0;  // in one turn of the loop
+  double operations = 1.0;  // number per loop iteration
   std::function<void(benchmark::State&)> run;
 };
 
-// Time of one operation: median, minimum and maximum over repetitions. Each repetition is the mean of as many turns as
-// fill a few hundredths of a second.
+// Time of one operation: median, minimum and maximum over repetitions. Each repetition is the mean of as many
+// iterations as fill a few hundredths of a second.
 struct BenchmarkFigure {
   std::string name;
   double bar_s = 0.0;
@@ -38,7 +38,7 @@ struct BenchmarkFigure {
 
 inline constexpr int kBenchmarkRepetitions = 15;
 
-// Runs one after the other, with a line of progress each. Fails if one of them fails or the run is interrupted.
+// Runs the cases in turn, with a line of progress each. Fails if one of them fails or the run is interrupted.
 core::Result<std::vector<BenchmarkFigure>> run_benchmarks(const std::vector<BenchmarkCase>& cases);
 
 // Results as a table and as JSON; durations in JSON are seconds.

@@ -27,7 +27,7 @@ constexpr double kTablesBar_s = 5e-3;
 constexpr double kSubStepBar_s = 20e-9;
 constexpr double kCurveBar_s = 10e-3;
 
-// Mica under a silicon nitride tip, as docs/physics.md has it.
+// Mica under a silicon nitride tip, as in docs/physics.md.
 physics::ContactParameters mica() {
   physics::ContactParameters contact;
   contact.tip_radius = 50_nm;
@@ -39,7 +39,7 @@ physics::ContactParameters mica() {
   return contact;
 }
 
-// One cycle of the hand, down from above jump-off-contact to 2 nm into the sample and up again, over and over.
+// Repeated cycles of the hand: down from above the jump off contact to 2 nm into the sample, and up again.
 class Path {
  public:
   explicit Path(Length z_joc) {
@@ -78,7 +78,7 @@ void dynamic_tick(benchmark::State& state) {
   for (auto turn : state) benchmark::DoNotOptimize(model.step(path.next()));
 }
 
-// Starts the program, as a shell would, and waits for it; its output goes nowhere.
+// Starts the program as a shell would, and waits for it. Discards its output.
 bool run_quietly(const std::string& program, std::vector<std::string> arguments) {
   std::vector<char*> argv;
   arguments.insert(arguments.begin(), program);

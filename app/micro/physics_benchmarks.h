@@ -8,8 +8,8 @@
 
 namespace afm::app {
 
-// A tick and the tables of each law, a sub-step of the dynamics, and a curve of 10,000 points by `program` as a person
-// runs it.
+// Benchmarks of a tick and the tables of each law, of a sub-step of the dynamics, and of a curve of 10,000 points
+// computed by `program` as a separate process.
 std::vector<BenchmarkCase> physics_benchmarks(const std::string& program);
 
 }  // namespace afm::app

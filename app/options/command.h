@@ -12,14 +12,14 @@ namespace afm::app {
 
 // Environment of a command.
 struct CommandContext {
-  std::string assets_dir;                // folder that holds models/, walls/ and materials.toml
-  std::string program_path;              // the running program; touchafm-servo lies beside it
-  std::vector<std::string> arguments{};  // as they were typed, without the program
-  std::string language = "en";           // of wall and report, unless --language says another: the locale's
+  std::string assets_dir;                // holds models/, walls/ and materials.toml
+  std::string program_path;              // the running program; touchafm-servo is in the same folder
+  std::vector<std::string> arguments{};  // as typed, without the program
+  std::string language = "en";           // language of wall and report, from the locale; --language overrides it
 };
 
-// All commands, in the order of the help. Each line declares add_NAME_command, which a file in app/commands defines,
-// and adds a row to kCommands.
+// All commands, in the order of the help. Each line declares add_NAME_command, defined in a file of app/commands, and
+// adds a row to kCommands.
 #define AFM_FOR_EACH_COMMAND(COMMAND) \
   COMMAND(demo)                       \
   COMMAND(view)                       \
@@ -38,7 +38,7 @@ struct CommandContext {
   COMMAND(doctor)                     \
   COMMAND(bench)
 
-// Adds the command of that name with its options and its action. The context must outlive it.
+// Adds the command of that name with its options and action. The context must outlive the command line.
 #define AFM_DECLARE_COMMAND(name) void add_##name##_command(OptionList& program, const CommandContext& context);
 AFM_FOR_EACH_COMMAND(AFM_DECLARE_COMMAND)
 #undef AFM_DECLARE_COMMAND

@@ -21,7 +21,7 @@ namespace afm::app {
 namespace {
 
 std::string names_of(const char* word, const std::set<CLI::Option*>& options) {
-  // sets of pointers: their order is that of the addresses
+  // sorted by name, because CLI11's sets of pointers are sorted by address
   std::set<std::string> names;
   for (const CLI::Option* option : options) names.insert(option->get_name());
   std::string text;
@@ -29,10 +29,10 @@ std::string names_of(const char* word, const std::set<CLI::Option*>& options) {
   return text;
 }
 
-// "PIXELS from 64 to 8192", "{csv,json}"; of a flag empty.
+// "PIXELS from 64 to 8192", "{csv,json}"; empty for a flag.
 std::string value_of(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return "";
-  std::string value = option.get_type_name();  // the type, then a colon before what each check says of itself
+  std::string value = option.get_type_name();  // the type, followed by a colon and the description of each check
   const std::size_t colon = value.find(':');
   if (colon == std::string::npos) return value;
   std::string type = value.substr(0, colon);
@@ -63,8 +63,8 @@ CommandDescription describe_command(const CLI::App& app) {
                              .commands = {}};
   for (const CLI::Option* option : app.get_options()) {
     // CLI11 gives a group of options a help flag that it never shows
-    const bool hidden = app.get_name().empty() && option == app.get_help_ptr();
-    if (!hidden) command.options.push_back(describe_option(*option));
+    const bool help_of_group = app.get_name().empty() && option == app.get_help_ptr();
+    if (!help_of_group && !option->get_group().empty()) command.options.push_back(describe_option(*option));
   }
   for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
     const CommandDescription inner = describe_command(*below);
@@ -77,7 +77,7 @@ CommandDescription describe_command(const CLI::App& app) {
   return command;
 }
 
-// CLI11's help, but for an option's value, default and rules: its own wording of these differs from version to version.
+// CLI11's help, except for an option's value, default and rules, whose wording differs between CLI11 versions.
 class HelpFormatter : public CLI::Formatter {
  public:
   [[nodiscard]] std::string make_option_opts(const CLI::Option* option) const override {
@@ -132,7 +132,7 @@ Option& Option::within(int least, int most) {
 }
 
 Option& Option::within(double least, double most) {
-  // CLI11's own check lets through what is not a number
+  // CLI11's own range check lets NaN through
   option_->check(CLI::Range(least, most).description(fmt::format("from {:g} to {:g}", least, most)))
       ->check([](const std::string& text) {
         double value = 0.0;
@@ -146,7 +146,7 @@ Option& Option::one_of(std::initializer_list<int> values) {
   return *this;
 }
 
-Option& Option::one_of(std::initializer_list<const char*> words) {
+Option& Option::one_of(const std::vector<std::string>& words) {
   option_->check(CLI::IsMember(words));
   return *this;
 }
@@ -166,6 +166,11 @@ Option& Option::writable_file() {
 
 Option& Option::one_value_each() {
   option_->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  return *this;
+}
+
+Option& Option::hidden() {
+  option_->group("");
   return *this;
 }
 

@@ -9,8 +9,8 @@
 
 #include "core/result.h"
 
-// CLI11 parses the command line. Only command_line.cpp includes it: it takes longer to compile than the rest of a
-// command.
+// CLI11 parses the command line. Only command_line.cpp includes it, because it takes longer to compile than the rest of
+// a command.
 namespace CLI {
 class App;
 class Option;
@@ -18,7 +18,7 @@ class Option;
 
 namespace afm::app {
 
-// One option, or one argument without dashes. A handle: a copy is the same option.
+// One option, or one positional argument. A handle: a copy refers to the same option.
 class Option {
  public:
   explicit Option(CLI::Option& option) : option_(&option) {}
@@ -34,18 +34,22 @@ class Option {
   Option& needs(const Option& other);
   Option& excludes(const Option& other);
 
-  // Every other value is wrong usage. Both ends are legal; the type is the one in which values are compared.
+  // Rejects all values outside the range as WrongUsage. Both ends are legal. Values are compared in the type of the
+  // limits.
   Option& within(int least, int most);
   Option& within(double least, double most);
   Option& one_of(std::initializer_list<int> values);
-  Option& one_of(std::initializer_list<const char*> words);
+  Option& one_of(const std::vector<std::string>& words);
   Option& existing_folder();
-  Option& writable_file();  // refused before the work whose result it would lose
+  Option& writable_file();  // checked early, so that no result is lost after long work
 
-  // Of a list: one value each time the option is given.
+  // Leaves the option out of help, man page and completion: for our own programs.
+  Option& hidden();
+
+  // For a list: one value each time the option is given.
   Option& one_value_each();
 
-  // False before the command line is parsed.
+  // Returns whether the option was given; false before parsing.
   bool given() const;
 
  private:
@@ -58,12 +62,12 @@ class OptionList {
  public:
   using Action = std::function<core::Result<void>()>;
 
-  // "--name" is an option, "name" an argument without dashes. command_line.cpp lists the types of values: texts,
-  // numbers, and lists of texts.
+  // "--name" is an option, "name" a positional argument. command_line.cpp lists the supported types: texts, numbers,
+  // and lists of texts.
   template <class Value>
   Option add_option(const std::string& name, Value& target, const std::string& help);
 
-  // Passes the text to `read` while parsing; a refusal is WrongUsage of this option.
+  // Passes the text to `read` while parsing. An error of `read` is WrongUsage of this option.
   Option add_parsed_option(const std::string& name, std::function<core::Result<void>(const std::string& text)> read,
                            const std::string& help);
 
@@ -76,10 +80,10 @@ class OptionList {
   // A command, of which exactly one must be given.
   OptionList add_command(const std::string& name, const std::string& help);
 
-  // The last lines of the help.
+  // Last lines of the help.
   void footer(const std::string& text);
 
-  // Action of CommandLine::run if this command is given.
+  // Sets the action of CommandLine::run for this command.
   void when_chosen(Action action);
 
  protected:
@@ -92,10 +96,10 @@ class OptionList {
 
 // Help of one option or positional argument.
 struct OptionDescription {
-  std::string name;   // "--model"; of an argument "file"
-  std::string value;  // what may be given, as the help has it; of a flag empty
+  std::string name;   // "--model"; for a positional argument "file"
+  std::string value;  // accepted values as in the help; empty for a flag
   std::string help;
-  std::string fallback;  // the value that holds without the option, or empty
+  std::string fallback;  // default value, or empty
   std::string rules;     // "required", "needs --gltf", "not with --size", or empty
   bool argument = false;
 };
@@ -124,13 +128,13 @@ class CommandLine : public OptionList {
   CommandLine& operator=(const CommandLine&) = delete;
   ~CommandLine();
 
-  // The text for --help or --version; empty if a command was chosen. WrongUsage names the first error.
+  // Returns the text for --help or --version; empty if a command was chosen. WrongUsage reports the first error.
   core::Result<std::string> parse(int count, const char* const* arguments);
 
-  // For the man page and the shell's completion.
+  // Descriptions for the man page and the shell's completion.
   CommandDescription describe() const;
 
-  // Runs what was chosen.
+  // Runs the chosen command.
   core::Result<void> run() const { return chosen_(); }
 
  private:

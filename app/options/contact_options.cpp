@@ -19,8 +19,8 @@ std::vector<std::string> with_built_in(const std::string& built_in, const std::v
   return files;
 }
 
-// What a contact is before anything is known of it. The Hamaker constant and the surface energy stand for those that a
-// law without such a force never asks for.
+// A contact without known values. Hamaker constant and surface energy are placeholders for laws without these forces,
+// which never read them.
 scene::MaterialEntry nameless_material() {
   scene::MaterialEntry entry;
   entry.name = "none";
@@ -38,7 +38,7 @@ scene::MaterialEntry nameless_material() {
   return entry;
 }
 
-// What a model cannot do without, by the options' names.
+// Options that the model needs.
 std::vector<const char*> needed_options(const curves::ModelName& model) {
   std::vector<const char*> needed{"tip-radius", "spring-constant"};
   const physics::LawTraits& law = physics::traits_of(model.law);

@@ -15,25 +15,25 @@ namespace afm::app {
 // Contact options of the command line, as typed; empty text: not given.
 struct ContactOptions {
   std::string assets_dir;                   // holds materials.toml and probes.toml
-  std::vector<std::string> material_files;  // of the user; they add to the built-in ones
-  std::vector<std::string> probe_files;     // the same
-  std::string material;                     // empty: every number that the model needs is given
+  std::vector<std::string> material_files;  // user's files, added to the built-in ones
+  std::vector<std::string> probe_files;     // user's files, added to the built-in ones
+  std::string material;                     // empty: all numbers that the model needs must be given
   std::string probe;                        // empty: the material's lever and tip
   std::string model = "auto";
-  std::map<std::string, std::string, std::less<>> values;  // by the option's name, without its dashes
+  std::map<std::string, std::string, std::less<>> values;  // keyed by the option's name without dashes
   bool exact_sphere = false;
 };
 
-// --materials, --probes, --probe, --model and one option a number. `options` must live while `command` parses.
+// Adds --materials, --probes, --probe, --model and one option per number. `options` must outlive the parsing of
+// `command`.
 void add_contact_options(OptionList& command, ContactOptions& options, const CommandContext& context);
 
-// The built-in materials with the user's on top.
+// Loads the built-in and the user's materials. A user's material replaces a built-in one of the same name.
 core::Result<scene::MaterialLibrary> load_materials(const ContactOptions& options);
 core::Result<scene::ProbeLibrary> load_probes(const ContactOptions& options);
 
-// Loads the material, puts the probe under it and applies the overrides. An unknown name, a number that cannot be read
-// or does not act on the model, and one that is missing where no material is named are errors of wrong usage that name
-// the option.
+// Loads the material, adds the probe and applies the overrides. WrongUsage, naming the option, for an unknown name, a
+// number that is malformed or has no effect in the model, and a missing number if no material is named.
 core::Result<curves::ContactSetup> contact_setup(const ContactOptions& options);
 
 }  // namespace afm::app

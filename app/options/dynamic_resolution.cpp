@@ -14,13 +14,13 @@ namespace afm::app {
 
 namespace {
 
-// Each draws about 0.7 of the pixels of the one before.
+// Each step draws about 0.7 of the previous step's pixels.
 constexpr std::array kScales{1.0, 0.84, 0.71, 0.59, 0.5};
 constexpr std::size_t kJudgedFrames = 5;
-constexpr double kRoom = 0.85;  // of the budget: what a finer frame may be expected to take
+constexpr double kRoom = 0.85;  // share of the budget that a finer frame may be predicted to use
 constexpr int kPatienceFrames = 30;
 constexpr int kMostPatienceFrames = 1920;
-constexpr double kFourSamplesCost = 2.8;  // against one, at most: see the measurements of the design
+constexpr double kFourSamplesCost = 2.8;  // largest cost relative to one sample, from the measurements in the design
 
 }  // namespace
 
@@ -39,7 +39,7 @@ bool DynamicResolution::go(std::size_t step) {
   return true;
 }
 
-// What the next finer step would take at most: a frame never grows faster than its pixels.
+// Upper bound of the next finer step's time: a frame's time never grows faster than its number of pixels.
 double DynamicResolution::finer_cost() const {
   const render::FrameQuality& now = steps_[step_];
   const render::FrameQuality& finer = steps_[step_ - 1];
@@ -63,7 +63,7 @@ bool DynamicResolution::add(double frame_ms) {
     return go(step_ + 1);
   }
   ++steady_frames_;
-  if (trying_ && steady_frames_ == patience_frames_) patience_frames_ = kPatienceFrames;  // that step has held
+  if (trying_ && steady_frames_ == patience_frames_) patience_frames_ = kPatienceFrames;  // the step has held
   if (step_ == 0 || steady_frames_ < patience_frames_ || finer_cost() > kRoom * budget_ms_) return false;
   return go(step_ - 1);
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 #include "render/renderer.h"
 
@@ -13,47 +13,47 @@ namespace afm::app {
 
 class OptionList;
 
-// Keeps a frame within a budget by drawing it coarser: first with fewer pixels, down to half of them each way, then
-// with one sample a pixel. What is seen and where is left alone. A step coarser follows at once on frames that are too
-// long; a step finer waits until the frame would leave room, and longer after each one that turned out to be too much.
-// Frames are judged by the middle one of a few, so that a hiccup changes nothing.
+// Keeps frames within a time budget by lowering the quality: first fewer pixels, down to half of them each way, then
+// one sample a pixel. Content and geometry of the picture do not change. Steps down at once if frames take too long;
+// steps up only when the finer frame is predicted to fit, and waits longer after each failed attempt. Judges the median
+// of a few frames, so that a single slow one has no effect.
 class DynamicResolution {
  public:
-  // `budget_ms` > 0; `samples` as the renderer was made with.
+  // `budget_ms` > 0; `samples` is the renderer's setting.
   DynamicResolution(double budget_ms, std::uint32_t samples);
 
   // Adds the time of the newest frame. True if the next frame has a different quality.
   bool add(double frame_ms);
 
-  // Takes the time of the renderer's newest finished frame, sets its quality and logs a change.
+  // Takes the time of the renderer's newest finished frame, sets the renderer's quality and logs a change.
   void follow(render::Renderer& renderer);
 
   const render::FrameQuality& quality() const { return steps_[step_]; }
 
-  // "71 % of the pixels each way, 4 samples"; with what could not be held if nothing coarser is left.
+  // "71 % of the pixels each way, 4 samples"; adds a missed budget if no coarser step is left.
   std::string text() const;
 
-  // The same for the wall.
+  // The same text for the wall.
   render::DataRow row(const exhibit::Phrases& phrases) const;
 
  private:
   bool go(std::size_t step);
   bool over_budget() const {
     return step_ + 1 == steps_.size() && typical_ms_ > budget_ms_;
-  }  // nothing coarser is left
+  }  // no coarser step is left
   double finer_cost() const;
 
   double budget_ms_;
   std::vector<render::FrameQuality> steps_;  // finest first
   std::size_t step_ = 0;
-  std::vector<double> recent_ms_;  // since the last change
-  int steady_frames_ = 0;          // within the budget since then
-  int patience_frames_;            // before a finer step is tried
+  std::vector<double> recent_ms_;  // times since the last change
+  int steady_frames_ = 0;          // number within the budget since the last change
+  int patience_frames_;            // number required before a finer step
   bool trying_ = false;            // the last change was to a finer step
-  double typical_ms_ = 0;          // the middle one of recent_ms_, once there are enough
+  double typical_ms_ = 0;          // median of recent_ms_, once there are enough
 };
 
-// --frame-budget MS; 0 without it.
+// Adds --frame-budget MS; 0 without it.
 void add_frame_budget(OptionList& command, double& budget_ms);
 
 }  // namespace afm::app

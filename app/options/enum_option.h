@@ -12,13 +12,13 @@
 
 namespace afm::app {
 
-// Use enum_option.
+// Implementation of enum_option.
 Option choice_option(OptionList& command, const std::string& name, std::function<void(std::size_t row)> store,
                      const std::string& sort, const std::vector<std::string_view>& names,
                      const std::string& description);
 
-// An option whose value is the `name` of a row of `table`; the row's `value` goes to `target`. Help and refusal list
-// the names. `sort`: "a stereo mode". The table must live as long as the command.
+// Adds an option whose value is the `name` of a row of `table`; the row's `value` goes to `target`. Help and error list
+// the names. `sort` describes them: "a stereo mode". The table must live as long as the command.
 template <class Target, class Table, class Row, class Name, class Value>
 Option enum_option(OptionList& command, const std::string& option, Target& target, const std::string& sort,
                    const Table& table, Name Row::* name, Value Row::* value, const std::string& description) {

@@ -4,29 +4,29 @@
 #include <string>
 
 #include "app/options/command.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "physics/friction/friction.h"
 #include "scene/shared/scale_modes.h"
 
 namespace afm::app {
 
-// --stereo, --swap-eyes and --ipd.
+// Adds --stereo, --swap-eyes and --ipd.
 void add_stereo_options(OptionList& command, exhibit::PictureOptions& options, const std::string& default_mode);
 
-// --probe and --sample; and --sample alone, beside a --probe that knows names too.
+// Adds --probe and --sample; the second function adds only --sample, for a command whose --probe also accepts names.
 void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files);
 void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files);
 
-// --scale.
+// Adds --scale.
 void add_scale_option(OptionList& command, scene::ScaleMode& mode);
 
-// --friction.
+// Adds --friction.
 void add_friction_option(OptionList& command, physics::FrictionLaw& friction);
 
-// --language, --guidance and --assets: the words of what is drawn or reported.
+// Adds --language, --guidance and --assets, which determine the texts of pictures and reports.
 void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context);
 
-// The same, and --wall and --materials.
+// Adds the same, and --wall and --materials.
 void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context);
 
 }  // namespace afm::app

@@ -9,7 +9,7 @@
 
 namespace afm::app {
 
-// --channel and --level: how an image that an instrument measured is read.
+// Adds --channel and --level: how to read an instrument's image.
 std::array<Option, 2> add_channel_options(OptionList& command, std::string& channel, physics::Levelling& levelling);
 
 }  // namespace afm::app

@@ -23,14 +23,14 @@ namespace {
 
 constexpr const char* kUnfinished = ".unfinished-";
 
-// Ours until the descriptor closes; empty if it is another process's.
+// Locks the folder until the descriptor closes; empty if another process holds the lock.
 std::optional<core::FileDescriptor> locked(const std::string& folder) {
   core::FileDescriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   if (!file.is_open() || ::flock(file.get(), LOCK_EX | LOCK_NB) != 0) return std::nullopt;
   return file;
 }
 
-// What a killed run has left behind in the folder.
+// Removes staging folders that killed runs have left in the folder.
 void remove_abandoned(const std::string& path) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(path, ignored)) {
@@ -52,8 +52,8 @@ core::Result<OutputFolder> OutputFolder::open(const std::string& path) {
   if (!fs::is_directory(path, error)) return failed("it is not a folder");
 
   remove_abandoned(path);
-  // inside the folder, so that commit() moves within one file system; an unpredictable name, so that no link waits
-  // there
+  // inside the folder, so that commit() moves within one file system; with an unpredictable name, so that nobody can
+  // prepare a link there
   std::string staging = path + "/" + kUnfinished + "XXXXXX";
   if (::mkdtemp(staging.data()) == nullptr) return failed(core::system_error(errno));
   auto lock = locked(staging);

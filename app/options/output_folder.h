@@ -12,7 +12,7 @@
 
 namespace afm::app {
 
-// A results folder that appears completely or not at all: files are written into a temporary folder next to it, and
+// A results folder that appears completely or not at all: files are written into a temporary folder inside it, and
 // commit() moves them into place. Without a commit nothing is left, even after a signal. One thread.
 class OutputFolder {
  public:
@@ -23,12 +23,12 @@ class OutputFolder {
   OutputFolder& operator=(OutputFolder&&) = delete;
   ~OutputFolder();
 
-  // Path to write a file of this name to until commit().
+  // Path for writing a file of this name, valid until commit().
   std::string staged(std::string_view name) const;
 
   core::Result<void> write(std::string_view name, std::string_view bytes);
 
-  // Moves every staged file into the folder; older files of the same names are replaced, others stay.
+  // Moves every staged file into the folder. Replaces older files of the same names and keeps all others.
   core::Result<void> commit();
 
  private:
@@ -36,7 +36,7 @@ class OutputFolder {
 
   std::string path_;
   std::string staging_;
-  core::FileDescriptor lock_;  // of the staging folder, for as long as this process lives
+  core::FileDescriptor lock_;  // locks the staging folder while this process lives
   std::unique_ptr<core::OnInterruption> undo_;
 };
 

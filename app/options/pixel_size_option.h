@@ -11,15 +11,15 @@
 
 namespace afm::app {
 
-// Both ends are legal, each way.
+// Both ends are legal, in each direction.
 struct PixelRange {
   std::uint32_t least, most;
 };
 
-// None unless it is WIDTHxHEIGHT, two whole numbers.
+// Empty unless the text is WIDTHxHEIGHT, two whole numbers.
 std::optional<glm::uvec2> parse_pixel_size(std::string_view text);
 
-// An option whose value is the size of a picture or a window. Help and refusal give the range if there is one.
+// Adds an option whose value is the size of a picture or window. Help and error show the range if there is one.
 Option pixel_size_option(OptionList& command, const std::string& name, std::optional<glm::uvec2>& size_px,
                          const std::string& description, std::optional<PixelRange> range = std::nullopt);
 

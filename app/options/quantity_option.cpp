@@ -12,7 +12,7 @@ namespace afm::app {
 
 namespace {
 
-// "5mm/s": as a person types it, in one word.
+// "5mm/s": as typed, in one word.
 std::string typed(double si, const QuantityDomain& domain) {
   std::string text = physics::format_si(si, domain.units, 4);
   std::erase(text, ' ');

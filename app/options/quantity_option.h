@@ -18,21 +18,22 @@ struct QuantityRange {
   Q least, most;
 };
 
-// Units of one sort, and the legal values among them, in SI.
+// Units of one physical quantity, and its range of legal values in SI.
 struct QuantityDomain {
   std::string_view sort;  // "a length"
   std::span<const physics::Unit> units;
   std::optional<QuantityRange<double>> range{};
 };
 
-// The sort as the help names a value of it: "LENGTH".
+// Placeholder for a value of this sort in the help: "LENGTH".
 std::string type_word(std::string_view sort);
 
-// Use quantity_option.
+// Implementation of quantity_option.
 Option si_option(OptionList& command, const std::string& name, std::function<void(double si)> store,
                  const QuantityDomain& domain, const std::string& description);
 
-// An option whose value is a number with its unit. Help and refusal give the range if there is one, else the units.
+// Adds an option whose value is a number with a unit. Help and error show the range if there is one, otherwise the
+// units.
 template <class Q, class Store>
 Option quantity_option(OptionList& command, const std::string& name, Store store, const physics::UnitList<Q>& units,
                        const std::string& description, std::optional<QuantityRange<Q>> range = std::nullopt) {

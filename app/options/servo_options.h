@@ -7,7 +7,7 @@ namespace afm::app {
 
 class OptionList;
 
-// --servo.
+// Adds --servo.
 void add_servo_mode_option(OptionList& command, servo::ServoMode& mode);
 
 }  // namespace afm::app

@@ -14,15 +14,15 @@ struct SoundOptions {
   bool mono = false;
 
   exhibit::Channels channels() const { return mono ? exhibit::Channels::Mono : exhibit::Channels::Stereo; }
-  double gain() const;  // of the volume
+  double gain() const;  // linear amplitude of the volume
 };
 
 inline constexpr double kQuietestDb = -60, kLoudestDb = 0;
 
-// A number with its unit, "-12dB" or "-12 dB"; none if it is not that.
+// A number with its unit, "-12dB" or "-12 dB"; empty for any other text.
 std::optional<double> parse_decibels(std::string_view text);
 
-// --volume and --mono-sound.
+// Adds --volume and --mono-sound.
 void add_sound_options(OptionList& command, SoundOptions& options);
 
 }  // namespace afm::app

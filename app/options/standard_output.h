@@ -7,10 +7,10 @@
 
 namespace afm::app {
 
-// Writes a result to stdout completely; the error gives the reason for a failure, such as a closed pipe.
+// Writes the whole text to stdout. The error contains the reason, such as a closed pipe.
 core::Result<void> write_stdout(std::string_view text);
 
-// Fails if anything printed before could not be written. Every command ends with it (main.cpp).
+// Fails if anything printed before could not be written. Every command ends with this call.
 core::Result<void> flush_stdout();
 
 }  // namespace afm::app

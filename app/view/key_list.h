@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "exhibit/phrases.h"
+#include <string_view>
+
+#include "exhibit/words/phrases.h"
 #include "render/frame.h"
 
 namespace afm::app {
@@ -9,7 +11,8 @@ namespace afm::app {
 enum class HandSource { Mouse, Simulated, Device };
 enum class WallUse { Free, Lesson };
 
-// Makes the list of keys on the wall. An unattended wall leaves out the keys of staff.
-using KeyList = render::DataPanel (*)(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use);
+// Makes the list of keys on the wall. An unattended wall omits staff keys. `letters`: as render::Window::letters().
+using KeyList = render::DataPanel (*)(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use,
+                                      std::string_view letters);
 
 }  // namespace afm::app

@@ -83,7 +83,7 @@ void LiveSound::say_state(const scene::TipState& tip) {
   asked_ = false;
 }
 
-// Without --speech only the key Y speaks.
+// Without --speech, only the key Y speaks.
 void LiveSound::say(const exhibit::SpeechText& text) {
   if (!settings_.speech && !asked_) return;
   core::log_line("says: " + text.text);

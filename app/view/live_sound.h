@@ -17,32 +17,32 @@
 
 namespace afm::app {
 
-// What is heard at the live window. A card that is missing or gets lost costs one line of the log. Main thread; the
-// threads of SDL, of the voice and of the servo's listener are behind it.
+// Sound of the live window. A missing or lost sound card costs one line of the log. Main thread; uses threads of SDL,
+// of the voice and of the servo's listener.
 class LiveSound {
  public:
-  // Phrases and clock must outlive it.
+  // Phrases and clock must outlive the object.
   LiveSound(const LiveSoundSettings& settings, const exhibit::Phrases& phrases, std::vector<std::string> titles,
             const core::Clock& clock);
 
-  // A servo that has been started: its tip is heard from now on, with these ears.
+  // Makes the tip of a newly started servo audible, at these ears.
   void attach(servo::ServoClient& servo, const std::vector<curves::SampleModel>& materials);
   void set_ear(std::size_t material, const curves::SampleModel& model);
 
   exhibit::Narrator& narrator() { return narrator_; }
 
-  // Once a frame: whether the card is still there.
+  // Checks that the sound card is still there. Call once a frame.
   void check_card();
   bool lacks_card() const { return settings_.sound && !output_; }
 
-  // Whether tones and signals are heard, where --sound asks for them; speech always is.
+  // Enables tones and signals, if --sound was given. Speech is always audible.
   void set_tones(bool heard);
 
-  // Silent, or as before.
+  // Mutes or unmutes.
   void toggle();
   void unmute();
 
-  // The key Y: speaks even without --speech, where there is a program that can.
+  // Key Y: speaks even without --speech, if a speech program is installed.
   void say_state(const scene::TipState& tip);
 
  private:
@@ -54,13 +54,13 @@ class LiveSound {
   LiveSoundSettings settings_;
   const exhibit::Phrases& phrases_;
   const core::Clock& clock_;
-  std::unique_ptr<exhibit::SoundMixer> mixer_;  // large
+  std::unique_ptr<exhibit::SoundMixer> mixer_;  // too large for the stack
   exhibit::Narrator narrator_;
   std::unique_ptr<exhibit::SoundOutput> output_;
   std::unique_ptr<exhibit::Speaker> speaker_;
   bool muted_ = false;
   bool looked_for_voice_ = false;
-  bool asked_ = false;  // by the key Y, which is answered at this moment
+  bool asked_ = false;  // by the key Y, answered in the current frame
 };
 
 }  // namespace afm::app

@@ -9,10 +9,10 @@ namespace afm::app {
 
 namespace {
 
-constexpr double kFastestMPerS = 0.20;  // of the aim; its path's peak is 15/8 of the mean, and the servo trips at 0.8
+constexpr double kFastestMPerS = 0.20;  // mean speed of the aim; the peak is 15/8 of it, the servo's limit 0.8
 constexpr double kWheelStepM = 0.002;
 constexpr double kLongestPathS = 0.25;
-constexpr std::int64_t kShortestPressNs = 150'000'000;  // a click between two frames is a press too
+constexpr std::int64_t kShortestPressNs = 150'000'000;  // makes a click between two frames a press
 
 using Kind = render::WindowEvent::Kind;
 

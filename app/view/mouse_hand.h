@@ -10,47 +10,47 @@
 
 namespace afm::app {
 
-// A mouse in the place of a haptic device. What it moves is the aim of the servo's simulated hand, along the sample's
-// normal and sideways over it: the hand itself hangs on that aim by its grip, so that the tip snaps in, sticks and
-// flies off by itself while the mouse goes on evenly (pseudo-haptics). Places are the hand's, from the contact point,
+// A mouse in place of a haptic device. The mouse moves the aim of the servo's simulated hand, along the sample's normal
+// and sideways over it. The hand hangs on that aim by its grip, so that the tip snaps in, sticks and flies off by
+// itself while the mouse moves evenly (pseudo-haptics). Positions are the hand's, relative to the contact point,
 // metres.
 //
-// Held right button or kGripKey: the aim follows the cursor, up and down or, as the scanner of an image, over the
-// sample. Wheel: steps up and down. Middle button or kTurnOnKey: Turn-On.
+// Held right button or kGripKey: the aim follows the cursor, up and down or, in a scan, over the sample. Wheel: steps
+// up and down. Middle button or kTurnOnKey: Turn-On.
 class MouseHand {
  public:
   static constexpr double kLowestM = -0.030;
   static constexpr double kHighestM = 0.070;
-  static constexpr double kRestM = 0.060;       // where the simulated hand begins
-  static constexpr double kWidestM = 0.070;     // to either side: as far as a sample reaches on the scale that fits it
-  static constexpr double kOnSampleM = -0.002;  // where the tip of a scanning hand is lowered to
+  static constexpr double kRestM = 0.060;       // initial height of the simulated hand
+  static constexpr double kWidestM = 0.070;     // to either side: edge of a sample at the scale that fits it
+  static constexpr double kOnSampleM = -0.002;  // height to which a scanning hand lowers the tip
 
   static constexpr render::Key kGripKey = render::Key::Space;
   static constexpr render::Key kTurnOnKey = render::Key::T;
 
-  // The sample's outward normal and its x axis, to the right, in the device's frame; unit.
+  // The sample's outward normal and its x axis, to the right; unit vectors in the device's frame.
   MouseHand(const glm::dvec3& normal, const glm::dvec3& right) : normal_(normal), right_(right) {}
 
-  // `m_per_px`: how far the aim goes when the cursor moves by a pixel.
+  // `m_per_px`: distance of the aim per pixel of the cursor.
   void apply(const render::WindowEvent& event, double m_per_px, std::int64_t now_ns);
 
-  // Once a frame. The aim moves to where it is wanted, no faster than a hand that the servo trusts, in a path that
+  // Call once a frame. Moves the aim towards the requested position, no faster than the servo accepts, on a path that
   // lasts until the next frame: `frame_s`.
   void update(const glm::dvec2& cursor_px, double m_per_px, double frame_s, std::int64_t now_ns);
 
-  // Lifts the aim off the sample and returns it above the contact point.
+  // Lifts the aim off the sample and moves it above the contact point.
   void lift() { wanted_m_ = {0.0, kHighestM, 0.0}; }
 
-  // A scanning hand lowers its tip onto the sample, and drags go over it; one that stops lifts it.
+  // Starts or stops scanning: a scanning hand lowers its tip onto the sample and follows drags; stopping lifts it.
   void scan(bool on) {
     over_sample_ = on;
     wanted_m_ = {0.0, on ? kOnSampleM : kHighestM, 0.0};
   }
 
-  // The hand goes along with what leads it: its aim is where it is. Device frame.
+  // Lets the hand be led: its aim follows its position. Device frame.
   void rest_at(const glm::dvec3& place_m);
 
-  // Sets new axes, as in the constructor, after a rotation of the sample.
+  // Sets new axes, as in the constructor, after the sample was rotated.
   void set_axes(const glm::dvec3& normal, const glm::dvec3& right);
 
   bool dragging() const { return grips_ > 0; }
@@ -65,11 +65,11 @@ class MouseHand {
 
   glm::dvec3 normal_;
   glm::dvec3 right_;
-  // to the right, up along the normal, and away over the sample
+  // right, up along the normal, and away from the viewer over the sample
   glm::dvec3 wanted_m_{0.0, kRestM, 0.0};
   glm::dvec3 aim_m_{0.0, kRestM, 0.0};
   bool over_sample_ = false;
-  int grips_ = 0;  // of right button and space bar, how many are held
+  int grips_ = 0;  // number of held ones among right button and space bar
   glm::dvec2 grip_px_{0.0};
   bool axes_changed_ = false;
   bool turn_on_held_ = false;

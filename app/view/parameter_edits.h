@@ -7,7 +7,7 @@
 
 #include "cluster/messages.h"
 #include "curves/live_parameters.h"
-#include "exhibit/parameter_panel.h"
+#include "exhibit/panels/parameter_panel.h"
 #include "render/frame.h"
 #include "servo/servo_client.h"
 
@@ -16,7 +16,7 @@ namespace afm::app {
 // The user's parameters for every material, and the servo's response to each change.
 class ParameterEdits {
  public:
-  // As the servo was started with.
+  // `loaded`: the models with which the servo was started.
   explicit ParameterEdits(std::vector<curves::SampleModel> loaded)
       : loaded_(std::move(loaded)), edits_(loaded_.size()) {}
 
@@ -29,15 +29,16 @@ class ParameterEdits {
   // Sends all changes to a restarted servo.
   void resend(servo::ServoClient& servo);
 
-  // Of a material that has been asked for before; made from what was loaded if it has not.
+  // Parameters of a material, created from the loaded ones on the first call.
   const curves::LiveParameters& of(std::size_t material);
 
-  // All that a person has set of a material, for other machines of the wall; nothing as long as it is as loaded. And
-  // the same there; false: it cannot be.
+  // The changes of a material for the other machines of a wall; empty while it is as loaded. The second function
+  // applies such a record; false if it is invalid.
   std::optional<cluster::EditRecord> recorded(std::size_t material) const;
   bool follow(const cluster::EditRecord& edit);
 
-  // What the servo has taken of the material under the tip becomes what is felt. Whether anything changed.
+  // Copies the parameters that the servo uses for the material under the tip into `felt`. Returns whether anything
+  // changed.
   bool take_felt(const scene::TipState& tip, std::vector<curves::SampleModel>& felt);
 
   bool changed(std::size_t material) const;
@@ -46,7 +47,7 @@ class ParameterEdits {
  private:
   struct Edit {
     std::optional<curves::LiveParameters> parameters;
-    std::uint32_t revision = 0;  // of the newest edit that was sent to the servo, 0: none
+    std::uint32_t revision = 0;  // newest edit sent to the servo; 0: none
   };
   curves::LiveParameters& parameters(std::size_t material);
 

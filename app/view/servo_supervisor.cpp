@@ -13,7 +13,7 @@ namespace afm::app {
 namespace {
 
 constexpr std::int64_t kMinuteNs = 60'000'000'000;
-constexpr std::size_t kMostRestarts = 3;  // a minute
+constexpr std::size_t kMostRestarts = 3;  // per minute
 
 std::string text_of(const scene::TipEvent& event) {
   const bool in = event.kind == physics::EventKind::JumpToContact;
@@ -42,7 +42,9 @@ core::Result<void> ServoSupervisor::start() {
 }
 
 core::Result<void> ServoSupervisor::launch(const char* message) {
-  const auto felt_before = link_ ? material() : std::nullopt;
+  // a choice that the servo had not laid yet holds for the next one
+  const std::int32_t chosen = link_ ? link_->chosen() : -1;
+  const auto chosen_before = chosen < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(chosen));
   auto servo = starter_();
   if (!servo) {
     if (link_) error_ = servo.error();
@@ -53,7 +55,7 @@ core::Result<void> ServoSupervisor::launch(const char* message) {
   stream_ = {};
   logged_state_ = scene::ServoState::Disarmed;
   if (message != nullptr) core::log_line(message);
-  started_(*link_, felt_before);
+  started_(*link_, chosen_before);
   return {};
 }
 
@@ -85,7 +87,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         recorder_.add(event);
         audience_.heard(event);
         cues_.add(event);
-        if (event.kind == physics::EventKind::Slip) return;  // many times a second
+        if (event.kind == physics::EventKind::Slip) return;  // occurs many times a second
         core::log_line(text_of(event));
         for (const auto& hears : hears_jumps_) hears(event);
       });
@@ -100,7 +102,7 @@ void ServoSupervisor::log_state() {
   if (logged_state_ == scene::ServoState::Running) core::log_line("force on");
   const bool off = logged_state_ == scene::ServoState::Disarmed || logged_state_ == scene::ServoState::Fault;
   if (!off) return;
-  if (tip.fault == scene::FaultCode::ServoSilent) return core::log_line(scene::reason(tip.fault));  // whatever it does
+  if (tip.fault == scene::FaultCode::ServoSilent) return core::log_line(scene::reason(tip.fault));  // even then
   const bool fault = tip.fault != scene::FaultCode::None;
   core::log_line(fault ? std::string("force off: ") + scene::reason(tip.fault) : "force off");
 }
@@ -134,7 +136,7 @@ void ServoSupervisor::keep_part(std::int64_t now_ns) {
   recorder_.forget_records();
 }
 
-// A folder that has become full or read-only ends the recording, not the view.
+// A folder that has become full or read-only ends the recording but not the view.
 void ServoSupervisor::stop_recording(const core::Error& error) {
   core::log_line(error.message + "; recording has stopped");
   folder_.reset();
@@ -150,7 +152,7 @@ std::vector<servo::EarlierCurve> ServoSupervisor::curves_on_wall() const {
   return earlier;
 }
 
-// Scheduling latency of the servo, for readers of the log.
+// Logs the scheduling latency of the servo.
 void ServoSupervisor::log_timing() const {
   const scene::ServoTiming timing = link_->timing();
   if (timing.ticks == 0) return;

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "exhibit/cycle_history.h"
 #include "exhibit/friction/friction_history.h"
-#include "exhibit/jump_cue.h"
+#include "exhibit/state/cycle_history.h"
+#include "exhibit/state/jump_cue.h"
 #include "servo/servo_client.h"
 #include "servo/session_folder.h"
 #include "servo/session_recorder.h"
@@ -21,32 +21,33 @@
 
 namespace afm::app {
 
-// Manages the servo of a live window: starts it, follows its state, records sessions, and replaces it if it dies. The
-// main thread alone.
+// Manages the servo of a live window: starts it, follows its state, records sessions, and replaces it if it dies. Main
+// thread only.
 class ServoSupervisor {
  public:
   using Starter = std::function<core::Result<std::unique_ptr<servo::ServoClient>>()>;
 
-  // Called with every servo that has been started, and the material that was under the tip of the one before it.
-  using Started = std::function<void(servo::ServoClient& servo, std::optional<std::size_t> felt_before)>;
+  // Called after each start of a servo, with the material that was chosen at its predecessor.
+  using Started = std::function<void(servo::ServoClient& servo, std::optional<std::size_t> chosen_before)>;
 
-  // `record_folder`: for the sessions of what is felt; empty: none is kept. `audience` hears of every sample and event
-  // that update() receives, and must outlive this.
+  // `record_folder`: for session files; empty: none. `audience` receives every sample and event that update() reads,
+  // and must outlive the object.
   ServoSupervisor(Starter starter, Started started, std::size_t materials, std::string record_folder,
                   servo::TipAudience& audience);
 
-  // The first servo, or another after one has ended for good. Failed if it cannot be started or nothing can be kept in
-  // the folder.
+  // Starts the first servo, or another after a final failure. Failed if it cannot be started or the folder is not
+  // writable.
   core::Result<void> start();
 
-  // Once a frame: everything new. One that has died is replaced, without force until the hand lifts and Turn-On is
-  // pressed; one that dies again and again, or that cannot have its device, needs a person: then it has an error().
+  // Call once a frame: reads all new samples and events. Replaces a servo that has died; the new one has no force until
+  // the hand lifts and Turn-On is pressed. If servos die repeatedly or the device cannot be opened, error() is set
+  // until a person restarts the servo.
   void update(std::int64_t now_ns);
 
-  // Each is called with every sample, in their order, before a session keeps it.
+  // Calls `hears` with every sample, in order, before a session stores it.
   void hear(std::function<void(const scene::TipSample&)> hears) { hears_.push_back(std::move(hears)); }
 
-  // The same with every jump.
+  // Calls `hears` with every jump, in order.
   void hear_jumps(std::function<void(const scene::TipEvent&)> hears) { hears_jumps_.push_back(std::move(hears)); }
 
   // Adds a frame of the wall to the current session.
@@ -56,12 +57,12 @@ class ServoSupervisor {
   // Saves the current session, logs the servo's timing, and releases the hand.
   void finish();
 
-  // The link to one that has ended still has its last state.
+  // The current link. A link to a servo that has ended keeps its last state.
   servo::ServoClient& link() { return *link_; }
   const servo::ServoClient& link() const { return *link_; }
   const std::optional<core::Error>& error() const { return error_; }
   bool running() const { return !error_; }
-  std::optional<std::size_t> material() const;  // the one under the tip
+  std::optional<std::size_t> material() const;  // index of the one under the tip
 
   const exhibit::CycleHistory& cycles() const { return cycles_; }
   const exhibit::FrictionHistory& friction() const { return friction_; }
@@ -89,14 +90,14 @@ class ServoSupervisor {
   std::string record_folder_;
   servo::TipAudience& audience_;
   std::unique_ptr<servo::ServoClient> link_;
-  std::optional<core::Error> error_;      // the servo has ended
-  std::deque<std::int64_t> restarts_ns_;  // of servos that died, within the last minute
+  std::optional<core::Error> error_;      // set once the servo has ended for good
+  std::deque<std::int64_t> restarts_ns_;  // times of restarts within the last minute
   servo::TipStream stream_;
   exhibit::CycleHistory cycles_;
   exhibit::FrictionHistory friction_;
   std::optional<servo::SessionFolder> folder_;
   servo::SessionRecorder recorder_;
-  std::int64_t kept_ns_ = 0;  // when a part of the session was kept last
+  std::int64_t kept_ns_ = 0;  // time of the newest partial save of the session
   exhibit::JumpCues cues_;
   scene::ServoState logged_state_ = scene::ServoState::Disarmed;
 };

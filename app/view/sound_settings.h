@@ -11,7 +11,7 @@ namespace afm::app {
 struct LiveSoundSettings {
   SoundOptions options;
   bool sound = false;                            // tones and signals
-  std::optional<exhibit::SpeechProgram> speech;  // texts are spoken; none: they are captions alone
+  std::optional<exhibit::SpeechProgram> speech;  // speaks the texts; empty: captions only
 };
 
 }  // namespace afm::app

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kScreenReader = "orca\n";  // as /proc has it
+constexpr const char* kScreenReader = "orca\n";  // name in /proc
 
 std::optional<std::string> find_in_path(std::string_view program) {
   const char* const path = std::getenv("PATH");  // NOLINT(concurrency-mt-unsafe): nothing changes it

@@ -8,9 +8,9 @@
 
 namespace afm::app {
 
-// The program that speaks: spd-say where a screen reader (Orca) of the same user runs and speech-dispatcher is
-// installed, so that its own voice speaks; otherwise espeak-ng. Looked up in PATH. DeviceMissing, with one line, if
-// there is neither. `language`: of the phrases, "en".
+// Chooses the speech program from PATH: spd-say if this user runs a screen reader (Orca) and speech-dispatcher is
+// installed, so that the screen reader's voice speaks; otherwise espeak-ng. DeviceMissing, with one line of text, if
+// neither is installed. `language` is that of the phrases, "en".
 core::Result<exhibit::SpeechProgram> choose_speech_program(const std::string& language);
 
 }  // namespace afm::app

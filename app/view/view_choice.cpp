@@ -11,7 +11,7 @@
 #include "app/view/view_panels.h"
 #include "core/clock.h"
 #include "core/log.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "physics/friction/friction.h"
 #include "servo/servo_client.h"
 
@@ -44,8 +44,8 @@ void ViewChoice::choose(std::size_t material) {
   core::log_line("chosen: " + parts_.stage.materials.materials[material].title);
 }
 
-void ViewChoice::choose_first(std::optional<std::size_t> felt_before) {
-  if (const auto material = felt_before ? felt_before : first_material_) choose(*material);
+void ViewChoice::choose_first(std::optional<std::size_t> chosen_before) {
+  if (const auto material = chosen_before ? chosen_before : first_material_) choose(*material);
 }
 
 void ViewChoice::number(std::size_t number) {
@@ -65,14 +65,13 @@ void ViewChoice::enter() {
   stop_force();
 }
 
-// Felt once the tip is off the sample, as another material is.
+// The new scale takes effect once the tip is off the sample, like another material.
 void ViewChoice::next_scale() {
   scale_ = scene::after(scale_);
   const scene::ScaleModeText& text = scene::text_of(scale_);
   core::log_line(fmt::format("scale {}: {}", text.word, text.meaning));
-  if (const auto current = parts_.servo.material(); current && parts_.servo.running()) {
-    parts_.servo.link().choose(static_cast<std::int32_t>(*current), scale_);
-  }
+  if (!parts_.servo.running() || parts_.servo.link().chosen() < 0) return;
+  parts_.servo.link().choose(parts_.servo.link().chosen(), scale_);  // the sample may still be on its way
 }
 
 void ViewChoice::mark_next_setting() {
@@ -102,9 +101,7 @@ void ViewChoice::stop_force() {
 
 void ViewChoice::take_force_away(std::int64_t now_ns) {
   force_taken_ns_ = now_ns;
-  if (const auto current = parts_.servo.material(); current && parts_.servo.running()) {
-    parts_.servo.link().choose(static_cast<std::int32_t>(*current), scale_);
-  }
+  if (parts_.servo.running()) parts_.servo.link().take_force_away();
 }
 
 void ViewChoice::keep_force_away(std::int64_t now_ns) {

@@ -16,30 +16,30 @@ namespace afm::app {
 
 class ViewGuide;
 
-// What a person chooses at the live window: the sample under the tip, its scale and its settings, and whether there is
-// a force at all. Main thread only.
+// A person's choices at the live window: the sample under the tip, its scale and settings, and whether there is a
+// force. Main thread only.
 class ViewChoice {
  public:
   struct Settings {
     scene::ScaleMode scale = scene::ScaleMode::Fit;
-    std::optional<std::size_t> first_material;  // chosen whenever a servo has been started
+    std::optional<std::size_t> first_material;  // chosen whenever a servo starts
   };
 
-  // `parts` must outlive it; `materials` as the servo was started with.
+  // `parts` must outlive the object; `materials` are those with which the servo was started.
   ViewChoice(ViewParts& parts, const std::vector<curves::SampleModel>& materials, const Settings& settings);
 
-  // The samples as the servo feels them.
+  // The samples as the servo renders them.
   const std::vector<curves::SampleModel>& felt() const { return felt_; }
 
-  // Changed parameters that are in effect become what is felt. Once a frame.
+  // Applies changed parameters that the servo uses to felt(). Call once a frame.
   void follow_edits();
 
-  // Takes a person's answers first; must outlive this.
+  // The guide takes a person's answers first; it must outlive the object.
   void set_guide(ViewGuide& guide) { guide_ = &guide; }
-  std::string spoken(const std::string& line) const;  // what is spoken while this is the line of guidance
+  std::string spoken(const std::string& line) const;  // speech for this line of guidance
 
   void choose(std::size_t material);
-  void choose_first(std::optional<std::size_t> felt_before);
+  void choose_first(std::optional<std::size_t> chosen_before);
   void number(std::size_t number);  // a key from 1 to 9, from 0
   void press(const Pointed& pointed, const input::Ray& ray);
   void enter();
@@ -49,13 +49,13 @@ class ViewChoice {
   void step_setting(int steps);
   void toggle_friction_loop();
 
-  // The servo cuts the force now.
+  // Makes the servo cut the force now.
   void stop_force();
 
-  // The sample is chosen again, which needs a lift and Turn-On.
+  // Removes the force: the hand must lift and press Turn-On again.
   void take_force_away(std::int64_t now_ns);
 
-  // The same whenever there is a force; once a frame.
+  // Does the same whenever there is a force. Call once a frame.
   void keep_force_away(std::int64_t now_ns);
 
  private:

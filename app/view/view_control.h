@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/view/pointed.h"
-#include "exhibit/depth_report.h"
+#include "exhibit/panels/depth_report.h"
 
 namespace afm::exhibit {
 struct Moment;
@@ -20,61 +20,64 @@ namespace afm::app {
 
 struct ViewInput;
 
-// One frame of the live window, as far as it is known.
+// One frame of the live window. Some fields are filled while the frame is processed.
 struct ViewFrame {
-  std::int64_t now_ns = 0;                               // its beginning
+  std::int64_t now_ns = 0;                               // beginning of the frame
   double frame_s = 0;                                    // time since the beginning of the previous frame
   Pointed pointed{};                                     // set after update()
-  std::string caption{};                                 // of what is heard; set after update()
+  std::string caption{};                                 // text of the sound that is played; set after update()
   exhibit::Relief relief = exhibit::Relief::NarrowEyes;  // advice if the depth is hard to look at
 };
 
-// What starts again.
+// Extent of a restart.
 enum class Restart {
   Servo,       // another servo has been started
-  Everything,  // the wall goes back to its state after the start
-  Visitor      // the same for another visitor: what only a person can have changed
+  Everything,  // the wall returns to its initial state
+  Visitor      // the same for another visitor: everything that only a person can change
 };
 
-// A feature of the live window, with its own state. The loop calls all controls in their order and knows none of them.
-// Each overrides what it needs; the calls are listed in the order of a frame. Main thread only.
+// A feature of the live window, with its own state. The loop calls all controls in order and does not know their types.
+// Each overrides the calls that it needs, listed in the order of a frame. Main thread only.
 class ViewControl {
  public:
-  using Beat = std::function<void()>;  // the frame's heartbeat, to be called often while something waits
+  using Beat = std::function<void()>;  // heartbeat of the frame; call it often while waiting
 
   virtual ~ViewControl() = default;
 
-  // Before the time of the frame is taken; may wait.
+  // Called before the frame's time is taken; may wait.
   virtual void begin_frame() {}
 
-  // Before the hand moves and the servo's news come.
+  // Called before anything acts on the input, and again before a press of the wand acts.
+  virtual void notice(const ViewInput& /*input*/, const ViewFrame& /*frame*/) {}
+
+  // Called before the hand moves and the servo's new samples are read.
   virtual void take(const ViewInput& /*input*/, const ViewFrame& /*frame*/) {}
 
-  // With the servo's newest state.
+  // Called with the servo's newest state.
   virtual void update(const ViewFrame& /*frame*/) {}
 
-  // Adds what it shows on the wall, or hides it.
+  // Adds the control's content to the wall, or hides other content.
   virtual void add_to_moment(exhibit::Moment& /*now*/, ViewFrame& /*frame*/) {}
 
-  // The line of guidance, if this control has one; the first control that has one decides.
+  // The line of guidance, or empty. The first control with a line wins.
   virtual std::optional<std::string> guidance(const exhibit::Phrases& /*phrases*/) const { return std::nullopt; }
 
-  // Changes the picture after the panels were added.
+  // Changes the picture after the panels have been added.
   virtual void add_to_picture(render::FrameState& /*picture*/, const ViewFrame& /*frame*/) {}
 
-  // Everything is drawn and not yet shown; may wait.
+  // Called after drawing and before showing; may wait.
   virtual void before_showing(const Beat& /*beat*/) {}
 
-  // The windows show the frame.
+  // Called when the windows show the frame.
   virtual void shown(const ViewFrame& /*frame*/, const Beat& /*beat*/) {}
 
-  // Adds its figures to the frame's row in the frame log.
+  // Adds figures to the frame's row in the frame log.
   virtual void add_to_log(servo::FrameRecord& /*record*/) {}
 
-  // Between the calls of a frame.
+  // Called between frames.
   virtual void restart(Restart /*what*/) {}
 
-  // After the last frame, while the servo still runs.
+  // Called after the last frame, while the servo still runs.
   virtual void finish() {}
 };
 

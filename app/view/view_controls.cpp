@@ -14,11 +14,11 @@
 
 namespace afm::app {
 
-void ViewControls::servo_started(servo::ServoClient& servo, std::optional<std::size_t> felt_before) {
+void ViewControls::servo_started(servo::ServoClient& servo, std::optional<std::size_t> chosen_before) {
   for (ViewControl* control : controls_) control->restart(Restart::Servo);
   parts_.hand.renew_mouse();
   parts_.panels.edits().resend(servo);
-  parts_.choice.choose_first(felt_before);
+  parts_.choice.choose_first(chosen_before);
 }
 
 void ViewControls::begin_again() {

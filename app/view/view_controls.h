@@ -16,28 +16,28 @@ namespace afm::app {
 
 struct ViewParts;
 
-// All controls of a live window, in their order. Main thread only.
+// All controls of a live window, in order. Main thread only.
 class ViewControls {
  public:
   // `parts` must outlive it.
   explicit ViewControls(ViewParts& parts) : parts_(parts) {}
 
-  // Behind the others; must outlive this.
+  // Adds the control after the others; it must outlive the object.
   void add(ViewControl& control) { controls_.push_back(&control); }
 
   auto begin() const { return controls_.begin(); }
   auto end() const { return controls_.end(); }
 
-  // A servo has been started; `felt_before` is the material that was under the tip of its predecessor.
-  void servo_started(servo::ServoClient& servo, std::optional<std::size_t> felt_before);
+  // Call after a start of a servo; `chosen_before` is the material that was chosen at its predecessor.
+  void servo_started(servo::ServoClient& servo, std::optional<std::size_t> chosen_before);
 
-  // Returns everything to its state after the start, and starts the servo again if it has ended.
+  // Returns everything to its initial state, and restarts the servo if it has ended.
   void begin_again();
 
   // The same for another visitor.
   void begin_for_visitor();
 
-  // The line above the wall: the first that a control has, otherwise the next step of the procedure.
+  // The line above the wall: from the first control that has one, otherwise the next step of the procedure.
   std::string guidance(const exhibit::Phrases& phrases) const;
 
  private:

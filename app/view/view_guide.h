@@ -9,24 +9,24 @@
 
 namespace afm::app {
 
-// Somebody who guides a person through the window and takes their answers first.
+// Guides a person through the window and takes the person's answers first.
 class ViewGuide {
  public:
   virtual ~ViewGuide() = default;
 
-  // A key from 1 to 9, as a number from 0. False: it chooses a sample as usual.
+  // A key from 1 to 9, as a number from 0. Returns false if the key chooses a sample as usual.
   virtual bool number(std::size_t number) = 0;
 
-  // The keys + and -.
+  // Keys + and -.
   virtual void step(int steps) = 0;
 
-  // Enter, which also takes the force away unless the guide only waits for it.
+  // Key Enter, which also removes the force unless the guide only waits for it.
   virtual void enter() = 0;
 
-  // A press of a pointing device.
+  // Press of a pointing device.
   virtual void press(const Pointed& pointed, const input::Ray& ray) = 0;
 
-  // What is spoken while `line` is the line of guidance.
+  // Speech for this line of guidance.
   virtual std::string spoken(const std::string& line) = 0;
 };
 

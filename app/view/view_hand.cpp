@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/view/servo_supervisor.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
@@ -25,7 +25,7 @@ ViewHand::ViewHand(const exhibit::Stage& stage, ServoSupervisor& servo, const Se
       mouse_(hand_over(stage.wall_scene)),
       person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), input::HandPath{}) {}
 
-// The mouse and the simulated person do not move a real device.
+// Mouse and simulated person cannot move a real device.
 HandSource ViewHand::source() const {
   if (has_own_hand()) return HandSource::Device;
   return demonstrates_ ? HandSource::Simulated : settings_.source;
@@ -62,7 +62,7 @@ void ViewHand::move(const Motion& motion) {
   if (replaced_.revision != 0) return servo.script(replaced_);
   const std::int32_t material = servo.tip().material;
   const bool done = person_.step() == input::SimulatedPerson::Step::Done && !demonstrates_;
-  const bool another = person_.material() != material && servo.chosen() == material;  // a lesson has laid it
+  const bool another = person_.material() != material && servo.chosen() == material;  // a lesson has chosen it
   if (material >= 0 && (done || another)) begin_person(static_cast<std::size_t>(material), motion.now_ns);
   person_.update(motion.now_ns, servo.tip());
   servo.script(person_.hand());

@@ -9,7 +9,7 @@
 
 #include "app/view/key_list.h"
 #include "app/view/mouse_hand.h"
-#include "exhibit/guidance.h"
+#include "exhibit/words/guidance.h"
 #include "input/selection.h"
 #include "input/simulated_person.h"
 
@@ -21,50 +21,50 @@ namespace afm::app {
 
 class ServoSupervisor;
 
-// The hand of the live window: a device, or the servo's simulated hand, which the mouse or a simulated person moves.
-// Main thread only.
+// The hand of the live window: a device, or the servo's simulated hand, moved by the mouse or a simulated person. Main
+// thread only.
 class ViewHand {
  public:
   struct Settings {
-    HandSource source = HandSource::Mouse;                         // unless the device has a hand of its own
+    HandSource source = HandSource::Mouse;                         // ignored if the device is moved by a real hand
     exhibit::HandControls device = exhibit::HandControls::Device;  // names of its controls
   };
 
-  // Stage and servo must outlive it.
+  // Stage and servo must outlive the object.
   ViewHand(const exhibit::Stage& stage, ServoSupervisor& servo, const Settings& settings);
 
-  // Who moves the hand now.
+  // Current mover of the hand.
   HandSource source() const;
-  bool has_own_hand() const;  // the servo's device has one
+  bool has_own_hand() const;  // the servo's device is moved by a real hand
 
-  // The controls in the person's hands.
+  // Names of the controls that the person uses.
   exhibit::Controls controls(exhibit::Pointer pointer) const;
 
-  // Without a visitor the simulated person moves a simulated hand and demonstrates one sample after another.
+  // While there is no visitor, the simulated person moves a simulated hand and demonstrates each sample in turn.
   void demonstrate(bool on) { demonstrates_ = on; }
   bool demonstrates() const { return demonstrates_; }
 
   MouseHand& mouse() { return mouse_; }
-  void renew_mouse();  // at rest, for another servo
+  void renew_mouse();  // at rest, after a start of another servo
 
   const input::SimulatedPerson& person() const { return person_; }
 
-  // The simulated person goes to the swatch of a material and feels it.
+  // Makes the simulated person go to a material's swatch and feel it.
   void begin_person(std::size_t material, std::int64_t now_ns);
 
-  // A feature moves the simulated hand in place of the person; revision 0: it no longer does.
+  // Lets a feature move the simulated hand instead of the person; revision 0: ends this.
   void replace_person(const scene::HandScript& script) { replaced_ = script; }
 
-  // Once a frame.
+  // Input of one frame.
   struct Motion {
-    glm::dvec2 cursor_px{0.0};  // on the desktop
+    glm::dvec2 cursor_px{0.0};  // desktop coordinates
     double m_per_px = 0;        // hand travel per pixel of the cursor
     double frame_s = 0;
     std::int64_t now_ns = 0;
   };
   void move(const Motion& motion);
 
-  // The sample was turned: its normal, not necessarily of length 1, and its direction to the right.
+  // Sets the axes of a turned sample: its normal, of any length, and its direction to the right.
   void set_axes(const glm::dvec3& normal, const glm::dvec3& right);
 
  private:

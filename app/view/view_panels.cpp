@@ -10,7 +10,7 @@
 #include "core/enumerators.h"
 #include "core/log.h"
 #include "exhibit/friction/friction_panel.h"
-#include "exhibit/panel_hit.h"
+#include "exhibit/panels/panel_hit.h"
 #include "exhibit/scan/scan_panels.h"
 #include "render/control_layout.h"
 #include "scene/shared/field_copy.h"
@@ -21,7 +21,7 @@ namespace {
 
 struct RightRow {
   RightPanel panel;
-  std::string_view word;  // in sessions
+  std::string_view word;  // name in sessions
 };
 constexpr std::array<RightRow, 3> kRightPanels{{{RightPanel::Data, "samples"},
                                                 {RightPanel::Parameters, "parameters"},
@@ -29,7 +29,7 @@ constexpr std::array<RightRow, 3> kRightPanels{{{RightPanel::Data, "samples"},
 static_assert(core::has_row_for_each(kRightPanels, &RightRow::panel));
 static_assert(kRightPanels.size() <= cluster::ShownPanels::kMostRight);
 
-// Where the ray is and whose hand moves it, in either direction.
+// Copies the ray's position and the hand's source, in either direction.
 template <class Copy, class Told, class Shown>
 void copy_pointed(const Copy& copy, Told& told, Shown& shown) {
   using S = cluster::ShownPanels;
@@ -182,7 +182,7 @@ void ViewPanels::change(const render::ControlTarget& target, std::size_t materia
   core::log_line("parameters: not changed: " + parameters.refusal());
 }
 
-// The tab that opens the parameters, and the curve that follows from them.
+// The tab that opens the parameters, and the curve computed from them.
 void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material) {
   const curves::LiveParameters& parameters = edits_.of(material);
   const bool open = right_ == RightPanel::Parameters;
@@ -194,7 +194,7 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
   if (open || parameters.changed()) exhibit::add_prediction(parameters, phrases(), frame.panels.force.content);
 }
 
-// In the place of the sample's data.
+// Replaces the panel with the sample's data.
 template <class Content>
 void ViewPanels::show_right(render::FramePanels& panels, render::PanelSlot<Content>& slot, Content content) const {
   panels.data.placement = render::kNoPlacement;
@@ -234,7 +234,8 @@ void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece center
 }
 
 void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
-                        const std::string& material_title, const scene::TipState& tip, HandSource hand) {
+                        const std::string& material_title, const scene::TipState& tip, HandSource hand,
+                        std::string_view letters) {
   const bool changeable = material && use_ == WallUse::Free;
   if (changeable) add_parameters(frame, pointed, *material);
   render::FramePanels& panels = frame.panels;
@@ -244,7 +245,7 @@ void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::
     panels.banner.placement = banner;
   }
   if (keys_shown_) {
-    show_right(panels, panels.data, key_list_(hand, unattended_, phrases(), use_));
+    show_right(panels, panels.data, key_list_(hand, unattended_, phrases(), use_, letters));
   } else if (changeable && !hidden_) {
     add_right(panels, pointed, *material, material_title, tip);
   }
@@ -258,7 +259,7 @@ void add_panels(const exhibit::Stage& stage, ViewPanels& panels, const exhibit::
                             : std::optional(static_cast<std::size_t>(panelled.tip.material));
   panels.add_to(frame, panelled.pointed, material,
                 material ? stage.phrases().word(stage.materials.materials[*material].title) : "", panelled.tip,
-                panelled.hand);
+                panelled.hand, moment.letters);
   panels.add_note(frame, moment.wall.centerpiece, caption);
 }
 

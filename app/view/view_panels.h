@@ -9,12 +9,12 @@
 #include "app/view/parameter_edits.h"
 #include "app/view/pointed.h"
 #include "cluster/frame_message.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/friction/friction_history.h"
-#include "exhibit/guidance.h"
-#include "exhibit/moment.h"
 #include "exhibit/scan/live_scan.h"
-#include "exhibit/wall_scene.h"
+#include "exhibit/scenery/wall_scene.h"
+#include "exhibit/state/moment.h"
+#include "exhibit/words/guidance.h"
 #include "input/wand.h"
 #include "render/frame.h"
 
@@ -23,10 +23,11 @@ namespace afm::app {
 // Panel to the right of the sample.
 enum class RightPanel { Data, Parameters, FrictionLoop };
 
-// Visible panels of the live window, and the parameters that one of them edits. One thread.
+// Visible panels of the live window, and the parameters edited in one of them. One thread.
 class ViewPanels {
  public:
-  // `wall_scene` must outlive it; `materials` as the servo was started with; `key_list` fills the panel of F1.
+  // `wall_scene` must outlive the object; `materials` are those with which the servo was started; `key_list` fills the
+  // panel of F1.
   ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials, KeyList key_list);
 
   void toggle_keys() {
@@ -34,39 +35,41 @@ class ViewPanels {
     keys_known_ = true;
   }
   void toggle_parameters() { toggle(RightPanel::Parameters); }
-  // True if it is now shown.
+  // Returns whether the panel is now visible.
   bool toggle_friction_loop() { return toggle(RightPanel::FrictionLoop); }
-  // The settings of a scan are in the place of the parameters; null: none. It must outlive this.
+  // Replaces the parameters by the settings of a scan; null: does not. The scan must outlive the object.
   void set_scan(exhibit::LiveScan* scan) { scan_ = scan; }
 
-  // Of the loop that is shown; must outlive this.
+  // Friction history for the loop's panel; must outlive the object.
   void set_friction(const exhibit::FrictionHistory* friction) { friction_ = friction; }
 
-  // The row that keys change: the next one; and a step of it. Both open the panel. `material` is the one under the tip.
+  // Marks the next row for the keys, or changes the marked row by steps. Both open the panel. `material` is the one
+  // under the tip.
   void mark_next(std::size_t material);
   void step_marked(int steps, std::size_t material, servo::ServoClient* servo);
 
   void toggle_all() { hidden_ = !hidden_; }
 
-  // In a lesson neither parameters nor the tab that opens them are shown.
+  // In a lesson, hides the parameters and the tab that opens them.
   void use_for(WallUse use) { use_ = use; }
 
-  // The list of keys leaves out those of staff.
+  // Removes the staff keys from the list of keys.
   void show_visitors_keys_only() { unattended_ = true; }
 
-  // "keys", "none", "parameters", "friction-loop" or "samples": which of them cover the others.
+  // Name of the topmost panel: "keys", "none", "parameters", "friction-loop" or "samples".
   std::string shown() const;
   void show(std::string_view panels);
 
-  // `wall_point_m` is where the ray meets the wall's plane. `material` is the one under the tip.
+  // `wall_point_m` is the intersection of the ray with the wall's plane. `material` is the one under the tip.
   Pointed pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m, std::optional<std::size_t> material);
 
-  // A press on a panel or its tab; a change goes to the servo, if there is one.
+  // Handles a press on a panel or its tab. Sends a change to the servo, if it is not null.
   void press(const Pointed& pointed, std::size_t material, servo::ServoClient* servo);
 
   ParameterEdits& edits() { return edits_; }
 
-  // What of it the other machines of a wall have to know, and the same there. `pointed` and `hand` as in add_to().
+  // The state of the panels for the other machines of a wall, and its counterpart there. `pointed` and `hand` as in
+  // add_to().
   cluster::ShownPanels told(const Pointed& pointed, HandSource hand) const;
   struct Told {
     Pointed pointed;
@@ -74,14 +77,15 @@ class ViewPanels {
   };
   Told follow(const cluster::ShownPanels& panels);
 
-  // A short note below the left panel: the caption of what is heard; without one how to leave what is shown, and, until
-  // F1 was used, where the keys are listed.
+  // Adds a short note below the left panel: the caption of the sound; without a caption, how to leave the current view
+  // and, until F1 was used, how to list the keys.
   void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece, const std::string& caption) const;
 
-  // Adds the panels of this moment to a frame: the parameters or the tab that opens them, the curve that follows from
-  // what was changed, the keys; removes hidden panels.
+  // Adds the current panels to a frame: the parameters or the tab that opens them, the curve computed from changed
+  // parameters, and the keys. Removes hidden panels. `letters` as in KeyList.
   void add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
-              const std::string& material_title, const scene::TipState& tip, HandSource hand);
+              const std::string& material_title, const scene::TipState& tip, HandSource hand,
+              std::string_view letters = {});
 
  private:
   bool toggle(RightPanel panel) {
@@ -106,7 +110,7 @@ class ViewPanels {
   exhibit::LiveScan* scan_ = nullptr;
   const exhibit::FrictionHistory* friction_ = nullptr;
   std::size_t marked_ = 0;
-  bool marking_ = false;  // a row has been marked by a key
+  bool marking_ = false;  // a key has marked a row
   bool hidden_ = false;
   bool keys_shown_ = false;
   bool unattended_ = false;
@@ -115,14 +119,14 @@ class ViewPanels {
   RightPanel right_ = RightPanel::Data;
 };
 
-// The inputs that a frame's panels need in addition to its Moment.
+// Inputs for a frame's panels in addition to its Moment.
 struct Panelled {
   Pointed pointed;
   HandSource hand = HandSource::Mouse;
   scene::TipState tip{};
 };
 
-// All panels, and the note with the caption, as every machine of a wall shows them.
+// Adds all panels, and the note with the caption, as on every machine of a wall.
 void add_panels(const exhibit::Stage& stage, ViewPanels& panels, const exhibit::Moment& moment,
                 const Panelled& panelled, const std::string& caption, render::FrameState& frame);
 

@@ -25,7 +25,7 @@ class ViewPointer;
 class ViewWand;
 class ViewWindows;
 
-// What the loop and all controls of a live window share. Everything referred to must outlive it.
+// Objects shared by the loop and all controls of a live window. Everything referred to must outlive it.
 struct ViewParts {
   const exhibit::Stage& stage;
   const core::Clock& clock;
@@ -42,7 +42,7 @@ struct ViewParts {
   ViewTurn turn{};
 };
 
-// The heartbeat of one frame. Also tells the servo whether anybody sees the picture, if that is known.
+// The heartbeat of one frame. Also reports to the servo whether anybody sees the picture, if that is known.
 std::function<void()> heartbeat_of(ViewParts& parts);
 
 }  // namespace afm::app

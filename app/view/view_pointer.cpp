@@ -7,14 +7,14 @@
 #include "app/view/servo_supervisor.h"
 #include "app/view/view_panels.h"
 #include "app/view/view_wand.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/wall_layout.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/scenery/wall_layout.h"
 
 namespace afm::app {
 
 namespace {
 
-constexpr double kDrawnHandM = 0.085;  // hand travel drawn as the stroke that a sample's cycle fills
+constexpr double kDrawnHandM = 0.085;  // hand travel that is drawn as long as the stroke of a sample's cycle
 
 }  // namespace
 

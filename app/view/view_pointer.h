@@ -8,7 +8,7 @@
 
 #include "app/display/mouse_wand.h"
 #include "app/view/pointed.h"
-#include "exhibit/guidance.h"
+#include "exhibit/words/guidance.h"
 #include "input/selection.h"
 
 namespace afm::exhibit {
@@ -22,26 +22,26 @@ class ViewPanels;
 class ViewPicture;
 class ViewWand;
 
-// Where a person points: with the wand or the mouse, whichever was used last. Main thread only.
+// Target of the wand or the mouse, whichever was used last. Main thread only.
 class ViewPointer {
  public:
-  // All must outlive it.
+  // All arguments must outlive the object.
   ViewPointer(const exhibit::Stage& stage, ViewPicture& picture, ViewPanels& panels, ServoSupervisor& servo,
               ViewWand& wand);
 
-  // Once a frame; a drag of the hand is no pointing.
+  // Call once a frame. Dragging the hand does not count as pointing.
   void follow(const glm::dvec2& cursor_px, bool dragging, std::int64_t now_ns);
 
   exhibit::Pointer kind() const;
 
-  // What the cursor in a window, or the wand, points at.
+  // Target of the cursor in a window, or of the wand.
   Pointed at(std::size_t window, const glm::dvec2& cursor_px);
   Pointed at_wand();
-  Pointed now(std::size_t window, const glm::dvec2& cursor_px);  // with the one that was used last
+  Pointed now(std::size_t window, const glm::dvec2& cursor_px);  // target of the device used last
 
   input::Ray ray(std::size_t window, const glm::dvec2& cursor_px) const;
 
-  // The wand as it is drawn; the mouse has one too.
+  // The wand to draw; the mouse has one too.
   input::WandState drawn(const Pointed& pointed, std::int64_t now_ns) const;
 
   // Hand travel per pixel that keeps the tip under the cursor.

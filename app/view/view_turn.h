@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
-#include "exhibit/guidance.h"
+#include "core/result.h"
+#include "exhibit/words/guidance.h"
 
 namespace afm::exhibit {
 class LiveScan;
@@ -13,21 +15,23 @@ class LiveScan;
 
 namespace afm::app {
 
-// The scan on the wall; none while `scan` is null.
+// The scan on the wall; null `scan`: none.
 struct ShownScan {
   const exhibit::LiveScan* scan = nullptr;
   std::size_t material = 0;
   std::uint64_t begun = 0;  // number of scans started so far
 };
 
-// What controls tell the loop and one another.
+// State that controls share with the loop and with each other.
 struct ViewTurn {
-  bool leaving = false;                              // the window closes after this frame
-  bool draws_unseen = false;                         // frames are drawn even while all windows are hidden
-  bool paced = false;                                // the frame rate is limited elsewhere, so the loop does not wait
-  bool blank = false;                                // picture hidden, for users who rely on sound and touch
-  std::function<bool(std::int64_t now_ns)> unseen;   // true while nobody sees the picture; unset: unknown
-  exhibit::Hint hint = exhibit::Hint::ChooseSample;  // next step of the procedure
+  bool leaving = false;                             // the window closes after this frame
+  std::optional<core::Error> failure;               // the reason, if it is one; the program's exit code follows
+  bool draws_unseen = false;                        // frames are drawn even while all windows are hidden
+  bool paced = false;                               // the frame rate is limited elsewhere, so the loop does not wait
+  bool blank = false;                               // picture hidden, for users who rely on sound and touch
+  std::function<bool(std::int64_t now_ns)> unseen;  // true while nobody sees the picture; unset: unknown
+  std::function<std::int64_t(std::int64_t now_ns)> seen_elsewhere_ns;  // newest picture of the sample on other machines
+  exhibit::Hint hint = exhibit::Hint::ChooseSample;                    // next step of the procedure
   ShownScan scan;
 };
 

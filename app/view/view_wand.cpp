@@ -16,11 +16,11 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kSimulatedStepNs = 5'000'000'000;  // from a swatch to the next
+constexpr std::int64_t kSimulatedStepNs = 5'000'000'000;  // time on each swatch
 constexpr double kSimulatedAimS = 1.0;
-constexpr double kSimulatedPressS = 2.0;  // seen by the slowest frame
+constexpr double kSimulatedPressS = 2.0;  // long enough to be seen in the slowest frame
 constexpr double kLongestFrameS = 0.1;
-constexpr double kTurnedRad = 0.02;  // more than a wand that lies on a table
+constexpr double kTurnedRad = 0.02;  // more than the jitter of a wand at rest on a table
 
 core::Result<void> parse_place(std::string_view option, std::string_view text, input::DtrackSettings& tracker) {
   const std::size_t colon = text.rfind(':');
@@ -89,7 +89,7 @@ core::Result<void> parse_head(const std::string& text, WandChoice& choice) {
   return parse_place("--head", std::string_view(text).substr(at + 1), *choice.file.dtrack);
 }
 
-// The contact point, about which caps and sticks turn and scale.
+// The contact point, which is the centre of rotation and scaling for caps and sticks.
 glm::dvec3 contact_point(const exhibit::WallScene& wall_scene) {
   return glm::dvec3(wall_scene.node_transforms({})[wall_scene.sample_node()][3]);
 }

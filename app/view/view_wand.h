@@ -9,7 +9,7 @@
 
 #include "core/clock.h"
 #include "core/result.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "input/dtrack_source.h"
 #include "input/navigation.h"
 #include "input/selection.h"
@@ -25,17 +25,17 @@ namespace afm::app {
 struct WandOptions {
   std::string source = "auto";  // auto, hid, dtrack[:ADDRESS:PORT], sim or mouse
   std::string file{};           // empty: none
-  std::string head{};           // dtrack:BODY[@ADDRESS:PORT], sim:FILE, or empty: the wand file's, if it names one
+  std::string head{};           // dtrack:BODY[@ADDRESS:PORT], sim:FILE, or empty: as in the wand file, if it has one
 };
 
 // Validated values of the options.
 struct WandChoice {
   enum class Source { Auto, Hid, Dtrack, Simulated, Mouse };
   Source source = Source::Auto;
-  input::WandFile file;                     // with the mapping, the hand and the tracker of the file
-  bool has_tracker_file = false;            // that says how the tracker's frame lies in the room
-  std::optional<std::uint32_t> head_body;   // of the tracker
-  std::vector<input::HeadKey> head_script;  // of a simulated head, instead; may be empty
+  input::WandFile file;                     // with the file's mapping, hand and tracker
+  bool has_tracker_file = false;            // the file gives the tracker's frame in the room
+  std::optional<std::uint32_t> head_body;   // number of the tracker's body
+  std::vector<input::HeadKey> head_script;  // moves a simulated head instead of a tracked one; may be empty
 };
 
 core::Result<WandChoice> parse_wand_choice(const WandOptions& options);
@@ -44,18 +44,18 @@ core::Result<WandChoice> parse_wand_choice(const WandOptions& options);
 // thread reads the devices.
 class ViewWand {
  public:
-  // The stage and the clock must outlive it. `assets_dir` holds the folder wands. Without a usable HID library, with
-  // Source::Auto, there is the mouse alone, and a line in the log that says so.
+  // The stage and the clock must outlive the object. `assets_dir` holds the folder wands. Without a usable HID library
+  // and with Source::Auto, only the mouse is used, and the log says so.
   static core::Result<std::unique_ptr<ViewWand>> open(const WandChoice& choice, const exhibit::Stage& stage,
                                                       const std::string& assets_dir, const core::Clock& clock);
 
-  // Once a frame. `eye_m` is between the eyes.
+  // Call once a frame. `eye_m` is the point between the eyes, room frame.
   void update(std::int64_t now_ns, const scene::TipState& tip, const glm::dvec3& eye_m);
 
-  // The controller of a headset takes the place of the wand; none: it does not.
+  // Uses a headset's controller as the wand; empty: does not.
   void hold(const std::optional<input::WandState>& controller) { controller_ = controller; }
 
-  // True if a wand points; used_ns() is the time of its last motion or press. Wand and mouse take turns.
+  // Returns whether a wand points; used_ns() is the time of its last motion or press. Wand and mouse take turns.
   bool points() const { return wand_.connected && wand_.orientation_valid; }
   std::int64_t used_ns() const { return used_ns_; }
   const input::WandState& state() const { return wand_; }
@@ -63,7 +63,7 @@ class ViewWand {
   // Target that the ray has snapped to, and the buttons pressed since the previous frame.
   std::optional<std::size_t> hovered() const { return pointing_.hovered; }
   bool select_pressed() const { return select_pressed_; }
-  bool stop_pressed() const { return stop_pressed_; }  // since the frame before
+  bool stop_pressed() const { return stop_pressed_; }  // since the previous frame
 
   glm::dmat4 navigation() const { return navigation_.room_from_scene(); }
   void home() { navigation_.home(); }
@@ -77,7 +77,7 @@ class ViewWand {
 
   bool tracks_head() const { return dtrack_ != nullptr && head_body_.has_value(); }
 
-  // Logs the tracker's losses over the whole run, if there is a tracker.
+  // Logs the tracker's losses over the whole run if there is a tracker.
   void log_losses() const;
 
  private:
@@ -100,14 +100,14 @@ class ViewWand {
   bool was_moved_ = false;
   std::int64_t updated_ns_ = 0;
   std::int64_t used_ns_ = 0;
-  glm::dvec3 used_direction_{0.0};  // of the ray, then
+  glm::dvec3 used_direction_{0.0};  // direction of the ray at used_ns_
 
   input::DtrackSettings tracker_;
   std::optional<std::uint32_t> head_body_;
-  const input::DtrackSource* dtrack_ = nullptr;  // owned by a thread below
+  const input::DtrackSource* dtrack_ = nullptr;  // owned by one of the threads below
   std::optional<input::TrackerReport> tracker_report_;
   std::unique_ptr<input::WandThread> wand_thread_;
-  std::unique_ptr<input::WandThread> head_thread_;  // of a tracker that has the head alone
+  std::unique_ptr<input::WandThread> head_thread_;  // tracker used only for the head
   std::optional<input::SimulatedWand> simulated_;
   std::size_t simulated_target_ = 0;
   std::int64_t simulated_next_ns_ = 0;

@@ -7,9 +7,9 @@ namespace afm::generate {
 
 // A rounded grain in each cell of a jittered grid. The eighth-power mean joins them without a kink and in any order.
 struct Grains {
-  double cell = 0;          // as wide as a cell is
-  double smallest = 0;      // height, of the largest one
-  double radius_low = 0.7;  // of the cell
+  double cell = 0;          // width of a cell
+  double smallest = 0;      // height of the smallest grain relative to the largest
+  double radius_low = 0.7;  // share of the cell
   double radius_high = 1.0;
   std::uint32_t seed = 0;
 

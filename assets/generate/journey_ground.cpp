@@ -16,7 +16,7 @@ constexpr double kInnermost = 0.4 * kNm;
 constexpr double kRingRatio = 1.22;
 constexpr int kHalvings = 4;  // 64 points around
 constexpr double kAtomsReach = 3.1 * kNm;
-constexpr double kBelowAtoms = 0.36 * kNm;                 // how deep the ground lies under them
+constexpr double kBelowAtoms = 0.36 * kNm;                 // depth of the ground below the atoms
 constexpr std::int64_t kAtomRows = 14, kAtomColumns = 20;  // enough for that reach
 
 // What a sample looks like close by, whatever "close" is: one pattern, repeated at every scale. Real surfaces are not
@@ -25,14 +25,14 @@ constexpr std::int64_t kAtomRows = 14, kAtomColumns = 20;  // enough for that re
 struct Look {
   const char* name;
   MaterialSpec material;
-  double amplitude;                               // of the pattern, in its own scale
-  std::function<double(double, double)> pattern;  // 0..1 at a place in units of the scale
-  std::function<V3(double)> tint;                 // of a height 0..1 in the pattern
+  double amplitude;                               // amplitude of the pattern in units of its scale
+  std::function<double(double, double)> pattern;  // 0..1 at a position in units of the scale
+  std::function<V3(double)> tint;                 // colour for a height 0..1 in the pattern
 };
 
 struct Place {
   double height = 0;
-  double shade = 0;  // 0..1: how high in the patterns that are seen here
+  double shade = 0;  // mean height in the visible patterns, 0..1
 };
 
 // The patterns of the scales that are near the place's distance from the contact, faded into each other.

@@ -17,7 +17,7 @@ double lever_thickness();  // as it is drawn
 Surface tip_sides();
 Surface tip_apex();
 double tip_length();  // from the apex to the base
-double tip_radius();  // of the ball
+double tip_radius();  // radius of the ball
 
 // The part of a ball that shows among others, more than half of it, on the side that `facing` says.
 // 4 x 2^halvings points around.

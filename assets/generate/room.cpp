@@ -7,8 +7,8 @@
 namespace afm::generate {
 namespace {
 
-// In metres of the exhibit: x right, y up, z towards the viewer; the floor lies at y = 0, the wall at z = 0.
-constexpr double kBack = 4.2, kBeside = 3.4;  // where it has dissolved into the background
+// In metres of the exhibit: x right, y up, z towards the viewer; the floor is at y = 0, the wall at z = 0.
+constexpr double kBack = 4.2, kBeside = 3.4;  // extent; the edge has dissolved into the background
 constexpr double kFront = 0.80;               // before the wall: under the shelf, and no further into the room
 constexpr double kFrontBeside = 1.25;         // what stands before the wall must not be cut off at its sides
 constexpr int kRings = 10;

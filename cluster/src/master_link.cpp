@@ -4,6 +4,7 @@
 #include <pthread.h>
 
 #include <atomic>
+#include <chrono>
 #include <random>
 #include <thread>
 #include <utility>
@@ -25,16 +26,44 @@ constexpr std::size_t kPiecesRing = 1024;    // pieces of a history
 constexpr std::size_t kPiecesAtOnce = 32;    // limit before other messages get their turn
 constexpr std::size_t kBatchesAtOnce = 64;
 
+// A rival has been heard for this long, with this many frames; a stray frame is none. It is gone after a silence.
+constexpr std::int64_t kRivalNs = 500'000'000;
+constexpr std::uint64_t kRivalFrames = 5;
+constexpr std::int64_t kRivalGoneNs = 1'000'000'000;
+
+// Masters that know nothing of one another compare these numbers: the time of the start, then chance.
+std::uint64_t new_session() {
+  std::random_device chance;
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(since_1970).count();
+  return (static_cast<std::uint64_t>(seconds) << 32U) | chance();
+}
+
 }  // namespace
 
 struct MasterLink::Parts {
   explicit Parts(const core::Clock& of_program) : clock(of_program) {}
+
+  // Another master, as its frames show it.
+  struct OtherMaster {
+    std::uint64_t session = 0;  // 0: none
+    std::int64_t first_ns = 0, newest_ns = 0;
+    std::uint64_t frames = 0;
+
+    void hear(std::uint64_t of_session, std::int64_t now_ns) {
+      if (of_session != session) *this = {.session = of_session, .first_ns = now_ns};
+      newest_ns = now_ns;
+      ++frames;
+    }
+    bool drives() const { return frames >= kRivalFrames && newest_ns - first_ns >= kRivalNs; }
+  };
 
   void run(const std::stop_token& stop);
   void write_model();
   void write_journal();
   void write_history();
   void take();
+  void watch_rival();
   bool send_piece();
 
   template <class Message>
@@ -56,7 +85,7 @@ struct MasterLink::Parts {
   // and back
   core::SpscRing<Answer, 1024> answers;
   std::atomic<std::uint64_t> refused{0}, unwritten{0}, resent{0};
-  std::atomic<std::uint64_t> other_session{0};
+  std::atomic<Rival> rival{Rival::None};
 
   // frame loop only
   std::uint64_t recorded = 0, documents = 0;
@@ -64,6 +93,7 @@ struct MasterLink::Parts {
   std::size_t next_piece = 0;
 
   // thread only
+  OtherMaster other;
   std::uint64_t seen_frame = 0, seen_swap = 0, written_records = 0;
 
   std::jthread thread;  // last member: it ends before the members it uses
@@ -84,7 +114,19 @@ void MasterLink::Parts::run(const std::stop_token& stop) {
     }
     write_history();
     take();
+    watch_rival();
   }
+}
+
+// The nodes have followed the newer wall, and come back to this one when it is described again.
+void MasterLink::Parts::watch_rival() {
+  if (other.session == 0) return;
+  if (clock.now_ns() - other.newest_ns > kRivalGoneNs) {
+    other = {};
+    rival.store(Rival::None, std::memory_order_relaxed);
+    return write_model();
+  }
+  if (other.drives()) rival.store(other.session < session ? Rival::Earlier : Rival::Later, std::memory_order_relaxed);
 }
 
 void MasterLink::Parts::write_model() {
@@ -127,9 +169,8 @@ void MasterLink::Parts::take() {
     }
   });
   transport->take(Transport::Topic::Frame, [&](std::span<const std::byte> datagram) {
-    const auto other = decode<FrameMessage>(datagram);
-    if (other && other->header.session != session)
-      other_session.store(other->header.session, std::memory_order_relaxed);
+    const auto heard = decode<FrameMessage>(datagram);
+    if (heard && heard->header.session != session) other.hear(heard->header.session, clock.now_ns());
   });
   if (came) for_frames.ring();
 }
@@ -152,19 +193,18 @@ core::Result<std::unique_ptr<MasterLink>> MasterLink::open(const ClusterNetwork&
     if (!created) return tl::unexpected(created.error());
     *bell = std::move(*created);
   }
-  std::random_device chance;
-  parts->session = (std::uint64_t{chance()} << 32U) | chance();
+  parts->session = new_session();
   parts->model = pieces_of(model, {.session = parts->session, .number = 1});
   auto transport = Transport::open(network, ClusterRole::Master, parts->for_thread);
   if (!transport) return tl::unexpected(transport.error());
   parts->transport = std::move(*transport);
 
   const std::int64_t listened_ns = clock.now_ns() + std::int64_t{listen_ms} * 1'000'000;
-  while (clock.now_ns() < listened_ns && parts->other_session.load(std::memory_order_relaxed) == 0) {
+  while (clock.now_ns() < listened_ns && parts->other.session == 0) {
     parts->for_thread.wait(10);
     parts->take();
   }
-  if (parts->other_session.load(std::memory_order_relaxed) != 0) {
+  if (parts->other.session != 0) {
     return core::wrong_usage(
         "another master already drives a wall in this network and domain: end it first, or give "
         "one of the two another --domain");
@@ -207,6 +247,8 @@ bool MasterLink::sending_history() const { return parts_->next_piece < parts_->p
 std::optional<MasterLink::Answer> MasterLink::answer() { return parts_->answers.pop(); }
 
 void MasterLink::wait(int timeout_ms) { parts_->for_frames.wait(timeout_ms); }
+
+MasterLink::Rival MasterLink::rival() const { return parts_->rival.load(std::memory_order_relaxed); }
 
 std::uint64_t MasterLink::refused() const { return parts_->refused.load(std::memory_order_relaxed); }
 

@@ -71,7 +71,7 @@ bool is_valid(const ScanRecord& scan) {
 }
 
 bool is_valid(const ReadyMessage& ready) {
-  return sound(ready) && ready.wants_history <= 1 && ready.header.node < scene::kMostNodes;
+  return sound(ready) && ready.wants_history <= 1 && ready.unseen <= 1 && ready.header.node < scene::kMostNodes;
 }
 
 bool is_valid(const SwapMessage& /*any*/) { return true; }

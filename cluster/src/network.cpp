@@ -97,7 +97,8 @@ std::string dds_configuration(const ClusterNetwork& network) {
       "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>64</MaxAutoParticipantIndex>{}"
       "<SPDPInterval>500 ms</SPDPInterval><LeaseDuration>2 s</LeaseDuration></Discovery>"
       "<Internal><HeartbeatInterval min=\"2 ms\" minsched=\"2 ms\" max=\"100 ms\">4 ms</HeartbeatInterval>"
-      "<NackDelay>0 ms</NackDelay><AckDelay>0 ms</AckDelay><PreEmptiveAckDelay>2 ms</PreEmptiveAckDelay></Internal>"
+      "<NackDelay>0 ms</NackDelay><AckDelay>0 ms</AckDelay><PreEmptiveAckDelay>2 ms</PreEmptiveAckDelay>"
+      "<MaxSampleSize>64 kB</MaxSampleSize></Internal>"
       "<Tracing><Verbosity>none</Verbosity></Tracing></Domain></CycloneDDS>",
       network.interface_address, multicast ? "true" : "false",
       multicast ? "" : fmt::format("<Peers>{}</Peers>", peers));

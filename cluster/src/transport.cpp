@@ -8,16 +8,22 @@
 #include <sys/eventfd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <utility>
 
 #include "bound_receivers.h"
+#include "cluster/messages.h"
 #include "core/check.h"
+#include "core/log.h"
 #include "core/system_error.h"
+#include "network_lines.h"
 #include "wire.h"
 
 namespace afm::cluster {
 
 namespace {
+
+static_assert(kMostDatagramBytes == 1300, "the bound in wire.idl");
 
 constexpr dds_duration_t kLongestWrite = DDS_MSECS(20);
 
@@ -62,6 +68,18 @@ std::unique_ptr<dds_qos_t, QosDelete> qos_of(const TopicRow& row) {
   return qos;
 }
 
+// DDS writes to stderr by itself, whatever its verbosity, a line for each malformed packet.
+void log_of_dds(void* lines, const dds_log_data_t* said) {
+  const std::int64_t now_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+  if (const auto line = static_cast<NetworkLines*>(lines)->line(said->message, now_ns)) core::log_line(*line);
+}
+
+// For the process, as DDS's log is. Never destroyed: DDS's threads may outlive main's statics.
+void take_log_of_dds() {
+  static auto* const lines = new NetworkLines;
+  dds_set_log_sink(log_of_dds, lines);
+}
+
 auto dds_refused(const char* what, dds_entity_t code, const ClusterNetwork& network) {
   return core::failure(core::ErrorCategory::Failed,
                        fmt::format("cannot open the wall's network on {}, domain {}: {}: {}", network.interface_address,
@@ -99,6 +117,7 @@ core::Result<std::unique_ptr<Transport>> Transport::open(const ClusterNetwork& n
 }
 
 core::Result<void> Transport::create(const ClusterNetwork& network, ClusterRole role, const Doorbell& doorbell) {
+  take_log_of_dds();
   // the configuration is complete: environment variables do not change it
   domain_ = dds_create_domain(network.domain, dds_configuration(network).c_str());
   // a process may play both roles, with the configuration of the first

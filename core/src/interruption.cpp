@@ -76,6 +76,9 @@ void take_interruptions() {
   ::sigemptyset(&ending);
   ::sigaddset(&ending, SIGINT);
   ::sigaddset(&ending, SIGTERM);
+  // nohup's choice: a blocked signal would arrive although it is ignored
+  struct sigaction hangup{};
+  if (::sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN) ::sigaddset(&ending, SIGHUP);
   ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);
   ::signal(SIGXFSZ, SIG_IGN);  // a file over the limit becomes an error of write(), like a full disk
   std::thread([ending] {

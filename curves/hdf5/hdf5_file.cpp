@@ -17,7 +17,7 @@ namespace afm::curves {
 
 namespace {
 
-// Owns an HDF5 identifier, whichever kind; all kinds are reference-counted alike.
+// Owns an HDF5 identifier of any kind; all kinds are reference-counted in the same way.
 class Handle {
  public:
   explicit Handle(hid_t id) : id_(id) {}
@@ -43,16 +43,16 @@ void must_do(herr_t status, const char* what) {
   if (status < 0) throw std::runtime_error(fmt::format("HDF5 cannot {}", what));
 }
 
-// A file that lives in memory alone.
+// Access to a file that exists only in memory.
 Handle access_to_memory() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // no error stack on stderr
-  H5PLset_loading_state(0);                     // and it loads no filters from plug-ins
+  H5PLset_loading_state(0);                     // no filters from plug-ins
   Handle access = must(H5Pcreate(H5P_FILE_ACCESS), "prepare a file");
   must_do(H5Pset_fapl_core(access.get(), std::size_t{1} << 20U, 0), "keep a file in memory");
   return access;
 }
 
-// Of variable length: h5py gives texts of fixed length as bytes, which afmformats does not know again.
+// Writes a text of variable length: h5py returns texts of fixed length as bytes, which afmformats does not recognise.
 void put_attribute(hid_t at, const std::string& name, const std::string& text) {
   const Handle type = must(H5Tcopy(H5T_C_S1), "make a type"), space = must(H5Screate(H5S_SCALAR), "make a space");
   must_do(H5Tset_size(type.get(), H5T_VARIABLE), "size a text");
@@ -103,7 +103,7 @@ void put_curve(hid_t group, const RecordedCurve& curve) {
   if (!curve.time_s.empty()) put_column(group, "time", "s", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, curve.time_s);
 }
 
-// At the file's root: afmformats refuses a curve with keys that it does not know, and looks at no others there.
+// Writes to the file's root: afmformats rejects a curve with unknown keys but ignores them at the root.
 void put_parameters(hid_t file, const CurveMetadata& metadata) {
   for (const auto& [key, value] : metadata.parameters) {
     if (H5Aexists(file, key.c_str()) != 0) continue;
@@ -135,7 +135,7 @@ std::string text_of(hid_t attribute, hid_t type) {
   return text.substr(0, text.find('\0'));
 }
 
-// The attributes that afmformats may have written, as its JSON.
+// The attributes that afmformats may have written, as JSON in its format.
 nlohmann::json metadata_of(hid_t group) {
   constexpr std::array kKeys{"imaging mode", "spring constant", "sensitivity", "speed approach",   "speed retract",
                              "setpoint",     "instrument",      "software",    "software version", "date",
@@ -156,12 +156,12 @@ nlohmann::json metadata_of(hid_t group) {
   return metadata;
 }
 
-// The attributes of the file's root other than afmformats' own two.
+// Reads the root's attributes except afmformats' own two.
 void read_parameters(hid_t file, CurveMetadata& metadata) {
   constexpr hsize_t kMostAttributes = 200;
   constexpr std::size_t kLongestName = 200;
   for (hsize_t i = 0; i < kMostAttributes; ++i) {
-    // beyond the last one it fails; to ask for their number takes another call in HDF5 1.10 than in 1.14
+    // fails beyond the last one; the function for their number differs between HDF5 1.10 and 1.14
     const Handle attribute(H5Aopen_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT, H5P_DEFAULT));
     if (!attribute.is_open()) break;
     std::array<char, kLongestName> name{};
@@ -179,7 +179,7 @@ void read_parameters(hid_t file, CurveMetadata& metadata) {
   }
 }
 
-// Whether there is such a link within the file; one that leads out of it is not followed.
+// Returns whether the link exists and stays within the file; external links are not followed.
 bool has(hid_t group, const char* name) {
   if (H5Lexists(group, name, H5P_DEFAULT) <= 0) return false;
   H5L_info_t link{};
@@ -189,7 +189,7 @@ bool has(hid_t group, const char* name) {
   throw CurveError(fmt::format("its \"{}\" is a link, which is not followed; copy the data into the file", name));
 }
 
-// Data may lie in other files, by name, too.
+// Rejects a data set whose data are in another file.
 void must_hold_its_data(hid_t column, const char* name) {
   const Handle made = must(H5Dget_create_plist(column), "read how a data set was made");
   if (H5Pget_layout(made.get()) != H5D_VIRTUAL && H5Pget_external_count(made.get()) == 0) return;
@@ -217,7 +217,7 @@ std::vector<double> column_of(hid_t group, const char* name) {
 
 RecordedCurve read_hdf5(std::string_view bytes, std::size_t index) {
   const Handle access = access_to_memory();
-  // HDF5 copies the image that it is given
+  // HDF5 copies the image
   must_do(H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()), "take the file");
   const Handle file(H5Fopen("curve", H5F_ACC_RDONLY, access.get()));
   if (!file.is_open()) throw CurveError("it is damaged or cut short");

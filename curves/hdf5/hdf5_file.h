@@ -9,13 +9,13 @@
 
 namespace afm::curves {
 
-// afmformats' .h5: a group a curve, "0", "1" and so on, with the metadata as attributes and a data set a column.
+// afmformats' .h5: one group per curve, "0", "1" and so on, with the metadata as attributes and one data set per
+// column.
 
 // One curve in group "0". Throws std::runtime_error.
 std::string hdf5_bytes(const RecordedCurve& curve);
 
-// The curve of group `index`. What lies in other files is refused. Damaged files crash
-// HDF5. Throws CurveError.
+// Reads the curve of group `index`. Rejects data in other files. HDF5 may crash on a damaged file. Throws CurveError.
 RecordedCurve read_hdf5(std::string_view bytes, std::size_t index);
 
 }  // namespace afm::curves

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// touchafm-hdf5: reads and writes afmformats' HDF5 curves for touchafm, confined. HDF5 1.10 crashes on damaged files,
-// and Debian's library brings curl, Kerberos and LDAP, which no other command has to load.
+// touchafm-hdf5: reads and writes afmformats' HDF5 curves for touchafm in a confined process, because HDF5 1.10 crashes
+// on damaged files, and Debian's library loads curl, Kerberos and LDAP, which no other command needs.
 //
-//   touchafm-hdf5 read INDEX   an .h5 on stdin, its curve as afmformats .tab on stdout
-//   touchafm-hdf5 write        the other way round
+// touchafm-hdf5 read INDEX   reads an .h5 from stdin, writes its curve as afmformats .tab to stdout
+// touchafm-hdf5 write        the reverse
 //
-// Ends as formats/confined_child.h says; what is wrong with the file is then on stdout.
+// Exit codes are those of formats/confined_child.h; a fault of the file is reported on stdout.
 #include <unistd.h>
 
 #include <charconv>
@@ -59,6 +59,6 @@ int main(int count, char** arguments) {
     core::log_line("touchafm-hdf5 is started by touchafm; run 'touchafm analyse FILE.h5' instead");
     return 2;
   }
-  // HDF5's own clean-up is not worth its risks
+  // skips HDF5's own clean-up, which may crash
   ::_exit(static_cast<int>(convert(how, count > 2 ? arguments[2] : "0")));
 }

@@ -21,7 +21,7 @@ constexpr int kPoints = 160;
 
 double between(double low, double high, int index) { return low * std::pow(high / low, double(index) / kPoints); }
 
-// Where `is_below` changes from true to false, by halving on the logarithm; `high` where it never does.
+// Place where `is_below` changes from true to false, by bisection on the logarithm; `high` if it never does.
 template <class Predicate>
 double border(double low, double high, const Predicate& is_below) {
   if (is_below(high)) return high;
@@ -32,7 +32,7 @@ double border(double low, double high, const Predicate& is_below) {
   return low;
 }
 
-// Above it adhesion is negligible.
+// Load above which adhesion is negligible.
 double hertz_load(double tabor) {
   return border(kLoadLow, kLoadHigh, [&](double load) { return regime_of(tabor, load) != Regime::Hertz; });
 }
@@ -46,13 +46,13 @@ SvgLine hertz_border() {
   return line;
 }
 
-// Where a regime ends to the right, at each load below Hertz'.
+// Right border of a regime, at each load below Hertz'.
 SvgLine right_border_of(Regime last) {
   SvgLine line{"", "#3c434b", LineStyle::Solid, {}};
   for (int i = 0; i <= kPoints; ++i) {
     const double load = between(kLoadLow, kLoadHigh, i);
     const auto is_hertz = [&](double tabor) { return regime_of(tabor, load) == Regime::Hertz; };
-    // a load that is Hertz' for a stiff contact need not be for a soft one
+    // a load may be Hertz' for a stiff contact but not for a soft one
     const double from = is_hertz(kTaborLow) ? 1.000001 * border(kTaborLow, kTaborHigh, is_hertz) : kTaborLow;
     if (is_hertz(from) || regime_of(from, load) > last) break;
     line.points.push_back(

@@ -36,7 +36,7 @@ constexpr std::array<std::string_view, 1> kTemperature{"temperature"};
 
 using Number = std::optional<double>;
 
-// A row whose number has units.
+// A row for a parameter with units.
 ContactParameter row(std::string_view option, std::string_view json_key, std::span<const std::string_view> keys,
                      std::string help, const physics::Units& units, Number (*get)(const ContactSetup&),
                      void (*set)(ContactSetup&, double), physics::Infinity infinity = physics::Infinity::Refused) {
@@ -57,7 +57,7 @@ std::string title_of(std::string_view option) {
 
 using physics::ContactParameters;
 
-// A row whose number is one of ContactParameters.
+// A row for a member of ContactParameters.
 template <auto Member>
 ContactParameter row(std::string_view option, std::span<const std::string_view> keys,
                      const physics::ContactField& field) {
@@ -70,7 +70,7 @@ ContactParameter row(std::string_view option, std::span<const std::string_view> 
                                                               : physics::Infinity::Allowed);
 }
 
-// W is twice what the laws are given (3.3).
+// W is twice the laws' surface energy (3.3).
 ContactParameter work_of_adhesion() {
   constexpr const physics::ContactField& kMean = physics::contact_field("mean_surface_energy");
   return row(
@@ -84,7 +84,7 @@ ContactParameter work_of_adhesion() {
       [](ContactSetup& s, double si) { s.material.contact.mean_surface_energy = physics::SurfaceEnergy(0.5 * si); });
 }
 
-// E* as it is given replaces the moduli of the two bodies.
+// A given E* replaces the moduli of the two bodies.
 ContactParameter reduced_modulus() {
   ContactParameter parameter = row<&ContactParameters::reduced_modulus>("reduced-modulus", kReducedModulus,
                                                                         physics::contact_field("reduced_modulus"));
@@ -219,15 +219,15 @@ const ContactParameter* find_contact_parameter(std::string_view option) {
 
 bool acts(const ContactParameter& parameter, const ModelName& model) {
   const std::string_view option = parameter.option;
-  // of the moving lever
+  // for a moving lever only
   if (option == "resonance" || option == "quality-factor" || option == "temperature") return model.dynamic;
   if (model.automatic) return true;
   const LawTraits& law = physics::traits_of(model.law);
   if (option == "hamaker") return law.van_der_waals;
-  // a closed form has no place for them
+  // not used by a closed form
   if (option == "retardation") return law.van_der_waals && law.curve != nullptr;
   if (option == "humidity") return law.curve != nullptr;
-  // the others give the force or the place on the adhesion map
+  // all others influence the force or the position on the adhesion map
   return true;
 }
 

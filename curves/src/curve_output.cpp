@@ -40,7 +40,7 @@ const char* name_of(std::optional<EventKind> event) {
   return *event == EventKind::JumpToContact ? "jump_to_contact" : "jump_off_contact";
 }
 
-// As few digits as read back as the same number. Three times as fast as fmt, and a curve is little else.
+// Fewest digits that read back as the same number. Three times as fast as fmt, and most of a curve is numbers.
 void append_number(std::string& text, double value) {
   std::array<char, 32> digits{};
   // adding zero turns -0 into 0
@@ -68,7 +68,7 @@ void append_rows(std::string& text, Samples samples) {
   }
 }
 
-// The sources of the numbers that act, in the material's order.
+// Sources of the numbers that act, in the material's order.
 std::vector<scene::SourcedValue> acting_sources(const ContactSetup& setup) {
   std::vector<scene::SourcedValue> result;
   for (const scene::SourcedValue& source : setup.material.sources) {
@@ -185,7 +185,7 @@ std::string curve_csv(const CurveRun& run) {
       "the "
       "sample; a jump is two rows at its z\n"
       "z_m,force_N,tip_height_m,deflection_m,sample_deformation_m,branch,phase,event\n";
-  // digits take longer than the curve: half of them on another core
+  // formatting takes longer than the curve, so another core does half of it
   const Samples samples(run.curve.samples);
   const std::size_t half = samples.size() / 2;
   std::string rest;

@@ -40,7 +40,7 @@ constexpr auto kEnergyText = &text_of<physics::kEnergyUnits, physics::Energy>;
 
 double zero_of(const CurveFeatures& features) { return features.contact_point.value_or(physics::Length()).si; }
 
-// In the order in which they are printed.
+// In printing order.
 const Figure kFigures[] = {
     {"baseline_level_N", "baseline", [](const CurveFeatures& f) { return std::optional(f.baseline.level.si); },
      kForceText},
@@ -85,7 +85,7 @@ std::optional<double> difference(const std::optional<double>& measured, const st
   return *measured - *other;
 }
 
-// The methods that found a contact point, from the deepest to the outermost.
+// Methods that found a contact point, from the deepest to the outermost.
 template <class Out>
 void add_contact_method(const CurveFeatures& features, Out out) {
   physics::Length lowest = *features.contact_point, highest = lowest;
@@ -103,7 +103,7 @@ void add_contact_method(const CurveFeatures& features, Out out) {
   }
 }
 
-// Where an instrument's height and detector have their zeros is no property of the contact.
+// The zeros of an instrument's height and detector are not properties of the contact.
 bool is_comparable(const Figure& figure) {
   return std::string_view(figure.key) != "contact_point_m" && !std::string_view(figure.key).starts_with("baseline");
 }

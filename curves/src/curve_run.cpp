@@ -34,7 +34,7 @@ physics::Length default_start(const physics::CycleFigures& figures) {
   return physics::Length(std::ceil(above * 1e9) / 1e9);
 }
 
-// Deep enough that the sample pushes: a soft one that sticks has to be pressed by far more than 5 nm.
+// Deep enough for the sample to push: a soft, sticky one must be pressed by far more than 5 nm.
 physics::Length default_end(const physics::LawTables& tables) {
   physics::Length end(-5e-9);
   for (int i = 0; i < 40 && tables.attached.force(end).si <= 0.0; ++i) end = 1.25 * end;
@@ -42,7 +42,7 @@ physics::Length default_end(const physics::LawTables& tables) {
 }
 
 constexpr double kMostDefaultSteps = 20'000;
-// Where only the events are asked for, and they depend on the samples.
+// Limit if only the events are needed but depend on the samples.
 constexpr double kMostEventSteps = 2e5;
 
 physics::SweepPlan no_finer_than(physics::SweepPlan plan, double steps) {
@@ -98,7 +98,7 @@ core::Result<void> sweep_static(const PathOptions& path, CurveRun& run) {
     if (path.events_only) run.plan = no_finer_than(run.plan, kMostEventSteps);
     run.curve = physics::record_curve(physics::DirectionRuleModel(run.setup.material.contact), run.plan);
   } else {
-    // at rest the events are those of the tables whatever the step
+    // at rest the events are those of the tables for any step
     run.curve = physics::record_curve(model, path.events_only ? no_finer_than(run.plan, 100.0) : run.plan);
   }
   return {};
@@ -156,7 +156,7 @@ const physics::ModelEvent* find_event(const physics::ForceCurve& curve, physics:
 
 std::optional<physics::Energy> loop_energy(const CurveRun& run) {
   if (run.curve.samples.empty() || run.curve.samples.back().phase == physics::Phase::Attached) return std::nullopt;
-  // only samples show the loop of the direction rule or of a moving tip; the law's own area needs none
+  // only samples show the loop of the direction rule or of a moving tip; the law's own area is exact
   if (run.setup.model.direction_rule || run.setup.model.dynamic)
     return physics::summarise(run.curve.samples).loop_energy;
   const bool jumped = find_event(run.curve, physics::EventKind::JumpToContact) != nullptr;

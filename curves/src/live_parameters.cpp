@@ -24,10 +24,10 @@ using physics::Law;
 constexpr double kOctavesOfStep = 0.25;
 constexpr physics::Pressure kStiffestModulus{1e12};  // first value of a step down from "rigid"
 constexpr int kDigits = 3;
-constexpr int kMostSteps = 200;  // far beyond any law
+constexpr int kMostSteps = 200;  // far beyond the range of any law
 constexpr double kPointsOfCycle = 400.0;
 
-// In the order in which the panel goes through them; none means the choice of the adhesion map.
+// In the panel's order; empty means the choice of the adhesion map.
 std::span<const std::optional<Law>> choices_of_law() {
   static const auto choices = [] {
     std::vector<std::optional<Law>> all{std::nullopt};
@@ -37,7 +37,7 @@ std::span<const std::optional<Law>> choices_of_law() {
   return choices;
 }
 
-// One cycle as far as the force panel shows.
+// One cycle over the range of the force panel.
 physics::ForceCurve predict(const SampleModel& material) {
   const double reach = cycle_reach_m(material);
   const physics::Length from(kReachAbove * reach), to(-kReachBelow * reach);
@@ -121,7 +121,7 @@ bool LiveParameters::try_step(Row row, int direction) {
     const bool stiffer_than_rigid = std::isinf(loaded_.parameters.contact.reduced_modulus.si) && steps > 0;
     return !(row == Row::ReducedModulus && stiffer_than_rigid) && take(next);
   }
-  // the next law that these parameters have
+  // the next law that is valid for these parameters
   const auto count = static_cast<int>(choices_of_law().size());
   for (int tries = 1; tries < count; ++tries) {
     steps = (steps + direction + count) % count;

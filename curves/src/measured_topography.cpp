@@ -23,7 +23,7 @@ std::string length_text(double length_m) {
   return physics::format_quantity(physics::Length(length_m), physics::kLengthUnits);
 }
 
-// In the channel's unit; lengths in one that is easily read.
+// In the channel's unit; lengths in a convenient one.
 std::string value_text(const MeasuredTopography& topography, double value) {
   const std::string& unit = topography.channel().unit;
   return unit == "m" ? length_text(value) : fmt::format("{:.5g} {}", value, unit);
@@ -36,7 +36,7 @@ struct PixelGrid {
   std::vector<double> heights;
 };
 
-// The mean of blocks of pixels; those beyond the last whole block are left out.
+// Means of blocks of pixels, without those beyond the last whole block.
 PixelGrid averaged(const PixelGrid& grid, std::size_t across, std::size_t down) {
   PixelGrid mean{grid.columns / across,
                  grid.rows / down,
@@ -56,7 +56,7 @@ PixelGrid averaged(const PixelGrid& grid, std::size_t across, std::size_t down) 
   return mean;
 }
 
-// Between the pixels' centres, linearly along both axes; at the rim as high as the nearest centre.
+// Bilinear between the pixels' centres; at the rim, the height of the nearest centre.
 double height_at(const PixelGrid& grid, double column, double row) {
   const double c = std::clamp(column, 0.0, static_cast<double>(grid.columns - 1)),
                r = std::clamp(row, 0.0, static_cast<double>(grid.rows - 1));

@@ -15,7 +15,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-// Where the attached branch crosses zero: the contact line's own zero of Z.
+// Zero crossing of the attached branch: the zero of Z on the contact line.
 double zero_of_contact_m(const physics::LawTables& tables) {
   double pressed = -1e-7, pulled = tables.figures.z_joc.si;
   for (int i = 0; i < 80; ++i) {
@@ -25,13 +25,13 @@ double zero_of_contact_m(const physics::LawTables& tables) {
   return pulled;
 }
 
-// What the two laws say of one material.
+// Results of the two laws for one material.
 struct Comparison {
   std::string title;
   physics::LawChoice choice;
   physics::CycleFigures paper;
   physics::CycleFigures chosen;
-  double contact_zero_m;  // contact point of the selected law; 0 in the paper's
+  double contact_zero_m;  // contact point of the selected law; the paper's is at 0
 };
 
 Comparison compare(const scene::MaterialEntry& material) {

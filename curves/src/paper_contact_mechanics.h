@@ -8,9 +8,9 @@
 
 namespace afm::curves {
 
-// The paper's law beside the one that the Tabor parameter chooses for the same numbers, its a0 chosen so that F_ad is
-// the same: where the jumps are, the forces before and after them, what the loop costs. A Markdown table for people,
-// and for machines an object by material, SI, forces signed.
+// Comparison of the paper's law with the one that suits the Tabor parameter, for the same numbers and with a0 chosen
+// for the same F_ad: places of the jumps, forces before and after, dissipated energy. A Markdown table, and in JSON an
+// object by material, SI, forces signed.
 std::string contact_mechanics_markdown(const scene::MaterialLibrary& library);
 nlohmann::ordered_json contact_mechanics_json(const scene::MaterialLibrary& library);
 

@@ -28,7 +28,7 @@ std::string with_erratum(const std::string& text, std::string_view erratum) {
   return erratum.empty() ? text : fmt::format("{} [{}]", text, erratum_number(erratum));
 }
 
-// A cell of the third column, or a dash for what no run measures.
+// A cell of the third column, or a dash if no run measured it.
 std::string measured_text(const TableCell& cell) { return cell.measured ? fmt::format("{:.4f}", *cell.measured) : "-"; }
 
 std::string inputs_markdown(const PaperTables& tables) {
@@ -91,7 +91,7 @@ json table_json(const std::vector<TableCell>& cells) {
 
 std::string csv_number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
-// What a plot shows: everything, or the part nearer than z_max and weaker than force_min.
+// Range of a plot: everything, or the part nearer than z_max and weaker than force_min.
 struct Window {
   double z_max_nm = std::numeric_limits<double>::infinity();
   double force_min_nn = -std::numeric_limits<double>::infinity();
@@ -107,7 +107,7 @@ SvgPlot empty_plot(std::string title) {
   return plot;
 }
 
-// Approach dashed and retract solid, as everywhere in the program; the turn belongs to both.
+// Approach dashed and retract solid, as everywhere in the program. The turning point belongs to both.
 void add_cycle(SvgPlot& plot, const scene::MaterialEntry& material, std::string_view color, const Window& window) {
   const physics::ApproachRetractModel model(material.contact);
   const physics::Length from = 1.4 * model.figures().z_joc;
@@ -210,7 +210,7 @@ std::string figure2_svg(const scene::MaterialEntry& material) {
 }
 
 std::string figure5e_svg(const scene::MaterialLibrary& library) {
-  // mica and silicon nitride whole, and gold's jump to contact
+  // all of mica and silicon nitride, and gold's jump to contact
   constexpr Window kNear{25.0, -1.8};
   std::array<SvgPlot, 2> plots{empty_plot("Fig. 5(e): the approach-retract cycles of all samples"),
                                empty_plot("The same, near the surface")};

@@ -87,7 +87,7 @@ struct PrintedTable1 {
 
 constexpr std::array<std::string_view, 3> kMaterials{"mica", "gold", "si3n4"};
 
-// Liu & Peng, Table 1, the rows that are computed from the others.
+// Rows of Liu & Peng, Table 1, that are computed from the others.
 constexpr std::array kTable1{
     PrintedTable1{"D_attr", "nm", 1e9, {"0.799", "1.357", "1.667"}, {kSwapped, kSwapped, ""}},
     PrintedTable1{"delta_c_attr", "nm", 1e9, {"1.598", "2.714", "0.834"}, {kSwapped, kSwapped, kRounded}},
@@ -104,7 +104,7 @@ struct PrintedTable2 {
   std::string_view erratum;
 };
 
-// Liu & Peng, Table 2; its experiments stand in the material file.
+// Liu & Peng, Table 2; its experimental values are in the material file.
 constexpr std::array kTable2{PrintedTable2{"mica", "F_attr", "0.2387", "0.23019", kSlip},
                              PrintedTable2{"mica", "F_ad", "1.3992", "1.39877", kPi},
                              PrintedTable2{"gold", "F_attr", "0.4071", "0.39962", kRounded},

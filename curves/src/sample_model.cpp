@@ -19,7 +19,7 @@ namespace {
 
 using physics::Law;
 
-// What the servo gets. A measured law is no model that can be asked for: its caller sets it.
+// Parameters for the servo. For a measured law the caller sets the law.
 scene::SharedContact parameters_of(const ContactSetup& setup) {
   const physics::LawOptions& options = setup.law_options;
   scene::SharedContact shared;

@@ -18,7 +18,7 @@ constexpr double kTitle = 48;  // height above the legend
 constexpr double kLegendRow = 26;
 constexpr double kBottom = 68;
 constexpr double kTolerancePx = 0.1;
-constexpr int kTicks = 8;  // about so many on an axis
+constexpr int kTicks = 8;  // approximate number on an axis
 
 bool finite(SvgPoint p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
@@ -65,7 +65,7 @@ std::string power_text(double exponent) {
   return text;
 }
 
-// A number on an axis whose ticks are `step` apart: no more decimals than that needs, and a real minus sign.
+// A number on an axis with ticks at intervals of `step`: no unnecessary decimals, and a typographic minus sign.
 std::string tick_text(double value, double step) {
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   std::string text = fmt::format("{:.{}f}", std::abs(value), decimals);
@@ -79,7 +79,7 @@ struct Axis {
   AxisScale scale = AxisScale::Linear;
   char decimal_mark = '.';
 
-  // where a number stands on the axis; NaN where it has no place
+  // position of a number on the axis; NaN if it has none
   double place(double value) const {
     if (scale == AxisScale::Linear) return value;
     return value > 0 ? std::log10(value) : std::numeric_limits<double>::quiet_NaN();
@@ -99,7 +99,7 @@ struct Axis {
     high = std::max(high, value);
   }
 
-  // widens to a margin around the data, and to something for no data and for a single value
+  // adds a margin around the data, and a range for no data or a single value
   void settle() {
     if (low > high) {
       low = 0;
@@ -121,7 +121,7 @@ struct Axis {
   double last_tick() const { return std::floor(high / step); }
 };
 
-// A line's sample and its label, `x` from the plot's left edge.
+// A line's sample and its label; `x` is the distance from the plot's left edge.
 struct LegendEntry {
   const SvgLine* line;
   double x;
@@ -130,9 +130,9 @@ struct LegendEntry {
 
 constexpr double kLegendSample = 34;
 
-// Rows as long as the plot is wide; at least one.
+// Rows up to the plot's width, at least one.
 std::vector<LegendEntry> legend_entries(const SvgPlot& plot) {
-  constexpr double kCharacter = 8.3;  // slightly more than the font's mean advance
+  constexpr double kCharacter = 8.3;  // slightly wider than the font's mean advance
   const double width = plot.width - kLeft - kRight;
   std::vector<LegendEntry> entries;
   double x = 0;
@@ -155,7 +155,7 @@ double legend_height(const SvgPlot& plot) {
   return kLegendRow * (entries.empty() ? 0 : entries.back().row + 1);
 }
 
-// From the plot's numbers to pixels.
+// Converts the plot's numbers to pixels.
 class Frame {
  public:
   explicit Frame(const SvgPlot& plot)
@@ -180,7 +180,7 @@ class Frame {
   double right() const { return right_; }
   double top() const { return top_; }
   double bottom() const { return bottom_; }
-  // of places on the axes
+  // takes positions on the axes
   double x_px(double x) const { return left_ + (x - x_.low) / (x_.high - x_.low) * (right_ - left_); }
   double y_px(double y) const { return bottom_ - (y - y_.low) / (y_.high - y_.low) * (bottom_ - top_); }
   SvgPoint placed(SvgPoint point) const { return {x_.place(point.x), y_.place(point.y)}; }
@@ -271,7 +271,7 @@ void draw_mark(std::string& out, const SvgMark& mark, const Frame& frame) {
   const double dx = mark.side == Side::Left ? -10 : mark.side == Side::Right ? 10 : 0;
   const double dy = mark.side == Side::Above ? -11 : mark.side == Side::Below ? 21 : 5;
   const char* anchor = mark.side == Side::Left ? "end" : mark.side == Side::Right ? "start" : "middle";
-  // a white rim keeps the text readable where it crosses a line
+  // a white outline keeps the text readable where it crosses a line
   out += fmt::format(
       "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\" fill=\"{}\" font-weight=\"600\" stroke=\"#fff\" "
       "stroke-width=\"4\" stroke-linejoin=\"round\" paint-order=\"stroke\">{}</text>\n",
@@ -292,7 +292,7 @@ void draw_legend(std::string& out, const SvgPlot& plot) {
 }  // namespace
 
 std::string_view distinct_color(std::size_t index) {
-  // blue, vermillion, bluish green, reddish purple, and orange darkened to be seen on white
+  // blue, vermillion, bluish green, reddish purple, and orange darkened for a white background
   constexpr std::array<std::string_view, 5> kColors{"#0072b2", "#d55e00", "#009e73", "#b0578f", "#a97500"};
   return kColors[index % kColors.size()];
 }
@@ -311,7 +311,7 @@ std::vector<SvgPoint> simplified(std::span<const SvgPoint> points, double tolera
   }
   std::sort(anchors.begin(), anchors.end());
 
-  // split each span at its farthest point until none is farther than the tolerance
+  // splits each span at its farthest point until none is farther than the tolerance
   std::vector<std::pair<std::size_t, std::size_t>> spans;
   for (std::size_t i = 0; i < anchors.size(); ++i) {
     keep[anchors[i]] = true;

@@ -51,7 +51,7 @@ std::string sweepable(const ModelName& model) {
   return names;
 }
 
-// What a law at rest says of its cycle.
+// Takes the figures of a law at rest.
 void take_figures(const physics::CycleFigures& figures, SweepRow& row) {
   row.critical_stiffness_n_per_m = figures.critical_stiffness.si;
   row.loop_energy_j = figures.loop_energy.si;
@@ -63,7 +63,7 @@ void take_figures(const physics::CycleFigures& figures, SweepRow& row) {
   row.pull_off_force_n = figures.force_before_joc.si;
 }
 
-// What a recorded curve shows.
+// Takes the figures of a recorded curve.
 void take_events(const CurveRun& run, SweepRow& row) {
   row.critical_stiffness_n_per_m = run.figures.critical_stiffness.si;
   const auto energy = loop_energy(run);

@@ -2,146 +2,44 @@
 #include "input/wand_file.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <initializer_list>
 #include <string_view>
 
 #include "scene/config/toml_file.h"
+#include "scene/config/toml_table.h"
 
 namespace afm::input {
 
 namespace {
 
-using scene::Fault;
+using scene::TomlTable;
 
 constexpr std::int64_t kLargestByte = 1023;
-constexpr double kUnitTolerance = 1e-3;
 
-class Table {
- public:
-  Table(const toml::table& table, std::string name) : table_(table), name_(std::move(name)) {}
-
-  void allow_only(std::initializer_list<std::string_view> keys) const {
-    for (const auto& [key, node] : table_) {
-      if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
-        throw Fault{node.source(), full(key.str()), fmt::format("unknown key; known are {}", fmt::join(keys, ", "))};
-      }
-    }
+// Format of lsusb.
+std::uint16_t read_hexadecimal(const TomlTable& table, std::string_view key) {
+  const std::string digits = table.text(key);
+  std::uint16_t value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+  if (error != std::errc() || end != digits.data() + digits.size()) {
+    table.refuse(key, "must be up to four hexadecimal digits in quotes, such as \"256f\"");
   }
-
-  bool has(std::string_view key) const { return table_.contains(key); }
-
-  [[noreturn]] void refuse(std::string_view key, std::string what) const {
-    const toml::node* node = table_.get(key);
-    throw Fault{node != nullptr ? node->source() : table_.source(), full(key), std::move(what)};
-  }
-
-  const toml::node& node(std::string_view key) const {
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) refuse(key, "is missing");
-    return *node;
-  }
-
-  std::string text(std::string_view key) const {
-    const auto value = node(key).value_exact<std::string>();
-    if (!value || value->empty()) refuse(key, "must be text and not empty");
-    return *value;
-  }
-
-  std::int64_t integer(std::string_view key, std::int64_t smallest, std::int64_t largest) const {
-    const auto value = node(key).value_exact<std::int64_t>();
-    if (!value || *value < smallest || *value > largest) {
-      refuse(key, fmt::format("must be a whole number from {} to {}", smallest, largest));
-    }
-    return *value;
-  }
-
-  double number(std::string_view key, double smallest, double largest) const {
-    const auto value = node(key).value<double>();
-    if (!value || !(*value >= smallest && *value <= largest)) {
-      refuse(key, fmt::format("must be a number from {:g} to {:g}", smallest, largest));
-    }
-    return *value;
-  }
-
-  template <std::size_t Count>
-  std::array<double, Count> numbers(std::string_view key, const char* meaning) const {
-    const toml::array* const array = node(key).as_array();
-    std::array<double, Count> values{};
-    if (array == nullptr || array->size() != Count) refuse(key, fmt::format("must be {}", meaning));
-    for (std::size_t i = 0; i < Count; ++i) {
-      const auto value = (*array)[i].value<double>();
-      if (!value || !std::isfinite(*value)) refuse(key, fmt::format("must be {}", meaning));
-      values[i] = *value;
-    }
-    return values;
-  }
-
-  glm::dvec3 point(std::string_view key) const {
-    const auto v = numbers<3>(key, "three numbers [x, y, z] in metres");
-    return {v[0], v[1], v[2]};
-  }
-
-  glm::dquat rotation(std::string_view key) const {
-    constexpr const char* kMeaning = "a unit quaternion [x, y, z, w]";
-    const auto v = numbers<4>(key, kMeaning);
-    const glm::dquat q(v[3], v[0], v[1], v[2]);
-    if (!(std::abs(glm::length(q) - 1.0) <= kUnitTolerance)) refuse(key, fmt::format("must be {}", kMeaning));
-    return glm::normalize(q);
-  }
-
-  // Format of lsusb.
-  std::uint16_t hexadecimal(std::string_view key) const {
-    const std::string digits = text(key);
-    std::uint16_t value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
-    if (error != std::errc() || end != digits.data() + digits.size()) {
-      refuse(key, "must be up to four hexadecimal digits in quotes, such as \"256f\"");
-    }
-    return value;
-  }
-
-  Table inner(std::string_view key, const char* how) const {
-    const toml::table* const table = node(key).as_table();
-    if (table == nullptr) refuse(key, fmt::format("must be written {}", how));
-    return {*table, full(key)};
-  }
-
-  template <class Read>
-  void each(std::string_view key, const Read& read) const {
-    if (!has(key)) return;
-    const toml::array* const entries = node(key).as_array();
-    if (entries == nullptr) refuse(key, fmt::format("must be written [[{}]]", key));
-    for (const toml::node& entry : *entries) {
-      const toml::table* const table = entry.as_table();
-      if (table == nullptr) refuse(key, fmt::format("must be written [[{}]]", key));
-      read(Table(*table, std::string(key)));
-    }
-  }
-
- private:
-  std::string full(std::string_view key) const {
-    return name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key);
-  }
-
-  const toml::table& table_;
-  std::string name_;
-};
-
-// Position in a report; byte 0 of a numbered report is its number.
-void read_place(const Table& table, std::uint8_t& report, std::size_t& byte, unsigned& bit) {
-  report = static_cast<std::uint8_t>(table.integer("report", 0, 255));
-  byte = static_cast<std::size_t>(table.integer("byte", report == 0 ? 0 : 1, kLargestByte));
-  bit = table.has("bit") ? static_cast<unsigned>(table.integer("bit", 0, 7)) : 0;
+  return value;
 }
 
-HidMapping::Axis read_axis(const Table& table) {
+// Position in a report; byte 0 of a numbered report is its number.
+void read_place(const TomlTable& table, std::uint8_t& report, std::size_t& byte, unsigned& bit) {
+  report = static_cast<std::uint8_t>(table.whole("report", 0, 255));
+  byte = static_cast<std::size_t>(table.whole("byte", report == 0 ? 0 : 1, kLargestByte));
+  bit = table.has("bit") ? static_cast<unsigned>(table.whole("bit", 0, 7)) : 0;
+}
+
+HidMapping::Axis read_axis(const TomlTable& table) {
   table.allow_only({"axis", "report", "byte", "bit", "bits", "signed", "center", "scale", "dead_zone"});
   using Quantity = HidMapping::Quantity;
   constexpr std::array<std::pair<std::string_view, Quantity>, 4> kQuantities{
@@ -162,12 +60,8 @@ HidMapping::Axis read_axis(const Table& table) {
   }
   if (!known) table.refuse("axis", "must be push, turn, gyro or acceleration with -x, -y or -z, such as \"push-x\"");
   read_place(table, axis.report, axis.byte, axis.bit);
-  if (table.has("bits")) axis.bits = static_cast<unsigned>(table.integer("bits", 1, 32));
-  if (table.has("signed")) {
-    const auto value = table.node("signed").value_exact<bool>();
-    if (!value) table.refuse("signed", "must be true or false");
-    axis.is_signed = *value;
-  }
+  if (table.has("bits")) axis.bits = static_cast<unsigned>(table.whole("bits", 1, 32));
+  if (table.has("signed")) axis.is_signed = table.flag("signed");
   constexpr double kMostCounts = 4294967295.0;
   if (table.has("center")) axis.center = table.number("center", -kMostCounts, kMostCounts);
   axis.scale = table.number("scale", -kMostCounts, kMostCounts);
@@ -176,7 +70,7 @@ HidMapping::Axis read_axis(const Table& table) {
   return axis;
 }
 
-HidMapping::Button read_button(const Table& table) {
+HidMapping::Button read_button(const TomlTable& table) {
   table.allow_only({"button", "report", "byte", "bit"});
   constexpr std::array<std::pair<std::string_view, WandButton>, 6> kButtons{{{"select", WandButton::Select},
                                                                              {"grab", WandButton::Grab},
@@ -193,15 +87,19 @@ HidMapping::Button read_button(const Table& table) {
   return button;
 }
 
-HidMapping read_device(const Table& root) {
-  const Table table = root.inner("device", "[device]");
+HidMapping read_device(const TomlTable& root) {
+  const TomlTable table = root.table("device", "[device]");
   table.allow_only({"name", "vendor", "product"});
   HidMapping mapping;
   mapping.name = table.text("name");
-  mapping.vendor = table.hexadecimal("vendor");
-  mapping.product = table.hexadecimal("product");
-  root.each("axis", [&](const Table& axis) { mapping.axes.push_back(read_axis(axis)); });
-  root.each("button", [&](const Table& button) { mapping.buttons.push_back(read_button(button)); });
+  mapping.vendor = read_hexadecimal(table, "vendor");
+  mapping.product = read_hexadecimal(table, "product");
+  if (root.has("axis")) {
+    for (const TomlTable& axis : root.tables("axis")) mapping.axes.push_back(read_axis(axis));
+  }
+  if (root.has("button")) {
+    for (const TomlTable& button : root.tables("button")) mapping.buttons.push_back(read_button(button));
+  }
   const auto is_stop = [](const HidMapping::Button& button) { return button.button == WandButton::Stop; };
   const bool stops_alone =
       !mapping.buttons.empty() && std::all_of(mapping.buttons.begin(), mapping.buttons.end(), is_stop);
@@ -213,13 +111,13 @@ HidMapping read_device(const Table& root) {
   return mapping;
 }
 
-DtrackSettings read_dtrack(const Table& table) {
+DtrackSettings read_dtrack(const TomlTable& table) {
   table.allow_only({"address", "port", "flystick", "head", "room_from_tracker"});
   DtrackSettings settings;
   if (table.has("address")) settings.address = table.text("address");
-  if (table.has("port")) settings.port = static_cast<std::uint16_t>(table.integer("port", 1, 65535));
-  if (table.has("flystick")) settings.flystick = static_cast<std::uint32_t>(table.integer("flystick", 0, 63));
-  const Table transform = table.inner("room_from_tracker", "{ position = [x, y, z], orientation = [x, y, z, w] }");
+  if (table.has("port")) settings.port = static_cast<std::uint16_t>(table.whole("port", 1, 65535));
+  if (table.has("flystick")) settings.flystick = static_cast<std::uint32_t>(table.whole("flystick", 0, 63));
+  const TomlTable transform = table.table("room_from_tracker", "{ position = [x, y, z], orientation = [x, y, z, w] }");
   transform.allow_only({"position", "orientation"});
   settings.tracker_origin_m = transform.point("position");
   settings.room_from_tracker = transform.rotation("orientation");
@@ -227,14 +125,14 @@ DtrackSettings read_dtrack(const Table& table) {
 }
 
 WandFile read_wand_file(const toml::table& toml_root) {
-  const Table root(toml_root, "");
+  const TomlTable root(toml_root);
   root.allow_only({"hand", "dtrack", "device", "axis", "button"});
   WandFile file;
   if (root.has("hand")) file.hand_m = root.point("hand");
   if (root.has("dtrack")) {
-    const Table dtrack = root.inner("dtrack", "[dtrack]");
+    const TomlTable dtrack = root.table("dtrack", "[dtrack]");
     file.dtrack = read_dtrack(dtrack);
-    if (dtrack.has("head")) file.head_body = static_cast<std::uint32_t>(dtrack.integer("head", 0, 63));
+    if (dtrack.has("head")) file.head_body = static_cast<std::uint32_t>(dtrack.whole("head", 0, 63));
   }
   if (root.has("device")) {
     file.device = read_device(root);
@@ -244,7 +142,7 @@ WandFile read_wand_file(const toml::table& toml_root) {
     }
   }
   if (!file.hand_m && !file.dtrack && !file.device) {
-    throw Fault{toml_root.source(), "device", "is missing; the file needs hand, [dtrack] or [device]"};
+    root.refuse("device", "is missing; the file needs hand, [dtrack] or [device]");
   }
   return file;
 }

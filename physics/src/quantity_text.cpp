@@ -30,7 +30,7 @@ constexpr std::array kStiffnesses{Unit{"N/m", 1.0, true}, Unit{"mN/m", 1e3, true
 constexpr std::array kSurfaceEnergies{Unit{"J/m2", 1.0, true}, Unit{"J/m^2", 1.0, false}, Unit{"J/m\u00b2", 1.0, false},
                                       Unit{"mJ/m2", 1e3, true}, Unit{"mJ/m^2", 1e3, false},
                                       Unit{"mJ/m\u00b2", 1e3, false},
-                                      // surface tension is written so
+                                      // usual unit of surface tension
                                       Unit{"N/m", 1.0, false}, Unit{"mN/m", 1e3, false}};
 constexpr std::array kPressures{Unit{"TPa", 1e-12, true}, Unit{"GPa", 1e-9, true}, Unit{"MPa", 1e-6, true},
                                 Unit{"kPa", 1e-3, true}, Unit{"Pa", 1.0, true}};
@@ -43,7 +43,7 @@ constexpr std::array kTemperatures{Unit{"K", 1.0, true}, Unit{"\u00b0C", 1.0, fa
                                    Unit{"C", 1.0, false, 273.15}};
 constexpr std::array kDensities{Unit{"kg/m3", 1.0, true}, Unit{"kg/m^3", 1.0, false}, Unit{"kg/m\u00b3", 1.0, false}};
 
-// By a power of ten above one, which a double holds exactly up to 1e22 where it does not hold the small factor.
+// Divides by a power of ten above one, which is exact in a double up to 1e22, unlike the small factor.
 double in_si(double number, double per_si) {
   return per_si >= 1.0 ? number / per_si : number * std::round(1.0 / per_si);
 }
@@ -55,7 +55,7 @@ std::string_view trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-// What a message may repeat: one line, not too long.
+// Quotes a text for a message: one line, of limited length.
 std::string quoted(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string result = "\"" + std::string(text.substr(0, kLongest)) + (text.size() > kLongest ? "...\"" : "\"");
@@ -98,7 +98,7 @@ std::string list_units(std::span<const Unit> units) {
 std::variant<double, std::string> parse_si(std::string_view text, std::string_view sort, std::span<const Unit> units,
                                            Infinity infinity) {
   std::string_view rest = trim(text);
-  // from_chars takes a minus but no plus
+  // from_chars accepts a minus but no plus
   if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-') rest.remove_prefix(1);
 
   double number = 0.0;

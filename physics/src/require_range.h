@@ -9,8 +9,8 @@
 
 namespace afm::physics {
 
-// Throws UnphysicalValue unless smallest <= value <= largest, SI; NaN fails. `field` is the member's name; with blanks
-// for underscores it is what a person reads.
+// Throws UnphysicalValue unless smallest <= value <= largest, SI; NaN fails. `field` is the member's name; the message
+// shows it with blanks for underscores.
 inline void require_range(const std::string& field, double value, double smallest, double largest, const Units& units) {
   if (value >= smallest && value <= largest) return;
   std::string words = field;

@@ -22,9 +22,11 @@ namespace {
 constexpr int kFirstClosed = kInherited.back() + 1;
 
 core::Error spawn_error(const std::string& program, int error) {
-  return {core::ErrorCategory::Failed, fmt::format("cannot start the servo {}: {}; reinstall touchafm, or build the "
-                                                   "target touchafm-servo; both programs belong in one folder",
-                                                   program, core::system_error(error))};
+  return {core::ErrorCategory::Failed,
+          fmt::format("cannot start {}: {}; reinstall touchafm, or build the targets "
+                      "touchafm-servo and touchafm-guard: all of its programs belong in one "
+                      "folder",
+                      program, core::system_error(error))};
 }
 
 // Owns the attributes and actions of posix_spawn.

@@ -41,7 +41,7 @@ Interval interval_around(double value, double variance) {
 double two_interval_d_prime(double right) { return std::numbers::sqrt2 * normal_quantile(right); }
 
 double choice_proportion(double d_prime, int alternatives) {
-  // the trapezium rule converges faster than any power of the step for what falls off as fast at both ends
+  // for an integrand that decays this fast at both ends, the trapezium rule converges faster than any power of the step
   constexpr double kReach = 9.0, kStep = 0.05;
   double sum = 0.0;
   for (double u = -kReach; u <= kReach; u += kStep) {

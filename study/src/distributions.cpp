@@ -16,7 +16,7 @@ namespace {
 namespace bm = boost::math;
 namespace bp = boost::math::policies;
 
-// double all through, for the same bits on every machine; errno instead of exceptions
+// double throughout, for the same bits on every machine; errno instead of exceptions
 using Quiet = bp::policy<bp::domain_error<bp::errno_on_error>, bp::pole_error<bp::errno_on_error>,
                          bp::overflow_error<bp::errno_on_error>, bp::evaluation_error<bp::errno_on_error>,
                          bp::promote_double<false>>;
@@ -66,7 +66,7 @@ double beta_cdf(double x, double a, double b) {
 }
 
 double two_sided_p(double t, double degrees) {
-  // the smaller tail, so that a small p keeps its digits
+  // the smaller tail preserves the digits of a small p
   return 2.0 * student_cdf(-std::abs(t), degrees);
 }
 

@@ -15,14 +15,14 @@ constexpr double kInterval = 1.0 - 0.5 * kIntervalAlpha;
 
 double squared(double x) { return x * x; }
 
-// The noncentrality of which t is the quantile `probability`.
+// The noncentrality for which t is the quantile `probability`.
 double noncentrality_of(double t, double degrees, double probability) {
   // wide enough for both tails at any number of degrees of freedom
   const double reach = 10.0 + 10.0 * std::abs(t);
   double low = t - reach, high = t + reach;
   for (int step = 0; step < 100 && high - low > 1e-12 * reach; ++step) {
     const double middle = 0.5 * (low + high);
-    // falls as the noncentrality rises
+    // decreases with the noncentrality
     (noncentral_student_cdf(t, degrees, middle) > probability ? low : high) = middle;
   }
   return 0.5 * (low + high);
@@ -55,7 +55,7 @@ Estimate mean_estimate(std::span<const double> values, const Interval& scale) {
 }
 
 Interval standardised_interval(double t, double degrees, double scale) {
-  // beyond, the noncentral t has no digits left
+  // beyond, the noncentral t is numerically inaccurate
   constexpr double kLargestT = 1e3;
   if (!(std::abs(t) < kLargestT) || !(degrees > 0.0)) return {};
   return {noncentrality_of(t, degrees, kInterval) / scale, noncentrality_of(t, degrees, 1.0 - kInterval) / scale};

@@ -29,13 +29,13 @@ bool prints_as(const AnswerCounts& counts, const SurveyQuestion& question) {
          std::abs(summary.sd - question.sd) <= kHalfOfLastDigit;
 }
 
-// anything is smaller than no value
+// Returns true also if `than` is NaN.
 bool is_smaller(double p, double than) { return p < than || std::isnan(than); }
 
-// How many people answered with which difference: 0 at kSurveyHighest.
+// Number of people with each difference; 0 is at kSurveyHighest.
 using Differences = std::array<int, 2 * kSurveyHighest + 1>;
 
-// Fills a table of two distributions cell by cell and hands each complete one over as its differences.
+// Fills a table of two distributions cell by cell and reports each complete one as its differences.
 class Pairings {
  public:
   Pairings(const AnswerCounts& a, const AnswerCounts& b, KindestPairing& kindest) : a_(a), b_(b), kindest_(kindest) {}
@@ -49,7 +49,7 @@ class Pairings {
       return;
     }
     if (column + 1 == kAnswers) {
-      put(row, column, a_[row], row + 1, 0);  // what is left of the row
+      put(row, column, a_[row], row + 1, 0);  // the rest of the row
       return;
     }
     for (int people = std::min(a_[row], b_[column]); people >= 0; --people) {

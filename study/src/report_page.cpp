@@ -18,7 +18,7 @@ using curves::html_scrolled;
 using curves::html_table_head;
 using curves::html_text;
 
-// Within a cell, a bar would end it.
+// Escapes bars, which would end the cell.
 std::string markdown_cell(const std::string& text) {
   std::string cell;
   for (const char c : text) cell += c == '|' ? std::string("\\|") : std::string(1, c);
@@ -95,7 +95,7 @@ std::string number_text(double value, int decimals) {
   if (std::isnan(value)) return "n/a";
   if (std::isinf(value)) return value < 0.0 ? "-\u221e" : "\u221e";
   std::string text = fmt::format("{:.{}f}", value, decimals);
-  // no minus before a zero
+  // no minus sign on zero
   const bool zero = text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos;
   return zero ? text.substr(1) : text;
 }

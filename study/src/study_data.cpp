@@ -55,7 +55,7 @@ bool is_age_band(std::string_view text) {
   return std::any_of(kAgeBands.begin(), kAgeBands.end(), [&](const AgeBandRow& band) { return band.word == text; });
 }
 
-// Names in a folder that begin and end so, sorted; nothing where it cannot be read.
+// Names in a folder with this prefix and suffix, sorted; empty if it cannot be read.
 std::set<std::string> names_in(const std::string& folder, std::string_view prefix, std::string_view ending) {
   std::set<std::string> names;
   std::error_code error;
@@ -72,7 +72,7 @@ std::string text_in(const nlohmann::json& table, const char* key) {
   constexpr std::size_t kLongest = 200;
   auto found = table.find(key);
   if (found == table.end()) return {};
-  if (const auto& texts = *found; texts.is_object()) {  // a title has a text for each language
+  if (const auto& texts = *found; texts.is_object()) {  // a title is a text in each language
     found = texts.find("en");
     if (found == texts.end()) return {};
   }
@@ -83,7 +83,7 @@ std::string cut_remark(const std::string& name, std::size_t line) {
   return fmt::format("{}: line {} was cut off and is left out", name, line);
 }
 
-// One events file of a person with its description.
+// An events file of a person, with its description.
 core::Result<LessonVisit> read_visit(const std::string& folder, const std::string& name, StudyData& data) {
   LessonVisit visit;
   visit.task = name.substr(name.rfind('/') + 1 + kTaskPrefix.size());

@@ -13,7 +13,7 @@ namespace afm::study {
 
 namespace {
 
-// In the order of the fields of a line.
+// In the order of a line's fields.
 enum EventsColumn {
   Onset,
   Duration,
@@ -53,7 +53,7 @@ const ItemRange* range_of_item(std::string_view item) {
   return nullptr;
 }
 
-// Reads the fields of a line; the first one that is wrong is kept.
+// Reads the fields of a line; keeps the first error.
 class EventsLine {
  public:
   explicit EventsLine(const std::vector<std::string_view>& fields) : fields_(fields) {}
@@ -92,7 +92,7 @@ class EventsLine {
     return value;
   }
 
-  // A whole number where the column counts.
+  // Requires an integer in columns that count.
   double required(EventsColumn column, double least, double most) {
     const auto value = parse_number(fields_[column], least, most);
     const bool counts = column == Practice || column == Number;
@@ -117,7 +117,7 @@ class EventsLine {
     return StepKind::Text;
   }
 
-  // What a response may be, and whether it was right, depends on the kind of trial.
+  // Legal responses, and whether one is right, depend on the kind of trial.
   void judge(StudyTrial& trial) {
     constexpr double kLargestForce_n = 1e3;
     switch (trial.kind) {

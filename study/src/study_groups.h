@@ -21,7 +21,7 @@ struct StepAndCondition {
 };
 using TrialGroups = std::map<StepAndCondition, TrialsByPerson>;
 
-// The materials that were shown or answered in each step, under any condition.
+// The materials shown or answered in each step, under any condition.
 std::map<std::string, std::set<std::string>> materials_of_steps(const TrialGroups& identify);
 
 IdentifyResult identify_result(const StepAndCondition& where, const TrialsByPerson& trials,
@@ -29,14 +29,14 @@ IdentifyResult identify_result(const StepAndCondition& where, const TrialsByPers
 ThresholdResult threshold_result(const StepAndCondition& where, const TrialsByPerson& trials);
 std::vector<LearningResult> learning_results(const TrialGroups& identify);
 
-// The newest answers of each person to the items of a questionnaire, by condition or another word.
+// The newest answers of each person to a questionnaire's items, by condition or another word.
 template <std::size_t items>
 using Answers = std::map<std::string, std::map<std::string, std::array<std::optional<double>, items>>>;
 
-// The item of a question, from 0; nothing for another questionnaire's.
+// Index of a question's item, from 0; empty for another questionnaire.
 std::optional<std::size_t> item_of(const StudyTrial& trial, std::string_view questionnaire);
 
-// Fills the measures, the SSQ and what is left out from the questionnaires of a lesson.
+// Adds measures, SSQ and incomplete questionnaires of a lesson.
 void add_questionnaires(const std::map<std::string, std::vector<const StudyTrial*>>& questions, LessonResults& results);
 
 std::vector<ConditionComparison> compared_conditions(const Measure& measure);

@@ -9,13 +9,13 @@
 
 namespace afm::study {
 
-// A condition as reports name it.
+// Name of a condition in reports.
 std::string condition_text(const std::string& condition);
 
 // The section of a lesson.
 std::vector<PageBlock> lesson_blocks(const LessonResults& lesson);
 
-// Figures. The intervals are of 95 %.
+// Figures with 95 % intervals.
 std::string survey_svg(const std::vector<SurveyResult>& survey);
 std::string identify_svg(const LessonResults& lesson);
 std::string thresholds_svg(const LessonResults& lesson);

@@ -18,7 +18,7 @@ using curves::SvgPlot;
 
 constexpr int kPlotHeight = 440;
 
-// A dot with its interval as a bar across.
+// A dot with its interval as a bar.
 void add_interval(SvgPlot& plot, double x, double value, const Interval& interval, std::size_t color,
                   const std::string& label) {
   if (!std::isfinite(value)) return;
@@ -36,7 +36,7 @@ void add_level(SvgPlot& plot, const std::string& label, double from, double to, 
   plot.lines.push_back({label, "#3c434b", curves::LineStyle::Dashed, {{from, y}, {to, y}}});
 }
 
-// Levels in bins of a fifth of a decade, with the share right of each.
+// Levels in bins of a fifth of a decade, each with its share of right answers.
 struct LevelBin {
   double level;
   Estimate right;
@@ -111,7 +111,7 @@ std::string thresholds_svg(const LessonResults& lesson) {
     for (const LevelBin& bin : level_bins(result)) {
       lowest = std::min(lowest, bin.level);
       highest = std::max(highest, bin.level);
-      // beside each other where conditions share a level
+      // shifted sideways if conditions share a level
       add_interval(plot, bin.level * (1.0 + 0.03 * static_cast<double>(i)), bin.right.value, bin.right.interval, i, "");
     }
   }

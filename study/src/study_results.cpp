@@ -14,7 +14,7 @@ namespace afm::study {
 
 namespace {
 
-// What all visits of a lesson have in common or not.
+// Common and differing properties of a lesson's visits.
 struct LessonVisits {
   std::vector<std::pair<std::string, const LessonVisit*>> visits;  // with the person
 };
@@ -41,7 +41,7 @@ std::vector<std::string> facts_of(const LessonVisits& lesson) {
   return lines;
 }
 
-// The mean over a person's trials of a number that some have.
+// Mean of a number over those of a person's trials that have it.
 using NumberOf = std::function<std::optional<double>(const StudyTrial&)>;
 
 void add_means(const TrialGroups& groups, const Measure& like, const std::string& title, const NumberOf& number_of,
@@ -194,7 +194,7 @@ double alpha_of(const std::map<std::string, std::array<std::optional<double>, it
   for (const auto& [id, given] : answers) {
     if (!std::all_of(given.begin(), given.end(), [](const auto& answer) { return answer.has_value(); })) continue;
     std::vector<double>& row = people.emplace_back();
-    // every second item of the SUS is a complaint
+    // every second item of the SUS is negative
     for (std::size_t i = 0; i < items; ++i) row.push_back(alternating && i % 2 == 1 ? -*given[i] : *given[i]);
   }
   return cronbach_alpha(people);

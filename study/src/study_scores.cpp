@@ -12,7 +12,7 @@ namespace afm::study {
 
 namespace {
 
-// All of a person's answers; nothing where one is missing.
+// All answers of a person; empty if one is missing.
 template <std::size_t items>
 std::optional<std::array<double, items>> complete(const std::array<std::optional<double>, items>& answers) {
   std::array<double, items> values{};
@@ -23,7 +23,7 @@ std::optional<std::array<double, items>> complete(const std::array<std::optional
   return values;
 }
 
-// By person, or by what `group` makes of a trial and then by person; the newest answer to an item counts.
+// The newest answers by person, or first by the result of `group` for a trial and then by person.
 template <std::size_t items, class Group>
 Answers<items> gathered(const std::map<std::string, std::vector<const StudyTrial*>>& questions,
                         std::string_view questionnaire, const Group& group) {
@@ -38,7 +38,7 @@ Answers<items> gathered(const std::map<std::string, std::vector<const StudyTrial
 
 std::string condition_of(const StudyTrial& trial) { return trial.condition; }
 
-// "before", "after", or nothing
+// "before", "after", or empty
 std::string time_of(const StudyTrial& trial) {
   for (const char* time : {"before", "after"}) {
     if (trial.step.ends_with(std::string("-") + time)) return time;

@@ -35,7 +35,7 @@ double share_right(const std::vector<const StudyTrial*>& trials) {
   return trials.empty() ? kNoValue : static_cast<double>(count_right(trials)) / static_cast<double>(trials.size());
 }
 
-// Of two groups of one step: the same people's shares, and their trials of the same number.
+// Compares two groups of one step: the same people's shares, and their trials of the same number.
 LearningResult learning_of(const std::string& step, const TrialsByPerson& before, const TrialsByPerson& after) {
   LearningResult result{.step = step, .before = {}, .after = {}, .change = {}, .single_trials = {}};
   std::vector<double> pre, post, differences;
@@ -87,7 +87,7 @@ IdentifyResult identify_result(const StepAndCondition& where, const TrialsByPers
                         .materials = {},
                         .people = {}};
   const std::size_t n = result.matrix.trials(), right = result.matrix.right();
-  // one material alone is no choice
+  // a choice needs at least two materials
   const int names = std::max(2, static_cast<int>(result.matrix.names.size()));
   result.chance = 1.0 / names;
   result.accuracy = proportion(right, n);

@@ -30,7 +30,7 @@ tl::unexpected<core::Error> bad_line(const std::string& name, std::size_t line, 
   return core::failure(core::ErrorCategory::BadInputFile, fmt::format("{}:{}: {}", name, line, what));
 }
 
-// For each wanted column its place in the header.
+// Index in the header of each wanted column.
 core::Result<std::vector<std::size_t>> column_places(const std::vector<std::string_view>& header,
                                                      const std::string& name,
                                                      std::span<const std::string_view> columns) {

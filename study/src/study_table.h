@@ -13,25 +13,25 @@
 
 namespace afm::study {
 
-// A table of text with tabs: one header row, then lines; n/a is given as an empty field.
+// A tab-separated table: one header row, then lines; n/a becomes an empty field.
 struct TsvTable {
   std::string name;                                  // name of the file
   std::vector<std::vector<std::string_view>> lines;  // without the header, in the order of the wanted columns
-  std::size_t cut_line = 0;                          // the number of a last line without its end, which is left out
+  std::size_t cut_line = 0;                          // number of a last line without a line end, which is dropped
 
-  // Of a row of `lines`: the header is line 1.
+  // For a row of `lines`: the header is line 1.
   tl::unexpected<core::Error> bad(std::size_t row, const std::string& what) const;
 };
 
-// The columns may come in any order; each must be there once, and no other. At most 100000 lines. The views are into
-// `bytes`.
+// The columns may be in any order; each must exist exactly once, and no other may exist. At most 100000 lines. The
+// views refer to `bytes`.
 core::Result<TsvTable> parse_tsv(std::string_view bytes, const std::string& name,
                                  std::span<const std::string_view> columns);
 
-// A whole text as a number between two; nothing for anything else.
+// The whole text as a number within limits; empty for anything else.
 std::optional<double> parse_number(std::string_view text, double least, double most);
 
-// Letters, digits, - _ . and + alone, at most 64.
+// Only letters, digits, - _ . and +, at most 64.
 bool is_word(std::string_view text);
 
 }  // namespace afm::study

@@ -21,7 +21,7 @@ constexpr std::size_t kFewestTrials = 5;
 constexpr double kBeyondLevels = 8.0;  // a factor
 constexpr double kUsualExponent = 1.4, kExponentSpread = 0.6;
 constexpr double kBiasSpread = std::numbers::sqrt2;
-constexpr double kLongestSignal = 40.0;  // no normal distribution reaches farther
+constexpr double kLongestSignal = 40.0;  // beyond any normal distribution
 
 double second_probability(double signal, double bias) {
   return 0.5 * kLapseRate + (1.0 - kLapseRate) * normal_cdf(signal - bias / std::numbers::sqrt2);
@@ -31,7 +31,7 @@ double signal_of(double log_level, double log_weber, double exponent) {
   return std::min(kLongestSignal, kThresholdZ * std::exp(exponent * (log_level - log_weber)));
 }
 
-// log(second_probability) between points that lie close enough; a million of them are asked for in a fit.
+// Table of log(second_probability) with small steps, because a fit evaluates it a million times.
 class LogProbability {
  public:
   LogProbability() {
@@ -52,12 +52,12 @@ class LogProbability {
   std::array<double, 2 * 8 * 128 + 1> values_{};
 };
 
-// Trials of one level and one place of the stronger stimulus.
+// Trials with the same level and the same position of the stronger stimulus.
 struct TrialGroup {
   double log_level = 0;
   double sign = 1;
   double trials = 0;
-  double second = 0;  // so many answered "second"
+  double second = 0;  // number of answers "second"
 };
 
 std::vector<TrialGroup> grouped(std::span<const ThresholdTrial> trials) {
@@ -75,7 +75,7 @@ std::vector<TrialGroup> grouped(std::span<const ThresholdTrial> trials) {
   return list;
 }
 
-// Points at equal distances with the posterior's weight of each.
+// Equidistant points with their posterior weights.
 struct PosteriorAxis {
   double low, high;
   std::vector<double> weights;
@@ -86,7 +86,7 @@ struct PosteriorAxis {
   double at(std::size_t i) const { return low + step() * static_cast<double>(i); }
   double largest() const { return *std::max_element(weights.begin(), weights.end()); }
 
-  // The part that holds all but nothing of the weight.
+  // The part with practically all of the weight.
   PosteriorAxis narrowed() const {
     const double least = 1e-5 * largest();
     std::size_t first = 0, last = weights.size() - 1;
@@ -108,7 +108,7 @@ struct PosteriorAxis {
 struct Posterior {
   PosteriorAxis log_weber, log_exponent, bias;
 
-  // The weights of the three axes from the data and the prior.
+  // Computes the weights of the three axes from the data and the prior.
   void weigh(const std::vector<TrialGroup>& groups) {
     static const LogProbability log_probability;
     std::vector<double> logs;
@@ -152,7 +152,7 @@ struct Posterior {
   }
 };
 
-// Where Weber fractions are looked for: logarithms; nothing where no level is above 0.
+// Range of the logarithms of the Weber fraction; inverted if no level is above 0.
 std::pair<double, double> weber_range(std::span<const ThresholdTrial> trials) {
   double low = std::numeric_limits<double>::infinity(), high = 0.0;
   for (const ThresholdTrial& trial : trials) {
@@ -189,7 +189,7 @@ ThresholdFit fitted_threshold(std::span<const ThresholdTrial> trials) {
                       {usual - kSpreads * kExponentSpread, usual + kSpreads * kExponentSpread, 7},
                       {-3.0 * kBiasSpread, 3.0 * kBiasSpread, 15}};
   posterior.weigh(groups);
-  // the ends of the prior are no bounds that the trials set
+  // the ends of the prior are not bounds from the trials
   constexpr double kNotSmall = 0.1;
   const double of_a_bound = kNotSmall * posterior.log_weber.largest();
   const bool below = posterior.log_weber.weights.front() > of_a_bound;

@@ -30,7 +30,7 @@ class Demo : public ::testing::Test {
     const std::string command = support::touchafm() + " demo --out " + folder_->path() +
                                 " --language en --hand-speed 120mm/s --eye-width 320 --servo " + support::servo_mode();
     result_ = new support::ProgramResult(support::run_program(command));
-    // a virtual machine that stands still releases the hand again and again: then as a person would
+    // a stalled virtual machine makes the servo release the hand repeatedly: tries again, as a person would
     for (int more = 0; more < 2 && gave_up_for_load(*result_); ++more) *result_ = support::run_program(command);
   }
   static bool gave_up_for_load(const support::ProgramResult& result) {

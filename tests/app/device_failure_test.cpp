@@ -14,7 +14,7 @@
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
-// The program on a graphics device that fails: a Vulkan layer of our own stands before the driver.
+// The program with a failing graphics device, simulated by a Vulkan layer in front of the driver.
 namespace afm::app {
 namespace device_failure_test {
 

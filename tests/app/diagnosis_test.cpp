@@ -22,12 +22,13 @@ MachineFacts good_machine() {
   facts.jitter.max_us = 30;
   facts.graphics = {{"A GPU", "discrete GPU", "its driver 1.0", true, ""}};
   facts.display = "DISPLAY=:0";
+  facts.saver = "X's screen saver: suspended, with DPMS; org.freedesktop.ScreenSaver: no session bus";
+  facts.saver_stays_off = true;
   facts.render_nodes = {{"/dev/dri/renderD128", true}};
   facts.hid_nodes = {{"/dev/hidraw0", true}};
   facts.serial_nodes = {{"/dev/ttyACM0", true}};
   facts.haptics = {{"hdapi library libHD.so.3.4", true, "loaded"}, {"hdapi device", true, "Touch"}};
   facts.servo_program = "/usr/bin/touchafm-servo";
-  facts.servo_program_runs = true;
   return facts;
 }
 
@@ -65,7 +66,8 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
          m.jitter.late_us[500] = 10;
          m.jitter.max_us = 500;
        }},
-      {"servo program", Verdict::Missing, "touchafm-servo", [](MachineFacts& m) { m.servo_program_runs = false; }},
+      {"servo program", Verdict::Missing, "touchafm-servo",
+       [](MachineFacts& m) { m.missing_program = m.servo_program; }},
       {"graphics", Verdict::Limited, "Vulkan driver", [](MachineFacts& m) { m.graphics[0].kind = "CPU"; }},
       {"graphics", Verdict::Limited, "sudo usermod -aG render,video",
        [](MachineFacts& m) {
@@ -74,6 +76,7 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
        }},
       {"graphics", Verdict::Missing, "Vulkan driver", [](MachineFacts& m) { m.graphics.clear(); }},
       {"display", Verdict::Missing, "DISPLAY=:0", [](MachineFacts& m) { m.display.clear(); }},
+      {"screen saver", Verdict::Limited, "xset s off -dpms", [](MachineFacts& m) { m.saver_stays_off = false; }},
       {"headset", Verdict::Limited, "start the runtime of /etc/xdg/openxr/1/active_runtime.json",
        [](MachineFacts& m) { m.headset_manifest = "/etc/xdg/openxr/1/active_runtime.json"; }},
       {"haptic device", Verdict::Limited, "TOUCHAFM_HD_LIBRARY", [](MachineFacts& m) { m.haptics.clear(); }},

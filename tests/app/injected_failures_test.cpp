@@ -128,8 +128,8 @@ TEST(InjectedFailure, LeavesNoPartOfAFile) {
   }
 }
 
-// A picture, with the calls of the program alone: its driver would end any program. Each call, and 100 of some 22 000
-// allocations.
+// A picture, with failures only in the program's own calls, because its driver would end any program. Every call, and
+// 100 of some 22 000 allocations.
 TEST(InjectedFailure, OfAPictureIsBorne) {
   const support::ScratchFolder reports;
   for (const std::string kind : {"calls", "memory"}) {

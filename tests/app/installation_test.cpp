@@ -89,7 +89,7 @@ TEST_F(InstalledProgram, NamesTheAssetsThatItLacks) {
 TEST_F(InstalledProgram, RunsTheDemonstration) {
   const std::string command = "demo --out out --material mica --hand-speed 200mm/s --eye-width 160";
   ProgramResult demo = touchafm(command);
-  // a virtual machine that stands still releases the hand again and again: then as a person would
+  // a stalled virtual machine makes the servo release the hand repeatedly: tries again, as a person would
   for (int more = 0; more < 2 && demo.err.find("reduce the load on this machine") != std::string::npos; ++more) {
     demo = touchafm(command);
   }
@@ -105,7 +105,7 @@ TEST_F(InstalledProgram, HoldsNoPathOfTheMachineThatBuiltIt) {
     EXPECT_EQ(bytes.find(support::source() + "/"), std::string::npos) << file.path();
   }
   std::sort(programs.begin(), programs.end());
-  EXPECT_THAT(programs, ElementsAre("touchafm", "touchafm-bench", "touchafm-hdf5", "touchafm-servo"));
+  EXPECT_THAT(programs, ElementsAre("touchafm", "touchafm-bench", "touchafm-guard", "touchafm-hdf5", "touchafm-servo"));
   for (const fs::directory_entry& file : fs::recursive_directory_iterator(prefix())) {
     EXPECT_TRUE(!fs::is_symlink(file) || fs::read_symlink(file).is_relative()) << file.path();
   }

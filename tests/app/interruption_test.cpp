@@ -18,9 +18,9 @@
 #include "support/stall_watch.h"
 #include "support/virtual_display.h"
 
-// SIGINT and SIGTERM, at moments when the program computes, draws, starts and writes. It ends within 500 ms; the bound
-// here is twice that, twice again where AddressSanitizer looks for leaks at the end of the program, and is judged while
-// the machine is awake.
+// SIGINT, SIGTERM and SIGHUP, at moments when the program computes, draws, starts and writes. It ends within 500 ms;
+// the bound here is twice that, twice again where AddressSanitizer looks for leaks at the end of the program, and is
+// judged while the machine is awake.
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define AFM_TEST_LOOKS_FOR_LEAKS
@@ -70,6 +70,33 @@ Ended interrupt(support::LiveProgram& program, int number) {
   return ended;
 }
 
+std::string wall_of_two_machines() {
+  return R"([[screen]]
+name = "powerwall"
+lower_left = [-1.524, 0.400, 0.0]
+lower_right = [1.524, 0.400, 0.0]
+upper_left = [-1.524, 2.686, 0.0]
+[[node]]
+name = "left"
+host = "127.0.0.1"
+[[viewer]]
+name = "visitor"
+ipd = "63 mm"
+sweet_spot = [0.0, 1.65, 2.5]
+[[output]]
+name = "output 0"
+screen = "powerwall"
+mode = "mono"
+rect = [0, 0, 96, 72]
+[[output]]
+name = "output 1"
+screen = "powerwall"
+node = "left"
+mode = "mono"
+rect = [96, 0, 96, 72]
+)";
+}
+
 class InterruptedDemonstration : public testing::TestWithParam<milliseconds> {};
 
 TEST(Interruption, OfASweepLeavesNoFile) {
@@ -85,7 +112,37 @@ TEST(Interruption, OfASweepLeavesNoFile) {
     EXPECT_TRUE(fs::is_empty(folder.path()));
     return ended.timed;
   };
-  for (const int number : {SIGINT, SIGTERM}) support::expect_within(kBound, [&] { return interrupted(number); });
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    support::expect_within(kBound, [&] { return interrupted(number); });
+  }
+}
+
+TEST(Interruption, ByHangupIsNoneUnderNohup) {
+  const support::ScratchFolder folder;
+  support::LiveProgram sweep({"/usr/bin/nohup", support::touchafm(), "curve", "--material", "mica", "--sweep",
+                              "tip-radius=1nm:100nm:1000000", "--out", folder.file("sweep.csv")},
+                             "");
+  ASSERT_TRUE(sweep.says("sweep: ")) << sweep.said();
+  sweep.signal(SIGHUP);
+  ASSERT_TRUE(sweep.says("sweep: ")) << "it goes on: " << sweep.said();
+  EXPECT_EQ(interrupt(sweep, SIGTERM).exit_code, 1);
+}
+
+TEST(Interruption, OfAnExaminationOfAWallIsItsEnd) {
+  const support::ScratchFolder folder;
+  const std::string wall = folder.write("wall.toml", wall_of_two_machines());
+  const auto interrupted = [&](int number) {
+    support::LiveProgram doctor({support::touchafm(), "doctor", "--cluster", wall, "--domain", "229"}, "");
+    EXPECT_TRUE(has_begun(doctor)) << doctor.said();
+    std::this_thread::sleep_for(milliseconds(700));  // it listens, or asks the nodes
+    const Ended ended = interrupt(doctor, number);
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.said, EndsWith("touchafm: interrupted\n"));
+    return ended.timed;
+  };
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    support::expect_within(kBound, [&] { return interrupted(number); });
+  }
 }
 
 TEST(Interruption, OfAScanLeavesNoFile) {

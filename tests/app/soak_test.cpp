@@ -93,9 +93,8 @@ class Hands {
   }
 
   void key() {
-    static constexpr std::array kKeys{"F1", "F2", "F11", "m", "a", "r", "h", "p", "s",           "v",
-                                      "c",  "g",  "b",   "j", "t", "1", "2", "3", "bracketleft", "bracketright",
-                                      "t",  "v"};
+    static constexpr std::array kKeys{"F1", "F2", "F11", "m", "a", "r", "h", "p",  "s",  "v", "c",
+                                      "g",  "b",  "j",   "t", "1", "2", "3", "F7", "F8", "t", "v"};
     const std::string key = kKeys.at(below(kKeys.size()));
     ++done_[key == "v" || key == "c" ? "stereo modes" : "other keys"];
     say("key " + key);

@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "render/image_file.h"
 #include "support/live_program.h"
 #include "support/places.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real window without a tracker, and without anyone who attends it, on an X server without a screen.
+// The real window without a tracker and without staff, on an X server without a screen.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -80,6 +80,62 @@ TEST_F(ViewAlone, AnUnattendedWindowStaysShowsItselfAndMakesWay) {
   EXPECT_THAT(program.said(), Not(HasSubstr("saved ")));
   program.signal(SIGTERM);
   EXPECT_EQ(program.ends(), 0) << program.said();
+}
+
+// Its first press acts on the wall that it has come to, whatever the demonstration was doing.
+TEST_F(ViewAlone, AVisitorGetsTheSampleOfTheirFirstPress) {
+  support::LiveProgram program(view({"--unattended", "--idle", "5"}), display_.name());
+  for (const char* sample : {"Gold", "Silicon nitride", "Gold"}) {
+    ASSERT_TRUE(program.says("no visitor: the wall demonstrates itself")) << program.said();
+    ASSERT_TRUE(program.says("chosen: ")) << program.said();
+    ASSERT_TRUE(program.says("force on")) << program.said();
+    const std::string key = sample == std::string("Gold") ? "2" : "3";
+    xdotool("key " + key);
+    ASSERT_TRUE(program.says("a visitor has arrived")) << program.said();
+    ASSERT_TRUE(program.says("chosen: " + std::string(sample))) << program.said();
+    // the demonstration's force is gone, and what the wall says next is for the chosen sample
+    ASSERT_TRUE(program.says("force off")) << program.said();
+    ASSERT_EQ(program.says_one_of({"Press Turn-On", "force on"}), "Press Turn-On") << program.said();
+  }
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.ends(), 0) << program.said();
+}
+
+// The picture's scale is not the hand's on the way, although the sample stays the same.
+TEST_F(ViewAlone, TheJourneyOfScaleTakesTheForceAway) {
+  support::LiveProgram program(view({"--haptics", "sim"}), display_.name());
+  ASSERT_TRUE(program.says("Choose a sample")) << program.said();
+  xdotool("key 1");
+  ASSERT_TRUE(program.says("force on")) << program.said();
+  xdotool("key j");
+  ASSERT_TRUE(program.says("the journey of scale was reversed")) << program.said();
+  EXPECT_EQ(program.says_one_of({"force off", "jump to contact", "jump off contact"}), "force off") << program.said();
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.ends(), 0) << program.said();
+}
+
+// The window of a kiosk: its child that draws.
+pid_t window_of(pid_t kiosk) {
+  const auto children =
+      core::read_file("/proc/" + std::to_string(kiosk) + "/task/" + std::to_string(kiosk) + "/children");
+  return children && !children->empty() ? std::stoi(*children) : -1;
+}
+
+TEST_F(ViewAlone, AKioskReopensAWindowThatHangsAndEndsOneOnRequest) {
+  support::LiveProgram program(view({"--kiosk"}), display_.name());
+  ASSERT_TRUE(program.says("Choose a sample")) << program.said();
+  const pid_t first = window_of(program.pid());
+  ASSERT_GT(first, 0);
+  ::kill(first, SIGSTOP);
+  ASSERT_TRUE(program.says("the window hung: no frame for 10 s; reopening it")) << program.said();
+  ASSERT_TRUE(program.says("Choose a sample")) << program.said();
+  const pid_t second = window_of(program.pid());
+  EXPECT_NE(second, first);
+  ::kill(second, SIGSTOP);
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.ends(), 1);
+  EXPECT_THAT(program.said(), HasSubstr("the window did not end within 8 s and was killed"));
+  EXPECT_NE(::kill(second, 0), 0);
 }
 
 }  // namespace view_alone_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The friction loop beside the force curve in the real window, on an X server without a screen, by keys alone.
+// The friction loop next to the force curve in the real window, on an X server without a screen, operated only by keys.
 #include <gtest/gtest.h>
 
 #include <algorithm>

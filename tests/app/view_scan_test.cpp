@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An image that is taken in the real window, on an X server without a screen, by keys alone.
+// A scan in the real window, on an X server without a screen, operated only by keys.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -153,7 +153,7 @@ TEST_F(ViewScan, IsTakenByTheHandAndDrawnAgain) {
   EXPECT_FALSE(program.says_one_of({"Hold Turn-On: the tip leads", "press and hold Turn-On"}).empty());
   xdotool("key l");
   ASSERT_TRUE(program.says("scan: the hand takes the image")) << program.said();
-  ASSERT_TRUE(program.says("scan: ended")) << program.said();  // which takes the lead from the servo
+  ASSERT_TRUE(program.says("scan: ended")) << program.said();  // takes the lead from the servo
   ASSERT_TRUE(hand_takes_the_image(program)) << program.said();
   xdotool("mousemove 160 120 mousedown 3");
   for (const char* place : {"200 120", "120 115", "200 110", "120 105", "200 125", "120 130", "200 135"}) {

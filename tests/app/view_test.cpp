@@ -14,10 +14,10 @@
 #include "app/view/mouse_hand.h"
 #include "curves/live_parameters.h"
 #include "curves/sample_model.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/panel_hit.h"
-#include "exhibit/parameter_panel.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/panels/panel_hit.h"
+#include "exhibit/panels/parameter_panel.h"
 #include "render/control_layout.h"
 #include "render/image_file.h"
 #include "support/live_program.h"
@@ -36,7 +36,7 @@ using ::testing::Not;
 
 constexpr int kWidth = 640, kHeight = 480;
 constexpr double kHandPerPixel =
-    0.085 / 0.30 / kHeight;  // of the drag, as docs/manual.md says: 85 mm on 0.30 of the wall
+    0.085 / 0.30 / kHeight;  // hand travel of a drag, docs/manual.md: 85 mm on 0.30 of the wall
 
 class ViewTest : public ::testing::Test {
  protected:
@@ -168,6 +168,11 @@ TEST_F(ViewTest, AHandGoesThroughTheWholeProcedureWithAMouse) {
   xdotool("key Return");
   ASSERT_TRUE(view.says("force off: Stop was pressed")) << view.said();
 
+  drag_hand(0.150);
+  ASSERT_TRUE(turn_on(view)) << view.said();
+  xdotool("key KP_Enter");
+  ASSERT_TRUE(view.says("force off: Stop was pressed")) << view.said();
+
   // a stiffer lever, by pointing at its + : felt once the force is gone
   xdotool("key F2");
   click(pixel_of(render::ControlTarget{render::ControlTarget::Kind::More, 1}));
@@ -194,9 +199,9 @@ TEST_F(ViewTest, GoesThroughEveryStereoModeOfThisDisplayWhileItRuns) {
   ASSERT_TRUE(view.says("stereo: frame-packed-1080p")) << view.said();
   xdotool("key s");
   ASSERT_TRUE(view.says("eyes swapped")) << view.said();
-  xdotool("key bracketright");
+  xdotool("key F8");
   ASSERT_TRUE(view.says("between the eyes: 64 mm")) << view.said();
-  xdotool("key bracketleft");
+  xdotool("key F7");
   ASSERT_TRUE(view.says("between the eyes: 63 mm")) << view.said();
   ASSERT_TRUE(view.says("from the eyes: ")) << "the depth meter: " << view.said();
   xdotool("key b");

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "support/live_program.h"
 #include "support/places.h"
 #include "support/run_program.h"
@@ -65,8 +65,8 @@ TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
 }
 
 struct Contact {
-  int moved = 0, told = 0;  // lines that the scene was moved, and that it is locked
-  bool whole = false;       // until the tip jumped off; else the force had ended before
+  int moved = 0, told = 0;  // log lines: the scene was moved, and it is locked
+  bool whole = false;       // the tip jumped off before the force ended
 };
 
 std::vector<Contact> contacts_in(const std::string& said) {
@@ -91,7 +91,7 @@ bool whole_pulled_contact(const std::string& said) {
   return std::any_of(all.begin(), all.end(), [](const Contact& contact) { return contact.whole && contact.told > 0; });
 }
 
-// Told once, not in each frame of a wand that goes on pulling.
+// Logged once, not in each frame while the wand goes on pulling.
 void expect_locked_in_contact(const std::string& said) {
   for (const Contact& contact : contacts_in(said)) {
     EXPECT_EQ(contact.moved, 0) << said;

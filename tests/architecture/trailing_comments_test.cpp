@@ -26,23 +26,6 @@ using testing::IsEmpty;
 constexpr std::array<std::string_view, 9> kDependent{"of",  "that",  "for",     "until",   "which",
                                                      "who", "where", "whether", "likewise"};
 
-// Comments that still begin so in a folder and below it. A ceiling may only fall; a deeper folder has its own.
-struct Ceiling {
-  std::string_view folder;
-  std::size_t most;
-};
-constexpr std::array kUnfinished{Ceiling{"app", 103},
-                                 Ceiling{"assets", 5},
-                                 Ceiling{"curves/src/formats", 7},
-                                 Ceiling{"curves/src/images", 6},
-                                 Ceiling{"exhibit", 151},
-                                 Ceiling{"physics/include/physics/friction", 8},
-
-                                 Ceiling{"physics/src/friction", 4},
-                                 Ceiling{"physics/src/imaging", 6},
-
-                                 Ceiling{"tests", 36}};
-
 constexpr std::array kRoots{"app",     "assets", "cluster", "core",  "curves",  "exhibit", "haptics", "input",
                             "physics", "render", "scene",   "servo", "shaders", "study",   "tests"};
 
@@ -62,19 +45,6 @@ std::vector<std::string> faults_of(std::string_view source) {
     if (is_dependent(comment)) faults.push_back(fmt::format("{}: {}", comment.line, comment.text));
   }
   return faults;
-}
-
-// Index of the entry with the longest folder that holds the file, or the number of entries.
-std::size_t unfinished_folder_of(const std::string& file) {
-  std::size_t best = kUnfinished.size(), longest = 0;
-  for (std::size_t i = 0; i < kUnfinished.size(); ++i) {
-    const std::string folder = std::string(kUnfinished[i].folder) + "/";
-    if (file.starts_with(folder) && folder.size() > longest) {
-      best = i;
-      longest = folder.size();
-    }
-  }
-  return best;
 }
 
 TEST(TrailingComments, AreFoundWithTheirLines) {
@@ -100,7 +70,6 @@ TEST(TrailingComments, ThatDependOnTheirLineAreNoticed) {
 TEST(TrailingComments, CanBeReadAlone) {
   namespace fs = std::filesystem;
   std::vector<std::string> faults;
-  std::vector<std::vector<std::string>> unfinished(kUnfinished.size());
   std::size_t files = 0;
   for (const char* root : kRoots) {
     for (const auto& entry : fs::recursive_directory_iterator(support::source(root))) {
@@ -110,19 +79,13 @@ TEST(TrailingComments, CanBeReadAlone) {
       if (!entry.is_regular_file() || !is_source) continue;
       ++files;
       const std::string file = fs::relative(entry.path(), support::source()).string();
-      const std::size_t folder = unfinished_folder_of(file);
-      auto& found = folder < unfinished.size() ? unfinished[folder] : faults;
       for (const std::string& fault : faults_of(core::read_file(entry.path().string()).value())) {
-        found.push_back(file + ":" + fault);
+        faults.push_back(file + ":" + fault);
       }
     }
   }
   EXPECT_GT(files, 1200U);
   EXPECT_THAT(faults, IsEmpty());
-  for (std::size_t i = 0; i < kUnfinished.size(); ++i) {
-    EXPECT_LE(unfinished[i].size(), kUnfinished[i].most)
-        << fmt::format("{}:\n{}", kUnfinished[i].folder, fmt::join(unfinished[i], "\n"));
-  }
 }
 
 }  // namespace trailing_comments_test

@@ -6,9 +6,11 @@
 #include <stdlib.h>
 #include <sys/socket.h>
 
+#include <array>
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
@@ -127,6 +129,41 @@ TEST_F(ClusterLinkTest, ASecondMasterRefusesToDriveTheSameWall) {
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().category, core::ErrorCategory::WrongUsage);
   EXPECT_THAT(second.error().message, HasSubstr("another master"));
+}
+
+// Two that have not heard one another before they began, as if started in one moment.
+TEST_F(ClusterLinkTest, OfTwoMastersTheLaterOneMustEndAndTheNodesComeBackToTheOther) {
+  using Rival = MasterLink::Rival;
+  // first, because the first to open the domain in a process closes it for all
+  const auto node = NodeLink::open(network(203), clock_).value();
+  std::array<std::unique_ptr<MasterLink>, 2> masters;
+  for (auto& master : masters) master = MasterLink::open(network(203), model(), 0, clock_).value();
+  FrameMessage frame;
+  std::uint64_t number = 0;
+  std::optional<NodeLink::Document> shown;
+  const auto go_on = [&] {
+    ++number;
+    for (const auto& master : masters) {
+      if (master) master->send(number, frame);
+    }
+    if (auto next = node->model()) shown = std::move(next);
+  };
+  const auto both_know = [&] {
+    go_on();
+    return masters[0]->rival() != Rival::None && masters[1]->rival() != Rival::None;
+  };
+  ASSERT_TRUE(until(both_know, *node));
+  const bool first_stays = masters[0]->session() < masters[1]->session();
+  EXPECT_EQ(masters[0]->rival(), first_stays ? Rival::Later : Rival::Earlier);
+  EXPECT_EQ(masters[1]->rival(), first_stays ? Rival::Earlier : Rival::Later);
+
+  masters[first_stays ? 1 : 0].reset();
+  const MasterLink& stays = *masters[first_stays ? 0 : 1];
+  const auto comes_back = [&] {
+    go_on();
+    return stays.rival() == Rival::None && shown && shown->header.session == stays.session();
+  };
+  EXPECT_TRUE(until(comes_back, *node));
 }
 
 // The interface to which a socket is bound, if it is one that receives in the domain.

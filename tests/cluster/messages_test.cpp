@@ -64,7 +64,7 @@ TEST(DocumentReaderTest, PutsPiecesTogetherInAnyOrderAndTwice) {
   }
   EXPECT_EQ(reader.add(pieces.back()), document);
   EXPECT_FALSE(reader.add(pieces.back()));
-  // an earlier one of the session is over; another session begins anew
+  // an earlier one of the session is outdated; another session starts again
   EXPECT_FALSE(reader.add(pieces_of(std::span(document).first(4), {.session = 5, .number = 1}).front()));
   EXPECT_TRUE(reader.add(pieces_of(std::span(document).first(4), {.session = 6, .number = 1}).front()));
 }

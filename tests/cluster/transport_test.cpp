@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
 #include <thread>
+#include <vector>
+
+#include "cluster/messages.h"
+#include "network_lines.h"
 
 namespace transport_test {
 
@@ -28,6 +33,27 @@ TEST(ClusterTransportDeathTest, EndsTheProgramWhereAThreadWritesThatDoesNotOwnIt
     transport->write(Transport::Topic::Swap, 0, datagram);
   };
   EXPECT_DEATH(write_elsewhere(), "owner_ == std::this_thread::get_id");
+}
+
+TEST(ClusterTransport, CarriesNoDatagramBeyondItsBound) {
+  const auto bell = Doorbell::create().value();
+  const auto transport = Transport::open({.interface_address = "127.0.0.1", .peers = {"127.0.0.1"}, .domain = 206},
+                                         ClusterRole::Master, bell)
+                             .value();
+  EXPECT_TRUE(transport->write(Transport::Topic::Frame, 0, std::vector<std::byte>(kMostDatagramBytes)));
+  EXPECT_FALSE(transport->write(Transport::Topic::Frame, 0, std::vector<std::byte>(kMostDatagramBytes + 1)));
+}
+
+TEST(NetworkLines, LogTheFirstAndThenOneAMinuteWithTheNumberLeftOut) {
+  constexpr std::int64_t kPauseNs = NetworkLines::kPauseNs;
+  NetworkLines lines;
+  EXPECT_EQ(lines.line("malformed packet\n", 5), "cluster: DDS reports: malformed packet");
+  for (int i = 0; i < 621; ++i) EXPECT_EQ(lines.line("malformed packet\n", 6), std::nullopt);
+  EXPECT_EQ(lines.line("another", 5 + kPauseNs), "cluster: DDS reports: another (621 more lines before it)");
+  const auto longest = lines.line(std::string(400, 'x'), 5 + 2 * kPauseNs);
+  ASSERT_TRUE(longest);
+  EXPECT_LT(longest->size(), NetworkLines::kLongest + 30);
+  EXPECT_TRUE(longest->ends_with("x ..."));
 }
 
 }  // namespace transport_test

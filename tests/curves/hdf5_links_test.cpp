@@ -9,7 +9,7 @@
 #include "support/hertz_curve.h"
 #include "support/scratch_folder.h"
 
-// HDF5 files that lead to other files: whoever sends one must not learn what the others hold.
+// HDF5 files with links to other files, whose contents must not be disclosed to the sender.
 namespace afm::curves {
 namespace hdf5_links_test {
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/image_files.h"
+#include "support/scratch_folder.h"
 
 namespace afm::curves {
 namespace image_files_test {
@@ -345,11 +346,10 @@ TEST(JpkImage, IsRefusedWhereItIsDamaged) {
 // ---- all ----
 
 TEST(ImageFiles, AreKnownByTheirFirstBytesAlone) {
-  EXPECT_EQ(image_format_of("glTF"), std::nullopt);
-  EXPECT_EQ(image_format_of(""), std::nullopt);
-  EXPECT_EQ(image_format_of("GWYP"), ImageFormat::Gwy);
-  EXPECT_EQ(image_format_of("\\*File list\r\n"), ImageFormat::Nanoscope);
-  EXPECT_EQ(image_format_of("\\*Force file list\r\n"), std::nullopt);
+  const support::ScratchFolder folder;
+  const auto is_image = [&](const std::string& bytes) { return is_image_file(folder.write("scan.x", bytes)); };
+  for (const char* bytes : {"GWYP", "\\*File list\r\n"}) EXPECT_TRUE(is_image(bytes)) << bytes;
+  for (const char* bytes : {"", "glTF", "\\*Force file list\r\n"}) EXPECT_FALSE(is_image(bytes)) << bytes;
   EXPECT_THAT(error_of("no image at all"), HasSubstr("no image of a known kind"));
 }
 

@@ -51,7 +51,7 @@ std::string deflection_properties(bool calibrated) {
       set, calibrated, kSensitivity, kSpringConstant);
 }
 
-// The height's description stands in shared-data, as newer files have it.
+// The height's description is in shared-data, as in newer files.
 std::map<std::string, std::string> jpk_entries(bool calibrated = true) {
   std::vector<int> down, up, force;
   for (int i = 0; i < 20; ++i) {

@@ -3,7 +3,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "exhibit/wall_scene.h"
+#include "exhibit/scenery/wall_scene.h"
 #include "support/paper_wall.h"
 
 namespace afm::exhibit {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/blank_picture.h"
+#include "exhibit/frame/blank_picture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be read of the panels by people who see little: contrast and size by WCAG 2.2 and XAUR.
+// Readability of the panels for people with low vision: contrast and size by WCAG 2.2 and XAUR.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -71,7 +71,7 @@ double minutes(double height_m, double distance_m) {
 }
 
 TEST(Letters, OfEveryStyleAreLargeEnoughFromTheSweetSpotOfThePapersWall) {  // D15
-  constexpr double kSweetSpotM = 2.5, kCapShare = 0.727;                    // of Inter's em square
+  constexpr double kSweetSpotM = 2.5, kCapShare = 0.727;                    // cap height in Inter's em square
   EXPECT_NEAR(minutes(0.020, kSweetSpotM), 27.50138748, 27.5e-6);
   EXPECT_NEAR(std::tan(20.0 / 60.0 * std::numbers::pi / 180.0) * kSweetSpotM, 0.01454457453, 1.5e-8);
   for (const TextStyle style :

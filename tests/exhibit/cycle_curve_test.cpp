@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/cycle_curve.h"
+#include "exhibit/state/cycle_curve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/cycle_history.h"
+#include "exhibit/state/cycle_history.h"
 
 #include <gtest/gtest.h>
 

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "exhibit/cycle_history.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/guidance.h"
-#include "exhibit/procedure.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
 #include "exhibit/sound/narrator.h"
+#include "exhibit/state/cycle_history.h"
+#include "exhibit/words/guidance.h"
+#include "exhibit/words/procedure.h"
 #include "support/places.h"
 
 namespace afm::exhibit {
@@ -200,7 +200,7 @@ TEST_F(Flashes, NothingChangesMoreThanThreeTimesASecondHoweverFastTheTipChatters
 // The line that names the part of the cycle follows it at once. Its letters are too small for a flash: together they
 // take less than 0.006 steradians.
 TEST_F(Flashes, TheLineThatFollowsTheTipIsTooSmallForOne) {
-  constexpr double kLargestSafeSr = 0.006, kLetterMm = 40.0, kMeanWidth = 0.6;  // of a letter's height
+  constexpr double kLargestSafeSr = 0.006, kLetterMm = 40.0, kMeanWidth = 0.6;  // share of a letter's height
   EXPECT_GT(chatter(20.0).most("stage"), 3U) << "or it needs no exception";
   const double distance_m = stage_->wall.viewers.front().sweet_spot.position_m.z;
   const double letter_m = kLetterMm * stage_->wall_scene.panel_millimetre_m();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// That the force panel can be read: labels that do not cover each other, colours that people with any vision tell
-// apart.
+// Readability of the force panel: labels do not overlap, and colours can be distinguished with any colour vision.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,7 +8,7 @@
 #include <glm/mat3x3.hpp>
 #include <string>
 
-#include "exhibit/frame_builder.h"
+#include "exhibit/frame/frame_builder.h"
 #include "panels/marker_layout.h"
 #include "physics/cycle_figures.h"
 #include "support/phrases.h"

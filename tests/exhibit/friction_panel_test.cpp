@@ -20,7 +20,7 @@ using physics::FrictionLaw;
 using physics::Length;
 
 constexpr double kStrokeM = 10e-9;
-constexpr int kTicks = 500;  // of a stroke
+constexpr int kTicks = 500;  // per stroke
 
 // What the servo gives while a hand leads the tip along a line of this direction.
 class Led {

@@ -5,11 +5,11 @@
 
 #include "core/enumerators.h"
 #include "exhibit/friction/friction_panel.h"
-#include "exhibit/guidance.h"
 #include "exhibit/lesson/questionnaire.h"
-#include "exhibit/parameter_panel.h"
+#include "exhibit/panels/parameter_panel.h"
+#include "exhibit/panels/servo_rows.h"
 #include "exhibit/scan/scan_subject.h"
-#include "exhibit/servo_rows.h"
+#include "exhibit/words/guidance.h"
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::exhibit {

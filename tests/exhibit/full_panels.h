@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/lesson/lesson_panel.h"
 #include "exhibit/scan/live_scan.h"
 #include "physics/friction/friction.h"

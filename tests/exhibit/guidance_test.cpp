@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/guidance.h"
+#include "exhibit/words/guidance.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/enumerators.h"
+#include "exhibit/state/moment.h"
 #include "support/phrases.h"
 
 namespace afm::exhibit {
@@ -116,6 +117,22 @@ TEST(Guidance, AsksToHoldTheButtonThatTheForceHangsOn) {
   scene::TipState lifted = tip(scene::ServoState::Disarmed, physics::Phase::Free, 0.060);
   lifted.dead_man = 1;
   EXPECT_EQ(next_step(lifted, {}), Hint::TurnOnAndHold);
+}
+
+TEST(StateOfTheForce, IsAFaultUnlessAPersonStoppedIt) {
+  scene::TipState now = tip(scene::ServoState::Fault, physics::Phase::Free, 0.1);
+  for (const scene::FaultCode fault : core::kEnumerators<scene::FaultCode>) {
+    now.fault = fault;
+    const bool asked_for = fault == scene::FaultCode::StopPressed;
+    const Moment moment = moment_of(now, false);
+    EXPECT_EQ(test::english()[state_phrase(moment.servo_state, moment.stopped)], asked_for ? "STOPPED" : "FAULT")
+        << scene::reason(fault);
+  }
+  now.fault = scene::FaultCode::StopPressed;
+  for (const scene::ServoState state : core::kEnumerators<scene::ServoState>) {
+    if (state == scene::ServoState::Fault) continue;
+    EXPECT_EQ(state_phrase(state, is_stopped(now)), state_phrase(state, false));
+  }
 }
 
 }  // namespace guidance_test

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "curves/sample_model.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/recorded_wall.h"
 #include "exhibit/scan/scan_hand.h"
 #include "exhibit/scan/scan_panels.h"
 #include "haptics/device.h"
@@ -24,7 +24,7 @@ using scene::ScanHand;
 using scene::TipSample;
 
 constexpr double kSideM = 64e-9;
-constexpr double kMPerS = 40e-9;  // of the tip
+constexpr double kMPerS = 40e-9;  // speed of the tip
 
 const Phrases& english() {
   static const Phrases phrases = Phrases::load(support::source("assets/guidance/en.toml")).value();
@@ -282,6 +282,11 @@ TEST(LeadingScan, SaysWhatTheHandCanDo) {
   EXPECT_THAT(said(led), StartsWith("Hold Turn-On"));
   tip.led = 1;
   EXPECT_THAT(said(led), HasSubstr("go along"));
+  tip.led = 0;
+  tip.lead_lost = 1;
+  EXPECT_THAT(said(led), HasSubstr("let go of Turn-On, then hold it again"));
+  tip.lead_lost = 0;
+  tip.led = 1;
   EXPECT_THAT(said(painted), StartsWith("Lower the tip"));
   tip.phase = physics::Phase::Attached;
   EXPECT_THAT(said(painted), StartsWith("Lift the tip off the sample once"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/height_colours.h"
+#include "exhibit/models/height_colours.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/image_picture.h"
+#include "exhibit/scan/image_picture.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "exhibit/height_colours.h"
+#include "exhibit/models/height_colours.h"
 
 namespace image_picture_test {
 

@@ -8,7 +8,7 @@
 #include <glm/matrix.hpp>
 #include <string>
 
-#include "exhibit/wall_scene.h"
+#include "exhibit/scenery/wall_scene.h"
 #include "physics/beam_shape.h"
 #include "physics/contact.h"
 #include "support/paper_wall.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/journey.h"
+#include "exhibit/scenery/journey.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-#include "exhibit/wall_scene.h"
+#include "exhibit/scenery/wall_scene.h"
 #include "support/paper_wall.h"
 
 namespace afm::exhibit {

@@ -11,7 +11,7 @@
 
 #include "app/bench/render_subjects.h"
 #include "app/live/view_keys.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/lesson/lesson_panel.h"
 #include "exhibit/scan/scan_panels.h"
 #include "full_panels.h"
@@ -21,7 +21,7 @@
 namespace afm::exhibit {
 namespace letters_test {
 
-constexpr double kCapShare = 0.727;  // of Inter's em square
+constexpr double kCapShare = 0.727;  // cap height in Inter's em square
 constexpr double kLeastMinutes = 20.0;
 
 class LettersOfThePanels : public ::testing::TestWithParam<const char*> {};

@@ -15,8 +15,8 @@
 
 #include "core/enumerators.h"
 #include "curves/sample_model.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/recorded_wall.h"
 #include "exhibit/scan/scan_cause.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
@@ -78,7 +78,7 @@ std::size_t measured_points(const LiveScan& scan) {
 
 struct Pressed {
   ScanRow row;
-  int times;  // of +, or of - where below zero
+  int times;  // number of presses of +, or of - if negative
 };
 struct Artefact {
   physics::ScanArtefact cause;

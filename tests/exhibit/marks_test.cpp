@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "exhibit/film_strip.h"
-#include "exhibit/jump_cue.h"
-#include "exhibit/wall_marks.h"
+#include "exhibit/frame/film_strip.h"
+#include "exhibit/scenery/wall_marks.h"
+#include "exhibit/state/jump_cue.h"
 
 namespace afm::exhibit {
 namespace marks_test {

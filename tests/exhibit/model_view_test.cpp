@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/model_view.h"
+#include "exhibit/models/model_view.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <thread>
 #include <utility>
 
-#include "exhibit/loading_notice.h"
-#include "exhibit/user_models.h"
+#include "exhibit/models/loading_notice.h"
+#include "exhibit/models/user_models.h"
 #include "scene/graph/height_field.h"
 #include "scene/graph/pose.h"
 #include "support/scratch_folder.h"

@@ -24,9 +24,9 @@ struct Painted {
   ImVec2 low{1e9F, 1e9F}, high{-1e9F, -1e9F};
   glm::vec2 size{0.0F};
   bool cut = false;              // there is an ellipsis
-  float state_height_px = 0.0F;  // of the plate around the state's word
+  float state_height_px = 0.0F;  // height of the plate around the state's word
   float letter_px = 0.0F;        // height of its letters, on average
-  float least_em_m = 1.0F;       // of the smallest letter's em square, on the wall
+  float least_em_m = 1.0F;       // smallest letter's em square, on the wall
 
   bool inside(float slack = 1.0F) const {
     return low.x >= -slack && low.y >= -slack && high.x <= size.x + slack && high.y <= size.y + slack;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/parameter_panel.h"
+#include "exhibit/panels/parameter_panel.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/procedure.h"
+#include "exhibit/words/procedure.h"
 
 #include <gtest/gtest.h>
 

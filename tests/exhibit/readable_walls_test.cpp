@@ -19,10 +19,10 @@
 #include "app/bench/render_subjects.h"
 #include "app/live/view_keys.h"
 #include "core/whole_file.h"
-#include "exhibit/calibration.h"
-#include "exhibit/depth_report.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/calibration.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/lesson/lesson_panel.h"
+#include "exhibit/panels/depth_report.h"
 #include "exhibit/scan/scan_panels.h"
 #include "full_panels.h"
 #include "panel_painter.h"
@@ -39,7 +39,7 @@ using test::Painted;
 using test::Painter;
 
 constexpr float kLeastLetterPx = 9.0F;   // em square of the state's word, in pixels of an eye
-constexpr double kLeastBannerPx = 15.0;  // of its height: below it nothing can be read
+constexpr double kLeastBannerPx = 15.0;  // height of the smallest readable banner
 constexpr std::array kWidthsPx{400U, 1280U, 2110U, 3840U, 7680U};
 constexpr std::array kPresets{"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2", "blended",
                               "curved",    "cave",           "floor", "wide",          "phone"};
@@ -99,7 +99,7 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   render::FrameState pattern;
   show_calibration(stage.screen, scene::StereoMode::SideBySide, 0.063, phrases, pattern);
   const Painted whole_screen = painter.paint(pattern.panels.calibration.content, pattern.panels.calibration.placement);
-  const float half_line = 1.5F * whole_screen.size.y / 2286.0F;  // of the grid, on the screen's edge
+  const float half_line = 1.5F * whole_screen.size.y / 2286.0F;  // half line of the grid on the screen's edge
   constexpr float kSoftEdge = 3.0F;
   EXPECT_TRUE(whole_screen.inside(kSoftEdge + half_line)) << where << ": the test pattern";
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/recorded_wall.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/servo_rows.h"
+#include "exhibit/panels/servo_rows.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/stage_place.h"
+#include "exhibit/scenery/stage_place.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/wall_layout.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/scenery/wall_layout.h"
 #include "support/places.h"
 
 namespace afm::exhibit {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/topography_model.h"
+#include "exhibit/models/topography_model.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "exhibit/user_models.h"
+#include "exhibit/models/user_models.h"
 #include "support/image_files.h"
 #include "support/paper_wall.h"
 #include "support/scratch_folder.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/wall_pictures.h"
+#include "exhibit/frame/wall_pictures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "exhibit/calibration.h"
-#include "exhibit/comfort_clamp.h"
-#include "exhibit/depth_report.h"
+#include "exhibit/frame/calibration.h"
+#include "exhibit/frame/comfort_clamp.h"
+#include "exhibit/panels/depth_report.h"
 #include "support/phrases.h"
 #include "support/places.h"
 
@@ -154,7 +154,7 @@ TEST(DepthReport, WarnsBeyondADegreeAndNamesTheEyesThatWouldDiverge) {
   EXPECT_THAT(depth_text(near, test::english()), HasSubstr("beyond 1\u00b0: press B or step back"));
   EXPECT_THAT(
       depth_text(report_depth({.nearest_m = 1.0, .farthest_m = 2.5}, 2.5, 0.063, Relief::NarrowEyes), test::english()),
-      HasSubstr("press [ or step back"))
+      HasSubstr("press F7 or step back"))
       << "B changes nothing where the contact is in the wall's plane";
   const DepthReport far = report_depth({.nearest_m = 2.5, .farthest_m = 10.0}, 2.5, 0.063, Relief::BringToWall);
   EXPECT_THAT(depth_text(far, test::english()), HasSubstr("too deep for eyes less than 48 mm apart"));

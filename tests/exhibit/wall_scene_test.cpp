@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/wall_scene.h"
+#include "exhibit/scenery/wall_scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -185,7 +185,7 @@ TEST_F(WallSceneTest, NineMaterialsStandApartAndAllCanBePicked) {
   scene::MaterialLibrary nine;
   for (std::size_t i = 0; i < 9; ++i) {
     nine.materials.push_back(materials_.materials[i % 3]);
-    nine.materials.back().name += "-" + std::to_string(i);  // no model of its own: the look's, or the neutral one
+    nine.materials.back().name += "-" + std::to_string(i);  // without a model: shows the look's, or the neutral one
     if (i < 6) nine.materials.back().look = materials_.materials[i % 3].name;
   }
   const WallScene many = WallScene::load(assets_, nine, stage_, test::english()).value();

@@ -15,12 +15,12 @@
 
 #include "app/bench/render_subjects.h"
 #include "curves/sample_model.h"
-#include "exhibit/comfort_clamp.h"
-#include "exhibit/depth_report.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/stage_place.h"
-#include "exhibit/wall_pictures.h"
+#include "exhibit/frame/comfort_clamp.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/frame/wall_pictures.h"
+#include "exhibit/panels/depth_report.h"
+#include "exhibit/scenery/stage_place.h"
 #include "render/depth_meter.h"
 #include "support/pictures.h"
 #include "support/places.h"
@@ -210,8 +210,8 @@ class DepthOfAWall : public test::VulkanTest {
   }
 };
 
-// What stands before the wall is placed so; what lies far behind a small screen is left to the comfort clamp of the
-// live window, which must then never warn.
+// Objects in front of the wall are placed within the limit. Those far behind a small screen are left to the comfort
+// clamp of the live window, which must then never warn.
 TEST_F(DepthOfAWall, StaysWithinOneDegreeOnEveryPreset) {
   for (const char* preset : {"powerwall", "3d-tv", "desk-red-cyan", "cave", "wide"}) {
     const auto stage = stage_on(fmt::format("{}/assets/walls/{}.toml", support::source(), preset));

@@ -11,7 +11,7 @@
 // Whatever the bytes, and whichever format they claim: a curve that can be analysed and written, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(bytes), size);
-  if (text.starts_with("\x89HDF")) return 0;  // read by a program of its own: corpus/hdf5 is for the whole program
+  if (text.starts_with("\x89HDF")) return 0;  // read by a separate program, which corpus/hdf5 covers
   afm::curves::CurveReading here;
   here.confined = false;
   const auto curve = afm::curves::parse_curve(text, "fuzz", here);

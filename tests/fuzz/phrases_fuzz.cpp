@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
 
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "fuzz/accepted.h"
 #include "fuzz/memory_file.h"
 

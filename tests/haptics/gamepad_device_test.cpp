@@ -49,7 +49,7 @@ int SDLCALL update_effect(SDL_Haptic*, int, SDL_HapticEffect* effect) {
   return 0;
 }
 
-// Only a governor can make one; in a time of its own, with a hand that does not move.
+// Made by a governor, the only possible source, in simulated time and with a hand at rest.
 ForceCommand force_of(const glm::dvec3& wanted_n) {
   SafetyGovernor governor({.workspace_min_m = glm::dvec3(-1.0), .workspace_max_m = glm::dvec3(1.0)});
   GovernorInput input{

@@ -7,14 +7,14 @@
 #include "governor_bench.h"
 #include "haptics/safety.h"
 
-// What the governor makes of a tick that comes late: the hand is elsewhere by then, and the model wants another force.
+// Response of the governor to a late tick: the hand has moved meanwhile, and the model requests another force.
 namespace late_tick_test {
 
 using namespace afm::haptics;
 using afm::scene::FaultCode;
 using afm::scene::ServoState;
 
-// The model wants something else after the pause; what the hand gets glides there.
+// The model requests another force after the pause; the output changes to it gradually.
 TEST_F(Governor, GlidesAfterALateTick) {
   hold(1.0);
   input_.wanted_force_n = glm::dvec3(0.0, -2.0, 0.0);

@@ -64,7 +64,7 @@ TEST_F(PlausiblePlaces, OneWildPlaceIsPassedOver) {
 TEST_F(PlausiblePlaces, AJumpIsNotBelievedAndEndsTheForce) {
   at(0.0);
   EXPECT_EQ(ticks_until_unhealthy([](int) { return 0.045; }, 0.0), 4);
-  // it begins anew where the device is now
+  // it restarts at the device's current position
   EXPECT_EQ(at(0.045).position_m.y, 0.045);
   EXPECT_TRUE(at(0.0451).healthy);
 }

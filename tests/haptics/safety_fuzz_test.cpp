@@ -41,7 +41,7 @@ double any_double(std::mt19937_64& random) {
 TEST(GovernorFuzz, StaysFiniteWithinCapAndSlewWhateverComesIn) {
   std::mt19937_64 random(20240917);
   SafetyGovernor governor({.period_ns = kPeriodNs, .force_cap_n = kCapN, .release_height_m = 0.050});
-  // a law of boundless stiffness may leak any energy: the passivity observer has tests of its own
+  // a law of unlimited stiffness may leak any energy; other tests cover the passivity observer
   GovernorInput input{.time_ns = 1'000'000'000, .law_energy = {.stiffness_n_per_m = 1e12}};
   glm::dvec3 last_n(0.0);
   int in_force = 0;

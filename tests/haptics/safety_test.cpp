@@ -18,7 +18,7 @@ using afm::physics::Phase;
 using afm::scene::FaultCode;
 using afm::scene::ServoState;
 
-// Nobody but the governor makes a force for a hand.
+// Only the governor can create a force for a hand.
 static_assert(!std::is_default_constructible_v<ForceCommand>);
 static_assert(!std::is_constructible_v<ForceCommand, glm::dvec3>);
 static_assert(!std::is_aggregate_v<ForceCommand>);

@@ -238,6 +238,23 @@ TEST(ScanOfTheHand, LetsGoWhenFramesStayAwayOrTheScanEnds) {
   }
 }
 
+TEST(ScanOfTheHand, SaysThatTurnOnMustBeReleasedAfterALateFrame) {
+  ScanBench bench;
+  bench.arm_and_hold();
+  bench.run_with(2.0, [&] { return bench.led(5.0); });
+  EXPECT_EQ(bench.state().lead_lost, 0U);
+  bench.run(0.01 + 1e-9 * static_cast<double>(afm::scene::kScanLeadLastsNs));
+  bench.run_with(0.5, [&] { return bench.led(5.0); });
+  EXPECT_EQ(bench.state().led, 0U);
+  EXPECT_EQ(bench.state().lead_lost, 1U);
+  bench.aim(ServoBench::kTop, 0.0);
+  bench.run_with(0.1, [&] { return bench.led(5.0); });
+  EXPECT_EQ(bench.state().lead_lost, 0U);
+  bench.aim(ServoBench::kTop, 0.0, true);
+  bench.run_with(0.5, [&] { return bench.led(5.0); });
+  EXPECT_EQ(bench.state().led, 1U);
+}
+
 TEST(ScanOfTheHand, DoesNotTakeAHandOffTheSample) {
   ScanBench bench;
   bench.hold_attached(kMica);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "servo_bench.h"
+#include "support/measured_curve_of.h"
 #include "support/measured_surface.h"
 #include "support/no_alloc.h"
 #include "support/no_lock.h"
@@ -91,22 +92,8 @@ class ServoTickOf : public testing::TestWithParam<AnyLaw> {
     mica.contact.reduced_modulus.si = 51.5e9;
     mica.dynamic = GetParam().dynamic ? 1 : 0;
     mica.lever = {afm::physics::Frequency(12e3), 2.5, afm::physics::Temperature(298.0)};
-    if (GetParam().law == Law::Measured) add_measured_curve(model);
+    if (GetParam().law == Law::Measured) afm::test::add_measured_curve(model, afm::test::kMica);
     return model;
-  }
-
-  // 0.1 N/m, in at 2 nm, off at 14 nm.
-  static void add_measured_curve(afm::scene::SharedModel& model) {
-    model.materials[afm::test::kMica].measured_curve = 0;
-    model.curve_count = 1;
-    afm::scene::SharedMeasuredCurve& curve = model.curves[0];
-    curve.approach_count = curve.retract_count = 200;
-    for (std::size_t i = 0; i < 200; ++i) {
-      const double z_m = 0.2e-9 * (static_cast<double>(i) - 50.0);
-      const afm::physics::Force line(-0.1 * z_m);
-      curve.approach[i] = {afm::physics::Length(z_m), z_m < 2e-9 ? line : afm::physics::Force()};
-      curve.retract[i] = {afm::physics::Length(z_m), z_m < 14e-9 ? line : afm::physics::Force()};
-    }
   }
 };
 

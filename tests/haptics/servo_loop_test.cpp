@@ -46,7 +46,7 @@ TEST(ServoLoop, PullsTheHandDownAtSnapInAndLetsItFlyAtPullOff) {
   bench.move(-0.010, 1.0);
   ASSERT_EQ(bench.events.size(), 1U);
 
-  // after snap-in the hand stands lower than its aim would hold it: 200 N/m against 40 N/m
+  // after snap-in the hand is below its aim: 200 N/m against 40 N/m
   bench.move(0.030, 1.0);
   bench.run(1.0);
   EXPECT_NEAR(bench.state().hand.position_m[1], 0.030 * 200.0 / 240.0, 1e-5);

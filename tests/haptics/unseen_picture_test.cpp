@@ -3,7 +3,7 @@
 
 #include "servo_bench.h"
 
-// A headset that is off, lost or hidden: the renderer lives, and nobody sees its picture.
+// A headset that is off, lost or hidden: the renderer is alive, but its picture is not seen.
 namespace afm::haptics {
 namespace unseen_picture_test {
 

@@ -5,7 +5,7 @@
 
 #include "headset_fixture.h"
 
-// The pictures that a headset gets, byte for byte: the stand-in's images lie on our device.
+// Pictures received by a headset, byte for byte, because the stand-in's images are on the same device.
 namespace afm::test {
 namespace frames_test {
 

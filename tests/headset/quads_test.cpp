@@ -15,7 +15,7 @@ using ::testing::SizeIs;
 
 class HeadsetQuads : public HeadsetTest {
  protected:
-  // Beside what stands before the wall, so that nothing hides them.
+  // Placed beside the objects in front of the wall, so that nothing hides them.
   HeadsetQuads() {
     frame_.panels.force.placement.right_m.x = 0.70;
     frame_.panels.data.placement.lower_left_m.x = 0.80;
@@ -172,7 +172,7 @@ TEST_F(HeadsetQuads, GoAndComeWithTheirPanels) {
   EXPECT_EQ(count("xrDestroySwapchain"), 1) << "of the size before";
 }
 
-// What stands before a panel has to hide it: then it is drawn with the scene. A corner of it does not count.
+// A panel behind another object must be drawn with the scene to be hidden by it. Covering only a corner does not count.
 TEST_F(HeadsetQuads, AreNoneOfThePanelsThatSomethingMayHide) {
   connect();
   const auto ball = [&](const glm::dvec3& place, double size_m) {

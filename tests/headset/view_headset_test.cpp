@@ -21,7 +21,7 @@
 
 #include "app/display/view_headset.h"
 #include "core/whole_file.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
 #include "support/faulty_device.h"
@@ -33,7 +33,7 @@
 #include "support/stall_watch.h"
 #include "support/virtual_display.h"
 
-// The program with a headset of the stand-in runtime, which a file of the test's scripts, and its mirror on an X server
+// The program with a headset of the stand-in runtime, scripted by a file of the test, and its mirror on an X server
 // without a screen. Vulkan's calls are validated: a message would end the program with exit code 1.
 namespace afm::app {
 namespace view_headset_test {
@@ -89,7 +89,7 @@ class ViewInAHeadset : public ::testing::Test {
                                 const std::function<void()>& give_back) {
     for (int attempt = 0; attempt < 5; ++attempt) {
       take();
-      if (view.says("force off: nobody sees the picture in the headset", std::chrono::seconds(5))) return true;
+      if (view.says("force off: nobody sees the picture", std::chrono::seconds(5))) return true;
       give_back();
       if (!view.says("force on")) return false;
     }
@@ -236,7 +236,7 @@ double longest_picture_ms(const std::string& frame_log, double least_ms) {
   return longest_ms;
 }
 
-// The program waits for the device, and the wearer before a picture that stands still.
+// The program waits for the device while the wearer sees a frozen picture.
 TEST_F(ViewInAHeadset, LetsTheHandGoInTimeWhenTheGraphicsDeviceHangs) {
   in_a_window([&](const std::string& sessions) {
     bool judged = false;
@@ -315,7 +315,7 @@ TEST_F(ViewInAHeadset, SaysInOneLineWhatIsMissing) {
   EXPECT_EQ(std::count(gone.err.begin(), gone.err.end(), '\n'), 1) << gone.err;
 }
 
-// Below the sweet spot, with -z towards the screen, however the wall stands in its room.
+// Below the sweet spot, with -z towards the screen, for any orientation of the wall in its room.
 TEST(RoomFromHeadsetFloor, PutsTheWearerBeforeTheWall) {
   const scene::Screen side{
       .name = "side", .lower_left = {2, 0.5, -1}, .lower_right = {2, 0.5, 1}, .upper_left = {2, 2.5, -1}};

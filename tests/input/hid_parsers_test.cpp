@@ -125,7 +125,7 @@ TEST(WiiRemote, SaysWhichWayIsUpInTenBits) {
   const auto report = parse_wiimote(from_hex("31 00 00 80 80 9a"));
   ASSERT_TRUE(report && report->acceleration);
   EXPECT_EQ(*report->acceleration, (std::array<std::uint16_t, 3>{512, 512, 616}));
-  // the low bits stand among the buttons
+  // the low bits are among the buttons
   const auto fine = parse_wiimote(from_hex("31 60 60 80 80 9a"));
   EXPECT_EQ(*fine->acceleration, (std::array<std::uint16_t, 3>{515, 514, 618}));
   EXPECT_EQ(fine->buttons, 0U);
@@ -185,7 +185,7 @@ TEST(JoyCon, SaysThreeReadingsAReportAndWhichWayIsUp) {
   EXPECT_NEAR(left->imu[2].rate_rad_per_s.y, 100.0 / 14.247 * kRadPerDegree, 1e-12);
   EXPECT_NEAR(glm::length(*left->push), 0.0, 1e-12);
   EXPECT_EQ(left->buttons, bit(WandButton::Select));
-  // the sensor of the right one stands on its head
+  // the right one's sensor is mounted upside down
   const auto right = joycon_driver(JoyConSide::Right)->read(joycon_report());
   EXPECT_NEAR(right->imu[0].acceleration_g.y, -1.0, 1e-12);
   EXPECT_EQ(right->buttons, bit(WandButton::Select));

@@ -137,7 +137,7 @@ TEST(MotionPlus, RefusesShortReports) {
   }
 }
 
-// A quarter turn to the left in a second: what gravity alone cannot see.
+// A quarter turn to the left in a second, which gravity by itself cannot show.
 TEST(MotionPlus, PointsTheWandWhereItIsTurned) {
   HidWand wand(wiimote_driver(), HandPlace{});
   std::int64_t now_ns = 1'000'000'000;

@@ -90,7 +90,7 @@ template <int kNumber, int kAsleep>
 struct Sign {
   template <class T>
   friend constexpr auto operator*(Sign, const T& b) {
-    return (is_awake<kNumber>() ? -kAsleep : kAsleep) < 0 ? -b : -(-b);  // of units there is no +b
+    return (is_awake<kNumber>() ? -kAsleep : kAsleep) < 0 ? -b : -(-b);  // units have no unary +
   }
 };
 

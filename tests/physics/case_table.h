@@ -12,7 +12,7 @@ namespace afm::physics {
 // program's. SI.
 struct Case {
   std::string id;                             // "jkr_04"; several rows share it
-  std::string name;                           // of the row's test: "jkr_04_z_out_2", unique in the table
+  std::string name;                           // name of the row's test: "jkr_04_z_out_2", unique in the table
   std::map<std::string, std::string> inputs;  // "A=2.45e-20;R=5e-08" by name
   std::string output;
   std::string expected;  // a number, or several between blanks

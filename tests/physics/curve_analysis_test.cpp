@@ -109,7 +109,7 @@ TEST_P(PaperCurve, GivesThemBackThroughOffsetDriftAndNoise) {
   ASSERT_TRUE(found.contact_point && found.snap_in && found.pull_off && found.contact_slope);
   EXPECT_NEAR(found.baseline.tilt / expected.effective_stiffness, 0.02, 0.001);
   EXPECT_NEAR(found.baseline.noise / noise, 1.0, 0.1);
-  // in units of how far the lever must move to stand out of the noise
+  // in units of the lever's displacement that exceeds the noise
   const Length blur = noise / expected.effective_stiffness;
   EXPECT_NEAR((*found.contact_point - shift) / blur, 0.0, 3.0);
   EXPECT_NEAR((found.snap_in->z - shift - expected.z_jtc) / blur, 0.0, 3.0);

@@ -209,7 +209,7 @@ TEST_P(TableCase, Agrees) {
 INSTANTIATE_TEST_SUITE_P(Research, TableCase, testing::ValuesIn(table_cases()),
                          [](const auto& test) { return test.param.name; });
 
-// A row that nobody instantiates is a row that nobody checks: each program asserts how many it takes.
+// A row that no program instantiates is never checked, so each program asserts its number of rows.
 TEST(PhysicsCases, EveryRowBelongsToATestProgram) {
   EXPECT_EQ(read_cases().size(), 272U);
   EXPECT_EQ(cases_of(CaseProgram::Cycle).size(), 132U);

@@ -120,7 +120,7 @@ TEST(ApproachRetractModel, SharesDeflectionBetweenLeverAndSample) {
   for (const Length z : {1_nm, 10_nm, -4_nm}) {
     const TipResponse response = model.step(z);
     EXPECT_EQ(response.phase, Phase::Attached);
-    // on the surface D = 0: Z = delta_c + delta_s, and the apex stands where the surface is
+    // on the surface D = 0: Z = delta_c + delta_s, and the apex is at the surface
     EXPECT_NEAR((response.cantilever_deflection + response.sample_deformation).si, z.si, 1e-23);
     EXPECT_NEAR(response.tip_height.si, response.sample_deformation.si, 1e-23);
     EXPECT_NEAR(response.cantilever_deflection / response.sample_deformation, 2.0, 1e-12);

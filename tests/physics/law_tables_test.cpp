@@ -234,7 +234,7 @@ TEST(LawTables, TakeFixedGripsForAnInfiniteSpringConstant) {
   EXPECT_FALSE(dmt->figures.hysteretic);
   const Length gap = dmt->contact_gap + 1_nm;
   EXPECT_NEAR(dmt->free.force(gap) / van_der_waals_attraction(grips, gap), -1.0, 1e-8);
-  // the same is no lever for anyone who asks
+  // such a lever is invalid everywhere else
   EXPECT_THROW(validate(grips), UnphysicalValue);
 }
 

@@ -77,7 +77,7 @@ std::shared_ptr<const TipForce> surface_of(const Case& row) {
     law = Law::Dmt;
     contact.hamaker = Energy(row.input("A"));
     contact.tip_radius = Length(row.input("R"));
-    // the rows without a contact of their own end before it; mica's stands there
+    // the rows without their own contact end before it; mica's is used
     const double a0 = row.input_or("a0", 3.818813079e-10);
     contact.mean_surface_energy =
         SurfaceEnergy(row.input("A") / (24.0 * std::numbers::pi * a0 * a0));  // F_ad = A R/(6 a0^2) = 4 pi R gamma

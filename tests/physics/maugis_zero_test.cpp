@@ -121,8 +121,8 @@ TEST(SingleValued, IsWhatTheClosedConditionSays) {
   EXPECT_LT(one_curve, looked_at);
 }
 
-// No value of lambda alone decides: of a short attraction (a0 = 0.06 nm, z0 = 0.4 nm) the law has a loop at 0.461
-// already and at 0.924; of a long one (a0 = 2.05 nm) at neither.
+// The value of lambda by itself does not decide: with a short-range attraction (a0 = 0.06 nm, z0 = 0.4 nm) the law has
+// a loop at both 0.461 and 0.924; with a long-range one (a0 = 2.05 nm) at neither.
 TEST(SingleValued, DependsOnTheRangesAndNotOnLambdaAlone) {
   for (const double lambda : {0.461, 0.924}) {
     for (const bool short_range : {true, false}) {

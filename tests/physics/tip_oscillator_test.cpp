@@ -192,7 +192,7 @@ TEST(TipOscillator, StaysBoundedHoweverDeepItIsPushed) {
   for (const Law law : {Law::Dmt, Law::LennardJones}) {
     TipOscillator pushed = oscillator(law, {12_kHz, 2.5, 298_K});
     pushed.settle(50_nm, Velocity());
-    // ten thousand times as deep as any impact of its own goes
+    // ten thousand times as deep as the deepest impact
     pushed.place(-10_um, -1_nm, Velocity());
     for (int i = 0; i < 100000; ++i) {
       pushed.sub_step();

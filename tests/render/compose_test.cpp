@@ -93,7 +93,7 @@ TEST_F(Compose, TwoPassesDecodeAsMultiviewDoes) {
   }
 }
 
-// Checks a whole picture against what `expected` says of a place in the eyes' images.
+// Compares a whole picture with `expected` at each place of the eyes' images.
 template <class Expected>
 void expect_picture(const render::Image& picture, int tolerance, const Expected& expected) {
   int largest = 0;

@@ -9,7 +9,7 @@
 #include "support/faulty_device.h"
 #include "support/vulkan_fixture.h"
 
-// A layer of our own stands between the program and the driver and fails as real devices do.
+// A layer between the program and the driver fails like real devices.
 namespace afm::test {
 namespace device_failure_test {
 

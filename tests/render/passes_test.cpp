@@ -57,7 +57,7 @@ TEST_F(Passes, TheSameFrameGivesTheSameBytes) {
   EXPECT_EQ(first.rgba, renderer.read_composed({}).rgba);
 }
 
-// Two frames in flight share targets and panels, and each slot is reused: what is read is the newest frame alone.
+// Two frames in flight share targets and panels, and each slot is reused: only the newest frame is read.
 TEST_F(Passes, FramesInFlightDoNotMix) {
   const auto last = full_frame(test_);
   auto renderer = make_renderer(test_.scene, small());

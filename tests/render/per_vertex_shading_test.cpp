@@ -105,7 +105,7 @@ std::size_t compiled_bytes() {
   return bytes;
 }
 
-// Triangles of about a pixel are shaded at their vertices: nobody sees the difference, and it is not the same program.
+// Triangles of about a pixel are shaded at their vertices: the difference is invisible, although it is another program.
 TEST_F(PerVertexShading, LooksAsItWouldByFragment) {
   const auto fine = draw_hills(false, small());
   const auto plain = draw_hills(true, small());
@@ -147,7 +147,7 @@ TEST_F(SmoothShading, IsTheSameInOnePassAndInTwo) {
   EXPECT_EQ(one.right.rgba, two.right.rgba);
 }
 
-// lavapipe compiles a shader anew for every value of a uniform that much of it branches by, and keeps them all.
+// lavapipe recompiles a shader for every value of a uniform with many branches, and keeps all versions.
 TEST_F(PerVertexShading, IsNotCompiledAnewInEveryFrame) {
   const scene::Scene scene = scene_of_hills(false);
   auto renderer = make_renderer(scene, small(1));

@@ -74,7 +74,7 @@ TEST_F(PictureSaving, FollowsModesSizesAndPlacesOnTheScreen) {
   EXPECT_EQ(support::read_png(file(1))->rgba, renderer_.read_composed(rows).rgba);
 }
 
-// The disk is a pipe that nobody reads yet: whoever writes it waits.
+// The disk is a pipe without a reader, so that any write blocks.
 TEST_F(PictureSaving, NoFrameWaitsForADiskThatStandsStill) {
   const std::string pipe = file(0);
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);

@@ -27,7 +27,7 @@ class Stereo : public VulkanTest {
   struct Seen {
     glm::dvec2 left, right;
   };
-  // A white square of 0.2 m at `at`, alone.
+  // Only a white square of 0.2 m at `at`.
   Seen see_square(const glm::dvec3& at) {
     scene::Scene scene;
     const auto white = add_material(scene, {.name = "white", .unlit = true});

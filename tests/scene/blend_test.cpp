@@ -23,7 +23,7 @@ constexpr double kSum = 1e-12;
 struct Rectangle {
   std::string name;
   double left, right, bottom, top;
-  std::string keys{};  // of the screen
+  std::string keys{};  // keys of the screen
 };
 
 // A wall with an output for each of these screens in the plane z = 0.
@@ -223,7 +223,7 @@ TEST(BlendOfAWall, NeedsAProjectorForEveryScreenOfTheOverlapAndAlikeKeys) {
   EXPECT_THAT(error_of(wall_of(many)), AllOf(HasSubstr("screen.name"), HasSubstr("at most 8")));
 }
 
-// Two widths that fit each edge alone, on screens that are no grid.
+// Two widths, each valid for its edge, on screens that do not form a grid.
 TEST(BlendOfAWall, RefusesRampsThatLeaveADarkPlace) {
   EXPECT_THAT(error_of(wall_of({with_keys({"a", -2, 0, 0.2, 1.8}, "blend_top = \"50 mm\"\nblend_right = \"50 mm\"\n"),
                                 {"b", -0.3, 2, 0.2, 1.8},

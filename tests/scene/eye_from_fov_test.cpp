@@ -36,7 +36,7 @@ class RandomEyes : public ::testing::Test {
   std::mt19937 random_{22};
 };
 
-// The definition, by angles alone: what lies at an angle's tangent is at the border of the picture.
+// The definition by angles only: a point at an angle's tangent is at the border of the picture.
 TEST_F(RandomEyes, SeePointsWhereTheirAnglesPutThem) {
   for (int i = 0; i < kPoses; ++i) {
     const HeadPose head = pose();

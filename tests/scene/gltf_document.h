@@ -88,7 +88,7 @@ inline std::string glb(std::string text, std::string binary) {
   return bytes + binary;
 }
 
-// Writes models into a folder of its own and loads them.
+// Writes models into a temporary folder and loads them.
 class GltfFolder : public testing::Test {
  protected:
   GltfFolder() : folder_(std::filesystem::path(testing::TempDir()) / ("gltf_" + std::to_string(getpid()))) {

@@ -62,7 +62,7 @@ TEST_F(GltfFeatures, TurnsStripsFansAndLoopsIntoLists) {
     EXPECT_EQ(loaded().normals, Normals::None) << mode.number;
   }
 
-  // the corners of flat triangles are their own, so that their places tell
+  // flat triangles share no corners, so their positions identify them
   const auto corners = [&] {
     std::vector<glm::vec3> places;
     for (const Vertex& vertex : loaded().vertices) places.push_back(vertex.position);

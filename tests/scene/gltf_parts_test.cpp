@@ -10,7 +10,7 @@
 #include "gltf_document.h"
 #include "scene/gltf/gltf_loader.h"
 
-// The parts of a model of which there is more than one, each with numbers of its own.
+// Repeated parts of a model, each with its own numbers.
 namespace afm::scene {
 namespace gltf_parts_test {
 

@@ -113,7 +113,7 @@ TEST(MaterialLibrary, MarksWhatNobodyMeasured) {
   }
 }
 
-// W = A/(12 pi a0^2) with a0 = 0.165 nm, as the file says of every row that is not the paper's.
+// W = A/(12 pi a0^2) with a0 = 0.165 nm, as documented in the file for every row that is not the paper's.
 TEST(MaterialLibrary, HasWorksOfAdhesionThatFollowFromTheHamakerConstants) {
   const auto library = load_materials(kShipped);
   ASSERT_TRUE(library.has_value());

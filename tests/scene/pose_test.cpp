@@ -123,7 +123,7 @@ TEST(Posed, TurnsFlatNormalsWithTheirTriangles) {
   Scene scene = triangle();
   auto& primitive = scene.meshes[0].primitives[0];
   primitive.normals = Normals::Flat;
-  primitive.targets.push_back({{{0, 0, 0}, {0, 0, 0}, {0, -1, 1}}, {}, {}});  // stands the triangle up
+  primitive.targets.push_back({{{0, 0, 0}, {0, 0, 0}, {0, -1, 1}}, {}, {}});  // turns the triangle upright
   scene.meshes[0].weights = {1.0F};
   EXPECT_NEAR(glm::distance(first_vertex(posed(scene, std::nullopt)).normal, glm::vec3(0, -1, 0)), 0.0F, kTolerance);
 }

@@ -26,7 +26,7 @@ constexpr int kKills = 1000;
 constexpr std::uint64_t kSeedsOfWriter = 1'000'000;  // more than one can use
 constexpr std::uint64_t kSuccessor = (kKills + 1) * kSeedsOfWriter;
 
-// A number that is plausible wherever a block wants one, and differs from word to word.
+// A number that is plausible in every field, and differs from word to word.
 double number(std::uint64_t seed, int word) {
   return 1e-9 * static_cast<double>((seed * 31 + static_cast<std::uint64_t>(word)) % 1'000'003);
 }
@@ -65,7 +65,7 @@ TipEvent event(std::uint64_t seed) {
           .force_after_n = number(seed, 2)};
 }
 
-// Its first number tells the seed, up to a multiple of 1000.
+// Its first number identifies the seed, up to a multiple of 1000.
 SceneTransforms transforms(std::uint64_t seed) {
   SceneTransforms transforms{.count = 2};
   for (auto& matrix : transforms.room_from_node) matrix.fill(number(seed % 1000, 1));
@@ -137,7 +137,7 @@ TEST(SegmentCrash, OfTheServoLeavesTheRendererWithWholeValues) {
   RendererSide renderer = segment.renderer_side();
   std::uint64_t values = 0;
   std::uint64_t torn = 0;
-  std::uint64_t newest = 0;  // of all samples
+  std::uint64_t newest = 0;  // newest value of all samples
   int unfinished = 0;
   const auto count = [&](bool whole) {
     ++values;
@@ -220,7 +220,7 @@ TEST(SegmentCrash, OfTheRendererLeavesTheServoWithWholeValues) {
   EXPECT_EQ(servo.refused_blocks(), 0U);
   EXPECT_GT(values, static_cast<std::uint64_t>(kKills));
 
-  // whoever comes next finds the samples in order where the dead left them
+  // the successor finds the samples in order where the dead renderer left them
   RendererSide successor = segment.renderer_side();
   std::uint64_t before = 0;
   while (const auto next = successor.pop_sample()) {

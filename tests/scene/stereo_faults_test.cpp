@@ -94,7 +94,7 @@ EyeView half_flipped(const Viewing& viewing, std::size_t eye) {
   return view;
 }
 
-// The shear is a constant share of the eyes' distance, whoever stands where.
+// Assumes a shear that is a constant share of the eyes' distance, for any viewer.
 EyeView constant_shear(const Viewing& viewing, std::size_t eye) {
   const glm::dvec3 middle = 0.5 * (viewing.eyes[0] + viewing.eyes[1]);
   EyeView view = off_axis_view(viewing.screen, middle, DepthConvention::VulkanReversedInfinite, kNearM, 0.0).value();
@@ -103,7 +103,7 @@ EyeView constant_shear(const Viewing& viewing, std::size_t eye) {
   return view;
 }
 
-// The viewer is taken to stand on the screen's axis.
+// Assumes a viewer on the screen's axis.
 EyeView on_axis(const Viewing& viewing, std::size_t eye) {
   const Screen& s = viewing.screen;
   const double distance = glm::dot(viewing.eyes[eye] - s.lower_left, s.normal());

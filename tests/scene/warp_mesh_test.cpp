@@ -66,7 +66,7 @@ TEST(WarpMesh, OfAnUnbentPictureShowsEachPixelItself) {
   }
 }
 
-// The rows of the format begin below: what a file says of y = -1 and v = 0 is the picture's lower edge.
+// The format's rows begin at the bottom: y = -1 and v = 0 in a file are the picture's lower edge.
 TEST(WarpMesh, HasItsOriginBelowAsTheFormatHas) {
   const WarpMesh mesh = read("2\n2 2\n-1.5 -1 0.25 0 1\n1.5 -1 1 0 1\n-1.5 1 0 0.5 1\n1.5 1 1 1 1\n").value();
   EXPECT_EQ(mesh.node(0, 0).output, glm::dvec2(0.0, 1.0));

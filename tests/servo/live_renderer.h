@@ -14,9 +14,9 @@
 #include "support/paper_model.h"
 #include "support/places.h"
 
-// What touchafm does for a servo in real time, for tests with real processes. The machine that runs them may stall for
-// many milliseconds at any moment, and the servo then lets go of the hand, as it should. So whatever needs the hand to
-// be held has to be ready to try again; what must happen is waited for with a generous limit.
+// touchafm's actions for a servo in real time, for tests with real processes. The test machine may stall for many
+// milliseconds at any moment, and the servo then correctly releases the hand. So an action that needs the hand to be
+// held must be repeatable, and waits have generous limits.
 namespace afm::test {
 
 inline const std::string kServoProgram = support::built("bin/touchafm-servo");
@@ -45,7 +45,7 @@ inline scene::TipState tip_state_of(scene::RendererSide& side) {
   return state.value();
 }
 
-// Heartbeats while it waits for something, and a person who holds the simulated hand.
+// Sends heartbeats while waiting, and plays a person who holds the simulated hand.
 class LiveRenderer {
  public:
   explicit LiveRenderer(scene::RendererSide& side) : side_(side) {}

@@ -65,6 +65,11 @@ class Recording {
 
   void choose(int material) { renderer_.store(scene::Selection{.material = material, .revision = ++selection_}); }
 
+  // The wall takes the force away; the material stays.
+  void release(int material) {
+    renderer_.store(scene::Selection{.material = material, .revision = ++selection_, .release = 1});
+  }
+
   void aim(double height_m, double seconds, bool pressed = false, double sideways_m = 0.003) {
     renderer_.store(scene::HandScript{.target_m = {sideways_m, height_m, -0.002},
                                       .duration_s = seconds,

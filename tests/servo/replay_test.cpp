@@ -172,6 +172,25 @@ TEST(Replay, GivesFaultsHangsAndLateTicksAgain) {
   for (const RecordedSession& session : recording.sessions) expect_same(session);
 }
 
+TEST(Replay, GivesAForceThatTheWallTookAwayAgain) {
+  Recording recording;
+  recording.choose(test::kGold);
+  recording.cycle();
+  recording.arm();
+  recording.release(test::kGold);  // at the top
+  recording.run(300);
+  recording.arm();
+  recording.aim(-0.010, 0.7);
+  recording.run(1200);
+  ASSERT_EQ(recording.state().phase, physics::Phase::Attached);
+  recording.release(test::kGold);  // in contact
+  recording.run(300);
+  EXPECT_EQ(recording.state().servo_state, scene::ServoState::Disarmed);
+  recording.cycle();
+  ASSERT_EQ(recording.sessions.size(), 1U);
+  expect_same(recording.sessions[0]);
+}
+
 TEST(Replay, OfASessionThatBeginsInAFaultBeginsInIt) {
   const auto recording = std::make_unique<Recording>();
   recording->choose(test::kMica);
@@ -191,7 +210,7 @@ TEST(Replay, GivesForcesThatWerePutDownForHotMotorsAgain) {
   Recording recording;
   recording.choose(test::kMica);
   recording.arm();
-  recording.aim(-0.030, 0.5);  // holds more than the motors stand for ever
+  recording.aim(-0.030, 0.5);  // exceeds the motors' continuous force
   recording.run(60'000);
   EXPECT_LT(recording.state().safety.thermal_gain, 1.0);
   recording.aim(0.065, 0.7);

@@ -19,8 +19,8 @@
 #include "support/places.h"
 #include "support/scratch_folder.h"
 
-// touchafm-servo as a process, with the device that it was told to take. The mock of the vendor's library plays a
-// person by itself; how long anything takes decides nothing.
+// touchafm-servo as a process, with a given device. The mock of the vendor's library plays a person by itself; no
+// result depends on durations.
 namespace afm::servo {
 namespace servo_devices_test {
 

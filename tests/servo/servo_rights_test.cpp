@@ -13,8 +13,8 @@
 
 #include "live_renderer.h"
 
-// The servo with the rights that a person may or may not have. Each case is a child of its own, which gives up root's
-// privileges for good, takes the limits of the case and then starts the servo.
+// The servo with different rights of the user. Each case is a child process, which drops root's privileges permanently,
+// sets the limits of the case and then starts the servo.
 namespace servo_rights_test {
 
 using namespace afm::scene;
@@ -25,13 +25,13 @@ using testing::HasSubstr;
 
 constexpr rlim_t kWantedPriority = 80;
 
-// Takes a limit, and the capability that stands above it: then root counts as a person does. Empty: both stay as they
-// are on this machine.
+// Sets a limit and drops the capability that overrides it, so that root is treated like a user. Empty: both stay as
+// they are on this machine.
 void restrict_to(std::optional<rlim_t> value, __rlimit_resource what, unsigned long capability) {
   if (!value) return;
   const rlimit both{.rlim_cur = *value, .rlim_max = *value};
   if (::setrlimit(what, &both) != 0) ::_exit(2);
-  // fails for a person, who does not have it anyway
+  // fails for a user, who does not have it anyway
   ::prctl(PR_CAPBSET_DROP, capability, 0, 0, 0);
 }
 

@@ -48,13 +48,13 @@ bool allow_only_sleep_clock_and_exit() {
          ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter, 0, 0) == 0;
 }
 
-// What the servo's process tells in memory that it shares with the test.
+// Reports of the servo's process, in memory shared with the test.
 struct Told {
   rusage before{};
   std::uint64_t ticks = 0;
 };
 
-// Runs a servo in a child of its own until `side` says goodbye; returns how it ended.
+// Runs a servo in a child process until `side` says goodbye; returns how it ended.
 class FilteredServo {
  public:
   FilteredServo(SharedSegment& segment, void (*within_the_filter)()) {

@@ -49,7 +49,7 @@ auto start(double linger_s, std::uint64_t digest = kScene) {
   return ServoClient::start(test::paper_model(), digest, {.settings = {.linger_s = linger_s}}, kProgram);
 }
 
-// What another renderer may want instead of Predecessor(kLong_s)'s servo.
+// Options of another renderer that differ from those of Predecessor(kLong_s)'s servo.
 struct OtherWish {
   const char* name;
   void (*change)(ServoChoice&, scene::SharedModel&);
@@ -59,8 +59,8 @@ bool until(ServoClient& link, const std::function<bool(const scene::TipState&)>&
   return eventually([&] { return link.poll(core::MonotonicClock().now_ns()) && condition(link.tip()); });
 }
 
-// A renderer in a process of its own: it chose gold, edited mica, holds the hand at a place where no servo starts, and
-// beats until it is killed. Its servo becomes a child of this process then.
+// A renderer in a separate process: it has chosen gold, edited mica, holds the hand at a place where no servo starts,
+// and sends heartbeats until it is killed. Its servo then becomes a child of this process.
 class Predecessor {
  public:
   explicit Predecessor(double linger_s, std::uint64_t digest = kScene) {
@@ -182,7 +182,7 @@ TEST_F(ServoTakeover, TellsAServoOfAnotherSceneToLeaveAndStartsItsOwn) {
 
 class ServoTakeoverOfAnother : public ServoTakeover, public testing::WithParamInterface<OtherWish> {};
 
-// Nobody's hand is held by a servo that does otherwise than its renderer says, be it without a dead-man switch.
+// A servo with different options never holds a hand, not even one without a dead-man switch.
 TEST_P(ServoTakeoverOfAnother, TellsItToLeaveAndStartsItsOwn) {
   Predecessor predecessor(kLong_s);
   predecessor.kill();
@@ -215,7 +215,7 @@ INSTANTIATE_TEST_SUITE_P(
                     OtherWish{"Surface", [](auto&, auto& model) { model.height_fields.back().spacing_m = 1e-6; }}),
     [](const auto& test) { return test.param.name; });
 
-// Two walls on one machine: each renderer finds its own servo again, whichever stands first in the folder.
+// Two walls on one machine: each renderer finds its own servo, independent of the order in the folder.
 TEST_F(ServoTakeover, LeavesTheServoOfAnotherWallToItsOwnRenderer) {
   Predecessor one(kLong_s, kScene), other(kLong_s, kScene + 1);
   one.kill();
@@ -241,7 +241,7 @@ TEST_F(ServoTakeover, PassesOverWhatKilledServosLeft) {
   EXPECT_TRUE(find_waiting_servos(kServoProgram, kScene, {}).empty());
 }
 
-// Nobody but the user may come in: a full queue or a socket of another user's is out of reach.
+// Only the user has access: a full queue or another user's socket is out of reach.
 TEST_F(ServoTakeover, MeetsInAFolderOfItsUserAlone) {
   Predecessor predecessor(kLong_s);
   predecessor.kill();
@@ -254,7 +254,7 @@ TEST_F(ServoTakeover, MeetsInAFolderOfItsUserAlone) {
   EXPECT_TRUE(find_waiting_servos(kServoProgram, kScene, {}).empty());
 }
 
-// A socket that accepts and never answers, or whose queue is full, holds nobody up.
+// A socket that accepts and never answers, or whose queue is full, delays nobody.
 TEST_F(ServoTakeover, IsNotHeldUpByOneWhoDoesNotAnswer) {
   Predecessor predecessor(kLong_s);
   predecessor.kill();

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -17,6 +18,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "haptics/devices/haply_service.h"
@@ -24,9 +26,9 @@
 #include "servo/servo_client.h"
 #include "support/stall_watch.h"
 
-// The guard that releases the hand when the servo cannot: on a stand-in for Haply's service, which holds the last force
-// that it was sent. Real processes and real time: each bound that protects the hand is doubled, and judged while the
-// machine is awake.
+// The guard that releases the hand if the servo cannot, with a stand-in for Haply's service, which keeps the last
+// force. Real processes and real time: each bound that protects the hand is doubled, and judged while the machine is
+// awake.
 namespace afm::servo {
 namespace servo_watchdog_test {
 
@@ -122,6 +124,7 @@ class ServoWatchdog : public testing::Test {
     });
   }
   bool released() { return held_n() == 0.0; }
+  bool says(std::string_view line) const { return errors.text().find(line) != std::string::npos; }
   bool servo_gone() { return !servo->alive(); }
 
   void start_servo() {
@@ -169,7 +172,53 @@ TEST_F(ServoWatchdog, IsMissedByItsServo) {
   support::expect_within(milliseconds(200),
                          [&] { return timed_signal(watchdog, SIGKILL, [&] { return released(); }); });
   EXPECT_TRUE(eventually([&] { return servo_gone(); }));
-  EXPECT_THAT(errors.text(), HasSubstr("the servo's watchdog ended: force released"));
+  EXPECT_TRUE(eventually([&] { return says("the servo's watchdog ended or is stopped: force released"); }));
+}
+
+// The servo notices after 80 ms and fades in 90.
+TEST_F(ServoWatchdog, IsMissedByItsServoWhenItIsStopped) {
+  support::expect_within(milliseconds(200),
+                         [&] { return timed_signal(watchdog, SIGSTOP, [&] { return released(); }); });
+  EXPECT_TRUE(eventually([&] { return servo_gone(); }));
+  EXPECT_TRUE(watchdog_gone());
+}
+
+// As by Ctrl-S in the terminal, or by a pager that waits.
+TEST_F(ServoWatchdog, IsMissedInTimeWhileNobodyReadsTheLog) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK), 0);
+  const core::FileDescriptor reader(ends[0]), writer(ends[1]);
+  const std::string full(65536, 'x');
+  while (::write(writer.get(), full.data(), full.size()) > 0) {
+  }
+  while (::write(writer.get(), full.data(), 1) > 0) {
+  }
+  ::fcntl(writer.get(), F_SETFL, 0);
+  const core::FileDescriptor before(::dup(STDERR_FILENO));
+  ::dup2(writer.get(), STDERR_FILENO);
+  support::expect_within(milliseconds(200),
+                         [&] { return timed_signal(watchdog, SIGKILL, [&] { return released(); }); });
+  EXPECT_TRUE(eventually([&] { return servo_gone(); }));
+  ::dup2(before.get(), STDERR_FILENO);
+}
+
+// Only a kill and a stop reach it.
+TEST_F(ServoWatchdog, StaysWhateverSignalItGets) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  for (const int number : {SIGHUP, SIGINT, SIGTERM, SIGQUIT, SIGALRM, SIGUSR1}) ::kill(watchdog, number);
+  rest(milliseconds(200));
+  EXPECT_EQ(::kill(watchdog, 0), 0);
+  EXPECT_TRUE(servo->alive());
+}
+
+// A command that is meant for the servo by its name must leave the watchdog.
+TEST_F(ServoWatchdog, HasANameAndAGroupThatDifferFromTheServos) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  std::ifstream comm("/proc/" + std::to_string(watchdog) + "/comm");
+  std::string name;
+  comm >> name;
+  EXPECT_EQ(name, "touchafm-guard");
+  EXPECT_NE(::getpgid(watchdog), ::getpgid(servo_pid));
 }
 
 TEST_F(ServoWatchdog, LeavesWithItsServoAndSaysNothing) {

@@ -58,7 +58,7 @@ TEST(SessionRecorder, BeginsWithoutForceAlone) {
   EXPECT_FALSE(can_begin_with(running, state(), false));
 }
 
-// Where Z_joc lies is known of the contact of the newest state alone.
+// Z_joc is known only for the contact of the newest state.
 TEST(SessionRecorder, WaitsForTheStateOfTheSampleItIsGiven) {
   TipState other = state();
   other.material = 2;

@@ -173,7 +173,7 @@ TEST_F(StudyReport, FindsTheAbilitiesThatItsPeopleWereGiven) {
 TEST_F(StudyReport, KeepsEveryIntervalWithinTheScaleOfItsValues) {
   for (std::size_t i = 0; i < 4; ++i) {
     test::SimulatedEvents events(static_cast<unsigned>(i + 1));
-    const bool best = i > 0;  // of four people three are perfect: t alone would go beyond the end
+    const bool best = i > 0;  // three of four people are perfect, so that t by itself would exceed the scale
     for (const char* step : {"blind-before", "blind-after"}) {
       for (int trial = 1; trial <= 4; ++trial) {
         const bool right = best || trial < 3;

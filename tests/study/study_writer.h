@@ -30,7 +30,7 @@ inline std::string event_line(double onset, const std::string& step, const std::
          (correct == "n/a" ? "n/a" : "0.8") + "\n";
 }
 
-// A study's folder of people who answer as told.
+// A study's folder with people whose answers are given.
 class StudyWriter {
  public:
   explicit StudyWriter(std::string folder) : folder_(std::move(folder)) {}

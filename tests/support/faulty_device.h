@@ -18,8 +18,8 @@ inline std::vector<std::string> on_faulty_device(const std::string& fault, const
   return command;
 }
 
-// While it lives, a layer of our own stands between new Vulkan instances and the driver, and makes the device fail as
-// tests/support/fault_layer says. One at a time.
+// While it exists, a layer between new Vulkan instances and the driver makes the device fail as described in
+// tests/support/fault_layer. One at a time.
 class FaultyDevice {
  public:
   explicit FaultyDevice(const std::string& fault) {

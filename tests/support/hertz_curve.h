@@ -18,7 +18,7 @@ inline double hertz_force_n(double modulus_pa, double indentation_m) {
          std::pow(indentation_m, 1.5);
 }
 
-// The tip's indentation where the base stands at z: z = -indentation - F(indentation)/k, by Newton's method.
+// The tip's indentation for the base at z: z = -indentation - F(indentation)/k, by Newton's method.
 inline double hertz_indentation_m(double z_m) {
   double indentation = z_m < 0.0 ? -z_m : 0.0;
   for (int i = 0; i < 60 && z_m < 0.0; ++i) {

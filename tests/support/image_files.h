@@ -141,7 +141,7 @@ inline std::string nanoscope_file(const std::string& version, const std::vector<
 
 // ---- Igor ----
 
-// Without labels a matrix, which has a name of its own. `big`: the order of the bytes.
+// Without labels a matrix, which has a name. `big`: big-endian.
 inline std::string igor_image_file(int columns, int rows, const std::vector<std::string>& labels, double spacing_m,
                                    const std::string& note, const std::vector<float>& values, bool big = false) {
   std::string bytes(384, '\0');

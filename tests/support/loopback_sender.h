@@ -31,7 +31,7 @@ class LoopbackSender {
 
   std::uint16_t port() const { return ntohs(to_.sin_port); }
 
-  // False when the system took none or not all of it, as it does while nobody listens.
+  // Returns false if the system accepted none or not all of it, as it does without a listener.
   bool send(const std::string& packet) const {
     return ::sendto(socket_.get(), packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to_),
                     sizeof to_) == static_cast<ssize_t>(packet.size());

@@ -29,7 +29,7 @@ inline void refuse_allocation(const char* what) {
 
 }  // namespace afm::test
 
-// ThreadSanitizer brings operators of its own, and there the guard guards nothing; every other build has it.
+// ThreadSanitizer has its own operators, so the guard has no effect there; it has in every other build.
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define AFM_TEST_SANITIZES_THREADS
@@ -38,8 +38,8 @@ inline void refuse_allocation(const char* what) {
 
 #if !defined(AFM_TEST_SANITIZES_THREADS) && !defined(__SANITIZE_THREAD__)
 
-// The standard library's array forms are defined by these; its nothrow form would be too, but AddressSanitizer brings
-// one of its own. Not inlined, because gcc 12 then takes the pair of operator new and free() for a mistake.
+// The standard library's array forms are defined by these; its nothrow form would be too, but AddressSanitizer has its
+// own. Not inlined, because gcc 12 then mistakes the pair of operator new and free() for an error.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   afm::test::refuse_allocation("operator new");
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;

@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <cstdlib>
 
-// Stands before the locks and the exceptions of a test program: include it in exactly one of its sources. While a
-// NoLock lives, taking a lock or throwing, in its thread, ends the program with a message, even if nobody would have
-// waited and even if the exception were caught.
+// Intercepts the locks and exceptions of a test program: include it in exactly one of its sources. While a NoLock
+// exists, taking a lock or throwing in its thread ends the program with a message, even without contention and even if
+// the exception were caught.
 namespace afm::test {
 
 inline thread_local bool lock_forbidden = false;

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "exhibit/wall_scene.h"
+#include "exhibit/scenery/wall_scene.h"
 #include "scene/display/wall.h"
 #include "scene/samples/material_library.h"
 #include "support/phrases.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "support/places.h"
 
 namespace afm::test {
@@ -20,8 +20,8 @@ inline const exhibit::Phrases& english() {
   return phrases;
 }
 
-// Each vowel with an accent and each third letter twice, which makes a text a third longer; what stands in braces
-// stays.
+// Each vowel with an accent and each third letter twice, which makes a text a third longer. Text in braces does not
+// change.
 inline std::string pseudo_text(std::string_view english) {
   static constexpr std::array<std::pair<char, const char*>, 12> kAccents{{{'a', "á"},
                                                                           {'e', "ê"},

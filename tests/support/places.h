@@ -17,9 +17,9 @@ std::string servo_mode();  // value of --servo: "thread" under ThreadSanitizer, 
 std::string cmake();       // CMake's own program
 std::string mock_hd();     // stand-in for the vendor's haptic library
 std::string mock_hd_without_unschedule();
-std::string fault_layer_folder();  // for VK_LAYER_PATH
+std::string fault_layer_folder();  // value of VK_LAYER_PATH
 std::string fault_layer();         // the Vulkan layer itself
-std::string openxr_stand_in();     // for XR_RUNTIME_JSON
-std::string failing_calls();       // for LD_PRELOAD; not built with a sanitizer
+std::string openxr_stand_in();     // value of XR_RUNTIME_JSON
+std::string failing_calls();       // value of LD_PRELOAD; not built with a sanitizer
 
 }  // namespace afm::support

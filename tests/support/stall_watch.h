@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-// Bounds in real time, on a machine that may itself stand still. A watcher thread does nothing but wake every
-// millisecond; its longest delay is the machine's, whatever the program under test does.
+// Bounds in real time, on a machine that may itself stall. A watcher thread does nothing but wake every millisecond;
+// its longest delay is the machine's, independent of the program under test.
 namespace afm::support {
 
 class StallWatch {

@@ -7,8 +7,8 @@
 #include "scene/display/wall.h"
 #include "scene/graph/scene.h"
 
-// A small scene made in code, so that the renderer's tests depend on no model file, and the wall that it stands on: the
-// paper's 3.048 m x 2.286 m, seen from 2.5 m before its centre, which is the room's origin.
+// A small scene made in code, so that the renderer's tests do not depend on model files, and its wall: the paper's
+// 3.048 m x 2.286 m, seen from 2.5 m in front of its centre, which is the room's origin.
 namespace afm::test {
 
 scene::Screen paper_screen();

@@ -14,7 +14,7 @@
 
 namespace afm::support {
 
-// A tracker that tells of a head and a Flystick through a real socket, 100 times a second with garbage between, until
+// A tracker that sends a head and a Flystick through a real socket, 100 times a second with garbage in between, until
 // it is destroyed. Its frame is DTrack's: z upwards, y towards the wall.
 class Tracker {
  public:

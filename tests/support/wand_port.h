@@ -64,7 +64,7 @@ class WandPort {
     umockdev_testbed_remove_device(testbed_.get(), ("/sys" + device_path()).c_str());
   }
 
-  // An input report. False: nobody reads, and there is no room for more.
+  // Sends an input report. Returns false if it is not read and there is no more room.
   bool send(std::span<const std::uint8_t> report) const {
     return ::write(device_, report.data(), report.size()) == static_cast<ssize_t>(report.size());
   }

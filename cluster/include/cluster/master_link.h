@@ -50,6 +50,11 @@ class MasterLink {
   // Waits for an answer, at most `timeout_ms`.
   void wait(int timeout_ms);
 
+  // Another master that drives the same wall although both have listened first: they were started together, or in
+  // networks that were joined later. Both decide alike: the one that started later must end.
+  enum class Rival { None, Later, Earlier };
+  Rival rival() const;
+
   std::uint64_t refused() const;       // invalid datagrams
   std::uint64_t lost() const;          // records and writes without room
   std::uint64_t resent_bytes() const;  // sent again because a node had lost them; updated every sixteenth frame

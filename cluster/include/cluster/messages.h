@@ -21,7 +21,7 @@ namespace afm::cluster {
 inline constexpr std::size_t kMostDatagramBytes = 1300;
 
 // Increase whenever the meaning of a message changes.
-inline constexpr std::uint32_t kClusterVersion = 1;
+inline constexpr std::uint32_t kClusterVersion = 2;
 
 // Header of every message. Each master draws a random `session` when it starts.
 struct ClusterHeader {
@@ -57,6 +57,8 @@ struct ReadyMessage {
   std::uint64_t lost_records = 0;   // gaps in the journal so far
   std::uint32_t draw_us = 0;
   std::uint32_t late_swaps = 0;  // frames shown although no SwapMessage arrived
+  std::uint32_t stops = 0;       // presses of Stop so far
+  std::uint32_t unseen = 0;      // 1: nobody sees this node's picture
 
   bool operator==(const ReadyMessage&) const = default;
 };
@@ -74,6 +76,8 @@ constexpr void for_each_field(Visit&& visit, Record&... ready) {
   visit("lost_records", ready.lost_records...);
   visit("draw_us", ready.draw_us...);
   visit("late_swaps", ready.late_swaps...);
+  visit("stops", ready.stops...);
+  visit("unseen", ready.unseen...);
 }
 static_assert(scene::all_fields_described<ReadyMessage>());
 

@@ -6,8 +6,8 @@
 
 #include "core/exit_code.h"
 
-// SIGINT and SIGTERM. A dedicated thread receives them, so that they end a run at once whatever it is doing: it runs
-// the registered clean-ups and ends the process.
+// SIGINT, SIGTERM and, unless it is ignored as under nohup, SIGHUP. A dedicated thread receives them, so that they end
+// a run at once whatever it is doing: it runs the registered clean-ups and ends the process.
 namespace afm::core {
 
 // Call once, at the beginning of main, before any other thread exists. A signal then runs the registered clean-ups,

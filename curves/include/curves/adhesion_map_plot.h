@@ -9,9 +9,9 @@
 
 namespace afm::curves {
 
-// The adhesion map of Johnson & Greenwood 1997 with one contact on it: Tabor parameter to the right, magnitude of the
-// load in units of pi W R upwards. The borders are where physics::regime_of() changes. The contact is drawn at its own
-// pull-off force; one that lies outside is drawn at the edge.
+// The adhesion map of Johnson & Greenwood 1997 with one contact: Tabor parameter to the right, magnitude of the load in
+// units of pi W R upwards. The borders are where physics::regime_of() changes. The contact is drawn at its pull-off
+// force, or at the edge if it is outside.
 SvgPlot adhesion_map_plot(const std::string& title, const physics::LawChoice& place,
                           const physics::ContactParameters& contact, physics::Force pull_off);
 

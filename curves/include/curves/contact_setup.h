@@ -15,13 +15,12 @@
 
 namespace afm::curves {
 
-// A name that --model takes: auto, paper-rule, a computed law (physics/law.h), and dynamic- before one that can move a
-// mass.
+// A value of --model: auto, paper-rule, a computed law (physics/law.h), or dynamic- and one that can move a mass.
 struct ModelName {
   std::string text;
   bool automatic = false;       // selects the law that suits the contact
   bool direction_rule = false;  // selects the law by the paper's flow chart
-  bool dynamic = false;         // includes the lever's mass, damping and heat
+  bool dynamic = false;         // includes the lever's mass, damping and thermal noise
   physics::Law law = physics::Law::Paper;
 
   static std::optional<ModelName> parse(std::string_view text);
@@ -33,39 +32,39 @@ enum class ModelUse { Curve, Device };
 // "auto, paper-rule, paper, ...", for help and messages.
 std::string known_models(ModelUse use);
 
-// One tip, lever, sample and medium, and how its curve is to be computed.
+// One tip, lever, sample and medium, and the model for its curve.
 struct ContactSetup {
   scene::MaterialEntry material;  // includes probe and overrides in its numbers, with their sources
   physics::LawOptions law_options;
   ModelName model;
-  physics::FrictionLaw friction = physics::FrictionLaw::None;  // friction to be felt; force curves do not use it
+  physics::FrictionLaw friction = physics::FrictionLaw::None;  // used only for the hand, not for force curves
 
-  // The chosen law with the material's numbers; Amontons' where atoms were asked for that lie in no lattice.
+  // The chosen friction law with the material's numbers; Amontons' law instead of a lattice if the material has none.
   physics::FrictionParameters felt_friction() const;
 
-  // Whether W is known; without it the contact has no place on the adhesion map.
+  // Returns whether W is known; without it the contact has no position on the adhesion map.
   bool has_work_of_adhesion() const;
 
-  // The place on the map. Throws as physics::validate() does.
+  // Position on the map. Throws as physics::validate() does.
   std::optional<physics::LawChoice> place() const;
 
-  // The law of `model`, or the one that suits the place. Throws as physics::validate() does.
+  // The law of `model`, or for auto the one that suits the position. Throws as physics::validate() does.
   physics::Law law() const;
 
-  // "dmt", "dynamic-dmt", "paper-rule": what was computed in the end.
+  // "dmt", "dynamic-dmt", "paper-rule": the model actually used.
   std::string used_model() const;
 };
 
-// One number that a person may give, sweep and read in results: as --option on the command line, under json_key in SI.
+// A parameter that users can set, sweep and find in results: as --option on the command line, as json_key in SI.
 struct ContactParameter {
   std::string_view option;                        // "tip-radius"
   std::string_view json_key;                      // "tip_radius_m"
-  std::span<const std::string_view> source_keys;  // keys in material files; the first one is that of the number itself
+  std::span<const std::string_view> source_keys;  // keys in material files; the first one is the parameter's own
   std::string help;
   std::string_view sort;                 // "a length"
   std::span<const physics::Unit> units;  // empty for a plain number
   physics::Infinity infinity;
-  std::optional<double> (*get)(const ContactSetup& setup);  // SI; none where it is not set
+  std::optional<double> (*get)(const ContactSetup& setup);  // SI; empty if not set
   void (*set)(ContactSetup& setup, double si);
 };
 
@@ -74,19 +73,20 @@ std::span<const ContactParameter> contact_parameters();
 // Null if there is none.
 const ContactParameter* find_contact_parameter(std::string_view option);
 
-// Whether the number changes anything that is printed for this model.
+// Returns whether the parameter influences any output of this model.
 bool acts(const ContactParameter& parameter, const ModelName& model);
 
-// Whether the force changes with it. A number that only places the contact on the adhesion map acts, without that.
+// Returns whether the force depends on the parameter. One that only determines the position on the adhesion map acts,
+// but does not change the force.
 bool changes_force(const ContactParameter& parameter, const ModelName& model);
 
 // Reads one value, in SI. WrongUsage names the option.
 core::Result<double> parse_parameter(const ContactParameter& parameter, const std::string& text);
 
-// As people read it: "50 nm".
+// For users: "50 nm".
 std::string format_parameter(const ContactParameter& parameter, double si);
 
-// Sets the number and puts `source` in the place of where it came from.
+// Sets the parameter and records `source` as its origin.
 void override_parameter(ContactSetup& setup, const ContactParameter& parameter, double si, const std::string& written,
                         const std::string& source);
 

@@ -5,8 +5,8 @@
 
 namespace afm::curves {
 
-// Why a file is no curve, and what to do. Thrown inside the readers alone; parse_curve() makes an error of it that
-// names the file.
+// Reason why a file is not a curve, and a remedy. Thrown only within the readers; parse_curve() converts it to an error
+// that names the file.
 class CurveError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -11,25 +11,25 @@
 
 namespace afm::curves {
 
-// "# key: value" lines: model, place on the adhesion map, every number that acts, in SI, and where it comes from. What
-// curves begin with.
+// First lines of a curve's output, "# key: value": model, position on the adhesion map, and every number that acts, in
+// SI, with its origin.
 std::string setup_header(const ContactSetup& setup, const std::string& model,
                          const std::optional<physics::LawChoice>& place);
 
-// The same for a sweep, without the numbers that change from row to row.
+// The same for a sweep, without the swept numbers.
 std::string setup_header(const ContactSetup& setup, std::span<const ContactParameter* const> swept);
 
-// CSV in SI: a # header with every parameter and its source, a line of column names with units, one line a sample.
+// CSV in SI: a # header with every parameter and its source, a line of column names with units, one line per sample.
 std::string curve_csv(const CurveRun& run);
 
-// The samples as any file holds them, with what the CSV's header says as parameters.
+// The samples in the form of a curve file, with the CSV header's contents as parameters.
 RecordedCurve recorded_curve(const CurveRun& run);
 
-// The numbers that act as {"tip_radius_m": ...}; null where JSON has no such number.
+// The numbers that act as {"tip_radius_m": ...}; null for a number that JSON cannot represent.
 nlohmann::ordered_json parameters_json(const ContactSetup& setup);
 
-// The events as the design's section 4 prints them, what the law was chosen by, and the sources; null for a jump that
-// did not happen in the sweep, for the energy of a loop that stayed open, and for what is infinite.
+// The events as in section 4 of the design, the basis for the choice of the law, and the sources. Null for a jump that
+// did not happen in the sweep, for the energy of an open loop, and for infinity.
 nlohmann::ordered_json curve_json(const CurveRun& run);
 
 // Approach dashed and retract solid, with both jumps marked.

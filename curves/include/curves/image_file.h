@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,7 +9,8 @@
 #include "core/result.h"
 #include "physics/imaging/scan_image.h"
 
-// Reading of the images that AFM programs write; docs/manual.md, "Bring your own surface", says what each format holds.
+// Reading of image files of AFM programs. docs/manual.md, "Bring your own surface", describes the contents of each
+// format.
 namespace afm::curves {
 
 enum class ImageFormat {
@@ -24,30 +24,27 @@ enum class ImageFormat {
 // All of them, as help and refusals list them.
 inline constexpr const char* kImageFiles = "Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, JPK .jpk";
 
-// "Nanoscope", as a sentence names it.
+// "Nanoscope", for use in a sentence.
 std::string_view name_of(ImageFormat format);
 
-// The format that a file has by its first bytes, 512 of which are enough; none: it is no image.
-std::optional<ImageFormat> image_format_of(std::string_view bytes);
-
-// Whether the first bytes of a regular file are those of an image.
+// Returns whether a regular file begins like an image.
 bool is_image_file(const std::string& path);
 
 struct ImageReading {
   std::string channel;   // name in upper or lower case; empty: the first height channel, trace before retrace
-  bool confined = true;  // reads in a process that can open nothing; false: in this process, visible to a fuzzer
+  bool confined = true;  // reads in a process that cannot open anything; false: in this process, for a fuzzer
 };
 
-// An image as the file has it: nothing is levelled, and a number that is not finite is a NaN.
+// An image as in the file, without levelling; non-finite numbers become NaN.
 struct LoadedImage {
   ImageFormat format = ImageFormat::Gsf;
   physics::ScanImage image;           // all channels on the grid of the selected one
-  std::size_t chosen = 0;             // index of the channel that was asked for
-  std::vector<std::string> left_out;  // channels on other grids, by name
+  std::size_t chosen = 0;             // index of the requested channel
+  std::vector<std::string> left_out;  // names of channels on other grids
 };
 
-// BadInputFile, in one line that names the file, for whatever is not wholly understood: truncated, altered, larger than
-// 256 MiB or 8192 points a side, of another kind, without the channel. Takes at most 1 GiB.
+// BadInputFile, in one line that names the file, for any content that is not completely understood: truncated, altered,
+// larger than 256 MiB or 8192 points per side, of another kind, or without the channel. Takes at most 1 GiB.
 core::Result<LoadedImage> load_image(const std::string& path, const ImageReading& reading = {});
 
 // The same for the bytes of a file called `name`.

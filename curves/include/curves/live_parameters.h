@@ -11,31 +11,32 @@
 
 namespace afm::curves {
 
-// How far the wall shows a cycle above and below the undeformed surface, in units of the height at which the hand's
+// Range of a cycle on the wall above and below the undeformed surface, in units of the height at which the hand's
 // stroke ends.
 inline constexpr double kReachAbove = 1.42, kReachBelow = 0.42;
 double cycle_reach_m(const SampleModel& material);
 
-// A quantity of physics/quantity_text.h as people set it: "31.8 mJ/m²" for "31.8 mJ/m2".
+// A quantity of physics/quantity_text.h in correct typography: "31.8 mJ/m²" for "31.8 mJ/m2".
 std::string typographic(std::string text);
 
-// What a person can change of a material while it is felt, and what follows from it. Always a choice that has a force
-// curve: a step that would leave the laws' ranges changes nothing and says why.
+// The parameters of a material that a user may change while it is felt, and the resulting curve. Always valid: a step
+// that would leave the laws' ranges changes nothing and gives the reason.
 class LiveParameters {
  public:
   enum class Row { TipRadius, SpringConstant, Hamaker, WorkOfAdhesion, ReducedModulus, Law };
   static constexpr std::size_t kRows = 6;
 
-  // `loaded` is what the servo began with; its law is no recorded curve.
+  // `loaded` is the servo's initial model; its law must not be a recorded curve.
   explicit LiveParameters(const SampleModel& loaded);
 
-  // One step down (-1) or up (+1): a factor of the fourth root of two, or the next law. Whether anything changed.
+  // One step down (-1) or up (+1): a factor of the fourth root of two, or the next law. Returns whether anything
+  // changed.
   bool step(Row row, int direction);
 
-  // Back to what was loaded. Whether anything changed.
+  // Returns to the loaded parameters. Returns whether anything changed.
   bool reset();
 
-  // All that it is, beyond what was loaded: so that another machine has the same.
+  // Complete state, relative to the loaded model, for transfer to another machine.
   struct State {
     std::array<int, kRows> steps{};
     std::optional<Row> refused;  // row whose last step changed nothing
@@ -44,10 +45,10 @@ class LiveParameters {
     bool operator==(const State&) const = default;
   };
   State state() const { return {steps_, refused_, refused_direction_}; }
-  // False, and nothing changes: there are no such parameters.
+  // Returns false, without any change, if the state is invalid.
   bool restore(const State& state);
 
-  // As it would be felt now; its parameters are what the servo is to get.
+  // The model with the current parameters, which the caller sends to the servo.
   const SampleModel& model() const { return now_; }
 
   std::string value(Row row) const;                                           // includes the unit
@@ -59,11 +60,11 @@ class LiveParameters {
   const std::string& refusal() const { return refusal_; }      // why the last step changed nothing, or empty
 
  private:
-  // How far each row is from what was loaded; of the law, places in the list of laws.
+  // Number of steps of each row from the loaded value; for the law, places in the list of laws.
   using Steps = std::array<int, kRows>;
 
   static std::size_t index(Row row) { return static_cast<std::size_t>(row); }
-  std::optional<physics::Law> law_after(int steps) const;  // none: the adhesion map's
+  std::optional<physics::Law> law_after(int steps) const;  // empty: the adhesion map's
   bool take(const Steps& steps);
   bool try_step(Row row, int direction);
 

@@ -10,16 +10,15 @@
 
 namespace afm::curves {
 
-// A curve that an instrument recorded, as something that can be laid under the tip.
+// An instrument's curve as a material for the exhibit.
 struct MeasuredMaterial {
-  scene::MaterialEntry entry;  // named "measured"; titled as its file
+  scene::MaterialEntry entry;  // named "measured", with the file's name as title
   scene::SharedMeasuredCurve curve;
   physics::CurveFeatures features;  // as printed by `touchafm analyse`
 };
 
-// Reads any format of curves/curve_file.h. Lever and tip are those of `like` but for the spring constant, which the
-// file gives if it knows it; so is the look. Fails as load_curve() does, and with BadInputFile for a curve without
-// contact.
+// Reads any format of curves/curve_file.h. Lever, tip and look are those of `like`, except for a spring constant given
+// in the file. Fails as load_curve() does, and with BadInputFile for a curve without contact.
 core::Result<MeasuredMaterial> load_measured_material(const std::string& path, const scene::MaterialEntry& like);
 
 }  // namespace afm::curves

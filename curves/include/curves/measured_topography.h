@@ -16,7 +16,7 @@ struct TopographyReading {
   physics::Levelling levelling = physics::Levelling::Plane;
 };
 
-// An image of a file as it was measured, and levelled. The raw values stay in `file`.
+// An image from a file, levelled. `file` keeps the raw values.
 struct MeasuredTopography {
   std::string name;  // name of the file
   LoadedImage file;
@@ -28,19 +28,18 @@ struct MeasuredTopography {
   const physics::ImageChannel& channel() const { return file.image.channels[file.chosen]; }
 };
 
-// BadInputFile as load_image(), and where no point was measured.
+// BadInputFile as from load_image(), and if no point was measured.
 core::Result<MeasuredTopography> load_topography(const std::string& path, const TopographyReading& reading);
 
-// File, channels, size, mean, Sq and the levelling, a line each with its unit.
+// One line each for file, channels, size, mean, Sq and levelling, with units.
 std::string topography_text(const MeasuredTopography& topography);
 
 // The same in SI.
 nlohmann::ordered_json topography_json(const MeasuredTopography& topography);
 
-// The levelled heights as they are felt and drawn, 0 at the origin. They are the image's points one by one where its
-// pixels are square and no side has more than scene::kMaxTopographySide; else the image is resampled, the mean of
-// neighbours first. BadInputFile for a channel that is no height, larger than a scanner is, or smaller than
-// an atom.
+// The levelled heights to feel and draw, 0 at the origin. They are the image's points if its pixels are square and no
+// side exceeds scene::kMaxTopographySide; otherwise the image is averaged and resampled. BadInputFile for a channel
+// that is not a height, larger than any scanner's range, or smaller than an atom.
 core::Result<scene::Topography> felt_topography(const MeasuredTopography& topography);
 
 }  // namespace afm::curves

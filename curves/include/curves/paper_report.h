@@ -10,17 +10,17 @@
 
 namespace afm::curves {
 
-// The tables for people: printed, exact and measured in the run beside each other, what contact mechanics says of the
-// same samples, the figures, the section on the survey (Table 3) as given, the errata. `run` says which run measured:
-// "of the demo".
+// The tables for readers: printed, exact and measured values side by side, results of contact mechanics for the same
+// samples, the figures, the section on the survey (Table 3) as given, and the errata. `run` describes the run that
+// measured: "of the demo".
 std::string paper_markdown(const PaperTables& tables, const scene::MaterialLibrary& library, std::string_view run,
                            std::string_view survey);
 
-// The same for machines: SI, magnitudes.
+// The same in JSON: SI, magnitudes.
 std::string paper_json(const PaperTables& tables, const scene::MaterialLibrary& library,
                        const nlohmann::ordered_json& survey);
 
-// A line per number, in the table's unit.
+// One line per number, in the table's unit.
 std::string table1_csv(const PaperTables& tables);
 std::string table2_csv(const PaperTables& tables);
 

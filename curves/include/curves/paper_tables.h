@@ -13,7 +13,7 @@
 
 namespace afm::curves {
 
-// Something that the paper prints and its own equations do not give, or that a reader of its numbers must know.
+// A number in the paper that its own equations do not reproduce, or a note that readers of its numbers need.
 struct Erratum {
   std::string_view name;  // one or two words, used by tables
   std::string_view text;
@@ -21,7 +21,7 @@ struct Erratum {
 
 std::span<const Erratum> errata();
 
-// Number of the erratum in the list, counted from one; 0 for an empty name.
+// Number in the list of errata, from 1; 0 for an empty name.
 int erratum_number(std::string_view name);
 
 // One number of a table, in the table's unit; magnitudes.
@@ -35,10 +35,10 @@ struct TableCell {
   std::optional<double> measured;    // measured in the run, except for D_attr and delta_c
   std::optional<double> experiment;  // Table 2 only
   std::string printed_simulation;    // Table 2 only
-  std::string_view erratum;          // empty where printed and exact agree
+  std::string_view erratum;          // empty if printed and exact agree
 };
 
-// A row of Table 1 that is given, not computed: as the material file writes it.
+// A row of Table 1 with inputs, in the notation of the material file.
 struct InputRow {
   std::string name;
   std::vector<std::string> values;  // one per material
@@ -51,16 +51,16 @@ struct PaperTables {
   std::vector<TableCell> table2;  // ordered by material, then by quantity
 };
 
-// What a demo measured: magnitudes in SI by quantity ("F_attr") for each material.
+// Results of a demo: magnitudes in SI by quantity ("F_attr") for each material.
 using MeasuredEvents = std::map<std::string, std::map<std::string, double>>;
 
-// Reads a demo's summary.json. The error names the file and what is wrong in it.
+// Reads a demo's summary.json. The error names the file and the fault.
 core::Result<MeasuredEvents> load_measured_events(const std::string& path);
 
-// The same of a run of the model alone, which looks every 0.1 nm as a moving hand does.
+// The same from the model only, sampled every 0.1 nm like a moving hand.
 MeasuredEvents measured_events(const scene::MaterialLibrary& library);
 
-// The paper's Tables 1 and 2 beside our evaluation of its equations for the library's numbers. Fails if the library
+// The paper's Tables 1 and 2 next to our evaluation of its equations for the library's numbers. Fails if the library
 // lacks one of the paper's materials.
 core::Result<PaperTables> paper_tables(const scene::MaterialLibrary& library, const MeasuredEvents& measured);
 

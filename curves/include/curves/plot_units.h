@@ -3,7 +3,7 @@
 
 namespace afm::curves {
 
-// What panels and plots show in place of SI.
+// Units of panels and plots.
 inline constexpr double kNmPerM = 1e9;
 inline constexpr double kNnPerN = 1e9;
 inline constexpr double kAjPerJ = 1e18;

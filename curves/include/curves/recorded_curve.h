@@ -13,7 +13,7 @@
 
 namespace afm::curves {
 
-// What a file says about how its curve was made; an empty text or optional is what it does not say.
+// A file's information on how its curve was recorded; missing information is empty.
 struct CurveMetadata {
   std::optional<physics::Stiffness> spring_constant;
   std::optional<double> sensitivity_m_per_v;  // optical lever: deflection per volt ("InvOLS")
@@ -26,32 +26,32 @@ struct CurveMetadata {
   std::string date;      // YYYY-MM-DD
   std::string time;      // HH:MM:SS, local to the instrument
   std::string curve_id;  // identifies the curve
-  // What a computed curve was made from, and whatever else a file of ours says: keys with their units, "tip_radius_m".
+  // Inputs of a computed curve and other entries of TouchAFM's own files: keys with their units, "tip_radius_m".
   std::vector<std::pair<std::string, std::string>> parameters;
 };
 
-// One approach-retract cycle as any file or model gave it, in one convention: SI, force positive away from the sample,
-// height of the lever's base falling while the tip approaches (afmformats' "height (measured)"), all of the approach
-// before all of the retract, every number finite, at most kMostCurvePoints.
+// One approach-retract cycle from any file or model, in one convention: SI, force positive away from the sample, height
+// of the lever's base decreasing while the tip approaches (afmformats' "height (measured)"), the whole approach before
+// the retract, every number finite, at most kMostCurvePoints.
 struct RecordedCurve {
   std::vector<physics::CurvePoint> points;
-  std::vector<double> time_s;  // each point's time since the first, or empty if unknown
+  std::vector<double> time_s;  // time since the first point; empty if unknown
   CurveMetadata metadata;
 };
 
 inline constexpr std::size_t kMostCurvePoints = 4'000'000;
 
-// The software of curves that were computed, not measured.
+// Software name in curves that were computed, not measured.
 inline constexpr const char* kComputedBy = "TouchAFM";
 
-// A model's curve with the lever that it was made for.
+// A model's curve with the lever for which it was computed.
 RecordedCurve recorded_curve(const physics::ForceCurve& curve, physics::Stiffness spring_constant);
 
-// Adds "key: value", made fit for one line of text; anything else, what is longer than 2000 characters or 32 KiB
-// together with the others, and the 201st are passed over.
+// Adds a "key: value" line with unprintable characters replaced. Ignores any other text, a line of more than 2000
+// characters, lines beyond 32 KiB in total, and those after the 200th.
 void add_parameter(std::string_view line, CurveMetadata& metadata);
 
-// The value of a parameter that is a number.
+// The value of a numeric parameter; empty if it is not a number.
 std::optional<double> number_of(std::string_view value);
 
 }  // namespace afm::curves

@@ -16,12 +16,12 @@
 
 namespace afm::curves {
 
-// A material as it is felt and shown: what the files and the command line say of it, the parameters that hold now, the
-// law that they are given, and what that comes to. Made again for other parameters; cheap to copy.
+// A material as it is felt and shown: its entries in files and on the command line, the current parameters, the
+// resulting law and the derived figures. A new one is created for other parameters; cheap to copy.
 struct SampleModel {
   ContactSetup setup;                                // as loaded
   scene::SharedContact parameters;                   // parameters for the servo
-  physics::LawChoice contact;                        // its place on the adhesion map, and the law that suits it
+  physics::LawChoice contact;                        // position on the adhesion map, and the law that suits it
   std::shared_ptr<const physics::LawTables> tables;  // dynamic lever: tables of the same lever at rest
   haptics::Scaling scaling;                          // Fit, on the simulated hand
 
@@ -29,17 +29,17 @@ struct SampleModel {
   bool dynamic() const { return parameters.dynamic != 0; }
 };
 
-// Takes milliseconds. Fails with one line that names the material if it has no such law, or cannot be felt.
+// Takes milliseconds. Fails with one line that names the material if no such law exists for it or it cannot be felt.
 core::Result<SampleModel> make_sample_model(const ContactSetup& setup);
 
-// The same sample with other numbers, by which the law is chosen again where that was asked for.
+// The same sample with other numbers. Chooses the law again if that is automatic.
 core::Result<SampleModel> make_sample_model(const SampleModel& material, const ContactSetup& changed);
 
-// With exactly these parameters, as a session recorded them; `curves` as in SharedModel.
+// With exactly these parameters, as recorded in a session; `curves` as in SharedModel.
 core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry, const scene::SharedContact& parameters,
                                             std::span<const scene::SharedMeasuredCurve> curves);
 
-// The recorded curve `curves[index]`; `entry` says what is known of its lever.
+// The recorded curve `curves[index]`; `entry` describes its lever as far as known.
 core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry,
                                             std::span<const scene::SharedMeasuredCurve> curves, std::uint32_t index);
 

@@ -20,15 +20,15 @@ struct SvgLine {
   std::string label;  // legend entry; empty: none
   std::string color;  // CSS colour
   LineStyle style = LineStyle::Solid;
-  std::vector<SvgPoint> points;  // a point that is not finite breaks the line
+  std::vector<SvgPoint> points;  // the line breaks at a point that is not finite
 };
 
-// A dot on the plot with a text beside it, or a text alone.
+// A dot on the plot with a text next to it, or only a text.
 struct SvgMark {
   SvgPoint at;
-  std::string text;  // empty for the dot alone
+  std::string text;  // empty: only the dot
   std::string color;
-  enum class Side { Left, Right, Above, Below, Centre } side = Side::Right;  // Centre: the text in the place of the dot
+  enum class Side { Left, Right, Above, Below, Centre } side = Side::Right;  // Centre: the text instead of the dot
 };
 
 enum class AxisScale { Linear, Logarithmic };
@@ -39,24 +39,24 @@ struct SvgPlot {
   std::string y_label;  // includes the unit
   std::vector<SvgLine> lines;
   std::vector<SvgMark> marks;
-  AxisScale x_scale = AxisScale::Linear;  // on a logarithmic axis, values <= 0 break the line
+  AxisScale x_scale = AxisScale::Linear;  // logarithmic: the line breaks at values <= 0
   AxisScale y_scale = AxisScale::Linear;
   char decimal_mark = '.';
   int width = 960;
   int height = 600;
 };
 
-// Colours that people with any colour vision can tell apart (Okabe & Ito 2008), dark enough for a white ground;
+// Colours that people with any colour vision can distinguish (Okabe & Ito 2008), dark enough for a white background;
 // repeats.
 std::string_view distinct_color(std::size_t index);
 
-// The points needed to draw the line within `tolerance` of where all of them would (Ramer 1972, Douglas & Peucker
-// 1973); the first, the last and the extremes of both coordinates always stay.
+// The points needed to draw the line within `tolerance` of the original (Ramer 1972, Douglas & Peucker 1973). Always
+// keeps the first, the last and the extremes of both coordinates.
 std::vector<SvgPoint> simplified(std::span<const SvgPoint> points, double tolerance);
 
-// One <svg> element with its own size, axes at round numbers or powers of ten, and both zero lines. It may stand in
-// HTML or, since it names its namespace, in a file of its own. Lines are thinned to a tenth of a pixel. An empty plot
-// has axes from 0 to 1.
+// One <svg> element with a size, axes at round numbers or powers of ten, and both zero lines, for use in HTML or, since
+// it has its namespace, as a separate file. Lines are simplified to a tenth of a pixel. An empty plot has axes from 0
+// to 1.
 std::string svg(const SvgPlot& plot);
 
 // Several plots below each other in one such element.

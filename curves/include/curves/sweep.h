@@ -13,7 +13,7 @@
 
 namespace afm::curves {
 
-// One number that takes `count` values from `from` to `to`, both included.
+// A parameter with `count` values from `from` to `to`, both included.
 struct SweepAxis {
   const ContactParameter* parameter = nullptr;
   double from = 0.0;  // SI
@@ -24,37 +24,37 @@ struct SweepAxis {
   double value(std::uint64_t index) const;
 };
 
-// What a sweep may hold; more is taken for a slip.
+// Largest number of points of a sweep. A larger number is probably a mistake.
 inline constexpr std::uint64_t kLargestParameterSweep = 1'000'000;
 
-// Reads "spring-constant=0.01N/m:1N/m:50", with ":log" behind it for equal ratios. WrongUsage quotes the text and says
-// what is wrong; the caller knows its option.
+// Parses "spring-constant=0.01N/m:1N/m:50", with ":log" at the end for equal ratios. WrongUsage quotes the text and
+// explains the fault; the caller adds the option's name.
 core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelName& model);
 
-// The results of one cycle at one point of a sweep; forces signed. Without hysteresis the jumps are null.
+// Results of one cycle at one point of a sweep; forces signed. Without hysteresis the jumps are null.
 struct SweepRow {
   std::array<double, 2> at{};  // SI, by axis
   std::string model;
-  std::string regime;  // empty, with NaN for the two below, where the contact has no place on the map
+  std::string regime;  // empty, and the two below NaN, if the contact has no position on the map
   double tabor = 0.0;
   double maugis = 0.0;
-  double snap_in_z_m = 0.0;  // NaN without a jump to contact, and so the next two
+  double snap_in_z_m = 0.0;  // NaN without a jump to contact, as are the next two
   double snap_in_force_before_n = 0.0;
   double snap_in_force_after_n = 0.0;
-  double pull_off_z_m = 0.0;  // NaN without a jump off contact, and so the next
+  double pull_off_z_m = 0.0;  // NaN without a jump off contact, as is the next
   double pull_off_force_n = 0.0;
   double loop_energy_j = 0.0;
-  double critical_stiffness_n_per_m = 0.0;  // infinite where hysteresis never vanishes
-  std::string refusal;                      // why these values have no such curve; then nothing else is known
+  double critical_stiffness_n_per_m = 0.0;  // infinite if the hysteresis never vanishes
+  std::string refusal;                      // reason why these values have no such curve; all others are then unknown
 };
 
-// Every point of one axis or of the grid of two, the last axis running fastest, over all cores. The rows are in the
-// grid's order whatever the threads did. Dynamic models record a curve at each point, with the path's step and speed;
-// the others need none. Logs its progress if it takes longer than a second. Fails if no point has a curve.
+// Computes every point of one axis or of the grid of two, the last axis running fastest, on all cores. The rows are
+// always in the grid's order. Dynamic models record a curve at each point, with the path's step and speed. Logs its
+// progress if it takes longer than a second. Fails if no point has a curve.
 core::Result<std::vector<SweepRow>> run_sweep(const ContactSetup& setup, const std::vector<SweepAxis>& axes,
                                               const PathOptions& path);
 
-// CSV in SI: a # header with every number that is not swept, then one line a point.
+// CSV in SI: a # header with every number that is not swept, then one line per point.
 std::string sweep_csv(const ContactSetup& setup, const std::vector<SweepAxis>& axes, const std::vector<SweepRow>& rows);
 nlohmann::ordered_json sweep_json(const ContactSetup& setup, const std::vector<SweepAxis>& axes,
                                   const std::vector<SweepRow>& rows);

@@ -7,11 +7,11 @@
 
 namespace afm::curves {
 
-// The curve's metadata under the keys of afmformats, whose list is closed. A value is a text or a number in SI.
+// The curve's metadata under the keys of afmformats, which accepts no others. A value is a text or a number in SI.
 nlohmann::ordered_json afmformats_metadata(const RecordedCurve& curve);
 
-// Takes what is known from a JSON object; other keys are passed over. Throws CurveError for an imaging mode that is no
-// force-distance curve and for a known key with a value of another kind.
+// Reads the known keys of a JSON object and ignores all others. Throws CurveError for an imaging mode that is not a
+// force-distance curve and for a value of the wrong type.
 void read_afmformats_metadata(const nlohmann::json& from, CurveMetadata& metadata);
 
 }  // namespace afm::curves

@@ -34,10 +34,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// more than the largest curve takes as text
+// more than the text of the largest curve
 constexpr std::size_t kMostResultBytes = std::size_t{1} << 30U;
 
-// Until the other end is closed. Empty: not before `end`, or too much.
+// Reads until the other end is closed. Empty if that does not happen before `end`, or the data are too long.
 std::optional<std::string> read_all(int descriptor, Clock::time_point end) {
   std::string bytes;
   char buffer[65536];
@@ -53,7 +53,7 @@ std::optional<std::string> read_all(int descriptor, Clock::time_point end) {
   }
 }
 
-// Whether the child has ended, and how.
+// Waits for the child's end until `end`; returns whether it ended, and its status.
 bool ended_by(Clock::time_point end, pid_t child, int& status) {
   while (::waitpid(child, &status, WNOHANG) != child) {
     if (Clock::now() > end) return false;
@@ -62,7 +62,7 @@ bool ended_by(Clock::time_point end, pid_t child, int& status) {
   return true;
 }
 
-// What the parent has open is not the child's, but for these, in their order. stderr stays, for a sanitizer's report.
+// Closes all inherited descriptors except these and stderr, which a sanitizer needs for its report.
 void keep_only(std::initializer_list<int> descriptors) {
   unsigned first = 0;
   for (const int kept : descriptors) {
@@ -86,8 +86,8 @@ ChildExit work_confined(const std::function<std::string()>& work, int to_parent)
   }
 }
 
-// What `child`, given the descriptor that leads to the parent, writes there in a forked process. Neither the parent's
-// destructors nor its buffers are the child's to run or flush.
+// Forks a process that runs `child_work`, and returns what it writes to the given descriptor. The child neither runs
+// the parent's destructors nor flushes its buffers.
 std::string result_of(const std::function<ChildExit(int to_parent)>& child_work, const std::string& on_death,
                       std::chrono::milliseconds patience) {
   int ends[2];
@@ -99,7 +99,7 @@ std::string result_of(const std::function<ChildExit(int to_parent)>& child_work,
   if (child < 0) throw std::runtime_error(std::string("cannot start a process: ") + core::system_error(errno));
   if (child == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const bool orphan = ::getppid() != parent;  // it died before
+    const bool orphan = ::getppid() != parent;  // the parent died earlier
     ::_exit(static_cast<int>(orphan ? ChildExit::Failed : child_work(to_parent.get())));
   }
   to_parent.close();
@@ -118,7 +118,7 @@ std::string result_of(const std::function<ChildExit(int to_parent)>& child_work,
   throw CurveError(on_death);
 }
 
-// The program of that name.
+// Path of the program with that name.
 std::string find_program(const std::string& name) {
   std::error_code error;
   const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
@@ -128,7 +128,7 @@ std::string find_program(const std::string& name) {
   throw std::runtime_error(fmt::format("{} is missing beside touchafm: build it, or install TouchAFM again", name));
 }
 
-// A file without a name, at its beginning.
+// An anonymous file with these bytes, positioned at its beginning.
 core::FileDescriptor unnamed_file(std::string_view bytes) {
   core::FileDescriptor file(::memfd_create("touchafm-curve", MFD_CLOEXEC));
   const int error = !file.is_open() ? errno : core::write_all(file.get(), bytes);
@@ -148,7 +148,7 @@ std::string in_confined_child(const std::function<std::string()>& work, const st
 std::string from_confined_program(const std::string& name, const std::vector<std::string>& arguments,
                                   std::string_view input, const std::string& on_death,
                                   std::chrono::milliseconds patience) {
-  // all that needs memory comes before the fork
+  // allocates everything before the fork
   std::string program = find_program(name);
   std::vector<std::string> all = arguments;
   std::vector<char*> raw{program.data()};

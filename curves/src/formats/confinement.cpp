@@ -29,8 +29,8 @@ namespace {
 constexpr rlim_t kMoreMemory = rlim_t{512} << 20U;
 constexpr rlim_t kMoreSeconds = 3;
 
-// Memory, time, threads' waiting, what is open already, and the end. A pipe to itself leads nowhere: by one UBSan asks
-// whether an address may be read.
+// Calls for memory, time, waiting threads, open descriptors, and exit. A pipe within the process is harmless; UBSan
+// uses one to test whether an address is readable.
 constexpr std::array kAllowedCalls{
     __NR_read,         __NR_write,          __NR_readv,        __NR_writev,        __NR_pread64,
     __NR_lseek,        __NR_close,          __NR_fstat,        __NR_newfstatat,    __NR_mmap,
@@ -58,7 +58,7 @@ constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
 }
 
 void limit_resources() {
-  // in pages; the limit is relative, because a sanitizer maps terabytes to begin with
+  // in pages; relative, because a sanitizer has mapped terabytes already
   rlim_t mapped = 0;
   std::ifstream("/proc/self/statm") >> mapped;
   const rlim_t memory = mapped * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + kMoreMemory;
@@ -73,8 +73,7 @@ void limit_resources() {
   }
 }
 
-// Every right of Landlock's first version is handled and none is given (Linux,
-// Documentation/userspace-api/landlock.rst).
+// Handles every right of Landlock's first version and grants none (Linux, Documentation/userspace-api/landlock.rst).
 void close_files() {
   landlock_ruleset_attr none{};
   none.handled_access_fs = (LANDLOCK_ACCESS_FS_MAKE_SYM << 1U) - 1U;
@@ -87,8 +86,8 @@ void close_files() {
   if (::syscall(SYS_landlock_restrict_self, rules.get(), 0) != 0) refuse("landlock_restrict_self");
 }
 
-// Any other call gives EPERM: libraries then report an error of their own, which a signal would not let them
-// (Linux, Documentation/userspace-api/seccomp_filter.rst).
+// Any other call fails with EPERM, so that libraries can report an error, which a signal would prevent (Linux,
+// Documentation/userspace-api/seccomp_filter.rst).
 void close_calls() {
   std::vector<sock_filter> filter{
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, arch)),

@@ -3,9 +3,10 @@
 
 namespace afm::curves {
 
-// For the rest of the process's life: at most half a GiB of memory and three seconds of processor time more than now;
-// no file, socket or process opened, by Landlock and by a seccomp filter, where the kernel has them. What is open stays
-// open. Throws std::runtime_error if a limit cannot be set, or if a kernel that has Landlock or seccomp refuses it.
+// Limits this process until its end: at most half a GiB of memory and three seconds of processor time more than now,
+// and no opening of files, sockets or processes, by Landlock and a seccomp filter if the kernel has them. Open
+// descriptors stay open. Throws std::runtime_error if a limit cannot be set, or if a kernel that has Landlock or
+// seccomp refuses it.
 void confine_this_process();
 
 }  // namespace afm::curves

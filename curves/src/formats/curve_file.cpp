@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "core/enumerators.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
 #include "formats/confined_child.h"
+#include "formats/format_table.h"
 #include "formats/igor_file.h"
 #include "formats/igor_wave.h"
 #include "formats/jpk_file.h"
@@ -26,16 +26,13 @@ namespace afm::curves {
 namespace {
 
 constexpr const char* kHdf5Program = "touchafm-hdf5";
-constexpr const char* kNotSurvived = "it is damaged: its reader could not survive it";
-constexpr std::uintmax_t kLargestCurveBytes = std::uintmax_t{256} << 20U;
-
 constexpr std::size_t kLongestHeading = 65536;
 
 bool begins_as_tab(std::string_view bytes) {
   return bytes.starts_with("#") && bytes.substr(0, kLongestHeading).find("# BEGIN METADATA") != std::string_view::npos;
 }
 
-// Handed over in the format that holds the same and has a reader of our own.
+// Transfers the curve in a format of the same content that has a reader here.
 RecordedCurve read_hdf5(std::string_view bytes, const CurveReading& reading) {
   return read_tab(from_confined_program(kHdf5Program, {"read", std::to_string(reading.index)}, bytes, kNotSurvived));
 }
@@ -43,48 +40,43 @@ std::string hdf5_bytes(const RecordedCurve& curve) {
   return from_confined_program(kHdf5Program, {"write"}, tab_bytes(curve), "HDF5 could not make it");
 }
 
-enum class Reader { Ours, Foreign };  // Foreign: reads what others' programs write, in a confined child
+enum class Reader { Ours, Foreign };  // Foreign: formats of other programs, read in a confined child
 
 struct CurveRow {
   CurveFormat format;
-  std::string_view files;  // as kCurveFiles lists them
-  std::string_view word;   // after --format; empty: read only
+  std::string_view files;  // as listed in kCurveFiles
+  std::string_view word;   // value of --format; empty: read only
   bool (*begins)(std::string_view bytes);
   Reader reader;
-  bool several;  // curves in one file
+  bool several;  // files may contain several curves
   RecordedCurve (*read)(std::string_view bytes, const CurveReading& reading);
   std::string (*write)(const RecordedCurve& curve);  // null: read only
+  bool binary = false;                               // no text for a terminal
 };
 
-constexpr std::array kCurveRows{
-    CurveRow{CurveFormat::TouchAfmCsv, "TouchAFM .csv", "",
-             [](std::string_view b) { return b.starts_with("# TouchAFM force-displacement curve"); }, Reader::Ours,
-             false, [](std::string_view b, const CurveReading&) { return read_touchafm_csv(b); }, nullptr},
-    CurveRow{CurveFormat::Tab, "afmformats .tab", "tab", begins_as_tab, Reader::Ours, false,
-             [](std::string_view b, const CurveReading&) { return read_tab(b); }, tab_bytes},
-    CurveRow{CurveFormat::Hdf5, ".h5", "h5", [](std::string_view b) { return b.starts_with("\x89HDF\r\n\x1a\n"); },
-             Reader::Ours, true, read_hdf5, hdf5_bytes},
-    CurveRow{CurveFormat::JpkForce, "JPK .jpk-force", "",
-             [](std::string_view b) { return b.starts_with("PK\x03\x04"); }, Reader::Foreign, false, read_jpk, nullptr},
-    CurveRow{CurveFormat::AfmWorkshop, "AFM Workshop .csv", "afm-workshop",
-             [](std::string_view b) { return b.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos; },
-             Reader::Foreign, false, read_workshop, workshop_bytes},
-    CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", looks_like_igor, Reader::Foreign, false,
-             [](std::string_view b, const CurveReading&) { return read_igor(b); }, nullptr}};
-static_assert(core::has_row_for_each(kCurveRows, &CurveRow::format));
-static_assert(std::all_of(kCurveRows.begin(), kCurveRows.end(),
-                          [](const CurveRow& row) {
-                            return std::string_view(kCurveFiles).find(row.files) != std::string_view::npos;
-                          }),
-              "kCurveFiles names the files of every format");
+constexpr FormatTable kCurves{
+    "curve", kCurveFiles, kLongestHeading,
+    std::array{
+        CurveRow{CurveFormat::TouchAfmCsv, "TouchAFM .csv", "",
+                 [](std::string_view b) { return b.starts_with("# TouchAFM force-displacement curve"); }, Reader::Ours,
+                 false, [](std::string_view b, const CurveReading&) { return read_touchafm_csv(b); }, nullptr},
+        CurveRow{CurveFormat::Tab, "afmformats .tab", "tab", begins_as_tab, Reader::Ours, false,
+                 [](std::string_view b, const CurveReading&) { return read_tab(b); }, tab_bytes},
+        CurveRow{CurveFormat::Hdf5, ".h5", "h5", [](std::string_view b) { return b.starts_with("\x89HDF\r\n\x1a\n"); },
+                 Reader::Ours, true, read_hdf5, hdf5_bytes, true},
+        CurveRow{CurveFormat::JpkForce, "JPK .jpk-force", "",
+                 [](std::string_view b) { return b.starts_with("PK\x03\x04"); }, Reader::Foreign, false, read_jpk,
+                 nullptr},
+        CurveRow{
+            CurveFormat::AfmWorkshop, "AFM Workshop .csv", "afm-workshop",
+            [](std::string_view b) { return b.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos; },
+            Reader::Foreign, false, read_workshop, workshop_bytes},
+        CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", looks_like_igor, Reader::Foreign, false,
+                 [](std::string_view b, const CurveReading&) { return read_igor(b); }, nullptr}}};
+static_assert(core::has_row_for_each(kCurves.rows, &CurveRow::format));
+static_assert(kCurves.names_all(), "kCurveFiles names the files of every format");
 
-const CurveRow* row_of_curve(std::string_view bytes) {
-  const auto found =
-      std::find_if(kCurveRows.begin(), kCurveRows.end(), [&](const CurveRow& row) { return row.begins(bytes); });
-  return found != kCurveRows.end() ? &*found : nullptr;
-}
-
-// Forces that the file gives in newtons scale with a calibration that replaces the one they were made with.
+// Forces given in newtons scale with a calibration that replaces the original one.
 void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
   CurveMetadata& made = curve.metadata;
   double factor = 1.0;
@@ -97,15 +89,7 @@ void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
   if (reading.sensitivity_m_per_v) made.sensitivity_m_per_v = reading.sensitivity_m_per_v;
 }
 
-RecordedCurve read(std::string_view bytes, const CurveReading& reading) {
-  const CurveRow* row = row_of_curve(bytes);
-  if (row == nullptr) throw CurveError(fmt::format("it is no curve of a known kind; known are {}", kCurveFiles));
-  if (reading.index != 0 && !row->several) throw CurveError("it holds one curve alone");
-  if (row->reader == Reader::Ours || !reading.confined) return row->read(bytes, reading);
-  return read_tab(in_confined_child([&] { return tab_bytes(row->read(bytes, reading)); }, kNotSurvived));
-}
-
-// What every curve is, wherever it came from.
+// Checks the requirements on any curve.
 void check(RecordedCurve& curve) {
   constexpr double kHighest_m = 1.0, kStrongest_n = 1.0, kStiffest_n_per_m = 1e6;
   if (curve.points.size() < physics::kFewestApproachPoints) {
@@ -127,7 +111,7 @@ void check(RecordedCurve& curve) {
   if (!is_approach(curve.points.front())) throw CurveError("it has no approach");
 }
 
-// The texts go to terminals and into lines of files; the parameters are printable already.
+// Makes the texts safe for terminals and lines of files; the parameters are printable already.
 void make_texts_printable(CurveMetadata& metadata) {
   for (std::string* text : {&metadata.instrument, &metadata.software, &metadata.software_version, &metadata.date,
                             &metadata.time, &metadata.curve_id}) {
@@ -137,54 +121,41 @@ void make_texts_printable(CurveMetadata& metadata) {
 
 }  // namespace
 
-std::optional<CurveFormat> writable_format(std::string_view name) {
-  for (const CurveRow& row : kCurveRows) {
-    if (row.write != nullptr && row.word == name) return row.format;
+std::vector<WritableFormat> writable_formats() {
+  std::vector<WritableFormat> formats;
+  for (const CurveRow& row : kCurves.rows) {
+    if (row.write != nullptr) formats.push_back({row.format, row.word, row.binary});
   }
-  return std::nullopt;
+  return formats;
 }
 
-bool is_curve_file(const std::string& path) {
-  const auto beginning = core::read_beginning(path, kLongestHeading);
-  return beginning && row_of_curve(*beginning) != nullptr;
-}
+bool is_curve_file(const std::string& path) { return kCurves.has(path); }
 
 core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReading& reading) {
-  std::error_code missing;
-  if (const auto size = std::filesystem::file_size(path, missing); !missing && size > kLargestCurveBytes) {
-    return core::failure(core::ErrorCategory::BadInputFile,
-                         fmt::format("cannot read {}: it is larger than {} MiB", path, kLargestCurveBytes >> 20U));
-  }
-  const auto bytes = core::read_file(path);
+  const auto bytes = bytes_of_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_curve(*bytes, path, reading);
 }
 
 core::Result<RecordedCurve> parse_curve(std::string_view bytes, const std::string& name, const CurveReading& reading) {
-  const auto bad = [&](const char* why) {
-    return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot read the curve {}: {}", name, why));
-  };
-  try {
-    RecordedCurve curve = read(bytes, reading);
+  return kCurves.parse(bytes, name, [&](const CurveRow& row) {
+    if (reading.index != 0 && !row.several) throw CurveError("it holds one curve alone");
+    const bool confined = row.reader == Reader::Foreign && reading.confined;
+    RecordedCurve curve = read_confined(confined, [&] { return row.read(bytes, reading); }, tab_bytes, read_tab);
     recalibrate(reading, curve);
     check(curve);
     make_texts_printable(curve.metadata);
     return curve;
-  } catch (const CurveError& fault) {
-    return bad(fault.what());
-  } catch (const nlohmann::json::exception&) {
-    return bad("its metadata is no valid JSON");
-  } catch (const std::bad_alloc&) {
-    return bad("there is too little memory for it");
-  } catch (const std::runtime_error& fault) {
-    return bad(fault.what());
-  }
+  });
 }
 
 core::Result<std::string> curve_bytes(CurveFormat format, const RecordedCurve& curve) {
-  const CurveRow& row = kCurveRows[core::index_of(format)];
+  const CurveRow& row = kCurves.rows[core::index_of(format)];
   if (row.write == nullptr) {
-    return core::failure(core::ErrorCategory::WrongUsage, "curves are written as tab, h5 or afm-workshop alone");
+    std::vector<std::string_view> words;
+    for (const WritableFormat& known : writable_formats()) words.push_back(known.word);
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("curves are written only as {}", fmt::join(words, ", ")));
   }
   try {
     return row.write(curve);

@@ -8,7 +8,7 @@
 
 #include "curves/curve_error.h"
 
-// Numbers and parts of a file that is held in memory; what lies beyond its end is an error, never a read.
+// Numbers and parts of a file in memory. Access beyond its end is an error and reads nothing.
 namespace afm::curves {
 
 inline std::string_view part(std::string_view bytes, std::size_t offset, std::size_t size) {
@@ -16,7 +16,7 @@ inline std::string_view part(std::string_view bytes, std::size_t offset, std::si
   return bytes.substr(offset, size);
 }
 
-// The number of type T at `offset`, which the file holds in this order of bytes.
+// The number of type T at `offset`, stored in this byte order.
 template <class T>
 T number_at(std::string_view bytes, std::size_t offset, std::endian order = std::endian::little) {
   const std::string_view there = part(bytes, offset, sizeof(T));

@@ -15,7 +15,7 @@ namespace afm::curves {
 
 namespace {
 
-// Asylum's program adds a text that ends with its own length and kind, "0292 Force".
+// Asylum's program appends a text that ends with its own length and kind, "0292 Force".
 void check_curve_trailer(std::string_view trailer) {
   if (trailer.empty()) return;
   std::size_t letters = 0, digits = 0;

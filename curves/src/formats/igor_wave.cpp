@@ -20,12 +20,12 @@ constexpr std::size_t kWaveSize = 4, kFormulaSize = 8, kNoteSize = 12, kDataUnit
                       kLabelSize = 32, kUnitSize = 4;
 constexpr std::size_t kOldHeaders = 126;  // BinHeader2 and WaveHeader2
 
-// The order in which the version, a small number, is one.
+// The byte order in which the version is a small number.
 std::endian order_of(std::string_view bytes) {
   return number_at<std::uint16_t>(bytes, 0) < 0x100 ? std::endian::little : std::endian::big;
 }
 
-// Zero for headers that are whole.
+// Zero for undamaged headers.
 std::uint16_t sum_of_words(std::string_view headers, std::endian order) {
   std::uint16_t sum = 0;
   for (std::size_t i = 0; i + 1 < headers.size(); i += 2) {
@@ -34,7 +34,7 @@ std::uint16_t sum_of_words(std::string_view headers, std::endian order) {
   return sum;
 }
 
-// A length in the file, which Igor holds as a signed number.
+// A length in the file, stored as a signed number.
 std::size_t length_at(std::string_view bytes, std::size_t offset) {
   const auto value = number_at<std::int32_t>(bytes, offset, order_of(bytes));
   if (value < 0) throw CurveError("it is damaged: a length in its header is negative");
@@ -57,7 +57,7 @@ void check_header(std::string_view bytes) {
   if (sum_of_words(part(bytes, 0, kData), order) != 0) throw CurveError("the checksum of its header is wrong");
 }
 
-// A plain matrix: two dimensions, and no labels that would make the columns of the second one channels.
+// A plain matrix: two dimensions, without labels that would make the columns of the second one channels.
 bool is_matrix(std::string_view bytes) {
   return length_at(bytes, kDimensions + 4) > 0 && length_at(bytes, kDimensions + 8) == 0 &&
          length_at(bytes, kDimLabelsSizes + 4) == 0;
@@ -82,7 +82,7 @@ void read_data(std::string_view bytes, IgorWave& wave) {
     default:
       throw CurveError("its numbers are neither 32-bit nor 64-bit floats");
   }
-  // the file itself bounds them, so that the products below cannot overflow
+  // limited by the file's size, so that the products below cannot overflow
   const std::size_t layers = std::max<std::size_t>(wave.layers, 1);
   if (wave.rows > bytes.size() || wave.columns > bytes.size() / wave.rows ||
       layers > bytes.size() / (wave.rows * wave.columns)) {
@@ -114,11 +114,11 @@ IgorWave read_igor_wave(std::string_view bytes) {
   wave.note = part(bytes, offset, note_size);
   offset += note_size + length_at(bytes, kDataUnitsSize);
   for (std::size_t i = 0; i < 4; ++i) offset += length_at(bytes, kDimUnitsSizes + 4 * i);
-  // the labels of the channels' dimension, behind those of the dimensions before it
+  // labels of the channels' dimension, after those of the dimensions before it
   const std::size_t dimension = wave.layers > 0 ? 2 : 1;
   for (std::size_t i = 0; i < dimension; ++i) offset += length_at(bytes, kDimLabelsSizes + 4 * i);
   const std::string_view labels = part(bytes, offset, length_at(bytes, kDimLabelsSizes + 4 * dimension));
-  // the first label is the dimension's own
+  // the first label is that of the dimension itself
   for (std::size_t i = kLabelSize; i + kLabelSize <= labels.size(); i += kLabelSize) {
     const std::string_view label = labels.substr(i, kLabelSize);
     wave.labels.push_back(label.substr(0, label.find('\0')));

@@ -33,7 +33,7 @@ Linear linear_at(const JpkProperties& properties, const std::string& prefix) {
   return {*offset, *multiplier};
 }
 
-// How the integers of one channel lie in its file.
+// Storage of a channel's integers in its file.
 struct Encoding {
   std::size_t bytes;
   bool is_signed;
@@ -65,7 +65,7 @@ class Segment {
 
   bool has(std::string_view channel) const { return archive_.holds(data_file(channel)); }
 
-  // The channel's values converted to a slot: "volts", or what the chain of conversions leads to.
+  // The channel's values converted to a slot: "volts", or the result of the chain of conversions.
   std::vector<double> values(std::string_view channel, const std::string& slot, const CurveReading& reading) const {
     const std::string prefix = fmt::format("channel.{}", channel);
     const auto encoder = [&](const char* key) {
@@ -90,7 +90,7 @@ class Segment {
     return result;
   }
 
-  // The multiplier of a conversion of the deflection, if it is defined: the lever's calibration.
+  // The factor of a conversion of the deflection, if it is defined: the lever's calibration.
   std::optional<double> calibration(const std::string& slot) const {
     return properties_.number("channel.vDeflection.conversion-set.conversion." + slot + ".scaling.multiplier");
   }
@@ -102,7 +102,7 @@ class Segment {
     return properties_.text(prefix + ".conversion-set.conversions.base").value_or("volts");
   }
 
-  // From the slot back to the base. A given calibration replaces the file's.
+  // The chain from the slot back to the base. A given calibration replaces the file's.
   std::vector<Linear> conversions(const std::string& prefix, const std::string& base, std::string slot,
                                   const CurveReading& reading) const {
     std::vector<Linear> steps;
@@ -161,7 +161,7 @@ void add_segment(const Segment& segment, physics::Branch branch, const CurveRead
   }
 }
 
-// A rest as long as the way down is an experiment on its own, whose retract says what the sample has become by then.
+// Rejects a pause as long as the approach, after which the retract measures the changed sample.
 void check_pause(const Segment& pause, double approach_s) {
   const double rest_s = pause.properties().number("force-segment-header.duration").value_or(0.0);
   if (approach_s <= 0.0 || rest_s < approach_s) return;

@@ -8,10 +8,10 @@
 
 namespace afm::curves {
 
-// JPK's .jpk-force: a zip archive with a folder a segment, in it a .properties file and a raw file of big-endian
-// integers a channel. An encoder turns the integers into volts and a chain of linear conversions these into metres and
-// newtons. Segments of a pause are passed over. Maps and QI files, which hold many curves, are refused by name.
-// Throws CurveError.
+// JPK's .jpk-force: a zip archive with a folder for each segment, which contains a .properties file and a raw file of
+// big-endian integers for each channel. An encoder converts the integers to volts and a chain of linear conversions
+// these to metres and newtons. Ignores pause segments. Rejects maps and QI files, which contain many curves, with their
+// names. Throws CurveError.
 RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading);
 
 }  // namespace afm::curves

@@ -12,16 +12,16 @@ namespace afm::curves {
 // The key=value lines of JPK's .properties files (Java's, without line continuation, which JPK does not write).
 class JpkProperties {
  public:
-  // Adds to what is there; what is said again is said last.
+  // Adds properties; a later value replaces an earlier one.
   void add(std::string_view text);
 
-  // Newer files keep what segments share in one place: for "channel.height.lcd-info.*=2" all that `shared` has beneath
-  // "lcd-info.2." appears beneath "channel.height.".
+  // Newer files store the segments' common properties in one place: for "channel.height.lcd-info.*=2" everything in
+  // `shared` below "lcd-info.2." is added below "channel.height.".
   void take_shared(const JpkProperties& shared);
 
   std::optional<std::string> text(std::string_view key) const;
 
-  // Throws CurveError if it is there and no finite number.
+  // Throws CurveError if it exists but is not a finite number.
   std::optional<double> number(std::string_view key) const;
 
  private:

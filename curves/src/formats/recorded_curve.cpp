@@ -23,7 +23,7 @@ void add_parameter(std::string_view line, CurveMetadata& metadata) {
   const std::size_t colon = line.find(": ");
   if (colon == std::string_view::npos || line.size() > kLongest || metadata.parameters.size() == kMostParameters)
     return;
-  // with room for the rest of a heading in what a format is known by
+  // leaves room for the rest of a heading within the bytes by which a format is detected
   constexpr std::size_t kLongestOfAll = 32768;
   std::size_t all = line.size();
   for (const auto& parameter : metadata.parameters) all += parameter.first.size() + parameter.second.size();

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kBegin = "BEGIN METADATA";
 
-// The # lines at the top: what a curve was made from, the metadata, and in the last of them the column names.
+// The # lines at the top: the curve's inputs, the metadata, and in the last line the column names.
 struct Heading {
   CurveMetadata made_from;
   std::string metadata;
@@ -61,7 +61,7 @@ void check_count(const nlohmann::json& metadata, std::size_t points, std::string
   const auto count = metadata.find("point count");
   if (count == metadata.end() || !count->is_number()) return;
   const double expected = count->get<double>();
-  // a last line without its end may have lost digits
+  // a last line without a line end may have lost digits
   if (static_cast<double>(points) < expected || !bytes.ends_with('\n')) {
     throw CurveError(fmt::format("it is cut short: {} of {} points are whole", points, expected));
   }
@@ -108,7 +108,7 @@ RecordedCurve read_tab(std::string_view bytes) {
   const std::size_t height = column_in(names, measured ? "height (measured)" : "height (piezo)");
   const std::size_t force = column_in(names, "force"), segment = column_in(names, "segment");
   const std::size_t time = static_cast<std::size_t>(std::find(names.begin(), names.end(), "time") - names.begin());
-  // afmformats 0.13 wrote its first row behind the heading, which then has more columns than the rows
+  // afmformats 0.13 appended its first row to the heading, which then has more columns than the rows
   const std::size_t last_used = std::max({height, force, segment, time < names.size() ? time : 0});
   for (bool more = !line.empty(); more; more = lines.next(line)) {
     if (trimmed(line).empty() || line.starts_with('#')) continue;

@@ -9,8 +9,8 @@
 namespace afm::curves {
 
 // afmformats' .tab: a # header with JSON between BEGIN METADATA and END METADATA, a # line of column names, rows
-// separated by tabs. afmformats refuses a file with a metadata key that it does not know, so that only those of its
-// list are written. Reading throws CurveError.
+// separated by tabs. Writes only metadata keys in afmformats' list, because it rejects any other. Reading throws
+// CurveError.
 std::string tab_bytes(const RecordedCurve& curve);
 RecordedCurve read_tab(std::string_view bytes);
 

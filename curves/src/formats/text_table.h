@@ -8,13 +8,13 @@
 
 namespace afm::curves {
 
-// The lines of a text, one after the other, without their LF, CRLF or CR.
+// Iterates over the lines of a text, without their LF, CRLF or CR.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text) {}
 
   bool next(std::string_view& line);
-  std::size_t number() const { return number_; }  // of the line given last, from 1
+  std::size_t number() const { return number_; }  // current line, from 1
 
  private:
   std::string_view rest_;
@@ -23,13 +23,13 @@ class Lines {
 
 std::string_view trimmed(std::string_view text);
 
-// The parts between the separators; of an empty text, one empty part. Reuses `parts`.
+// The parts between the separators; an empty text has one empty part. Reuses `parts`.
 void split(std::string_view text, char separator, std::vector<std::string_view>& parts);
 
-// A finite decimal number that fills the whole field, blanks aside. Throws CurveError, which says where.
+// A finite decimal number that fills the whole field except for blanks. Throws CurveError with the place.
 double number_in(std::string_view field, std::string_view column, const Lines& lines);
 
-// The place of a column in the table's heading. Throws CurveError if there is none.
+// Index of a column in the table's heading. Throws CurveError if there is none.
 std::size_t column_in(const std::vector<std::string_view>& heading, std::string_view name);
 
 }  // namespace afm::curves

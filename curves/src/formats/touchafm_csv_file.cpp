@@ -10,7 +10,7 @@ namespace afm::curves {
 
 namespace {
 
-// The number of samples is 0 in what 0.1.0 wrote.
+// The number of samples is 0 in files of 0.1.0.
 void read_comment(std::string_view line, const Lines& lines, CurveMetadata& metadata, double& samples) {
   constexpr std::string_view kSamplesLine = "# samples: ";
   constexpr std::string_view kSpringConstantLine = "# spring_constant_N_per_m: ", kMaterialLine = "# material: ",
@@ -61,7 +61,7 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
                             physics::Force(number_in(fields[force], "force_N", lines)),
                             fields[branch] == "approach" ? physics::Branch::Approach : physics::Branch::Retract});
   }
-  // a whole cycle comes back up, and its last line is ended
+  // a complete cycle includes the way up, and its last line has a line end
   if (curve.points.empty() || curve.points.back().branch != physics::Branch::Retract || !bytes.ends_with('\n')) {
     throw CurveError("it is cut short");
   }

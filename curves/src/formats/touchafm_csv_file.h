@@ -7,8 +7,8 @@
 
 namespace afm::curves {
 
-// What `touchafm curve` prints: "# key: value" lines, a line of column names with units, rows separated by commas.
-// Needs the columns z_m, force_N and branch. Throws CurveError.
+// Output of `touchafm curve`: "# key: value" lines, a line of column names with units, rows separated by commas. Needs
+// the columns z_m, force_N and branch. Throws CurveError.
 RecordedCurve read_touchafm_csv(std::string_view bytes);
 
 }  // namespace afm::curves

@@ -34,7 +34,7 @@ std::optional<int> whole_number(std::string_view text) {
   return value;
 }
 
-// "Friday, February 14, 2020" or "15 January 2021" as 2020-02-14; any other date as it is.
+// Converts "Friday, February 14, 2020" or "15 January 2021" to 2020-02-14; leaves any other date unchanged.
 std::string iso_date(std::string_view text) {
   std::vector<std::string_view> words;
   split(trimmed(text), ' ', words);
@@ -54,12 +54,12 @@ std::string iso_date(std::string_view text) {
   return fmt::format("{:04}-{:02}-{:02}", *year, month + 1, *day);
 }
 
-// AFM Workshop's files always have a date, which Gwyddion and afmformats need to take them; of a curve that has none
-// they get this one, and it is no date again when the file is read.
+// AFM Workshop's files always have a date, which Gwyddion and afmformats require. Curves without a date get this one,
+// and reading it back gives none.
 constexpr const char* kNoDate = "Thursday, January 1, 1970";
 constexpr const char* kNoTime = "12:00:00 AM";
 
-// "2020-02-14" as "Friday, February 14, 2020"; empty for what is no such date.
+// Converts "2020-02-14" to "Friday, February 14, 2020"; empty for anything else.
 std::string long_date(std::string_view iso) {
   std::vector<std::string_view> parts;
   split(iso, '-', parts);
@@ -74,7 +74,7 @@ std::string long_date(std::string_view iso) {
                      *day, *year);
 }
 
-// What its format has no line for. Readers pass over lines that they do not know.
+// Entries without a line in the format. Readers ignore unknown lines.
 constexpr std::string_view kOwnLine = "TouchAFM ", kParameterLine = "TouchAFM made from ";
 
 std::string own_lines(const RecordedCurve& curve) {
@@ -82,7 +82,7 @@ std::string own_lines(const RecordedCurve& curve) {
                                                               "time",         "sensitivity", "spring constant"};
   fmt::memory_buffer text;
   const auto add = [&text](std::string_view start, std::string_view key, std::string value) {
-    // three commas would make it the line of the column names
+    // three commas would make it look like the line of column names
     if (std::count(value.begin(), value.end(), ',') >= 3) std::replace(value.begin(), value.end(), ',', ';');
     fmt::format_to(std::back_inserter(text), "{}{}:\t{}\r\n", start, key, value);
   };
@@ -95,7 +95,7 @@ std::string own_lines(const RecordedCurve& curve) {
   return fmt::to_string(text);
 }
 
-// Of a line that own_lines() wrote.
+// Reads a line of own_lines().
 void read_own_line(std::string_view line, CurveMetadata& metadata) {
   if (line.starts_with(kParameterLine)) {
     std::string parameter(line.substr(kParameterLine.size()));
@@ -114,7 +114,7 @@ void read_own_line(std::string_view line, CurveMetadata& metadata) {
   read_afmformats_metadata(entry, metadata);
 }
 
-// AFM Workshop writes 1 for a missing calibration: a true 1 is written a little larger.
+// AFM Workshop writes 1 for a missing calibration, so a true 1 is written slightly larger.
 double never_one(double value) { return value == 1.0 ? std::nextafter(1.0, 2.0) : value; }
 
 struct Header {
@@ -174,7 +174,7 @@ Columns columns_of(const Header& header, std::string_view branch) {
   return {height, signal, *made.sensitivity_m_per_v * made.spring_constant->si};
 }
 
-// Heights that Gwyddion may take as evenly spaced, to the digits that AFM Workshop writes.
+// Returns whether Gwyddion may take the heights as evenly spaced, within the digits that AFM Workshop writes.
 bool evenly_spaced(std::span<const physics::CurvePoint> branch) {
   const double step = (branch.back().z - branch.front().z).si / static_cast<double>(branch.size() - 1);
   for (std::size_t i = 0; i < branch.size(); ++i) {
@@ -184,7 +184,7 @@ bool evenly_spaced(std::span<const physics::CurvePoint> branch) {
   return true;
 }
 
-// The branch at `count` evenly spaced heights from its first to its last point, by straight lines between the points.
+// The branch at `count` evenly spaced heights from its first to its last point, interpolated linearly.
 std::vector<physics::CurvePoint> resampled(std::span<const physics::CurvePoint> branch, std::size_t count) {
   std::vector<physics::CurvePoint> rising(branch.begin(), branch.end());
   if (rising.front().z > rising.back().z) std::reverse(rising.begin(), rising.end());

@@ -9,11 +9,11 @@
 
 namespace afm::curves {
 
-// AFM Workshop's force-distance .csv: "key:<tab>value" lines, then columns in nm that grow towards the sample, in nN
-// or, uncalibrated, in volts. Gwyddion takes the heights as evenly spaced and needs both branches equally long.
+// AFM Workshop's force-distance .csv: "key:<tab>value" lines, then columns in nm, increasing towards the sample, and in
+// nN or, uncalibrated, in volts. Gwyddion assumes evenly spaced heights and equally long branches.
 std::string workshop_bytes(const RecordedCurve& curve);
 
-// Throws CurveError; for volts it needs sensitivity and spring constant from the file or from `reading`.
+// Throws CurveError. Volts need sensitivity and spring constant from the file or from `reading`.
 RecordedCurve read_workshop(std::string_view bytes, const CurveReading& reading);
 
 }  // namespace afm::curves

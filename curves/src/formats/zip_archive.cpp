@@ -16,7 +16,7 @@ namespace {
 constexpr int kCaseSensitive = 1;
 constexpr std::size_t kLongestName = 1024;
 
-// minizip opens what its caller calls a file name: here the bytes, which it then reads as a stream.
+// minizip's callback for opening a file: `bytes`, passed as the file name, become the stream.
 voidpf open_bytes(voidpf /*opaque*/, const void* bytes, int /*mode*/) {
   const auto& view = *static_cast<const std::string_view*>(bytes);
   return ::fmemopen(const_cast<char*>(view.data()), view.size(), "rb");
@@ -32,7 +32,7 @@ unzFile open_archive(std::string_view bytes) {
 
 std::string name_of_entry(unzFile archive) {
   std::array<char, kLongestName> name{};
-  // a longer name is cut, without a zero at its end
+  // a longer name is cut off without a terminating zero
   const int read = unzGetCurrentFileInfo64(archive, nullptr, name.data(), name.size() - 1, nullptr, 0, nullptr, 0);
   return read == UNZ_OK ? std::string(name.data()) : std::string();
 }

@@ -10,7 +10,7 @@
 
 namespace afm::curves {
 
-// A zip archive in memory, to be read through minizip. The bytes must outlive it. Throws CurveError.
+// Reads a zip archive in memory through minizip. The bytes must outlive the object. Throws CurveError.
 class ZipArchive {
  public:
   explicit ZipArchive(std::string_view bytes);
@@ -18,7 +18,7 @@ class ZipArchive {
   bool holds(const std::string& name) const;
   bool holds_folder(std::string_view prefix) const;
 
-  // The whole entry, unpacked. Throws if there is none or if it says that it is larger than `most_bytes`: an entry of a
+  // The whole entry, unpacked. Throws if it does not exist or declares a size above `most_bytes`, because an entry of a
   // few kilobytes may unpack to gigabytes.
   std::string entry(const std::string& name, std::size_t most_bytes) const;
 

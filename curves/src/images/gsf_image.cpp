@@ -24,7 +24,7 @@ struct GsfHeader {
   std::string title = "Height";
 };
 
-// False for a name that is no field of the format.
+// Returns false for an unknown name.
 bool set_field(std::string_view name, std::string_view value, const Lines& lines, GsfHeader& header) {
   constexpr std::pair<std::string_view, double GsfHeader::*> kNumbers[]{
       {"XRes", &GsfHeader::columns}, {"YRes", &GsfHeader::rows},        {"XReal", &GsfHeader::width},
@@ -55,7 +55,7 @@ ImagePages read_gsf(std::string_view bytes) {
   ImagePages found;
   std::string_view line;
   Lines lines(bytes.substr(0, end));
-  lines.next(line);  // the magic
+  lines.next(line);  // skips the magic
   while (lines.next(line)) {
     const std::size_t equals = line.find('=');
     if (trimmed(line).empty()) continue;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kMostObjects = 100'000;
 
-// The bytes of a file from front to back.
+// Reads the bytes of a file sequentially.
 class GwyReader {
  public:
   explicit GwyReader(std::string_view bytes) : rest_(bytes) {}
@@ -35,7 +35,7 @@ class GwyReader {
     return number_at<T>(take(sizeof(T)), 0);
   }
 
-  // Up to its NUL, which is passed.
+  // Reads up to the NUL and skips it.
   std::string_view text() {
     const std::size_t end = rest_.find('\0');
     if (end == std::string_view::npos) throw CurveError("it is cut short");
@@ -50,13 +50,13 @@ class GwyReader {
 
 struct Component {
   char type = 0;
-  std::string_view payload;  // of a string without its NUL, of an object its components
-  std::string_view object;   // the name of the object's type
+  std::string_view payload;  // a string without its NUL, or an object's components
+  std::string_view object;   // type name of an object
 };
 
 using Components = std::map<std::string_view, Component>;
 
-// Of one object; the objects inside it stay bytes, so that no file makes this go deep.
+// Components of one object. Objects inside it stay bytes, which limits the recursion for any file.
 Components components_of(std::string_view bytes) {
   Components found;
   GwyReader reader(bytes);
@@ -158,7 +158,7 @@ ImagePage gwy_page(std::string_view field, std::string name) {
           }};
 }
 
-// The N of "/N/data", or nothing.
+// The N of "/N/data", or empty.
 std::string_view index_in(std::string_view name) {
   constexpr std::string_view kEnd = "/data";
   if (!name.starts_with('/') || !name.ends_with(kEnd)) return {};
@@ -175,7 +175,7 @@ ImagePages read_gwy(std::string_view bytes) {
   const auto size = reader.number<std::uint32_t>();
   const Components container = components_of(reader.take(size));
 
-  // in the order of their numbers
+  // sorted by number
   std::map<unsigned long, std::string_view> fields;
   for (const auto& [name, component] : container) {
     const std::string_view index = index_in(name);

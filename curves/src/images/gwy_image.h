@@ -8,11 +8,11 @@
 namespace afm::curves {
 
 inline constexpr std::string_view kGwyMagic = "GWYP";
-inline constexpr std::string_view kOldGwyMagic = "GWYO";  // of Gwyddion 1, with another layout: recognised, not read
+inline constexpr std::string_view kOldGwyMagic = "GWYO";  // Gwyddion 1's other layout: recognised, not read
 
-// Gwyddion's native format (Gwyddion user guide, "Gwyddion native format"): a container of objects, of which the data
-// fields "/N/data" are the channels, with "/N/data/title" and the strings of "/N/meta". Masks, which say what a person
-// marked and not what was measured, are passed over, as is everything else. Throws CurveError.
+// Gwyddion's native format (Gwyddion user guide, "Gwyddion native format"): a container of objects. Its data fields
+// "/N/data" are the channels, with "/N/data/title" and the strings of "/N/meta". Ignores masks, which are marks of a
+// user and not measurements, and everything else. Throws CurveError.
 ImagePages read_gwy(std::string_view bytes);
 
 }  // namespace afm::curves

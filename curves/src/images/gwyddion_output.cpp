@@ -32,8 +32,8 @@ std::string terminated(const std::string& text) {
   return bytes;
 }
 
-// A file of objects within objects: "Name NUL length components", each component "name NUL type value". It is written
-// once from front to back, as a large image would not fit in the memory several times.
+// Writes objects within objects: "Name NUL length components", each component "name NUL type value". Sequential,
+// because a large image would not fit into memory several times.
 class GwyWriter {
  public:
   explicit GwyWriter(std::size_t expected_size) {
@@ -65,7 +65,7 @@ class GwyWriter {
     contents(type, components);
   }
 
-  // Of an object; `components` writes them.
+  // Writes an object; `components` writes its contents.
   template <class Components>
   void contents(const char* type, const Components& components) {
     bytes_ += terminated(type);
@@ -109,7 +109,7 @@ void check(const ScanImage& image) {
   for (const ImageChannel& channel : image.channels) AFM_CHECK(channel.values.size() == image.columns * image.rows);
 }
 
-// A line of a .gsf header; Gwyddion ends a line at a line feed and a name at the first "=".
+// A line of a .gsf header. Gwyddion ends a line at a line feed and a name at the first "=".
 std::string header_line(std::string name, std::string value) {
   const auto breaks_line = [](char c) { return static_cast<unsigned char>(c) < ' '; };
   std::replace_if(name.begin(), name.end(), [&](char c) { return breaks_line(c) || c == '='; }, ' ');
@@ -133,7 +133,7 @@ std::optional<ImageFormat> image_format(std::string_view path) {
 
 std::string gwy_bytes(const ScanImage& image) {
   check(image);
-  std::size_t words = 1000;  // and names, types and units
+  std::size_t words = 1000;  // plus names, types and units
   for (const auto& [key, value] : image.metadata) words += key.size() + value.size() + 3;
   GwyWriter file(image.channels.size() * (image.columns * image.rows * sizeof(double) + words));
   file.contents("GwyContainer", [&] {
@@ -157,14 +157,14 @@ std::string gsf_bytes(const ScanImage& image, std::size_t channel) {
   std::string bytes = "Gwyddion Simple Field 1.0\n";
   bytes += header_line("XRes", std::to_string(image.columns)) + header_line("YRes", std::to_string(image.rows));
   bytes += header_line("XReal", gsf_number(image.width_m)) + header_line("YReal", gsf_number(image.height_m));
-  // without a line they are zero
+  // defaults to zero
   if (image.x_offset_m != 0.0) bytes += header_line("XOffset", gsf_number(image.x_offset_m));
   if (image.y_offset_m != 0.0) bytes += header_line("YOffset", gsf_number(image.y_offset_m));
   bytes += header_line("XYUnits", "m") + header_line("ZUnits", chosen.unit) + header_line("Title", chosen.name);
   for (const auto& [key, value] : image.metadata) {
     if (std::find(kNamesOfGsf.begin(), kNamesOfGsf.end(), key) == kNamesOfGsf.end()) bytes += header_line(key, value);
   }
-  // one to four, so that the values begin at a multiple of four
+  // one to four NULs, which align the values to a multiple of four
   constexpr std::size_t kAlignment = 4;
   bytes.append(kAlignment - bytes.size() % kAlignment, '\0');
   for (const double value : chosen.values) append_raw(bytes, static_cast<float>(value));

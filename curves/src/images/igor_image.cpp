@@ -12,7 +12,7 @@ namespace afm::curves {
 
 namespace {
 
-// By the beginning of a channel's name; as Gwyddion 2.62 has them.
+// Units by the beginning of a channel's name, as in Gwyddion 2.62.
 constexpr std::pair<std::string_view, std::string_view> kIgorUnits[]{
     {"Height", "m"},    {"ZSensor", "m"}, {"ZSnsr", "m"},   {"Deflection", "m"},
     {"Amplitude", "m"}, {"Phase", "deg"}, {"Current", "A"}, {"Frequency", "Hz"}};

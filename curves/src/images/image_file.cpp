@@ -8,18 +8,14 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <limits>
-#include <new>
-#include <stdexcept>
 #include <utility>
 
 #include "core/enumerators.h"
 #include "core/printable.h"
-#include "core/whole_file.h"
 #include "curves/curve_error.h"
-#include "formats/confined_child.h"
 #include "formats/file_bytes.h"
+#include "formats/format_table.h"
 #include "formats/igor_wave.h"
 #include "images/gsf_image.h"
 #include "images/gwy_image.h"
@@ -32,35 +28,32 @@ namespace afm::curves {
 
 namespace {
 
-constexpr std::uintmax_t kLargestImageBytes = std::uintmax_t{256} << 20U;
 constexpr std::size_t kLongestBeginning = 512;
 constexpr std::size_t kMostChannels = 256;
-constexpr std::size_t kMostTextBytes = 4096;  // of a name, a key or a value
+constexpr std::size_t kMostTextBytes = 4096;  // limit for a name, a key or a value
 
 struct FormatRow {
   ImageFormat format;
   std::string_view name;
+  std::string_view files;  // as kImageFiles lists them
   bool (*begins)(std::string_view bytes);
   ImagePages (*read)(std::string_view bytes);
 };
 
-constexpr std::array kFormats{
-    FormatRow{ImageFormat::Gsf, "Gwyddion simple field", [](std::string_view b) { return b.starts_with(kGsfMagic); },
-              read_gsf},
-    FormatRow{ImageFormat::Gwy, "Gwyddion",
-              [](std::string_view b) { return b.starts_with(kGwyMagic) || b.starts_with(kOldGwyMagic); }, read_gwy},
-    FormatRow{ImageFormat::Nanoscope, "Nanoscope", [](std::string_view b) { return b.starts_with(kNanoscopeMagic); },
-              read_nanoscope},
-    FormatRow{ImageFormat::Igor, "Igor", [](std::string_view b) { return looks_like_igor_image(b) || is_old_igor(b); },
-              read_igor_image},
-    FormatRow{ImageFormat::Jpk, "JPK", looks_like_tiff, read_jpk_image}};
-static_assert(core::has_row_for_each(kFormats, &FormatRow::format));
-
-const FormatRow* row_of(std::string_view bytes) {
-  const auto found =
-      std::find_if(kFormats.begin(), kFormats.end(), [&](const FormatRow& row) { return row.begins(bytes); });
-  return found != kFormats.end() ? &*found : nullptr;
-}
+constexpr FormatTable kImages{
+    "image", kImageFiles, kLongestBeginning,
+    std::array{
+        FormatRow{ImageFormat::Gsf, "Gwyddion simple field", ".gsf",
+                  [](std::string_view b) { return b.starts_with(kGsfMagic); }, read_gsf},
+        FormatRow{ImageFormat::Gwy, "Gwyddion", "Gwyddion .gwy",
+                  [](std::string_view b) { return b.starts_with(kGwyMagic) || b.starts_with(kOldGwyMagic); }, read_gwy},
+        FormatRow{ImageFormat::Nanoscope, "Nanoscope", "Nanoscope .spm or .001",
+                  [](std::string_view b) { return b.starts_with(kNanoscopeMagic); }, read_nanoscope},
+        FormatRow{ImageFormat::Igor, "Igor", "Igor .ibw",
+                  [](std::string_view b) { return looks_like_igor_image(b) || is_old_igor(b); }, read_igor_image},
+        FormatRow{ImageFormat::Jpk, "JPK", "JPK .jpk", looks_like_tiff, read_jpk_image}}};
+static_assert(core::has_row_for_each(kImages.rows, &FormatRow::format));
+static_assert(kImages.names_all(), "kImageFiles names the files of every format");
 
 std::string lower(std::string_view text) {
   std::string small(text);
@@ -69,7 +62,7 @@ std::string lower(std::string_view text) {
   return small;
 }
 
-// Names that a file gives twice get a number, so that each can be asked for.
+// Numbers repeated names, so that each channel can be selected.
 void number_names(std::vector<ImagePage>& pages) {
   for (std::size_t i = 0; i < pages.size(); ++i) {
     const auto same = [&](const ImagePage& page) { return lower(page.name) == lower(pages[i].name); };
@@ -84,7 +77,7 @@ std::string names_of(const std::vector<ImagePage>& pages) {
   return names;
 }
 
-// A height by its name and its unit; the smaller, the sooner it is taken.
+// Preference as a height by name and unit; smaller is better.
 int rank_as_height(const ImagePage& page) {
   const std::string name = lower(page.name);
   const auto begins = [&](std::string_view word) { return name.starts_with(word); };
@@ -109,7 +102,7 @@ std::size_t chosen_page(const std::vector<ImagePage>& pages, const std::string& 
   return static_cast<std::size_t>(std::min_element(pages.begin(), pages.end(), lower_rank) - pages.begin());
 }
 
-// Neither NaN nor an infinity is.
+// False for NaN and infinity.
 bool is_measured(double value) { return std::abs(value) <= physics::kMostImageValue; }
 
 bool same_grid(const ImagePage& a, const ImagePage& b) {
@@ -151,12 +144,7 @@ LoadedImage assembled(ImagePages found, const std::string& wanted, ImageFormat f
   return loaded;
 }
 
-LoadedImage read_image(std::string_view bytes, const std::string& wanted) {
-  const FormatRow* row = row_of(bytes);
-  return assembled(row->read(bytes), wanted, row->format);
-}
-
-// ---- from the child that read it: numbers and texts one behind the other, which are believed no more than a file ----
+// ---- serialised by the reading child: numbers and texts in sequence, validated like a file ----
 
 template <class T>
 void put(std::string& bytes, const T& value) {
@@ -223,7 +211,7 @@ LoadedImage taken_over(std::string_view bytes) {
   Taker taker(bytes);
   LoadedImage loaded;
   physics::ScanImage& image = loaded.image;
-  loaded.format = kFormats[taker.count(kFormats.size() - 1)].format;
+  loaded.format = kImages.rows[taker.count(kImages.rows.size() - 1)].format;
   loaded.chosen = taker.count(kMostChannels - 1);
   image.columns = taker.count(kMostImageSide);
   image.rows = taker.count(kMostImageSide);
@@ -246,7 +234,7 @@ LoadedImage taken_over(std::string_view bytes) {
   return loaded;
 }
 
-// What every image is, wherever it came from.
+// Checks the requirements on any image.
 void check_image(const LoadedImage& loaded) {
   const physics::ScanImage& image = loaded.image;
   if (loaded.chosen >= image.channels.size() || image.columns < 2 || image.rows < 2 ||
@@ -261,7 +249,7 @@ void check_image(const LoadedImage& loaded) {
   }
 }
 
-// The texts go to terminals and into lines of files.
+// Makes the texts safe for terminals and lines of files.
 void make_texts_printable(LoadedImage& loaded) {
   const auto make_printable = [](std::string& text) { text = core::printable_line(text); };
   for (physics::ImageChannel& channel : loaded.image.channels) {
@@ -277,49 +265,25 @@ void make_texts_printable(LoadedImage& loaded) {
 
 }  // namespace
 
-std::string_view name_of(ImageFormat format) { return kFormats[static_cast<std::size_t>(format)].name; }
+std::string_view name_of(ImageFormat format) { return kImages.rows[static_cast<std::size_t>(format)].name; }
 
-std::optional<ImageFormat> image_format_of(std::string_view bytes) {
-  const FormatRow* row = row_of(bytes);
-  return row != nullptr ? std::optional(row->format) : std::nullopt;
-}
-
-bool is_image_file(const std::string& path) {
-  const auto beginning = core::read_beginning(path, kLongestBeginning);
-  return beginning && image_format_of(*beginning).has_value();
-}
+bool is_image_file(const std::string& path) { return kImages.has(path); }
 
 core::Result<LoadedImage> load_image(const std::string& path, const ImageReading& reading) {
-  std::error_code missing;
-  if (const auto size = std::filesystem::file_size(path, missing); !missing && size > kLargestImageBytes) {
-    return core::failure(core::ErrorCategory::BadInputFile,
-                         fmt::format("cannot read {}: it is larger than {} MiB", path, kLargestImageBytes >> 20U));
-  }
-  const auto bytes = core::read_file(path);
+  const auto bytes = bytes_of_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_image(*bytes, path, reading);
 }
 
 core::Result<LoadedImage> parse_image(std::string_view bytes, const std::string& name, const ImageReading& reading) {
-  const auto bad = [&](const char* why) {
-    return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot read the image {}: {}", name, why));
-  };
-  if (!image_format_of(bytes)) {
-    return bad(fmt::format("it is no image of a known kind; known are {}", kImageFiles).c_str());
-  }
-  try {
-    LoadedImage loaded =
-        reading.confined ? taken_over(in_confined_child([&] { return handed_over(read_image(bytes, reading.channel)); },
-                                                        "it is damaged: its reader could not survive it"))
-                         : read_image(bytes, reading.channel);
+  return kImages.parse(bytes, name, [&](const FormatRow& row) {
+    LoadedImage loaded = read_confined(
+        reading.confined, [&] { return assembled(row.read(bytes), reading.channel, row.format); }, handed_over,
+        taken_over);
     check_image(loaded);
     make_texts_printable(loaded);
     return loaded;
-  } catch (const std::bad_alloc&) {
-    return bad("there is too little memory for it");
-  } catch (const std::runtime_error& fault) {
-    return bad(fault.what());
-  }
+  });
 }
 
 }  // namespace afm::curves

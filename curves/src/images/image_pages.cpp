@@ -18,7 +18,7 @@ struct Prefix {
   double factor;
 };
 
-// "~" is Nanoscope's micro; the others are of UTF-8 and Latin-1.
+// "~" is Nanoscope's micro; the others are UTF-8 and Latin-1.
 constexpr std::array kPrefixes{Prefix{"f", 1e-15},       Prefix{"p", 1e-12},   Prefix{"n", 1e-9},
                                Prefix{"u", 1e-6},        Prefix{"~", 1e-6},    Prefix{"\xc2\xb5", 1e-6},
                                Prefix{"\xce\xbc", 1e-6}, Prefix{"\xb5", 1e-6}, Prefix{"m", 1e-3},

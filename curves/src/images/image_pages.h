@@ -10,17 +10,17 @@
 
 namespace afm::curves {
 
-// One channel of an image file as its reader found it: checked, but its numbers not yet read.
+// One channel of an image file, checked by its reader, with the numbers still unread.
 struct ImagePage {
   std::string name;
-  std::string unit;  // SI, as in physics::ImageChannel
+  std::string unit;  // SI, see physics::ImageChannel
   std::size_t columns = 0;
   std::size_t rows = 0;
   double width_m = 0;
   double height_m = 0;
   double x_offset_m = 0;
   double y_offset_m = 0;
-  std::function<std::vector<double>()> values;  // row 0 at the top; refers to the file's bytes, which must live
+  std::function<std::vector<double>()> values;  // row 0 at the top; refers to the file's bytes, which must outlive it
 };
 
 struct ImagePages {
@@ -28,12 +28,12 @@ struct ImagePages {
   std::vector<std::pair<std::string, std::string>> metadata;
 };
 
-// A side of an image, and the values of all channels together.
+// Limits of a side of an image, and of the values of all channels together.
 inline constexpr std::size_t kMostImageSide = 8192;
 inline constexpr std::size_t kMostImageValues = std::size_t{32} << 20U;
 
-// `columns` x `rows` numbers of one size from `data`, scaled: value = factor * number + offset. `at` gives the number
-// in the row and the column of the file.
+// `columns` x `rows` numbers of one size from `data`, scaled: value = factor * number + offset. `at` returns the number
+// in a row and column of the file.
 template <class NumberAt>
 std::vector<double> grid_values(std::size_t columns, std::size_t rows, bool bottom_up, const NumberAt& number) {
   std::vector<double> values;
@@ -47,16 +47,17 @@ std::vector<double> grid_values(std::size_t columns, std::size_t rows, bool bott
 
 inline constexpr std::size_t kMostImageMetadata = 2000;
 
-// Of an image on the sample. No stage of a microscope or a profiler is as wide; a file without units has pixels for it.
+// Limit of an image's side on the sample. No microscope's or profiler's stage is as wide; in a file without units the
+// sides are in pixels.
 inline constexpr double kLongestSideM = 1.0;
 
-// Throws CurveError if no image has such a side.
+// Throws CurveError if the side is out of range.
 std::size_t image_side(double count);
 
-// A length on the sample: its absolute value. Throws CurveError unless it is above zero and at most kLongestSideM.
+// A length on the sample: the absolute value. Throws CurveError unless it is above zero and at most kLongestSideM.
 double image_length_m(double length_m);
 
-// A unit with its prefix: "nm" is 1e-9 and "m"; what is not known has the factor 1 and stays as it is.
+// A unit without its prefix: "nm" becomes 1e-9 and "m". An unknown unit has the factor 1 and stays unchanged.
 struct ScaledUnit {
   double factor = 1.0;
   std::string unit;

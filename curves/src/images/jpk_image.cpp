@@ -42,7 +42,7 @@ enum Tag : std::uint16_t {
   kChannelTitle = 0x8052,
   kSlotCount = 0x8080,
   kDefaultSlot = 0x8081,
-  kSlotName = 0x8090,  // of the first slot, as those below
+  kSlotName = 0x8090,  // tags of the first slot
   kEncoderUnit = 0x80A2,
   kScalingType = 0x80A3,
   kMultiplier = 0x80A4,
@@ -62,7 +62,7 @@ struct Entry {
   std::string_view bytes;
 };
 
-// Of a type of TIFF 6.0 in bytes; 0 for one that it does not know.
+// Bytes of a TIFF 6.0 type; 0 if unknown.
 std::size_t size_of_type(std::uint16_t type) {
   constexpr std::array<std::size_t, 13> kSizes{0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8};
   return type < kSizes.size() ? kSizes[type] : 0;
@@ -85,7 +85,7 @@ class Page {
     next_ = number_at<std::uint32_t>(file, offset + 2 + count * kEntryBytes, order);
   }
 
-  std::size_t next() const { return next_; }  // where the next page lies in the file; 0: nowhere
+  std::size_t next() const { return next_; }  // offset of the next page in the file; 0: none
 
   std::optional<double> number(unsigned tag, std::size_t index = 0) const {
     const auto found = entries_.find(static_cast<std::uint16_t>(tag));
@@ -136,7 +136,7 @@ struct Calibration {
   std::string unit;
 };
 
-// Of the slot that the page calls the default one.
+// Calibration of the page's default slot.
 Calibration default_calibration(const Page& page, const std::string& channel) {
   const std::string wanted = page.text(kDefaultSlot);
   const double count = std::min(page.number(kSlotCount).value_or(0.0), kMostSlots);
@@ -152,7 +152,7 @@ Calibration default_calibration(const Page& page, const std::string& channel) {
   throw CurveError(fmt::format("its channel {} has no linear calibration \"{}\"", channel, wanted));
 }
 
-// The pixels of a page, strip after strip; each strip with a whole number of rows.
+// The pixels of a page, strip by strip, each with a whole number of rows.
 std::string strips_of(std::string_view file, const Page& page, std::size_t size) {
   std::string pixels;
   pixels.reserve(size);
@@ -183,7 +183,7 @@ struct Grid {
   double width_m = 0, height_m = 0, x_m = 0, y_m = 0;
 };
 
-// JPK's thumbnail, and whatever else is no channel.
+// Returns false for JPK's thumbnail and other pages that are not channels.
 bool is_channel(const Page& page) {
   const double bits = page.number(kBits).value_or(0);
   return page.number(kPhotometric) == kBlackIsZero && (bits == 16 || bits == 32) && page.count(kBits) == 1;

@@ -33,7 +33,7 @@ std::string lower_key(std::string_view text) {
 
 struct Block {
   std::string_view name;                           // "Ciao image list"
-  std::map<std::string, std::string_view> values;  // by the key in lower case, "@2:z scale"
+  std::map<std::string, std::string_view> values;  // keys in lower case, "@2:z scale"
 
   const std::string_view* find(const std::string& key) const {
     const auto found = values.find(key);
@@ -41,7 +41,7 @@ struct Block {
   }
 };
 
-// "\key: value"; the colon of "@2:Z scale" belongs to the key.
+// "\key: value"; the colon in "@2:Z scale" belongs to the key.
 void add_line(std::string_view line, Block& block) {
   const bool counted =
       line.size() > 2 && line[0] == '@' && std::isdigit(static_cast<unsigned char>(line[1])) != 0 && line[2] == ':';
@@ -64,7 +64,7 @@ std::vector<Block> blocks_of(std::string_view header) {
   return blocks;
 }
 
-// The number at the front of the text, which is passed.
+// Takes the number at the front of the text.
 std::optional<double> take_number(std::string_view& text) {
   text = trimmed(text);
   double number = 0;
@@ -83,7 +83,7 @@ double nanoscope_number(const Block& block, const std::string& key) {
   return *number;
 }
 
-// The text between the two, which with all before it is passed; nothing if they do not come next.
+// Takes the text between the two characters, with all before it; empty if they do not come next.
 std::string_view take_between(char open, char close, std::string_view& text) {
   text = trimmed(text);
   const std::size_t end = text.find(close);
@@ -98,7 +98,7 @@ struct SoftScale {
   std::string unit;
 };
 
-// "V 12.5 nm/V" of "@Sens. Zsens", in whichever block it is.
+// "V 12.5 nm/V" of "@Sens. Zsens", from any block.
 std::optional<SoftScale> soft_scale(const std::vector<Block>& blocks, std::string_view name) {
   const std::string key = "@" + lower_key(name);
   for (const Block& block : blocks) {
@@ -116,7 +116,7 @@ std::optional<SoftScale> soft_scale(const std::vector<Block>& blocks, std::strin
 }
 
 struct ValueScale {
-  double factor = 1.0;  // of the integer divided by 256^(Bytes/pixel)
+  double factor = 1.0;  // per integer divided by 256^(Bytes/pixel)
   std::string unit;
 };
 
@@ -151,7 +151,7 @@ std::optional<ScanSize> scan_size(const Block& block) {
   return ScanSize{*width * unit.factor, height.value_or(*width) * unit.factor};
 }
 
-// "S [Height] \"Height Sensor\"" is Height Sensor; a retrace says so.
+// "S [Height] \"Height Sensor\"" becomes Height Sensor; a retrace is marked.
 std::string nanoscope_name(const Block& image) {
   std::string name = "Image";
   if (const std::string_view* data = image.find("@2:image data")) {

@@ -21,8 +21,8 @@ constexpr bool kIsArray = false;
 template <class Value, std::size_t count>
 constexpr bool kIsArray<std::array<Value, count>> = true;
 
-// A struct counts with all of its members, so that none can be forgotten. Eight bytes at a time: a frame has some 20 kB
-// of transforms.
+// Hashes a struct with all its members, so that none can be forgotten. Eight bytes at a time, because a frame has some
+// 20 kB of transforms.
 class FrameHash {
  public:
   template <class Number>
@@ -73,7 +73,7 @@ class FrameHash {
 }  // namespace
 
 std::uint64_t digest_of(const render::FrameState& frame, const cluster::ShownView& view) {
-  const std::array<const void*, 2> own{&frame.eyes, &frame.panels_apart};  // what each machine decides for itself
+  const std::array<const void*, 2> own{&frame.eyes, &frame.panels_apart};  // decided by each machine for itself
   FrameHash hash;
   core::for_each_member(
       [&](const auto& member) {

@@ -12,10 +12,10 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr std::size_t kTextsBeforeRows = 2;  // guidance, caption
-constexpr double kFarthestSentM = 1e6;       // of a picture's depth
+constexpr std::size_t kTextsBeforeRows = 3;  // guidance, caption, letters
+constexpr double kFarthestSentM = 1e6;       // limit of a picture's depth
 
-// Each list of pairs serves both directions.
+// Each list of pairs defines both directions of the conversion.
 
 template <class Copy, class Tip, class Shown>
 void copy_tip(const Copy& copy, Tip& tip, Shown& shown) {
@@ -53,6 +53,7 @@ void copy_moment(const Copy& copy, Moment& moment, Shown& shown) {
   copy(wall.centerpiece, shown.centerpiece);
   copy(wall.hovered, shown.hovered);
   copy.flag(moment.retracting, shown.flags, M::kRetracting);
+  copy.flag(moment.stopped, shown.flags, M::kStopped);
   if (copy.has(wall.wand, shown.flags, M::kWand)) copy_wand(copy, *wall.wand, shown);
   if (copy.has(wall.cue, shown.flags, M::kCue)) {
     copy(wall.cue->kind, shown.cue);
@@ -95,7 +96,7 @@ void set_moment(const Moment& moment, const scene::TipState& tip, const std::str
     shown.scan_frame = scan.frame;
     shown.scan_pixel = scan.pixel;
   }
-  std::vector<std::string> texts{moment.guidance, caption};
+  std::vector<std::string> texts{moment.guidance, caption, moment.letters};
   for (const render::DataRow& row : moment.servo) texts.insert(texts.end(), {row.name, row.value, row.source});
   message.texts.set(texts);
 }
@@ -112,7 +113,8 @@ Moment moment_of(const cluster::FrameMessage& message) {
   std::vector<std::string> texts = message.texts.list();
   texts.resize(std::max(texts.size(), kTextsBeforeRows));
   moment.guidance = texts.front();
-  // the last row may have lost its source
+  moment.letters = texts[2];
+  // the last row may be cut off before its source
   for (std::size_t i = kTextsBeforeRows; i < texts.size(); i += 3) {
     const auto text = [&](std::size_t at) { return at < texts.size() ? texts[at] : std::string(); };
     moment.servo.push_back({text(i), text(i + 1), text(i + 2)});
@@ -122,7 +124,7 @@ Moment moment_of(const cluster::FrameMessage& message) {
 
 std::string caption_of(const cluster::FrameMessage& message) {
   const std::vector<std::string> texts = message.texts.list();
-  return texts.size() < kTextsBeforeRows ? "" : texts[1];
+  return texts.size() < 2 ? "" : texts[1];
 }
 
 void set_depth(const DepthReport& depth, cluster::ShownView& view) {

@@ -37,7 +37,7 @@ class HistoryWriter {
   std::vector<std::byte> bytes_;
 };
 
-// Once something is not valid, all that follows stays as it was.
+// After the first invalid value all later fields keep their values.
 class HistoryReader {
  public:
   explicit HistoryReader(std::span<const std::byte> bytes) : left_(bytes) {}
@@ -77,7 +77,7 @@ class HistoryReader {
     left_ = left_.subspan(to.size());
   }
 
-  // The points of curves and loops consist of nothing else.
+  // Points of curves and loops, which contain nothing else.
   template <class Value>
   void check_doubles(const std::vector<Value>& values) {
     const auto bytes = std::as_bytes(std::span(values));
@@ -96,7 +96,7 @@ class HistoryReader {
 
 void WallHistory::apply(const cluster::JournalRecord& record) {
   ++journal;
-  // a record of another wall's material changes nothing
+  // ignores a record for a material that this wall lacks
   const auto has = [&](std::int32_t material) { return static_cast<std::size_t>(material) < cycles.curves().size(); };
   switch (record.kind()) {
     case cluster::JournalKind::Sample: {
@@ -172,7 +172,7 @@ void add_change(const cluster::ScanRecord& change, std::vector<cluster::ScanReco
   const auto place = [](const cluster::ScanRecord& record) { return std::pair(record.frame, record.pixel); };
   if (place(change) <= place(scan.back())) scan.pop_back();
   scan.push_back(change);
-  // the settings before the frame below the newest one are those of the last change before it
+  // the settings of the oldest visible frame come from the last change before it
   while (scan.size() > 1 && scan[1].frame + 2 < change.frame) scan.erase(scan.begin());
 }
 

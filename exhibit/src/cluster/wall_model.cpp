@@ -30,7 +30,7 @@ Enum enumerator_of(const json& value) {
   return known;
 }
 
-// Of the master, on its own computer: no folder of this one.
+// Path on the master's computer, never used as a folder here.
 std::string checked_name(const json& value) {
   auto name = value.get<std::string>();
   if (name.size() > 4096 || name.find('\0') != std::string::npos) throw std::invalid_argument("a file name is invalid");
@@ -139,7 +139,7 @@ core::Result<ExhibitFiles> unpack(const WallModel& model, const std::string& ass
     if (auto here = own_file_is_here(file, what); !here) return tl::unexpected(here.error());
   }
   const std::filesystem::path beside = std::filesystem::path(folder) / "wall";
-  std::error_code failed;  // what lacks its folder is not written
+  std::error_code failed;  // a file whose folder is missing is not written
   std::filesystem::create_directories(beside, failed);
   for (const auto& [name, text] : model.meshes) {
     std::filesystem::create_directories((beside / name).parent_path(), failed);

@@ -7,7 +7,7 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr physics::Length kKeptPlace(2e-12);  // a tip that rests adds nothing
+constexpr physics::Length kKeptPlace(2e-12);  // shorter distances are not stored, so a tip at rest adds nothing
 
 physics::SidewaysPoint point_of(const scene::TipSample& sample) {
   const auto [x, y] = sample.surface.xy_m;

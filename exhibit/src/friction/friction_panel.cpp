@@ -10,7 +10,7 @@
 
 #include "curves/live_parameters.h"
 #include "curves/plot_units.h"
-#include "panel_conventions.h"
+#include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
 
 namespace afm::exhibit {
@@ -21,8 +21,8 @@ using Run = std::vector<physics::LateralPoint>;
 
 constexpr glm::vec3 kRightColor{0.337F, 0.706F, 0.914F}, kLeftColor{0.902F, 0.624F, 0.0F},
     kNowColor{0.00F, 0.78F, 0.56F};
-constexpr double kLoopMargin = 0.08;     // of the axes, around what is drawn
-constexpr double kLeastForceNn = 0.002;  // half the range of the force, so that its rounding is not drawn as friction
+constexpr double kLoopMargin = 0.08;     // share of the axes around the curves
+constexpr double kLeastForceNn = 0.002;  // half range of the force, so that rounding is not drawn as friction
 
 render::PlotPoint plotted(const physics::LateralPoint& point) {
   return {.place_nm = point.place.si * curves::kNmPerM, .force_nn = point.force.si * curves::kNnPerN};
@@ -34,7 +34,7 @@ std::vector<render::PlotPoint> plotted(const Run& run, std::size_t begin, std::s
   return points;
 }
 
-// The stroke to the left dashed, the one to the right solid.
+// Draws the stroke to the left dashed, the one to the right solid.
 void add_strokes(const Run& run, const physics::FrictionLoop& loop, const Phrases& phrases,
                  std::vector<render::PlotCurve>& curves) {
   std::vector<render::PlotPoint> right = plotted(run, loop.begin, loop.turn), left = plotted(run, loop.turn, loop.end);

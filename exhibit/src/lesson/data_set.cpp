@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -33,6 +35,8 @@ constexpr std::size_t kCodeLetters = 6;
 constexpr const char* kParticipantColumns = "participant_id\torder\tage_band\tcomfort\n";
 constexpr const char* kFirstDay = "first_day";
 constexpr mode_t kEventsMode = 0666;
+constexpr auto kLockPatience = std::chrono::seconds(5);
+constexpr auto kLockPause = std::chrono::milliseconds(10);
 
 struct ColumnRow {
   const char* name;
@@ -41,7 +45,7 @@ struct ColumnRow {
   const char* levels;  // separated by blanks; may be null
 };
 
-// Levels that a table of their own has are added by add_levels().
+// Levels with a separate table are added by add_levels().
 constexpr std::array kEventColumns{
     ColumnRow{"onset", "start of the trial, counted from the start of the lesson", "s", nullptr},
     ColumnRow{"duration", "duration of the trial", "s", nullptr},
@@ -93,12 +97,21 @@ core::Error failed(const std::string& what, const std::string& path, int error) 
   return {core::ErrorCategory::Failed, fmt::format("cannot {} {}: {}", what, path, core::system_error(error))};
 }
 
-// Holds the study's folder for this process alone.
+// Locks the study's folder against other processes. Other lessons hold the lock for milliseconds, but anybody who may
+// read the folder can hold it for longer.
 core::Result<core::FileDescriptor> lock(const std::string& folder) {
   core::FileDescriptor held(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (!held.is_open()) return tl::unexpected(failed("open", folder, errno));
-  while (::flock(held.get(), LOCK_EX) != 0) {
-    if (errno != EINTR) return tl::unexpected(failed("lock", folder, errno));
+  const auto end = std::chrono::steady_clock::now() + kLockPatience;
+  while (::flock(held.get(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK && errno != EINTR) return tl::unexpected(failed("lock", folder, errno));
+    if (std::chrono::steady_clock::now() > end) {
+      return core::failure(core::ErrorCategory::Failed,
+                           fmt::format("cannot lock {} within {} s: another program holds its lock; \"fuser -v {}\" "
+                                       "names it; end it, and try again",
+                                       folder, kLockPatience.count(), folder));
+    }
+    std::this_thread::sleep_for(kLockPause);
   }
   return held;
 }
@@ -121,7 +134,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-// participants.tsv; none where there is no such file yet.
+// Reads participants.tsv; empty if there is no such file yet.
 core::Result<std::vector<Participant>> load_participants(const std::string& folder) {
   const std::string path = folder + "/participants.tsv";
   std::vector<Participant> participants;
@@ -160,7 +173,7 @@ auto find_participant(std::vector<Participant>& participants, const std::string&
                       [&](const Participant& each) { return each.id == "sub-" + code; });
 }
 
-// The least place that nobody has: after a withdrawal it is given again, which keeps the design balanced.
+// The lowest unused row: reusing the row of a withdrawn participant keeps the design balanced.
 std::size_t free_order(std::span<const Participant> participants) {
   std::size_t order = 0;
   const auto taken = [&](const Participant& each) { return each.order == order; };
@@ -168,7 +181,7 @@ std::size_t free_order(std::span<const Participant> participants) {
   return order;
 }
 
-// The number of days since the study's first day, which participants.json keeps; 0 without a day.
+// Days since the study's first day, which participants.json stores; 0 if `day` is empty.
 core::Result<std::int64_t> started_day(const std::string& folder, std::optional<std::int64_t> day) {
   const std::string path = folder + "/participants.json";
   ordered_json json = described(kParticipantRows);
@@ -264,10 +277,12 @@ core::Result<DataSet> DataSet::create(const Lesson& lesson, const DataSetEntry& 
   const std::string task = data.participant_folder_ + "/task-" + lesson.id;
   data.events_path_ = task + "_events.tsv";
   std::error_code error;
-  fs::create_directories(data.participant_folder_, error);
-  if (error) return tl::unexpected(failed("make", data.participant_folder_, error.value()));
+  fs::create_directories(data.folder_, error);
+  if (error) return tl::unexpected(failed("make", data.folder_, error.value()));
   const auto held = lock(data.folder_);
   if (!held) return tl::unexpected(held.error());
+  fs::create_directories(data.participant_folder_, error);
+  if (error) return tl::unexpected(failed("make", data.participant_folder_, error.value()));
   if (auto free = check_not_done(lesson, entry.folder, entry.code); !free) return tl::unexpected(free.error());
   auto participants = load_participants(data.folder_);
   if (!participants) return tl::unexpected(participants.error());
@@ -317,7 +332,7 @@ core::Result<void> DataSet::finish(LessonEnd end) {
   auto participants = load_participants(folder_);
   if (!participants) return tl::unexpected(participants.error());
   const auto found = find_participant(*participants, code_);
-  if (found == participants->end()) return {};  // withdrawn meanwhile
+  if (found == participants->end()) return {};  // withdrawn in the meantime
   found->comfort = word_of(end);
   return save_participants(folder_, *participants);
 }

@@ -9,10 +9,10 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kWayM = 0.080;       // of the hand, through all answers: what small devices have
-constexpr double kShortestM = 0.004;  // of a step, well above a hand's tremor
+constexpr double kWayM = 0.080;       // range of the hand for all answers, available on small devices
+constexpr double kShortestM = 0.004;  // shortest step, well above a hand's tremor
 constexpr double kLongestM = 0.015;
-constexpr double kTurnS = 0.35;  // from a step to one back
+constexpr double kTurnS = 0.35;  // shortest time before a step back
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void HandAnswer::ask(std::size_t answers, Layout layout, std::optional<std::size
 }
 
 bool HandAnswer::add(double height_m, std::uint64_t presses, double now_s) {
-  // who presses means the mark of the last frame, wherever the hand has gone since
+  // a press selects the mark of the previous frame, wherever the hand has moved since
   if (std::exchange(presses_, presses).value_or(presses) != presses) return true;
   if (!from_m_) from_m_ = height_m;
   while (answers_ > 0 && std::abs(height_m - *from_m_) >= step_m_) {

@@ -5,17 +5,18 @@
 
 #include <cmath>
 
+#include "exhibit/frame/wall_pictures.h"
 #include "exhibit/lesson/lesson_panel.h"
-#include "exhibit/wall_pictures.h"
+#include "exhibit/state/moment.h"
 
 namespace afm::exhibit {
 
 namespace {
 
-constexpr double kEyeM = 2.0;        // before the page
-constexpr double kBorder = 0.02;     // of the page's height, around and between
-constexpr double kTargetHigh = 0.1;  // of the page's height
-constexpr double kLetterM = 0.024;   // mean width of a letter of the words
+constexpr double kEyeM = 2.0;        // distance in front of the page
+constexpr double kBorder = 0.02;     // share of the page's height
+constexpr double kTargetHigh = 0.1;  // share of the page's height
+constexpr double kLetterM = 0.024;   // mean width of a letter
 
 using Wants = LessonPrompt::Wants;
 
@@ -47,7 +48,7 @@ render::DataPanel panel_of(const InstructorState& state, std::size_t letters, co
   add(Phrase::InstructorParticipant, state.participant.empty() ? phrases[Phrase::InstructorNobody] : state.participant);
   add(Phrase::InstructorWaits, phrases[awaited(prompt.wants)]);
   add(Phrase::InstructorForce,
-      phrases[state.hand_off ? Phrase::InstructorForceKeptOff : after(Phrase::StateOff, core::index_of(state.hand))]);
+      phrases[state.hand_off ? Phrase::InstructorForceKeptOff : state_phrase(state.hand, state.stopped)]);
   add(Phrase::InstructorTime,
       phrases.text<Phrase::InstructorMinutes>(fmt::format("{:.0f}", std::floor(state.elapsed_s / 60.0)),
                                               std::to_string(state.planned_min)));
@@ -85,7 +86,7 @@ InstructorPage::InstructorPage(double aspect) {
   eyes_ = eyes_before(screen_, {.position_m = {0.0, 0.5 * kHeightM, kEyeM}}, 0.0).value();
 }
 
-// Two rows of two below the panel.
+// Two rows of two targets below the panel.
 render::PanelPlacement InstructorPage::target(InstructorAction action) const {
   constexpr double kGapM = kBorder * kHeightM, kHighM = kTargetHigh * kHeightM;
   const std::size_t index = core::index_of(action);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps whose answers are right or wrong: blind identification, thresholds, and drawing the curve.
+// Steps with right and wrong answers: blind identification, thresholds, and drawing the curve.
 #include <fmt/format.h>
 
 #include <array>
@@ -16,7 +16,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// In practice the participant hears whether the answer was right.
+// In practice trials the participant gets feedback on the answer.
 std::string feedback(const Phrases& phrases, bool right, const std::string& right_answer) {
   return right ? phrases[Phrase::LessonRight] : phrases.text<Phrase::LessonWrong>(right_answer);
 }
@@ -29,7 +29,7 @@ class IdentifyActivity final : public StepActivity {
  public:
   IdentifyActivity(StepContext context, double now_s)
       : context_(std::move(context)), count_(context_.step), began_s_(now_s) {
-    // every material equally often among the counted trials, as far as their number allows
+    // all materials occur equally often among the counted trials, as far as their number allows
     const std::size_t materials = context_.step.materials.size();
     for (int i = 0; i < context_.step.practice; ++i) shown_.push_back(context_.random.below(materials));
     std::vector<std::size_t> counted;
@@ -96,14 +96,14 @@ class IdentifyActivity final : public StepActivity {
 
   StepContext context_;
   TrialCount count_;
-  std::vector<std::size_t> shown_;  // of the step's materials, a trial each
+  std::vector<std::size_t> shown_;  // index into the step's materials for each trial
   std::size_t trial_ = 0;
   bool felt_ = false;
   std::string note_;
   double began_s_, asked_s_ = 0;
 };
 
-// Two cycles, of which one lets go harder.
+// A trial is two cycles, one of which has the stronger pull-off.
 class ThresholdActivity final : public StepActivity {
  public:
   ThresholdActivity(StepContext context, double now_s)
@@ -149,7 +149,7 @@ class ThresholdActivity final : public StepActivity {
                    .response = word(answer),
                    .correct = right,
                    .rt_s = now_s - asked_s_});
-    // practice shows what is asked for, at the first level
+    // practice trials all have the first level
     if (!count_.practice()) staircase_->answer(right);
     count_.next();
     if (!count_.done()) begin(now_s);
@@ -198,7 +198,8 @@ class ThresholdActivity final : public StepActivity {
   double began_s_ = 0, asked_s_ = 0;
 };
 
-// The curve is put together from its five parts: which shape comes next. No fine aim is needed, and it can be heard.
+// The participant assembles the curve from five parts by choosing each one's shape, which requires no precise aim and
+// works by ear.
 class DrawActivity final : public StepActivity {
  public:
   static constexpr std::size_t kParts = 5;
@@ -209,7 +210,7 @@ class DrawActivity final : public StepActivity {
 
   void describe(LessonPrompt& prompt) const override {
     prompt.wants = LessonPrompt::Wants::Answer;
-    prompt.hidden = true;  // the curve on the wall is the answer
+    prompt.hidden = true;  // because the curve on the wall is the answer
     prompt.words = joined(part_ == 0 ? context_.words() : "", context_.phrases[after(Phrase::DrawPart1, part_)]);
     for (std::size_t i = 0; i < kParts; ++i) {
       prompt.answers.push_back(context_.phrases[after(Phrase::DrawShape1, shapes_[i])]);
@@ -244,7 +245,7 @@ class DrawActivity final : public StepActivity {
  private:
   StepContext context_;
   TrialCount count_;
-  std::array<std::size_t, kParts> shapes_{};  // as they are offered
+  std::array<std::size_t, kParts> shapes_{};  // in the order offered
   std::size_t part_ = 0;
   int right_ = 0;
   double began_s_ = 0;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <set>
 #include <utility>
 
@@ -17,153 +16,56 @@
 #include "exhibit/lesson/questionnaire.h"
 #include "physics/quantity_text.h"
 #include "scene/config/toml_file.h"
+#include "scene/config/toml_table.h"
 
 namespace afm::exhibit {
 
 namespace {
+
+using scene::TomlTable;
 
 constexpr const char* kKind = "lesson file";
 constexpr std::size_t kMostSteps = 100, kMostIdLetters = 40, kMostConditions = 4;
 constexpr int kMostTrials = 200, kMostPractice = 20;
 constexpr double kLongestHintS = 600;
 
-// A table of the file, whose faults name key and line.
-class LessonTable {
- public:
-  LessonTable(const toml::table& table, std::string section) : table_(table), section_(std::move(section)) {}
+// A part of file names, or of columns.
+std::string read_id(const TomlTable& table, std::string_view key) {
+  std::string value = table.text(key, kMostIdLetters);
+  const bool plain = std::all_of(value.begin(), value.end(),
+                                 [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
+  if (!plain || value.front() == '-') table.refuse(key, "must be lower-case letters, digits and dashes");
+  return value;
+}
 
-  void allow_only(std::initializer_list<std::string_view> keys) const {
-    for (const auto& [key, node] : table_) {
-      if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
-      refuse(key.str(), fmt::format("unknown key; known are {}", fmt::join(keys, ", ")));
-    }
+// A text for each language.
+LessonText read_words(const TomlTable& table, std::string_view key, std::size_t limit) {
+  std::vector<std::string_view> known;
+  std::string how;
+  for (const LanguageRow& row : kLanguages) {
+    known.push_back(row.word);
+    how += fmt::format("{}{} = \"...\"", how.empty() ? "{ " : ", ", row.word);
   }
+  const TomlTable languages = table.table(key, how + " }");
+  languages.allow_only(known, "language");
+  LessonText words;
+  for (std::size_t i = 0; i < kLanguages.size(); ++i) words.texts[i] = languages.text(kLanguages[i].word, limit);
+  return words;
+}
 
-  bool has(std::string_view key) const { return table_.contains(key); }
+int whole_or(const TomlTable& table, std::string_view key, int least, int most, int fallback) {
+  return table.has(key) ? static_cast<int>(table.whole(key, least, most)) : fallback;
+}
 
-  [[noreturn]] void refuse(std::string_view key, std::string what) const {
-    const toml::node* node = table_.get(key);
-    throw scene::Fault{node != nullptr ? node->source() : table_.source(),
-                       section_.empty() ? std::string(key) : section_ + "." + std::string(key), std::move(what)};
-  }
+double number_or(const TomlTable& table, std::string_view key, double least, double most, double fallback) {
+  return table.has(key) ? table.number(key, least, most) : fallback;
+}
 
-  std::string text(std::string_view key, std::size_t limit) const {
-    const auto value = required(key).value_exact<std::string>();
-    if (!value || value->empty() || value->size() > limit) {
-      refuse(key, fmt::format("must be text of 1 to {} bytes in quotes", limit));
-    }
-    return *value;
-  }
-
-  // A part of file names, or of columns.
-  std::string id(std::string_view key) const {
-    const std::string value = text(key, kMostIdLetters);
-    const bool plain = std::all_of(value.begin(), value.end(),
-                                   [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-'; });
-    if (!plain || value.front() == '-') refuse(key, "must be lower-case letters, digits and dashes");
-    return value;
-  }
-
-  // A text for each language.
-  LessonText words(std::string_view key, std::size_t limit) const {
-    const toml::table* table = required(key).as_table();
-    if (table == nullptr) {
-      std::string texts;
-      for (const LanguageRow& row : kLanguages)
-        texts += fmt::format("{}{} = \"...\"", texts.empty() ? "" : ", ", row.word);
-      refuse(key, fmt::format("must be {{ {} }}", texts));
-    }
-    const LessonTable languages(*table, section_.empty() ? std::string(key) : section_ + "." + std::string(key));
-    for (const auto& [language, node] : *table) {
-      std::vector<std::string_view> known;
-      known.reserve(kLanguages.size());
-      for (const LanguageRow& row : kLanguages) known.push_back(row.word);
-      if (std::find(known.begin(), known.end(), language.str()) == known.end()) {
-        languages.refuse(language.str(), fmt::format("unknown language; known are {}", fmt::join(known, ", ")));
-      }
-    }
-    LessonText words;
-    for (std::size_t i = 0; i < kLanguages.size(); ++i) words.texts[i] = languages.text(kLanguages[i].word, limit);
-    return words;
-  }
-
-  int whole(std::string_view key, int least, int most, int fallback) const {
-    if (!has(key)) return fallback;
-    const auto value = required(key).value_exact<std::int64_t>();
-    if (!value || *value < least || *value > most) {
-      refuse(key, fmt::format("must be a whole number from {} to {}", least, most));
-    }
-    return static_cast<int>(*value);
-  }
-
-  double number(std::string_view key, double least, double most, double fallback) const {
-    if (!has(key)) return fallback;
-    const auto value = required(key).value<double>();
-    if (!value || !(*value >= least) || !(*value <= most)) {
-      refuse(key, fmt::format("must be a number from {:g} to {:g}", least, most));
-    }
-    return *value;
-  }
-
-  double time_s(std::string_view key, double most_s) const {
-    const auto parsed = physics::parse_quantity(text(key, kMostIdLetters), physics::kTimeUnits);
-    if (!parsed.value) refuse(key, parsed.error);
-    if (!(parsed.value->si >= 0.0) || parsed.value->si > most_s) {
-      refuse(key, fmt::format("must lie between 0 s and {:g} s", most_s));
-    }
-    return parsed.value->si;
-  }
-
-  bool flag(std::string_view key) const {
-    if (!has(key)) return false;
-    const auto value = required(key).value_exact<bool>();
-    if (!value) refuse(key, "must be true or false");
-    return *value;
-  }
-
-  std::vector<std::string> names(std::string_view key, std::size_t most) const {
-    const toml::array* array = required(key).as_array();
-    if (array == nullptr || array->empty() || array->size() > most) {
-      refuse(key, fmt::format("must be a list of 1 to {} texts", most));
-    }
-    std::vector<std::string> names;
-    for (const toml::node& node : *array) {
-      const auto name = node.value_exact<std::string>();
-      if (!name || name->empty() || std::find(names.begin(), names.end(), *name) != names.end()) {
-        refuse(key, "must be a list of texts, each of them once");
-      }
-      names.push_back(*name);
-    }
-    return names;
-  }
-
-  // The row of `table` whose `name` is the text.
-  template <class Table, class Row>
-  const Row& one_of(std::string_view key, const Table& table, std::string_view Row::* name) const {
-    const std::string value = text(key, kMostIdLetters);
-    return row_named(key, value, table, name);
-  }
-  template <class Table, class Row>
-  const Row& row_named(std::string_view key, std::string_view value, const Table& table,
-                       std::string_view Row::* name) const {
-    std::string known;
-    for (const Row& row : table) {
-      if (row.*name == value) return row;
-      known += (known.empty() ? "" : ", ") + std::string(row.*name);
-    }
-    refuse(key, fmt::format("{} is unknown; known are {}", value, known));
-  }
-
-  const toml::node& required(std::string_view key) const {
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) refuse(key, "is missing");
-    return *node;
-  }
-
- private:
-  const toml::table& table_;
-  std::string section_;
-};
+double read_time_s(const TomlTable& table, std::string_view key, double most_s) {
+  const double time_s = table.quantity(key, physics::kTimeUnits).si;
+  if (!(time_s >= 0.0) || time_s > most_s) table.refuse(key, fmt::format("must lie between 0 s and {:g} s", most_s));
+  return time_s;
+}
 
 struct ScaleWord {
   scene::ScaleMode mode;
@@ -203,27 +105,26 @@ struct MomentWord {
 constexpr std::array kMoments{MomentWord{SsqMoment::Before, "before"}, MomentWord{SsqMoment::After, "after"}};
 static_assert(core::has_row_for_each(kMoments, &MomentWord::moment));
 
-ThresholdPlan read_threshold(const LessonTable& table) {
+ThresholdPlan read_threshold(const TomlTable& table) {
   ThresholdPlan plan;
   plan.rule = table.one_of("staircase", kRules, &RuleWord::word).rule;
   plan.distance = table.one_of("distance", kCues, &CueWord::word).cue;
   if (plan.distance == DistanceCue::Roved) {
-    table.required("rove");
-    plan.rove = table.number("rove", 0.05, 1.0, 0.0);
+    plan.rove = table.number("rove", 0.05, 1.0);
   } else if (table.has("rove")) {
     table.refuse("rove", "is for distance = \"roved\" alone");
   }
-  plan.least = table.number("least", 1e-3, 1.0, plan.least);
-  plan.most = table.number("most", 1e-2, 5.0, plan.most);
-  plan.start = table.number("start", 1e-3, 5.0, plan.start);
-  plan.step = table.number("step", 1.01, 4.0, plan.step);
+  plan.least = number_or(table, "least", 1e-3, 1.0, plan.least);
+  plan.most = number_or(table, "most", 1e-2, 5.0, plan.most);
+  plan.start = number_or(table, "start", 1e-3, 5.0, plan.start);
+  plan.step = number_or(table, "step", 1.01, 4.0, plan.step);
   if (!(plan.least < plan.most)) table.refuse("least", "must be below most");
   if (plan.start < plan.least || plan.start > plan.most) table.refuse("start", "must lie between least and most");
   return plan;
 }
 
 // The materials of a step, by their places in the lesson's list.
-std::vector<std::size_t> read_materials(const LessonTable& table, const LessonStep& step, const Lesson& lesson) {
+std::vector<std::size_t> read_materials(const TomlTable& table, const LessonStep& step, const Lesson& lesson) {
   std::vector<std::size_t> places;
   const auto place_of = [&](std::string_view key, const std::string& name) {
     const auto found = std::find(lesson.materials.begin(), lesson.materials.end(), name);
@@ -238,7 +139,7 @@ std::vector<std::size_t> read_materials(const LessonTable& table, const LessonSt
     return places;
   }
   if (table.has("materials")) {
-    for (const std::string& name : table.names("materials", kMostMaterials)) place_of("materials", name);
+    for (const std::string& name : table.texts("materials", kMostMaterials)) place_of("materials", name);
   } else {
     for (const std::string& name : lesson.materials) place_of("materials", name);
   }
@@ -248,7 +149,7 @@ std::vector<std::size_t> read_materials(const LessonTable& table, const LessonSt
   return places;
 }
 
-void read_questionnaire(const LessonTable& table, LessonStep& step) {
+void read_questionnaire(const TomlTable& table, LessonStep& step) {
   const QuestionnaireRow& row = table.one_of("questionnaire", kQuestionnaires, &QuestionnaireRow::word);
   step.questionnaire = row.questionnaire;
   if (row.questionnaire != Questionnaire::Ssq) {
@@ -260,7 +161,7 @@ void read_questionnaire(const LessonTable& table, LessonStep& step) {
 }
 
 // The keys of each type, in addition to those of all steps.
-void allow_keys(const LessonTable& table, StepKind kind) {
+void allow_keys(const TomlTable& table, StepKind kind) {
   switch (kind) {
     case StepKind::Text:
       return table.allow_only({"id", "type", "words", "hint", "hint_after", "each_condition"});
@@ -282,28 +183,28 @@ void allow_keys(const LessonTable& table, StepKind kind) {
   }
 }
 
-void read_common(const LessonTable& table, const Lesson& lesson, LessonStep& step) {
-  step.id = table.id("id");
-  step.words = table.words("words", kParagraph);
-  if (table.has("hint")) step.hint = table.words("hint", kParagraph);
+void read_common(const TomlTable& table, const Lesson& lesson, LessonStep& step) {
+  step.id = read_id(table, "id");
+  step.words = read_words(table, "words", kParagraph);
+  if (table.has("hint")) step.hint = read_words(table, "hint", kParagraph);
   if (table.has("hint") != table.has("hint_after")) {
     table.refuse(table.has("hint") ? "hint" : "hint_after", "needs both hint and hint_after");
   }
-  if (table.has("hint_after")) step.hint_after_s = table.time_s("hint_after", kLongestHintS);
-  step.each_condition = table.flag("each_condition");
+  if (table.has("hint_after")) step.hint_after_s = read_time_s(table, "hint_after", kLongestHintS);
+  step.each_condition = table.has("each_condition") && table.flag("each_condition");
   if (step.each_condition && lesson.conditions.empty()) {
     table.refuse("each_condition", "needs the lesson's conditions");
   }
 }
 
-LessonStep read_step(const LessonTable& table, const Lesson& lesson) {
+LessonStep read_step(const TomlTable& table, const Lesson& lesson) {
   LessonStep step;
   step.kind = table.one_of("type", kStepKinds, &study::StepKindRow::word).kind;
   allow_keys(table, step.kind);
   read_common(table, lesson, step);
-  step.trials =
-      step.kind == StepKind::Free ? table.whole("cycles", 1, kMostTrials, 1) : table.whole("trials", 1, kMostTrials, 1);
-  step.practice = table.whole("practice", 0, kMostPractice, 0);
+  step.trials = step.kind == StepKind::Free ? whole_or(table, "cycles", 1, kMostTrials, 1)
+                                            : whole_or(table, "trials", 1, kMostTrials, 1);
+  step.practice = whole_or(table, "practice", 0, kMostPractice, 0);
   switch (step.kind) {
     case StepKind::Text:
     case StepKind::Draw:
@@ -328,42 +229,36 @@ LessonStep read_step(const LessonTable& table, const Lesson& lesson) {
   return step;
 }
 
-void read_steps(const toml::table& root, const LessonTable& top, Lesson& lesson) {
-  const toml::array* steps = top.required("step").as_array();
-  if (steps == nullptr || steps->empty() || steps->size() > kMostSteps || !steps->is_array_of_tables()) {
-    top.refuse("step", fmt::format("must be 1 to {} tables [[step]]", kMostSteps));
-  }
+void read_steps(const TomlTable& top, Lesson& lesson) {
   std::set<std::string, std::less<>> ids;
   bool conditions_used = false;
-  for (const toml::node& node : *steps) {
-    const LessonTable table(*node.as_table(), "step");
+  for (const TomlTable& table : top.tables("step", kMostSteps)) {
     LessonStep step = read_step(table, lesson);
     if (!ids.insert(step.id).second) table.refuse("id", fmt::format("{} is the id of another step too", step.id));
     conditions_used = conditions_used || step.each_condition;
     lesson.steps.push_back(std::move(step));
   }
-  if (root.contains("conditions") && !conditions_used) {
+  if (top.has("conditions") && !conditions_used) {
     top.refuse("conditions", "are used by no step; give one each_condition = true");
   }
 }
 
 Lesson read_lesson(const toml::table& root) {
-  const LessonTable top(root, "");
+  const TomlTable top(root);
   top.allow_only({"id", "title", "minutes", "materials", "scale", "conditions", "step"});
   Lesson lesson;
-  lesson.id = top.id("id");
-  lesson.title = top.words("title", kLine);
-  top.required("minutes");
-  lesson.minutes = top.whole("minutes", 1, kMostLessonMinutes, 0);
-  lesson.materials = top.names("materials", kMostMaterials);
+  lesson.id = read_id(top, "id");
+  lesson.title = read_words(top, "title", kLine);
+  lesson.minutes = static_cast<int>(top.whole("minutes", 1, kMostLessonMinutes));
+  lesson.materials = top.texts("materials", kMostMaterials);
   lesson.scale = top.one_of("scale", kLessonScales, &ScaleWord::word).mode;
   if (top.has("conditions")) {
-    for (const std::string& name : top.names("conditions", kMostConditions)) {
+    for (const std::string& name : top.texts("conditions", kMostConditions)) {
       lesson.conditions.push_back(top.row_named("conditions", name, kConditions, &ConditionRow::word).condition);
     }
     if (lesson.conditions.size() < 2) top.refuse("conditions", "must be two or more");
   }
-  read_steps(root, top, lesson);
+  read_steps(top, lesson);
   return lesson;
 }
 

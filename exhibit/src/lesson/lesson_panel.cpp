@@ -11,9 +11,9 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kTargetsShare = 0.5;  // of the panel's height, at most
-constexpr double kTargetShare = 0.14;  // of one target, at most
-constexpr double kGapShare = 0.08;     // of a target, between two
+constexpr double kTargetsShare = 0.5;  // largest share of the panel's height
+constexpr double kTargetShare = 0.14;  // largest share for one target
+constexpr double kGapShare = 0.08;     // gap between two targets as a share of one
 
 std::size_t letters_of(std::string_view text) {
   return static_cast<std::size_t>(

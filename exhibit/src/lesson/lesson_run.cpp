@@ -12,8 +12,8 @@ namespace afm::exhibit {
 namespace {
 
 constexpr double kMinuteS = 60;
-constexpr double kLongestTrialS = 120;  // beyond the time of the break, which then cuts the trial
-constexpr double kTooEarlyS = 2;  // for an answer to a break that came uncalled: it was meant for what was shown before
+constexpr double kLongestTrialS = 120;  // after the break has become due; then the break interrupts the trial
+constexpr double kTooEarlyS = 2;        // an earlier answer was meant for the prompt before the automatic break
 
 using MakeActivity = std::unique_ptr<StepActivity> (*)(const StepContext& context, double now_s);
 struct ActivityRow {
@@ -53,7 +53,7 @@ LessonRun::LessonRun(const Lesson& lesson, std::span<const curves::SampleModel> 
 
 LessonRun::~LessonRun() = default;
 
-// A run of steps that are done under each condition is repeated as a whole.
+// Repeats a run of steps under each condition as a whole.
 void LessonRun::plan(std::size_t order) {
   const auto orders = williams_orders(lesson_.conditions.size());
   const std::vector<LessonStep>& steps = lesson_.steps;

@@ -55,8 +55,8 @@ core::Result<std::vector<curves::SampleModel>> lesson_samples(const Lesson& less
   return samples;
 }
 
-// F_ad goes with the surface energy. With stiffness and Hamaker constant multiplied alike, the whole curve F(Z) is: its
-// folds keep their places (3.8), (3.13).
+// F_ad is proportional to the surface energy. Multiplying stiffness and Hamaker constant by the same factor multiplies
+// the whole curve F(Z), so its folds keep their places (3.8), (3.13).
 core::Result<curves::SampleModel> comparison_sample(const curves::SampleModel& standard, DistanceCue distance, double w,
                                                     double rove) {
   curves::ContactSetup changed = standard.setup;

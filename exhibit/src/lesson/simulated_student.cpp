@@ -18,12 +18,12 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kHandMPerS = 0.05;                    // of the hand, mean
-constexpr double kTickS = 1e-3;                        // of the servo
-constexpr double kLiftM = 0.02;                        // above the place where the tip lets go
-constexpr double kPushM = 0.01;                        // below the surface
-constexpr double kThreeQuarters = 0.6744897501960817;  // of a normal distribution lie below
-constexpr int kMostPrompts = 100'000;                  // of any lesson: one that asked for more would never end
+constexpr double kHandMPerS = 0.05;                    // mean speed of the hand
+constexpr double kTickS = 1e-3;                        // period of the servo
+constexpr double kLiftM = 0.02;                        // height above the pull-off
+constexpr double kPushM = 0.01;                        // depth below the surface
+constexpr double kThreeQuarters = 0.6744897501960817;  // quantile of the normal distribution for 75 %
+constexpr int kMostPrompts = 100'000;                  // more than in any lesson; guards against an endless one
 constexpr std::uint64_t kCodeSalt = 0x9E3779B97F4A7C15ULL;
 
 std::optional<double> number_in(std::string_view text, double least, double most) {
@@ -110,7 +110,7 @@ core::Result<void> SimulatedStudent::take(LessonRun& run) {
       case LessonPrompt::Wants::Nothing:
         return {};
       case LessonPrompt::Wants::GoOn:
-        now_s_ += 5.0 + 10.0 * random_.unit();  // of reading
+        now_s_ += 5.0 + 10.0 * random_.unit();  // reading time
         run.go_on(now_s_);
         break;
       case LessonPrompt::Wants::Cycle:
@@ -127,7 +127,7 @@ core::Result<void> SimulatedStudent::take(LessonRun& run) {
   return core::failure(core::ErrorCategory::Failed, "the simulated participant finds no end to this lesson");
 }
 
-// One cycle by the model of the servo, tick by tick.
+// Feels one cycle with the servo's model, tick by tick.
 core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& prompt) {
   const std::size_t material = prompt.material.value_or(random_.below(samples_.size()));
   std::shared_ptr<const physics::LawTables> tables = samples_[material].tables;
@@ -141,7 +141,7 @@ core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& pr
                        : scale_ == scene::ScaleMode::Compressed ? haptics::Scaling::compressed(*tables, device)
                                                                 : haptics::Scaling::fit(*tables, device);
   if (!scaling) return tl::unexpected(scaling.error());
-  now_s_ += 2.0 + 2.0 * random_.unit();  // lifts, and turns the force on
+  now_s_ += 2.0 + 2.0 * random_.unit();  // lifts and enables the force
   const double high_m = scaling->release_height_m() + kLiftM;
   const double low_m = scaling->hand_height_m(0.0) - kPushM;
   const auto strokes = static_cast<std::int64_t>(std::ceil((high_m - low_m) / (kHandMPerS * kTickS)));
@@ -170,7 +170,7 @@ core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& pr
 
 std::size_t SimulatedStudent::choose(const LessonPrompt& prompt) {
   if (!prompt.has_right) return rate(prompt);
-  constexpr double kKnown = 0.8;  // of the parts of a drawing
+  constexpr double kKnown = 0.8;  // probability of knowing a part of the curve
   switch (prompt.kind) {
     case StepKind::Threshold:
       return stronger_of_two();
@@ -188,26 +188,26 @@ std::size_t SimulatedStudent::choose(const LessonPrompt& prompt) {
 }
 
 std::size_t SimulatedStudent::rate(const LessonPrompt& prompt) {
-  if (prompt.item.empty()) return 0;  // takes part, and goes on after a break
+  if (prompt.item.empty()) return 0;  // takes part, and continues after a break
   if (prompt.item.starts_with("ssq-")) {
-    // at most two slight symptoms, which is well below the rule that stops a lesson
+    // at most two slight symptoms, far below the rule that stops a lesson
     const bool may = prompt.item == "ssq-2" || prompt.item == "ssq-4";
     return may && random_.unit() < 0.3 ? 1 : 0;
   }
-  // between the middle and the upper end
+  // from the middle to the upper end
   const std::size_t middle = prompt.answers.size() / 2;
   return middle + random_.below(prompt.answers.size() - middle);
 }
 
-// The difference as a share of the weaker one, with noise of such a size that at the Weber fraction three answers in
-// four are right.
+// Compares by the difference relative to the weaker force, with noise that makes three of four answers right at the
+// Weber fraction.
 std::size_t SimulatedStudent::stronger_of_two() {
   const double sigma = abilities_.weber_fraction / (std::sqrt(2.0) * kThreeQuarters);
   const double share = (felt_n_[1] - felt_n_[0]) / std::min(felt_n_[0], felt_n_[1]);
   return share / sigma + std::sqrt(2.0) * normal_() > abilities_.bias ? 1 : 0;
 }
 
-// A noisy likeness for each material, of which that of the shown one is d' higher; the largest one wins.
+// Gives each material a noisy likeness, larger by d' for the one shown; the largest wins.
 std::size_t SimulatedStudent::identify(const LessonPrompt& prompt) {
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();

@@ -23,7 +23,7 @@ void UpDownStaircase::answer(bool right) {
   }
   if (same_ >= rule_.down) return move(Way::Down);
   if (same_ <= -rule_.up) return move(Way::Up);
-  // the answer that turns the first run round moves by the rule that holds from then on
+  // the answer that causes the first reversal already uses the later rule
   if (reversals_ == 0) {
     way_ = at_once;
     step_ = rule_.steps[std::min<std::size_t>(++reversals_, rule_.steps.size() - 1)];
@@ -48,14 +48,14 @@ void WeightedStaircase::answer(bool right) {
 
 namespace {
 
-constexpr double kTiny = 1e-14;  // keeps the logarithm of a share of 0 finite
+constexpr double kTiny = 1e-14;  // keeps the logarithm of zero finite
 
 std::size_t half_grid(const QuestStaircase::Rule& rule) {
   return static_cast<std::size_t>(std::ceil(0.5 * rule.range / rule.grain));
 }
 
-// The order of the quantile at which the next answer is expected to say most (Pelli's QuestCreate), from the shares of
-// right answers far below and far above the threshold.
+// Order of the quantile at which the next answer is expected to be most informative (Pelli's QuestCreate), from the
+// shares of right answers far below and far above the threshold.
 double best_order(double low, double high) {
   const double entropy = high * std::log(high + kTiny) - low * std::log(low + kTiny) +
                          (1.0 - high + kTiny) * std::log(1.0 - high + kTiny) -
@@ -68,7 +68,7 @@ double best_order(double low, double high) {
 
 QuestStaircase::QuestStaircase(const Rule& rule) : rule_(rule), level_(rule.guess) {
   const std::size_t half = half_grid(rule_);
-  // the Weibull function reaches the share that is asked for here: solved for the level
+  // the level at which the Weibull function reaches the requested share
   const double weibull = (rule_.share - rule_.delta * rule_.gamma) / (1.0 - rule_.delta);
   shift_ = std::log10(-std::log((1.0 - weibull) / (1.0 - rule_.gamma))) / rule_.beta;
   const double reach = static_cast<double>(2 * half) * rule_.grain;
@@ -90,7 +90,7 @@ double QuestStaircase::right_share(double from_threshold) const {
 }
 
 void QuestStaircase::answer(bool right) {
-  // the level as the grid has it
+  // the level rounded to the grid
   const double asked = rule_.guess + std::nearbyint((level_ - rule_.guess) / rule_.grain) * rule_.grain;
   double sum = 0;
   for (std::size_t i = 0; i < density_.size(); ++i) {
@@ -145,7 +145,7 @@ std::unique_ptr<Staircase> make_staircase(const ThresholdPlan& plan) {
       return std::make_unique<QuestStaircase>(QuestStaircase::Rule{
           .guess = start, .guess_sd = 0.5, .share = 0.75, .range = 4.0, .least = least, .most = most});
   }
-  constexpr double kKaernbach = 3;  // for 75 % right answers, as 7 % of force is told apart
+  constexpr double kKaernbach = 3;  // converges to 75 % right answers, the criterion of the 7 % threshold for forces
   return std::make_unique<WeightedStaircase>(
       start, WeightedStaircase::Rule{.step = step, .weight = kKaernbach, .least = least, .most = most});
 }

@@ -14,23 +14,23 @@
 #include "exhibit/lesson/lesson_prompt.h"
 #include "exhibit/lesson/lesson_random.h"
 #include "exhibit/lesson/trial_row.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 
 namespace afm::exhibit {
 
-// What a step works with; all of it outlives the step.
+// Inputs of a step. All must outlive the step.
 struct StepContext {
   const LessonStep& step;
-  std::span<const curves::SampleModel> samples;  // of the lesson
+  std::span<const curves::SampleModel> samples;  // samples of the lesson
   const Phrases& phrases;
   LessonRandom& random;
-  std::function<void(TrialRow)> keep;       // a trial that is over; step, kind and condition are filled in
-  std::function<void(core::Error)> failed;  // what ends the lesson
+  std::function<void(TrialRow)> keep;       // receives a finished trial; step, kind and condition are filled in
+  std::function<void(core::Error)> failed;  // receives an error that ends the lesson
 
   std::string words() const { return step.words.in(phrases[Phrase::Language]); }
 };
 
-// A step under way. What does not concern it is ignored. One thread.
+// A running step. Ignores irrelevant calls. One thread.
 class StepActivity {
  public:
   virtual ~StepActivity() = default;
@@ -39,20 +39,20 @@ class StepActivity {
   virtual void go_on(double) {}
   virtual void answer(std::size_t, double) {}
   virtual void felt(const FeltCycle&, double) {}
-  virtual void reset(double now_s) = 0;  // the trial under way
+  virtual void reset(double now_s) = 0;  // restarts the running trial
   virtual bool done() const = 0;
-  virtual bool may_pause() const { return true; }   // nothing of a trial would be lost if it began again
-  virtual bool says_stop() const { return false; }  // the participant had better end here
+  virtual bool may_pause() const { return true; }   // an interruption would lose nothing of a trial
+  virtual bool says_stop() const { return false; }  // the participant should end here
 };
 
 std::unique_ptr<StepActivity> make_text_activity(const StepContext& context, double now_s);
-std::unique_ptr<StepActivity> make_cycle_activity(const StepContext& context, double now_s);  // Free and Cycle
+std::unique_ptr<StepActivity> make_cycle_activity(const StepContext& context, double now_s);  // steps Free and Cycle
 std::unique_ptr<StepActivity> make_identify_activity(const StepContext& context, double now_s);
 std::unique_ptr<StepActivity> make_threshold_activity(const StepContext& context, double now_s);
 std::unique_ptr<StepActivity> make_draw_activity(const StepContext& context, double now_s);
 std::unique_ptr<StepActivity> make_question_activity(const StepContext& context, double now_s);
 
-// Practice trials first, then the counted ones, both from 1.
+// Counts practice trials, then counted ones, both from 1.
 class TrialCount {
  public:
   explicit TrialCount(const LessonStep& step) : practice_(step.practice), counted_(step.trials) {}

@@ -4,7 +4,7 @@
 namespace afm::exhibit {
 
 std::vector<std::vector<std::size_t>> williams_orders(std::size_t conditions) {
-  // the first order goes 0, 1, n - 1, 2, n - 2 and so on: its differences are all different
+  // the first order is 0, 1, n - 1, 2, n - 2 and so on, in which all differences are distinct
   std::vector<std::size_t> first;
   for (std::size_t place = 0; place < conditions; ++place) {
     const std::size_t step = (place + 1) / 2;

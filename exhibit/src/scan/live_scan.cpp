@@ -13,10 +13,10 @@ namespace {
 constexpr std::uint32_t kPixelsOfFrame = 2 * LiveScan::kPixels * LiveScan::kPixels;
 constexpr std::uint32_t kMostFrames = 10'000'000;
 constexpr std::size_t kMostChanges = 10'000;
-constexpr std::uint32_t kMostTicks = 1U << 31U;         // of a hand that paints: weeks
-constexpr double kNarrowestM = 1e-10, kWidestM = 1e-3;  // a square
+constexpr std::uint32_t kMostTicks = 1U << 31U;         // limit for a painting hand: weeks
+constexpr double kNarrowestM = 1e-10, kWidestM = 1e-3;  // side of the square
 constexpr double kLoopTickS = 10e-6;
-constexpr double kLongestTickS = 5e-3;  // of the servo, that a loop makes up for
+constexpr double kLongestTickS = 5e-3;  // longest tick of the servo that a loop compensates
 
 void clear(std::vector<double>& map) {
   map.assign(LiveScan::kPixels * LiveScan::kPixels, std::numeric_limits<double>::quiet_NaN());
@@ -50,7 +50,7 @@ LiveScan::LiveScan(ScanSubject subject, const ScanProgress& progress, std::span<
     progress_.pixel = progress.pixel;
     return;
   }
-  // the frame before the newest is still seen below the tip
+  // the previous frame is still visible below the tip
   for (std::uint32_t frame = progress.frame - std::min(progress.frame, 1U); frame <= progress.frame; ++frame) {
     progress_.frame = frame;
     begin_frame();
@@ -73,7 +73,7 @@ bool LiveScan::valid(const ScanProgress& progress) {
          std::all_of(changes.begin(), changes.end(), [](const ScanChange& c) { return is_valid(c.choice); });
 }
 
-// With the settings that were valid when it began, and other noise.
+// Begins a frame with the current settings and new noise.
 void LiveScan::begin_frame() {
   if (maps_.height_m[0].empty()) {
     for (auto* maps : {&maps_.height_m, &maps_.error_n, &maps_.lateral_n})
@@ -81,7 +81,7 @@ void LiveScan::begin_frame() {
   }
   if (progress_.pixel == kPixelsOfFrame) {
     last_image_m_ = maps_.height_m[0];
-    // what passes the loop of the detector's white noise: sqrt(S/(4 tau)), S = noise^2/bandwidth
+    // part of the detector's white noise that passes the loop: sqrt(S/(4 tau)), S = noise^2/bandwidth
     last_noise_m_ = applied_.noise_m * std::sqrt(applied_.gain_per_s / (4.0 * physics::kNoiseBandwidth.si));
   }
   progress_.pixel = 0;
@@ -107,7 +107,7 @@ void LiveScan::apply(const ScanChoice& choice) {
   if (loop_) loop_->change(scanner_->settings(), physics::Time(kLoopTickS));
 }
 
-// False at the end of the frame.
+// Returns false at the end of the frame.
 bool LiveScan::next_pixel() {
   for (const ScanChange& change : progress_.changes) {
     if (change.frame == progress_.frame && change.pixel == progress_.pixel && change.choice != applied_) {
@@ -139,7 +139,7 @@ void LiveScan::take_until(std::uint32_t pixel) {
 void LiveScan::follow_hand(const scene::TipSample& sample) {
   if (!is_painted() || sample.tick <= progress_.hand->first_tick) return;
   const std::uint64_t tick = std::min<std::uint64_t>(sample.tick - progress_.hand->first_tick, kMostTicks);
-  // changed before this tick
+  // changes before this tick
   const auto& changes = progress_.changes;
   const auto after = std::find_if(changes.begin() + 1, changes.end(), [&](const auto& c) { return c.pixel >= tick; });
   if (const ScanChoice& choice = (after - 1)->choice; choice != applied_) apply(choice);
@@ -152,7 +152,7 @@ void LiveScan::follow_hand(const scene::TipSample& sample) {
   paint(sample);
 }
 
-// The height of the sample below the tip, which drifts and may have a second apex.
+// Height of the sample below the tip, which drifts and may have a second apex.
 double LiveScan::below_m(double x_m, double y_m, double seconds) const {
   const double x = x_m - applied_.drift_m_per_s * seconds, y = y_m - applied_.drift_m_per_s * seconds;
   const physics::ScanSettings& settings = scanner_->settings();
@@ -190,7 +190,7 @@ void LiveScan::paint(const scene::TipSample& sample) {
   hand_row_ = row;
 }
 
-// Height, deflection and lateral forces, from the tick before to this one.
+// Paints height, deflection and lateral forces on the path from the previous tick to this one.
 void LiveScan::color_way(std::size_t column, std::size_t row, const std::array<double, 4>& values) {
   const std::array<std::vector<double>*, 4> maps{&maps_.height_m[0], &maps_.height_m[1], &maps_.lateral_n[0],
                                                  &maps_.lateral_n[1]};
@@ -232,7 +232,7 @@ void LiveScan::advance(double seconds) {
 
 void LiveScan::end_frame() {
   ++progress_.frame;
-  // what came before the frame that is now below the tip is no longer seen
+  // earlier changes than the previous frame's are no longer visible
   auto& changes = progress_.changes;
   while (changes.size() > 1 && precedes(changes[1], progress_.frame - 1, 0)) changes.erase(changes.begin());
   begin_frame();
@@ -256,7 +256,7 @@ void LiveScan::show_truth(bool shown) {
   find_truth();
 }
 
-// Once a frame and a tip: not in every frame of the wall.
+// Runs once per frame and tip, not in every frame of the wall.
 void LiveScan::find_truth() {
   if (!progress_.truth) return truth_.reset();
   if (truth_ && truth_->frame == progress_.frame && truth_->tip_radius_m == applied_.tip_radius_m) return;

@@ -10,7 +10,7 @@ namespace {
 
 using physics::kJudgedLines;
 
-// From the lowest to the highest place that was measured.
+// Range of the measured heights.
 double relief_m(const LiveScan& scan) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const double height_m : scan.maps().height_m[0]) {
@@ -39,9 +39,9 @@ physics::ScanEvidence evidence_of(const LiveScan& scan) {
 }  // namespace
 
 physics::ScanArtefact cause_of(const LiveScan& scan) {
-  if (scan.is_painted()) return physics::ScanArtefact::None;  // a hand does not keep to lines
+  if (scan.is_painted()) return physics::ScanArtefact::None;  // a hand has no lines
   if (scan.progress().frame == 0 && scan.row() < kJudgedLines)
-    return physics::ScanArtefact::None;  // too little to judge
+    return physics::ScanArtefact::None;  // too few lines to judge
   const physics::ScanSettings settings = settings_of(scan.choice(), scan.subject().adhesion_n);
   const physics::Scanner& scanner = scan.scanner();
   return main_artefact({settings, scanner.area(), scanner.loop().largest_integral_gain()}, evidence_of(scan));

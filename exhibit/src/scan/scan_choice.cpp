@@ -9,33 +9,32 @@
 
 #include "core/enumerators.h"
 #include "curves/live_parameters.h"
-#include "panel_conventions.h"
+#include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
 
 namespace afm::exhibit {
 
 namespace {
 
-// The lever of the scan, in air or liquid: stiff enough that no sample here holds its tip down over all of its relief,
-// so that a tip that is too slow does come off.
+// Lever of the scan, in air or liquid: too stiff for any sample here to hold its tip down over all of its relief, so
+// that a tip that is too slow does come off.
 constexpr double kSpring = 5.0;
-constexpr double kApexShare = 0.18;      // of the side: a second apex stands so far beside the first
-constexpr double kFarthestApexM = 1e-5;  // as in physics::kScanFields
-constexpr double kApexHeightM = 0.0;     // as high as the first: both are seen on every bump
+constexpr double kApexShare = 0.18;      // distance of a second apex, as a share of the side
+constexpr double kFarthestApexM = 1e-5;  // see physics::kScanFields
+constexpr double kApexHeightM = 0.0;     // both apexes are equally high, so both image every bump
 
 enum class Below { Nothing, Zero, Negative };
 
-// A series 1, 2, 5, 10 between two ends; below it nothing, or a zero, or a zero and the same series with the other
-// sign.
+// A series 1, 2, 5, 10 between two ends; below it nothing, zero, or zero and the same series with a negative sign.
 struct Series {
   double ScanChoice::* value;
   double low, high;
   Below below;
 };
 
-// In the order of ScanRow; the second apex has two values.
+// In the order of ScanRow. The second apex has two values.
 constexpr std::array kSeries{
-    Series{&ScanChoice::setpoint_n, 0.1e-9, 50e-9, Below::Negative},  // below zero adhesion alone holds the tip
+    Series{&ScanChoice::setpoint_n, 0.1e-9, 50e-9, Below::Negative},  // below zero only adhesion holds the tip
     Series{&ScanChoice::gain_per_s, 20.0, 20e3, Below::Nothing},
     Series{&ScanChoice::line_rate_hz, 1.0, 100.0, Below::Nothing},
     Series{&ScanChoice::tip_radius_m, 1e-9, 200e-9, Below::Nothing},
@@ -43,12 +42,12 @@ constexpr std::array kSeries{
     Series{&ScanChoice::drift_m_per_s, 0.1e-9, 50e-9, Below::Zero}};
 static_assert(kSeries.size() + 1 == core::kEnumerators<ScanRow>.size());
 
-constexpr double kSame = 1e-6;  // relative: the same value
+constexpr double kSame = 1e-6;  // largest relative difference of equal values
 
-constexpr double kSlowestUsualHz = 2.0;  // a minute for an image; rather press harder than be slower
-constexpr double kMostLag = 0.5;         // of the way that the lever is bent and adhesion holds: the tip stays on
+constexpr double kSlowestUsualHz = 2.0;  // a minute per image; prefers a stronger force to a slower scan
+constexpr double kMostLag = 0.5;         // share of the bend that adhesion can hold, which keeps the tip on the sample
 
-// The member of the series above or below a value, which need not be one.
+// The next value of the series above or below a value, which need not belong to it.
 double neighbour(double value, int direction) {
   const double decade = std::pow(10.0, std::floor(std::log10(value * (1.0 + kSame))));
   if (direction > 0) {
@@ -74,7 +73,7 @@ double stepped(const Series& series, double value, int direction) {
 }  // namespace
 
 bool is_valid(const ScanChoice& choice) {
-  constexpr double kSharpest = 1e-10, kBluntest = 1e-4;  // of tips of the user's own
+  constexpr double kSharpest = 1e-10, kBluntest = 1e-4;  // limits for tips defined by users
   if (!(choice.apex_distance_m >= 0.0 && choice.apex_distance_m <= kFarthestApexM)) return false;
   return std::all_of(kSeries.begin(), kSeries.end(), [&](const Series& series) {
     const double value = choice.*series.value;

@@ -14,9 +14,9 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kClearM = 0.001;   // of an end-stop
-constexpr double kHardlyM = 0.010;  // to either side of the contact point: no axis to move along
-constexpr double kThereM = 1e-6;    // of the hand
+constexpr double kClearM = 0.001;   // distance from an end-stop
+constexpr double kHardlyM = 0.010;  // range to either side below which an axis is ignored
+constexpr double kThereM = 1e-6;    // tolerance for the hand's position
 
 }  // namespace
 
@@ -35,7 +35,7 @@ double reachable_side_m(const scene::SharedDevice& device, const std::array<doub
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double reach_m = std::min(device.workspace_max_m[axis], -device.workspace_min_m[axis]);
     const auto i = static_cast<int>(axis);
-    const double share = std::abs(x[i]) + std::abs(y[i]);  // of the half side, in a corner
+    const double share = std::abs(x[i]) + std::abs(y[i]);  // share of the half side, at a corner
     if (reach_m < kHardlyM || share < 1e-9) continue;
     half_m = std::min(half_m, (reach_m - haptics::WorkspaceStop::kDepthM - kClearM) / share);
   }
@@ -86,6 +86,7 @@ std::optional<std::string> hand_guidance(const LiveScan& scan, const scene::TipS
     return phrases[other && force ? Phrase::ScanHandLiftOnce : Phrase::ScanHandPaints];
   }
   if (tip.led != 0) return phrases[Phrase::ScanHandLed];
+  if (tip.lead_lost != 0) return phrases[Phrase::ScanHandLost];
   return phrases[force ? Phrase::ScanHandHold : Phrase::ScanHandLift];
 }
 

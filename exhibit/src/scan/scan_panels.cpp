@@ -9,10 +9,10 @@
 
 #include "core/enumerators.h"
 #include "curves/live_parameters.h"
-#include "exhibit/height_colours.h"
-#include "exhibit/parameter_panel.h"
+#include "exhibit/models/height_colours.h"
+#include "exhibit/panels/parameter_panel.h"
 #include "exhibit/scan/scan_cause.h"
-#include "exhibit/wall_marks.h"
+#include "exhibit/scenery/wall_marks.h"
 #include "physics/quantity_text.h"
 
 namespace afm::exhibit {
@@ -20,10 +20,10 @@ namespace afm::exhibit {
 namespace {
 
 constexpr glm::vec3 kTraceColor{0.337F, 0.706F, 0.914F}, kRetraceColor{0.902F, 0.624F, 0.0F};
-constexpr double kOutliers = 0.003;       // of all values at each end: spikes do not use up the colours
-constexpr double kLeastRangeM = 0.2e-9;   // of the colours: a flat sample does not look rough
-constexpr double kTipOfRelief = 1.5;      // times the sample's range: so much of a tip is shown, more touches nothing
-constexpr double kLeastForceN = 0.05e-9;  // of the shades of forces, likewise
+constexpr double kOutliers = 0.003;  // share of all values at each end, so that spikes do not narrow the colour range
+constexpr double kLeastRangeM = 0.2e-9;  // smallest range of the colours, so that a flat sample does not look rough
+constexpr double kTipOfRelief = 1.5;  // shown height of the tip in units of the sample's range; the rest cannot touch
+constexpr double kLeastForceN = 0.05e-9;  // smallest range of the forces' shades
 
 struct Range {
   double low = 0, high = 0;
@@ -32,7 +32,7 @@ struct Range {
   double middle() const { return 0.5 * (low + high); }
 };
 
-// Of what has been measured, without the outliers.
+// Range of the measured values without outliers.
 Range range_of(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> values;
   values.reserve(a.size() + b.size());
@@ -71,7 +71,7 @@ render::ColorGrid colored(const std::vector<double>& map, const Range& range, Sr
 
 std::string nanonewtons(const Range& range) { return fmt::format("{:.2g}", 0.5e9 * (range.high - range.low)); }
 
-// The largest unit in which the side of the area is at least 1.
+// The largest unit in which the side is at least 1.
 struct SideUnit {
   double m;
   const char* name;
@@ -108,7 +108,7 @@ render::ProfilePlot newest_line(const LiveScan& scan, const Range& heights, cons
   const double side_nm = scan.subject().side_m * 1e9, high_nm = (heights.high - heights.low) * 1e9;
   render::ProfilePlot plot{.title = phrases[Phrase::ScanNewestLine],
                            .low = {0.0, -0.06 * high_nm},
-                           .high = {side_nm, 1.30 * high_nm},  // the legend above the lines
+                           .high = {side_nm, 1.30 * high_nm},  // leaves room for the legend
                            .lines = {}};
   const auto row = scan.newest_row();
   if (!row) return plot;
@@ -141,7 +141,7 @@ std::vector<glm::vec2> nanometres(const TipProfile& tip) {
   return points;
 }
 
-// In the place of the retrace the sample itself, in that of the newest line the tips.
+// Replaces the retrace by the sample and the newest line by the tips.
 void add_truth(const ScanTruth& truth, const std::vector<double>& trace_m, const Range& heights, const Phrases& phrases,
                render::ImagePanel& panel) {
   const auto [low, high] = std::minmax_element(truth.reach.sample.height_m.begin(), truth.reach.sample.height_m.end());
@@ -172,8 +172,8 @@ void add_truth(const ScanTruth& truth, const std::vector<double>& trace_m, const
 
 Range range_of(const std::vector<double>& map) { return range_of(map, {}); }
 
-// What a hand has painted: on the left what it sees, on the right what it keeps still. Cells that it has not visited
-// have no colour.
+// The image painted by a hand: on the left the measured quantity, on the right the controlled one. Cells without a
+// visit have no colour.
 render::ImagePanel painted_panel(const LiveScan& scan, const std::string& sample, const Phrases& phrases) {
   const ScanMaps& maps = scan.maps();
   const bool feedback = scan.progress().hand->feedback;

@@ -18,10 +18,10 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kPlaneSideM = 500e-9;   // of a sample that has no relief
-constexpr double kShareOfSample = 0.92;  // of the drawn sample's width that is scanned
+constexpr double kPlaneSideM = 500e-9;   // side for a sample without relief
+constexpr double kShareOfSample = 0.92;  // scanned share of the drawn sample's width
 
-// Metres as they were measured.
+// In metres as measured.
 physics::HeightGrid grid_of(const scene::FeltHeights& heights, const scene::TopographyScale& shown) {
   const double spacing_m = heights.spacing_m / shown.lateral;
   physics::HeightGrid grid{.columns = heights.columns,
@@ -39,8 +39,8 @@ physics::Scanner::Surface surface_of(std::shared_ptr<const physics::HeightGrid> 
   return [grid = std::move(grid)](double x_m, double y_m) { return grid->height_at_m(x_m, y_m); };
 }
 
-// What a tip of another radius would have measured: the image of a paraboloid that is dilated by a second one is that
-// of a paraboloid whose radius is the sum of both. A sharper tip sees no more than was measured.
+// The image that a tip of another radius would have measured. Dilating the image of a paraboloid by a second paraboloid
+// gives that of one whose radius is the sum of both. A sharper tip reveals nothing beyond the measurement.
 std::function<physics::Scanner::Surface(double)> traced_again(std::shared_ptr<const physics::HeightGrid> measured,
                                                               double tip_radius_m) {
   return [measured = std::move(measured), tip_radius_m](double radius_m) {
@@ -51,7 +51,7 @@ std::function<physics::Scanner::Surface(double)> traced_again(std::shared_ptr<co
   };
 }
 
-// The slope along the lines, except for the steepest percent of all places.
+// Slope along the lines, ignoring the steepest percent of all places.
 double slope_of(const physics::HeightGrid& grid) {
   constexpr double kOfPlaces = 0.99;
   std::vector<double> slopes;

@@ -10,10 +10,10 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kMarginShare = 0.125;  // of the side, around it
-constexpr double kSeenGap = 0.02;       // of the sample's range: a smaller gap is not shown
-constexpr std::size_t kReach = 8;       // of the tip that is looked for, in points of the coarser grid
-constexpr double kSureOfNoise = 4.0;    // times the noise
+constexpr double kMarginShare = 0.125;  // width of the rim as a share of the side
+constexpr double kSeenGap = 0.02;       // smallest gap shown, as a share of the sample's range
+constexpr std::size_t kReach = 8;       // half width of the estimated tip in points of the coarser grid
+constexpr double kSureOfNoise = 4.0;    // in units of the noise
 
 }  // namespace
 

@@ -11,8 +11,8 @@ namespace {
 
 using enum HeardEvent;
 
-// Notes of the equal temperament, rounded to a hertz: a glide down for what closes, up for what opens; two notes up for
-// what may begin, down for what ended; a rough low one, three times, for what failed; a click for what repeats.
+// Notes of the equal temperament, rounded to a hertz: a glide down for closing, up for opening; two notes up for a
+// possible start, down for an end; a rough low note, three times, for a failure; a click for a repeated event.
 constexpr std::array kRows{
     HeardEventRow{
         SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},

@@ -9,7 +9,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// Without a name or a figure it says when the hand gets force.
+// These events contain no name or figure, only the state of the force.
 bool concerns_force(HeardEvent event) {
   return event == HeardEvent::ForceOn || event == HeardEvent::ForceOff || event == HeardEvent::Fault ||
          event == HeardEvent::TurnOnReady;
@@ -61,7 +61,7 @@ void Narrator::follow(const scene::TipState& tip, const Step& step) {
     happened(HeardEvent::TurnOnReady, tip.material);
   }
   hint_ = step.hint;
-  // such a servo sends no samples
+  // without samples from the servo
   const bool silent = step.hint == Hint::ServoEnded || tip.fault == scene::FaultCode::ServoSilent;
   if (silent && !std::exchange(servo_silent_, silent)) happened(HeardEvent::Fault, tip.material);
   servo_silent_ = silent;

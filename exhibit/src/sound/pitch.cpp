@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kNoteOfA = 69, kHzOfA = 440, kNotesInOctave = 12;
 constexpr double kLevelWithoutForce = 0.2;
-constexpr double kFarSide = 0.75;  // one ear is never left without any sound
+constexpr double kFarSide = 0.75;  // neither ear is ever silent
 
 }  // namespace
 
@@ -30,7 +30,7 @@ double Ear::hz(double force_n) const {
 }
 
 Tone Ear::tone(double force_n) const {
-  const double turn = std::tanh(force_n / bend_n_);  // from side to side without a jump where the force is zero
+  const double turn = std::tanh(force_n / bend_n_);  // continuous from side to side at zero force
   return {.hz = hz(force_n),
           .level = kLevelWithoutForce + (1.0 - kLevelWithoutForce) * std::min(1.0, share(force_n)),
           .side = kFarSide * turn,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file of the exhibit that knows SDL.
+// The only file of the exhibit that includes SDL.
 #include <SDL2/SDL.h>
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kSdl = "libSDL2-2.0.so.0";
 
-// Those of SDL's functions that sound needs.
+// The SDL functions used for sound.
 struct SdlAudio {
   decltype(&SDL_SetHint) set_hint = nullptr;
   decltype(&SDL_InitSubSystem) init = nullptr;
@@ -42,7 +42,7 @@ core::Error no_sound(const std::string& why) {
 void say_nothing(const char* /*file*/, int /*line*/, const char* /*function*/, int /*error*/, const char* /*format*/,
                  ...) {}
 
-// Where there is no card, ALSA, which SDL loads, writes its own lines to stderr: the one line is ours.
+// Without a sound card, ALSA, which SDL loads, would write its own lines to stderr in addition to our line.
 void quieten_alsa() {
   using Handler = void (*)(const char* file, int line, const char* function, int error, const char* format, ...);
   int (*set_handler)(Handler) = nullptr;
@@ -52,7 +52,7 @@ void quieten_alsa() {
   }
 }
 
-// Once and for the life of the process, as SDL's own threads may outlast a call.
+// Loaded once and never unloaded, because SDL's threads may outlast a call.
 core::Result<SdlAudio> load_audio() {
   void* const library = ::dlopen(kSdl, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return tl::unexpected(no_sound(fmt::format("{} cannot be loaded", kSdl)));
@@ -79,7 +79,7 @@ class SdlOutput final : public SoundOutput {
     if (begun_) sdl_.quit(SDL_INIT_AUDIO);
   }
 
-  // An error of SDL's, or empty.
+  // Returns SDL's error, or an empty text.
   std::string begin() {
     sdl_.set_hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     sdl_.set_hint(SDL_HINT_AUDIO_DEVICE_APP_NAME, "TouchAFM");
@@ -92,7 +92,7 @@ class SdlOutput final : public SoundOutput {
     wanted.samples = kFramesOfBuffer;
     wanted.callback = &SdlOutput::pull;
     wanted.userdata = this;
-    // what the card wants instead, SDL converts
+    // SDL converts to the card's format
     device_ = sdl_.open(nullptr, 0, &wanted, nullptr, 0);
     if (device_ == 0) return sdl_.error();
     if (const char* name = sdl_.driver()) driver_ = name;
@@ -104,7 +104,7 @@ class SdlOutput final : public SoundOutput {
   bool plays() override { return sdl_.status(device_) != SDL_AUDIO_STOPPED; }
 
  private:
-  // SDL's audio thread.
+  // Called in SDL's audio thread.
   static void SDLCALL pull(void* self, Uint8* bytes, int size) noexcept {
     auto& output = *static_cast<SdlOutput*>(self);
     const auto count = static_cast<std::size_t>(size) / sizeof(float);

@@ -16,10 +16,10 @@ namespace afm::exhibit {
 namespace {
 
 constexpr int kChannelCount = 2;
-constexpr std::int64_t kEndS = 1;  // for what began with the last tick
+constexpr std::int64_t kEndS = 1;  // fade-out of sounds that began with the last tick
 constexpr std::int64_t kLongestNs = 3'600'000'000'000;
 
-// The stream as it grows.
+// Collects the stream.
 class Stream {
  public:
   Stream(const servo::RecordedSession& session, const Ear& ear, Channels channels, double gain)

@@ -8,7 +8,7 @@ namespace afm::exhibit {
 namespace {
 
 constexpr double kToneUnderVoice = 0.3;
-constexpr float kVoiceStep = 1.0F / (0.004F * kSoundRateHz);  // a phrase that is cut ends within 4 ms
+constexpr float kVoiceStep = 1.0F / (0.004F * kSoundRateHz);  // fades an interrupted phrase out within 4 ms
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void SoundMixer::take(const TipUpdate& update) noexcept {
     synthesizer_.play(at, update.what, side_of({.event = update.what, .force_n = update.force_n}, ear));
     return;
   }
-  // without a force it falls silent where it was
+  // without a force the tone fades at its pitch
   Tone tone = ear.tone(update.force_n);
   if (!update.audible) tone = {.hz = last_hz_, .level = 0};
   last_hz_ = tone.hz;
@@ -89,7 +89,7 @@ float SoundMixer::next_of_voice() noexcept {
   const bool stale = block_.phrase != wanted;
   voice_gain_ = std::clamp(voice_gain_ + (stale ? -kVoiceStep : kVoiceStep), 0.0F, 1.0F);
   if (stale && voice_gain_ <= 0.0F) {
-    spoken_ = block_.count;  // the rest of the phrase that was cut
+    spoken_ = block_.count;  // skips the rest of the interrupted phrase
     return 0.0F;
   }
   return voice_gain_ * block_.samples[spoken_++];

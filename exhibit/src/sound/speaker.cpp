@@ -37,7 +37,7 @@ void Speaker::offer(SpeechText text) {
   {
     const std::lock_guard lock(mutex_);
     queue_.offer(std::move(text));
-    // whether it cuts off what is spoken
+    // the new text interrupts the current one
     if (queue_.next_ns() == 0) newer_ = true;
   }
   wake_.notify_one();
@@ -79,7 +79,7 @@ void Speaker::play(const std::string& wav) {
     VoiceBlock block{.phrase = phrase_};
     block.count = static_cast<std::uint32_t>(std::min(VoiceBlock::kSamples, samples.size() - at));
     std::copy_n(samples.begin() + static_cast<std::ptrdiff_t>(at), block.count, block.samples.begin());
-    // full for longer than the phrase lasts: nobody listens
+    // full for longer than the phrase: nobody reads
     while (!mixer_.speak(block)) {
       if (cut_off() || clock_.now_ns() > end_ns) return;
       std::this_thread::sleep_for(kFullRingPause);

@@ -29,7 +29,7 @@ core::Error speech_error(const std::string& path, const std::string& what) {
   return {core::ErrorCategory::Failed, fmt::format("speech: {} {}; captions go on", path, what)};
 }
 
-// Starts it with the pipe as its output; frees what posix_spawn needs in any case.
+// Starts the program with the pipe as its output. Always frees the resources of posix_spawn.
 class SpeechSpawn {
  public:
   SpeechSpawn() {
@@ -43,7 +43,7 @@ class SpeechSpawn {
     ::posix_spawnattr_destroy(&attributes_);
   }
 
-  // 0, or the error.
+  // Returns 0 or the error number.
   int start(const std::string& path, std::vector<std::string>& arguments, int output, pid_t& child) {
     sigset_t none;
     ::sigemptyset(&none);
@@ -121,7 +121,7 @@ core::Result<std::string> SpeechChild::collect(int pipe, const std::string& path
   return std::string();
 }
 
-// The child has closed its output, or is not wanted any more.
+// Ends a child that has closed its output or is no longer needed.
 void SpeechChild::end(int grace_ms, int& status) noexcept {
   const pid_t child = child_.load();
   for (int waited = 0; ::waitpid(child, &status, WNOHANG) == 0; ++waited) {

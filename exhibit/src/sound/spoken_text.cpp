@@ -8,19 +8,20 @@
 #include <cstdlib>
 
 #include "core/enumerators.h"
+#include "exhibit/state/moment.h"
 
 namespace afm::exhibit {
 
 namespace {
 
-// Prefixes from pico up, each with a phrase for one and one for all other numbers.
+// Prefixes from pico up, each with a singular and a plural phrase.
 struct Prefix {
   double of_si;
-  const char* sign;  // of newtons
+  const char* sign;  // unit symbol for newtons
 };
 constexpr std::array<Prefix, 3> kPrefixes{{{1e-12, "pN"}, {1e-9, "nN"}, {1e-6, "\u00b5N"}}};
 constexpr std::size_t kUsual = 1;
-constexpr double kPicoBelow = 0.1, kMicroFrom = 1000.0;  // nano
+constexpr double kPicoBelow = 0.1, kMicroFrom = 1000.0;  // limits of the prefix nano
 static_assert(after(Phrase::OnePiconewton, 2 * kPrefixes.size()) == Phrase::OnePicometre);
 
 struct Rounded {
@@ -82,7 +83,7 @@ std::string said_of_state(const Phrases& phrases, const scene::TipState& tip, co
   std::string said;
   const auto add = [&said](const std::string& sentence) { said += (said.empty() ? "" : ". ") + sentence; };
   if (tip.material >= 0) add(sample);
-  add(phrases[after(Phrase::StateOff, core::index_of(tip.servo_state))]);
+  add(phrases[state_phrase(tip.servo_state, is_stopped(tip))]);
   if (tip.servo_state == scene::ServoState::Running && tip.phase != physics::Phase::WaitForLift) {
     const std::string force = spoken_force(phrases, tip.tip.force_n);
     const bool none = tip.tip.force_n == 0.0;

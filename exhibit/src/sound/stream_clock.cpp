@@ -6,7 +6,7 @@ namespace afm::exhibit {
 namespace {
 
 constexpr std::int64_t kInterruptedNs = 40'000'000;
-constexpr std::int64_t kBlocksToFollow = 64;  // a third of a second: a card's clock differs by some 1e-4
+constexpr std::int64_t kBlocksToFollow = 64;  // a third of a second; a card's clock differs by some 1e-4
 
 }  // namespace
 

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kToneAmplitude = 0.16;
-constexpr double kOctaveShare = 0.5;  // of the octave at the full edge
+constexpr double kOctaveShare = 0.5;  // amplitude of the octave at full edge
 constexpr double kFollowS = 0.004;
 constexpr double kAttackS = 0.005;
 constexpr double kKnee = 0.6;
 
-// Of one period with its octave; not louder than a pure one.
+// One period with its octave, no louder than a pure tone.
 double wave(double phase, double edge) noexcept {
   const double octave = kOctaveShare * edge;
   return (std::sin(kTurn * phase) + octave * std::sin(2.0 * kTurn * phase)) / (1.0 + octave);
@@ -52,7 +52,7 @@ double rise(double time_s, double length_s) {
 void Synthesizer::Followed::step() noexcept { now += (wanted - now) / (kFollowS * kSoundRateHz); }
 
 void Synthesizer::set_tone(std::int64_t at, const Tone& tone) noexcept {
-  if (point_count_ == kPoints) {  // nobody has pulled for long: the oldest is of the past
+  if (point_count_ == kPoints) {  // not read for a long time: drops the oldest, which is past
     from_ = points_[first_point_];
     first_point_ = (first_point_ + 1) % kPoints;
     --point_count_;
@@ -78,7 +78,7 @@ Tone Synthesizer::tone_now() noexcept {
   }
   if (point_count_ == 0) return from_.tone;
   const Point& to = points_[first_point_];
-  // from silence nothing glides
+  // no glide out of silence
   if (from_.tone.hz <= 0.0 || to.tone.hz <= 0.0) return from_.tone;
   const double share =
       static_cast<double>(position_ - from_.at) / static_cast<double>(std::max<std::int64_t>(1, to.at - from_.at));

@@ -55,7 +55,7 @@ std::optional<HeardEvent> TipEar::change_of_force(scene::ServoState state) {
 bool TipEar::touches(const scene::TipSample& sample) {
   const bool pushed = sample.tip.force_n > 0.0;
   const bool felt = is_audible(sample);
-  // a law without a pull pushes from where it touches
+  // under a law without a pull, the push begins at contact
   if (!felt || sample.phase == physics::Phase::Free) may_touch_ = felt && !pushed;
   const bool touch = felt && pushed && may_touch_;
   if (touch) may_touch_ = false;
@@ -67,13 +67,13 @@ std::optional<Heard> TipEar::add(const scene::TipSample& sample) {
   const std::int64_t before_ns = std::exchange(last_ns_, sample.time_ns);
   const bool touch = touches(sample);
   if (const auto change = change_of_force(sample.servo_state)) {
-    // Stop was pressed: no fault, whatever state the governor is in
+    // after Stop this is no fault, whatever the governor's state
     const bool stopped = *change == HeardEvent::Fault && sample.renderer == scene::RendererLink::Stopped;
     return Heard{
         .event = stopped ? HeardEvent::ForceOff : *change, .time_ns = sample.time_ns, .material = sample.material};
   }
   if (!touch) return std::nullopt;
-  // where the force crossed zero between the two ticks
+  // time at which the force crossed zero between the two ticks
   const double rise_n = sample.tip.force_n - before_n;
   const double share = before_n <= 0.0 && rise_n > 0.0 ? -before_n / rise_n : 1.0;
   const auto part_ns = static_cast<std::int64_t>(share * static_cast<double>(sample.time_ns - before_ns));

@@ -92,6 +92,9 @@ class HapticDevice {
   virtual DeviceSample read(std::int64_t now_ns) noexcept = 0;
   virtual void write(const ForceCommand& command) noexcept = 0;
 
+  // False if the driver has a thread on the way to the hand that did not get the servo's scheduling.
+  virtual bool driver_is_realtime() const noexcept { return true; }
+
   // Next motion of the simulated user. A real device ignores it.
   virtual void follow(const scene::HandScript& /*script*/) noexcept {}
 };

@@ -13,6 +13,7 @@
 #include "core/clock.h"
 #include "core/result.h"
 #include "haptics/device.h"
+#include "haptics/hand_controls.h"
 #include "haptics/release_path.h"
 
 // Haptic devices that TouchAFM supports, their names, and how to set them up.
@@ -67,6 +68,7 @@ struct DeviceKind {
   std::string_view subject;  // subject of its ProbeLine; begins with the word
   std::string_view meaning;  // text in the help: "an Inverse3 through its maker's service"
   bool renders_force;        // the hand itself feels the force
+  HandControls controls;     // names of its controls on the wall
   std::string_view remedy;   // advice for a silent device with an installed driver; empty: a probe cannot detect that
 
   // Both functions log what they tried, the device itself last.

@@ -72,6 +72,7 @@ class ScanGuide {
   double stiffness_n_per_m() const noexcept { return stiffness_n_per_m_; }
   double most_force_n() const noexcept { return most_force_n_; }
   bool leads() const noexcept { return leads_; }
+  bool lost() const noexcept { return lost_; }  // Turn-On must be released before it leads again
 
  private:
   bool is_reached_by(const Target& target) noexcept;

@@ -67,7 +67,7 @@ class ServoLoop {
   // Used by one thread other than the servo's (EditThread), during the lifetime of the loop.
   EditBuilder& edits() noexcept { return edits_; }
 
-  // Stores the result of enter_realtime() for the report. Call before run().
+  // Stores the result of enter_realtime(), and of the driver's own thread, for wall and report. Call before run().
   void note_grant(const RealtimeGrant& grant) noexcept;
 
   std::int64_t period_ns() const noexcept { return period_ns_; }

@@ -83,7 +83,7 @@ core::Result<std::unique_ptr<GamepadDevice>> GamepadDevice::open(const SdlFuncti
   }
   std::unique_ptr<GamepadDevice> device(new GamepadDevice(clock, std::move(*best)));
   device->frames_.store({.time_ns = clock.now_ns(), .sticks = {}, .turn_on = 0, .attached = 1});
-  device->thread_ = std::thread([raw = device.get()] { raw->run(); });
+  device->thread_ = DriverThread([raw = device.get()] { raw->run(); });
   return device;
 }
 
@@ -97,7 +97,7 @@ GamepadDevice::GamepadDevice(const core::Clock& clock, std::unique_ptr<GamepadPo
 
 GamepadDevice::~GamepadDevice() {
   closing_.store(true);
-  if (thread_.joinable()) thread_.join();
+  thread_.join();
 }
 
 DeviceSample GamepadDevice::read(std::int64_t now_ns) noexcept {

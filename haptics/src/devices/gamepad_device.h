@@ -7,12 +7,12 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "core/clock.h"
 #include "core/latest_value.h"
 #include "core/result.h"
+#include "devices/driver_thread.h"
 #include "devices/force_rumble.h"
 #include "haptics/device_registry.h"
 #include "haptics/simulated_device.h"
@@ -71,6 +71,7 @@ class GamepadDevice final : public HapticDevice {
   const DeviceSpec& spec() const noexcept override { return spec_; }
   DeviceSample read(std::int64_t now_ns) noexcept override;
   void write(const ForceCommand& command) noexcept override;
+  bool driver_is_realtime() const noexcept override { return thread_.is_realtime(); }
 
  private:
   // Latest stick positions from SDL, -1 to 1 along the device frame.
@@ -112,7 +113,7 @@ class GamepadDevice final : public HapticDevice {
   // SDL's thread
   Rumble told_;
   std::int64_t logged_ns_ = 0;
-  std::thread thread_;
+  DriverThread thread_;
 };
 
 // Entry for the registry. A gamepad lying on the desk must not replace the mouse: unless it is named, only a joystick

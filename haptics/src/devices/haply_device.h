@@ -7,11 +7,11 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <thread>
 
 #include "core/clock.h"
 #include "core/latest_value.h"
 #include "core/result.h"
+#include "devices/driver_thread.h"
 #include "haptics/device_registry.h"
 
 namespace afm::haptics {
@@ -53,6 +53,7 @@ class HaplyDevice final : public HapticDevice {
   const DeviceSpec& spec() const noexcept override { return spec_; }
   DeviceSample read(std::int64_t now_ns) noexcept override;
   void write(const ForceCommand& command) noexcept override;
+  bool driver_is_realtime() const noexcept override { return thread_.is_realtime(); }
 
  private:
   struct Frame {
@@ -96,7 +97,7 @@ class HaplyDevice final : public HapticDevice {
   std::int64_t heard_ns_ = 0;
   std::int64_t complained_ns_ = 0;
   std::int64_t trust_ns_ = 0;  // 0: command ignored; kReturnNs: command applied fully
-  std::thread thread_;
+  DriverThread thread_;        // last member: it uses all the others
 };
 
 // Entry for the registry.

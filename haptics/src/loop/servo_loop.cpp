@@ -123,7 +123,7 @@ void ServoLoop::note_grant(const RealtimeGrant& grant) noexcept {
   timing_.policy_fifo = grant.priority > 0 ? 1 : 0;
   timing_.priority = static_cast<std::uint32_t>(std::max(0, grant.priority));
   timing_.pages_locked = grant.pages_locked ? 1 : 0;
-  state_.realtime = grant.realtime() ? 1 : 0;
+  state_.realtime = grant.realtime() && device_.driver_is_realtime() ? 1 : 0;
 }
 
 void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
@@ -233,27 +233,27 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
   scan_ = fresh && newest_scan_.hand != scene::ScanHand::Apart ? newest_scan_ : scene::ScanLead{};
 }
 
-// Follows the paper's procedure: choose, lift, press Turn-On. A selection waits until the tip is off the sample; then
-// the force is removed, and only without force do the law and its scale change. An edit of the material under the tip
-// is handled the same way; edits of other materials are not felt.
+// Follows the paper's procedure: choose, lift, press Turn-On. A selection, or an edit of the material under the tip,
+// waits until the tip is off the sample; then the force is removed, and only without force do law and scale change.
+// Edits of other materials are not felt. A release removes the force at once.
 void ServoLoop::change_model() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.adopt(i);
   }
   const bool valid = chosen_.material >= 0 && static_cast<std::size_t>(chosen_.material) < exchange_.size();
-  const bool other = valid && chosen_.revision != state_.acknowledged.selection &&
-                     (chosen_.material != state_.material || chosen_.scale_mode != state_.active.scale_mode);
+  const bool newer = valid && chosen_.revision != state_.acknowledged.selection;
+  const bool other = newer && (chosen_.material != state_.material || chosen_.scale_mode != state_.active.scale_mode);
   const bool edited = model_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
   changing_ = false;
-  if (other || edited) {
-    if (model_ != nullptr && model_->phase() == physics::Phase::Attached) return;
+  if (const bool release = newer && chosen_.release != 0; other || edited || release) {
+    if (!release && model_ != nullptr && model_->phase() == physics::Phase::Attached) return;
     governor_.disarm();
-    changing_ = true;
-    if (!governor_.released()) return;
+    changing_ = !governor_.released();
+    if (changing_) return;
     if (edited) exchange_.adopt(static_cast<std::size_t>(state_.material));
     if (other) {
       select_material(static_cast<std::size_t>(chosen_.material), chosen_.scale_mode);
-    } else {
+    } else if (edited) {
       select_material(static_cast<std::size_t>(state_.material), state_.active.scale_mode);
     }
   }
@@ -265,7 +265,6 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
   model_->wait_for_lift();
   governor_.forget_motion();
   guide_.reset();
-  changing_ = false;
   model_->use(mode);
   const Scaling& scaling = model_->scaling();
   governor_.set_release_height(scaling.release_height_m());
@@ -332,6 +331,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   state_.fault = governor_.fault();
   state_.dead_man = governor_.dead_man() ? 1 : 0;
   state_.led = guide_.leads() ? 1 : 0;
+  state_.lead_lost = guide_.lost() ? 1 : 0;
   state_.level = model_ != nullptr && model_->is_level() ? 1 : 0;
   state_.acknowledged.refused_edit = edits_.refused();
   state_.garbage_blocks = shared_.refused_blocks() + refused_transforms_;

@@ -22,12 +22,12 @@ double tabor_parameter(const ContactParameters& contact);
 // K = 4 E*/3: 1.1570 mu (Maugis 1992).
 double maugis_parameter(const ContactParameters& contact);
 
-// The regime at a Tabor parameter and a load in units of pi W R, in which DMT pulls off at -2 and JKR at -1.5. Johnson
-// & Greenwood's borders: Hertz where adhesion adds less than 5 % to the load, Rigid where the contact flattens by less
-// than 5 % of the range of the attraction, and of the others DMT below a Tabor parameter of 0.1, JKR above 5.
+// The regime at a Tabor parameter and a load in units of pi W R, in which DMT pulls off at -2 and JKR at -1.5. Borders
+// of Johnson & Greenwood: Hertz if adhesion adds less than 5 % to the load; Rigid if the contact flattens by less than
+// 5 % of the range of the attraction; otherwise DMT below a Tabor parameter of 0.1, JKR above 5, and Maugis in between.
 Regime regime_of(double tabor, double load);
 
-// Where a contact lies on the adhesion map, and the law that suits it.
+// Position of a contact on the adhesion map, and the law that suits it.
 struct LawChoice {
   Law law = Law::Dmt;
   Regime regime = Regime::Dmt;
@@ -36,9 +36,9 @@ struct LawChoice {
   std::string reason;  // one sentence for users, with the numbers
 };
 
-// By the regime at zero load, where adhesion alone presses the bodies together: JKR for JKR, Maugis-Dugdale for Maugis,
-// and DMT for the stiffer ones, Rigid included, whose pull-off is the same. (At zero load the regime is never Hertz: no
-// contact is chosen to be without adhesion.) Throws as validate() does.
+// Chooses by the regime at zero load, where only adhesion presses the bodies together: JKR for JKR, Maugis-Dugdale for
+// Maugis, and DMT for the stiffer ones, including Rigid, whose pull-off is the same. (At zero load the regime is never
+// Hertz, so that no contact loses its adhesion.) Throws as validate() does.
 LawChoice choose_law(const ContactParameters& contact);
 
 }  // namespace afm::physics

@@ -6,15 +6,16 @@
 
 namespace afm::physics {
 
-// An elastic sphere that adheres to an elastic half-space, as the contact mechanics of Hertz, DMT, JKR and Maugis see
-// it. Values within the ranges of validate(), the modulus finite.
+// An elastic sphere that adheres to an elastic half-space, as in the contact mechanics of Hertz, DMT, JKR and Maugis.
+// Values are within the ranges of validate(); the modulus is finite.
 struct AdhesiveContact {
   Length tip_radius;               // R
   Pressure reduced_modulus;        // E*
   SurfaceEnergy work_of_adhesion;  // W
 };
 
-// Throws as validate() does, and UnphysicalValue if the modulus is infinite: a rigid contact has no contact mechanics.
+// Throws as validate() does, and UnphysicalValue if the modulus is infinite, because contact mechanics does not apply
+// to rigid bodies.
 AdhesiveContact adhesive_contact(const ContactParameters& contact);
 
 }  // namespace afm::physics

@@ -8,15 +8,14 @@
 
 namespace afm::physics {
 
-// F(Z) of one branch of the lever's force, to be looked up in O(1) without allocation by one or many threads. A branch
-// lies above or below the Z at which it ends, in a jump or in contact.
+// F(Z) of one branch of the lever's force, for lookups in O(1) without allocation, from any thread. A branch is above
+// or below the Z at which it ends, in a jump or in contact.
 //
-// Near a jump F goes like the square root of the distance to it, so F is tabulated in u = sqrt(|Z - Z_end|), between
-// nodes that lie the closer the nearer they are to the end, `kNodesPerOctave` for each doubling of u: what the branch
-// does at any scale is met by nodes of that scale. Between two nodes F is the cubic with the nodes' values and slopes,
-// so that a parabola in u, and with it a straight line in Z, is exact. Where the branch has a kink a piece of the table
-// ends and another begins, with u counted from the kink. A recorded branch, which knows nothing of its fold, has nodes
-// at equal distances in Z instead.
+// Near a jump F varies like the square root of the distance to it, so F is tabulated in u = sqrt(|Z - Z_end|). The
+// nodes get denser towards the end, `kNodesPerOctave` for each doubling of u, so that every scale is resolved. Between
+// two nodes F is the cubic with the nodes' values and slopes, which is exact for a parabola in u, and thus for a
+// straight line in Z. At a kink of the branch one piece of the table ends and another begins, with u counted from the
+// kink. A recorded branch, whose fold is unknown, has nodes at equal distances in Z instead.
 class BranchTable {
  public:
   static constexpr std::size_t kNodesPerOctave = 128;
@@ -25,11 +24,10 @@ class BranchTable {
 
   struct Node {
     double force_n = 0.0;
-    double slope = 0.0;  // dF/du, N/sqrt(m); of equally spaced nodes dF/d|Z - Z_end|, N/m
+    double slope = 0.0;  // dF/du, N/sqrt(m); for equally spaced nodes dF/d|Z - Z_end|, N/m
   };
 
-  // Between two kinks. Node 0 lies at u = 0, node i at node_u(first_octave, i), but for the last, which lies at
-  // `last_u`.
+  // Part between two kinks. Node 0 is at u = 0, node i at node_u(first_octave, i), except that the last is at `last_u`.
   struct Piece {
     double start = 0.0;  // |Z - Z_end| of its first node, m
     int first_octave = 0;
@@ -41,30 +39,30 @@ class BranchTable {
   // Zero everywhere.
   BranchTable() = default;
 
-  // A straight line in Z everywhere.
+  // A straight line in Z.
   static BranchTable straight(Force force_at_zero, Stiffness slope);
 
-  // `pieces` from the end outwards, at least one; the first starts at 0 and each where the one before has its last
-  // node.
+  // `pieces` from the end outwards, at least one. The first starts at 0, each other at the last node of the previous
+  // one.
   BranchTable(Length end, Side side, std::vector<Piece> pieces);
 
-  // `nodes` at |Z - Z_end| = 0, `spacing`, 2 `spacing`, ...: at least two.
+  // `nodes` at |Z - Z_end| = 0, `spacing`, 2 `spacing`, ...; at least two.
   BranchTable(Length end, Side side, Length spacing, std::vector<Node> nodes);
 
-  // Continued beyond the last node: falling to zero as the last nodes do above the end, along the last slope below it.
-  // On the other side of the end it keeps the force of the end.
+  // Extrapolates beyond the last node: above the end F falls to zero like the last nodes, below it F continues with the
+  // last slope. On the other side of the end it keeps the end's force.
   Force force(Length z) const noexcept;
 
   Length end() const noexcept { return Length(end_z_); }
 
  private:
-  // Beyond the last node, from how F changes there away from the end.
+  // Prepares the extrapolation beyond the last node from the outward change of F.
   void continue_from(double distance, const Node& last, double slope_outwards);
   Force force_beyond(double z, double distance) const noexcept;
 
   double end_z_ = 0.0;
   double side_ = 1.0;    // +1 above the end, -1 below
-  double reach_ = -1.0;  // |Z - Z_end| of the last node; below zero where there are none
+  double reach_ = -1.0;  // |Z - Z_end| of the last node; negative without nodes
   double last_force_ = 0.0;
   double tail_exponent_ = 0.0;       // positive: F falls off as distance^-tail_exponent beyond the last node
   double line_force_at_zero_ = 0.0;  // otherwise F is this line there

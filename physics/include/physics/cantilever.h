@@ -3,8 +3,8 @@
 
 #include "physics/units.h"
 
-// Spring constants and resonances of cantilevers from their geometry. All functions take valid levers and may be called
-// from any thread; the validate() functions throw UnphysicalValue with the member's name.
+// Spring constants and resonances of cantilevers from their geometry. All functions require valid levers. Any thread.
+// The validate() functions throw UnphysicalValue with the member's name.
 namespace afm::physics {
 
 struct RectangularLever {
@@ -32,7 +32,7 @@ void validate(const VShapedLever& lever);
 Stiffness spring_constant(const RectangularLever& lever);
 
 // The parallel-beam approximation of Sader 1995: k = E t^3 d/(2 L^3) cos(th) [1 + (4 d^3/b^3)(3 cos(th) - 2)]^-1 with
-// tan(th) = b/(2 L). Within some per cent of a bending and twisting frame for th from 15 to 35 degrees.
+// tan(th) = b/(2 L). Agrees within some per cent with a bending and twisting frame for th from 15 to 35 degrees.
 Stiffness spring_constant(const VShapedLever& lever);
 
 Mass mass(const RectangularLever& lever);
@@ -43,19 +43,19 @@ Frequency vacuum_resonance(const RectangularLever& lever, int mode = 1);
 // The mass that makes a point on the spring k resonate at the lever's first frequency: 3 m/alpha_1^4 = 0.243 m.
 Mass effective_mass(const RectangularLever& lever);
 
-// The torque at the clamp that holds a force at the end, F L. Signed as the force.
+// Torque at the clamp for a force at the end, F L. Same sign as the force.
 Torque clamp_moment(Force force, Length lever_length);
 
-// What a lever of spring constant k is to a force along the sample's normal when it is mounted at an angle to the
-// sample: k/cos^2(tilt) (Heim, Kappl & Butt 2004; without the tip's own length and without friction). Tilt below 90
+// Stiffness of a lever of spring constant k against a force along the sample's normal if the lever is mounted at an
+// angle to the sample: k/cos^2(tilt) (Heim, Kappl & Butt 2004; without the tip's length and friction). Tilt below 90
 // degrees.
 Stiffness tilted_spring_constant(Stiffness spring_constant, double tilt_rad);
 
-// What the lever is to a force across it at the apex of a tip of height h, by twisting: k_lat = G w t^3/(3 L h^2) with
-// G = E/(2 (1 + nu)), for t well below w.
+// Torsional stiffness against a lateral force at the apex of a tip of height h: k_lat = G w t^3/(3 L h^2) with G = E/(2
+// (1 + nu)), for t well below w.
 Stiffness lateral_stiffness(const RectangularLever& lever, double poisson_ratio, Length tip_height);
 
-// The same of a lever whose k is known, k 2/(3 (1 + nu)) (L/h)^2.
+// The same from a known k: k 2/(3 (1 + nu)) (L/h)^2.
 Stiffness lateral_stiffness(Stiffness spring_constant, double poisson_ratio, Length length, Length tip_height);
 
 }  // namespace afm::physics

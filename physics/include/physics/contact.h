@@ -4,16 +4,15 @@
 #include "physics/contact_parameters.h"
 #include "physics/units.h"
 
-// The closed forms of Liu & Peng, section 3.2; equation numbers are theirs. They are evaluated with alpha finite in
-// general, never assumed to be 1. All take valid interactions (physics/contact_parameters.h) and may be called from any
-// thread.
+// Closed forms of Liu & Peng, section 3.2, with their equation numbers. All are evaluated with a finite alpha, never
+// assumed to be 1. All require valid interactions (physics/contact_parameters.h). Any thread.
 //
 // Signs and frames, for the whole program:
 //   +z is the outward normal of the sample, z = 0 its undeformed surface.
 //   Force on the tip is positive away from the sample: repulsion > 0, attraction < 0.
 //   Z = D + delta_c + delta_s (3.5): Z is the height that the apex would have on an unbent lever, D the gap between the
 //   apex and the deformed surface, delta_c > 0 a lever bent towards the sample, delta_s > 0 a surface drawn out towards
-//   the tip. So the apex stands at z = Z - delta_c = D + delta_s, and at rest F = -k_c delta_c = -k_s delta_s.
+//   the tip. So the apex is at z = Z - delta_c = D + delta_s, and at rest F = -k_c delta_c = -k_s delta_s.
 // The paper prints its events without signs, and so are the values below: magnitudes, all >= 0.
 namespace afm::physics {
 
@@ -23,7 +22,7 @@ double alpha(const ContactParameters& contact);
 // k' = k_c k_s/(k_c + k_s) (3.1): the slope of the contact line, lever and sample in series.
 Stiffness effective_stiffness(const ContactParameters& contact);
 
-// D_attr = cbrt(alpha A_H R/(3 k_c)) (3.8): the gap from which the tip jumps to contact.
+// D_attr = cbrt(alpha A_H R/(3 k_c)) (3.8): the gap at which the tip jumps to contact.
 Length jump_to_contact_gap(const ContactParameters& contact);
 
 // (delta_c)_attr = 1/2 cbrt(A_H R/(3 alpha^2 k_c)) (3.9): the lever's deflection just before that jump.
@@ -39,11 +38,11 @@ SurfaceEnergy work_of_adhesion(const ContactParameters& contact);
 // F_ad = 2 pi R W_ad (3.2), (3.4), from Derjaguin, Muller & Toporov 1975: the pull-off force.
 Force adhesion_force(const ContactParameters& contact);
 
-// The attraction A_H R/(6 D^2) of a sphere to a half-space at the gap D > 0 (Derjaguin's approximation, on which
-// (3.8) and (3.9) rest), as a magnitude.
+// Attraction A_H R/(6 D^2) between a sphere and a half-space at the gap D > 0, a magnitude (Derjaguin's approximation,
+// on which (3.8) and (3.9) are based).
 Force van_der_waals_attraction(const ContactParameters& contact, Length gap);
 
-// Everything that happens in one cycle, as magnitudes.
+// All events of one cycle, as magnitudes.
 struct ApproachRetractEvents {
   double alpha = 1.0;
   Stiffness effective_stiffness;  // k'
@@ -56,7 +55,7 @@ struct ApproachRetractEvents {
   SurfaceEnergy work_of_adhesion;
   Force f_ad;          // pull-off force
   Length z_joc;        // jump off contact, F_ad/k'; the paper prints no equation for it
-  Energy loop_energy;  // k' (Z_joc^2 - Z_jtc^2)/2: what one cycle of the latch dissipates; negative if Z_joc < Z_jtc
+  Energy loop_energy;  // k' (Z_joc^2 - Z_jtc^2)/2: dissipated by one cycle of the latch; negative if Z_joc < Z_jtc
 };
 
 // Throws std::invalid_argument as validate() does.

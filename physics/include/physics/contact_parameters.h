@@ -14,39 +14,39 @@
 
 namespace afm::physics {
 
-// What one choice of tip, lever, sample and medium is to the force laws. The paper's law (Liu & Peng, Table 1) needs
-// the first five alone.
+// Parameters of a force law for a combination of tip, lever, sample and medium. The paper's law (Liu & Peng, Table 1)
+// uses only the first five.
 struct ContactParameters {
   Length tip_radius;                  // R
   Stiffness spring_constant;          // k_c, of the cantilever
-  Stiffness sample_stiffness;         // k_s of an elastic support beneath the contact, infinite for a rigid one
+  Stiffness sample_stiffness;         // k_s of an elastic support below the contact; infinite: rigid
   Energy hamaker;                     // A_H, of tip and sample across the medium
   SurfaceEnergy mean_surface_energy;  // sqrt(gamma_s gamma_t), half of the work of adhesion (3.3)
   Pressure reduced_modulus{std::numeric_limits<double>::infinity()};  // E*, 1/E* = (1-nu_t^2)/E_t + (1-nu_s^2)/E_s
   Length atomic_distance{0.3e-9};                                     // z0, of the surface Lennard-Jones potential
 };
 
-// A value that no force microscope has; the message quotes it with its unit and the legal range.
+// A value outside the range of any force microscope. The message quotes it with its unit and the legal range.
 class UnphysicalValue : public std::invalid_argument {
  public:
   UnphysicalValue(std::string field_name, const std::string& message)
       : std::invalid_argument(message), field_(std::move(field_name)) {}
 
-  // The member of ContactParameters: "tip_radius".
+  // Member of ContactParameters: "tip_radius".
   const std::string& field() const noexcept { return field_; }
 
  private:
   std::string field_;
 };
 
-// One number of ContactParameters as files, checks and people know it.
+// Description of one member of ContactParameters for files, checks and messages.
 struct ContactField {
   std::string_view name;      // name of the member; messages print it with spaces for underscores
-  std::string_view json_key;  // key of its SI value in session files and above recorded curves
+  std::string_view json_key;  // key of its SI value in session files and in headers of recorded curves
   std::string_view meaning;   // its symbol, for help texts
-  double smallest;            // SI, legal itself
-  double largest;             // largest accepted value
-  Infinity infinity;          // allowed: it stands for a rigid body
+  double smallest;            // SI, inclusive
+  double largest;             // SI, inclusive
+  Infinity infinity;          // Allowed: infinity means a rigid body
   const Units* units;
   double (*get)(const ContactParameters& contact);  // SI
   void (*set)(ContactParameters& contact, double si);
@@ -70,7 +70,7 @@ constexpr ContactField contact_field(std::string_view name, std::string_view jso
           [](ContactParameters& contact, double si) { (contact.*Member).si = si; }};
 }
 
-// In the order of the members. The ranges are what force microscopes are made of, with room to spare.
+// In the order of the members. The ranges are those of real force microscopes with a margin.
 inline constexpr std::array kContactFields{
     contact_field<&ContactParameters::tip_radius>("tip_radius", "tip_radius_m", "R", 1e-10, 1e-3, kLengthUnits),
     contact_field<&ContactParameters::spring_constant>("spring_constant", "spring_constant_N_per_m", "k_c", 1e-6, 1e6,
@@ -89,14 +89,14 @@ inline constexpr std::array kContactFields{
 static_assert(sizeof(ContactParameters) == kContactFields.size() * sizeof(double),
               "every member of ContactParameters needs one row in kContactFields");
 
-// The row of that name; another name does not compile.
+// The row of that name. An unknown name does not compile.
 consteval const ContactField& contact_field(std::string_view name) {
   std::size_t i = 0;
   while (kContactFields.at(i).name != name) ++i;
   return kContactFields.at(i);
 }
 
-// Throws UnphysicalValue unless every value is a number within the range of its row, or infinite where that is allowed.
+// Throws UnphysicalValue unless every value is within the range of its row, or infinite if that is allowed.
 void validate(const ContactParameters& contact);
 
 }  // namespace afm::physics

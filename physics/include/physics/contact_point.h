@@ -11,9 +11,9 @@
 
 namespace afm::physics {
 
-// Where tip and sample meet on an approach, by the methods that AFM programs use. The names are those of the command
-// line; nanite 4.2 calls them "deviation_from_baseline", "fit_constant_line", "fit_constant_polynomial",
-// "frechet_direct_path" and "gradient_zero_crossing" (its documentation describes them), and has no zero of force.
+// Methods of AFM programs for finding the contact point on an approach, with their names on the command line. nanite
+// 4.2 calls them "deviation_from_baseline", "fit_constant_line", "fit_constant_polynomial", "frechet_direct_path" and
+// "gradient_zero_crossing" (see its documentation), and has no counterpart of ZeroForce.
 enum class ContactMethod { ZeroForce, Deviation, FitLine, FitPolynomial, Farthest, Gradient };
 
 struct ContactMethodName {
@@ -32,19 +32,20 @@ inline constexpr std::array kContactMethods{
 
 std::string_view name_of(ContactMethod method);
 
-// For an approach above its baseline, in the order in which it was recorded. None where the method finds nothing.
+// Contact point of an approach above its baseline, in the order of recording. Empty if the method finds none.
 //
 // - ZeroForce: the first zero of the force from the deepest point outwards, after a median over five samples. With
-//   adhesion the contact line's zero, not the jump; without, it runs out along any tail or undulation.
-// - Deviation: where the force, from the deepest point outwards, falls below the mean of the outermost tenth and twice
+//   adhesion this is the zero of the contact line, not the jump; without, it extends along any tail or undulation.
+// - Deviation: where the force, from the deepest point outwards, falls below the mean of the outermost tenth plus twice
 //   the largest deviation from it there.
-// - FitLine: the kink of zero and a straight line, by least squares.
-// - FitPolynomial: the same of zero and a d + b d^1.5 + c d^2 with a, b, c >= 0, d the depth below the contact point:
-//   a rigid contact (a line), a sphere on a soft sample (Hertz), a cone; hardly moved by a tail or an undulation.
+// - FitLine: the kink between zero and a straight line, by least squares.
+// - FitPolynomial: the same with zero and a d + b d^1.5 + c d^2 with a, b, c >= 0, d the depth below the contact point,
+//   for a rigid contact (a line), a sphere on a soft sample (Hertz), and a cone. Little affected by a tail or an
+//   undulation.
 // - Farthest: the point farthest below the straight line from the outermost to the deepest point.
 // - Gradient: where the slope, from the steepest place outwards, falls below a hundredth of its maximum.
 //
-// All but ZeroForce work on the means of up to 512 bins along Z. O(n log n), allocates.
+// All except ZeroForce use the means of up to 512 bins along Z. O(n log n), allocates.
 std::optional<Length> contact_point(std::span<const CurvePoint> approach, ContactMethod method);
 
 }  // namespace afm::physics

@@ -14,27 +14,26 @@
 
 namespace afm::physics {
 
-// Where a branch of a curve is pulled hardest. The force is signed: it is zero or negative, and zero where nothing
-// pulls.
+// Place of a branch's strongest pull. The force is signed: negative, or zero without a pull.
 struct Extreme {
   Length z;
   Force force;
 };
 
-// What the samples alone say about a curve.
+// Properties of a curve that follow from its samples only.
 struct CurveSummary {
   Extreme approach;    // its force is -F_attr
   Extreme retract;     // its force is -F_ad
   Energy loop_energy;  // energy lost by the hand: -closed integral of F dZ, by trapezoids
 };
 
-// For samples in the order of the cycle. The loop is closed only if the first and the last sample share their Z.
+// For samples in the order of the cycle. The loop is closed only if the first and the last sample have the same Z.
 CurveSummary summarise(std::span<const CurveSample> samples);
 
-// The curve of a model as an instrument would have recorded it.
+// The curve of a model in the form of an instrument's.
 std::vector<CurvePoint> points_of(std::span<const CurveSample> samples);
 
-// The force that the instrument shows where nothing acts ("baseline" in nanite, AtomicJ and SPM-Kit): a straight line
+// The force recorded by the instrument without interaction ("baseline" in nanite, AtomicJ and SPM-Kit): a straight line
 // F = level + tilt (Z - z_far).
 struct Baseline {
   Length z_far;  // outermost point of the approach
@@ -45,30 +44,31 @@ struct Baseline {
   Force at(Length z) const { return level + tilt * (z - z_far); }
 };
 
-// A sudden change of the force: the last point before it and the hardest pull after it. Forces are above the baseline.
+// A sudden change of the force: the last point before it and the strongest pull after it. Forces are above the
+// baseline.
 struct CurveJump {
   Length z;
   Force force_before;
   Force force_after;
 };
 
-// What users of force microscopes read off a curve. All forces are above the baseline; a feature that does not stand
-// out of the noise is absent.
+// Features that users of force microscopes read off a curve. All forces are above the baseline; a feature below the
+// noise is absent.
 //
-// - contact_point: by the method that was asked for. Without one, the zero of the force where the approach is pulled
-//   before contact (the contact line's zero, not the jump) or the curve is computed, else the fit of a polynomial.
-// - contact_estimates: what each method says. contact_doubtful: without a pull, fewer than four of the five methods
-//   that need none lie within a third of the pushed depth of the contact point.
-// - snap_in: the jump to contact ("jump-in", "pull-on"). Only a fall that is sudden at the curve's own step counts.
-// - pull_off: the jump off contact, the last point before the force rises suddenly for the last time; forces of a
-//   curve's pull_off are those of a model's. A curve that lets go without a jump has it where it is pulled hardest, in
-//   the median of neighbouring samples.
-// - adhesion: the hardest pull of the retract ("adhesion force", SPM-Kit's "adhesion"); the pull-off unless bonds break
-//   one after the other or the lever is stiff.
-// - let_go: where the tip is free again: the pull-off where that is a jump, else where the last significant pull ends;
-//   without a pull, the contact point.
-// - contact_slope: -dF/dZ of the approach's upper half, by least squares: the lever's stiffness where the sample is
-//   much stiffer ("InvOLS" is its inverse, in volts).
+// - contact_point: by the requested method. By default the zero of the force if the approach has a pull before contact
+//   (the contact line's zero, not the jump) or the curve is computed, otherwise the polynomial fit.
+// - contact_estimates: result of each method. contact_doubtful: without a pull, fewer than four of the five methods
+//   that need none agree with the contact point within a third of the pushed depth.
+// - snap_in: the jump to contact ("jump-in", "pull-on"). Counts only a fall that is sudden at the curve's own step.
+// - pull_off: the jump off contact, the last point before the force rises suddenly for the last time; its forces are
+//   comparable to a model's. A curve that releases without a jump has it at its strongest pull, in the median of
+//   neighbouring samples.
+// - adhesion: the strongest pull of the retract ("adhesion force", SPM-Kit's "adhesion"); equals the pull-off unless
+//   bonds break one after the other or the lever is stiff.
+// - let_go: where the tip is free again: at the pull-off if that is a jump, otherwise at the end of the last
+//   significant pull; without a pull, at the contact point.
+// - contact_slope: -dF/dZ of the approach's upper half, by least squares: the lever's stiffness if the sample is much
+//   stiffer ("InvOLS" is its inverse, in volts).
 // - loop_energy: the area between the branches from the deepest point to let_go ("hysteresis area").
 // - adhesion_energy: the area between the retract branch and the baseline while the tip is pulled ("work of
 //   separation").
@@ -89,15 +89,15 @@ struct CurveFeatures {
   Energy adhesion_energy;
 };
 
-// The least number of points that an approach must have to be analysed; a retract may be missing.
+// Least number of points of an analysable approach. A retract may be missing.
 inline constexpr std::size_t kFewestApproachPoints = 10;
 
-// Whether the force of a curve has a zero of its own, as a computed one has, or that of an instrument, which has to be
-// found: a long attraction would then be taken for tilt.
+// Zero of a curve's force: True for a computed curve; Instrument if it must be estimated, at the risk of taking a
+// long-range attraction for tilt.
 enum class ForceZero { Instrument, True };
 
-// For points in the order of the cycle, of any number of samples a branch. Throws std::invalid_argument if the approach
-// has fewer than kFewestApproachPoints, a point is not finite, or all points share their Z. O(n log n), allocates.
+// For points in the order of the cycle, any number per branch. Throws std::invalid_argument if the approach has fewer
+// than kFewestApproachPoints, a point is not finite, or all points have the same Z. O(n log n), allocates.
 CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero = ForceZero::Instrument,
                       std::optional<ContactMethod> method = std::nullopt);
 

@@ -6,9 +6,8 @@
 
 namespace afm::physics {
 
-// One point of any curve, simulated or measured: the height of the lever's base, which falls while the tip approaches
-// and is known only up to a constant if an instrument measured it, and the lever's force, positive away from the
-// sample.
+// One point of any curve, simulated or measured: the height of the lever's base, which decreases while the tip
+// approaches and has an unknown offset in a measured curve, and the lever's force, positive away from the sample.
 struct CurvePoint {
   Length z;
   Force force;

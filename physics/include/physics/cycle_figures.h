@@ -5,11 +5,10 @@
 
 namespace afm::physics {
 
-// What one approach-retract cycle of a law comes to, solved when its tables are built and not read off them. Forces are
-// signed as in physics/contact.h and are the lever's; heights are of the apex above the undeformed surface.
+// Results of one approach-retract cycle of a law, solved exactly when its tables are built. Forces are those of the
+// lever, signed as in physics/contact.h; heights are of the apex above the undeformed surface.
 struct CycleFigures {
-  bool hysteretic =
-      false;  // false: the lever is so stiff that the branches are one curve, and the jumps below are none
+  bool hysteretic = false;  // false: the lever is too stiff for jumps, and the branches are one curve
 
   Length z_jtc;  // jump to contact; without hysteresis, where contact begins
   Force force_before_jtc;

@@ -8,16 +8,16 @@
 
 namespace afm::physics {
 
-// The flow chart of Liu & Peng, section 4, read literally ("paper-rule"): between Z_jtc and Z_joc the force is there
-// whenever this sample is not below the one before. It exists to show what is wrong with it, and must never drive a
-// device: it pulls on a tip that has never touched or that merely rests, lets go of one that still adheres, and
-// chatters under the noise of a sensor. Its jumps lie at samples, so that they depend on the sample rate.
+// The flow chart of Liu & Peng, section 4, read literally ("paper-rule"): between Z_jtc and Z_joc the force is on
+// whenever this sample is not below the previous one. It exists to demonstrate its faults and must never drive a
+// device: it pulls on a tip that has never touched or that is at rest, releases one that still adheres, and chatters
+// under sensor noise. Its jumps are at samples, so they depend on the sample rate.
 class DirectionRuleModel {
  public:
   // Throws as build_law_tables() does for the paper's law.
   explicit DirectionRuleModel(const ContactParameters& contact);
 
-  // As ApproachRetractModel::step, without a wait state: the first step counts as approaching.
+  // As ApproachRetractModel::step, but without a wait state: the first step counts as approaching.
   TipResponse step(Length z) noexcept;
 
   Phase phase() const noexcept { return phase_; }
@@ -26,7 +26,7 @@ class DirectionRuleModel {
   const LawTables& tables() const noexcept { return *tables_; }
 
  private:
-  std::shared_ptr<const LawTables> tables_;  // shared, so that a copy of the model costs nothing
+  std::shared_ptr<const LawTables> tables_;  // shared, which makes copies of the model cheap
   Phase phase_ = Phase::Free;
   std::optional<Length> previous_z_;
 };

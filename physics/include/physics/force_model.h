@@ -13,7 +13,7 @@
 
 namespace afm::physics {
 
-// A jump, where the path crossed its threshold.
+// A jump at the place where the path crossed its threshold.
 struct ModelEvent {
   EventKind kind = EventKind::JumpToContact;
   Length z;
@@ -22,7 +22,7 @@ struct ModelEvent {
   double fraction = 0.0;  // fraction of the step's interval, in [0, 1]
 };
 
-// What the tip and the lever do at one Z; frames and signs as in physics/contact.h. `events` holds `event_count` jumps
+// Response of tip and lever at one Z; frames and signs as in physics/contact.h. `events` contains `event_count` jumps
 // in the order in which they happened within the step.
 struct TipResponse {
   Force force;  // force of the sample on the tip
@@ -36,42 +36,43 @@ struct TipResponse {
   void add(const ModelEvent& event) noexcept { events[event_count++] = event; }
 };
 
-// How apex, lever and surface stand at one Z with one force on the tip; frames and signs as in physics/contact.h.
+// Positions of apex, lever and surface at one Z with one force on the tip; frames and signs as in physics/contact.h.
 struct LeverState {
   Length tip_height;             // height of the apex above the undeformed surface, Z - delta_c
   Length cantilever_deflection;  // delta_c = -F/k_c
-  Length sample_deformation;     // delta_s: of the support alone while free, tip height less the contact gap in contact
+  Length sample_deformation;     // delta_s: of the support only while free, tip height minus the contact gap in contact
 };
 LeverState lever_state(const LawTables& tables, Phase phase, Length z, Force force) noexcept;
 
 // That state as the response of a step without a jump.
 TipResponse respond(const LawTables& tables, Phase phase, Length z, Force force) noexcept;
 
-// A law of force as a two-state latch: Free until Z <= Z_jtc, Attached until Z >= Z_joc. The direction of motion is
-// never consulted.
+// A force law as a two-state latch: Free until Z <= Z_jtc, Attached until Z >= Z_joc. The direction of motion has no
+// influence.
 //
-// - F is that of the free or of the attached branch of the law's tables; of a recorded curve in contact, that of
+// - F is that of the free or the attached branch of the law's tables; for a recorded curve in contact, that of
 //   LawTables::contact_force().
-// - The thresholds are looked for on the whole path between two steps, taken as straight, and the jump's place and
-//   forces are the law's figures: they do not depend on where the samples fell.
-// - No jump happens inside (Z_jtc, Z_joc); a wiggle there costs no work, and no closed path gives work.
-// - A straight path holds at most one jump, since Z_jtc < Z_joc.
-// - A law without hysteresis goes between Free and Attached where contact begins, without a jump.
+// - Thresholds are checked on the whole path between two steps, assumed straight. A jump's place and forces come from
+//   the law's figures, so they do not depend on the sampling.
+// - No jump happens inside (Z_jtc, Z_joc); an oscillation there costs no work, and no closed path yields work.
+// - A straight path contains at most one jump, since Z_jtc < Z_joc.
+// - A law without hysteresis changes between Free and Attached where contact begins, without a jump.
 // - A Z that is not finite gives zero force and the wait state.
 //
 // step() and wait_for_lift() do not allocate, lock or throw: they are for one servo thread.
 class ApproachRetractModel {
  public:
-  // Starts in WaitForLift. `tables` must not be null; shared, because a curve, a panel and the servo may hold the same.
+  // Starts in WaitForLift. `tables` must not be null. It is shared so that a curve, a panel and the servo can use the
+  // same tables.
   explicit ApproachRetractModel(std::shared_ptr<const LawTables> tables);
 
   // The paper's law. Throws as build_law_tables() does.
   explicit ApproachRetractModel(const ContactParameters& contact);
 
-  // The response at Z after the straight path from the Z of the step before, if there was one since the tip was lifted.
+  // The response at Z after a straight path from the previous step's Z, if there was a step since the tip was lifted.
   TipResponse step(Length z) noexcept;
 
-  // After a start, a change of material or a dropout: zero force until Z > Z_joc.
+  // For a start, a change of material or a dropout: zero force until Z > Z_joc.
   void wait_for_lift() noexcept { phase_ = Phase::WaitForLift; }
 
   Phase phase() const noexcept { return phase_; }
@@ -82,7 +83,7 @@ class ApproachRetractModel {
   const LawTables& tables() const noexcept { return *tables_; }
 
  private:
-  // Moves `phase_` on to z; the jump, if that was one.
+  // Advances `phase_` to z. Returns the jump, if there was one.
   std::optional<ModelEvent> latch(Length z) noexcept;
 
   std::shared_ptr<const LawTables> tables_;

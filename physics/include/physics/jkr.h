@@ -5,8 +5,8 @@
 #include "physics/units.h"
 
 // The contact of a soft, strongly adhering sphere: Johnson, Kendall & Roberts 1971. The contact radius a is its natural
-// parameter: load and indentation are single-valued in it, it in neither of them. Loads are positive where the tip is
-// pressed, indentations negative where a neck has been drawn out. For any thread.
+// parameter: load and indentation are functions of a, but not vice versa. Loads are positive if the tip is pressed,
+// indentations negative if a neck has been drawn out. Any thread.
 namespace afm::physics {
 
 // P = 4 E* a^3/(3R) - sqrt(8 pi W E* a^3).
@@ -19,15 +19,15 @@ Length jkr_indentation(const AdhesiveContact& contact, Length contact_radius) no
 Energy jkr_energy(const AdhesiveContact& contact, Length contact_radius) noexcept;
 
 // a = cbrt(3R/(4 E*) [P + 3 pi W R + sqrt(6 pi W R P + (3 pi W R)^2)]), the stable one of the radii at the load P.
-// Throws std::invalid_argument for a load below that of pull-off, which no contact can hold.
+// Throws std::invalid_argument for a load below the pull-off.
 Length jkr_contact_radius(const AdhesiveContact& contact, Force load);
 
-// Where contact is lost when the load is given: P = -3/2 pi W R, a^3 = 9 pi W R^2/(8 E*).
+// Pull-off at a given load: P = -3/2 pi W R, a^3 = 9 pi W R^2/(8 E*).
 Force jkr_pull_off_load(const AdhesiveContact& contact) noexcept;
 Length jkr_pull_off_radius(const AdhesiveContact& contact) noexcept;
 
-// Where it is lost when the indentation is given (fixed grips; Maugis, Contact, Adhesion and Rupture, 2000):
-// a^3 = pi W R^2/(8 E*), P = -5/6 pi W R, delta = -3/4 cbrt(pi^2 W^2 R/E*^2).
+// Pull-off at a given indentation (fixed grips; Maugis, Contact, Adhesion and Rupture, 2000): a^3 = pi W R^2/(8 E*), P
+// = -5/6 pi W R, delta = -3/4 cbrt(pi^2 W^2 R/E*^2).
 Length jkr_fixed_grips_radius(const AdhesiveContact& contact) noexcept;
 
 }  // namespace afm::physics

@@ -16,44 +16,44 @@ struct ContactParameters;
 struct ForceLaw;
 struct LawOptions;
 
-// The rate-independent laws of force. All of them are two monotone branches and two folds (physics/law_tables.h) and
-// differ in nothing else. The values are part of session files and shared blocks: a new law takes the next one
-// (docs/adding-a-law.md).
+// The rate-independent force laws. All are two monotone branches with two folds (physics/law_tables.h) and differ only
+// in these. The values are part of session files and shared blocks: a new law gets the next one (docs/adding-a-law.md).
 enum class Law : std::uint32_t {
-  Paper = 0,          // Liu & Peng: nothing until Hao's fold, then the contact line -k' Z until F_ad
+  Paper = 0,          // Liu & Peng: zero until Hao's fold, then the contact line -k' Z until F_ad
   Hao = 1,            // Paper with the van der Waals attraction before the fold
   Hertz = 2,          // elastic contact without adhesion
   Dmt = 3,            // van der Waals, then Hertz with a constant adhesion (Derjaguin, Muller & Toporov)
   Jkr = 4,            // Johnson, Kendall & Roberts
   MaugisDugdale = 5,  // van der Waals, then Maugis' contact with a cohesive zone
   LennardJones = 6,   // rigid sphere, surface 3-9 potential (Bradley)
-  Measured = 7,       // two branches that an instrument recorded
+  Measured = 7,       // two recorded branches of an instrument
   Count               // number of laws
 };
 
-// The curve of a law before lever and support bend; what each promises stands in physics/force_laws.h.
+// The curve of a law without lever and support. Contracts are in physics/force_laws.h.
 using LawCurve = ForceLaw(const ContactParameters& contact, const LawOptions& options);
 LawCurve hao_law, hertz_law, dmt_law, jkr_law, maugis_law, lennard_jones_law;
 
-// The radius of the contact under a force on the tip, zero without contact; may search.
+// Radius of the contact under a force on the tip, zero without contact. May iterate.
 using LawContactRadius = Length(const ContactParameters& contact, Force force);
 LawContactRadius hertz_radius, dmt_radius, jkr_radius, maugis_radius;
 
-// Unused: E* does not act. Optional: an infinite one makes the contact a rigid wall. Needed: finite.
+// Unused: E* has no influence. Optional: an infinite one makes the contact a rigid wall. Needed: must be finite.
 enum class ModulusUse { Unused, Optional, Needed };
 
-// What a law is made of and what can be done with it. Lists of laws, help texts, panels and checks follow from this.
+// Properties of a law and the operations that it supports. Lists of laws, help texts, panels and checks are derived
+// from them.
 struct LawTraits {
   Law law;
   std::string_view name;  // name on command lines and in files
   bool van_der_waals;     // includes the Hamaker constant
   bool adhesion;          // includes the work of adhesion
-  bool atomic_distance;   // z0 acts
+  bool atomic_distance;   // includes z0
   ModulusUse modulus;
   bool dynamic;     // its force follows from the tip's height without a lever, so it can move a mass
   bool computed;    // computed from ContactParameters, so available for --model; false: recorded by an instrument
   LawCurve* curve;  // null: closed form (computed), or recorded
-  LawContactRadius* contact_radius;  // null: the law has no contact area, which friction by area needs
+  LawContactRadius* contact_radius;  // null: no contact area, which friction by area needs
 };
 
 inline constexpr std::array kLawTable{
@@ -149,36 +149,37 @@ static_assert(
     }(),
     "the rows of kLawTable stand in the order of the enum");
 
-// Whether the number, which came from a file or another process, is a law.
+// Returns whether the number, read from a file or from another process, is a law.
 constexpr bool is_known(Law law) { return law < Law::Count; }
 
-// Throws std::out_of_range for what is not.
+// Throws std::out_of_range for an unknown law.
 constexpr const LawTraits& traits_of(Law law) { return kLawTable.at(static_cast<std::size_t>(law)); }
 
 constexpr bool has_dynamics(Law law) { return traits_of(law).dynamic; }
 
-// The laws that have a trait, in the order of the table: laws_with(&LawTraits::computed).
+// The laws with a trait, in the order of the table: laws_with(&LawTraits::computed).
 std::vector<Law> laws_with(bool LawTraits::* trait);
 
-std::string_view name_of(Law law);  // "unknown" for what is none
+std::string_view name_of(Law law);  // "unknown" for an unknown law
 std::optional<Law> law_of(std::string_view name);
 
-// A liquid bridge in humid air, on top of any law: 4 pi R gamma_L cos(theta) (Laplace pressure, sphere on plane).
+// A liquid bridge in humid air, added to any law: 4 pi R gamma_L cos(theta) (Laplace pressure, sphere on plane).
 struct Meniscus {
   SurfaceEnergy surface_tension{0.0728};  // gamma_L; water at 20 degrees Celsius
   double contact_angle_rad = 0.0;         // theta
   double relative_humidity = 0.5;         // 0 to 1; sets the height of the wetting films and the bridge's volume
 };
 
-// What changes a law without being a property of the materials.
+// Options of a law that are not properties of the materials.
 struct LawOptions {
-  bool exact_hamaker_sphere = false;             // Hamaker's sphere instead of Derjaguin's approximation of it
-  std::optional<Length> retardation_wavelength;  // lambda of Gregory's factor; none: not retarded
-  std::optional<Meniscus> meniscus;              // none: no liquid bridge
+  bool exact_hamaker_sphere = false;             // Hamaker's sphere instead of Derjaguin's approximation
+  std::optional<Length> retardation_wavelength;  // lambda of Gregory's factor; empty: not retarded
+  std::optional<Meniscus> meniscus;              // empty: no liquid bridge
 };
 
-// Throws UnphysicalValue (physics/contact_parameters.h) unless: retardation wavelength 1 nm to 100 um, surface tension
-// 0.1 mN/m to 10 N/m, contact angle 0 to below 90 degrees, relative humidity 1 % to 99 %.
+// Throws UnphysicalValue (physics/contact_parameters.h) unless the retardation wavelength is within 1 nm to 100 um, the
+// surface tension within 0.1 mN/m to 10 N/m, the contact angle within 0 to below 90 degrees, and the relative humidity
+// within 1 % to 99 %.
 void validate(const LawOptions& options);
 
 }  // namespace afm::physics

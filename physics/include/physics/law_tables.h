@@ -14,43 +14,46 @@
 
 namespace afm::physics {
 
-// A law of force as the servo uses it: two monotone branches F(Z) of the lever's force and the two Z at which they end.
+// A force law in the servo's form: two monotone branches F(Z) of the lever's force and the two Z at which they end.
 // Built when a material is chosen, constant afterwards, shared between threads.
 struct LawTables {
   Law law = Law::Paper;
   ContactParameters contact;
   BranchTable free;
   BranchTable attached;
-  // Of a recorded curve: the contact while it is being pressed deeper than before, up to Z_jtc, and how far the hand
-  // rises from the deepest place until it is on the attached branch. Zero: the attached branch holds both ways.
+  // For a recorded curve: the contact while it is pressed deeper than before, up to Z_jtc, and the distance by which
+  // the hand rises from the deepest place to reach the attached branch. Zero: the attached branch applies in both
+  // directions.
   BranchTable pressed;
   Length turn;
   Length pressed_to;  // deepest recorded position
   CycleFigures figures;
   Length contact_gap;  // D while attached
 
-  // In contact at `z`, after the tip was pressed down to `lowest`, at or below `z`. What it was pressed to counts, not
-  // which way it moves: a wiggle costs no work. Never below the attached branch, so that no path gives work.
+  // Force in contact at `z`, after the tip was pressed down to `lowest`, at or below `z`. Depends on the deepest place
+  // and not on the direction of motion, so an oscillation costs no work. Never below the attached branch, so no path
+  // yields work.
   Force contact_force(Length z, Length lowest) const noexcept;
 };
 
 // Builds the tables of a law with the lever and the support of `interaction`. Every fold is where dF/dh = k' (3.1).
-// With an infinite spring constant the tables are those of fixed grips: the law itself, latched, as dynamics need it.
-// Throws std::invalid_argument (UnphysicalValue where one field is to blame) for values that have no such law. Takes
-// below 5 ms and allocates: never in the servo's tick. Not for Law::Measured.
+// With an infinite spring constant the tables are those of fixed grips: the law itself, latched, as the dynamics need
+// it. Throws std::invalid_argument (UnphysicalValue if one field is the cause) if no such law exists for the values.
+// Takes below 5 ms and allocates, so never call it in the servo's tick. Not for Law::Measured.
 std::shared_ptr<const LawTables> build_law_tables(Law law, const ContactParameters& contact,
                                                   const LawOptions& options = {});
 
-// The same for a law that is given as its two branches.
+// The same for a law given by its two branches.
 std::shared_ptr<const LawTables> build_law_tables(Law name, const ForceLaw& law, const ContactParameters& contact);
 
-// A recorded curve as a law: two branches of points along rising Z, smoothed by the caller. Each holds one jump,
-// between two neighbours. Above its jump the approach is the free branch, below it the contact as it is pressed;
-// below its jump the retract is the attached branch, and above it nothing is used: an instrument records there how its
-// lever swings. Sessions of version 0.1.0 do not know their jumps: there a jump is the step at which F rises most
-// steeply with Z, Z_jtc is the first point above it, and the attached branch holds both ways. Between points F is a
-// monotone cubic. A recorded curve has no potential, so that its jump off contact is said to lose what the loop does,
-// and no critical stiffness but infinity. `interaction` is that of lever, tip and sample as far as they are known.
+// A recorded curve as a law: two branches of points along rising Z, smoothed by the caller. Each contains one jump,
+// between two neighbours. The approach above its jump is the free branch, and below it the contact while being pressed;
+// the retract below its jump is the attached branch. The retract above its jump is ignored, because an instrument
+// records there the oscillation of its lever. In sessions of version 0.1.0, without stored jumps, the jump is the step
+// at which F rises most steeply with Z, Z_jtc is the first point above it, and the attached branch applies in both
+// directions. Between points F is a monotone cubic. A recorded curve has no potential, so its jump off contact counts
+// as dissipating the whole loop, and its critical stiffness is infinite. `interaction` describes lever, tip and sample
+// as far as they are known.
 //
 // Throws std::invalid_argument as validate() does, if a branch has fewer than eight points or more than 65536, or
 // points that are not finite or do not rise in Z, and if the curve has no loop: Z_joc not above Z_jtc, or no pull on
@@ -60,7 +63,7 @@ struct MeasuredPoint {
   Force force;
 };
 struct MeasuredJumps {
-  std::uint32_t approach = 0;  // points below the jump; 0: not known
+  std::uint32_t approach = 0;  // number of points below the jump; 0: unknown
   std::uint32_t retract = 0;
 };
 std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoint> approach,

@@ -6,20 +6,20 @@
 
 namespace afm::physics {
 
-// A rigid sphere over a rigid half-space whose surfaces attract by the 3-9 law that Lennard-Jones atoms make
-// (Bradley 1932; Derjaguin's approximation of the sphere), for a gap D > 0:
+// A rigid sphere over a rigid half-space whose surfaces attract by the 3-9 law of Lennard-Jones atoms (Bradley 1932;
+// Derjaguin's approximation of the sphere), for a gap D > 0:
 //
 //   F = -(8 pi W R/3) [(z0/D)^2 - (z0/D)^8/4],   U = -(8 pi W R z0/3) [z0/D - (z0/D)^7/28]
 //
-// The minimum -2 pi W R lies at z0, where the surfaces' traction vanishes; the steepest attraction at 3^(1/6) z0. Far
-// away it is van der Waals' with A = 16 pi W z0^2. For any thread; allocates nothing.
+// The minimum -2 pi W R is at z0, where the surfaces' traction vanishes; the steepest attraction is at 3^(1/6) z0. At
+// large distances it is the van der Waals force with A = 16 pi W z0^2. Any thread; does not allocate.
 class LennardJones {
  public:
   LennardJones(SurfaceEnergy work_of_adhesion, Length tip_radius, Length atomic_distance) noexcept
       : force_scale_(work_of_adhesion * tip_radius), z0_(atomic_distance) {}
 
-  // The same law as F = (A R/(6 sigma^2)) [(sigma/D)^8/30 - (sigma/D)^2] (Sarid 1994; Fok, Liu & Li 2004): there
-  // z0 = 7.5^(-1/6) sigma and W = A/(16 pi z0^2).
+  // The same law as F = (A R/(6 sigma^2)) [(sigma/D)^8/30 - (sigma/D)^2] (Sarid 1994; Fok, Liu & Li 2004), in which z0
+  // = 7.5^(-1/6) sigma and W = A/(16 pi z0^2).
   static LennardJones from_hamaker(Energy hamaker, Length tip_radius, Length sigma) noexcept;
 
   Energy potential(Length gap) const noexcept;  // U, zero far away

@@ -5,8 +5,8 @@
 
 namespace afm::physics {
 
-// What a lever needs beside its spring constant to move as a point mass: m z'' + (k/(w0 Q)) z' + k (z - Z) = F, with
-// w0 = 2 pi f0 and m = k/w0^2.
+// Properties of a lever, in addition to its spring constant, for motion as a point mass: m z'' + (k/(w0 Q)) z' + k (z -
+// Z) = F, with w0 = 2 pi f0 and m = k/w0^2.
 struct LeverDynamics {
   Frequency resonance;          // f0, in the medium
   double quality_factor = 1.0;  // Q

@@ -15,14 +15,14 @@ namespace afm::physics {
 //   P = a^3 - lambda a^2 [sqrt(m^2-1) + m^2 acos(1/m)]                                                        (6.16)
 //   delta = a^2 - (4/3) lambda a sqrt(m^2-1)                                                                  (6.17)
 //
-// In theta and c the first is a quadratic in c, so that nothing is searched for and both ends are regular: JKR at
-// theta -> 0, a contact shrunk to a point within its cohesive zone at theta = pi/2. The family's parameter is
-// s = ln sin(theta), from -infinity deep inside to 0 at the point. From there the zone goes on without a contact (Kim,
-// McMeeking & Johnson 1998), a disc of the radius c = c(0) exp(-s) that pulls with pi c^2 sigma0:
+// In theta and c the first is a quadratic in c, so no iteration is needed and both ends are regular: JKR at theta -> 0,
+// a contact shrunk to a point within its cohesive zone at theta = pi/2. The family's parameter is s = ln sin(theta),
+// from -infinity deep inside to 0 at the point. Beyond, the zone continues without a contact (Kim, McMeeking & Johnson
+// 1998), as a disc of the radius c = c(0) exp(-s) that pulls with pi c^2 sigma0:
 //
 //   P = -(pi/2) lambda c^2,   delta = c^2/2 - (8/(3 pi)) lambda c - 2/(pi lambda)
 //
-// a falls and c falls all the way; load and indentation are continuous.
+// a and c decrease all the way; load and indentation are continuous.
 struct MaugisPoint {
   double contact_radius;  // a; 0 for s >= 0
   double load;            // P
@@ -34,10 +34,10 @@ struct MaugisPoint {
 // For lambda > 0. The derivatives at s = 0 are those of the contact.
 MaugisPoint maugis_point(double lambda, double s);
 
-// The parameter s of three contacts: where the load is least, so that contact is lost when the load is given; where the
-// indentation is least, so that it is lost under fixed grips: above 0, in a zone without contact, for lambda below
-// cbrt(9 pi/(16 (pi - 1))) = 0.938, where c = 8 lambda/(3 pi) solves (6.18) at the point; and the stable one that
-// carries `load`, at least that of the first. The last throws std::invalid_argument for less.
+// The parameter s of three contacts: the least load, at which contact is lost at a given load; the least indentation,
+// at which it is lost under fixed grips (above 0, in a zone without contact, for lambda below cbrt(9 pi/(16 (pi - 1)))
+// = 0.938, where c = 8 lambda/(3 pi) solves (6.18) at the point); and the stable contact with `load`, at least that of
+// the first. The last function throws std::invalid_argument for a smaller load.
 double maugis_pull_off(double lambda);
 double maugis_fixed_grips_end(double lambda);
 double maugis_at_load(double lambda, double load);

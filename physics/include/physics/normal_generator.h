@@ -8,13 +8,13 @@
 
 namespace afm::physics {
 
-// Normally distributed numbers, mean 0, variance 1: the same sequence for the same seed on every machine, which
-// std::normal_distribution does not promise. xoshiro256++ (Blackman & Vigna 2021) feeds a ziggurat of 256 layers
+// Normally distributed numbers, mean 0, variance 1, with the same sequence for the same seed on every machine, which
+// std::normal_distribution does not guarantee. xoshiro256++ (Blackman & Vigna 2021) feeds a ziggurat of 256 layers
 // (Marsaglia & Tsang 2000, with layer and abscissa from different bits, after Doornik 2005). Trivially copyable, a few
-// nanoseconds a number, no allocation; for one thread each.
+// nanoseconds per number, no allocation. One thread per object.
 class NormalGenerator {
  public:
-  // Any seed will do; neighbours give unrelated sequences.
+  // Any seed is valid; neighbouring seeds give unrelated sequences.
   explicit NormalGenerator(std::uint64_t seed) noexcept;
 
   double operator()() noexcept {
@@ -22,7 +22,7 @@ class NormalGenerator {
     const std::size_t layer = bits & 0xff;
     const double uniform = unit(bits);
     const double x = uniform * layers_->edge[layer];
-    // all but one in a hundred lie where the layer is wholly below the bell
+    // in 99 % of cases the whole layer is below the bell curve
     if (x < layers_->edge[layer + 1]) [[likely]]
       return (bits & 0x100) != 0 ? -x : x;
     return at_the_rim(layer, x, (bits & 0x100) != 0);

@@ -9,24 +9,24 @@
 
 #include "physics/units.h"
 
-// Quantities as people write them, "50nm" or "24.5 zJ", and as they read them, "13.999 nm". Independent of the locale.
+// Quantities as typed by people, "50nm" or "24.5 zJ", and as printed, "13.999 nm". Independent of the locale.
 namespace afm::physics {
 
 struct Unit {
   std::string_view symbol;
-  double per_si;  // units per SI unit; a power of ten, except for eV: 1e9 for nm, 1e-9 for GPa
-  bool shown;     // offered in messages and used for output; the others are spellings that are understood as well
+  double per_si;         // units per SI unit; a power of ten, except for eV: 1e9 for nm, 1e-9 for GPa
+  bool shown;            // used in messages and output; false: an alternative spelling, only accepted as input
   double zero_si = 0.0;  // SI value of zero: 273.15 for degrees Celsius
 };
 
-// The units of one sort of quantity, the largest first. Stiffness and surface energy are one type but two lists, so
-// that a spring constant in mJ/m2 is refused.
+// The units of one physical quantity, the largest first. Stiffness and surface energy are one type but two lists, so
+// that a spring constant in mJ/m2 is rejected.
 struct Units {
   std::string_view sort;  // "a length", as messages name it
   std::span<const Unit> units;
 };
 
-// The same where the compiler knows which quantity it is.
+// The same with the quantity as a compile-time type.
 template <class Q>
 struct UnitList : Units {};
 
@@ -51,14 +51,14 @@ struct ParsedQuantity {
   std::string error;  // one line with the legal units; empty if there is a value
 };
 
-// "m, mm, um, nm, pm": those of the units that messages offer.
+// "m, mm, um, nm, pm": the units shown in messages.
 std::string list_units(std::span<const Unit> units);
 
-// The value in SI, or the error. For every text; use parse_quantity.
+// The value in SI, or the error. Implementation of parse_quantity.
 std::variant<double, std::string> parse_si(std::string_view text, std::string_view sort, std::span<const Unit> units,
                                            Infinity infinity);
 
-// Reads a decimal number and a unit, with or without blanks around them. Refused, with a message: a bare number,
+// Reads a decimal number and a unit, with or without blanks around them. Rejects, with a message: a bare number,
 // another dimension's unit, a number beyond double, NaN, and, unless allowed, "inf" (which needs its unit too).
 template <class Q>
 ParsedQuantity<Q> parse_quantity(std::string_view text, const UnitList<Q>& list,
@@ -68,16 +68,17 @@ ParsedQuantity<Q> parse_quantity(std::string_view text, const UnitList<Q>& list,
   return {std::nullopt, std::get<std::string>(parsed)};
 }
 
-// What five significant digits say is enough for people.
+// Significant digits of a value for people.
 inline constexpr int kUsualDigits = 5;
 
-// Use format_quantity.
+// Implementation of format_quantity.
 std::string format_si(double si, std::span<const Unit> units, int digits = kUsualDigits);
 
-// "100 pm to 1 mm", of a range in SI.
+// "100 pm to 1 mm", for a range in SI.
 std::string range_text(double smallest, double largest, const Units& units);
 
-// With `digits` significant digits (1 to 17) in the unit that leaves 1 to 1000 before the point, where there is one.
+// Formats with `digits` significant digits (1 to 17), in the unit that leaves 1 to 1000 before the point if there is
+// one.
 template <class Q>
 std::string format_quantity(Q value, const UnitList<Q>& list, int digits = kUsualDigits) {
   return format_si(value.si, list.units, digits);

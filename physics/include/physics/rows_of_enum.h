@@ -6,11 +6,11 @@
 #include <type_traits>
 #include <utility>
 
-// core/enumerators.h for physics, which includes the standard library alone: ties a table to an enum whose values run
-// from 0 without a gap, so that an enumerator without its row does not compile.
+// A copy of core/enumerators.h for physics, which depends only on the standard library: ties a table to an enum whose
+// values run from 0 without a gap, so that an enumerator without a row does not compile.
 namespace afm::physics {
 
-// Both compilers spell a value without a name as a cast, "(Color)7".
+// Both compilers print a value without an enumerator as a cast, "(Color)7".
 template <auto value>
 consteval bool is_named() {
   const std::string_view function = __PRETTY_FUNCTION__;
@@ -27,7 +27,7 @@ consteval std::size_t count_enumerators() {
   }(std::make_index_sequence<32>());
 }
 
-// True if a table has one row for each enumerator, in their order. `key` is the member that holds it.
+// Returns whether a table has one row per enumerator, in order. `key` is the member with the enumerator.
 template <class Rows, class Row, class Enum>
 consteval bool has_row_for_each(const Rows& rows, Enum Row::* key) {
   if (rows.size() != count_enumerators<Enum>()) return false;

@@ -7,7 +7,7 @@
 
 namespace afm::physics {
 
-// What surrounds a lever. Air at 20 degrees Celsius: 1.2 kg/m^3, 18 uPa s.
+// The fluid around a lever. Air at 20 degrees Celsius: 1.2 kg/m^3, 18 uPa s.
 struct Fluid {
   Density density;
   Viscosity viscosity;

@@ -13,19 +13,19 @@
 
 namespace afm::physics {
 
-// The force on a tip at a height, as the dynamics ask for it some hundred times a tick: the tables of a law under fixed
-// grips (physics/law_tables.h, with an infinite spring constant) once more, as straight pieces.
+// The force on a tip at a height, optimised for the dynamics, which evaluate it some hundred times per tick: a law's
+// tables for fixed grips (physics/law_tables.h, with an infinite spring constant) as straight pieces.
 //
-// - A piece is 1/128 of the octave of its distance to the place where its branch ends, down to 1 pm: a force that falls
-//   as a power of the distance is met to some 1e-5 of itself, and kinks lie at the ends; those of Maugis-Dugdale,
-//   on both branches, do not, and are rounded by 2 pN. 7.6 um from there a free tip feels nothing.
+// - A piece is 1/128 of the octave of its distance to the end of its branch, down to 1 pm. A force that falls as a
+//   power of the distance is accurate to some 1e-5, and kinks are at the ends of pieces, except those of Maugis-Dugdale
+//   on both branches, which are rounded by 2 pN. Beyond 7.6 um a free tip has no force.
 // - F is continuous along a branch, so a tip that stays on one neither gains nor loses energy.
-// - Which branch holds is a latch, as the caller's `attached`: a law that is hysteretic by itself (JKR,
-//   Maugis-Dugdale) keeps its memory.
-// - No slope into the sample exceeds kSteepestRatio times stiffness(): deeper, F goes on along a straight line. So
-//   the stability of an integrator that is chosen for stiffness() is known for every depth.
+// - The branch is a latch, the caller's `attached`: a law with intrinsic hysteresis (JKR, Maugis-Dugdale) keeps its
+//   memory.
+// - No slope into the sample exceeds kSteepestRatio times stiffness(); at larger depths F continues along a straight
+//   line, so that an integrator chosen for stiffness() is known to be stable at every depth.
 //
-// Constant after construction; for any thread.
+// Constant after construction. Any thread.
 class TipForce {
  public:
   static constexpr double kSteepestRatio = 25.0;
@@ -33,15 +33,15 @@ class TipForce {
   // Throws std::invalid_argument unless `grips` was built with an infinite spring constant.
   TipForce(const LawTables& grips, Force largest_load);
 
-  // The steepest -dF/dh of an attached tip up to the largest load: what it is held by. Slopes of attraction do not
-  // count; they make a tip jump, not swing, and are infinite where JKR's neck ends.
+  // The steepest -dF/dh of an attached tip up to the largest load. Ignores slopes of attraction, which make a tip jump,
+  // not oscillate, and are infinite where JKR's neck ends.
   Stiffness stiffness() const noexcept { return Stiffness(stiffness_); }
 
-  // Where a free tip comes into contact, and where an attached one comes off.
+  // Heights at which a free tip comes into contact and an attached one is released.
   Length contact_height() const noexcept { return Length(contact_height_); }
   Length release_height() const noexcept { return Length(release_height_); }
 
-  // F at a height, after the latch has been asked.
+  // F at a height; first updates the latch `attached`.
   Force operator()(Length height, bool& attached) const noexcept {
     double distance = distance_of(height.si, attached);
     if (distance < 0.0) {
@@ -57,7 +57,7 @@ class TipForce {
 
  private:
   struct Piece {
-    double force = 0.0;  // continued to distance 0
+    double force = 0.0;  // extrapolated to distance 0
     double slope = 0.0;  // dF/d(distance)
   };
 

@@ -6,11 +6,11 @@
 
 namespace afm::physics {
 
-// A number with the dimension kg^Kg m^M s^S, held in SI. Sums, comparisons and assignments across dimensions do not
-// compile; products and quotients add the exponents, and become a plain double where these cancel.
+// A number with the dimension kg^Kg m^M s^S, in SI. Sums, comparisons and assignments across dimensions do not compile;
+// products and quotients add the exponents, and become a plain double if these cancel.
 //
-// N/m and J/m^2 are one dimension, so Stiffness and SurfaceEnergy are one type: the compiler cannot tell them apart,
-// named fields must.
+// N/m and J/m^2 are one dimension, so Stiffness and SurfaceEnergy are one type. The compiler cannot distinguish them,
+// but named fields do.
 template <int Kg, int M, int S>
 struct Quantity {
   double si = 0.0;
@@ -88,7 +88,7 @@ using Frequency = Quantity<0, 0, -1>;  // cycles per second
 using Density = Quantity<1, -3, 0>;
 using Viscosity = Quantity<1, -1, -1>;  // dynamic
 
-// Kelvin. Of its own kind: no other unit here is made of it.
+// Kelvin. A separate type, because no other unit here includes it.
 struct Temperature {
   double si = 0.0;
 
@@ -100,8 +100,8 @@ struct Temperature {
 // k_B T, by the exact Boltzmann constant of the SI.
 constexpr Energy thermal_energy(Temperature temperature) { return Energy(1.380649e-23 * temperature.si); }
 
-// 50.0_nm, 0.1_N_per_m, 24.5_zJ; both floating and whole numbers. They divide by a power of ten, which a double holds
-// exactly where it does not hold the small factor, so that 1000_nm == 1_um.
+// 50.0_nm, 0.1_N_per_m, 24.5_zJ; for floating-point and integer literals. They divide by a power of ten, which is exact
+// in a double, unlike the small factor, so that 1000_nm == 1_um.
 namespace literals {
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type cannot stand in parentheses

@@ -7,16 +7,16 @@
 
 namespace afm::physics {
 
-// The van der Waals attraction of a sphere of radius R to a half-space at the gap D > 0, with the Hamaker constant A of
-// the two across the medium. For any thread; allocates nothing.
+// Van der Waals attraction of a sphere of radius R to a half-space at the gap D > 0, with the Hamaker constant A of the
+// two across the medium. Any thread; does not allocate.
 //
 // - Derjaguin's approximation, for D << R: U = -A R/(6 D), F = -A R/(6 D^2) (Derjaguin 1934; Israelachvili,
 //   Intermolecular and Surface Forces, ch. 13).
-// - The exact sum over the sphere: U = -(A/6) [R/D + R/(D + 2R) + ln(D/(D + 2R))],
-//   F = -2 A R^3/(3 D^2 (D + 2R)^2) (Hamaker 1937). It is Derjaguin's divided by (1 + D/2R)^2, so always weaker.
-// - Retardation divides the potential by 1 + 14 D/lambda, with lambda near 100 nm (Gregory 1981, who gives it for the
-//   energy of sphere and plate, D << R). The force is the derivative of that potential,
-//   Derjaguin's times (1 + 28 D/lambda)/(1 + 14 D/lambda)^2: 5 % less at 2 nm, 17 % at 5 nm, 1/D^3 far away.
+// - The exact sum over the sphere: U = -(A/6) [R/D + R/(D + 2R) + ln(D/(D + 2R))], F = -2 A R^3/(3 D^2 (D + 2R)^2)
+//   (Hamaker 1937). It is Derjaguin's divided by (1 + D/2R)^2, so always weaker.
+// - Retardation divides the potential by 1 + 14 D/lambda, with lambda near 100 nm (Gregory 1981, for the energy of
+//   sphere and plate, D << R). The force is the derivative of that potential, Derjaguin's times (1 + 28 D/lambda)/(1 +
+//   14 D/lambda)^2: 5 % less at 2 nm, 17 % at 5 nm, 1/D^3 far away.
 //
 // U < 0, F < 0, dF/dD > 0 for every gap; all three tend to zero; F = -dU/dD.
 class VanDerWaals {
@@ -27,7 +27,7 @@ class VanDerWaals {
   Force force(Length gap) const noexcept;
   Stiffness gradient(Length gap) const noexcept;  // dF/dD
 
-  // The one gap at which the force is `attraction` < 0.
+  // The unique gap at which the force is `attraction` < 0.
   Length gap_at(Force attraction) const noexcept;
 
  private:
@@ -42,9 +42,9 @@ class VanDerWaals {
   double retardation_per_metre_;  // 14/lambda, 0 if not retarded
 };
 
-// a0, the gap of two bodies in contact for which van der Waals attraction and adhesion are one: F(a0) = -F_ad, where
-// F_ad = 2 pi R W_ad; sqrt(A R/(6 F_ad)) in Derjaguin's approximation. For the paper's pairs of A_H and F_ad it is 0.32
-// to 0.38 nm.
+// a0, the gap of two bodies in contact at which van der Waals attraction equals adhesion: F(a0) = -F_ad, where F_ad = 2
+// pi R W_ad; sqrt(A R/(6 F_ad)) in Derjaguin's approximation. For the paper's pairs of A_H and F_ad it is 0.32 to 0.38
+// nm.
 Length contact_gap(const ContactParameters& contact, const LawOptions& options = {});
 
 }  // namespace afm::physics

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kProfileBins = 512;
 
-// From the outermost bin inwards, none deeper than the greatest push.
+// Bins from the outermost inwards, none deeper than the strongest push.
 struct ApproachProfile {
   std::vector<double> z;
   std::vector<double> force;
@@ -36,7 +36,7 @@ ApproachProfile profile_of(std::span<const CurvePoint> approach) {
   return profile;
 }
 
-// Where the straight line between two bins meets `level`.
+// Place where the straight line between two bins crosses `level`.
 double crossing(const ApproachProfile& profile, std::size_t outer, double level) {
   const double inner_force = profile.force[outer + 1], outer_force = profile.force[outer];
   const double share = inner_force > outer_force ? (inner_force - level) / (inner_force - outer_force) : 0.0;
@@ -81,11 +81,11 @@ NormalEquations normal_equations(const ApproachProfile& profile, double contact)
   return sums;
 }
 
-// What the chosen terms (a bit each) take off the sum of squares; none where a coefficient would be negative.
+// Reduction of the sum of squares by the chosen terms (a bit each); empty if a coefficient would be negative.
 std::optional<double> taken_by(NormalEquations sums, unsigned chosen) {
   const Terms with_force = sums.with_force;
   const auto is_chosen = [&](std::size_t term) { return (chosen >> term & 1U) != 0; };
-  // Gauss-Jordan; the matrix is positive definite but for rounding
+  // Gauss-Jordan; the matrix is positive definite apart from rounding
   for (std::size_t pivot = 0; pivot < kTerms; ++pivot) {
     if (!is_chosen(pivot)) continue;
     const double head = sums.products[pivot][pivot];
@@ -107,7 +107,7 @@ std::optional<double> taken_by(NormalEquations sums, unsigned chosen) {
   return taken;
 }
 
-// The sum of squares that is left of the best fit with contact there; of a straight line alone, or of all the terms.
+// Residual sum of squares of the best fit with this contact point, by a straight line or by all terms.
 double rest_of_fit(const ApproachProfile& profile, double contact, bool curved) {
   const NormalEquations sums = normal_equations(profile, contact);
   double most = 0.0;
@@ -117,7 +117,7 @@ double rest_of_fit(const ApproachProfile& profile, double contact, bool curved) 
   return sums.force_squared - most;
 }
 
-// On an even grid, then on one about its best place that is finer by the grid's number.
+// Searches an even grid, then a finer one around its best place.
 std::optional<double> by_fit(const ApproachProfile& profile, bool curved) {
   constexpr int kPlaces = 256;
   double low = profile.z.back(), high = profile.z.front(), best = high;
@@ -154,7 +154,7 @@ std::optional<double> by_distance(const ApproachProfile& profile) {
   return profile.z[farthest];
 }
 
-// Over a fiftieth of the bins on either side.
+// Slope over a fiftieth of the bins on either side.
 std::optional<double> by_gradient(const ApproachProfile& profile) {
   const std::size_t count = profile.z.size(), reach = std::max<std::size_t>(2, count / 50);
   std::vector<double> slope(count, 0.0);
@@ -176,7 +176,7 @@ std::optional<double> by_gradient(const ApproachProfile& profile) {
   const double small = 0.01 * slope[i];
   while (i > 0 && slope[i] > small) --i;
   if (i == 0) return std::nullopt;
-  // there the window's inner end has just left the contact
+  // at this place the window's inner end has just left the contact
   return profile.z[std::min(count - 1, i + reach)];
 }
 
@@ -191,7 +191,7 @@ std::vector<double> smoothed_forces(std::span<const CurvePoint> points) {
     const auto end = window.begin() + static_cast<std::ptrdiff_t>(last - first);
     const auto middle = window.begin() + static_cast<std::ptrdiff_t>((last - first) / 2);
     std::nth_element(window.begin(), middle, end);
-    // at the ends a median of an even number would shift the curve by half a sample
+    // at the ends, a median of an even number would shift the curve by half a sample
     result.push_back((last - first) % 2 == 1 ? *middle : points[i].force.si);
   }
   return result;

@@ -13,8 +13,8 @@ namespace afm::physics {
 
 namespace {
 
-// A feature stands out of the noise from five standard deviations on; without noise, from a millionth of the curve's
-// greatest force on, where rounding is far away.
+// A feature is significant from five standard deviations of the noise on; without noise, from a millionth of the
+// curve's largest force on, which is far above rounding.
 constexpr double kSignificant = 5.0;
 constexpr double kRoundingShare = 1e-6;
 
@@ -30,8 +30,8 @@ struct Stretch {
   Length z_far;
 };
 
-// The line through the medians of up to 32 groups of neighbours, its slope the median of the slopes of all their pairs
-// (Theil 1950, Sen 1968): half of the points may be wrong.
+// The line through the medians of up to 32 groups of neighbours, with the median of the slopes of all their pairs as
+// slope (Theil 1950, Sen 1968): tolerates half of the points as outliers.
 Baseline line_through(const Stretch& stretch) {
   constexpr std::size_t kGroups = 32;
   const std::size_t count = stretch.points.size();
@@ -60,7 +60,7 @@ Baseline line_through(const Stretch& stretch) {
   return line;
 }
 
-// Fitted to the outermost fifth of the way, then to ever more of it as long as the next twentieth stays on the line.
+// Fits the outermost fifth of the way, then more and more of it as long as the next twentieth stays on the line.
 Baseline fit_baseline(std::span<const CurvePoint> approach, Force greatest) {
   std::vector<CurvePoint> falling(approach.begin(), approach.end());
   std::stable_sort(falling.begin(), falling.end(), [](const auto& a, const auto& b) { return a.z > b.z; });
@@ -89,7 +89,7 @@ Baseline fit_baseline(std::span<const CurvePoint> approach, Force greatest) {
   return line;
 }
 
-// Among the points before contact.
+// Searches the points before contact.
 std::optional<CurveJump> find_snap_in(std::span<const CurvePoint> before_contact, Force threshold) {
   if (before_contact.size() < 2) return std::nullopt;
   const auto lowest =
@@ -131,7 +131,7 @@ std::optional<Stiffness> slope_of_upper_half(std::span<const CurvePoint> approac
   return Stiffness(-zf / zz);
 }
 
-// A pull before contact that is more than an undulation of the baseline.
+// Pull before contact, relative to the push, that exceeds an undulation of the baseline.
 constexpr double kPullShareOfPush = 0.05;
 
 std::optional<Length> estimate_of(const CurveFeatures& features, ContactMethod method) {
@@ -141,7 +141,7 @@ std::optional<Length> estimate_of(const CurveFeatures& features, ContactMethod m
   return std::nullopt;
 }
 
-// For an approach that is pushed.
+// For an approach with a push.
 void find_contact(std::span<const CurvePoint> approach, Force threshold, ForceZero zero_of_force,
                   std::optional<ContactMethod> method, CurveFeatures& features) {
   for (std::size_t i = 0; i < kContactMethods.size(); ++i) {

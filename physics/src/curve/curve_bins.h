@@ -10,15 +10,15 @@
 
 namespace afm::physics {
 
-// Neighbours along Z as one point.
+// Neighbours along Z, combined to one point.
 struct CurveBin {
   Length z;  // mean
   Force mean;
   Force median;  // upper one for an even number; keeps a jump as sharp as the bins and rejects single outliers
-  Force middle;  // mean of the middle half: throws out single outliers, and keeps the area under the branch
+  Force middle;  // mean of the middle half: rejects single outliers, and preserves the area under the branch
 };
 
-// Of values that rise.
+// Requires rising values.
 inline Force middle_half(std::span<const double> values) {
   const std::size_t left_out = values.size() / 4;
   double sum = 0.0;
@@ -26,9 +26,9 @@ inline Force middle_half(std::span<const double> values) {
   return Force(sum / static_cast<double>(values.size() - 2 * left_out));
 }
 
-// The points between `bottom` and `top`, of either branch, in bins of equal width along rising Z; empty ones are left
-// out. At most `most_bins`, and so few that `fewest_samples` fall into each on average. Heights that a sensor reports
-// out of order end in the right bin.
+// The points between `bottom` and `top`, of either branch, in bins of equal width along rising Z, without empty ones.
+// At most `most_bins`, and few enough for `fewest_samples` in each on average. Heights out of order, as from a sensor,
+// are put into the right bin.
 inline std::vector<CurveBin> curve_bins(std::span<const CurvePoint> points, Length bottom, Length top,
                                         std::size_t most_bins, std::size_t fewest_samples) {
   std::vector<CurvePoint> rising;

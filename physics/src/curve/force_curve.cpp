@@ -14,7 +14,7 @@ namespace {
 
 std::string text(Length length) { return format_quantity(length, kLengthUnits); }
 
-// The samples from `from` to `to`, both included.
+// Number of samples from `from` to `to`, both included.
 std::uint64_t samples_one_way(const SweepPlan& plan) {
   if (!isfinite(plan.from) || !isfinite(plan.to) || !isfinite(plan.step)) {
     throw std::invalid_argument("a sweep from " + text(plan.from) + " to " + text(plan.to) + " in steps of " +
@@ -26,7 +26,7 @@ std::uint64_t samples_one_way(const SweepPlan& plan) {
   }
   if (plan.step <= Length()) throw std::invalid_argument("sweep step " + text(plan.step) + " is not positive");
 
-  // a hundred-millionth of a step is a rounding error of the division, not one more sample
+  // a hundred-millionth of a step is a rounding error of the division, not an additional sample
   const double steps = std::ceil((plan.from - plan.to) / plan.step - 1e-8);
   if (2.0 * steps + 1.0 > static_cast<double>(kLargestSweep)) {
     throw std::invalid_argument("a sweep from " + text(plan.from) + " to " + text(plan.to) + " in steps of " +
@@ -51,7 +51,7 @@ ForceCurve record(Model model, const SweepPlan& plan) {
                                 text(thresholds.z_jtc) + ": start above it");
   }
 
-  // the tip comes from where nothing holds it
+  // begins where the tip is free
   constexpr Length kHigher(1e-6);
   model.step(std::max(thresholds.z_joc, plan.from) + kHigher);
 
@@ -83,7 +83,7 @@ ForceCurve record(Model model, const SweepPlan& plan) {
 std::uint64_t sample_count(const SweepPlan& plan) { return 2 * samples_one_way(plan) - 1; }
 
 Length sample_z(const SweepPlan& plan, std::uint64_t index) {
-  // the way up visits the places of the way down
+  // the way up uses the places of the way down
   const std::uint64_t turn = samples_one_way(plan) - 1;
   const std::uint64_t steps = index <= turn ? index : 2 * turn - index;
   if (steps == turn) return plan.to;

@@ -33,7 +33,7 @@ Energy work_below(std::span<const CurvePoint> points, Length top) {
   return work;
 }
 
-// From where the retract's force falls through zero to where, past the hardest pull, nothing significant is left.
+// From the zero crossing of the retract's force to the last significant pull beyond the strongest one.
 Energy work_of_separation(std::span<const CurvePoint> retract, std::size_t hardest, Force threshold) {
   std::size_t first = hardest, last = hardest;
   while (first > 0 && retract[first - 1].force.si < 0.0) --first;
@@ -41,8 +41,8 @@ Energy work_of_separation(std::span<const CurvePoint> retract, std::size_t harde
   return work_below(retract.subspan(first, last - first + 1), Length(HUGE_VAL));
 }
 
-// The last point before the last sudden rise at or past the hardest pull. A computed curve has both ends of a jump at
-// one Z; one that was measured may have spread it over several samples of a filtered signal.
+// The last point before the last sudden rise at or beyond the strongest pull. A computed curve has both ends of a jump
+// at one Z; a measured one may have spread it over several samples of a filtered signal.
 std::optional<std::size_t> jump_off(std::span<const CurvePoint> retract, std::size_t hardest, Force threshold,
                                     ForceZero zero_of_force) {
   const auto rise = [&](std::size_t i) { return retract[i + 1].force - retract[i].force; };
@@ -55,16 +55,16 @@ std::optional<std::size_t> jump_off(std::span<const CurvePoint> retract, std::si
   if (!jump || zero_of_force == ForceZero::True) return jump;
   const Force steep = kJumpShareOfPull * rise(*jump);
   while (*jump > hardest && rise(*jump - 1) > steep) --*jump;
-  // one sample of a filtered signal may have begun to rise already
+  // one sample of a filtered signal may already have begun to rise
   const auto last = retract.begin() + static_cast<std::ptrdiff_t>(*jump) + 1;
   const auto first = last - static_cast<std::ptrdiff_t>(std::min(kFilterSamples, *jump - hardest + 1));
-  // of equal ones the last
+  // the last one of equal ones
   const auto deepest = std::min_element(std::make_reverse_iterator(last), std::make_reverse_iterator(first),
                                         [](const auto& a, const auto& b) { return a.force < b.force; });
   return static_cast<std::size_t>(deepest.base() - retract.begin()) - 1;
 }
 
-// A curve that lets go gradually.
+// For a curve that releases gradually.
 void find_gradual_release(std::span<const CurvePoint> retract, Force threshold, CurveFeatures& features) {
   const auto [low, high] =
       std::minmax_element(retract.begin(), retract.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
@@ -100,7 +100,7 @@ void analyse_retract(std::span<const CurvePoint> cycle, std::size_t approach_cou
   const auto by_z = [](const auto& a, const auto& b) { return a.z < b.z; };
   const Length both = std::min(std::max_element(approach.begin(), approach.end(), by_z)->z,
                                std::max_element(retract.begin(), retract.end(), by_z)->z);
-  // a pull that does not end ends where the approach began
+  // a pull without an end ends where the approach began
   if (features.let_go) features.let_go = std::min(both, *features.let_go);
   features.loop_energy = work_below(cycle, features.let_go.value_or(both));
 }

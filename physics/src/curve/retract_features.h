@@ -8,8 +8,8 @@
 
 namespace afm::physics {
 
-// Pull-off, adhesion, the place where the tip lets go, and the energies of a cycle above its baseline, whose first
-// `approach_count` points are its approach. `features` has the contact point, if there is one.
+// Pull-off, adhesion, release point, and the energies of a cycle above its baseline, whose first `approach_count`
+// points are its approach. `features` contains the contact point, if there is one.
 void analyse_retract(std::span<const CurvePoint> cycle, std::size_t approach_count, Force threshold,
                      ForceZero zero_of_force, CurveFeatures& features);
 

@@ -11,10 +11,10 @@ namespace {
 
 using Points = std::span<const LateralPoint>;
 
-// A turn counts where the holder has come back by this share of the whole run's width: noise does not turn it.
+// Distance back, as a share of the whole run's width, from which on a turn counts; larger than the noise.
 constexpr double kTurnShare = 0.1;
-constexpr double kStickShare = 0.4;   // of the change of force at a turn: there the tip still sticks
-constexpr double kBeyondStick = 1.1;  // of the way on which it sticks
+constexpr double kStickShare = 0.4;   // change of force, as a share of that at a turn, below which the tip still sticks
+constexpr double kBeyondStick = 1.1;  // in units of the distance over which it sticks
 
 // Places of the points at which the direction changes, with the first and the last point.
 std::vector<std::size_t> turns_of(Points run) {
@@ -60,7 +60,7 @@ double slope_at_turn(Points stroke, double change) {
   return spread > 0.0 ? (n * xf - x * f) / spread : 0.0;
 }
 
-// Of the force over the places from `low` to `high`, by trapezoids.
+// Mean of the force over the places from `low` to `high`, by trapezoids.
 double mean_between(Points stroke, double low, double high) {
   double sum = 0.0;
   for (std::size_t i = 1; i < stroke.size(); ++i) {
@@ -73,7 +73,7 @@ double mean_between(Points stroke, double low, double high) {
     const double from = std::max(x0, low), to = std::min(x1, high);
     if (!(to > from)) continue;
     const double slope = (f1 - f0) / (x1 - x0);
-    // a step back of a shaking hand is counted once for each way
+    // a shaking hand's step back counts once in each direction
     const double sign =
         (stroke[i].place > stroke[i - 1].place) == (stroke.back().place > stroke.front().place) ? 1 : -1;
     sum += sign * (to - from) * (f0 + slope * (0.5 * (from + to) - x0));
@@ -81,7 +81,7 @@ double mean_between(Points stroke, double low, double high) {
   return sum / (high - low);
 }
 
-// The cycle from the point `a` over the turn `b` to the point `c` of the run.
+// The cycle from point `a` over the turn `b` to point `c` of the run.
 std::optional<FrictionLoop> loop_between(Points run, std::size_t a, std::size_t b, std::size_t c) {
   const Points first = run.subspan(a, b - a + 1), second = run.subspan(b, c - b + 1);
   const bool up_first = first.back().place > first.front().place;

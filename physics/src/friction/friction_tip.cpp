@@ -16,8 +16,8 @@ namespace afm::physics {
 
 namespace {
 
-// Against the root of the load the area of JKR begins straight and that of DMT as the 4/3-th power: 1e-4 of it from
-// some thousandth of the range on. Beyond, it grows as a sphere's.
+// Over the root of the load, the area of JKR begins as a straight line and that of DMT as the 4/3-th power; the table
+// is accurate to 1e-4 from some thousandth of the range on. Beyond the range it grows like a sphere's.
 constexpr std::size_t kAreas = 1024;
 constexpr double kDeepestShareOfRadius = 0.04;
 
@@ -34,7 +34,7 @@ std::optional<FrictionTip> make_tip(const FrictionContact& at, const std::varian
   return tip;
 }
 
-constexpr const FrictionTip* kTips = nullptr;  // the type alone
+constexpr const FrictionTip* kTips = nullptr;  // only for its type
 
 }  // namespace
 

@@ -9,23 +9,23 @@ namespace afm::physics {
 
 namespace {
 
-// In periods, but for the counts and ratios. A step along the path is accepted where its prediction was good and the
-// well is not about to end; else it is halved, or the end of the well is looked for.
+// In periods, except for counts and ratios. A step along the path is accepted if its prediction was good and the well
+// is not about to end; otherwise it is halved, or the end of the well is determined.
 constexpr double kPathStep = 0.125;
 constexpr double kGoodPrediction = 0.04;
 constexpr double kLeastShareOfCurvature = 0.35;
-constexpr double kShortestStep = 1e-7;  // of the path
-constexpr double kSlip = 0.02;          // less far is no slip
-constexpr double kParabola = 2.0;       // how far the end of a well may be off the parabola that it is near
+constexpr double kShortestStep = 1e-7;  // share of the path
+constexpr double kSlip = 0.02;          // shorter distances are no slip
+constexpr double kParabola = 2.0;       // largest deviation of the end of a well from its parabola
 constexpr int kMostSteps = 200;
 constexpr int kMostIterations = 12;
-constexpr double kSettled = 1e-9;  // of Newton's last step, which leaves the square of it
+constexpr double kSettled = 1e-9;  // Newton's last step; its error is the square of it
 constexpr double kWellReach = 0.2;
 constexpr double kKick = 0.01;
 constexpr double kShortestRoll = 0.02, kLongestRoll = 0.06;
 constexpr int kMostRolls = 400;
 
-// Of a symmetric matrix, the lesser eigenvalue.
+// The smaller eigenvalue of a symmetric matrix.
 double least_curvature(double xx, double xy, double yy) {
   const double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy);
   return mean - std::hypot(half, xy);
@@ -52,7 +52,7 @@ LatticeTip::Rest LatticeTip::rest_at(double x, double y, const Control& at) cons
   return {x, y, at.scale * place.bend_xx + k_, at.scale * place.bend_xy, at.scale * place.bend_yy + k_};
 }
 
-// Newton's way to where the tip rests, in a well no further away than `reach`.
+// Newton's method for the tip's rest position, in a well no further away than `reach`.
 bool LatticeTip::settle(Rest& rest, const Control& at, double reach) const noexcept {
   const double x0 = rest.x, y0 = rest.y, a = landscape_.period_m();
   for (int i = 0; i < kMostIterations; ++i) {
@@ -73,7 +73,7 @@ bool LatticeTip::settle(Rest& rest, const Control& at, double reach) const noexc
   return false;
 }
 
-// Down the steepest way, in short steps each of which loses energy, until a well is near enough to settle in it.
+// Follows the steepest descent, in short steps each of which loses energy, until a well is close enough for settle().
 void LatticeTip::roll_down(double x, double y, const Control& at) noexcept {
   const double a = landscape_.period_m(), steepest = at.scale * landscape_.sharpest_bend() + k_;
   double height = potential(x, y, at);
@@ -108,7 +108,7 @@ void LatticeTip::roll_down(double x, double y, const Control& at) noexcept {
   y_ = y;
 }
 
-// The direction of the least curvature; any, where it is the same all around.
+// The direction of the least curvature; arbitrary if it is equal in all directions.
 std::array<double, 2> LatticeTip::softest(const Rest& rest) noexcept {
   const double least = rest.least();
   double x = rest.xy, y = least - rest.xx;
@@ -121,8 +121,8 @@ std::array<double, 2> LatticeTip::softest(const Rest& rest) noexcept {
   return {x / length, y / length};
 }
 
-// Whether a tip at rest at `t` in `rest` reaches the end of its own well at `end` in `last`, and not that of another
-// well. Near the end of a well, its minimum moves with the square root of the rest of the path.
+// Returns whether a tip at rest at `t` in `rest` reaches the end of its own well at `end` in `last`, and not that of
+// another well. Near the end of a well, its minimum moves with the square root of the remaining path.
 bool LatticeTip::leads_to(const Rest& rest, double t, const Rest& last, double end, const Control& at,
                           const Control& change) const noexcept {
   const auto [ex, ey] = softest(last);
@@ -136,8 +136,7 @@ bool LatticeTip::leads_to(const Rest& rest, double t, const Rest& last, double e
   return bent / parabola < kParabola && parabola / bent < kParabola;
 }
 
-// From the end of its well, where `now_` is: along the direction that has no curvature left, the way that the path
-// pulls it.
+// Leaves the end of its well, at `now_`, along the direction without curvature, to the side to which the path pulls it.
 void LatticeTip::slip(double fraction, const Control& change, Step& step) noexcept {
   const auto [ex, ey] = softest(rest_at(x_, y_, now_));
   const LatticeLandscape::Place place = landscape_.at(x_, y_);
@@ -162,7 +161,7 @@ void LatticeTip::slip(double fraction, const Control& change, Step& step) noexce
                                    .lost = lost};
 }
 
-// Newton's way to the place on the path where the tip rests and the determinant of the curvatures is zero.
+// Newton's method for the place on the path where the tip rests and the determinant of the curvatures is zero.
 bool LatticeTip::find_end_of_well(const Control& from, const Control& change, double t, double furthest, Rest& rest,
                                   double& end) const noexcept {
   const double a = landscape_.period_m();
@@ -195,7 +194,7 @@ bool LatticeTip::find_end_of_well(const Control& from, const Control& change, do
     }
     if (std::hypot(step_x, step_y) > kSettled * a || std::abs(step_t) > kSettled) continue;
     const Rest found = rest_at(x, y, on_path(from, change, at_t));
-    // the other curvature must hold the tip, and the end lie ahead
+    // the other curvature must hold the tip, and the end must be ahead
     if (!(at_t > t && at_t <= furthest && found.xx + found.yy > 0.0)) return false;
     if (!leads_to(rest, t, found, at_t, on_path(from, change, at_t), change)) return false;
     rest = found;

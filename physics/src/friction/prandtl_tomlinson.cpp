@@ -25,7 +25,7 @@ double slope_of(const SineLattice& lattice, double tip_m, double support_m) {
   return 0.5 * lattice.amplitude.si * q * std::sin(q * tip_m) + lattice.spring.si * (tip_m - support_m);
 }
 
-// Where dV/dx changes its sign between two places at which it has two.
+// Zero of dV/dx between two places at which it has opposite signs.
 double rest_between(const SineLattice& lattice, double low_m, double high_m, double support_m) {
   const bool rising = slope_of(lattice, high_m, support_m) > 0.0;
   for (int i = 0; i < 200 && low_m < high_m; ++i) {
@@ -36,7 +36,7 @@ double rest_between(const SineLattice& lattice, double low_m, double high_m, dou
   return 0.5 * (low_m + high_m);
 }
 
-// Where the curvature of the potential vanishes: cos(q x) = -1/eta.
+// Place where the curvature of the potential vanishes: cos(q x) = -1/eta.
 double tip_at_slip(const SineLattice& lattice) {
   return std::acos(-1.0 / slip_parameter(lattice)) / wave_number(lattice);
 }
@@ -64,7 +64,7 @@ std::optional<SineSlip> first_slip(const SineLattice& lattice) {
   const double before = tip_at_slip(lattice);
   const double force = k / wave_number(lattice) * std::sqrt(eta * eta - 1.0);
   const double support = before + force / k;
-  // the next well's tip lies between the place where its own curvature begins, and where it would slip on
+  // in the next well the tip is between the place where its curvature begins, and where it would slip on
   const double after = rest_between(lattice, a - before, a + before, support);
   return SineSlip{.support = Length(support),
                   .tip_before = Length(before),

@@ -10,7 +10,7 @@
 namespace afm::physics {
 namespace {
 
-// Villarrubia's algorithm on P(d) = -T(-d), in memory of the window's size.
+// Villarrubia's algorithm on P(d) = -T(-d); memory of the window's size.
 class BlindTip {
  public:
   BlindTip(const HeightGrid& image, std::size_t reach_columns, std::size_t reach_rows, double threshold_m)
@@ -22,7 +22,7 @@ class BlindTip {
     touching_.reserve(bound_m_.size());
   }
 
-  // Peaks first, as they reveal most; then every point, until none says anything new.
+  // Peaks first, as they contain most information; then every point, until none changes the result.
   void refine() {
     refine_at([this](std::size_t pixel) { return is_peak(pixel); });
     refine_at([](std::size_t) { return true; });
@@ -45,7 +45,7 @@ class BlindTip {
     return image_.height_m[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(pixel) + offset)];
   }
 
-  // No pixel around is higher.
+  // Returns whether no neighbouring pixel is higher.
   bool is_peak(std::size_t pixel) const {
     const auto columns = static_cast<std::ptrdiff_t>(reach_y_ > 0 ? image_.columns : 0);
     for (const std::ptrdiff_t step : {std::ptrdiff_t{1}, columns, columns + 1, columns - 1}) {
@@ -54,7 +54,7 @@ class BlindTip {
     return true;
   }
 
-  // The places of the tip at which, as far as is known, it may have touched what the image shows at the pixel.
+  // Places of the tip that, as far as is known, may have touched the surface at the pixel.
   void find_touching(std::size_t pixel) {
     touching_.clear();
     const double here_m = image_.height_m[pixel];
@@ -83,7 +83,7 @@ class BlindTip {
 
   template <class Chosen>
   void refine_at(const Chosen& chosen) {
-    // a peak has neighbours in its line
+    // a peak needs neighbours in its line
     const std::size_t margin_x = std::max<std::size_t>(2 * reach_x_, 1), margin_y = 2 * reach_y_;
     for (bool changed = true; changed;) {
       changed = false;

@@ -13,7 +13,7 @@ struct BetweenPoints {
 };
 
 BetweenPoints between_points(double place_m, double first_m, double step_m, std::size_t count) {
-  // in this order what is no number is the first point
+  // in this order NaN becomes the first point
   const double last = static_cast<double>(count - 1);
   const double index = std::min(std::max(0.0, (place_m - first_m) / step_m), last);
   const double below = std::floor(index);

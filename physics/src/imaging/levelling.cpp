@@ -26,8 +26,8 @@ double median_of(std::vector<double>& values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-// Each line is moved until the median of its differences to the line above is zero. A line without a point that was
-// measured in both moves with the one above.
+// Shifts each line until the median of its differences to the line above is zero. A line without a point measured in
+// both moves with the one above.
 void level_lines(const LevelGrid& grid) {
   std::vector<double> differences;
   double moved = 0;
@@ -49,7 +49,7 @@ struct LevelPlane {
   double slope_y = 0;  // per row, downwards
 };
 
-// Normal equations about the centre of the points that were measured.
+// Normal equations about the centre of the measured points.
 LevelPlane fitted_plane(const LevelGrid& grid) {
   double count = 0, mean_x = 0, mean_y = 0, mean_z = 0;
   const auto each = [&](const auto& visit) {
@@ -79,7 +79,7 @@ LevelPlane fitted_plane(const LevelGrid& grid) {
     yz += dy * dz;
   });
   const double determinant = xx * yy - xy * xy;
-  // all points on one line: no plane is known
+  // all points are on one line: the plane is undefined
   if (!(determinant > 1e-9 * xx * yy)) return {};
   return {(xz * yy - yz * xy) / determinant, (yz * xx - xz * xy) / determinant};
 }

@@ -8,7 +8,7 @@
 namespace afm::physics {
 namespace {
 
-// Part of one line of a grid: [first, last) of those pixels whose partner `shift` away exists.
+// Part of one line of a grid: the pixels [first, last) whose partner at the distance `shift` exists.
 struct Overlap {
   std::size_t first, last;
 
@@ -21,8 +21,8 @@ std::size_t moved(std::size_t index, std::ptrdiff_t shift) {
   return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + shift);
 }
 
-// Calls change(pixel, partner, T) for every pixel and every one of the tip's that has a partner in the grid, `sign`
-// times its offset away, and can matter: what stands higher above the apex than the whole relief never touches.
+// Calls change(pixel, partner, T) for every pixel of the grid and every one of the tip that has a partner in the grid,
+// `sign` times its offset away. Skips parts of the tip higher above the apex than the whole relief, which never touch.
 template <class Change>
 void for_each_pair(const HeightGrid& grid, const TipGrid& tip, int sign, const Change& change) {
   const double relief_m = grid.range_m();
@@ -42,7 +42,7 @@ void for_each_pair(const HeightGrid& grid, const TipGrid& tip, int sign, const C
   }
 }
 
-// How many pixels to each side of the apex the tip has material below some height above it.
+// Number of pixels to each side of the apex at which the tip is not above some height.
 class TipReach {
  public:
   explicit TipReach(const TipGrid& tip)

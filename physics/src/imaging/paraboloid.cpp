@@ -11,14 +11,14 @@
 namespace afm::physics {
 namespace {
 
-// The highest place of parabolas -d^2/2R below each point of a line, at each point. Some of them are on the upper
-// envelope, each between two places; those that are not are dropped.
+// Upper envelope of the parabolas -d^2/2R below each point of a line. Each parabola on the envelope has one interval;
+// all others are dropped.
 class ParabolaEnvelope {
  public:
   ParabolaEnvelope(std::size_t count, double step_m, double radius_m)
       : step_m_(std::abs(step_m)), two_radii_m_(2.0 * radius_m), heights_m_(count), hung_(count), from_(count + 1) {}
 
-  // Heights in, heights out.
+  // Replaces the heights by the dilated ones.
   void dilate(std::span<double> line) {
     std::copy(line.begin(), line.end(), heights_m_.begin());
     find_envelope();
@@ -27,7 +27,7 @@ class ParabolaEnvelope {
       const auto place = static_cast<double>(i);
       while (k + 1 < kept_ && from_[k + 1] < place) ++k;
       double highest_m = std::max(heights_m_[i], hanging_m(hung_[k], i));
-      // where parabolas cross at a point, rounding decides which of them was found
+      // where parabolas cross at a point, rounding decides which one was found
       for (std::size_t j = k; j > 0 && from_[j] > place - kRounding; --j) {
         highest_m = std::max(highest_m, hanging_m(hung_[j - 1], i));
       }
@@ -46,14 +46,14 @@ class ParabolaEnvelope {
     return heights_m_[from] - distance_m * distance_m / two_radii_m_;
   }
 
-  // Where the parabola of `right` rises above that of `left`, in points.
+  // Place from which the parabola of `right` is above that of `left`, in points.
   double crossing(std::size_t left, std::size_t right) const {
     const auto a = static_cast<double>(left), b = static_cast<double>(right);
     return 0.5 * (a + b) - (heights_m_[right] - heights_m_[left]) * two_radii_m_ / (2.0 * step_m_ * step_m_ * (b - a));
   }
 
   void find_envelope() {
-    // one that only touches the envelope is kept
+    // a parabola that only touches the envelope is kept
     kept_ = 0;
     for (std::size_t i = 0; i < heights_m_.size(); ++i) {
       while (kept_ > 1 && crossing(hung_[kept_ - 1], i) < from_[kept_ - 1] - kRounding) --kept_;
@@ -64,7 +64,7 @@ class ParabolaEnvelope {
 
   double step_m_, two_radii_m_;
   std::vector<double> heights_m_;
-  std::vector<std::size_t> hung_;  // points whose parabolas are on the envelope, and from where on
+  std::vector<std::size_t> hung_;  // points whose parabolas are on the envelope, with the beginning of their intervals
   std::vector<double> from_;
   std::size_t kept_ = 0;
 };

@@ -8,15 +8,15 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kLostShare = 0.95;        // of a line's time: the tip is not on the sample at all
-constexpr double kSecondApexShare = 0.02;  // of a line's time
-constexpr double kRingingShare = 0.8;      // of the gain at which the loop swings: each step is followed by waves
-constexpr double kDriftShare = 0.03;       // of a side, while a frame is taken
-constexpr double kNoiseShare = 0.03;       // rms over the relief
-constexpr double kParachuteShare = 0.004;  // of a line's time: a shorter flight is not seen
-constexpr double kOverloadFactor = 3.0;    // times the setpoint
-constexpr double kLagShare = 0.015;        // of a side: trace and retrace lie visibly apart
-constexpr double kBluntFactor = 1.5;       // times the radius of the sharper tip
+constexpr double kLostShare = 0.95;        // share of a line's time; more means that the tip is not on the sample
+constexpr double kSecondApexShare = 0.02;  // share of a line's time
+constexpr double kRingingShare = 0.8;      // share of the gain at which the loop oscillates; waves follow each step
+constexpr double kDriftShare = 0.03;       // share of a side, during one frame
+constexpr double kNoiseShare = 0.03;       // ratio of rms to relief
+constexpr double kParachuteShare = 0.004;  // share of a line's time; a shorter flight is invisible
+constexpr double kOverloadFactor = 3.0;    // multiple of the setpoint
+constexpr double kLagShare = 0.015;        // share of a side; trace and retrace then differ visibly
+constexpr double kBluntFactor = 1.5;       // multiple of the sharper tip's radius
 
 bool drifts(const ScanArea& area, const ScanSettings& settings) {
   const double frame_s = static_cast<double>(area.rows) / settings.line_rate.si;

@@ -44,8 +44,8 @@ void ScanLoop::set_swing(const ScanSettings& settings) noexcept {
   swing_ = {.zz = c + damping * s, .zv = s, .vz = -w0 * w0 * s, .vv = c - damping * s};
 }
 
-// The loop swings by itself with z = exp(i theta) a tick where (z - 1) + (Kp (1 - 1/z) + g) z^-delay G(z) = 0, g = Ki
-// dt and G what the z scanner does with its command.
+// The loop oscillates with z = exp(i theta) per tick if (z - 1) + (Kp (1 - 1/z) + g) z^-delay G(z) = 0, g = Ki dt and G
+// the response of the z scanner to its command.
 double ScanLoop::swinging_gain() const {
   const auto gain_at = [this](double theta) {
     const std::complex<double> z = std::polar(1.0, theta);
@@ -59,7 +59,7 @@ double ScanLoop::swinging_gain() const {
   };
   constexpr double kSlowest = 1e-6, kStep = 1.01, kFastest = std::numbers::pi * (1.0 - 1e-9);
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  // at half the rate of the ticks the gain is real
+  // at half the tick rate the gain is real
   const double fastest = gain_at(std::numbers::pi).real();
   double smallest = fastest > 0.0 ? fastest : kNone;
   bool before = gain_at(kSlowest).imag() < 0.0;

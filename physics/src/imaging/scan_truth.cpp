@@ -11,7 +11,7 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kNoiseThresholds = 4.0;     // noise beyond that many times its rms does not happen
+constexpr double kNoiseThresholds = 4.0;     // multiple of the rms that noise does not exceed
 constexpr double kRoundingOfHeight = 1e-15;  // m
 
 HeightGrid height_of(const ScanImage& image) {
@@ -24,7 +24,7 @@ HeightGrid height_of(const ScanImage& image) {
   return grid;
 }
 
-// As seen from above with the tip pointing up: the apex is 0, its flanks are below.
+// As seen from above with the tip upside down: the apex is 0, its flanks are below.
 std::vector<double> drawn_tip(const TipGrid& tip, const ScanImage& image) {
   const double lowest = -*std::max_element(tip.above_apex_m.begin(), tip.above_apex_m.end());
   std::vector<double> values(image.columns * image.rows, lowest);
@@ -44,7 +44,7 @@ void add_truth(const TipShape& tip, Length noise, ScanImage& image) {
   const HeightGrid reconstruction = reconstruction_of(height, tip);
   const std::vector<std::uint8_t> certain =
       certainty_map(height, reconstruction, sample_tip(tip, height, height.range_m()), kRoundingOfHeight);
-  // a place is looked at only if the image reaches twice as far
+  // a place is used only if the image extends twice as far
   const auto reach = [](std::size_t count) { return std::min(kBlindReach, (count - 1) / 4); };
   const TipGrid blind = tip_of_image(height, reach(image.columns), reach(image.rows), kNoiseThresholds * noise.si);
   image.channels.push_back({"Reconstruction", "m", reconstruction.height_m});

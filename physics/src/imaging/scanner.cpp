@@ -119,7 +119,7 @@ void Scanner::scan_segment(double x_m, double y_m, ScanPixel& pixel) {
 
 void Scanner::scan_to(double x_m, double y_m, ScanPixel& pixel) {
   const double from_x_m = x_m_, from_y_m = y_m_;
-  // at the ends of a line the tip goes on to the edge of the area, half a pixel away, and comes back
+  // at the ends of a line the tip continues to the edge of the area, half a pixel away, and comes back
   const double half_pixel_m = 0.5 * area_.width.si / static_cast<double>(area_.columns);
   const bool turns = step_ % area_.columns == 0;
   const double to_edge_m = turns ? (pixel.pass == ScanPass::Retrace ? half_pixel_m : -half_pixel_m) : 0.0;

@@ -15,25 +15,25 @@ double ball_m(double radius_m, double beside_m) {
   return beside_m * beside_m / (radius_m + std::sqrt(radius_m * radius_m - beside_m * beside_m));
 }
 
-// A face that touches the ball from below, `beside` from the axis along its normal.
+// A face tangent to the ball from below, at the distance `beside` from the axis along its normal.
 double face_m(const TipShape& tip, double beside_m) {
   return beside_m / std::tan(tip.half_angle_rad) - tip.radius.si * (1.0 / std::sin(tip.half_angle_rad) - 1.0);
 }
 
-// The ball up to the circle along which the cone touches it.
+// The ball up to the circle at which the cone is tangent.
 double cone_m(const TipShape& tip, double beside_m) {
   const bool on_ball = beside_m <= tip.radius.si * std::cos(tip.half_angle_rad);
   return on_ball ? ball_m(tip.radius.si, beside_m) : face_m(tip, beside_m);
 }
 
-// What balls of the radius fill of a pyramid: apex and edges are round. `x` along the normal of the nearest face, `y`
-// across it, `half_sector` the angle between that normal and the next edge.
+// The part of a pyramid filled by balls of the radius: apex and edges are rounded. `x` along the normal of the nearest
+// face, `y` across it, `half_sector` the angle between that normal and the next edge.
 double pyramid_m(const TipShape& tip, double x_m, double y_m, double half_sector_rad) {
   const double radius_m = tip.radius.si;
   const double on_face_m = x_m - radius_m * std::cos(tip.half_angle_rad);
   if (std::abs(y_m) <= std::tan(half_sector_rad) * on_face_m) return face_m(tip, x_m);
 
-  // the ball that touches here has its centre on the line of centres below the edge, or it is that of the apex
+  // the ball that touches here is centred on the line of centres below the edge, or at the apex
   const double slope = std::cos(half_sector_rad) / std::tan(tip.half_angle_rad), steep = std::hypot(1.0, slope);
   const double along_m = x_m * std::cos(half_sector_rad) + std::abs(y_m) * std::sin(half_sector_rad);
   const double across_m = x_m * std::sin(half_sector_rad) - std::abs(y_m) * std::cos(half_sector_rad);
@@ -88,7 +88,7 @@ TipGrid sample_tip(const TipShape& tip, const HeightGrid& grid, double depth_m) 
   };
   const auto most_columns = static_cast<std::ptrdiff_t>(grid.columns) - 1;
   const auto most_rows = static_cast<std::ptrdiff_t>(grid.rows) - 1;
-  // every column of a tip is lowest on the x axis; its rows rise with their distance from it
+  // every column of a tip is lowest on the x axis; its rows rise with the distance from it
   std::ptrdiff_t columns = 0, rows = 0;
   for (std::ptrdiff_t i = 1; i <= most_columns; ++i) {
     if (std::min(height_m(i, 0), height_m(-i, 0)) <= depth_m) columns = i;

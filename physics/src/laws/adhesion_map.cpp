@@ -14,30 +14,31 @@
 namespace afm::physics {
 namespace {
 
-// Johnson & Greenwood 1997 draw the borders of DMT and JKR by what each leaves out; in the Tabor parameter, at loads of
-// the order of the adhesion, they come to these (Maugis 1992 puts them at the same values of lambda = 1.157 mu).
+// Johnson & Greenwood 1997 define the borders of DMT and JKR by the terms that each neglects; in the Tabor parameter,
+// at loads of the order of the adhesion, these are the values (Maugis 1992 puts them at the same values of lambda =
+// 1.157 mu).
 constexpr double kDmtBelow = 0.1;
 constexpr double kJkrAbove = 5.0;
 
-// Their Hertz: adhesion adds less than this to the load.
+// Their Hertz: adhesion adds less than this share to the load.
 constexpr double kNegligibleAdhesion = 0.05;
 
-// Their Rigid (Bradley): the contact flattens by less than this part of the range of the attraction, W/sigma0.
+// Their Rigid (Bradley): the contact flattens by less than this share of the range of the attraction, W/sigma0.
 constexpr double kNegligibleFlattening = 0.05;
 
 // lambda/mu: 2 (16/(9 sqrt3)) cbrt(9/(16 pi)).
 const double kLambdaPerTabor = 32.0 / (9.0 * std::numbers::sqrt3) * std::cbrt(9.0 / (16.0 * std::numbers::pi));
 
-// DMT's indentation in units of the range of attraction: cbrt((9/16) (P + 2 pi W R)^2/(R E*^2)) over
-// W/sigma0 = (9 sqrt3/16) z0.
+// DMT's indentation in units of the range of attraction: cbrt((9/16) (P + 2 pi W R)^2/(R E*^2)) divided by W/sigma0 =
+// (9 sqrt3/16) z0.
 double flattening(double tabor, double load) {
   const double indentation = tabor * std::cbrt(9.0 / 16.0 * std::pow(std::numbers::pi * (load + 2.0), 2.0));
   return indentation / (9.0 * std::numbers::sqrt3 / 16.0);
 }
 
-// What adhesion adds to the load: Hertz' load for the contact's radius, a^3 in Maugis' units, less the load.
+// Contribution of adhesion to the load: Hertz' load for the contact's radius, a^3 in Maugis' units, minus the load.
 double adhesive_load(double tabor, double load) {
-  // beyond these his contact is DMT's or JKR's to the last digit that matters
+  // outside these limits the contact is DMT's or JKR's within rounding
   const double lambda = std::clamp(kLambdaPerTabor * tabor, 1e-3, 1e3);
   const double radius = maugis_point(lambda, maugis_at_load(lambda, load)).contact_radius;
   return radius * radius * radius - load;

@@ -6,8 +6,9 @@
 namespace afm::physics {
 namespace {
 
-// Without a kink between. Over the square root of the way that is left, in which a contact that shrinks to a point at
-// `to` and one that loses its grip there are smooth; by Gauss' rule of four points, to the last digits.
+// Work between two places without a kink in between. Integrates over the square root of the remaining distance, in
+// which a contact that shrinks to a point at `to` and one that loses its grip there are smooth; Gauss' rule of four
+// points is then accurate to the last digits.
 double smooth_work(const LawBranch& branch, double from, double to) {
   struct Node {
     double place, weight;

@@ -6,12 +6,12 @@
 #include "physics/force_law.h"
 #include "physics/van_der_waals.h"
 
-// Parameters for branches, spread so that equal steps resolve both the atomic scale and the millimetre. They rise from
-// a branch's first point to its last.
+// Parameters for branches, distributed so that equal steps resolve both the atomic scale and the millimetre. They
+// increase from a branch's first point to its last.
 namespace afm::physics {
 
-// How far out a branch goes, how deep into the sample, and with what force against a wall: beyond what any lever that
-// validate() accepts reaches within a millimetre of travel.
+// Extent of a branch outwards, into the sample, and in force against a wall: beyond the reach of any lever accepted by
+// validate() within a millimetre of travel.
 inline constexpr double kFarthest = 1e-3;     // m
 inline constexpr double kDeepest = 1e-3;      // m
 inline constexpr double kHardestPress = 1e3;  // N
@@ -22,7 +22,7 @@ struct ForceAndSlope {
   double slope;
 };
 
-// Van der Waals attraction by the height above a gap.
+// Van der Waals attraction as a function of the height above a gap.
 inline auto attraction_above(const VanDerWaals& van_der_waals, Length gap) {
   return [van_der_waals, gap](double above) {
     const Length d = gap + Length(above);
@@ -30,15 +30,15 @@ inline auto attraction_above(const VanDerWaals& van_der_waals, Length gap) {
   };
 }
 
-// Heights about `origin`: h = origin + scale sinh(s), near it even, far from it by equal factors.
+// Heights about `origin`: h = origin + scale sinh(s), linear near it, exponential far from it.
 struct Heights {
   double origin;
   double scale;
 
   double parameter(double above_origin) const { return std::asinh(above_origin / scale); }
 
-  // The point at s of a law that gives its force for the height above the origin, which is exact where the height
-  // itself would lose it in rounding.
+  // The point at s of a law that is given as a function of the height above the origin, which avoids the rounding of
+  // the height itself.
   template <class ForceAbove>
   LawPoint point(double s, ForceAbove force_above) const {
     const double above = scale * std::sinh(s);
@@ -47,7 +47,7 @@ struct Heights {
     return {Length(origin + above), Force(f.force), dh_ds, f.slope * dh_ds};
   }
 
-  // From far away down to the origin.
+  // Branch from far away down to the origin.
   template <class ForceAbove>
   LawBranch inwards(ForceAbove force_above) const {
     const Heights heights = *this;
@@ -61,7 +61,7 @@ struct Heights {
   }
 };
 
-// A branch the other way round, from its last point back to the one at `to`.
+// The reversed branch, from its last point back to the one at `to`.
 LawBranch reversed(const LawBranch& branch, double to);
 
 // The integral of F dh along a branch from one parameter to a larger one.

@@ -72,7 +72,7 @@ void BranchTable::continue_from(double distance, const Node& last, double slope_
     line_slope_ = -slope_outwards;
     line_force_at_zero_ = last_force_ - line_slope_ * (end_z_ - reach_);
   } else if (last_force_ != 0.0) {
-    // a force that does not fall where the table ends is made to, as slowly as 1/distance
+    // a force that does not decrease at the end of the table is made to, as slowly as 1/distance
     tail_exponent_ = std::max(1.0, -reach_ * slope_outwards / last_force_);
   }
 }

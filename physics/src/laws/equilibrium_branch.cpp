@@ -10,7 +10,7 @@
 namespace afm::physics {
 namespace {
 
-// Laws run over their scales by equal factors, so that a step of s is a step of scale.
+// Laws have their parameter logarithmic over their scales, so that a step of s is a step of scale.
 constexpr double kScanStep = 0.05;
 constexpr int kHalvings = 80;  // bisections of an interval of s, beyond the resolution of a double
 
@@ -22,7 +22,7 @@ std::vector<double> corners_of(const LawBranch& branch) {
   return corners;
 }
 
-// The parameters at which a branch is looked at; just before and just after a kink, never at it.
+// Parameters at which a branch is examined: just before and just after a kink, never at it.
 std::vector<double> scan_of(const LawBranch& branch) {
   const std::vector<double> corners = corners_of(branch);
   const double nudge = 1e-13 * (branch.last - branch.first);
@@ -37,7 +37,7 @@ std::vector<double> scan_of(const LawBranch& branch) {
   return scan;
 }
 
-// dF/dh with the sense in which h should run; infinite where it stands still under a rising pull or turns back.
+// dF/dh, signed for the intended direction of h; infinite where h is constant under a rising pull or turns back.
 double gradient(const LawBranch& branch, double s, double sign) {
   const LawPoint point = branch.at(s);
   if (point.dh_ds * sign > 0.0) return point.dforce_ds / point.dh_ds;
@@ -45,7 +45,7 @@ double gradient(const LawBranch& branch, double s, double sign) {
   return wall ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
 }
 
-// Where between two parameters the gradient is steepest, by golden sections.
+// Parameter of the steepest gradient between two parameters, by golden sections.
 double steepest_between(const LawBranch& branch, double low, double high, double sign) {
   constexpr double kGolden = 0.6180339887498949;
   double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
@@ -66,7 +66,7 @@ double steepest_between(const LawBranch& branch, double low, double high, double
   return 0.5 * (low + high);
 }
 
-// One panel of Gauss and Legendre, eight points.
+// One interval of Gauss-Legendre quadrature, eight points.
 double panel(const LawBranch& branch, double from, double to) {
   constexpr std::array kAbscissa{0.18343464249564981, 0.52553240991632899, 0.79666647741362674, 0.96028985649753623};
   constexpr std::array kWeight{0.36268378337836199, 0.31370664587788729, 0.22238103445337448, 0.10122853629037626};
@@ -81,7 +81,8 @@ double panel(const LawBranch& branch, double from, double to) {
   return half * sum;
 }
 
-// A stretch without kinks inside, in panels that shrink towards both ends, where a law may go like a broken power.
+// Integral over a stretch without kinks, in intervals that shrink towards both ends, where a law may behave like a
+// fractional power.
 double stretch_rise(const LawBranch& branch, double from, double to) {
   constexpr double kWidest = 0.25;
   constexpr double kShrink = 0.25;
@@ -137,7 +138,7 @@ void EquilibriumBranch::find_end() {
       end_ = i == 0 ? scan[0] : fold_between(scan[i - 1], scan[i]);
       return;
     }
-    // a stretch that folds and recovers between two points shows as a gradient that is steepest there
+    // a stretch that folds and recovers between two points shows up as a maximum of the gradient there
     const double next = gradient(branch_, scan[i], sign_);
     if (i >= 2 && last > before_last && last >= next && !is_kink(scan[i - 2], scan[i])) {
       const double steepest = steepest_between(branch_, scan[i - 2], scan[i], sign_);
@@ -153,7 +154,7 @@ void EquilibriumBranch::find_end() {
   folded_ = false;
 }
 
-// Newton's steps, halving where they leave the bracket; Z runs from low to high as the stretch does.
+// Newton's method, with bisection outside the bracket; Z increases from low to high along the stretch.
 double EquilibriumBranch::solve(double z, double guess, double low, double high, Point& solution) const {
   constexpr double kSmallStep = 1e-7;  // its square, the error of the step after it, is below rounding
   double s = guess;
@@ -184,7 +185,7 @@ std::optional<double> EquilibriumBranch::at_z(double z) const {
 }
 
 BranchTable::Piece EquilibriumBranch::piece(double from, double to, double end_z, double reach) const {
-  // below this fraction of the end's own Z rounding hides what the branch does
+  // below this fraction of the end's Z, rounding hides the branch
   constexpr double kNearest = 0x1p-36;
   constexpr double kSmallestScale = 1e-10;  // m, for a branch that ends at Z = 0
   const Point start = at(from);
@@ -196,7 +197,7 @@ BranchTable::Piece EquilibriumBranch::piece(double from, double to, double end_z
   piece.first_octave = static_cast<int>(std::floor(0.5 * std::log2(nearest)));
 
   piece.nodes.push_back({start.force, 0.0});
-  // at a kink the law's slope may be that of its other side
+  // at a kink the law's slope may be that of the other side
   const double last = to + 1e-12 * (from - to);
   double s = from, ds_du = 0.0, last_u = 0.0;
   for (std::size_t i = 1; last_u < piece.last_u; ++i) {
@@ -208,7 +209,7 @@ BranchTable::Piece EquilibriumBranch::piece(double from, double to, double end_z
     piece.nodes.push_back({point.force, ds_du * point.dforce_ds});
     last_u = u;
   }
-  // a parabola over the first cell: with a fold the slope at its end is finite but not to be had from dF/dZ
+  // a parabola over the first cell: with a fold the slope at its end is finite but cannot be computed from dF/dZ
   BranchTable::Node &first = piece.nodes[0], &second = piece.nodes[1];
   first.slope = 2.0 * (second.force_n - first.force_n) / BranchTable::node_u(piece.first_octave, 1) - second.slope;
   return piece;

@@ -8,9 +8,9 @@
 
 namespace afm::physics {
 
-// A branch of a law with lever and support in series, SI: at its parameter s the tip is at h and the lever's base
-// at Z = h - c F, c = 1/k_c + 1/k_s. A tip can rest where Z runs the way it is moved, inwards along a free branch and
-// outwards along an attached one: until dF/dh = 1/c, where the branch folds, or until the branch ends.
+// A branch of a law with lever and support in series, SI: at its parameter s the tip is at h and the lever's base at Z
+// = h - c F, c = 1/k_c + 1/k_s. A tip can rest where Z follows the motion, inwards along a free branch and outwards
+// along an attached one: until dF/dh = 1/c, where the branch folds, or until the branch ends.
 class EquilibriumBranch {
  public:
   enum class Direction { Inwards, Outwards };
@@ -23,22 +23,22 @@ class EquilibriumBranch {
     double dforce_ds = 0.0;
   };
 
-  // `branch` must outlive this.
+  // `branch` must outlive the object.
   EquilibriumBranch(const LawBranch& branch, double compliance, Direction direction);
 
   Point at(double s) const;
 
-  // Where the stable stretch from the branch's first point ends, and whether a fold ends it and not the branch.
+  // End of the stable stretch that begins at the branch's first point, and whether a fold ends it.
   double end() const { return end_; }
   bool folded() const { return folded_; }
 
   // Ends the stretch before its fold or end.
   void cut_at(double s) { end_ = s; }
 
-  // s of the place on the stable stretch that has this Z; none if the stretch does not reach it.
+  // s of the place on the stable stretch with this Z; empty if the stretch does not reach it.
   std::optional<double> at_z(double z) const;
 
-  // The stable stretch as a table from its end outwards over `reach` of Z, or as far as the branch goes.
+  // The stable stretch as a table from its end outwards over `reach` of Z, or to the end of the branch.
   BranchTable table(double reach) const;
 
  private:
@@ -46,7 +46,7 @@ class EquilibriumBranch {
   double rate(double s) const;
   double fold_between(double stable, double unstable) const;
   void find_end();
-  // The table between two places without a kink in between, the first nearer to the branch's end.
+  // The table between two places without a kink in between, the first one closer to the branch's end.
   BranchTable::Piece piece(double from, double to, double end_z, double reach) const;
   double solve(double z, double guess, double low, double high, Point& solution) const;
 
@@ -57,14 +57,14 @@ class EquilibriumBranch {
   bool folded_ = false;
 };
 
-// The same curve the other way.
+// The same curve in the opposite direction.
 LawBranch reversed(const LawBranch& branch);
 
-// The largest dF/dh of a branch, above zero: the stiffness at and above which no lever folds it. Infinite if h turns
-// back along it.
+// The largest positive dF/dh of a branch: a lever of at least this stiffness does not fold it. Infinite if h turns back
+// along it.
 double steepest_attraction(const LawBranch& branch);
 
-// The integral of -F dh along a branch from one parameter to another: the rise of the potential.
+// Rise of the potential: the integral of -F dh along a branch from one parameter to another.
 double potential_rise(const LawBranch& branch, double from, double to);
 
 }  // namespace afm::physics

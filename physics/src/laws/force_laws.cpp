@@ -27,8 +27,8 @@ ForceLaw hao_law(const ContactParameters& contact, const LawOptions& options) {
   const VanDerWaals van_der_waals(contact.hamaker, contact.tip_radius, options);
   const double adhesion = adhesion_force(contact).si;
 
-  // the attraction grows without bound towards the wall, so that any lever jumps before it gets there: the branch ends
-  // below the fold of the stiffest lever with the weakest attraction
+  // the attraction is unbounded towards the wall, so any lever jumps before it gets there: the branch ends below the
+  // fold of the stiffest lever with the weakest attraction
   constexpr double kNearest = 1e-15;
   const auto approach = [van_der_waals](double s) {
     const Length d(kNearest * std::exp(-s));
@@ -100,8 +100,8 @@ ForceLaw jkr_law(const ContactParameters& contact, const LawOptions&) {
   const AdhesiveContact adhesive = adhesive_contact(contact);
   const Heights heights{0.0, contact.atomic_distance.si};
 
-  // contact radii by equal factors, from one that lies deep inside to the end of the neck under fixed grips, where
-  // dh/da = 0; a softer lever loses the contact before
+  // contact radii by equal factors, from deep inside to the end of the neck under fixed grips, where dh/da = 0; a
+  // softer lever loses the contact earlier
   const double end = jkr_fixed_grips_radius(adhesive).si;
   const auto attached = [adhesive, end](double s) {
     const Length a(end * std::exp(-s));
@@ -125,7 +125,7 @@ ForceLaw lennard_jones_law(const ContactParameters& contact, const LawOptions&) 
   const Length z0 = contact.atomic_distance;
   const LennardJones surfaces(work_of_adhesion(contact), contact.tip_radius, z0);
 
-  // gaps by equal factors of the atomic distance; free down to the minimum of the force, which lies inside of the
+  // gaps by equal factors of the atomic distance; free down to the minimum of the force, which is inside of the
   // steepest attraction and so of every fold
   const auto outwards = [surfaces, z0](double s) {
     const Length d = z0 * std::exp(s);

@@ -7,7 +7,7 @@
 namespace afm::physics {
 namespace {
 
-// Where on the straight path from `from` to `to` the threshold lies.
+// Position of the threshold on the straight path from `from` to `to`.
 double fraction_of(Length threshold, Length from, Length to) noexcept {
   return std::clamp((threshold - from) / (to - from), 0.0, 1.0);
 }
@@ -44,7 +44,7 @@ std::optional<ModelEvent> ApproachRetractModel::latch(Length z) noexcept {
     phase_ = z <= figures.z_jtc ? Phase::Attached : Phase::Free;
     lowest_z_ = z;
   } else if (phase_ == Phase::Free && z <= figures.z_jtc) {
-    // the path began above Z_jtc, or this would not be Free; so its lowest point is its end
+    // the path began above Z_jtc, or this would not be Free, so its lowest point is its end
     phase_ = Phase::Attached;
     lowest_z_ = z;
     return ModelEvent{EventKind::JumpToContact, figures.z_jtc, figures.force_before_jtc, figures.force_after_jtc,

@@ -15,8 +15,7 @@
 namespace afm::physics {
 namespace {
 
-// What the law itself is made of, validated. Fixed grips are a lever that no person owns: an infinite k_c is legal here
-// and nowhere else, and no law asks for it.
+// The validated parameters of the law itself. An infinite k_c, for fixed grips, is legal only here, and no law uses it.
 ContactParameters without_lever(ContactParameters contact) {
   if (std::isinf(contact.spring_constant.si) && contact.spring_constant.si > 0.0) {
     contact.spring_constant = Stiffness(1.0);
@@ -29,14 +28,14 @@ double compliance(const ContactParameters& contact) {
   return 1.0 / contact.spring_constant.si + 1.0 / contact.sample_stiffness.si;
 }
 
-// Where a tip rests, SI, and the parameter of that place on its branch.
+// A rest position of the tip, SI, and its parameter on the branch.
 struct Rest {
   double z = 0.0;
   double force = 0.0;
   double s = 0.0;
 };
 
-// A law that is single-valued in h says so by an attached branch that goes on to where the free one begins.
+// Returns whether a law is single-valued in h: its attached branch then extends to the beginning of the free one.
 bool is_single_valued(const ForceLaw& law) {
   const double farthest = law.free.at(law.free.first).h.si;
   return std::abs(law.attached.at(law.attached.last).h.si - farthest) < 1e-6 * farthest;
@@ -58,7 +57,7 @@ class Builder {
 
   LawTables build() {
     CycleFigures& figures = tables_.figures;
-    // of a loop narrower than rounding nothing is left; two loops beside each other count as none
+    // a loop narrower than rounding does not count, nor do two adjacent loops
     figures.hysteretic = !single_valued_ || (free_.folded() && attached_.folded() &&
                                              attached_.at(attached_.end()).z > free_.at(free_.end()).z);
     figures.critical_stiffness = critical_stiffness();
@@ -114,7 +113,7 @@ class Builder {
           " does not lie above jump-to-contact at " + format_quantity(Length(in_from.z), kLengthUnits));
     }
     const Rest in_to = rest(attached_, *in_to_s);
-    // a lever so soft that it lets go beyond the law's end springs back to where there is no force
+    // a lever that is so soft that it releases beyond the law's end springs back to zero force
     const Rest off_to = rest(free_, free_.at_z(off_from.z).value_or(free_curve_.first));
 
     CycleFigures& figures = tables_.figures;
@@ -134,23 +133,23 @@ class Builder {
     figures.lost_at_joc = figures.loop_energy - figures.lost_at_jtc;
   }
 
-  // In lever and support.
+  // Energy in lever and support.
   double stored(const Rest& rest) const { return 0.5 * compliance_ * rest.force * rest.force; }
 
   Energy lost_at_jtc(const Rest& from, const Rest& to, Energy loop) const {
     if (single_valued_) {
-      // along the one curve; it cannot be negative, but rounding can be larger than it is
+      // along the single curve; cannot be negative apart from rounding
       const double lost = potential_rise(law_.attached, to.s, -from.s) + stored(from) - stored(to);
       return Energy(std::clamp(lost, 0.0, loop.si));
     }
-    // without a potential the two jumps cannot be told apart: the well is taken just deep enough for the first one
+    // without a potential the two jumps cannot be separated: assumes a well that is just deep enough for the first one
     if (!law_.attached_end_potential) return Energy();
     const double u_from = potential_far_away() + potential_rise(law_.free, law_.free.first, from.s);
     const double u_to = law_.attached_end_potential->si - potential_rise(law_.attached, to.s, law_.attached.last);
     return Energy(u_from + stored(from) - u_to - stored(to));
   }
 
-  // U at the first point of the free branch, as of a force that goes on as the power of h that it is there.
+  // U at the first point of the free branch, for a force that continues as the same power of h.
   double potential_far_away() const {
     const LawPoint far = law_.free.at(law_.free.first);
     if (far.force.si == 0.0) return 0.0;
@@ -168,7 +167,7 @@ class Builder {
   }
 
   void tabulate() {
-    // beyond, a branch goes on by itself: ten times the cycle, and far enough for any stroke of a few micrometres
+    // beyond, the table extrapolates a branch: ten times the cycle, and enough for a stroke of a few micrometres
     constexpr double kShortest = 4e-6;  // m
     const double reach = std::max(kShortest, 10.0 * std::abs(tables_.figures.z_joc.si));
     tables_.free = free_.table(reach);
@@ -177,8 +176,8 @@ class Builder {
 
   const ForceLaw& law_;
   bool single_valued_;
-  // of a single-valued law the attached branch the other way: a tip that comes in follows that one curve until it
-  // folds, be it before contact or after
+  // for a single-valued law the reversed attached branch: an approaching tip follows that one curve until it folds,
+  // before or after contact
   LawBranch free_curve_;
   double compliance_;
   EquilibriumBranch free_;

@@ -12,12 +12,12 @@ namespace {
 
 using std::numbers::pi;
 
-// Between these every contact lies that a force microscope can have: beyond the first it is 10^12 times its cohesive
-// zone, beyond the second it is a point to the last digit.
+// Limits that include every contact of a force microscope: at the first, the contact is 10^12 times its cohesive zone;
+// at the second it is a point within rounding.
 constexpr double kDeepestPoint = -30.0;
 constexpr double kPoint = -1e-32;
 
-// sin(x) - x cos(x), which cancels for small x: there by its series.
+// sin(x) - x cos(x), as a series for small x, where it cancels.
 double sine_less_its_tangent(double x) {
   if (x > 1.0) return std::sin(x) - x * std::cos(x);
   double term = x * x * x / 3.0;
@@ -29,8 +29,8 @@ double sine_less_its_tangent(double x) {
   return sum;
 }
 
-// Where `falls` turns from true to false between two parameters below 0, to the last digit. Halved by orders of
-// magnitude: what is looked for may lie very close to 0.
+// Parameter below 0 where `falls` changes from true to false, to the last digit. Bisects by orders of magnitude,
+// because it may be very close to 0.
 template <class Falls>
 double turning_point(double inner, double outer, Falls falls) {
   for (;;) {
@@ -48,13 +48,13 @@ struct ZoneEquation {
 };
 
 ZoneEquation zone_equation(double lambda, double theta, double sine) {
-  // a = c cos(theta); the second difference is written as one that does not cancel
+  // a = c cos(theta); the second difference is written without cancellation
   const double half_sine = std::sin(0.5 * theta);
   return {0.25 * lambda * sine_less_its_tangent(2.0 * theta),
           4.0 / 3.0 * lambda * lambda * (theta * sine - 2.0 * half_sine * half_sine)};
 }
 
-// Of the zone that surrounds a contact shrunk to a point.
+// Radius of the zone around a contact that has shrunk to a point.
 double point_zone_radius(double lambda) { return zone_equation(lambda, pi / 2.0, 1.0).radius(); }
 
 MaugisPoint zone_without_contact(double lambda, double s) {
@@ -72,7 +72,7 @@ MaugisPoint zone_without_contact(double lambda, double s) {
 
 MaugisPoint maugis_point(double lambda, double s) {
   if (s > 0.0) return zone_without_contact(lambda, s);
-  // theta from whichever of its sine and cosine is exact
+  // theta from the more accurate of its sine and cosine
   const double sine = std::exp(s);
   const double cosine = std::sqrt(std::max(0.0, -std::expm1(2.0 * s)));
   const double theta = std::atan2(sine, cosine);
@@ -100,7 +100,7 @@ double maugis_pull_off(double lambda) {
 }
 
 double maugis_fixed_grips_end(double lambda) {
-  // where d delta/dc = 0 for a zone without contact, if the contact gets so far
+  // where d delta/dc = 0 for a zone without contact, if the contact extends that far
   const double zone_end = std::log(point_zone_radius(lambda) / (8.0 / (3.0 * pi) * lambda));
   if (zone_end > 0.0) return zone_end;
   return turning_point(kDeepestPoint, kPoint, [=](double s) { return maugis_point(lambda, s).dindentation_ds < 0.0; });

@@ -12,7 +12,7 @@
 namespace afm::physics {
 namespace {
 
-// Maugis' contact in metres and newtons, along his family's parameter.
+// Maugis' contact in metres and newtons, along the family's parameter.
 struct DimensionalContact {
   double lambda;
   MaugisUnits units;
@@ -24,7 +24,7 @@ struct DimensionalContact {
             -point.dindentation_ds * units.indentation.si, point.dload_ds * units.load.si};
   }
 
-  // Where the contact is at least as large as the deepest that a branch must reach.
+  // Parameter at which the contact is as large as the deepest that a branch must include.
   double deepest(Length tip_radius) const {
     constexpr double kFarBeyondAdhesion = 100.0;
     const double wanted = kFarBeyondAdhesion + std::sqrt(tip_radius.si * kDeepest) / units.radius.si;
@@ -34,9 +34,9 @@ struct DimensionalContact {
   }
 };
 
-// The parameter at which van der Waals attraction is as strong as the contact's, between one where it is stronger or
-// equal and one where it is weaker. There is one at most between two such: over the height, the contact's force is
-// convex and van der Waals' concave.
+// Parameter at which van der Waals attraction equals the contact's, between one where it is stronger or equal and one
+// where it is weaker. There is at most one in between: over the height, the contact's force is convex and van der
+// Waals' concave.
 double equal_forces(const DimensionalContact& neck_contact, const VanDerWaals& van_der_waals, double stronger,
                     double weaker) {
   for (;;) {
@@ -69,8 +69,9 @@ ForceLaw maugis_law(const ContactParameters& contact, const LawOptions& options)
   const double end = maugis_fixed_grips_end(lambda);
   const double contact_end = std::min(end, 0.0);
 
-  // the law is single-valued: both branches are one curve, the free one as far in as it can have a fold, to the largest
-  // attraction. Beyond the parameter `joint` van der Waals force acts, no stronger than the contact is there
+  // the law is single-valued: both branches are one curve; the free one extends inwards to its largest attraction,
+  // beyond which it has no fold. Beyond the parameter `joint` the van der Waals force acts, which is no stronger than
+  // the contact there
   const auto joined_at = [&](double joint, std::vector<double> kinks) {
     const LawPoint held = neck_contact.at(joint);
     const Heights heights{held.h.si, a0.si};

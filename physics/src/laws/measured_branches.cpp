@@ -11,9 +11,9 @@ namespace afm::physics {
 
 namespace {
 
-// On average at least, so that noise is felt less than it was recorded.
+// Average number of samples per bin, which reduces the felt noise.
 constexpr std::size_t kSamplesABin = 4;
-// Between both ends of a jump: no sample lies there, and no hand feels it.
+// Distance between both ends of a jump, too small to contain a sample or to be felt.
 constexpr double kJumpShareOfBin = 1e-3;
 
 // The points of one branch above its baseline, Z from the contact point.
@@ -35,14 +35,14 @@ std::vector<MeasuredPoint> smoothed(std::span<const CurvePoint> points, Length b
   return result;
 }
 
-// The branch with `knot` in place of what lies nearer to it than half of `width`; the index of the knot.
+// Inserts `knot` in place of the points within half of `width`; returns its index.
 std::size_t put(std::vector<MeasuredPoint>& branch, const MeasuredPoint& knot, Length width) {
   std::erase_if(branch, [&](const MeasuredPoint& point) { return abs(point.z - knot.z) < 0.5 * width; });
   const auto place = std::find_if(branch.begin(), branch.end(), [&](const auto& point) { return point.z > knot.z; });
   return static_cast<std::size_t>(branch.insert(place, knot) - branch.begin());
 }
 
-// The number of points below the jump, whose ends are `below` and, a little higher, `above`.
+// Inserts a jump with the ends `below` and, a little higher, `above`; returns the number of points below it.
 std::uint32_t put_jump(std::vector<MeasuredPoint>& branch, const MeasuredPoint& below, Force above, Length width) {
   const std::size_t last = put(branch, below, width);
   const auto next = branch.begin() + static_cast<std::ptrdiff_t>(last) + 1;
@@ -50,8 +50,8 @@ std::uint32_t put_jump(std::vector<MeasuredPoint>& branch, const MeasuredPoint& 
   return static_cast<std::uint32_t>(last + 1);
 }
 
-// Beyond the last force that stands out of the noise an instrument records its baseline, which is none of the
-// sample's: it would be felt as a wave, and could be too strong for Turn-On.
+// Beyond the last significant force an instrument records its own baseline, which would be felt as a wave, and could be
+// too strong for Turn-On.
 void flatten_beyond(std::vector<MeasuredPoint>& approach, Length off, Force noise) {
   const Force significant = 5.0 * noise;
   for (auto point = approach.rbegin(); point->z > off && abs(point->force) < significant; ++point) {
@@ -59,7 +59,7 @@ void flatten_beyond(std::vector<MeasuredPoint>& approach, Length off, Force nois
   }
 }
 
-// On the line between the points about `z`.
+// Linear interpolation at `z`.
 Force force_at(std::span<const MeasuredPoint> branch, Length z) {
   const auto above = std::find_if(branch.begin(), branch.end(), [&](const auto& point) { return point.z > z; });
   if (above == branch.begin()) return above->force;
@@ -84,8 +84,8 @@ MeasuredBranches measured_branches(std::span<const CurvePoint> points, std::size
                                  std::min_element(retract.begin(), retract.end(), by_z)->z);
   const Length highest = std::min(std::max_element(approach.begin(), approach.end(), by_z)->z,
                                   std::max_element(retract.begin(), retract.end(), by_z)->z);
-  // without a snap-in free and pressed are one line, which may be cut below the contact point: a soft sample may have
-  // let go there
+  // without a snap-in, free and pressed branch are one line, which may be cut below the contact point, because a soft
+  // sample may release there
   const Length let_go = *features.let_go - *features.contact_point, apart = 0.01 * abs(bottom);
   const Length in =
       features.snap_in ? features.snap_in->z - *features.contact_point : std::min(Length(), let_go - apart);
@@ -93,7 +93,7 @@ MeasuredBranches measured_branches(std::span<const CurvePoint> points, std::size
   const Length top = std::min(highest, std::max(off, 0.5 * (in - bottom)) + 0.5 * (off - bottom));
   const Length width = (top - bottom) / static_cast<double>(most_points);
 
-  // two knots and an end of a jump come on top
+  // plus two knots and an end of a jump
   MeasuredBranches branches{
       smoothed(approach, bottom, top, most_points - 3), smoothed(retract, bottom, top, most_points - 3), {}};
   const auto snap = features.snap_in;

@@ -55,7 +55,7 @@ double line_between(std::span<const MeasuredPoint> branch, double z) {
   return from.force.si + t * (to.force - from.force).si;
 }
 
-// Equally spaced nodes, `cells_a_point` times as many as points; between them monotone cubics, whose slope at a node is
+// Equally spaced nodes, `cells_a_point` times as many as points; in between monotone cubics, whose slope at a node is
 // the harmonic mean of its two neighbours' (Fritsch & Butland 1984).
 BranchTable table(std::span<const MeasuredPoint> branch, BranchTable::Side side, std::size_t cells_a_point) {
   const bool above = side == BranchTable::Side::Above;
@@ -92,9 +92,9 @@ Energy area(const Upper& upper, const BranchTable& lower, Length from, Length to
   return sum;
 }
 
-// Each branch's points on either side of its jump.
+// Points of each branch on either side of its jump.
 struct Cut {
-  std::span<const MeasuredPoint> pressed;  // empty: not known
+  std::span<const MeasuredPoint> pressed;  // empty: unknown
   std::span<const MeasuredPoint> free;
   std::span<const MeasuredPoint> attached;
 };
@@ -112,7 +112,7 @@ Cut cut(std::span<const MeasuredPoint> approach, std::span<const MeasuredPoint> 
   return {approach.first(jumps.approach), approach.subspan(jumps.approach), retract.first(jumps.retract)};
 }
 
-// So far that the change from one branch to the other adds no more stiffness than the contact has on average.
+// Long enough for the change from one branch to the other to add no more stiffness than the contact has on average.
 Length turn_of(const LawTables& tables, std::span<const MeasuredPoint> pressed) {
   const Length depth = pressed.back().z - pressed.front().z;
   const Force rise = pressed.front().force - pressed.back().force;
@@ -128,7 +128,7 @@ Force LawTables::contact_force(Length z, Length lowest) const noexcept {
   const Force risen = attached.force(z);
   if (turn.si <= 0.0) return risen;
   const double share = std::clamp((z - lowest) / turn, 0.0, 1.0);
-  // above the place of contact no higher than the approach, so that a tip drawn up at once gets no work
+  // above the place of contact no higher than the approach, so that a tip drawn up at once gains no work
   const Force down = z > figures.z_jtc ? std::min(pressed.force(z), free.force(z)) : pressed.force(z);
   return risen + (1.0 - share) * std::max(Force(), down - risen);
 }
@@ -153,7 +153,7 @@ std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoi
   LawTables tables;
   tables.law = Law::Measured;
   tables.contact = contact;
-  // sessions of 0.1.0 replay bit for bit with 2; with 8 an event's own point lies at a node, or near one
+  // 2 replays sessions of 0.1.0 bit for bit; 8 puts a node at or near an event's own point
   const std::size_t cells = pressed.empty() ? 2 : 8;
   tables.free = table(free, BranchTable::Side::Above, cells);
   tables.attached = table(attached, BranchTable::Side::Below, cells);

@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Ends a branch at a height that it passes, if it does.
+// Ends a branch at a height, if the branch passes it.
 void cut_at(LawBranch& branch, Length height) {
   double near = branch.first;
   double beyond = branch.last;
@@ -38,7 +38,7 @@ Length film_height(const Meniscus& meniscus) noexcept {
   constexpr double kHamaker = 1e-20;            // J
   constexpr double kGasConstant = 8.314462618;  // J/(mol K)
   constexpr double kTemperature = 293.15;       // K
-  constexpr double kMolarVolume = 18.05e-6;     // m^3/mol, of water
+  constexpr double kMolarVolume = 18.05e-6;     // m^3/mol, water
   const double pressure = kGasConstant * kTemperature / kMolarVolume * std::log(1.0 / meniscus.relative_humidity);
   return Length(std::cbrt(kHamaker / (6.0 * pi * pressure)));
 }
@@ -57,7 +57,7 @@ ForceLaw with_meniscus(const ForceLaw& law, const Meniscus& meniscus, Length tip
   const Length attached_end = wet.attached.at(wet.attached.last).h;
   cut_at(wet.free, std::min(contact + bridge_formation_gap(meniscus), attached_end));
   if (law.attached_end_potential && wet.attached.last < law.attached.last) {
-    // F = -dU/dh from where the dry law's potential is known
+    // F = -dU/dh, from where the dry law's potential is known
     wet.attached_end_potential =
         *law.attached_end_potential + work_along(law.attached, wet.attached.last, law.attached.last);
   }

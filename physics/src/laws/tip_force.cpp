@@ -36,7 +36,7 @@ TipForce::TipForce(const LawTables& grips, Force largest_load)
     stiffness_ = std::max(stiffness_, deep[i].slope);
   }
 
-  // far away nothing; deep inside the last slope that the integrator was chosen for
+  // zero far away; deep inside the last slope for which the integrator was chosen
   branches_[0].push_back({});
   const auto too_steep = std::find_if(deep.begin(), deep.end(),
                                       [this](const Piece& piece) { return piece.slope > kSteepestRatio * stiffness_; });

@@ -63,8 +63,8 @@ Stiffness VanDerWaals::gradient(Length gap) const noexcept {
 }
 
 Length VanDerWaals::gap_at(Force attraction) const noexcept {
-  // Derjaguin's force is the strongest, so its gap is not below the one sought; from there Newton's steps in
-  // ln F(ln D), which is concave and falls, come down to it without overshoot
+  // Derjaguin's force is the strongest, so its gap is an upper bound; from there Newton's method in ln F(ln D), which
+  // is concave and decreasing, converges without overshoot
   const double derjaguin = std::sqrt(hamaker_ * radius_ / (-6.0 * attraction.si));
   Length gap(derjaguin);
   constexpr int kMostSteps = 60;

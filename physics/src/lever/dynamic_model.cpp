@@ -15,8 +15,8 @@ namespace {
 
 using namespace literals;
 
-// What a lever may be pressed with before the surface is taken for a spring: ten times its adhesion, or 0.1 um of
-// bending where there is none. Impacts reach some six times the adhesion.
+// Largest force on a lever before the surface counts as a spring: ten times its adhesion, or without adhesion 0.1 um of
+// bending. Impacts reach some six times the adhesion.
 Force largest_load(const ContactParameters& contact, const CycleFigures& figures) {
   return std::max(10.0 * abs(figures.force_before_joc), contact.spring_constant * 100_nm);
 }
@@ -107,7 +107,7 @@ DynamicModel::Jump DynamicModel::awaited_jump() const noexcept {
   return {figures.tip_height_before_joc, setup_->free_above};
 }
 
-// On the straight line between two instants, where the tip passes `height`.
+// Point on the straight line between two instants at which the tip passes `height`.
 DynamicModel::Instant DynamicModel::where(Length height, const Instant& before, const Instant& after) noexcept {
   const double share = (height - before.tip_height) / (after.tip_height - before.tip_height);
   return {before.z + share * (after.z - before.z), height, before.force + share * (after.force - before.force)};

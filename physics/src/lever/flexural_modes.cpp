@@ -10,7 +10,7 @@ namespace afm::physics {
 
 double flexural_root(int mode) {
   if (mode < 1) throw std::invalid_argument("flexural mode " + std::to_string(mode) + " is not 1 or more");
-  // Newton on cos(a) + 1/cosh(a) from the root of the cosine, which the higher modes all but reach
+  // Newton's method on cos(a) + 1/cosh(a) from the root of the cosine, to which the higher modes are very close
   double a = (mode - 0.5) * std::numbers::pi;
   for (int i = 0; i < 8; ++i) {
     const double sech = 1.0 / std::cosh(a);

@@ -36,7 +36,7 @@ double polynomial(std::span<const double> ascending, double x) {
   return value;
 }
 
-// Omega(Re): what makes a cylinder's function that of a thin plate (Sader 1998, equation 21).
+// Omega(Re): correction from a cylinder to a thin plate (Sader 1998, equation 21).
 Complex plate_correction(double reynolds) {
   constexpr std::array kRealOver{0.91324, -0.48274, 0.46842, -0.12886, 0.044055, -0.0035117, 0.00069085};
   constexpr std::array kRealUnder{1.0, -0.56964, 0.48690, -0.13444, 0.045155, -0.0035862, 0.00069085};

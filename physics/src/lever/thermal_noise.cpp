@@ -19,7 +19,7 @@ Complex below_pole(double b, Complex p_squared) {
 // The integral of dr/((1 - r^2)^2 + (r/Q)^2) from 0 to b, in partial fractions of the two poles in r^2; pi Q/2 for b
 // without bound.
 double resonance_integral(double b, double quality_factor) {
-  // the poles fall together at Q = 1/2; a relative change of 1e-6 there changes the integral no more
+  // the poles coincide at Q = 1/2; a relative change of 1e-6 there does not change the integral
   const double q = std::abs(quality_factor - 0.5) < 1e-6 ? 0.5 + 1e-6 : quality_factor;
   const double middle = 1.0 - 0.5 / (q * q);
   const Complex apart = std::sqrt(Complex(middle * middle - 1.0));

@@ -52,8 +52,8 @@ void TipOscillator::settle(Length base, Velocity base_velocity) noexcept {
   constexpr int kLongestSearch = 50;
   constexpr Length kDifference(1e-12);
 
-  // Newton's method on F(z) + k (Z - z) comes down on the upper equilibrium from Z, since the attraction steepens
-  // towards the sample
+  // Newton's method on F(z) + k (Z - z) descends from Z to the upper equilibrium, since the attraction steepens towards
+  // the sample
   Length height = base;
   double softening = 0.0;  // F'/k
   bool attached = false;

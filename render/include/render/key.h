@@ -3,15 +3,14 @@
 
 namespace afm::render {
 
-// Keys of a keyboard by position, named as printed on a US keyboard.
+// Keys of a keyboard. Letters, + and - are the keys that the layout in use labels so, shifted or not; where it lacks a
+// letter, as in Greek, the key at that letter's place on a US keyboard. Digits are also the keys of the number row,
+// whatever their label. Other signs have no key, since their places differ. The numpad's keys are the same keys.
 enum class Key {
   Other,
   Space,
-  Apostrophe,
-  Comma,
   Minus,
-  Period,
-  Slash,
+  Plus,
   Digit0,
   Digit1,
   Digit2,
@@ -22,8 +21,6 @@ enum class Key {
   Digit7,
   Digit8,
   Digit9,
-  Semicolon,
-  Equal,
   A,
   B,
   C,
@@ -50,10 +47,6 @@ enum class Key {
   X,
   Y,
   Z,
-  LeftBracket,
-  Backslash,
-  RightBracket,
-  GraveAccent,
   Escape,
   Enter,
   Tab,

@@ -71,6 +71,10 @@ class Window {
   bool full_screen() const;
   void set_full_screen(bool full_screen);  // on the monitor showing most of it; no effect for a window placed by a rect
 
+  // Labels of the keys A to Z in the layout in use, 26 characters of UTF-8: the letter or, where the layout lacks it,
+  // what its key is labelled with. Empty if it lacks none.
+  std::string letters() const;
+
   // Refresh rate of the monitor; 60 if unknown.
   double refresh_hz() const;
 

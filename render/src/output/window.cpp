@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <glm/common.hpp>
 #include <span>
@@ -26,6 +28,11 @@ GLFWmonitor* monitor_named(const std::string& name) {
     if (name == glfwGetMonitorName(candidate)) return candidate;
   }
   return nullptr;
+}
+
+std::string label_of_key(int code) {
+  const char* const label = glfwGetKeyName(code, 0);
+  return label == nullptr ? std::string() : label;
 }
 
 }  // namespace
@@ -62,6 +69,7 @@ core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptio
   }
   glfwSetWindowUserPointer(handle->window_, handle.get());
   glfwSetKeyCallback(handle->window_, on_key);
+  glfwSetCharCallback(handle->window_, on_typed);
   glfwSetMouseButtonCallback(handle->window_, on_button);
   glfwSetCursorPosCallback(handle->window_, on_move);
   glfwSetScrollCallback(handle->window_, on_scroll);
@@ -112,6 +120,7 @@ WindowInput WindowHandle::poll() {
   if (WindowSystem::lost()) {
     throw DeviceFailure("the display and its window were lost: check the X server and start again");
   }
+  pressed_.reset();
   int x = 0, y = 0;
   glfwGetWindowPos(window_, &x, &y);
   const WindowInput::MonitorChange update = follow_monitor();
@@ -262,6 +271,13 @@ double WindowHandle::refresh_hz() const {
   return mode == nullptr || mode->refreshRate <= 0 ? kRefreshHz : mode->refreshRate;
 }
 
+// Looked up, because GLFW's Wayland build lacks the function.
+std::optional<std::uint32_t> WindowHandle::x_window() const {
+  const auto get = reinterpret_cast<unsigned long (*)(GLFWwindow*)>(::dlsym(RTLD_DEFAULT, "glfwGetX11Window"));
+  const unsigned long window = get == nullptr ? 0 : get(window_);
+  return window == 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(window));
+}
+
 WindowHandle& WindowHandle::of(GLFWwindow* window) {
   return *static_cast<WindowHandle*>(glfwGetWindowUserPointer(window));
 }
@@ -269,14 +285,34 @@ WindowHandle& WindowHandle::of(GLFWwindow* window) {
 void WindowHandle::add(WindowEvent event) {
   event.cursor_px = picture_px(cursor_);
   events_.push_back(event);
+  pressed_.reset();
 }
 
-void WindowHandle::on_key(GLFWwindow* window, int key, int, int action, int) {
+// A key goes up as the key that went down, since its sign is only known then.
+void WindowHandle::on_key(GLFWwindow* window, int code, int scancode, int action, int) {
+  WindowHandle& self = of(window);
+  self.pressed_.reset();
   if (action == GLFW_REPEAT) {
     return;
   }
-  of(window).add(
-      {.kind = action == GLFW_PRESS ? WindowEvent::Kind::KeyDown : WindowEvent::Kind::KeyUp, .key = key_of(key)});
+  if (action == GLFW_PRESS) {
+    const Key key = self.held_[scancode] = key_of(code, 0, label_of_key);
+    self.add({.kind = WindowEvent::Kind::KeyDown, .key = key});
+    self.pressed_ = Pressed{.code = code, .scancode = scancode};
+    return;
+  }
+  const auto held = self.held_.extract(scancode);
+  self.add({.kind = WindowEvent::Kind::KeyUp, .key = held ? held.mapped() : key_of(code, 0, label_of_key)});
+}
+
+// GLFW reports the sign that a key typed right after the key.
+void WindowHandle::on_typed(GLFWwindow* window, unsigned sign) {
+  WindowHandle& self = of(window);
+  if (!self.pressed_) {
+    return;
+  }
+  const Pressed pressed = *std::exchange(self.pressed_, std::nullopt);
+  self.events_.back().key = self.held_[pressed.scancode] = key_of(pressed.code, sign, label_of_key);
 }
 
 void WindowHandle::on_button(GLFWwindow* window, int button, int action, int) {
@@ -313,6 +349,7 @@ void Window::wait(double seconds) { handle_->wait(seconds); }
 glm::uvec2 Window::size_px() const { return handle_->size_px(); }
 bool Window::full_screen() const { return handle_->full_screen(); }
 void Window::set_full_screen(bool full_screen) { handle_->set_full_screen(full_screen); }
+std::string Window::letters() const { return letters_of(label_of_key); }
 double Window::refresh_hz() const { return handle_->refresh_hz(); }
 
 }  // namespace afm::render

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+
 #include "device/vulkan.h"
 #include "output/window_system.h"
 #include "render/window.h"
@@ -28,6 +30,9 @@ class WindowHandle {
   void set_full_screen(bool full_screen);
   double refresh_hz() const;
 
+  // Number of the window on its X server; none elsewhere.
+  std::optional<std::uint32_t> x_window() const;
+
  private:
   explicit WindowHandle(WindowSystem system) : system_(std::move(system)) {}
   core::Result<void> place(const WindowOptions& options);
@@ -41,7 +46,8 @@ class WindowHandle {
   glm::dvec2 picture_px(const glm::dvec2& place) const;
   void add(WindowEvent event);
   static WindowHandle& of(GLFWwindow* window);
-  static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
+  static void on_key(GLFWwindow* window, int code, int scancode, int action, int modifiers);
+  static void on_typed(GLFWwindow* window, unsigned sign);
   static void on_button(GLFWwindow* window, int button, int action, int modifiers);
   static void on_move(GLFWwindow* window, double x, double y);
   static void on_scroll(GLFWwindow* window, double x, double y);
@@ -53,7 +59,12 @@ class WindowHandle {
   std::string full_on_;  // monitor filled, or filled again when it is back; empty: a window
   bool monitor_lost_ = false;
   std::vector<WindowEvent> events_;
-  glm::dvec2 cursor_{0.0};  // after the newest event, in desktop units: GLFW only knows the current position
+  struct Pressed {
+    int code, scancode;
+  };
+  std::optional<Pressed> pressed_;  // newest event, if it is a key whose sign may follow
+  std::map<int, Key> held_;         // keys that are down, by scancode
+  glm::dvec2 cursor_{0.0};          // after the newest event, in desktop units: GLFW only knows the current position
   int windowed_x_ = 0, windowed_y_ = 0, windowed_width_ = 0, windowed_height_ = 0;  // restored after full screen
 };
 

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <initializer_list>
@@ -16,12 +15,13 @@
 #include <string_view>
 #include <utility>
 
+#include "core/whole_file.h"
 #include "physics/quantity_text.h"
 #include "scene/config/toml_file.h"
+#include "scene/config/toml_table.h"
 #include "scene/display/wall.h"
 #include "screen_blends.h"
 #include "wall_pvx.h"
-#include "wall_table.h"
 
 namespace afm::scene {
 
@@ -29,50 +29,72 @@ namespace {
 
 constexpr double kLargestEyeFromHeadM = 0.5;
 constexpr double kWidestBlendM = 20.0;
+constexpr int kLargestPixel = 65536;
 constexpr double kSmallestGamma = 1.0, kLargestGamma = 4.0;
 constexpr double kLargestBlack = 0.05;  // projector with a contrast of 20:1
 
 constexpr std::array<std::string_view, kScreenEdgeNames.size()> kBlendKeys{"blend_left", "blend_top", "blend_right",
                                                                            "blend_bottom"};
 
-Screen read_screen(const toml::table& table, EdgeWidths& widths_m) {
-  const TableReader reader(table, "screen");
-  reader.allow_only(
-      {"name", "lower_left", "lower_right", "upper_left", kBlendKeys[0], kBlendKeys[1], kBlendKeys[2], kBlendKeys[3]});
-  Screen screen{.name = reader.text("name"),
-                .lower_left = reader.point("lower_left"),
-                .lower_right = reader.point("lower_right"),
-                .upper_left = reader.point("upper_left")};
-  if (const auto checked = check_screen(screen); !checked) {
-    throw Fault{table.source(), "screen.lower_left", checked.error().message};
+double read_length_m(const TomlTable& table, std::string_view key, double least_m, double most_m) {
+  const double value_m = table.quantity(key, physics::kLengthUnits).si;
+  if (value_m < least_m || value_m > most_m) {
+    table.refuse(key, fmt::format("is {:g} mm; it must lie between {:g} mm and {:g} mm", value_m * 1e3, least_m * 1e3,
+                                  most_m * 1e3));
   }
+  return value_m;
+}
+
+// Pixels: [x, y, width, height].
+PixelRect read_rect(const TomlTable& table, std::string_view key) {
+  const auto v = table.numbers<4>(key, "four whole numbers [x, y, width, height] in pixels");
+  for (const double value : v) {
+    if (value != std::floor(value) || std::abs(value) > kLargestPixel) {
+      table.refuse(key,
+                   fmt::format("must be four whole numbers [x, y, width, height] in pixels, up to {}", kLargestPixel));
+    }
+  }
+  if (v[2] < 1 || v[3] < 1) {
+    table.refuse(key, fmt::format("is {:g} x {:g} pixels; it must be at least 1 x 1", v[2], v[3]));
+  }
+  return {glm::ivec2(v[0], v[1]), glm::uvec2(v[2], v[3])};
+}
+
+Screen read_screen(const TomlTable& table, EdgeWidths& widths_m) {
+  table.allow_only(
+      {"name", "lower_left", "lower_right", "upper_left", kBlendKeys[0], kBlendKeys[1], kBlendKeys[2], kBlendKeys[3]});
+  Screen screen{.name = table.text("name"),
+                .lower_left = table.point("lower_left"),
+                .lower_right = table.point("lower_right"),
+                .upper_left = table.point("upper_left")};
+  if (const auto checked = check_screen(screen); !checked) table.refuse("lower_left", checked.error().message);
   for (std::size_t edge = 0; edge < widths_m.size(); ++edge) {
     const std::string_view key = kBlendKeys.at(edge);
-    if (reader.has(key)) widths_m.at(edge) = reader.length_m(key, kLeastOverlapM, kWidestBlendM);
+    if (table.has(key)) widths_m.at(edge) = read_length_m(table, key, kLeastOverlapM, kWidestBlendM);
   }
   return screen;
 }
 
 // The path is relative to the wall file.
-std::shared_ptr<const WarpMesh> read_warp_mesh(const TableReader& reader, const Output& output,
+std::shared_ptr<const WarpMesh> read_warp_mesh(const TomlTable& table, const Output& output,
                                                const std::string& wall_path) {
-  if (reader.has("homography")) {
-    reader.fail("warp_mesh", "an output has either a homography or a warp mesh; the mesh can hold the keystone too");
+  if (table.has("homography")) {
+    table.refuse("warp_mesh", "an output has either a homography or a warp mesh; the mesh can hold the keystone too");
   }
   const glm::uvec2 eye_px =
       traits_of(output.mode).squeezed ? output.rect.size_px : eye_size(output.mode, glm::max(output.rect.size_px, 1U));
   const bool known = output.rect.size_px != glm::uvec2(0);
-  auto mesh = load_warp_mesh((std::filesystem::path(wall_path).parent_path() / reader.text("warp_mesh")).string(),
+  auto mesh = load_warp_mesh((std::filesystem::path(wall_path).parent_path() / table.text("warp_mesh")).string(),
                              known ? std::optional(double(eye_px.x) / double(eye_px.y)) : std::nullopt);
-  if (!mesh) reader.fail("warp_mesh", mesh.error().message);
+  if (!mesh) table.refuse("warp_mesh", mesh.error().message);
   return std::make_shared<const WarpMesh>(std::move(*mesh));
 }
 
 // Homography given by a measurement: the output positions at which the corners of the picture should appear. Returns
 // the inverse. It must keep every point of the picture in front of the projector, and must not mirror the picture,
 // which would exchange near and far.
-glm::dmat3 read_keystone(const TableReader& reader, std::string_view key) {
-  const auto v = reader.numbers<9>(key, "nine numbers, a 3 x 3 matrix row by row");
+glm::dmat3 read_keystone(const TomlTable& table, std::string_view key) {
+  const auto v = table.numbers<9>(key, "nine numbers, a 3 x 3 matrix row by row");
   const glm::dmat3 output_from_picture(v[0], v[3], v[6], v[1], v[4], v[7], v[2], v[5], v[8]);
   const double determinant = glm::determinant(output_from_picture);
   const double size = std::cbrt(std::abs(determinant));
@@ -84,81 +106,86 @@ glm::dmat3 read_keystone(const TableReader& reader, std::string_view key) {
   const double largest =
       std::abs(*std::max_element(v.begin(), v.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   if (!(size > kLeastOfLargest * largest) || !(nearest > kLeastOfLargest * largest)) {
-    reader.fail(key, "folds the picture into a line or sends a corner to infinity; measure the corners again");
+    table.refuse(key, "folds the picture into a line or sends a corner to infinity; measure the corners again");
   }
-  if (determinant < 0.0) reader.fail(key, "mirrors the picture; set rear projection in the projector instead");
+  if (determinant < 0.0) table.refuse(key, "mirrors the picture; set rear projection in the projector instead");
   return glm::inverse(output_from_picture);
 }
 
-WallNode read_node(const toml::table& table, const std::vector<WallNode>& earlier) {
-  const TableReader reader(table, "node");
-  reader.allow_only({"name", "host"});
-  WallNode node{.name = reader.text("name"), .host = reader.text("host")};
+WallNode read_node(const TomlTable& table, const std::vector<WallNode>& earlier) {
+  table.allow_only({"name", "host"});
+  WallNode node{.name = table.text("name"), .host = table.text("host")};
   // they are typed into shells, and name units of systemd
   const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.'; };
   for (const auto& [key, text] : {std::pair("name", &node.name), std::pair("host", &node.host)}) {
     if (!std::all_of(text->begin(), text->end(), is_plain) || text->front() == '-') {
-      reader.fail(key, "must consist of letters, digits, \"-\", \"_\" and \".\"");
+      table.refuse(key, "must consist of letters, digits, \"-\", \"_\" and \".\"");
     }
   }
   if (node.name.size() > kLongestNodeName) {
-    reader.fail("name", fmt::format("is longer than {} characters", kLongestNodeName));
+    table.refuse("name", fmt::format("is longer than {} characters", kLongestNodeName));
   }
   for (const WallNode& other : earlier) {
-    if (other.name == node.name) reader.fail("name", fmt::format("\"{}\" is used twice", node.name));
+    if (other.name == node.name) table.refuse("name", fmt::format("\"{}\" is used twice", node.name));
   }
-  if (earlier.size() == kMostNodes) reader.fail("name", fmt::format("is one of more than {} nodes", kMostNodes));
+  if (earlier.size() == kMostNodes) table.refuse("name", fmt::format("is one of more than {} nodes", kMostNodes));
   return node;
 }
 
 // Index of the table that a key names.
 template <typename Named>
-std::size_t read_name_of(const std::vector<Named>& tables, const TableReader& reader, std::string_view key) {
-  const std::string name = reader.text(key);
-  const auto found = std::find_if(tables.begin(), tables.end(), [&](const Named& named) { return named.name == name; });
-  if (found == tables.end()) reader.fail(key, fmt::format("there is no [[{}]] with the name \"{}\"", key, name));
-  return static_cast<std::size_t>(found - tables.begin());
+std::size_t read_name_of(const std::vector<Named>& all, const TomlTable& table, std::string_view key) {
+  const std::string name = table.text(key);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Named& named) { return named.name == name; });
+  if (found == all.end()) table.refuse(key, fmt::format("there is no [[{}]] with the name \"{}\"", key, name));
+  return static_cast<std::size_t>(found - all.begin());
 }
 
-Output read_output(const toml::table& table, const Wall& wall, const std::string& path, ProjectorLight& light) {
-  const TableReader reader(table, "output");
-  reader.allow_only({"name", "screen", "node", "mode", "eye", "swap", "monitor", "rect", "homography", "warp_mesh",
-                     "gamma", "black_level"});
+// The number of a key that may be absent.
+std::optional<double> number_if_given(const TomlTable& table, std::string_view key, double least, double most,
+                                      const char* meaning) {
+  return table.has(key) ? std::optional(table.number(key, least, most, meaning)) : std::nullopt;
+}
+
+Output read_output(const TomlTable& table, const Wall& wall, const std::string& path, ProjectorLight& light) {
+  table.allow_only({"name", "screen", "node", "mode", "eye", "swap", "monitor", "rect", "homography", "warp_mesh",
+                    "gamma", "black_level"});
   Output output;
-  output.name = reader.text("name");
-  output.screen = read_name_of(wall.screens, reader, "screen");
-  if (reader.has("node")) output.node = read_name_of(wall.nodes, reader, "node");
-  const auto mode = parse_stereo_mode(reader.text("mode"));
-  if (!mode) reader.fail("mode", mode.error().message);
+  output.name = table.text("name");
+  output.screen = read_name_of(wall.screens, table, "screen");
+  if (table.has("node")) output.node = read_name_of(wall.nodes, table, "node");
+  const auto mode = parse_stereo_mode(table.text("mode"));
+  if (!mode) table.refuse("mode", mode.error().message);
   output.mode = *mode;
-  if (reader.has("eye") != (output.mode == StereoMode::Dual)) {
-    reader.fail("eye", reader.has("eye")
-                           ? "applies only to mode \"dual\"; remove it"
-                           : "is missing; in mode \"dual\" each output shows the \"left\" or the \"right\" eye");
+  if (table.has("eye") != (output.mode == StereoMode::Dual)) {
+    table.refuse("eye", table.has("eye")
+                            ? "applies only to mode \"dual\"; remove it"
+                            : "is missing; in mode \"dual\" each output shows the \"left\" or the \"right\" eye");
   }
-  if (reader.has("eye")) {
-    const std::string eye = reader.text("eye");
-    if (eye != "left" && eye != "right") reader.fail("eye", "must be \"left\" or \"right\"");
+  if (table.has("eye")) {
+    const std::string eye = table.text("eye");
+    if (eye != "left" && eye != "right") table.refuse("eye", "must be \"left\" or \"right\"");
     output.eye = eye == "left" ? Eye::Left : Eye::Right;
   }
-  if (reader.has("swap") && reader.flag("swap")) output.order = EyeOrder::Swapped;
-  if (reader.has("monitor") == reader.has("rect")) {
-    reader.fail("monitor", "an output has either a monitor = \"NAME\" or a rect = [x, y, width, height]");
+  if (table.has("swap") && table.flag("swap")) output.order = EyeOrder::Swapped;
+  if (table.has("monitor") == table.has("rect")) {
+    table.refuse("monitor", "an output has either a monitor = \"NAME\" or a rect = [x, y, width, height]");
   }
-  if (reader.has("monitor")) output.monitor = reader.text("monitor");
-  if (reader.has("rect")) output.rect = reader.rect("rect");
+  if (table.has("monitor")) output.monitor = table.text("monitor");
+  if (table.has("rect")) output.rect = read_rect(table, "rect");
   const auto packing = frame_packing(output.mode);
-  if (packing && reader.has("rect") && output.rect.size_px != picture_size(output.mode, packing->eye_px)) {
+  if (packing && table.has("rect") && output.rect.size_px != picture_size(output.mode, packing->eye_px)) {
     const glm::uvec2 size = picture_size(output.mode, packing->eye_px);
-    reader.fail("rect", fmt::format("mode \"{}\" needs exactly {} x {} pixels", name_of(output.mode), size.x, size.y));
+    table.refuse("rect", fmt::format("mode \"{}\" needs exactly {} x {} pixels", name_of(output.mode), size.x, size.y));
   }
-  if (reader.has("homography")) output.picture_from_output = read_keystone(reader, "homography");
-  if (reader.has("warp_mesh")) {
-    output.warp = read_warp_mesh(reader, output, path);
-    output.warp_file = reader.text("warp_mesh");
+  if (table.has("homography")) output.picture_from_output = read_keystone(table, "homography");
+  if (table.has("warp_mesh")) {
+    output.warp = read_warp_mesh(table, output, path);
+    output.warp_file = table.text("warp_mesh");
   }
-  light.gamma = reader.number("gamma", kSmallestGamma, kLargestGamma, "the power of the projector's light");
-  light.black = reader.number("black_level", 0.0, kLargestBlack, "the light of the projector's black, of its white's");
+  light.gamma = number_if_given(table, "gamma", kSmallestGamma, kLargestGamma, "the power of the projector's light");
+  light.black =
+      number_if_given(table, "black_level", 0.0, kLargestBlack, "the light of the projector's black, of its white's");
   return output;
 }
 
@@ -168,32 +195,30 @@ bool overlap(const PixelRect& a, const PixelRect& b) {
 }
 
 // Checks what two outputs may not share, and the pair that dual needs.
-void check_together(const Output& output, const std::vector<Output>& earlier, const toml::table& table) {
-  const TableReader reader(table, "output");
+void check_together(const Output& output, const std::vector<Output>& earlier, const TomlTable& table) {
   for (const Output& other : earlier) {
-    if (other.name == output.name) reader.fail("name", fmt::format("\"{}\" is used twice", output.name));
+    if (other.name == output.name) table.refuse("name", fmt::format("\"{}\" is used twice", output.name));
     const bool one_desktop = output.node == other.node;
     if (one_desktop && !output.monitor.empty() && output.monitor == other.monitor) {
-      reader.fail("monitor", fmt::format("\"{}\" already shows output \"{}\"", output.monitor, other.name));
+      table.refuse("monitor", fmt::format("\"{}\" already shows output \"{}\"", output.monitor, other.name));
     }
     if (one_desktop && output.monitor.empty() && other.monitor.empty() && overlap(output.rect, other.rect)) {
-      reader.fail("rect", fmt::format("overlaps that of output \"{}\"", other.name));
+      table.refuse("rect", fmt::format("overlaps that of output \"{}\"", other.name));
     }
     if (output.eye && other.eye == output.eye && other.screen == output.screen) {
-      reader.fail("eye", fmt::format("output \"{}\" already shows this eye of the screen", other.name));
+      table.refuse("eye", fmt::format("output \"{}\" already shows this eye of the screen", other.name));
     }
   }
 }
 
-void check_pairs(const std::vector<Output>& outputs, const toml::array& tables) {
+void check_pairs(const std::vector<Output>& outputs, const std::vector<TomlTable>& tables) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const Output& output = outputs[i];
     const bool paired = std::any_of(outputs.begin(), outputs.end(), [&](const Output& other) {
       return other.screen == output.screen && other.eye && other.eye != output.eye;
     });
     if (output.eye && !paired) {
-      TableReader(*tables[i].as_table(), "output")
-          .fail("eye", "no output in mode \"dual\" shows the other eye of this screen");
+      tables[i].refuse("eye", "no output in mode \"dual\" shows the other eye of this screen");
     }
   }
 }
@@ -203,112 +228,93 @@ bool is_digits(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-Viewer read_viewer(const toml::table& table) {
-  const TableReader reader(table, "viewer");
-  reader.allow_only({"name", "ipd", "head", "eye_from_head", "sweet_spot", "sweet_spot_orientation"});
+Viewer read_viewer(const TomlTable& table) {
+  table.allow_only({"name", "ipd", "head", "eye_from_head", "sweet_spot", "sweet_spot_orientation"});
   Viewer viewer;
-  viewer.name = reader.text("name");
-  viewer.ipd_m = reader.length_m("ipd", kSmallestIpdM, kLargestIpdM);
+  viewer.name = table.text("name");
+  viewer.ipd_m = read_length_m(table, "ipd", kSmallestIpdM, kLargestIpdM);
   constexpr std::string_view kDtrack = "dtrack:";
-  if (reader.has("head")) viewer.head = reader.text("head");
+  if (table.has("head")) viewer.head = table.text("head");
   const bool tracked =
       viewer.head.starts_with(kDtrack) && is_digits(std::string_view(viewer.head).substr(kDtrack.size()));
   if (viewer.head != "none" && !tracked) {
-    reader.fail("head", fmt::format("\"{}\" is neither \"none\" nor a tracked body such as \"dtrack:0\"", viewer.head));
+    table.refuse("head",
+                 fmt::format("\"{}\" is neither \"none\" nor a tracked body such as \"dtrack:0\"", viewer.head));
   }
-  if (reader.has("eye_from_head")) {
-    viewer.eye_from_head_m = reader.point("eye_from_head");
+  if (table.has("eye_from_head")) {
+    viewer.eye_from_head_m = table.point("eye_from_head");
     if (glm::length(viewer.eye_from_head_m) > kLargestEyeFromHeadM) {
-      reader.fail("eye_from_head", fmt::format("is {:g} m from the tracked body, too far for a head; check the unit",
-                                               glm::length(viewer.eye_from_head_m)));
+      table.refuse("eye_from_head", fmt::format("is {:g} m from the tracked body, too far for a head; check the unit",
+                                                glm::length(viewer.eye_from_head_m)));
     }
   }
-  viewer.sweet_spot.position_m = reader.point("sweet_spot");
-  if (reader.has("sweet_spot_orientation")) {
-    const auto q = reader.numbers<4>("sweet_spot_orientation", "a unit quaternion [x, y, z, w]");
-    const glm::dquat orientation(q[3], q[0], q[1], q[2]);
-    if (std::abs(glm::length(orientation) - 1.0) > 1e-3) {
-      reader.fail("sweet_spot_orientation", "must be a unit quaternion [x, y, z, w]");
-    }
-    viewer.sweet_spot.room_from_head = glm::normalize(orientation);
+  viewer.sweet_spot.position_m = table.point("sweet_spot");
+  if (table.has("sweet_spot_orientation")) {
+    viewer.sweet_spot.room_from_head = table.rotation("sweet_spot_orientation");
   }
   return viewer;
 }
 
-template <class Read>
-void read_tables(const toml::table& root, std::string_view key, const Read& read) {
-  const toml::node* node = root.get(key);
-  if (node == nullptr)
-    throw Fault{root.source(), std::string(key), fmt::format("is missing; the file needs at least one [[{}]]", key)};
-  const toml::array* tables = node->as_array();
-  if (tables == nullptr || tables->empty())
-    throw Fault{node->source(), std::string(key), fmt::format("must be written [[{}]]", key)};
-  for (const toml::node& entry : *tables) {
-    const toml::table* table = entry.as_table();
-    if (table == nullptr) throw Fault{entry.source(), std::string(key), fmt::format("must be written [[{}]]", key)};
-    read(*table);
-  }
-}
-
 // Sets the blending of overlaps, after everything has been read.
-void blend(Wall& wall, const toml::table& root, const std::vector<EdgeWidths>& widths_m,
+void blend(Wall& wall, const TomlTable& root, const std::vector<EdgeWidths>& widths_m,
            const std::vector<ProjectorLight>& lights) {
   auto fault = blend_screens(wall.screens, widths_m);
   if (!fault) fault = blend_outputs(wall, lights);
   if (!fault) return;
   const char* const kind = fault->table == BlendFault::Table::Screen ? "screen" : "output";
-  const toml::array& tables = *root.get(kind)->as_array();
-  TableReader(*tables[fault->index].as_table(), kind).fail(fault->key, fault->what);
+  root.tables(kind).at(fault->index).refuse(fault->key, fault->what);
 }
 
-Wall read_wall(const toml::table& root, const std::string& path) {
-  TableReader(root, "wall").allow_only({"screen", "node", "output", "viewer"});
+Wall read_wall(const TomlTable& root, const std::string& path) {
+  root.allow_only({"screen", "node", "output", "viewer"});
   Wall wall;
   std::vector<EdgeWidths> widths_m;
   std::vector<ProjectorLight> lights;
   std::set<std::string> names;
-  read_tables(root, "screen", [&](const toml::table& table) {
+  for (const TomlTable& table : root.tables("screen")) {
     wall.screens.push_back(read_screen(table, widths_m.emplace_back()));
-    if (!names.insert(wall.screens.back().name).second) {
-      throw Fault{table.source(), "screen.name", fmt::format("\"{}\" is used twice", wall.screens.back().name)};
-    }
-  });
-  if (root.contains("node")) {
-    read_tables(root, "node", [&](const toml::table& table) { wall.nodes.push_back(read_node(table, wall.nodes)); });
+    const std::string& name = wall.screens.back().name;
+    if (!names.insert(name).second) table.refuse("name", fmt::format("\"{}\" is used twice", name));
   }
-  if (root.contains("output")) {
-    read_tables(root, "output", [&](const toml::table& table) {
+  if (root.has("node")) {
+    for (const TomlTable& table : root.tables("node")) wall.nodes.push_back(read_node(table, wall.nodes));
+  }
+  if (root.has("output")) {
+    const std::vector<TomlTable> tables = root.tables("output");
+    for (const TomlTable& table : tables) {
       wall.outputs.push_back(read_output(table, wall, path, lights.emplace_back()));
       check_together(wall.outputs.back(), {wall.outputs.begin(), wall.outputs.end() - 1}, table);
-    });
-    check_pairs(wall.outputs, *root.get("output")->as_array());
+    }
+    check_pairs(wall.outputs, tables);
   }
-  read_tables(root, "viewer", [&](const toml::table& table) {
+  for (const TomlTable& table : root.tables("viewer")) {
     wall.viewers.push_back(read_viewer(table));
     const Viewer& viewer = wall.viewers.back();
     for (const Screen& screen : wall.screens) {
       for (const Eye eye : kEyes) {
         const auto view = off_axis_view(screen, eye_position(viewer.sweet_spot, eye, viewer.ipd_m),
                                         DepthConvention::VulkanReversedInfinite, kNearM, 0.0);
-        if (!view) throw Fault{table.source(), "viewer.sweet_spot", view.error().message};
+        if (!view) table.refuse("sweet_spot", view.error().message);
       }
     }
-  });
+  }
   blend(wall, root, widths_m, lights);
   return wall;
 }
 
 // True for a ParaView configuration under another name; no TOML file begins like that.
 bool begins_like_xml(const std::string& path) {
-  char first = 0;
-  return std::ifstream(path) >> first && first == '<';
+  const auto beginning = core::read_beginning(path, 256);  // may begin with blank lines
+  if (!beginning) return false;
+  const std::size_t first = beginning->find_first_not_of(" \t\r\n");
+  return first != std::string::npos && (*beginning)[first] == '<';
 }
 
 }  // namespace
 
 core::Result<Wall> load_wall(const std::string& path) {
   if (path.ends_with(".pvx") || begins_like_xml(path)) return load_pvx(path);
-  return read_toml("wall file", path, [&](const toml::table& root) { return read_wall(root, path); });
+  return read_toml("wall file", path, [&](const toml::table& root) { return read_wall(TomlTable(root), path); });
 }
 
 }  // namespace afm::scene

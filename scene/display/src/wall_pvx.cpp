@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <pugixml.hpp>
 #include <set>
 #include <string_view>
@@ -16,7 +14,7 @@ namespace afm::scene {
 
 namespace {
 
-constexpr std::streamsize kLargestFile = 1 << 20;
+constexpr std::size_t kLargestFile = 1U << 20U;
 constexpr std::size_t kMostScreens = 64;
 
 struct XmlFault {
@@ -128,12 +126,10 @@ core::Result<Wall> load_pvx(const std::string& path) {
   const auto bad = [&](const std::string& what) {
     return core::failure(core::ErrorCategory::BadInputFile, fmt::format("wall file {}: {}", path, what));
   };
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const std::streamsize size = file ? static_cast<std::streamsize>(file.tellg()) : -1;
-  if (size < 0) return bad("cannot be read; check the path and its permissions");
-  if (size > kLargestFile) return bad("is larger than 1 MiB; is it a ParaView configuration?");
-  file.seekg(0);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto read = core::read_beginning(path, kLargestFile + 1);
+  if (!read) return bad("cannot be read; check the path and its permissions");
+  const std::string& text = *read;
+  if (text.size() > kLargestFile) return bad("is larger than 1 MiB; is it a ParaView configuration?");
   const auto line_of = [&](std::ptrdiff_t offset) {
     const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, std::ssize(text));
     return 1 + std::count(text.begin(), end, '\n');

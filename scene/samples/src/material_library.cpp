@@ -14,7 +14,7 @@
 #include "physics/quantity_text.h"
 #include "scene/config/toml_file.h"
 #include "scene/shared/shared_blocks.h"
-#include "sourced_table.h"
+#include "sourced_values.h"
 
 namespace afm::scene {
 namespace {
@@ -49,29 +49,29 @@ constexpr std::array<std::string_view, 29> kMaterialKeys{"name",
                                                          "lattice_period",
                                                          "lattice_corrugation"};
 
-// One [[material]].
+// Reads one [[material]].
 class MaterialReader {
  public:
-  explicit MaterialReader(const toml::table& table) : table_(table, "material") {}
+  explicit MaterialReader(const TomlTable& table) : table_(table), values_(table_) {}
 
   MaterialEntry read() {
-    table_.refuse_keys_other_than(kMaterialKeys);
+    table_.allow_only(kMaterialKeys);
     entry_.name = table_.text("name");
     entry_.title = table_.text("title");
     entry_.tip = table_.text("tip");
     entry_.medium = table_.text("medium");
-    entry_.note = table_.text_or_empty("note");
+    entry_.note = table_.has("note") ? table_.text("note") : "";
     entry_.look = table_.has("look") ? table_.text("look") : entry_.name;
     if (entry_.name.size() >= kNameLength) {
       table_.refuse("name", fmt::format("is longer than {} bytes", kNameLength - 1));
     }
 
     physics::ContactParameters& contact = entry_.contact;
-    contact.tip_radius = table_.quantity("tip_radius", physics::kLengthUnits);
-    contact.spring_constant = table_.quantity("spring_constant", physics::kStiffnessUnits);
+    contact.tip_radius = values_.quantity("tip_radius", physics::kLengthUnits);
+    contact.spring_constant = values_.quantity("spring_constant", physics::kStiffnessUnits);
     contact.sample_stiffness =
-        table_.quantity("sample_stiffness", physics::kStiffnessUnits, physics::Infinity::Allowed);
-    contact.hamaker = table_.quantity("hamaker", physics::kEnergyUnits);
+        values_.quantity("sample_stiffness", physics::kStiffnessUnits, physics::Infinity::Allowed);
+    contact.hamaker = values_.quantity("hamaker", physics::kEnergyUnits);
     read_adhesion();
     read_elasticity();
     read_atomic_distance();
@@ -79,9 +79,9 @@ class MaterialReader {
     entry_.experiment_f_attr = magnitude("experiment_f_attr");
     entry_.experiment_f_ad = magnitude("experiment_f_ad");
     check_physics();
-    entry_.sources = std::exchange(table_.sources(), {});
+    entry_.sources = values_.take_sources();
     read_friction();
-    entry_.friction_sources = std::move(table_.sources());
+    entry_.friction_sources = values_.take_sources();
     return std::move(entry_);
   }
 
@@ -95,13 +95,13 @@ class MaterialReader {
     }
     physics::SurfaceEnergy& mean = entry_.contact.mean_surface_energy;
     if (table_.has("mean_surface_energy")) {
-      mean = table_.quantity("mean_surface_energy", physics::kSurfaceEnergyUnits);
+      mean = values_.quantity("mean_surface_energy", physics::kSurfaceEnergyUnits);
     } else {
-      mean = 0.5 * table_.quantity("work_of_adhesion", physics::kSurfaceEnergyUnits);  // (3.3)
+      mean = 0.5 * values_.quantity("work_of_adhesion", physics::kSurfaceEnergyUnits);  // (3.3)
     }
   }
 
-  // Both bodies, or E* itself, or nothing: rigid.
+  // Both bodies' moduli, or E*, or neither: rigid.
   void read_elasticity() {
     constexpr std::array<const char*, 4> kBodies{"tip_modulus", "tip_poisson_ratio", "sample_modulus",
                                                  "sample_poisson_ratio"};
@@ -109,14 +109,14 @@ class MaterialReader {
     if (table_.has("reduced_modulus")) {
       if (given > 0)
         table_.refuse("reduced_modulus", "is given together with the moduli of tip and sample; give one or the other");
-      entry_.contact.reduced_modulus = table_.quantity("reduced_modulus", physics::kPressureUnits);
+      entry_.contact.reduced_modulus = values_.quantity("reduced_modulus", physics::kPressureUnits);
       return;
     }
     if (given == 0) return;
-    const physics::Elasticity tip{table_.quantity("tip_modulus", physics::kPressureUnits),
-                                  table_.number("tip_poisson_ratio")};
-    const physics::Elasticity sample{table_.quantity("sample_modulus", physics::kPressureUnits),
-                                     table_.number("sample_poisson_ratio")};
+    const physics::Elasticity tip{values_.quantity("tip_modulus", physics::kPressureUnits),
+                                  values_.number("tip_poisson_ratio")};
+    const physics::Elasticity sample{values_.quantity("sample_modulus", physics::kPressureUnits),
+                                     values_.number("sample_poisson_ratio")};
     entry_.tip_elasticity = tip;
     entry_.sample_elasticity = sample;
     try {
@@ -128,12 +128,12 @@ class MaterialReader {
 
   void read_atomic_distance() {
     if (table_.has("atomic_distance")) {
-      entry_.contact.atomic_distance = table_.quantity("atomic_distance", physics::kLengthUnits);
+      entry_.contact.atomic_distance = values_.quantity("atomic_distance", physics::kLengthUnits);
       return;
     }
-    table_.add_source({"atomic_distance",
-                       physics::format_quantity(entry_.contact.atomic_distance, physics::kLengthUnits),
-                       "default: z0 of most solids lies within 0.2 nm to 0.4 nm", true});
+    values_.add_source({"atomic_distance",
+                        physics::format_quantity(entry_.contact.atomic_distance, physics::kLengthUnits),
+                        "default: z0 of most solids lies within 0.2 nm to 0.4 nm", true});
   }
 
   void read_dynamics() {
@@ -141,19 +141,19 @@ class MaterialReader {
     physics::LeverDynamics& lever = entry_.lever;
     lever = {physics::Frequency(12e3), 2.5, physics::Temperature(298.15)};
     if (table_.has("resonance")) {
-      lever.resonance = table_.quantity("resonance", physics::kFrequencyUnits);
+      lever.resonance = values_.quantity("resonance", physics::kFrequencyUnits);
     } else {
-      table_.add_source({"resonance", "12 kHz", kDefault, true});
+      values_.add_source({"resonance", "12 kHz", kDefault, true});
     }
     if (table_.has("quality_factor")) {
-      lever.quality_factor = table_.number("quality_factor");
+      lever.quality_factor = values_.number("quality_factor");
     } else {
-      table_.add_source({"quality_factor", "2.5", kDefault, true});
+      values_.add_source({"quality_factor", "2.5", kDefault, true});
     }
     if (table_.has("temperature")) {
-      lever.temperature = table_.quantity("temperature", physics::kTemperatureUnits);
+      lever.temperature = values_.quantity("temperature", physics::kTemperatureUnits);
     } else {
-      table_.add_source({"temperature", "298.15 K", "default: 25 degrees Celsius", true});
+      values_.add_source({"temperature", "298.15 K", "default: 25 degrees Celsius", true});
     }
   }
 
@@ -161,9 +161,9 @@ class MaterialReader {
     physics::FrictionParameters& friction = entry_.friction;
     friction.coefficient = 0.1;
     if (table_.has("friction_coefficient")) {
-      friction.coefficient = table_.number("friction_coefficient");
+      friction.coefficient = values_.number("friction_coefficient");
     } else {
-      table_.add_source({"friction_coefficient", "0.1", "default: most pairs lie within 0.01 to 0.5", true});
+      values_.add_source({"friction_coefficient", "0.1", "default: most pairs lie within 0.01 to 0.5", true});
     }
     friction.shear_strength = read_or("shear_strength", physics::kPressureUnits, physics::Pressure(1e8),
                                       "default: 10 MPa to 1 GPa have been measured");
@@ -180,14 +180,12 @@ class MaterialReader {
   }
 
   void read_lattice() {
-    const auto kind = physics::lattice_kind_of(table_.text("lattice"));
-    if (!kind) table_.refuse("lattice", "is not known; known are rows, square, hexagonal");
-    entry_.friction.lattice = *kind;
-    entry_.friction.period = table_.quantity("lattice_period", physics::kLengthUnits);
-    entry_.friction.corrugation = table_.quantity("lattice_corrugation", physics::kLengthUnits);
+    entry_.friction.lattice = table_.one_of("lattice", physics::kLatticeKinds, &physics::LatticeKindText::word).kind;
+    entry_.friction.period = values_.quantity("lattice_period", physics::kLengthUnits);
+    entry_.friction.corrugation = values_.quantity("lattice_corrugation", physics::kLengthUnits);
   }
 
-  // By every law whose numbers it has.
+  // Checks every friction law for which the material has the numbers.
   void check_friction() const {
     for (const physics::FrictionLawText& row : physics::kFrictionLaws) {
       if (row.law == physics::FrictionLaw::Lattice && !entry_.has_lattice) continue;
@@ -203,13 +201,13 @@ class MaterialReader {
 
   template <class Q>
   Q read_or(std::string_view key, const physics::UnitList<Q>& units, Q usual, const char* why) {
-    if (table_.has(key)) return table_.quantity(key, units);
-    table_.add_source({std::string(key), physics::format_quantity(usual, units), why, true});
+    if (table_.has(key)) return values_.quantity(key, units);
+    values_.add_source({std::string(key), physics::format_quantity(usual, units), why, true});
     return usual;
   }
 
   std::optional<physics::Force> magnitude(std::string_view key) {
-    const auto force = table_.optional_quantity(key, physics::kForceUnits);
+    const auto force = values_.optional_quantity(key, physics::kForceUnits);
     if (force && *force <= physics::Force()) {
       table_.refuse(key, fmt::format("is {}; it must be a positive magnitude",
                                      physics::format_quantity(*force, physics::kForceUnits)));
@@ -227,17 +225,18 @@ class MaterialReader {
     }
   }
 
-  SourcedTable table_;
+  const TomlTable table_;
+  SourcedValues values_;
   MaterialEntry entry_;
 };
 
 MaterialLibrary read_materials(const toml::table& root) {
   MaterialLibrary library;
-  for (const toml::table* table : tables_of(root, "material")) {
-    MaterialEntry entry = MaterialReader(*table).read();
-    if (library.find(entry.name) != nullptr) {
-      throw Fault{table->get("name")->source(), "material.name", fmt::format("\"{}\" is used twice", entry.name)};
-    }
+  const TomlTable top(root);
+  top.allow_only({"material"});
+  for (const TomlTable& table : top.tables("material")) {
+    MaterialEntry entry = MaterialReader(table).read();
+    if (library.find(entry.name) != nullptr) table.refuse("name", fmt::format("\"{}\" is used twice", entry.name));
     library.materials.push_back(std::move(entry));
   }
   return library;

@@ -20,7 +20,7 @@ const Entry* find_named(const std::vector<Entry>& entries, std::string_view name
   return at == entries.end() ? nullptr : &*at;
 }
 
-// `kind` is what the message calls an entry: "material".
+// `kind` is the name of an entry in the message: "material".
 template <class Entry>
 core::Result<const Entry*> require_named(const std::vector<Entry>& entries, const char* kind, std::string_view name) {
   if (const Entry* entry = find_named(entries, name)) return entry;
@@ -29,7 +29,7 @@ core::Result<const Entry*> require_named(const std::vector<Entry>& entries, cons
   return core::failure(core::ErrorCategory::WrongUsage, fmt::format("unknown {} \"{}\"; choose {}", kind, name, known));
 }
 
-// Behind the others, but in the place of one of the same name.
+// Adds at the end, or replaces the entry of the same name.
 template <class Entry>
 void add_named(std::vector<Entry>& entries, std::vector<Entry> others) {
   for (Entry& other : others) {

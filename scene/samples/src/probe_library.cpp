@@ -13,7 +13,7 @@
 #include "physics/contact_parameters.h"
 #include "physics/quantity_text.h"
 #include "scene/config/toml_file.h"
-#include "sourced_table.h"
+#include "sourced_values.h"
 
 namespace afm::scene {
 namespace {
@@ -39,45 +39,45 @@ constexpr std::array<std::string_view, 20> kProbeKeys{"name",
                                                       "quality_factor_in_air",
                                                       "quality_factor_in_liquid"};
 
-// One [[probe]].
+// Reads one [[probe]].
 class ProbeReader {
  public:
-  explicit ProbeReader(const toml::table& table) : table_(table, "probe") {}
+  explicit ProbeReader(const TomlTable& table) : table_(table), values_(table_) {}
 
   ProbeEntry read() {
-    table_.refuse_keys_other_than(kProbeKeys);
+    table_.allow_only(kProbeKeys);
     entry_.name = table_.text("name");
     entry_.title = table_.text("title");
     entry_.shape = table_.text("shape");
     entry_.tip = table_.text("tip");
-    entry_.note = table_.text_or_empty("note");
+    entry_.note = table_.has("note") ? table_.text("note") : "";
     if (entry_.shape != "rectangular" && entry_.shape != "v-shaped") {
       table_.refuse("shape", fmt::format("is \"{}\"; it must be \"rectangular\" or \"v-shaped\"", entry_.shape));
     }
-    entry_.tip_radius = table_.quantity("tip_radius", physics::kLengthUnits);
+    entry_.tip_radius = values_.quantity("tip_radius", physics::kLengthUnits);
     entry_.resonance_in_air = positive_frequency("resonance_in_air");
     entry_.resonance_in_liquid = positive_frequency("resonance_in_liquid");
     entry_.quality_factor_in_air = positive_number("quality_factor_in_air");
     entry_.quality_factor_in_liquid = positive_number("quality_factor_in_liquid");
     read_lever();
     if (table_.has("tip_modulus") || table_.has("tip_poisson_ratio")) {
-      entry_.tip_elasticity = physics::Elasticity{table_.quantity("tip_modulus", physics::kPressureUnits),
-                                                  table_.number("tip_poisson_ratio")};
+      entry_.tip_elasticity = physics::Elasticity{values_.quantity("tip_modulus", physics::kPressureUnits),
+                                                  values_.number("tip_poisson_ratio")};
     }
     check_physics();
-    entry_.sources = std::move(table_.sources());
+    entry_.sources = values_.take_sources();
     return std::move(entry_);
   }
 
  private:
-  physics::Length length(std::string_view key) { return table_.quantity(key, physics::kLengthUnits); }
+  physics::Length length(std::string_view key) { return values_.quantity(key, physics::kLengthUnits); }
 
-  // The nominal spring constant, or that of the geometry.
+  // The nominal spring constant, or the one computed from the geometry.
   void read_lever() {
     if (table_.has("spring_constant")) {
-      entry_.spring_constant = table_.quantity("spring_constant", physics::kStiffnessUnits);
-      // read for their sources alone
-      for (const char* key : {"length", "width", "thickness"}) table_.optional_quantity(key, physics::kLengthUnits);
+      entry_.spring_constant = values_.quantity("spring_constant", physics::kStiffnessUnits);
+      // read only for their sources
+      for (const char* key : {"length", "width", "thickness"}) values_.optional_quantity(key, physics::kLengthUnits);
       for (const char* key : {"base_width", "arm_width", "lever_modulus", "lever_density"}) {
         if (table_.has(key)) table_.refuse(key, "has an effect only if no spring_constant is given");
       }
@@ -92,43 +92,44 @@ class ProbeReader {
                                              : field,
                     error.what());
     }
-    table_.add_source({"spring_constant", physics::format_quantity(entry_.spring_constant, physics::kStiffnessUnits),
-                       "calculated from the lever's geometry and modulus", true});
+    values_.add_source({"spring_constant", physics::format_quantity(entry_.spring_constant, physics::kStiffnessUnits),
+                        "calculated from the lever's geometry and modulus", true});
   }
 
   void read_rectangular_lever() {
     const physics::RectangularLever lever{length("length"), length("width"), length("thickness"),
-                                          table_.quantity("lever_modulus", physics::kPressureUnits),
-                                          table_.quantity("lever_density", physics::kDensityUnits)};
+                                          values_.quantity("lever_modulus", physics::kPressureUnits),
+                                          values_.quantity("lever_density", physics::kDensityUnits)};
     physics::validate(lever);
     entry_.spring_constant = physics::spring_constant(lever);
     if (entry_.resonance_in_air) return;
     entry_.resonance_in_air = physics::vacuum_resonance(lever);
-    table_.add_source({"resonance_in_air", physics::format_quantity(*entry_.resonance_in_air, physics::kFrequencyUnits),
-                       "calculated from the lever's geometry, modulus and density, for vacuum", true});
+    values_.add_source({"resonance_in_air",
+                        physics::format_quantity(*entry_.resonance_in_air, physics::kFrequencyUnits),
+                        "calculated from the lever's geometry, modulus and density, for vacuum", true});
   }
 
   void read_v_shaped_lever() {
     const physics::VShapedLever lever{length("length"), length("base_width"), length("arm_width"), length("thickness"),
-                                      table_.quantity("lever_modulus", physics::kPressureUnits)};
+                                      values_.quantity("lever_modulus", physics::kPressureUnits)};
     physics::validate(lever);
     entry_.spring_constant = physics::spring_constant(lever);
   }
 
   std::optional<physics::Frequency> positive_frequency(std::string_view key) {
-    const auto frequency = table_.optional_quantity(key, physics::kFrequencyUnits);
+    const auto frequency = values_.optional_quantity(key, physics::kFrequencyUnits);
     if (frequency && frequency->si <= 0.0) table_.refuse(key, "must be positive");
     return frequency;
   }
 
   std::optional<double> positive_number(std::string_view key) {
     if (!table_.has(key)) return std::nullopt;
-    const double number = table_.number(key);
+    const double number = values_.number(key);
     if (number <= 0.0) table_.refuse(key, "must be positive");
     return number;
   }
 
-  // Every value within its range, whatever sample it will meet.
+  // Checks that every value is within its range, independent of the sample.
   void check_physics() const {
     constexpr physics::Elasticity kAnySample{physics::Pressure(1e9), 0.3};
     physics::ContactParameters any;
@@ -145,23 +146,24 @@ class ProbeReader {
     }
   }
 
-  SourcedTable table_;
+  const TomlTable table_;
+  SourcedValues values_;
   ProbeEntry entry_;
 };
 
 ProbeLibrary read_probes(const toml::table& root) {
   ProbeLibrary library;
-  for (const toml::table* table : tables_of(root, "probe")) {
-    ProbeEntry entry = ProbeReader(*table).read();
-    if (library.find(entry.name) != nullptr) {
-      throw Fault{table->get("name")->source(), "probe.name", fmt::format("\"{}\" is used twice", entry.name)};
-    }
+  const TomlTable top(root);
+  top.allow_only({"probe"});
+  for (const TomlTable& table : top.tables("probe")) {
+    ProbeEntry entry = ProbeReader(table).read();
+    if (library.find(entry.name) != nullptr) table.refuse("name", fmt::format("\"{}\" is used twice", entry.name));
     library.probes.push_back(std::move(entry));
   }
   return library;
 }
 
-// Puts the probe's source of `probe_key` in the place of the material's of `key`.
+// Replaces the material's source of `key` by the probe's of `probe_key`.
 void take_source(MaterialEntry& material, std::string_view key, const ProbeEntry& probe, std::string_view probe_key) {
   const SourcedValue* found = find_source(probe.sources, probe_key);
   SourcedValue taken{std::string(key), found->value, fmt::format("{}: {}", probe.title, found->source),

@@ -240,7 +240,7 @@ bool is_valid(const SceneTransforms& transforms, const SharedModel& model) {
 }
 
 bool is_valid(const Selection& selection, const SharedModel& model) {
-  return within(selection.material, model) && core::is_enumerator(selection.scale_mode);
+  return within(selection.material, model) && core::is_enumerator(selection.scale_mode) && selection.release <= 1;
 }
 
 bool is_valid(const HandScript& script) {

@@ -9,6 +9,7 @@
 
 #include "core/file_descriptor.h"
 #include "haptics/servo_loop.h"
+#include "servo/release_link.h"
 #include "servo/servo_handover.h"
 
 namespace afm::servo {
@@ -26,13 +27,17 @@ struct Linger {
 // Path of the running program; empty if the system does not provide it.
 std::string executable_path();
 
+// Without a beat of the watchdog for this long, nothing guards the hand: the servo releases it and ends.
+inline constexpr int kWatchdogSilentMs = 80;
+
 // Thread that waits for the end of a servo: its renderer closes the socket, a signal asks it to exit, its watchdog
-// dies, or this object is destroyed. Real-time like the servo, because the hand is held until it reacts.
+// ends or is stopped, or this object is destroyed. Real-time like the servo, because the hand is held until it reacts.
 class RendererMonitor {
  public:
-  // `signals` is a signalfd, `watchdog` the descriptor of a Watchdog; they and the loop must outlive this object.
+  // `signals` is a signalfd, `watchdog` the descriptor of a Watchdog; they, the loop and the link must outlive this
+  // object.
   RendererMonitor(haptics::ServoLoop& loop, core::FileDescriptor lifeline, const core::FileDescriptor& signals,
-                  int watchdog, Linger linger);
+                  int watchdog, ReleaseLink& link, Linger linger);
   RendererMonitor(const RendererMonitor&) = delete;
   RendererMonitor& operator=(const RendererMonitor&) = delete;
   ~RendererMonitor();
@@ -41,14 +46,17 @@ class RendererMonitor {
   enum class Update { Done, Signal, Unguarded, Readable, Nothing };
 
   void watch();
-  Update wait_for(int descriptor, std::optional<int> milliseconds) const;
+  Update wait_for(int descriptor, std::optional<int> milliseconds);
+  bool guarded(bool beat) noexcept;
   bool find_successor();
 
   haptics::ServoLoop& loop_;
   core::FileDescriptor lifeline_;
   const core::FileDescriptor& signals_;
   int watchdog_;
+  ReleaseLink& link_;
   Linger linger_;
+  int missed_beats_ = 0;  // waits in a row without one
   core::FileDescriptor done_;
   std::thread thread_;  // last member: it uses all the others
 };

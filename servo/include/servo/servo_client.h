@@ -84,6 +84,10 @@ class ServoClient {
   // has been removed. Without `mode`, keeps the previous one, initially Fit.
   void choose(std::int32_t material) { choose(material, selection_.scale_mode); }
   void choose(std::int32_t material, scene::ScaleMode mode);
+
+  // Removes the force at once, also in contact; the hand must lift and press Turn-On again. The choice stays. Without a
+  // choice there is no force to remove.
+  void take_force_away();
   std::int32_t chosen() const { return selection_.material; }  // may differ from the tip's current material; -1: none
 
   // Changes the parameters of a material, given by its index in the shared model; returns the revision of the edit.

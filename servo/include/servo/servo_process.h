@@ -36,8 +36,11 @@ class Servo {
   virtual std::optional<int> exit_status() noexcept = 0;
 };
 
+class RendererGuard;
+
 // touchafm-servo as a child process. It inherits only the standard streams, the segment and one end of a socket pair.
-// When this process dies, for whatever reason, the kernel closes the other end, and the servo releases the hand.
+// When this process dies, for whatever reason, the kernel closes the other end, and the servo releases the hand. When
+// the servo dies or is silent, and its watchdog with it, a thread of this process releases the hand.
 class ServoProcess final : public Servo {
  public:
   // `program` is the path of touchafm-servo; `settings` are those of ServoLoop; `device` is a value of touchafm's
@@ -56,22 +59,25 @@ class ServoProcess final : public Servo {
   pid_t pid() const noexcept { return pid_; }
 
  private:
-  ServoProcess(pid_t pid, core::FileDescriptor lifeline, scene::RendererSide& side);
+  ServoProcess(pid_t pid, core::FileDescriptor lifeline, scene::SharedSegment& segment, scene::RendererSide& side);
 
   bool ended_within(int milliseconds) noexcept;
 
   pid_t pid_;
+  core::FileDescriptor process_;  // pidfd
   core::FileDescriptor lifeline_;
   scene::RendererSide& side_;
   std::optional<int> exit_status_;
   core::OnInterruption terminate_;
+  std::unique_ptr<RendererGuard> guard_;  // last member: it ends first
 };
 
 // Servo started by another renderer, which has died. It is not a child of this process.
 class AdoptedServo final : public Servo {
  public:
-  // `side` belongs to the segment that came with it.
-  static std::unique_ptr<AdoptedServo> adopt(WaitingServo waiting, scene::RendererSide& side);
+  // `segment` came with it, and `side` belongs to it.
+  static std::unique_ptr<AdoptedServo> adopt(WaitingServo waiting, scene::SharedSegment& segment,
+                                             scene::RendererSide& side);
 
   // Ends it like ServoProcess does.
   ~AdoptedServo() override;
@@ -80,10 +86,11 @@ class AdoptedServo final : public Servo {
   std::optional<int> exit_status() noexcept override;  // always 1
 
  private:
-  AdoptedServo(WaitingServo waiting, scene::RendererSide& side) : waiting_(std::move(waiting)), side_(side) {}
+  AdoptedServo(WaitingServo waiting, scene::SharedSegment& segment, scene::RendererSide& side);
 
   WaitingServo waiting_;
   scene::RendererSide& side_;
+  std::unique_ptr<RendererGuard> guard_;  // last member: it ends first
 };
 
 // The same loop as a thread of this process, for sanitizers and debuggers. Its pages are not locked, so it reports

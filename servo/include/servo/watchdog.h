@@ -5,33 +5,30 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "core/file_descriptor.h"
 #include "core/result.h"
-#include "haptics/release_path.h"
 #include "scene/shared/shared_segment.h"
 
-// Process next to touchafm-servo that removes the force from the hand when the servo cannot: stopped, killed, or stuck
-// in a driver. It has no thread, and opens and allocates nothing while it watches.
+// touchafm-guard, the process next to touchafm-servo that removes the force from the hand when the servo cannot:
+// stopped, killed, or stuck in a driver. It has no thread, and opens and allocates nothing while it watches. Its name,
+// its group and, where systemd offers one, its scope differ from the servo's, so that no command meant for the servo
+// takes both; of all signals only KILL and STOP reach it.
 namespace afm::servo {
 
 // Servo's end of the watchdog. Destroy it after the device.
 class Watchdog {
  public:
-  // `program` is the path of touchafm-servo; `segment` is the descriptor of the segment with the servo's state.
+  // `program` is the path of touchafm-guard; `segment` is the descriptor of the segment with the servo's state. Waits
+  // for its first beat, at most 5 s. Failed: it cannot be started, or does not beat.
   static core::Result<std::unique_ptr<Watchdog>> start(const std::string& program, int segment);
 
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
   ~Watchdog();  // the device is closed: the watchdog exits. Leaves no zombie
 
-  // Passes on the newest way to write to the device. Any thread; never waits.
-  void offer(const haptics::ReleasePath& path) const noexcept;
-
-  // Announces that the servo ticks no more, and closes its device within kWatchdogCloseMs.
-  void expect_end() const noexcept;
-
-  // Readable if the watchdog has ended by itself, so that nothing guards the hand.
+  // Socket of its beats, one every 10 ms; closed by its end. Take beats with take_beat().
   int descriptor() const noexcept { return socket_.get(); }
 
  private:
@@ -40,6 +37,9 @@ class Watchdog {
   pid_t process_;
   core::FileDescriptor socket_;
 };
+
+// Takes one beat from a watchdog's socket without waiting. False: the watchdog has ended, and nothing guards the hand.
+bool take_beat(int socket) noexcept;
 
 // Body of the watchdog's process; returns when the servo has ended. Once TipState has been stored for the first time:
 //

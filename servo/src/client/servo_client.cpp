@@ -49,7 +49,7 @@ core::Result<std::unique_ptr<ServoClient>> ServoClient::start(const scene::Share
   if (auto taken = take_waiting_servo(model, scene_digest, choice.settings, choice.haptic_device, servo)) {
     std::unique_ptr<ServoClient> link(new ServoClient(std::move(taken->segment), choice.settings));
     link->go_on();
-    link->servo_ = AdoptedServo::adopt(std::move(taken->servo), link->side_);
+    link->servo_ = AdoptedServo::adopt(std::move(taken->servo), link->segment_, link->side_);
     return link;
   }
   auto segment = scene::SharedSegment::create(model, scene_digest, topography);
@@ -174,6 +174,15 @@ void ServoClient::go_on() {
 void ServoClient::choose(std::int32_t material, scene::ScaleMode mode) {
   selection_.material = material;
   selection_.scale_mode = mode;
+  // a release that the servo has not seen yet must not be overwritten
+  if (tip_.acknowledged.selection == selection_.revision) selection_.release = 0;
+  ++selection_.revision;
+  side_.store(selection_);
+}
+
+void ServoClient::take_force_away() {
+  if (selection_.material < 0) return;
+  selection_.release = 1;
   ++selection_.revision;
   side_.store(selection_);
 }

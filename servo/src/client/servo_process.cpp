@@ -17,6 +17,7 @@
 #include "core/clock.h"
 #include "core/log.h"
 #include "core/system_error.h"
+#include "renderer_guard.h"
 
 namespace afm::servo {
 
@@ -35,7 +36,7 @@ core::Result<std::unique_ptr<ServoProcess>> ServoProcess::spawn(const std::strin
                                                                 const haptics::ServoSettings& settings,
                                                                 const std::string& device) {
   std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     return core::failure(core::ErrorCategory::Failed,
                          fmt::format("cannot start the servo {}: {}", program, core::system_error(errno)));
   }
@@ -47,12 +48,18 @@ core::Result<std::unique_ptr<ServoProcess>> ServoProcess::spawn(const std::strin
   for (std::string& argument : servo_arguments(settings, device)) arguments.push_back(std::move(argument));
   const auto process = start_child(program, std::move(arguments), {segment.descriptor(), theirs.get()});
   if (!process) return tl::unexpected(process.error());
-  return std::unique_ptr<ServoProcess>(new ServoProcess(*process, std::move(ours), side));
+  return std::unique_ptr<ServoProcess>(new ServoProcess(*process, std::move(ours), segment, side));
 }
 
 // SIGTERM makes it release the hand, without a message about a dead renderer.
-ServoProcess::ServoProcess(pid_t pid, core::FileDescriptor lifeline, scene::RendererSide& side)
-    : pid_(pid), lifeline_(std::move(lifeline)), side_(side), terminate_([pid] { ::kill(pid, SIGTERM); }) {}
+ServoProcess::ServoProcess(pid_t pid, core::FileDescriptor lifeline, scene::SharedSegment& segment,
+                           scene::RendererSide& side)
+    : pid_(pid),
+      process_(static_cast<int>(::syscall(SYS_pidfd_open, pid, 0))),
+      lifeline_(std::move(lifeline)),
+      side_(side),
+      terminate_([pid] { ::kill(pid, SIGTERM); }),
+      guard_(std::make_unique<RendererGuard>(lifeline_.get(), process_.get(), segment)) {}
 
 ServoProcess::~ServoProcess() {
   if (!alive()) return;
@@ -79,10 +86,16 @@ bool ServoProcess::ended_within(int milliseconds) noexcept {
   return exit_status_.has_value();
 }
 
-std::unique_ptr<AdoptedServo> AdoptedServo::adopt(WaitingServo waiting, scene::RendererSide& side) {
+std::unique_ptr<AdoptedServo> AdoptedServo::adopt(WaitingServo waiting, scene::SharedSegment& segment,
+                                                  scene::RendererSide& side) {
   waiting.stay();
-  return std::unique_ptr<AdoptedServo>(new AdoptedServo(std::move(waiting), side));
+  return std::unique_ptr<AdoptedServo>(new AdoptedServo(std::move(waiting), segment, side));
 }
+
+AdoptedServo::AdoptedServo(WaitingServo waiting, scene::SharedSegment& segment, scene::RendererSide& side)
+    : waiting_(std::move(waiting)),
+      side_(side),
+      guard_(std::make_unique<RendererGuard>(waiting_.lifeline.get(), waiting_.process.get(), segment)) {}
 
 AdoptedServo::~AdoptedServo() {
   if (!alive()) return;

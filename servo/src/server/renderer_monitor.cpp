@@ -15,6 +15,7 @@
 #include "core/clock.h"
 #include "core/log.h"
 #include "haptics/realtime.h"
+#include "servo/watchdog.h"
 
 namespace afm::servo {
 
@@ -24,12 +25,19 @@ std::string executable_path() {
   return error ? std::string() : path.string();
 }
 
+namespace {
+
+constexpr int kBeatWaitMs = 20;  // twice the time between two beats
+
+}  // namespace
+
 RendererMonitor::RendererMonitor(haptics::ServoLoop& loop, core::FileDescriptor lifeline,
-                                 const core::FileDescriptor& signals, int watchdog, Linger linger)
+                                 const core::FileDescriptor& signals, int watchdog, ReleaseLink& link, Linger linger)
     : loop_(loop),
       lifeline_(std::move(lifeline)),
       signals_(signals),
       watchdog_(watchdog),
+      link_(link),
       linger_(std::move(linger)),
       done_(::eventfd(0, EFD_CLOEXEC)),
       thread_([this] { watch(); }) {}
@@ -39,17 +47,27 @@ RendererMonitor::~RendererMonitor() {
   thread_.join();
 }
 
-RendererMonitor::Update RendererMonitor::wait_for(int descriptor, std::optional<int> milliseconds) const {
+// Counts waits rather than time, so that a pause of the whole machine does not count.
+bool RendererMonitor::guarded(bool beat) noexcept {
+  missed_beats_ = beat ? 0 : missed_beats_ + 1;
+  return beat ? take_beat(watchdog_) : missed_beats_ * kBeatWaitMs < kWatchdogSilentMs;
+}
+
+RendererMonitor::Update RendererMonitor::wait_for(int descriptor, std::optional<int> milliseconds) {
   std::array<pollfd, 4> watched{{{.fd = descriptor, .events = POLLIN, .revents = 0},
                                  {.fd = signals_.get(), .events = POLLIN, .revents = 0},
                                  {.fd = done_.get(), .events = POLLIN, .revents = 0},
                                  {.fd = watchdog_, .events = POLLIN, .revents = 0}}};
-  while (::poll(watched.data(), watched.size(), milliseconds.value_or(-1)) < 0 && errno == EINTR) {
+  const core::MonotonicClock clock;
+  const std::int64_t end_ns = clock.now_ns() + std::int64_t{1'000'000} * milliseconds.value_or(0);
+  while (!milliseconds || clock.now_ns() <= end_ns) {
+    if (::poll(watched.data(), watched.size(), kBeatWaitMs) < 0) continue;  // by a signal
+    if (watched[2].revents != 0) return Update::Done;
+    if (watched[1].revents != 0) return Update::Signal;
+    if (!guarded(watched[3].revents != 0)) return Update::Unguarded;
+    if (watched[0].revents != 0) return Update::Readable;
   }
-  if (watched[2].revents != 0) return Update::Done;
-  if (watched[1].revents != 0) return Update::Signal;
-  if (watched[3].revents != 0) return Update::Unguarded;
-  return watched[0].revents != 0 ? Update::Readable : Update::Nothing;
+  return Update::Nothing;
 }
 
 void RendererMonitor::watch() {
@@ -58,9 +76,9 @@ void RendererMonitor::watch() {
   for (;;) {
     const Update update = wait_for(lifeline_.get(), std::nullopt);
     if (update == Update::Done) return;
-    if (update == Update::Unguarded) core::log_line("the servo's watchdog ended: force released");
     if (update == Update::Signal || update == Update::Unguarded) {
       loop_.stop();
+      if (update == Update::Unguarded) core::log_line("the servo's watchdog ended or is stopped: force released");
       return;
     }
     // a renderer never sends data here: any event is the end, or a reason to release the hand
@@ -68,6 +86,7 @@ void RendererMonitor::watch() {
       loop_.renderer_died();
       return;
     }
+    link_.set_renderer(lifeline_.get());
     loop_.renderer_returned();
   }
 }

@@ -124,7 +124,7 @@ HandoverPort::Answer HandoverPort::receive(int segment, const std::vector<std::s
   const core::FileDescriptor visitor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
   if (!visitor.is_open() || !trusted_peer(visitor.get(), ::getuid())) return Answer::Nobody;
   std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return Answer::Nobody;
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return Answer::Nobody;
   core::FileDescriptor ours(ends[0]);
   core::FileDescriptor theirs(ends[1]);
   const std::array handed{segment, theirs.get()};

@@ -1,137 +1,106 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo/watchdog.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
 #include <signal.h>
+#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
-#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
 #include <string_view>
-#include <utility>
+#include <system_error>
 
 #include "child_process.h"
-#include "core/farewell.h"
+#include "core/log.h"
 #include "core/system_error.h"
+#include "core/write_all.h"
 #include "descriptor_letter.h"
+#include "force_guard.h"
 #include "haptics/realtime.h"
 
 namespace afm::servo {
 
 namespace {
 
-using namespace std::string_view_literals;
-
-// First byte of a message: its type.
-constexpr char kPath = 'P';  // followed by the bytes of zero force
-constexpr std::string_view kEnd = "E";
-
 constexpr int kWakeMs = 5;
+constexpr int kFirstBeatMs = 5000;  // a busy machine has taken more than a second to start a program
 constexpr int kWatchdogLeaveMs = 200;
-constexpr auto kLeavePatience = std::chrono::milliseconds(100);
 
-// Logs without allocating.
-void say(std::string_view line) {
-  // a closed stderr cannot be reported
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
+// The process that created the socket pair; read before its number can have been reused.
+core::FileDescriptor peer_of(int socket) {
+  ucred peer{};
+  socklen_t size = sizeof(peer);
+  if (::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return {};
+  return core::FileDescriptor(static_cast<int>(::syscall(SYS_pidfd_open, peer.pid, 0)));
 }
 
-class Guard {
- public:
-  Guard(const core::FileDescriptor& servo, scene::SharedSegment& segment)
-      : servo_(servo), state_(segment.renderer_side()) {
-    // the process that created the socket pair; read before its number can have been reused
-    ucred peer{};
-    socklen_t size = sizeof(peer);
-    if (::getsockopt(servo.get(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0) {
-      process_ = core::FileDescriptor(static_cast<int>(::syscall(SYS_pidfd_open, peer.pid, 0)));
-    }
+void block_every_signal() {
+  sigset_t every;
+  ::sigfillset(&every);
+  ::sigprocmask(SIG_SETMASK, &every, nullptr);
+}
+
+// Never chosen by the kernel's memory killer, where the user may ask for that.
+void ask_for_memory() {
+  const core::FileDescriptor score(::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC));
+  for (const std::string_view wish : {"-1000", "0"}) {
+    if (score.is_open() && core::write_all(score.get(), wish) == 0) return;
   }
+}
 
-  void watch() {
-    for (;;) {
-      switch (hear()) {
-        case Heard::Gone:
-          if (!ending_) take_over("touchafm: watchdog: the servo was killed: zero force was sent to the device\n"sv);
-          return;
-        case Heard::Message:
-          continue;
-        case Heard::Nothing:
-          break;
-      }
-      if (!ending_ && ticked())
-        silent_wakes_ = 0;
-      else if (ending_ || ticking_)
-        ++silent_wakes_;
-      const int silent_ms = silent_wakes_ * kWakeMs;
-      if (!ending_ && silent_ms == kWatchdogReleaseMs) release();
-      if (silent_ms < (ending_ ? kWatchdogCloseMs : kWatchdogKillMs)) continue;
-      take_over(ending_ ? "touchafm: watchdog: the device did not close: ended the servo, no force reaches the hand\n"sv
-                        : "touchafm: watchdog: the servo stopped responding: ended it, no force reaches the hand\n"sv);
-      return;
-    }
-  }
-
- private:
-  enum class Heard { Nothing, Message, Gone };
-
-  // Waits at most kWakeMs.
-  Heard hear() {
-    pollfd watched{.fd = servo_.get(), .events = POLLIN, .revents = 0};
-    if (::poll(&watched, 1, kWakeMs) <= 0) return Heard::Nothing;
-    core::FileDescriptor device;
-    const auto text = letter_.read(servo_.get(), {&device, 1});
-    if (!text) return errno == EAGAIN || errno == EINTR ? Heard::Nothing : Heard::Gone;
-    if (*text == kEnd) {
-      ending_ = true;
-      silent_wakes_ = 0;
-    } else if (text->front() == kPath && device.is_open()) {
-      device_ = std::move(device);
-      zero_size_ = text->size() - 1;
-      std::copy(text->begin() + 1, text->end(), zero_.begin());
-    }
-    return Heard::Message;
-  }
-
-  bool ticked() {
-    const auto state = state_.tip_state();
-    if (!state || state->tick == tick_) return false;
-    tick_ = state->tick;
-    return ticking_ = true;
-  }
-
-  void release() const {
-    if (device_.is_open()) ::send(device_.get(), zero_.data(), zero_size_, MSG_NOSIGNAL | MSG_DONTWAIT);
-  }
-
-  void take_over(std::string_view line) const {
-    release();
-    if (process_.is_open()) ::syscall(SYS_pidfd_send_signal, process_.get(), SIGKILL, nullptr, 0);
-    // zero force again: the servo may have sent another one in between
-    release();
-    if (device_.is_open()) core::take_leave(device_.get(), kLeavePatience);
-    say(line);
-  }
-
-  const core::FileDescriptor& servo_;
-  scene::RendererSide state_;
-  core::FileDescriptor process_;
-  core::FileDescriptor device_;
-  std::array<char, kMostLetterBytes> zero_{};
-  std::size_t zero_size_ = 0;
-  Letter letter_;
-  std::uint64_t tick_ = 0;
-  int silent_wakes_ = 0;
-  bool ticking_ = false;
-  bool ending_ = false;
-};
+// Asks the user's systemd for a scope, so that a command or a lack of memory that ends the servo's scope leaves this
+// process alone. Does not wait: without systemd there is none.
+void ask_for_scope() {
+  const char* folder = std::getenv("XDG_RUNTIME_DIR");
+  std::error_code error;
+  if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / "systemd", error)) return;
+  std::string name = fmt::format("touchafm-guard-{}.scope", ::getpid()), process = std::to_string(::getpid());
+  std::array<std::string, 16> words{"busctl",
+                                    "--user",
+                                    "--quiet",
+                                    "--timeout=2",
+                                    "call",
+                                    "org.freedesktop.systemd1",
+                                    "/org/freedesktop/systemd1",
+                                    "org.freedesktop.systemd1.Manager",
+                                    "StartTransientUnit",
+                                    "ssa(sv)a(sa(sv))",
+                                    std::move(name),
+                                    "fail",
+                                    "1",
+                                    "PIDs",
+                                    "au",
+                                    "1"};
+  std::array<char*, 19> raw{};
+  std::size_t count = 0;
+  for (std::string& word : words) raw[count++] = word.data();
+  std::string none = "0";
+  raw[count++] = process.data();
+  raw[count++] = none.data();
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  sigset_t nothing;
+  ::sigemptyset(&nothing);
+  ::posix_spawn_file_actions_init(&actions);
+  ::posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+  ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setsigmask(&attributes, &nothing);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+  pid_t child = -1;
+  ::posix_spawnp(&child, raw[0], &actions, &attributes, raw.data(), environ);
+  ::posix_spawnattr_destroy(&attributes);
+  ::posix_spawn_file_actions_destroy(&actions);
+}
 
 }  // namespace
 
@@ -142,16 +111,23 @@ core::Result<std::unique_ptr<Watchdog>> Watchdog::start(const std::string& progr
                          fmt::format("cannot start the servo's watchdog: {}", core::system_error(errno)));
   }
   core::FileDescriptor ours(ends[0]);
-  const core::FileDescriptor theirs(ends[1]);
+  core::FileDescriptor theirs(ends[1]);
   const auto process =
       start_child(program, {"--segment", std::to_string(kInherited[0]), "--watch-servo", std::to_string(kInherited[1])},
                   {segment, theirs.get()});
   if (!process) return tl::unexpected(process.error());
-  return std::unique_ptr<Watchdog>(new Watchdog(*process, std::move(ours)));
+  theirs.close();
+  std::unique_ptr<Watchdog> watchdog(new Watchdog(*process, std::move(ours)));
+  pollfd beat{.fd = watchdog->descriptor(), .events = POLLIN, .revents = 0};
+  if (::poll(&beat, 1, kFirstBeatMs) == 1 && take_beat(watchdog->descriptor())) return watchdog;
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("the servo's watchdog {} did not start within {} s: no force without it; try again, "
+                                   "or reinstall touchafm",
+                                   program, kFirstBeatMs / 1000));
 }
 
 Watchdog::~Watchdog() {
-  expect_end();
+  Letter().send(socket_.get(), guard_letter::kEnd);
   socket_.close();
   int status = 0;
   if (child_ended_within(process_, kWatchdogLeaveMs, status)) return;
@@ -159,21 +135,36 @@ Watchdog::~Watchdog() {
   ::waitpid(process_, nullptr, 0);
 }
 
-void Watchdog::offer(const haptics::ReleasePath& path) const noexcept {
-  std::array<char, kMostLetterBytes> text{kPath};
-  if (path.descriptor < 0 || path.zero.size() >= text.size()) return;
-  std::copy(path.zero.begin(), path.zero.end(), text.begin() + 1);
-  const std::array descriptor{path.descriptor};
-  Letter().send(socket_.get(), {text.data(), 1 + path.zero.size()}, descriptor);
+bool take_beat(int socket) noexcept {
+  char beat = 0;
+  const auto length = ::recv(socket, &beat, 1, MSG_DONTWAIT);
+  return length > 0 || (length < 0 && (errno == EAGAIN || errno == EINTR));
 }
 
-void Watchdog::expect_end() const noexcept { Letter().send(socket_.get(), kEnd); }
-
 void watch_servo(const core::FileDescriptor& servo, scene::SharedSegment& segment) {
-  Guard guard(servo, segment);
+  block_every_signal();
+  const core::FileDescriptor process = peer_of(servo.get());
+  ask_for_memory();
+  ask_for_scope();
+  ForceGuard guard(
+      servo.get(), process.get(), segment,
+      {.wake = kWakeMs, .release = kWatchdogReleaseMs, .kill = kWatchdogKillMs, .close = kWatchdogCloseMs});
   // the servo logs whatever is refused here too
   haptics::enter_realtime(haptics::kServoPriority, haptics::PageLock::Lock);
-  guard.watch();
+  switch (guard.watch(ForceGuard::Beats::Yes)) {
+    case ForceGuard::End::Killed:
+      core::log_line("watchdog: the servo was killed: zero force was sent to the device");
+      break;
+    case ForceGuard::End::Stuck:
+      core::log_line("watchdog: the servo stopped responding: ended it, no force reaches the hand");
+      break;
+    case ForceGuard::End::NotClosed:
+      core::log_line("watchdog: the device did not close: ended the servo, no force reaches the hand");
+      break;
+    case ForceGuard::End::InOrder:
+    case ForceGuard::End::Dismissed:
+      break;
+  }
 }
 
 }  // namespace afm::servo

@@ -147,8 +147,10 @@ class Player {
 
   void choose(std::int32_t material) {
     chosen_ = material;
-    renderer_.store(scene::Selection{
-        .material = material, .revision = ++selection_, .scale_mode = session_.samples.front().scale_mode});
+    renderer_.store(scene::Selection{.material = material,
+                                     .revision = ++selection_,
+                                     .scale_mode = session_.samples.front().scale_mode,
+                                     .release = material != 0 ? 1U : 0U});
   }
 
   // Turns the sample as on the wall: uses the next frame that gives these axes.

@@ -6,7 +6,7 @@
 
 namespace afm::study {
 
-// Ages in years, in bands so wide that they name nobody: what --age-band takes and participants.tsv holds.
+// Ages in years, in bands that are wide enough to stay anonymous: values of --age-band and in participants.tsv.
 struct AgeBandRow {
   std::string_view word;
 };

@@ -9,17 +9,17 @@
 
 namespace afm::study {
 
-// Signal detection theory (Green & Swets 1966; Macmillan & Creelman 2005). Pure functions of any thread.
+// Signal detection theory (Green & Swets 1966; Macmillan & Creelman 2005). Pure functions; any thread.
 
-// Two intervals, one of which is stronger: d' = sqrt(2) z(proportion right). Infinite for 0 and 1.
+// d' for two intervals, one of which is stronger: sqrt(2) z(proportion right). Infinite for 0 and 1.
 double two_interval_d_prime(double right);
 
-// The proportion right of an observer without bias who picks the strongest of m: the integral over x of
-// phi(x - d') Phi(x)^(m-1) (Macmillan & Creelman, ch. 7); and its inverse. m from 2 to 1000.
+// Proportion right of an unbiased observer who picks the strongest of m: the integral over x of phi(x - d')
+// Phi(x)^(m-1) (Macmillan & Creelman, ch. 7); and its inverse. m from 2 to 1000.
 double choice_proportion(double d_prime, int alternatives);
 double choice_d_prime(double right, int alternatives);
 
-// d' of a number right of `trials` with the exact interval of the proportion, which a monotone function keeps.
+// d' for a number right of `trials`, with the exact interval of the proportion, which the monotone function preserves.
 Estimate two_interval_estimate(std::size_t right, std::size_t trials);
 Estimate choice_estimate(std::size_t right, std::size_t trials, int alternatives);
 
@@ -27,18 +27,18 @@ struct YesNoCounts {
   std::size_t hits = 0, signals = 0, false_alarms = 0, noises = 0;
 };
 enum class RateCorrection {
-  None,      // the rates as they are: infinite for 0 and 1
-  LogLinear  // (count + 1/2)/(trials + 1), always (Hautus 1995)
+  None,      // unchanged rates; infinite for 0 and 1
+  LogLinear  // (count + 1/2)/(trials + 1) for all rates (Hautus 1995)
 };
 struct YesNo {
   double d_prime = kNoValue;    // z(hit rate) - z(false alarm rate)
-  double criterion = kNoValue;  // c = -(z(hit rate) + z(false alarm rate))/2; above 0: says yes too rarely
-  // by the variances of both rates (Gourevitch & Galanter 1967)
+  double criterion = kNoValue;  // c = -(z(hit rate) + z(false alarm rate))/2; above 0: too few "yes"
+  // from the variances of both rates (Gourevitch & Galanter 1967)
   Interval d_prime_interval{}, criterion_interval{};
 };
 YesNo yes_no(const YesNoCounts& counts, RateCorrection correction);
 
-// How often each stimulus was answered by each response, both in the same order.
+// Number of each response to each stimulus, both in the same order.
 struct ConfusionMatrix {
   std::vector<std::string> names;
   std::vector<std::vector<std::size_t>> counts;  // counts[shown][answered]
@@ -46,11 +46,11 @@ struct ConfusionMatrix {
   std::size_t trials() const;
   std::size_t right() const;
   double accuracy() const;
-  // Cohen 1960: (observed agreement - that of chance)/(1 - that of chance)
+  // Cohen 1960: (observed agreement - chance agreement)/(1 - chance agreement)
   double kappa() const;
-  // what the answers reveal of the stimuli, bits (Miller & Nicely 1955)
+  // information about the stimuli in the answers, bits (Miller & Nicely 1955)
   double information_bits() const;
-  // is it this one? of everything shown
+  // one stimulus against all others shown
   YesNoCounts against_the_rest(std::size_t name) const;
 };
 

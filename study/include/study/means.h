@@ -9,21 +9,21 @@
 
 namespace afm::study {
 
-// Means and their comparison. Pure functions of any thread; what too few values or no spread leave undefined is NaN.
+// Means and their comparison. Pure functions; any thread. NaN if there are too few values or no spread.
 
 struct Summary {
   std::size_t n = 0;
   double mean = kNoValue;
-  double sd = kNoValue;  // sample standard deviation: divided by n-1
+  double sd = kNoValue;  // sample standard deviation, divided by n-1
 };
 Summary summary_of(std::span<const double> values);
 
 // mean -+ t(0.975, n-1) SD/sqrt(n) (Student 1908).
 Interval t_interval(const Summary& summary);
-// Of values on a scale with ends, beyond which no mean lies.
+// For values on a bounded scale, which also bounds the mean.
 Estimate mean_estimate(std::span<const double> values, const Interval& scale = {-kUnbounded, kUnbounded});
 
-// Means of different people, of unequal variance, and of the same people.
+// Comparison of two means, from different people with unequal variances or from the same people.
 struct TTest {
   double t = kNoValue;
   double degrees = kNoValue;
@@ -35,13 +35,13 @@ struct TTest {
 // interval by inverting the noncentral t of n_a + n_b - 2 degrees of freedom (Cumming & Finch 2001).
 TTest welch_test(const Summary& a, const Summary& b);
 
-// Of differences: d_z = mean/SD, t = d_z sqrt(n); the interval by inverting the noncentral t of n-1 degrees.
+// For differences: d_z = mean/SD, t = d_z sqrt(n); the interval by inverting the noncentral t of n-1 degrees.
 TTest paired_test(std::span<const double> differences);
 
-// d = t/scale where t is noncentral t of `degrees` and noncentrality d scale.
+// Interval of d = t/scale, where t is noncentral t with `degrees` and noncentrality d scale.
 Interval standardised_interval(double t, double degrees, double scale);
 
-// p times the number of the comparisons not yet rejected, in order of p (Holm 1979); NaN stays.
+// p times the number of comparisons not yet rejected, in order of p (Holm 1979); NaN stays.
 std::vector<double> holm_adjusted(std::span<const double> p);
 
 // (post - pre)/(1 - pre) of proportions (Hake 1998); NaN for a pre of 1.

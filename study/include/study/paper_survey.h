@@ -12,29 +12,29 @@ namespace afm::study {
 
 // The survey of Liu & Peng, Table 3: twenty people, eight questions, answers from 0 to 4.
 struct SurveyQuestion {
-  std::string_view item;  // "paper-1", as data sets name it
+  std::string_view item;  // "paper-1", as in data sets
   std::string_view short_name;
-  std::string_view text;  // as the paper prints it
-  double mean, sd;        // printed with two decimals; the SD divides by n-1
+  std::string_view text;  // as printed in the paper
+  double mean, sd;        // printed with two decimals; the SD is divided by n-1
 };
 
 inline constexpr std::size_t kSurveyPeople = 20;
 inline constexpr int kSurveyHighest = 4;
-inline constexpr std::size_t kHapticsQuestion = 3, kGraphicsQuestion = 4;  // places in the list
+inline constexpr std::size_t kHapticsQuestion = 3, kGraphicsQuestion = 4;  // indices in the list
 const std::array<SurveyQuestion, 8>& survey_questions();
 
-// The printed numbers as those of a sample of 20.
+// The printed numbers as the summary of a sample of 20.
 Summary printed_summary(const SurveyQuestion& question);
 
-// How many of the 20 gave each answer.
+// Number of the 20 people who gave each answer.
 using AnswerCounts = std::array<int, kSurveyHighest + 1>;
 
-// Every distribution of 20 whole answers that prints as the question's mean and SD, by rising counts of the lowest
-// answers (after GRIM, Brown & Heathers 2017, and SPRITE, Heathers et al. 2018; all 10626 are tried).
+// Every distribution of 20 integer answers whose mean and SD round to the printed ones, by rising counts of the lowest
+// answers (after GRIM, Brown & Heathers 2017, and SPRITE, Heathers et al. 2018; tries all 10626).
 std::vector<AnswerCounts> answers_that_print_as(const SurveyQuestion& question);
 
-// Over every way in which the same 20 people can have given two distributions of answers: how many ways there are, and
-// the smallest two-sided p of the paired t test and of the sign test, with the effects of those ways.
+// Results over all pairings in which the same 20 people can have given two distributions of answers: the number of
+// pairings, and the smallest two-sided p of the paired t test and of the sign test, with their effects.
 struct KindestPairing {
   std::size_t tables = 0;
   TTest t;          // test with the smallest p

@@ -6,21 +6,21 @@
 
 namespace afm::study {
 
-// Scores of published questionnaires. Answers are in the order of the items; every answer must be there and within its
-// range, which is the caller's to check.
+// Scores of published questionnaires. Answers are in the order of the items. The caller must ensure that every answer
+// exists and is within its range.
 
-// System Usability Scale (Brooke 1996), 0..100: ten answers from 1 to 5, the odd ones worth x-1, the even ones 5-x,
+// System Usability Scale (Brooke 1996), 0..100: ten answers from 1 to 5, of which odd ones count x-1, even ones 5-x,
 // times 2.5.
 double sus_score(std::span<const double, 10> answers);
 
 // NASA Task Load Index (Hart & Staveland 1988), 0..100: six ratings from 0 to 100. Raw: their mean (Hart 2006).
-// Weighted: by how often each was chosen in the 15 pairs.
+// Weighted: by the number of times that each was chosen in the 15 pairs.
 double tlx_raw(std::span<const double, 6> ratings);
 double tlx_weighted(std::span<const double, 6> ratings, std::span<const int, 6> weights);
 
 // Simulator Sickness Questionnaire (Kennedy, Lane, Berbaum & Lilienthal 1993): sixteen answers from 0 (none) to 3
-// (severe). Raw sums times 9.54, 7.58, 13.92; the total is 3.74 times the sum of the three raw sums, in which the items
-// of two scales count twice.
+// (severe). Raw sums times 9.54, 7.58, 13.92; the total is 3.74 times the sum of the three raw sums, in which items of
+// two scales count twice.
 struct SsqScores {
   double nausea = 0, oculomotor = 0, disorientation = 0, total = 0;
 };

@@ -10,9 +10,9 @@
 
 namespace afm::study {
 
-// A report as a list of blocks, which become Markdown and HTML. Texts are plain.
+// A report as a list of blocks, converted to Markdown and HTML. Texts are plain.
 struct PageHeading {
-  int level;  // 2 or 3; the page's title has 1
+  int level;  // 2 or 3; 1 is the page's title
   std::string text;
 };
 struct PageText {
@@ -34,17 +34,17 @@ using PageBlock = std::variant<PageHeading, PageText, PageList, PageTable, PageF
 
 // Figures are links to their files.
 std::string page_markdown(std::span<const PageBlock> blocks);
-// One file that opens anywhere, with the figures in it.
+// One self-contained file with the figures.
 std::string page_html(const std::string& title, std::span<const PageBlock> blocks);
 
-// "0.65", "n/a" for what has no value, "unbounded".
+// "0.65", "n/a" for a missing value, "unbounded".
 std::string number_text(double value, int decimals);
 std::string interval_text(const Interval& interval, int decimals);  // "[0.52, 0.77]"
 std::string estimate_text(const Estimate& estimate, int decimals);  // "0.65 [0.52, 0.77]"
 
 // "paired t: t(19) = 2.18, p = 0.042; d_z = 0.49 [0.02, 0.95]"
 std::string test_text(const TestResult& test);
-// "p = 0.042", "p < 0.001": only beside a test_text().
+// "p = 0.042", "p < 0.001". Use it only next to a test_text().
 std::string p_text(double p);
 
 }  // namespace afm::study

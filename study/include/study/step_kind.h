@@ -8,14 +8,14 @@
 
 namespace afm::study {
 
-// The types of a lesson's steps: one table for lesson files, the data that a lesson writes, and the study that reads
-// it (docs/adding-a-lesson-step.md).
+// Types of a lesson's steps, in one table for lesson files, their data, and the study that reads them
+// (docs/adding-a-lesson-step.md).
 enum class StepKind { Text, Free, Cycle, Identify, Threshold, Draw, Question };
 struct StepKindRow {
   StepKind kind;
   std::string_view word;  // in lesson files and in the column trial_type
-  bool compares_forces;   // answered by the force on the hand: right or wrong, and only on the common scale
-  bool open_ended;        // goes on until someone ends it
+  bool compares_forces;   // answered by comparing forces on the hand: right or wrong, and only on the common scale
+  bool open_ended;        // continues until someone ends it
 };
 inline constexpr std::array kStepKinds{StepKindRow{StepKind::Text, "text", false, false},
                                        StepKindRow{StepKind::Free, "free", false, true},

@@ -12,11 +12,11 @@
 
 namespace afm::study {
 
-// The data set of a study as `touchafm lesson` writes it: BIDS-like tables, whose columns each events.json describes.
-// Nothing is believed: every number is within its range, every word one of its column's, every size bounded, or the
-// error names file and line.
+// The data set of a study as written by `touchafm lesson`: BIDS-like tables with columns described in each events.json.
+// Everything is validated: a number out of range, a word outside its column's list or an exceeded size is an error that
+// names file and line.
 
-// A line of an events file. Empty words and missing numbers are its n/a.
+// A line of an events file. Empty words and missing numbers stand for n/a.
 struct StudyTrial {
   double onset_s = 0, duration_s = 0;
   std::string step{};
@@ -27,18 +27,18 @@ struct StudyTrial {
   std::optional<double> level{};  // w
   std::string stimulus{}, response{};
   std::optional<double> value{};  // the response of a cycle (newtons), a drawing (0..1) or a question
-  std::optional<bool> right{};    // identify and threshold, where there is an answer
+  std::optional<bool> right{};    // identify and threshold only, if there is an answer
   std::optional<double> rt_s{};
 };
 
-// Lines without a line end at the file's end are cut: a killed program wrote them.
+// A last line without a line end is dropped, because a killed program wrote it.
 struct EventsFile {
   std::vector<StudyTrial> trials;
-  std::size_t cut_line = 0;  // its number; 0 for none
+  std::size_t cut_line = 0;  // number of that line; 0: none
 };
 
-// `name` is the file's, for errors. BadInputFile for a column that is unknown, missing or there twice, a wrong number
-// of fields, and a value that its column does not take.
+// `name` is the file's name in errors. BadInputFile for an unknown, missing or repeated column, a wrong number of
+// fields, and an illegal value of a column.
 core::Result<EventsFile> parse_events(std::string_view bytes, const std::string& name);
 
 struct StudyPerson {
@@ -52,17 +52,17 @@ struct PeopleFile {
 };
 core::Result<PeopleFile> parse_people(std::string_view bytes, const std::string& name);
 
-// The table "Lesson" of an events.json; what it lacks is empty.
+// The table "Lesson" of an events.json; missing entries are empty.
 struct LessonFacts {
   std::string id{}, title{}, digest{}, program{}, device{}, scale{}, wall{};
   bool simulated = false;
-  std::optional<double> sound_lost_s{};  // into the lesson, when sound was asked for and there was none from then on
+  std::optional<double> sound_lost_s{};  // seconds into the lesson at which the requested sound failed
 };
 core::Result<LessonFacts> parse_lesson_facts(std::string_view bytes, const std::string& name);
 
 // One person's trials of one lesson.
 struct LessonVisit {
-  std::string task;  // the lesson's id, as in the file's name
+  std::string task;  // the lesson's id, from the file name
   LessonFacts facts{};
   std::vector<StudyTrial> trials{};
 };
@@ -70,17 +70,16 @@ struct LessonVisit {
 struct StudyData {
   struct Member {
     StudyPerson person;
-    std::vector<LessonVisit> visits{};  // by task
+    std::vector<LessonVisit> visits{};  // sorted by task
   };
-  std::vector<Member> members;        // by id: those whose trials count
-  std::size_t listed = 0;             // in participants.tsv
-  std::vector<std::string> left_out;  // people, and why
+  std::vector<Member> members;        // people whose trials count, sorted by id
+  std::size_t listed = 0;             // number in participants.tsv
+  std::vector<std::string> left_out;  // excluded people with the reasons
   std::vector<std::string> remarks;   // cut lines and missing descriptions
 };
 
-// Reads a study's folder: participants.tsv and sub-*/task-*_events.tsv and .json, at most 10000 people and two
-// million trials. BadInputFile
-// for a folder that holds no study, and for the first file that is not as it should be.
+// Reads a study's folder: participants.tsv and sub-*/task-*_events.tsv and .json, at most 10000 people and two million
+// trials. BadInputFile for a folder without a study, and for the first invalid file.
 core::Result<StudyData> read_study(const std::string& folder);
 
 }  // namespace afm::study

@@ -9,8 +9,8 @@
 
 namespace afm::study {
 
-// The files of a report by their names: study.md, study.html, study.json and the figures. No clock and no path is in
-// them: the same results give the same bytes.
+// The files of a report by name: study.md, study.html, study.json and the figures. They contain no time and no path, so
+// that the same results give the same bytes.
 using ReportFiles = std::vector<std::pair<std::string, std::string>>;
 ReportFiles study_report(const StudyResults& results);
 

@@ -17,20 +17,20 @@
 
 namespace afm::study {
 
-// What the counted trials of a study say, pooled over its people. Practice trials and trials without an answer take no
-// part. Everything is in a fixed order: the same data give the same results, bit for bit.
+// Results of a study's counted trials, pooled over its people, without practice trials and trials without an answer.
+// Everything is in a fixed order: the same data give the same results, bit for bit.
 
 // A step of blind identification under one condition (empty: the lesson has none).
 struct IdentifyResult {
   std::string step, condition;
   ConfusionMatrix matrix;
   Estimate accuracy;                    // share of right answers in all trials
-  double chance = kNoValue;             // 1 of the materials
+  double chance = kNoValue;             // 1 divided by the number of materials
   TestResult against_chance;            // exact binomial
-  std::optional<SmallestCount> needed;  // right answers that chance would hardly give
-  Estimate d_prime;                     // as of a choice without bias among the materials
+  std::optional<SmallestCount> needed;  // number of right answers that is improbable by chance
+  Estimate d_prime;                     // as of an unbiased choice among the materials
   struct Material {
-    YesNo plain, corrected;  // against the rest, as the rates are and log-linear
+    YesNo plain, corrected;  // one against all others, with unchanged and log-linear rates
   };
   std::vector<Material> materials;  // in the order of the matrix
   struct Person {
@@ -55,30 +55,30 @@ struct ThresholdResult {
     double level;
     Estimate right;
   };
-  std::vector<Level> levels;  // levels of all people, rising
+  std::vector<Level> levels;  // levels of all people, ascending
 };
 
-// A number of each person under each condition: "SUS", "right answers in blind".
+// A value for each person under each condition: "SUS", "right answers in blind".
 struct Measure {
   std::string key, title, unit;
   double per_si = 1.0;  // units in one SI unit
   int decimals = 2;
-  bool logarithmic = false;                                     // compared as ratios
+  bool logarithmic = false;                                     // compared by ratios
   Interval scale{-kUnbounded, kUnbounded};                      // range of the values, SI
   std::map<std::string, std::map<std::string, double>> values;  // by condition and person
 
-  Estimate mean(const std::string& condition) const;  // geometric where it is logarithmic; SI
-  double sd(const std::string& condition) const;      // NaN where it is logarithmic
+  Estimate mean(const std::string& condition) const;  // geometric if logarithmic; SI
+  double sd(const std::string& condition) const;      // NaN if logarithmic
 };
 
-// Two conditions of a measure; paired over those who did both, else of different people.
+// Two conditions of a measure; paired for those who did both, otherwise for different people.
 struct ConditionComparison {
   std::string measure, a, b;
   TestResult test;
   double holm_p = kNoValue;  // among the comparisons of this measure
 };
 
-// A score of the SSQ, before and after, of those who answered both times.
+// A score of the SSQ, before and after, from those who answered both times.
 struct SsqResult {
   std::string scale;
   Estimate before, after;
@@ -95,19 +95,19 @@ struct LearningResult {
 
 struct LessonResults {
   std::string task, title;
-  std::vector<std::string> facts;  // "device: sim", one line for each that differs
+  std::vector<std::string> facts;  // "device: sim", one line for each difference
   std::size_t people = 0, simulated = 0, counted = 0, practice = 0, unanswered = 0;
-  std::vector<std::string> left_out;  // questionnaires that are not complete
+  std::vector<std::string> left_out;  // incomplete questionnaires
   std::vector<IdentifyResult> identify;
   std::vector<ThresholdResult> thresholds;
   std::vector<Measure> measures;
   std::vector<ConditionComparison> comparisons;
   std::vector<LearningResult> learning;
   std::vector<SsqResult> ssq;
-  std::size_t ssq_stops = 0;  // people at whom the stop rule was reached
+  std::size_t ssq_stops = 0;  // number of people who reached the stop rule
 };
 
-// A question of Table 3 as this study's people answered it.
+// This study's answers to a question of Table 3.
 struct SurveyResult {
   Summary answers;
   Interval interval;
@@ -116,12 +116,12 @@ struct SurveyResult {
 
 struct StudyResults {
   std::size_t listed = 0, people = 0;
-  std::map<std::string, std::size_t> ages;  // people of each age band, where one was given
+  std::map<std::string, std::size_t> ages;  // number of people in each given age band
   std::vector<std::string> left_out, remarks;
-  std::vector<SurveyResult> survey;  // the paper's eight questions; empty where nobody was asked
+  std::vector<SurveyResult> survey;  // the paper's eight questions; empty if nobody was asked
   double survey_alpha = kNoValue, sus_alpha = kNoValue;
-  std::vector<TestResult> haptics_against_graphics;  // paired, here
-  std::vector<LessonResults> lessons;                // by task
+  std::vector<TestResult> haptics_against_graphics;  // paired, from this study
+  std::vector<LessonResults> lessons;                // sorted by task
 };
 
 StudyResults study_results(const StudyData& data);

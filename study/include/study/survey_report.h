@@ -9,11 +9,12 @@
 
 namespace afm::study {
 
-// What the paper's Table 3 shows and what it does not: computed from its printed means and SDs alone.
+// Conclusions that the paper's Table 3 supports and those that it does not, computed only from its printed means and
+// SDs.
 std::vector<PageBlock> paper_survey_blocks();
 nlohmann::ordered_json paper_survey_json();
 
-// Numbers of results in JSON: what has no value is null.
+// Number in JSON; null for a missing value.
 nlohmann::ordered_json json_of(double value);
 nlohmann::ordered_json json_of(const Estimate& estimate);
 nlohmann::ordered_json json_of(const TestResult& test);

@@ -27,8 +27,8 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr std::string_view kMode = "anaglyph-red-cyan";  // of wall_of_three()
-constexpr seconds kFelt{2};                              // on either side of what happens
+constexpr std::string_view kMode = "anaglyph-red-cyan";  // mode of wall_of_three()
+constexpr seconds kFelt{2};                              // time before and after the failure
 
 class ClusterFailures : public ClusterWall {
  protected:

@@ -92,7 +92,7 @@ TEST_F(ClusterOutage, TwentyRestartsOfANodeEachShowTheWallAgain) {
   const auto right = node("right", 2);
   const auto hand = begin();
   ASSERT_TRUE(hand);
-  // what the tip has scanned until then is computed anew each time
+  // the node recomputes each time the lines scanned so far
   press_at_master("i");
   ASSERT_TRUE(hand->says("scan: ")) << hand->said();
   for (int i = 0; i < 20; ++i) {

@@ -97,13 +97,8 @@ TEST_F(ClusterPixels, SixOutputsOnThreeNodesAreThoseOfOneMachineInEveryMode) {
                                  seen.rgba.begin() + static_cast<std::ptrdiff_t>(half));
   };
   // one after the other on the moving wall, with each stereo mode that windows can show
-  const std::vector<std::string> keys{"1",    "v",    "v bracketright",
-                                      "v s",  "v F2", "v Left",
-                                      "v Up", "v g",  "v g",
-                                      "v p",  "v p",  "v i",
-                                      "v",    "v j",  "v j",
-                                      "v a",  "v a",  "v F1",
-                                      "v F1", "v 2"};
+  const std::vector<std::string> keys{"1",   "v",   "v F8", "v s", "v F2", "v Left", "v Up", "v g",  "v g",  "v p",
+                                      "v p", "v i", "v",    "v j", "v j",  "v a",    "v a",  "v F1", "v F1", "v 2"};
   ASSERT_EQ(keys.size(), 20U);
   for (const std::string& pressed : keys) {
     hand.skip_what_it_said();
@@ -167,7 +162,7 @@ class MappedScreen {
   }
 
  private:
-  static constexpr unsigned char kBrightest = 150;  // of the background, with some to spare
+  static constexpr unsigned char kBrightest = 150;  // brighter than the background, with a margin
 
   std::uint32_t word(std::size_t i) const {
     std::uint32_t value = 0;
@@ -179,7 +174,7 @@ class MappedScreen {
 };
 
 constexpr std::size_t kMachines = 3;
-constexpr std::size_t kStates = 40;  // of the pictures, that are compared
+constexpr std::size_t kStates = 40;  // number of states to compare
 
 // When each state of the pictures was first seen on each screen, in the order in which it came there.
 class StatesOfScreens {

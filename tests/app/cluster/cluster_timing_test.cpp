@@ -17,8 +17,8 @@ namespace cluster_timing_test {
 
 using ::testing::ElementsAre;
 
-// One node, in this process, which says of each frame how many samples it lacks by then; frames count from the first
-// that came. The measurement begins with the 34th or a little later.
+// One node in this process, which reports for each frame the number of samples missing so far; frames count from the
+// first received one. The measurement begins with the 34th or a little later.
 class ClusterTimingTest : public ::testing::Test {
  protected:
   using Lacks = std::function<std::uint64_t(std::uint64_t frame)>;

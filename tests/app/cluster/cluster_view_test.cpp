@@ -8,7 +8,10 @@
 #include <fstream>
 
 #include "app/cluster/cluster_wall.h"
+#include "cluster/master_link.h"
+#include "core/clock.h"
 #include "core/whole_file.h"
+#include "exhibit/cluster/wall_model.h"
 #include "support/faulty_device.h"
 #include "support/places.h"
 
@@ -77,10 +80,12 @@ TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   EXPECT_THAT(core::read_file(swapchains).value_or("none"), StartsWith("barrier"));
 
   // sample, eyes, parameters, eye distance, stereo mode, head; once the servo has the sample, friction loop and scan
-  press_at_master("2 s F2 bracketright v Left");
+  press_at_master("2 s F2 F8 v Left");
   ASSERT_TRUE(hand->says("chosen: Gold")) << hand->said();
   ASSERT_TRUE(hand->says("eyes swapped")) << hand->said();
   ASSERT_TRUE(hand->says("Press Turn-On")) << hand->said();
+  xdotool("search --name 'output 1' windowfocus --sync key KP_Enter");
+  ASSERT_TRUE(hand->says("force off: Stop was pressed")) << "at a node: " << hand->said();
   press_at_master("f i");
   ASSERT_TRUE(hand->says("scan: Gold")) << hand->said();
   EXPECT_TRUE(all_same()) << hand->said();
@@ -102,6 +107,62 @@ TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   EXPECT_EQ(right->ends(), 0) << right->said();
   left->signal(SIGTERM);
   EXPECT_EQ(left->ends(), 0) << left->said();
+}
+
+// Junk, another build, and a wall that names what this machine lacks.
+TEST_F(ClusterViewTest, ANodeThatShowsAWallKeepsItWhenADescriptionCannotBeShown) {
+  const auto left = node("left");
+  const auto hand = start(master_command());
+  ASSERT_TRUE(hand->says("node left shows the wall")) << hand->said();
+  const core::MonotonicClock clock;
+  const std::vector<std::byte> junk(2000, std::byte{'['});
+  exhibit::WallModel other_build, no_probe;
+  other_build.wall = no_probe.wall = core::read_file(folder_.file("wall.toml")).value();
+  other_build.build = 1;
+  no_probe.build = exhibit::build_digest(support::touchafm()).value();
+  no_probe.files.probe = "/no/such/probe.glb";
+  for (const std::vector<std::byte>& forged :
+       {junk, exhibit::document_of(other_build), exhibit::document_of(no_probe)}) {
+    const auto stray = cluster::MasterLink::open({.interface_address = "127.0.0.1",
+                                                  .peers = {"127.0.0.1"},
+                                                  .domain = static_cast<std::uint32_t>(std::stoul(domain()))},
+                                                 forged, 0, clock);
+    ASSERT_TRUE(stray) << stray.error().message;
+    ASSERT_TRUE(left->says("another wall was announced, but cannot be shown: ")) << left->said();
+  }
+  // it still follows its master
+  press_at_master("2");
+  ASSERT_TRUE(hand->says("chosen: Gold")) << hand->said();
+  const auto frames_same = [&] {
+    const render::Image seen = display_.screenshot();
+    return is_drawn(seen, 0) && difference(seen, 0, 1) == 0;
+  };
+  EXPECT_TRUE(left->within(std::chrono::minutes(1), frames_same)) << left->said();
+  left->signal(SIGTERM);
+  EXPECT_EQ(left->ends(), 0) << left->said();
+}
+
+// Both have listened before either was heard.
+TEST_F(ClusterViewTest, OfTwoMastersOneEndsWithAReason) {
+  std::vector<std::unique_ptr<support::LiveProgram>> masters;
+  std::vector<std::unique_ptr<support::ScratchFolder>> folders;
+  for (int i = 0; i < 2; ++i) {
+    folders.push_back(std::make_unique<support::ScratchFolder>());
+    std::vector<std::string> command = master_command();
+    command.insert(command.begin(), {"/usr/bin/env", "XDG_RUNTIME_DIR=" + folders.back()->path()});
+    masters.push_back(start(command));
+  }
+  const auto ends = [&](std::size_t i) {
+    const std::string said = masters[i]->said();
+    return said.find("another master, which started earlier, drives") != std::string::npos ||
+           said.find("another master already drives") != std::string::npos;
+  };
+  ASSERT_TRUE(masters[0]->within(std::chrono::minutes(1), [&] { return ends(0) || ends(1); })) << masters[0]->said();
+  const std::size_t later = ends(0) ? 0 : 1;
+  EXPECT_EQ(masters[later]->ends(), 2) << masters[later]->said();
+  EXPECT_FALSE(ends(1 - later)) << masters[1 - later]->said();
+  masters[1 - later]->signal(SIGTERM);
+  EXPECT_EQ(masters[1 - later]->ends(), 0) << masters[1 - later]->said();
 }
 
 }  // namespace cluster_view_test

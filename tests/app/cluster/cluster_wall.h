@@ -25,8 +25,8 @@ namespace afm::app {
 
 // A wall of three programs on one X server: the one with the hand, and two nodes. All three outputs show the same
 // screen, so that their windows must show the same bytes.
-constexpr std::uint32_t kWidth = 160, kHeight = 120;  // of a window
-constexpr std::uint32_t kMargin = 20;                 // below them, for the pointer
+constexpr std::uint32_t kWidth = 160, kHeight = 120;  // size of a window
+constexpr std::uint32_t kMargin = 20;                 // space below the windows for the pointer
 
 struct OutputPlace {
   std::uint32_t x = 0, width = kWidth, height = kHeight;

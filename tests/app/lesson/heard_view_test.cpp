@@ -89,7 +89,7 @@ class HeardView : public ::testing::Test {
   }
   std::string own_path() const { return folder_.path() + ":/usr/bin:/bin"; }
 
-  // A cycle by what is said. A busy machine lets go of the hand now and then: then again, as it says.
+  // A cycle by ear. A busy machine releases the hand now and then: repeats the cycle as announced.
   bool feel_a_cycle(support::LiveProgram& view) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(4);
     while (std::chrono::steady_clock::now() < end) {
@@ -110,7 +110,7 @@ class HeardView : public ::testing::Test {
     return false;
   }
 
-  // A press while the previous one still counts as held is ignored. Nobody presses that fast, and a person who gets no
+  // A press while the previous one still counts as held is ignored. Nobody presses that fast, and a person without an
   // answer presses again.
   bool turn_on_until(support::LiveProgram& view, const std::string& text) const {
     for (int press = 0; press < 6; ++press) {
@@ -190,7 +190,7 @@ TEST_F(HeardView, GoesThroughALessonFromConsentToItsLastAnswerByEarAndHandAlone)
   ASSERT_TRUE(live->says("says: This lesson keeps your answers")) << live->said();
   xdotool("key x");
   ASSERT_TRUE(live->says("says: The picture is off")) << live->said();
-  xdotool("key t");  // which answers nothing: the hand has marked none
+  xdotool("key t");  // no answer: the hand has marked none
   move_hand(-0.020);
   ASSERT_TRUE(live->says("says: Yes, I take part")) << live->said();
   ASSERT_TRUE(turn_on_until(*live, "says: Words of feel")) << live->said();
@@ -224,7 +224,7 @@ TEST_F(HeardView, GoesThroughALessonFromConsentToItsLastAnswerByEarAndHandAlone)
   EXPECT_THAT(events, Not(HasSubstr("\ttlx-1\t50\t"))) << events;
   EXPECT_THAT(core::read_file(out + "/participants.tsv").value(), HasSubstr("sub-QXWERT\t0\tn/a\tfinished"));
 
-  // the same by the sound alone, whatever the tone and the voice do meanwhile
+  // the same by sound only, independent of tone and voice
   const std::string kept = out + "/sub-QXWERT/task-a-lesson_session/session-mica.afms";
   const auto session = servo::load_session(kept);
   ASSERT_TRUE(session.has_value()) << session.error().message;
@@ -285,7 +285,7 @@ TEST_F(HeardView, GoesOnWithoutASoundCardAndWhenItIsLost) {
     xdotool("key Escape");
     EXPECT_EQ(live->ends(), 0) << live->said();
   }
-  // a card that is pulled out in a study: a pipe that nobody reads any more
+  // a sound card unplugged during a study: a pipe without a reader
   const std::string card = folder_.file("card");
   ASSERT_EQ(::mkfifo(card.c_str(), 0600), 0);
   core::FileDescriptor plugged(::open(card.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
@@ -357,7 +357,7 @@ TEST_F(HeardView, LeavesSpeechToAScreenReaderThatRuns) {
   // one process of that name, so that none is left
   std::filesystem::copy_file("/bin/sleep", folder_.file("orca"));
   support::LiveProgram reader({folder_.file("orca"), "1000"}, "");
-  for (int i = 0; i < 500; ++i) {  // until it has its name
+  for (int i = 0; i < 500; ++i) {  // waits for the process to get its name
     const auto name = core::read_file("/proc/" + std::to_string(reader.pid()) + "/comm");
     if (name && *name == "orca\n") break;
     std::this_thread::sleep_for(milliseconds(10));

@@ -78,13 +78,15 @@ TEST_F(InstructorTest, GoesOnTakesTheForceAwaySkipsAndStopsFromTheSecondMonitor)
   support::LiveProgram view(command({"--participant", "QXWERT", "--out", out}), monitors_.name());
   ASSERT_TRUE(view.says("the instructor's window is open")) << view.said();
   ASSERT_TRUE(view.says("Do you take part?")) << view.said();
-  click(InstructorAction::Next);  // the consent is the participant's alone
+  click(InstructorAction::Next);  // only the participant may consent
   ASSERT_EQ(xdotool("search --name '^TouchAFM$' windowfocus key 1").exit_code, 0);
   ASSERT_TRUE(view.says("Words of hello")) << view.said();
   click(InstructorAction::Next);
   ASSERT_TRUE(view.says("Words of feel")) << view.said();
   ASSERT_TRUE(view.says("jump to contact")) << view.said();
   picture("cycle");
+  key("KP_Enter");
+  ASSERT_TRUE(view.says("force off: Stop was pressed")) << view.said();
 
   click(InstructorAction::HandOff);
   ASSERT_TRUE(view.says("instructor: the force is off")) << view.said();

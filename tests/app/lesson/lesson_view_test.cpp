@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/whole_file.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
 #include "exhibit/lesson/lesson_panel.h"
 #include "render/image_file.h"
 #include "support/live_program.h"

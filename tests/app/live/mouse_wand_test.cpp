@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "exhibit/panel_hit.h"
+#include "exhibit/panels/panel_hit.h"
 
 namespace afm::app {
 namespace mouse_wand_test {
@@ -47,11 +47,11 @@ TEST_F(MouseWandTest, EachHalfOfSideBySideIsAWallSeenByItsOwnEye) {
   EXPECT_EQ(wand_.ray(both, {700.0, 350.0}).origin_m, eyes_[1].eye_position_m);
 }
 
-// A point before the wall, pointed at where each eye's image shows it: the ray meets the point itself, in every mode
-// that gives each eye a region of its own.
+// A point in front of the wall, pointed at where each eye's image shows it: the ray meets the point itself, in every
+// mode with a separate region for each eye.
 TEST_F(MouseWandTest, WhatTheCursorIsOnIsPointedAtInEveryModeThatSplitsThePicture) {
   const glm::dvec3 point(0.4, 1.2, 0.9);
-  const auto uv_of = [&](std::size_t eye) {  // of the eye's image
+  const auto uv_of = [&](std::size_t eye) {  // place in the eye's image
     const glm::dvec3 from = eyes_[eye].eye_position_m;
     const glm::dvec3 on_wall = from + (point - from) * (-from.z / (point.z - from.z));
     return glm::dvec2((on_wall.x + 2.0) / 4.0, (3.0 - on_wall.y) / 3.0);

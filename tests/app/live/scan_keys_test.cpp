@@ -16,7 +16,7 @@
 #include "app/view/view_panels.h"
 #include "core/whole_file.h"
 #include "curves/sample_model.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_cause.h"
 #include "exhibit/scan/scan_subject.h"
@@ -39,7 +39,7 @@ constexpr std::size_t kLines = 8;  // whole ones that are looked at, the newest
 
 struct Press {
   std::string row;  // the beginning of its name
-  int times = 0;    // of +, or of - where below zero
+  int times = 0;    // number of presses of +, or of - if negative
 };
 
 struct ManualRow {

@@ -40,6 +40,14 @@ TEST(LiveKeys, AreThoseOfTheManual) {
   EXPECT_EQ(manual_keys(), names);
 }
 
+TEST(LiveKeys, OfAKioskAreThoseOfTheManual) {
+  const auto manual = core::read_file(support::source("docs/manual.md"));
+  ASSERT_TRUE(manual.has_value());
+  std::string one_line = *manual;
+  std::replace(one_line.begin(), one_line.end(), '\n', ' ');
+  EXPECT_THAT(one_line, testing::HasSubstr("these keys work: " + keys_of_visitors() + "."));
+}
+
 TEST(LiveKeys, AreBoundOnce) {
   for (const LiveKey& one : live_keys()) {
     EXPECT_LE(one.key, one.last) << one.name;
@@ -54,12 +62,24 @@ TEST(LiveKeys, FillTheListOnTheWall) {
   std::string list;
   for (const render::DataRow& row : key_list(HandSource::Mouse, false, test::english()).rows)
     list += row.name + ": " + row.value + "\n";
-  for (const char* line : {"Choose a sample: 1 to 9, left click\n", "Turn-On: T, middle click\n", "Parameters: F2\n",
-                           "Stereo mode: next, previous: V, C\n", "Eyes 1 mm closer, farther: [, ]\n", "Quit: Esc\n"}) {
+  for (const char* line :
+       {"Choose a sample: 1 to 9, left click\n", "Turn-On: T, middle click\n", "Parameters: F2\n",
+        "Stereo mode: next, previous: V, C\n", "Eyes 1 mm closer, farther: F7, F8\n", "Quit: Esc\n"}) {
     EXPECT_THAT(list, testing::HasSubstr(line));
   }
   for (const render::DataRow& row : key_list(HandSource::Device, false, test::english()).rows)
     EXPECT_NE(row.name, "Turn-On");
+}
+
+TEST(LiveKeys, AreListedByTheLabelsOfAKeyboardThatLacksTheirLetters) {
+  std::string list;
+  const char* const russian = "ФИСВУАПРШОЛДЬТЩЗЙКЫЕГМЦЧНЯ";
+  for (const render::DataRow& row : key_list(HandSource::Mouse, false, test::english(), WallUse::Free, russian).rows)
+    list += row.name + ": " + row.value + "\n";
+  for (const char* line : {"Choose a sample: 1 to 9, left click\n", "Turn-On: Е, middle click\n", "Parameters: F2\n",
+                           "Stereo mode: next, previous: М, С\n", "Quit: Esc\n"}) {
+    EXPECT_THAT(list, testing::HasSubstr(line));
+  }
 }
 
 TEST(LiveKeys, OfAnUnattendedWindowAreThoseOfVisitors) {
@@ -68,7 +88,8 @@ TEST(LiveKeys, OfAnUnattendedWindowAreThoseOfVisitors) {
   for (const char* kept : {"Choose a sample", "Move the hand", "Turn-On", "Stop the force", "Start again"}) {
     EXPECT_THAT(list, testing::HasSubstr(kept));
   }
-  for (const char* locked : {"Quit", "Full screen", "Save the picture", "Swap the eyes", "Test pattern", "Hide"}) {
+  for (const char* locked :
+       {"Sound off, and on", "Quit", "Full screen", "Save the picture", "Swap the eyes", "Test pattern", "Hide"}) {
     EXPECT_THAT(list, testing::Not(testing::HasSubstr(locked)));
   }
 }

@@ -15,8 +15,8 @@
 #include "app/live/view_keys.h"
 #include "core/enumerators.h"
 #include "curves/sample_model.h"
-#include "exhibit/calibration.h"
-#include "exhibit/frame_builder.h"
+#include "exhibit/frame/calibration.h"
+#include "exhibit/frame/frame_builder.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 #include "support/places.h"
@@ -80,7 +80,7 @@ TEST_F(PanelsOfTheView, ComeBackByTheWordOfASession) {
   }
 }
 
-// A slot that nobody fills or places is listed here.
+// A slot that is never filled or placed is listed here.
 TEST_F(PanelsOfTheView, FillEverySlotOfAFrameSomewhere) {
   const exhibit::FrameBuilder frames(stage_->wall_scene, models_, stage_->eyes);
   const exhibit::LiveScan scan(exhibit::scan_subject(stage_->wall_scene, 0, models_.front()));

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/enumerators.h"
-#include "exhibit/moment.h"
+#include "exhibit/state/moment.h"
 
 namespace afm::exhibit {
 

@@ -17,9 +17,9 @@
 #include "described_parts.h"
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
-#include "exhibit/recorded_wall.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/frame/recorded_wall.h"
 #include "exhibit/scan/scan_subject.h"
 #include "support/places.h"
 
@@ -45,13 +45,17 @@ constexpr std::array<LeftOut, 5> kNotSent{{{"curves", "grow from the journal"},
                                            {"wall.scan_line", "set by show_scan()"},
                                            {"results", "shown in films, which one machine draws"}}};
 
-constexpr std::array<LeftOut, 5> kNotRecorded{{{"curves", "follow from the session's samples"},
+constexpr std::array<LeftOut, 7> kNotRecorded{{{"curves", "follow from the session's samples"},
+                                               {"stopped", "follows from TipSample::renderer"},
+                                               {"letters", "labels of the keyboard at hand"},
                                                {"scan", "recorded as ScanProgress: scan_progress_of()"},
                                                {"wall.scan", "set by show_scan()"},
                                                {"wall.scan_line", "set by show_scan()"},
                                                {"results", "shown in films, which are made without a live wall"}}};
 
-constexpr std::array<LeftOut, 6> kNotDrawn{{{"wall.tip.tip_height_m", "the lever is drawn by Z and deflection"},
+constexpr std::array<LeftOut, 8> kNotDrawn{{{"stopped", "drawn in the state Fault alone"},
+                                            {"letters", "drawn by the list of keys alone"},
+                                            {"wall.tip.tip_height_m", "the lever is drawn by Z and deflection"},
                                             {"wall.tip.sample_deformation_m", "the lever is drawn by Z and deflection"},
                                             {"wall.wand.orientation_valid", "the wand is drawn by its pose alone"},
                                             {"wall.wand.position_valid", "the wand is drawn by its pose alone"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine of a wall builds from a message the frame that one machine alone would show: to the last bit, as the digest
-// of all that is drawn says.
+// A machine of a wall builds from a message the same frame as a single machine, to the last bit according to the digest
+// of everything that is drawn.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,9 +12,9 @@
 #include "cluster/frame_message.h"
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
-#include "exhibit/cycle_history.h"
-#include "exhibit/exhibit_setup.h"
-#include "exhibit/frame_builder.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/state/cycle_history.h"
 #include "support/places.h"
 
 namespace afm::exhibit {
@@ -91,7 +91,7 @@ TEST_F(SharedFrame, IsTheOneOfASingleMachineAtTwentyMoments) {
   }
 }
 
-// What the panel of parameters says of an edit, too.
+// Includes the parameter panel's report on an edit.
 TEST_F(SharedFrame, HasTheTipOfTheHand) {
   scene::TipState tip = tip_at(5);
   tip.surface = {.xy_m = {1e-9, -2e-9}, .height_m = 3e-9};

@@ -31,6 +31,7 @@ FrameMessage some_frame() {
   wand.buttons = 5;
   moment.retracting = true;
   moment.guidance = "Move up until the tip lets go: \u2191";
+  moment.letters = "ФИС";
   moment.servo = {{"hand", "0.6 mm/nm", "scale fit"}, {"servo", "1000 Hz", ""}};
   scene::TipState tip;
   tip.material = 1;
@@ -62,6 +63,7 @@ TEST(FrameMessageTest, ComesBackAsTheMomentThatWasSent) {
   EXPECT_EQ(moment.wall.wand->buttons, 5U);
   EXPECT_TRUE(moment.retracting);
   EXPECT_EQ(moment.guidance, "Move up until the tip lets go: \u2191");
+  EXPECT_EQ(moment.letters, "ФИС");
   ASSERT_EQ(moment.servo.size(), 2U);
   EXPECT_EQ(moment.servo[1].value, "1000 Hz");
   EXPECT_EQ(moment.servo[1].source, "");

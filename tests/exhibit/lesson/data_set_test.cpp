@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/lesson/data_set.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 
+#include "core/file_descriptor.h"
 #include "core/whole_file.h"
 #include "study/age_band.h"
 #include "support/scratch_folder.h"
@@ -154,6 +159,22 @@ TEST_F(DataSetTest, RefusesATableOfParticipantsThatIsNone) {
   ASSERT_FALSE(data.has_value());
   EXPECT_EQ(data.error().category, core::ErrorCategory::BadInputFile);
   EXPECT_EQ(text("participants.tsv"), "name\tage\nAnna\t12\n");
+}
+
+TEST_F(DataSetTest, WaitsForAnothersLockWithALimit) {
+  fs::create_directories(study());
+  core::FileDescriptor other(::open(study().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  ASSERT_EQ(::flock(other.get(), LOCK_SH), 0);
+  const auto refused = DataSet::create(lesson_, entry("ABCDEF"));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().category, core::ErrorCategory::Failed);
+  EXPECT_THAT(refused.error().message, HasSubstr("within 5 s: another program holds its lock"));
+  EXPECT_TRUE(fs::is_empty(study())) << "nothing half-made";
+  std::jthread gives_way([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    other.close();
+  });
+  EXPECT_TRUE(DataSet::create(lesson_, entry("ABCDEF")));
 }
 
 TEST_F(DataSetTest, FollowsNoLinkThatHoldsTheNameOfItsFile) {

@@ -98,6 +98,9 @@ TEST(InstructorPage, ShowsStateAndWords) {
                            "Feel one cycle.", "2  Skip", "3  Stop the lesson", "4  Hand off"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
+  state.hand = scene::ServoState::Fault;
+  state.stopped = true;
+  EXPECT_THAT(text_of(page.frame(state, std::nullopt, test::english())), HasSubstr("STOPPED"));
   state.participant.clear();
   state.hand_off = state.stop_asked = true;
   const std::string later = text_of(page.frame(state, std::nullopt, test::english()));

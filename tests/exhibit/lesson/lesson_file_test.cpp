@@ -108,7 +108,8 @@ TEST(LessonSamples, RefuseAThresholdThatTheCommonScaleHasNoRoomFor) {
   EXPECT_THAT(samples.error().message, HasSubstr("add a stronger material"));
 }
 
-// Kept: the comparison has 1 + w times the pull-off and both jumps at the same Z, so that no distance tells them apart.
+// Kept: the comparison has 1 + w times the pull-off and both jumps at the same Z, so that they cannot be distinguished
+// by distance.
 TEST(ComparisonSample, KeepsTheDistancesOrRovesThemAsTheLessonSays) {
   const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   const auto standard = curves::make_sample_model(curves::ContactSetup{*library.find("si3n4"), {}, {}}).value();

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/enumerators.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/sound/captions.h"
 #include "exhibit/sound/narrator.h"
 #include "exhibit/sound/speech_queue.h"

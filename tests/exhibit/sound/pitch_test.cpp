@@ -18,7 +18,7 @@
 namespace afm::exhibit {
 namespace pitch_test {
 
-constexpr double kSnapIn = 0.239752e-9, kPullOff = 1.399894e-9;  // of mica, newtons
+constexpr double kSnapIn = 0.239752e-9, kPullOff = 1.399894e-9;  // mica, newtons
 
 Ear ear_of_mica() { return {0.5 * kSnapIn, kPullOff}; }
 

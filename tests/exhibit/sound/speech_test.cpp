@@ -111,7 +111,7 @@ TEST(SpeechChild, IsEndedAtOnceWhenItIsCutOff) {
 // A mixer that a test pulls from, as a card does.
 class SpeakerTest : public ::testing::Test {
  protected:
-  // Until it hears a voice, or not.
+  // Waits for a voice; returns whether there was one.
   bool hears_a_voice(milliseconds patience = std::chrono::seconds(20)) {
     const auto end = std::chrono::steady_clock::now() + patience;
     while (std::chrono::steady_clock::now() < end) {

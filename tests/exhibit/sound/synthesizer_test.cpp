@@ -220,7 +220,7 @@ TEST(SoundMixer, LetsAnEventBeHeardWithin30Milliseconds) {
   ASSERT_NE(first, left.end());
   const double heard_ns = static_cast<double>(card.begun_ns) + static_cast<double>(first - left.begin()) / kRate * 1e9;
   const double late_ms = (heard_ns - static_cast<double>(event_ns)) * 1e-6;
-  constexpr double kBuffersMs = 2 * 256 / 48.0;  // that a card has before what it asks for is heard
+  constexpr double kBuffersMs = 2 * 256 / 48.0;  // latency of a card's two buffers
   EXPECT_NEAR(late_ms, 1e-6 * SoundMixer::kDelayNs, 0.1) << "as long after as any other event";
   EXPECT_LT(late_ms + kBuffersMs, 30.0);
 }

@@ -36,7 +36,7 @@ bool eventually(const std::function<bool()>& condition) {
   return true;
 }
 
-// Somebody who renews a pull of up to 1 N, through the only thing that can make one.
+// Refreshes a pull of up to 1 N through the governor, the only possible source of a force.
 class Servo {
  public:
   explicit Servo(HaplyDevice& device)
@@ -132,7 +132,7 @@ TEST(HaplyDevice, SendsZeroBeforeItLeaves) {
   EXPECT_TRUE(eventually([&] { return last_force_z(service) == 0.0; }));
 }
 
-// The service holds what it was last sent, whatever it tells or does not tell.
+// The service keeps the last force, whatever states it reports.
 class PullingHaply : public testing::Test {
  protected:
   void SetUp() override {
@@ -160,7 +160,8 @@ class PullingHaply : public testing::Test {
 class HaplyReleases : public PullingHaply, public testing::WithParamInterface<HaplyService::Manner> {};
 
 TEST_P(HaplyReleases, WhenTheServiceTellsNoPlaceThoughTheServoGoesOn) {
-  // the device's 20 ms and a slice of its thread's, twice; once in three, for a virtual machine may stand still longer
+  // twice the sum of the device's 20 ms and its thread's time slice; one of three runs must be in time, because a
+  // virtual machine may stall longer
   constexpr auto kBound = std::chrono::milliseconds(60);
   auto fastest = std::chrono::steady_clock::duration::max();
   for (int i = 0; i < 3 && fastest >= kBound; ++i) {
@@ -241,7 +242,7 @@ TEST(HaplyDevice, SaysWhatIsMissing) {
   EXPECT_THAT(nobody.error().message, HasSubstr("no haply inverse service at port"));
 }
 
-// Whoever else listens there must not hold touchafm up for ever.
+// A foreign server on the port must not block touchafm.
 TEST(HaplyDevice, GivesUpOnOneWhoNeverShakesHands) {
   const HaplyService mute(HaplyService::Manner::Mute);
   const auto device = HaplyDevice::open(kClock, mute.port());

@@ -128,7 +128,7 @@ class HaplyService::Server {
   std::atomic<bool> ending_{false};
   mutable std::mutex mutex_;
   int client_ = -1;
-  mutable unsigned states_ = 0;  // told
+  mutable unsigned states_ = 0;  // number of states sent
   std::vector<Force> forces_;
   std::thread thread_;
 };

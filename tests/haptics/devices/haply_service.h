@@ -8,12 +8,12 @@
 
 namespace afm::test {
 
-// A stand-in for Haply's Inverse Service: it says where the hand is, and each force that it gets is answered with the
-// next state, as the service's documentation tells. One client at a time; the last one may come back.
+// A stand-in for Haply's Inverse Service: reports the hand's position, and answers each force with the next state, as
+// documented for the service. One client at a time; the last one may reconnect.
 class HaplyService {
  public:
-  // Mute: it does not shake hands. Silent: it takes forces and tells nothing. TooLong: it tells a state of 100 kB, then
-  // waits for what comes. Late: the same, 50 ms after it took a force.
+  // Mute: no handshake. Silent: accepts forces but reports nothing. TooLong: reports a state of 100 kB, then waits for
+  // input. Late: as TooLong, 50 ms after a force.
   enum class Manner { Proper, Silent, Babbling, NoDevice, TooLong, Late, Mute };
 
   HaplyService() : HaplyService(Manner::Proper) {}

@@ -27,8 +27,7 @@ class ManualClock final : public core::Clock {
   std::atomic<std::int64_t> time_ns{1'000'000'000};
 };
 
-// The servo and the mock's stylus, in time that only tick() moves. The stylus is held by nobody: it stays where it is
-// put.
+// The servo and the mock's stylus, in time advanced only by tick(). No person holds the stylus: it keeps its position.
 class HdapiBench {
  public:
   HdapiBench() : HdapiBench([] {}) {}

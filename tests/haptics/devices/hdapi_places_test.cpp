@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A vendor's device whose sensors stand still or jump (haptics/position_check.h).
+// A vendor's device whose sensors freeze or jump (haptics/position_check.h).
 #include <gtest/gtest.h>
 
 #include "hdapi_bench.h"

@@ -48,7 +48,7 @@ Wave wave_of(const std::vector<double>& values, double width_m, double period_m)
     const double x_m = ((static_cast<double>(i) + 0.5) / static_cast<double>(count) - 0.5) * width_m;
     sum += values[i] * std::polar(1.0, -2.0 * kPi * x_m / period_m);
   }
-  sum *= std::complex<double>(0.0, 4.0 / static_cast<double>(count));  // of a sine: its amplitude
+  sum *= std::complex<double>(0.0, 4.0 / static_cast<double>(count));  // amplitude of a sine
   return {std::abs(sum), -std::arg(sum) * period_m / (2.0 * kPi)};
 }
 

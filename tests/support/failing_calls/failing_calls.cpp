@@ -269,7 +269,7 @@ ssize_t pread(int file, void* bytes, std::size_t count, off_t at) {
   if (fails_with(EIO, "pread", __builtin_return_address(0))) return -1;
   return as_libc(::syscall(SYS_pread64, file, bytes, count, at));
 }
-// what cannot be said on stderr is nobody's fault
+// a failure to write to stderr is ignored
 ssize_t write(int file, const void* bytes, std::size_t count) {
   if (file != STDERR_FILENO && fails_with(ENOSPC, "write", __builtin_return_address(0))) return -1;
   return as_libc(::syscall(SYS_write, file, bytes, count));

@@ -23,7 +23,7 @@ void mock_hd_tick(void);
 void mock_hd_set_position(double x_mm, double y_mm, double z_mm);
 void mock_hd_set_buttons(int buttons);
 
-// The places do not flicker by 0.1 um any more: a sensor that stands still.
+// Stops the flicker of 0.1 um in the positions, as of a frozen sensor.
 void mock_hd_hold_still(void);
 
 // The next `times` calls of hdInitDevice with this name (null: the default) fail with this error; with "*" any name's.

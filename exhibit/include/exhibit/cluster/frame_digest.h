@@ -8,8 +8,8 @@
 
 namespace afm::exhibit {
 
-// Of everything in a frame, and of whom and how it is drawn for: two machines that show the same have the same digest.
-// The eyes of a frame follow from the view and from each machine's own screens, and are left out.
+// Digest of a frame's content, its viewer and its drawing options. Equal on machines that show the same. Excludes the
+// eyes, which each machine derives from the view and its own screens.
 std::uint64_t digest_of(const render::FrameState& frame, const cluster::ShownView& view);
 
 }  // namespace afm::exhibit

@@ -4,22 +4,22 @@
 #include <string>
 
 #include "cluster/frame_message.h"
-#include "exhibit/depth_report.h"
-#include "exhibit/moment.h"
+#include "exhibit/panels/depth_report.h"
+#include "exhibit/state/moment.h"
 #include "scene/shared/shared_blocks.h"
 
-// What a frame of the wall consists of, as its machines send it, and back.
+// Conversion of a frame's inputs to the messages of a wall's machines and back.
 namespace afm::exhibit {
 
-// Fills what the moment says; `blank`: nothing is shown.
+// Fills the fields that the moment contains; `blank`: nothing is shown.
 void set_moment(const Moment& moment, const scene::TipState& tip, const std::string& caption, bool blank,
                 cluster::FrameMessage& message);
 
-// The moment of a message, without curves.
+// The moment of a message, without its curves.
 Moment moment_of(const cluster::FrameMessage& message);
 std::string caption_of(const cluster::FrameMessage& message);
 
-// As far as the wall shows it.
+// The tip's state as far as the wall shows it.
 scene::TipState tip_of(const cluster::FrameMessage& message);
 
 void set_depth(const DepthReport& depth, cluster::ShownView& view);

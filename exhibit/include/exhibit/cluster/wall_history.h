@@ -8,19 +8,19 @@
 #include <vector>
 
 #include "cluster/messages.h"
-#include "exhibit/cycle_history.h"
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/scan/live_scan.h"
+#include "exhibit/state/cycle_history.h"
 
 namespace afm::exhibit {
 
-// What a wall has built up from the journal, for a node that comes late or has missed a part.
+// State that a wall has accumulated from the journal, for a node that joins late or has missed a part.
 struct WallHistory {
-  std::uint64_t journal = 0;  // how many records it holds
+  std::uint64_t journal = 0;  // number of records that it includes
   CycleHistory cycles;
   FrictionHistory friction;
-  std::vector<cluster::EditRecord> edits;  // the newest of each material that has one
-  std::vector<cluster::ScanRecord> scan;   // how the one that is shown began, and its changes; empty: none is shown
+  std::vector<cluster::EditRecord> edits;  // newest edit of each edited material
+  std::vector<cluster::ScanRecord> scan;   // start and changes of the current scan; empty: none is shown
 
   explicit WallHistory(std::size_t materials) : cycles(materials) {}
 
@@ -31,18 +31,18 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
                                     std::span<const cluster::EditRecord> edits,
                                     std::span<const cluster::ScanRecord> scan);
 
-// A scan as it is recorded, and back.
+// Conversion of a scan to its record and back.
 cluster::ScanRecord record_of(const ScanChange& change, std::size_t material, const std::optional<HandPart>& hand);
 ScanChange change_of(const cluster::ScanRecord& record);
 std::optional<HandPart> hand_of(const cluster::ScanRecord& record);
 
-// Whether a record can be applied: a scan has bounds that those who carry it do not know.
+// Returns whether a record can be applied. The network does not know the limits of a scan's values.
 bool is_applicable(const cluster::JournalRecord& record);
 
-// Adds a change to those of a scan; those that are no longer seen are dropped.
+// Adds a change to those of a scan, and drops changes that are no longer visible.
 void add_change(const cluster::ScanRecord& change, std::vector<cluster::ScanRecord>& scan);
 
-// Nothing where the document is not one of so many materials, or any number in it is not valid.
+// Empty if the document has another number of materials or any invalid value.
 std::optional<WallHistory> load_history(std::span<const std::byte> document, std::size_t materials);
 
 }  // namespace afm::exhibit

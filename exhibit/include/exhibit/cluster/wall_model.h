@@ -10,21 +10,21 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/exhibit_setup.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "physics/friction/friction.h"
 #include "render/renderer.h"
 
 namespace afm::exhibit {
 
-// All that a node needs before the first frame; the files are texts, which it does not need to have.
+// All inputs that a node needs before the first frame. The files are included as texts, so the node need not have them.
 struct WallModel {
   std::uint64_t build = 0;                    // digest of the program: another one may build other frames
-  std::uint64_t scene = 0;                    // digest of the scene: a node that has other models shows another one
+  std::uint64_t scene = 0;                    // digest of the scene: other models would show another one
   std::string wall;                           // text of the wall file
-  std::string guidance;                       // likewise; empty: none
-  std::string materials;                      // likewise
-  std::map<std::string, std::string> meshes;  // of the outputs: text by name, beside the wall file or below
-  ExhibitFiles files;                         // without those three, and without the assets
+  std::string guidance;                       // text of the user's phrase file; empty: none
+  std::string materials;                      // text of the user's material file; empty: none
+  std::map<std::string, std::string> meshes;  // texts of the outputs' meshes by name, relative to the wall file
+  ExhibitFiles files;                         // without these three files and the assets
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   PictureOptions picture;  // mode and order of the eyes
   render::PanelContrast contrast = render::PanelContrast::Normal;
@@ -32,17 +32,16 @@ struct WallModel {
 
 std::vector<std::byte> document_of(const WallModel& model);
 
-// BadInputFile: the document is none, or holds something that is not valid.
+// BadInputFile if the document is malformed or has an invalid value.
 core::Result<WallModel> read_wall_model(std::span<const std::byte> document);
 
-// Whether a file of this name lies beside another one, or in a folder below: no other place is written to.
+// Returns whether a file of this name is in the same folder as another file, or below: no other place may be written.
 bool lies_beside(const std::string& name);
 
-// Writes the texts into `folder` and gives the files of the wall; those of the user's own models are named as on the
-// master.
+// Writes the texts into `folder` and returns the wall's files. A user's models keep their names on the master.
 core::Result<ExhibitFiles> unpack(const WallModel& model, const std::string& assets_dir, const std::string& folder);
 
-// The digest of a program's file.
+// Digest of a program's file.
 core::Result<std::uint64_t> build_digest(const std::string& program);
 
 }  // namespace afm::exhibit

@@ -11,12 +11,11 @@
 
 namespace afm::exhibit {
 
-// How a tip was led over the sample: the contact that goes on or was the last one, and the newest one before it that
-// holds a friction loop. Forgotten with the material and its parameters. Bounded, however long the tip is led. One
-// thread.
+// The tip's path over the sample: the current or newest contact, and the newest contact before it with a friction loop.
+// Discarded when the material or its parameters change. Memory is bounded. One thread.
 class FrictionHistory {
  public:
-  static constexpr std::size_t kMostPoints = 30'000;  // of a contact; the oldest third is dropped
+  static constexpr std::size_t kMostPoints = 30'000;  // limit for one contact; then drops the oldest third
 
   void add(const scene::TipSample& sample);
 
@@ -24,7 +23,7 @@ class FrictionHistory {
   std::span<const physics::SidewaysPoint> earlier() const { return earlier_; }
   bool attached() const { return attached_; }
 
-  // All that it is made of, for exhibit/cluster/wall_history.h.
+  // All of its state, for exhibit/cluster/wall_history.h.
   template <class History, class Visit>
   static void visit_state(History& history, Visit&& visit) {
     visit(history.contact_);

@@ -15,46 +15,46 @@
 
 namespace afm::exhibit {
 
-// Where a lesson's results go, and what is said of them in task-NAME_events.json.
+// Where a lesson's results go, and details for task-NAME_events.json.
 struct DataSetEntry {
-  std::string folder;  // DIR
+  std::string folder;  // DIR in the manual
   std::string code;    // six capital letters
   std::string device, wall;
   std::uint64_t seed = 0;
-  std::string age_band{};              // a word of kAgeBands; empty: not given
-  std::string observer{};              // JSON object of a simulated participant; empty for a person
-  std::optional<std::size_t> order{};  // by which the lesson was planned; none: the next one that is free
+  std::string age_band{};              // one of kAgeBands; empty: not given
+  std::string observer{};              // JSON object describing a simulated participant; empty for a person
+  std::optional<std::size_t> order{};  // row of the Williams design used for the lesson; empty: the next free one
   std::optional<std::int64_t>
-      day{};  // days since 1970 of a person's lesson, kept only as a distance to the first one's
+      day{};  // date of a person's lesson, in days since 1970; stored only as the distance to the study's first day
 };
 
-// True for six capital letters.
+// Returns whether the text is six capital letters.
 bool is_participant_code(std::string_view code);
 
-// The row of the Williams design that a code has or would be given: the next one in the folder.
+// Row of the Williams design for a code: its stored row, or the next one of the folder.
 core::Result<std::size_t> order_of(const std::string& folder, const std::string& code);
 
-// WrongUsage where this participant has done the lesson already.
+// WrongUsage if this participant has already done the lesson.
 core::Result<void> check_not_done(const Lesson& lesson, const std::string& folder, const std::string& code);
 
-// Files of one participant's lesson in a study's folder, as BIDS lays them out (docs/manual.md has their columns):
-// participants.tsv and .json, sub-CODE/task-NAME_events.tsv and .json. Whole files are replaced in one step, and a line
-// of events.tsv is written as its trial ends, so that a killed program loses at most the running trial. Never
-// overwrites a lesson that this participant has done. Several programs may write into one folder. One thread.
+// Files of one participant's lesson in a study's folder, in the BIDS layout (columns: docs/manual.md): participants.tsv
+// and .json, sub-CODE/task-NAME_events.tsv and .json. Whole files are replaced in one step, and a line of events.tsv is
+// written when its trial ends, so a killed program loses at most the running trial. Never overwrites a participant's
+// finished lesson. Several programs may write into one folder. One thread.
 class DataSet {
  public:
-  // Makes the files. WrongUsage where this participant has done the lesson already.
+  // Creates the files. WrongUsage if this participant has already done the lesson.
   static core::Result<DataSet> create(const Lesson& lesson, const DataSetEntry& entry);
 
   core::Result<void> add(const TrialRow& row);
 
-  // Says in the events' JSON that the sound ended so late in the lesson.
+  // Records in the events' JSON that the sound failed this long after the lesson's start.
   core::Result<void> note_sound_lost(double onset_s);
 
-  // Says in participants.tsv how it ended.
+  // Records the lesson's end in participants.tsv.
   core::Result<void> finish(LessonEnd end);
 
-  std::size_t order() const { return order_; }  // as participants.tsv has it
+  std::size_t order() const { return order_; }  // see participants.tsv
 
   // sub-CODE
   const std::string& participant_folder() const { return participant_folder_; }
@@ -67,10 +67,10 @@ class DataSet {
   core::FileDescriptor events_;
 };
 
-// A line of events.tsv, with its end.
+// A line of events.tsv, including the line end.
 std::string line_of(const TrialRow& row);
 
-// Deletes the participant's folder and row. WrongUsage where there is neither.
+// Deletes the participant's folder and row. WrongUsage if neither exists.
 core::Result<void> withdraw(const std::string& folder, const std::string& code);
 
 }  // namespace afm::exhibit

@@ -7,23 +7,23 @@
 
 namespace afm::exhibit {
 
-// An answer given with the haptic device alone: its height moves a mark through the answers, Turn-On answers. Down goes
-// to the next answer of a list and down a scale. The mark stays at an end however far the hand goes, and turns round
-// with it, three times a second at most, so that it does not flash (WCAG 2.3.1). One thread.
+// An answer given with the haptic device: its height moves a mark through the answers, and Turn-On answers. Moving down
+// marks the next answer of a list and a lower value of a scale. At either end the mark stops, and it follows as soon as
+// the hand turns round. It moves at most three times a second, so that it does not flash (WCAG 2.3.1). One thread.
 class HandAnswer {
  public:
   enum class Layout { List, Scale };
 
-  // Another prompt: of a list none is marked at first, so that nobody answers without having moved. `answers` may be 0,
-  // where Turn-On only goes on.
+  // Starts another prompt. In a list no answer is marked at first, so that nobody answers without moving. `answers` may
+  // be 0; then Turn-On only continues.
   void ask(std::size_t answers, Layout layout, std::optional<std::size_t> marked);
 
-  // The mark that keys or wand have moved.
+  // Follows a mark moved by keys or wand.
   void set_marked(std::size_t marked) { marked_ = marked; }
   std::optional<std::size_t> marked() const { return marked_; }
 
-  // The hand's height, and how often its button has been pressed: every frame, whatever is asked. True where it was
-  // pressed since the last call. Time never goes back.
+  // Adds the hand's height and its count of button presses; call in every frame. Returns true if the button was pressed
+  // since the last call. Time must not decrease.
   bool add(double height_m, std::uint64_t presses, double now_s);
 
  private:
@@ -33,10 +33,10 @@ class HandAnswer {
   Layout layout_ = Layout::List;
   double step_m_ = 0;
   std::optional<std::size_t> marked_;
-  std::optional<double> from_m_;   // where the mark moved last
-  std::optional<bool> went_down_;  // then
+  std::optional<double> from_m_;   // height of the mark's last step
+  std::optional<bool> went_down_;  // direction of that step
   double moved_s_ = 0;
-  std::optional<std::uint64_t> presses_;  // at the last call
+  std::optional<std::uint64_t> presses_;  // number at the last call
 };
 
 }  // namespace afm::exhibit

@@ -12,29 +12,29 @@
 
 namespace afm::exhibit {
 
-// The newest cycle of the tip: snapped in and let go.
+// The tip's newest complete cycle, from snap-in to pull-off.
 struct FeltCycle {
   std::size_t material = 0;
   double f_ad_n = 0;  // magnitude
 };
 
-// What a lesson asks of its participant now.
+// The current request to the participant.
 struct LessonPrompt {
   enum class Wants { GoOn, Cycle, Answer, Nothing };
   Wants wants = Wants::GoOn;
-  std::string title, words, hint, progress;     // the hint is empty until its time
-  std::vector<std::string> answers;             // of Wants::Answer; more than nine are a scale
-  std::size_t marked = 0;                       // where the scale begins
-  std::optional<std::size_t> material;          // to be under the tip
-  std::optional<scene::SharedContact> variant;  // its parameters; none: as loaded
-  std::size_t task = 0;                         // another number for every step
-  std::uint32_t cycle = 0;                      // another number for every cycle that is wanted
-  bool in_step = false;                         // neither consent, break nor end
-  bool hidden = false;                          // names, curves, figures and sounds would give the answer away
+  std::string title, words, hint, progress;     // the hint is empty until it is due
+  std::vector<std::string> answers;             // used with Wants::Answer; more than nine are a scale
+  std::size_t marked = 0;                       // initial value of a scale
+  std::optional<std::size_t> material;          // sample required under the tip
+  std::optional<scene::SharedContact> variant;  // its changed parameters; empty: as loaded
+  std::size_t task = 0;                         // changes with every step
+  std::uint32_t cycle = 0;                      // changes with every requested cycle
+  bool in_step = false;                         // false in consent, break and end
+  bool hidden = false;                          // names, curves, figures and sounds would reveal the answer
   std::optional<Condition> condition;
-  // for a participant that is simulated
+  // for a simulated participant
   StepKind kind = StepKind::Text;
-  std::string item;       // of a questionnaire
+  std::string item;       // id of a questionnaire's item
   std::size_t right = 0;  // the right answer, if there is one
   bool has_right = false;
 };

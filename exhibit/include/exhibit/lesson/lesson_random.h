@@ -9,19 +9,19 @@
 
 namespace afm::exhibit {
 
-// Random numbers of a lesson: the same for a seed on every machine, which the distributions of std do not promise. One
+// Random numbers of a lesson, equal for a seed on every machine, which the distributions of std do not guarantee. One
 // thread.
 class LessonRandom {
  public:
   explicit LessonRandom(std::uint64_t seed) : bits_(seed) {}
 
-  // 0 to below 1.
+  // Uniform, from 0 to below 1.
   double unit() { return static_cast<double>(bits_() >> 11U) * 0x1p-53; }
 
-  // 0 to below `count`, which is at least 1 and far below 2^53.
+  // Uniform, from 0 to below `count`, which must be at least 1 and far below 2^53.
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(unit() * static_cast<double>(count)); }
 
-  // Fisher and Yates' shuffle.
+  // Shuffles by the method of Fisher and Yates.
   template <class Value>
   void shuffle(std::span<Value> values) {
     for (std::size_t left = values.size(); left > 1; --left) std::swap(values[left - 1], values[below(left)]);

@@ -14,58 +14,57 @@
 #include "exhibit/lesson/lesson_prompt.h"
 #include "exhibit/lesson/lesson_random.h"
 #include "exhibit/lesson/trial_row.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
 
 class StepActivity;
 
-// How a lesson ended.
+// End of a lesson.
 enum class LessonEnd { Finished, Stopped, Withdrew };
 
-// A lesson under way: what it asks for now, and what becomes of it. Time is the caller's, in seconds that never go
-// back, so that a simulated participant needs no clock. Names the trials that are over to a sink. One thread.
+// A running lesson: produces prompts and processes the answers. The caller supplies the time, in seconds that never
+// decrease, so that a simulated participant needs no clock. Reports finished trials to a sink. One thread.
 //
-// A criterion is decided by the servo's events alone: a cycle is a jump to contact and a jump off contact on the
-// material that is asked for. After kMostLessonMinutes the lesson offers a break: before the next trial, or while
-// nothing of one would be lost, also to somebody who does nothing. A trial that takes two more minutes begins again
-// after the break.
+// Only the servo's events satisfy a criterion: a cycle is a jump to contact and a jump off contact on the requested
+// material. After kMostLessonMinutes the lesson offers a break, even without any input: before the next trial, or while
+// an interruption would not lose part of one. A trial that takes two more minutes restarts after the break.
 class LessonRun {
  public:
   struct Setup {
-    std::uint64_t seed = 0;    // of orders and stimuli
+    std::uint64_t seed = 0;    // seed of orders and stimuli
     std::size_t order = 0;     // row of the Williams design
-    bool ask_consent = false;  // of a person
+    bool ask_consent = false;  // needed with a real participant
   };
 
-  // Lesson, samples (lesson_samples(), in that order) and phrases must outlive it. The sink is not called before
-  // consent() where that is asked for.
+  // Lesson, samples (lesson_samples(), in that order) and phrases must outlive the object. If consent is required, the
+  // sink is not called before consent().
   LessonRun(const Lesson& lesson, std::span<const curves::SampleModel> samples, const Phrases& phrases,
             const Setup& setup, TrialSink sink, double now_s);
   ~LessonRun();
   LessonRun(const LessonRun&) = delete;
   LessonRun& operator=(const LessonRun&) = delete;
 
-  // What is asked for at this time.
+  // The prompt at this time.
   LessonPrompt prompt(double now_s) const;
 
-  // A jump of the tip, of the material and the variant that the prompt asks for.
+  // Handles a jump of the tip on the prompt's material and variant.
   void happened(const scene::TipEvent& event, double now_s);
 
-  // Offers a break that is due; in a lesson with a person, once a frame.
+  // Offers a break once it is due. With a real participant, call once a frame.
   void watch_time(double now_s);
 
   void go_on(double now_s);
-  void answer(std::size_t answer, double now_s);  // one that the prompt has; others are ignored
-  void skip(double now_s);                        // the rest of the step
-  void reset(double now_s);                       // the trial under way begins again
+  void answer(std::size_t answer, double now_s);  // ignored unless the prompt has this answer
+  void skip(double now_s);                        // skips the rest of the step
+  void reset(double now_s);                       // restarts the running trial
   void stop();
 
-  double elapsed_s(double now_s) const { return now_s - began_s_; }  // since it began, with the consent
+  double elapsed_s(double now_s) const { return now_s - began_s_; }  // since the start, including the consent
   bool consented() const { return consented_; }
   std::optional<LessonEnd> end() const { return end_; }
-  // A trial that could not be kept ends the lesson.
+  // Set if a trial could not be stored, which ends the lesson.
   const std::optional<core::Error>& error() const { return error_; }
 
  private:
@@ -77,7 +76,7 @@ class LessonRun {
 
   void plan(std::size_t order);
   void begin_task(double now_s);
-  void follow(double now_s);  // after whatever happened
+  void follow(double now_s);  // after each event or input
   bool offer_break_where_due(double now_s);
   core::Result<void> keep(TrialRow row);
 
@@ -90,9 +89,9 @@ class LessonRun {
   std::size_t task_ = 0;
   std::unique_ptr<StepActivity> activity_;
   Stage stage_ = Stage::Steps;
-  double began_s_ = 0;  // the lesson
+  double began_s_ = 0;  // start of the lesson
   double step_began_s_ = 0;
-  double stretch_began_s_ = 0;  // since the last break
+  double stretch_began_s_ = 0;  // time of the last break
   double break_answers_from_s_ = 0;
   bool consented_ = false;
   bool snapped_in_ = false;

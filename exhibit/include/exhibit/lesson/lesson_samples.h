@@ -12,17 +12,17 @@
 
 namespace afm::exhibit {
 
-// The samples of a lesson, in the order of Lesson::materials. Fails where a step needs a jump that a material does not
-// make, and where a threshold's strongest pull-off is stronger than that of any material of the lesson: the common
-// scale would give way for it, and the hand would feel no difference.
+// The samples of a lesson, in the order of Lesson::materials. Fails if a step needs a jump that a material does not
+// have, or if a threshold's strongest pull-off exceeds that of every material of the lesson: the common scale would
+// adapt to it, and the hand would feel no difference.
 core::Result<std::vector<curves::SampleModel>> lesson_samples(const Lesson& lesson,
                                                               const scene::MaterialLibrary& library);
 
-// The same checks of samples that exist already.
+// The same checks for existing samples.
 core::Result<void> check_samples(const Lesson& lesson, std::span<const curves::SampleModel> samples);
 
-// The standard of a threshold with an F_ad that is 1 + w times as large and with what the plan does with the distances;
-// `rove` is the factor of the stiffness, of Roved alone. Takes milliseconds.
+// A threshold's standard with an F_ad 1 + w times as large and with the plan's treatment of the distances. `rove` is
+// the factor of the stiffness, used only for Roved. Takes milliseconds.
 core::Result<curves::SampleModel> comparison_sample(const curves::SampleModel& standard, DistanceCue distance, double w,
                                                     double rove);
 

@@ -9,18 +9,18 @@
 
 #include "core/enumerators.h"
 #include "exhibit/lesson/lesson.h"
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 
 namespace afm::exhibit {
 
-// A questionnaire: its items are a run of phrases, its answers equal steps from `least` to `most`.
+// A questionnaire: its items are a run of phrases; its answers are equal steps from `least` to `most`.
 struct QuestionnaireRow {
   Questionnaire questionnaire;
-  std::string_view word;  // in lesson files and in the items' ids: "sus-3"
+  std::string_view word;  // name in lesson files and in the items' ids: "sus-3"
   Phrase first_item;
   std::size_t items;
   int least, most, step;
-  Phrase first_answer;  // a phrase for each answer, or for the two ends
+  Phrase first_answer;  // a phrase for each answer, or for the two ends of the scale
   std::size_t answer_phrases;
 };
 
@@ -34,13 +34,13 @@ inline constexpr std::array kQuestionnaires{
 static_assert(core::has_row_for_each(kQuestionnaires, &QuestionnaireRow::questionnaire));
 constexpr const QuestionnaireRow& row_of(Questionnaire which) { return kQuestionnaires[core::index_of(which)]; }
 
-// "ssq-7"; items count from 0.
+// "ssq-7"; `item` counts from 0.
 std::string item_id(Questionnaire which, std::size_t item);
 
-// The answers in words, in their order: "0", "5 ..." where a scale has more than its phrases.
+// Texts of the answers, in order: "0", "5 ..." if a scale has more answers than phrases.
 std::vector<std::string> answers_of(Questionnaire which, const Phrases& phrases);
 
-// The number that an answer stands for.
+// Numeric value of an answer.
 int value_of(Questionnaire which, std::size_t answer);
 
 }  // namespace afm::exhibit

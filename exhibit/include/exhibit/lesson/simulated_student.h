@@ -16,37 +16,37 @@
 
 namespace afm::exhibit {
 
-// An observer whose abilities are known (equal-variance Gaussian): what a report of its data must find again.
+// An observer with known abilities (equal-variance Gaussian), which a report of its data must recover.
 struct Abilities {
-  double d_prime = 1.5;         // between two materials
-  double weber_fraction = 0.1;  // difference of two pull-offs of which the stronger one is named in 75 of 100 trials
-  double bias = 0;              // towards the first answer, in the units of d'
+  double d_prime = 1.5;         // sensitivity to the difference of two materials
+  double weber_fraction = 0.1;  // relative difference of two pull-offs at which 75 of 100 answers are right
+  double bias = 0;              // towards the first answer, in units of d'
 };
 
-// What follows "sim:" on the command line: "7", "7,d-prime=2,weber=0.08,bias=0.3".
+// Parsed from the text after "sim:" on the command line: "7", "7,d-prime=2,weber=0.08,bias=0.3".
 struct SimulatedParticipant {
   std::uint64_t seed = 0;
   Abilities abilities{};
 
   static core::Result<SimulatedParticipant> parse(std::string_view text);
-  std::string code() const;  // six capital letters, drawn from the seed
-  std::string json() const;  // of seed and abilities
+  std::string code() const;  // six capital letters, derived from the seed
+  std::string json() const;  // seed and abilities
 };
 
-// Goes through a lesson to its end in simulated time: feels each cycle with the real law of force on the lesson's scale
-// and answers by what it felt. The same for a seed, on one build. One thread.
+// Takes a whole lesson in simulated time: feels each cycle with the real force law at the lesson's scale and answers
+// from the felt forces. Repeatable for a seed on the same build. One thread.
 class SimulatedStudent {
  public:
   SimulatedStudent(const SimulatedParticipant& participant, const Lesson& lesson,
                    std::span<const curves::SampleModel> samples);
 
-  // Fails if the scale does not suit the simulated device, or the run as LessonRun::error() says.
+  // Fails if the scale does not suit the simulated device, or with LessonRun::error().
   core::Result<void> take(LessonRun& run);
 
  private:
   core::Result<void> feel(LessonRun& run, const LessonPrompt& prompt);
   std::size_t choose(const LessonPrompt& prompt);
-  std::size_t rate(const LessonPrompt& prompt);  // of an item, which has no right answer
+  std::size_t rate(const LessonPrompt& prompt);  // answers an item without a right answer
   std::size_t stronger_of_two();
   std::size_t identify(const LessonPrompt& prompt);
 
@@ -57,7 +57,7 @@ class SimulatedStudent {
   physics::NormalGenerator normal_;
   haptics::CommonScale common_;
   double now_s_ = 0;
-  double felt_n_[2] = {0, 0};  // on the hand: the last two cycles, the newer one behind
+  double felt_n_[2] = {0, 0};  // forces on the hand in the last two cycles, the newer one second
 };
 
 }  // namespace afm::exhibit

@@ -9,7 +9,7 @@
 
 namespace afm::exhibit {
 
-// Chooses the level of a threshold's next trial by the answers so far. One thread.
+// Chooses the level of a threshold's next trial from the answers so far. One thread.
 class Staircase {
  public:
   virtual ~Staircase() = default;
@@ -18,12 +18,12 @@ class Staircase {
   virtual void answer(bool right) = 0;
 };
 
-// Up after `up` wrong answers, down after `down` right ones, by the step sizes in turn: one further at each reversal,
-// the last one for good. Until the first reversal one right answer is enough. As PsychoPy's StairHandler with
+// Goes up after `up` wrong answers and down after `down` right ones, by one step size after the other: the next at each
+// reversal, then the last one. Until the first reversal one right answer suffices. Equals PsychoPy's StairHandler with
 // applyInitialRule (Peirce et al. 2019).
 class UpDownStaircase final : public Staircase {
  public:
-  // Levels stay within `least` and `most`; one step size at least.
+  // Levels stay within `least` and `most`. At least one step size is required.
   struct Rule {
     int up = 1, down = 3;
     std::vector<double> steps;
@@ -42,13 +42,13 @@ class UpDownStaircase final : public Staircase {
   double level_;
   double step_;
   Way way_ = Way::None;
-  int same_ = 0;                       // right answers in a row, or less than zero wrong ones
-  bool before_ = false, any_ = false;  // the answer before this one
+  int same_ = 0;                       // number of successive right answers; negative: wrong ones
+  bool before_ = false, any_ = false;  // previous answer
   std::size_t reversals_ = 0;
 };
 
-// Down by `step` after every right answer, up by `weight` times as much after every wrong one: it hovers where the
-// share of right answers is weight/(1 + weight), 3 for 75 % (Kaernbach 1991). Steps are doubled until the first wrong
+// Goes down by `step` after every right answer, up by `weight` times as much after every wrong one. Converges to a
+// share of right answers of weight/(1 + weight): 75 % for 3 (Kaernbach 1991). Steps are doubled until the first wrong
 // answer.
 class WeightedStaircase final : public Staircase {
  public:
@@ -67,16 +67,16 @@ class WeightedStaircase final : public Staircase {
   bool wrong_once_ = false;
 };
 
-// QUEST (Watson & Pelli 1983, as King-Smith's quantile that Pelli's implementation takes): a threshold's probability on
-// a grid of levels, after each answer by Bayes' rule with a Weibull function.
+// QUEST (Watson & Pelli 1983, with King-Smith's quantile as in Pelli's implementation): the threshold's probability on
+// a grid of levels, updated after each answer by Bayes' rule with a Weibull function.
 class QuestStaircase final : public Staircase {
  public:
   struct Rule {
-    double guess = 0, guess_sd = 1;  // of the threshold, before the first answer
-    double share = 0.82;             // of right answers at the threshold
+    double guess = 0, guess_sd = 1;  // threshold before the first answer: mean and standard deviation
+    double share = 0.82;             // share of right answers at the threshold
     double beta = 3.5, delta = 0.01, gamma = 0.5;
     double grain = 0.01, range = 5;
-    double least = -10, most = 10;  // of the levels
+    double least = -10, most = 10;  // range of the levels
   };
   explicit QuestStaircase(const Rule& rule);
 
@@ -85,20 +85,20 @@ class QuestStaircase final : public Staircase {
 
   double mean() const;
   double mode() const;
-  double quantile() const;  // of the order at which an answer says most
+  double quantile() const;  // order of the quantile at which an answer is most informative
 
  private:
   double right_share(double from_threshold) const;
-  double at(std::size_t index) const;  // level of a point of the grid
+  double at(std::size_t index) const;  // level at a grid point
 
   Rule rule_;
-  double shift_ = 0;  // from the Weibull function's own zero to the threshold
+  double shift_ = 0;  // from the Weibull function's zero to the threshold
   double order_ = 0.5;
   std::vector<double> density_;
   double level_;
 };
 
-// The rule of a plan on the logarithm of w; level() is the logarithm to the base 10.
+// The staircase of a plan. level() is the base-10 logarithm of w.
 std::unique_ptr<Staircase> make_staircase(const ThresholdPlan& plan);
 
 }  // namespace afm::exhibit

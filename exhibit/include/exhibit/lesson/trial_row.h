@@ -10,9 +10,9 @@
 
 namespace afm::exhibit {
 
-// A line of events.tsv: a trial that is over. Empty texts and missing values are written as n/a.
+// A line of events.tsv: a finished trial. Empty texts and missing values are written as n/a.
 struct TrialRow {
-  double onset_s = 0, duration_s = 0;  // since the lesson began
+  double onset_s = 0, duration_s = 0;  // since the start of the lesson
   std::string step{};
   StepKind kind = StepKind::Text;
   std::optional<Condition> condition{};

@@ -19,114 +19,115 @@
 
 namespace afm::exhibit {
 
-// The sample as a scan meets it, in metres as a microscope has them. What an instrument measured is shown and felt on
-// another scale, the sample's frame: micrometres would be steps of nanometres for a lever.
+// The sample for a scan, in the metres of a microscope. A measured sample is shown and felt at another scale, that of
+// the sample's frame, because a lever would meet steps of nanometres instead of micrometres.
 struct ScanSubject {
-  // The height that the apex of a tip of this radius traces, everywhere finite.
+  // Height traced by the apex of a tip of this radius; finite everywhere.
   std::function<physics::Scanner::Surface(double tip_radius_m)> traced;
-  std::function<double(double x_m, double y_m)> drawn_m;  // the sample itself
-  double side_m = 500e-9;                                 // of the square around the origin that is scanned
-  scene::TopographyScale shown{};                         // metres of the sample's frame for one of these
-  double tip_radius_m = 0;                                // of the probe in use
-  double adhesion_n = 0;                                  // the pull-off force, a magnitude
-  double slope = 0;                                       // of nearly all places; 0: the usual settings suit it
+  std::function<double(double x_m, double y_m)> drawn_m;  // drawn surface of the sample
+  double side_m = 500e-9;                                 // side of the scanned square around the origin
+  scene::TopographyScale shown{};                         // metres of the sample's frame per metre here
+  double tip_radius_m = 0;                                // radius of the probe in use
+  double adhesion_n = 0;                                  // pull-off force, a magnitude
+  double slope = 0;  // exceeded almost nowhere; 0: the usual settings suit the sample
 
   double shown_side_m() const { return shown.lateral * side_m; }
 };
 
-// A change of the settings, from the pixel of a frame on.
+// A change of the settings, effective from a pixel of a frame on.
 struct ScanChange {
   std::uint32_t frame = 0;
-  std::uint32_t pixel = 0;  // of that frame in the order of time, trace and retrace counted
+  std::uint32_t pixel = 0;  // index in order of time within that frame, trace and retrace counted
   ScanChoice choice{};
 
   bool operator==(const ScanChange&) const = default;
 };
 
-// The part of a hand in a scan (scene::ScanHand): it is led, or it is the scanner and paints the image.
+// Role of the hand in a scan (scene::ScanHand): it is led, or it is the scanner and paints the image.
 struct HandPart {
   bool paints = false;
-  bool feedback = true;          // of one that paints: the height is the loop's; without it, the hand's own
-  double side_m = 0;             // of the square, which the hand can reach, as in ScanSubject
-  std::uint64_t first_tick = 0;  // of the servo: those after it paint
+  bool feedback = true;          // the loop sets a painting hand's height; false: the hand does
+  double side_m = 0;             // side of the square within the hand's reach, as in ScanSubject
+  std::uint64_t first_tick = 0;  // ticks of the servo after this one paint
 
   bool operator==(const HandPart&) const = default;
 };
 
-// All that the picture of a scan follows from, with the sample and, where a hand paints, the servo's samples: what a
-// session records.
+// State that determines the picture of a scan, together with the sample and, for a painting hand, the servo's samples.
+// Sessions record it.
 struct ScanProgress {
-  std::uint32_t frame = 0;          // since the scan was started; each begins at the top. 0 where a hand paints
-  std::uint32_t pixel = 0;          // that comes next in it; where a hand paints, how many ticks have passed
-  bool truth = false;               // shown: what the tip could not reach
-  std::vector<ScanChange> changes;  // the settings before the first frame that is still seen, and every change since
-  std::optional<HandPart> hand;     // none: the scan is left to itself
+  std::uint32_t frame = 0;          // number since the start of the scan; each begins at the top; 0 for a painting hand
+  std::uint32_t pixel = 0;          // next pixel of the frame; for a painting hand, the number of ticks so far
+  bool truth = false;               // shows the surface that the tip could not reach
+  std::vector<ScanChange> changes;  // settings before the first visible frame, and every change since
+  std::optional<HandPart> hand;     // empty: the scan runs by itself
 
   bool operator==(const ScanProgress&) const = default;
 };
 
-// A quantity of both passes, row by row from the top; NaN: not measured yet.
+// A quantity of both passes, row by row from the top. NaN: not measured yet.
 struct ScanMaps {
-  std::array<std::vector<double>, 2> height_m;  // trace, retrace; painted by a hand: height, the lever's deflection
+  std::array<std::vector<double>, 2> height_m;  // trace, retrace; for a painting hand: height, deflection of the lever
   std::array<std::vector<double>, 2> error_n;
-  std::array<std::vector<double>, 2> lateral_n;  // trace, retrace; painted by a hand: along x, along y
+  std::array<std::vector<double>, 2> lateral_n;  // trace, retrace; for a painting hand: along x, along y
 };
 
-// What happened to the tip along one line, both passes.
+// Statistics of the tip along one line, both passes.
 struct LineFacts {
-  double highest_force_n = 0;  // of the lever
+  double highest_force_n = 0;  // force on the lever
   double off_surface = 0;      // mean share of the time, 0 to 1
-  double on_second_apex = 0;   // likewise
+  double on_second_apex = 0;   // mean share of the time, 0 to 1
 };
 
-// What the image does not show, as far as it is known.
+// Known facts that the image does not show.
 struct ScanTruth {
-  std::uint32_t frame = 0;  // with which it was found
-  double tip_radius_m = 0;  // likewise
+  std::uint32_t frame = 0;  // frame it was computed from
+  double tip_radius_m = 0;  // radius it was computed with
   ReachOfTip reach;
   TipProfile true_tip;
-  TipProfile revealed_tip;  // by the last whole image; without points before there is one
+  TipProfile revealed_tip;  // from the last complete image; without points before there is one
 };
 
-// The scan that the live wall shows: frame after frame, each from the top, the newest over the one before it. A pure
-// function of its subject and its progress.
+// The scan on the live wall: frame after frame, each from the top, each replacing the previous one. A pure function of
+// its subject and its progress.
 //
-// Where a hand paints, there are no frames: every tick in which the hand's tip is on the sample paints the cells of
-// kCell x kCell pixels on its way; others stay unmeasured. With feedback the microscope's loop (physics::ScanLoop) runs
-// over the heights on that way: its height and the residual deflection are painted. Without, the height is the hand's
-// own and the deflection is that of the felt lever. The lateral force is the friction that the hand feels. One thread.
+// A painting hand makes no frames: every tick with the hand's tip on the sample paints the cells of kCell x kCell
+// pixels on its path; other cells stay unmeasured. With feedback, the microscope's loop (physics::ScanLoop) runs over
+// the heights on that path, and its height and residual deflection are painted. Without feedback, the height is the
+// hand's own and the deflection that of the felt lever. The lateral force is the friction that the hand feels. One
+// thread.
 class LiveScan {
  public:
-  static constexpr std::size_t kPixels = 128;    // a side
-  static constexpr double kMostCatchUpS = 0.25;  // of scan that one call of advance() does: some milliseconds of work
-  static constexpr std::size_t kCell = 2;        // pixels, of what a hand paints
+  static constexpr std::size_t kPixels = 128;    // per side
+  static constexpr double kMostCatchUpS = 0.25;  // limit for one call of advance(): some milliseconds of work
+  static constexpr std::size_t kCell = 2;        // pixels per side of a painted cell
 
-  // A scan with this lever's usual settings.
+  // Begins a scan with this lever's usual settings.
   explicit LiveScan(ScanSubject subject, const std::optional<HandPart>& hand = {});
 
-  // The scan as it was: of a session, with its `samples`. `progress` is valid().
+  // Restores a scan from a session and its `samples`. `progress` must be valid().
   LiveScan(ScanSubject subject, const ScanProgress& progress, std::span<const scene::TipSample> samples = {});
 
-  // True for what a session may have recorded.
+  // Returns whether a session's values are legal.
   static bool valid(const ScanProgress& progress);
 
-  // Scans on for so long; what is more than kMostCatchUpS is left out. Nothing where a hand paints.
+  // Scans for this time. Drops time beyond kMostCatchUpS. No effect for a painting hand.
   void advance(double seconds);
 
-  // Scans on until this pixel, as another machine of the wall has done; nothing where a hand paints. False: it is more
-  // than a frame away.
+  // Scans up to this pixel, as another machine of the wall has done; no effect for a painting hand. Returns false if it
+  // is more than a frame away.
   bool follow(std::uint32_t frame, std::uint32_t pixel);
 
-  // A tick of the servo, in their order. Nothing where no hand paints.
+  // Handles a tick of the servo; call in order. No effect unless a hand paints.
   void follow_hand(const scene::TipSample& sample);
 
-  // One step of a row, from the next pixel on; false at the end of its series.
+  // Changes a row of the settings by `steps`, effective from the next pixel on. Returns false at the end of its series.
   bool step(ScanRow row, int steps);
 
-  // The settings that a scan begins with.
+  // Restores the settings with which a scan begins.
   void reset();
 
-  // All at once, from the next pixel on; valid.
+  // Changes all settings, effective from the next pixel on. `choice` must be valid.
   void choose(const ScanChoice& choice) { change_to(choice); }
 
   void show_truth(bool shown);
@@ -136,18 +137,18 @@ class LiveScan {
   const ScanChoice& usual() const { return usual_; }
   const ScanSubject& subject() const { return subject_; }
   bool is_painted() const { return progress_.hand && progress_.hand->paints; }  // by a hand
-  double seen_share() const;                                                    // of the pixels
-  const std::optional<ScanTruth>& truth() const { return truth_; }              // there while it is shown
+  double seen_share() const;                                                    // share of the pixels
+  const std::optional<ScanTruth>& truth() const { return truth_; }              // present while it is shown
   const ScanMaps& maps() const { return maps_; }
-  const std::array<LineFacts, kPixels>& facts() const { return facts_; }  // by row, of the newest line there
-  const physics::Scanner& scanner() const { return *scanner_; }           // of the present frame
-  std::size_t row() const;                                                // that is scanned now, 0 is the top one
-  glm::dvec3 apex_m() const;                                              // in the sample's frame
-  double force_n() const { return force_n_; }                             // on the lever, of the newest pixel
-  // The height that the apex traces, both in the sample's frame.
+  const std::array<LineFacts, kPixels>& facts() const { return facts_; }  // newest line of each row
+  const physics::Scanner& scanner() const { return *scanner_; }           // scanner of the current frame
+  std::size_t row() const;                                                // current row; 0 is the top
+  glm::dvec3 apex_m() const;                                              // sample's frame
+  double force_n() const { return force_n_; }                             // on the lever, at the newest pixel
+  // Height traced by the apex at this place, all in the sample's frame.
   double surface_m(double x_m, double y_m) const;
 
-  // The newest whole line of both passes, by its row; none before the first.
+  // Row of the newest complete line; empty before the first.
   std::optional<std::size_t> newest_row() const;
 
  private:
@@ -170,22 +171,22 @@ class LiveScan {
   std::optional<physics::Scanner> scanner_;
   ScanMaps maps_;
   std::array<LineFacts, kPixels> facts_{};
-  std::vector<double> last_image_m_;  // the trace of the frame before the newest; empty before the second
-  double last_noise_m_ = 0;           // of its heights
+  std::vector<double> last_image_m_;  // trace of the previous frame; empty before the second
+  double last_noise_m_ = 0;           // noise of its heights
   std::optional<ScanTruth> truth_;
   double force_n_ = 0;
-  double owed_s_ = 0;  // of scan time that the next call has to do
+  double owed_s_ = 0;  // scan time left for the next call
 
-  // The hand that paints: where it was in the tick before, if it was on the sample then.
+  // The painting hand's position in the previous tick, if it was on the sample.
   struct Brush {
     std::int64_t time_ns = 0;
     double below_m = 0;
     std::size_t column = 0, row = 0;  // pixels
   };
   std::optional<Brush> brush_;
-  std::optional<physics::ScanLoop> loop_;  // of its feedback
+  std::optional<physics::ScanLoop> loop_;  // the painting hand's feedback
   std::optional<std::int64_t> painting_since_ns_;
-  bool feedback_taken_ = false;  // by the servo, which takes it off the sample or without force
+  bool feedback_taken_ = false;  // the servo has switched it off: the hand left the sample or has no force
   std::size_t hand_row_ = 0;
 };
 

@@ -8,37 +8,37 @@
 
 namespace afm::exhibit {
 
-// The settings of a scan that the wall's panel offers, row by row.
+// Rows of the scan's settings on the wall's panel.
 enum class ScanRow { Setpoint, Gain, Rate, TipRadius, Noise, Drift, SecondApex };
 
-// Their values. The tip's radius makes the surface that the apex traces; the others are the microscope's.
+// Values of the settings. The tip's radius determines the traced surface; all others are the microscope's.
 struct ScanChoice {
   double setpoint_n = 2e-9;
-  double gain_per_s = 2000;  // of the integral controller
+  double gain_per_s = 2000;  // gain of the integral controller
   double line_rate_hz = 10;
   double tip_radius_m = 10e-9;
-  double noise_m = 20e-12;     // rms, as in physics::ScanSettings
-  double drift_m_per_s = 0;    // to the right and upwards alike
-  double apex_distance_m = 0;  // of a second apex; 0: there is none
+  double noise_m = 20e-12;     // rms, see physics::ScanSettings
+  double drift_m_per_s = 0;    // equal speeds to the right and upwards
+  double apex_distance_m = 0;  // distance of a second apex; 0: there is none
 
   bool operator==(const ScanChoice&) const = default;
 };
 
-// True for values that a scan can have: finite, within the ranges of physics::kScanFields and of the rows.
+// Returns whether all values are finite and within the ranges of physics::kScanFields and of the rows.
 bool is_valid(const ScanChoice& choice);
 
-// The next value of the row's series, 1, 2, 5, 10 and so on, `steps` further; stays at its ends. `side_m` is the
-// scanned square's, which gives the distance of a second apex. True if something changed.
+// Changes the row's value by `steps` along its series 1, 2, 5, 10 and so on, up to the series' ends. `side_m` is the
+// side of the scanned square, which determines the distance of a second apex. Returns whether anything changed.
 bool step(ScanChoice& choice, ScanRow row, int steps, double side_m);
 
-// The settings that a scan of a square of `side_m` begins with: slow and firm enough that the loop, which lags behind
-// by the speed of the heights over its gain, keeps the tip on slopes up to `slope`.
+// Initial settings for a square of `side_m`: slow and firm enough that the loop, whose lag is the heights' rate of
+// change divided by its gain, keeps the tip on slopes up to `slope`.
 ScanChoice usual_choice(double tip_radius_m, double side_m, double slope, double adhesion_n);
 
-// "1 nN", "500 pm"; a decimal point as in English.
+// "1 nN", "500 pm"; with a decimal point.
 std::string value_text(const ScanChoice& choice, ScanRow row);
 
-// Lever and microscope for these values; `adhesion_n` is the sample's pull-off force, a magnitude.
+// Settings of lever and microscope. `adhesion_n` is the sample's pull-off force, a magnitude.
 physics::ScanSettings settings_of(const ScanChoice& choice, double adhesion_n);
 
 }  // namespace afm::exhibit

@@ -5,14 +5,13 @@
 
 #include "curves/sample_model.h"
 #include "exhibit/scan/live_scan.h"
-#include "exhibit/wall_scene.h"
+#include "exhibit/scenery/wall_scene.h"
 
 namespace afm::exhibit {
 
-// The drawn sample of a material as a scan meets it: the surface that is felt (haptics::SampleSurface) before it is
-// smoothed to the stiffness of a device, or a topography that was measured, which holds the usual tip already; the
-// scanned square lies within its rim. `model` gives tip and adhesion.
-// The result depends on nothing that must outlive it.
+// The drawn sample of a material for a scan: the surface that is felt (haptics::SampleSurface) before its smoothing for
+// the device's stiffness, or a measured topography, which already includes its tip. The scanned square is within its
+// rim. `model` supplies tip and adhesion. The result refers to none of the arguments.
 ScanSubject scan_subject(const WallScene& wall_scene, std::size_t material, const curves::SampleModel& model);
 
 }  // namespace afm::exhibit

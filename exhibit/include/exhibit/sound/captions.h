@@ -9,18 +9,18 @@
 
 namespace afm::exhibit {
 
-// The caption of what is heard, on the wall: of the newest event, for some seconds. None is replaced sooner than after
-// kLeastNs, so that it never flashes more than three times a second (WCAG 2.3.1); and what comes often, such as slips,
-// does not push away what comes once. One thread.
+// Caption of the newest event, shown on the wall for some seconds. Each is shown for at least kLeastNs, so that
+// captions never flash more than three times a second (WCAG 2.3.1); frequent events, such as slips, do not replace rare
+// ones. One thread.
 class Captions {
  public:
   static constexpr std::int64_t kShownNs = 4'000'000'000;
-  static constexpr std::int64_t kReadableNs = 2'000'000'000;  // before what comes often
-  static constexpr std::int64_t kLeastNs = 400'000'000;       // before anything else
+  static constexpr std::int64_t kReadableNs = 2'000'000'000;  // shortest time before a frequent event replaces it
+  static constexpr std::int64_t kLeastNs = 400'000'000;       // shortest time before any other replaces it
 
   void add(HeardEvent event, std::string text, std::int64_t now_ns);
 
-  // Empty: none.
+  // The caption at this time, or empty.
   const std::string& text(std::int64_t now_ns);
 
  private:

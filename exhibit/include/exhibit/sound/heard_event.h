@@ -4,36 +4,36 @@
 #include <array>
 #include <cstddef>
 
-#include "exhibit/phrases.h"
+#include "exhibit/words/phrases.h"
 
 namespace afm::exhibit {
 
-// What has its own sound, a caption on the wall, and a phrase that is spoken.
+// Events with a sound, a caption on the wall, and a spoken phrase.
 enum class HeardEvent {
   SnapIn,
   PullOff,
   Slip,
-  Touch,         // the force has turned from none or a pull to a push
-  ForceOn,       // on the hand
-  ForceOff,      // because a person wanted it, or the sample was changed
-  Fault,         // the force is gone because something failed
-  SampleChosen,  // and lies under the tip
+  Touch,         // the force has changed from zero or a pull to a push
+  ForceOn,       // force on the hand enabled
+  ForceOff,      // disabled by a person or by a change of the sample
+  Fault,         // disabled after a failure
+  SampleChosen,  // the sample is under the tip
   TurnOnReady,   // the tip is high enough for Turn-On
-  ScanLine       // of an image is done
+  ScanLine       // a line of a scan is complete
 };
 
-// One note of a signal: a sine that glides from one pitch to another under an envelope without corners.
+// One note of a signal: a sine that glides between two pitches, with a smooth envelope.
 struct SignalNote {
   double start_s = 0;
   double length_s = 0;
   double from_hz = 0;
   double to_hz = 0;
-  double level = 0;  // amplitude, 1: full scale
-  double edge = 0;   // as in Tone
+  double level = 0;  // amplitude; 1: full scale
+  double edge = 0;   // see Tone
 };
 
 struct Signal {
-  std::array<SignalNote, 3> notes{};  // in the order of their starts; one without length is none
+  std::array<SignalNote, 3> notes{};  // in order of their starts; zero length: no note
   double length_s() const;
 };
 
@@ -42,12 +42,12 @@ enum class Spoken { AtOnce, OnRequest };
 struct HeardEventRow {
   HeardEvent event;
   Phrase caption;  // with the placeholders kEventPlaces
-  Phrase said;     // the same
-  Spoken spoken;   // OnRequest: so frequent that only the key Y says it
+  Phrase said;     // with the placeholders kEventPlaces
+  Spoken spoken;   // OnRequest: too frequent, so spoken only after the key Y
   Signal signal;
 };
 
-// One row for each event, in the order of HeardEvent.
+// The event's row.
 const HeardEventRow& row_of(HeardEvent event);
 
 }  // namespace afm::exhibit

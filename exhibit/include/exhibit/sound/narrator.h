@@ -8,47 +8,46 @@
 #include <vector>
 
 #include "core/clock.h"
-#include "exhibit/guidance.h"
-#include "exhibit/phrases.h"
 #include "exhibit/sound/captions.h"
 #include "exhibit/sound/speech_queue.h"
 #include "exhibit/sound/tip_ear.h"
+#include "exhibit/words/guidance.h"
+#include "exhibit/words/phrases.h"
 #include "servo/tip_listener.h"
 
 namespace afm::exhibit {
 
-// Turns what happens into captions, into signals of the program itself, and into texts to speak: what a person who does
-// not see the wall needs for the whole procedure. The frame loop's thread.
+// Turns events into captions, into the program's own signals, and into speech: everything that a person who cannot see
+// the wall needs for the whole procedure. Thread of the frame loop.
 class Narrator final : public servo::TipAudience {
  public:
-  using Signal = std::function<void(const Heard&)>;    // of what no servo reports
+  using Signal = std::function<void(const Heard&)>;    // events that do not come from a servo
   using Say = std::function<void(const SpeechText&)>;  // must not block
 
-  // `titles`: of the materials, in the language of the phrases, which must outlive this as the clock must.
+  // `titles` of the materials, in the language of the phrases. Phrases and clock must outlive the object.
   Narrator(const Phrases& phrases, std::vector<std::string> titles, const core::Clock& clock, Signal signal, Say say);
 
   // Every sample and event of the servo.
   void heard(const scene::TipSample& sample) override;
   void heard(const scene::TipEvent& event) override;
 
-  // Once a frame: the state of the tip, the step that comes next, and its line of guidance, which is spoken when it is
-  // another one.
+  // Call once a frame, with the tip's state, the next step, and its line of guidance, which is spoken when it changes.
   struct Step {
     Hint hint = Hint::ChooseSample;
     std::string guidance;
-    std::optional<std::uint32_t> scan_lines;  // that an image has; none is taken
+    std::optional<std::uint32_t> scan_lines;  // lines finished in the current image; empty: no scan
   };
   void follow(const scene::TipState& tip, const Step& step);
 
-  // The key Y: the last event, and how things are.
+  // Key Y: speaks the last event and the current state.
   void say_state(const scene::TipState& tip);
 
-  // What is told of the tip: everything; where names and figures would give an answer away, what concerns the force;
-  // and while a question waits for its answer, faults alone, so that nothing cuts it off.
+  // Extent of the reports on the tip. Everything; Force: only events that concern the force, because names and figures
+  // would reveal an answer; Faults: only faults, so that nothing interrupts a question.
   enum class Telling { All, Force, Faults };
   void set_telling(Telling telling) { telling_ = telling; }
 
-  // What a key did, in words that go on the wall and are spoken.
+  // Reports a key's effect as a caption and as speech.
   void note(const std::string& text);
 
   const std::string& caption() { return captions_.text(clock_.now_ns()); }

@@ -10,12 +10,12 @@
 
 namespace afm::exhibit {
 
-// What a session sounds like, from its first tick on: left and right in turn at kSoundRateHz, the same samples every
-// time. Each event begins with the sample that is nearest to its interpolated time. `gain`: 1 is as made. Fails with
-// BadInputFile if the session's material has no law of force, or if it lasts longer than an hour.
+// Sound of a session from its first tick on: left and right samples alternating at kSoundRateHz, always identical. Each
+// event begins at the sample nearest to its interpolated time. `gain`: 1 is unchanged. BadInputFile if the session's
+// material has no force law, or if the session is longer than an hour.
 core::Result<std::vector<float>> sound_of(const servo::RecordedSession& session, Channels channels, double gain);
 
-// The same as the bytes of a WAV file.
+// The same as the contents of a WAV file.
 core::Result<std::string> wav_of(const servo::RecordedSession& session, Channels channels, double gain);
 
 }  // namespace afm::exhibit

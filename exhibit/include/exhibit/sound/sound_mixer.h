@@ -16,19 +16,20 @@
 
 namespace afm::exhibit {
 
-// A part of a spoken phrase, at kSoundRateHz.
+// Part of a spoken phrase, at kSoundRateHz.
 struct VoiceBlock {
   static constexpr std::size_t kSamples = 480;
-  std::uint32_t phrase = 0;  // its number; that of a newer one cuts it off
+  std::uint32_t phrase = 0;  // number of the phrase; a newer one interrupts it
   std::uint32_t count = 0;
   std::array<float, kSamples> samples{};
 };
 
-// What a sound card plays: tones and signals of the tip, signals of the program, and a voice. Three producers, each in
-// its own thread, and one consumer, the audio thread, meet in rings. Nothing is lost that fits into half a second.
+// Mixes the sound card's output: tones and signals of the tip, signals of the program, and a voice. Three producers,
+// each in a separate thread, and one consumer, the audio thread, communicate through rings, which lose nothing that
+// fits into half a second.
 //
-// What happens at a time is heard kDelayNs later, and whatever the card adds: so long may an update take to get here
-// without spoiling the rhythm.
+// An event is heard kDelayNs after its time, plus the card's delay, so that an update may be late by that much without
+// disturbing the rhythm.
 class SoundMixer final : public servo::TipAudience {
  public:
   static constexpr std::int64_t kDelayNs = 10'000'000;
@@ -36,21 +37,21 @@ class SoundMixer final : public servo::TipAudience {
 
   explicit SoundMixer(Channels channels) : synthesizer_(channels) {}
 
-  // ---- the thread that listens to the servo
+  // ---- for the thread that reads the servo
   void heard(const scene::TipSample& sample) noexcept override;
   void heard(const scene::TipEvent& event) noexcept override;
 
-  // ---- the frame loop
+  // ---- for the frame loop
   void happened(const Heard& event) noexcept;
-  void set_ear(std::size_t material, const Ear& ear) noexcept;  // before its forces are heard, and when they change
+  void set_ear(std::size_t material, const Ear& ear) noexcept;  // before its forces sound, and on changes
   void set_volume(double gain) noexcept { gain_.store(static_cast<float>(gain)); }  // 0: silent
-  void set_tones(bool on) noexcept { tones_.store(on); }  // of tip and program; else the voice
+  void set_tones(bool on) noexcept { tones_.store(on); }  // disables tones and signals but not the voice
 
-  // ---- the thread that speaks
+  // ---- for the thread that speaks
   bool speak(const VoiceBlock& block) noexcept { return voice_.push(block); }  // false: full, try again
   void cut_voice(std::uint32_t next_phrase) noexcept { phrase_.store(next_phrase); }
 
-  // ---- the audio thread: the next samples, left and right in turn. Wait-free; neither allocates nor throws.
+  // ---- for the audio thread: the next samples, left and right alternating. Wait-free; neither allocates nor throws.
   void fill(std::span<float> interleaved, std::int64_t now_ns) noexcept;
 
  private:
@@ -58,7 +59,7 @@ class SoundMixer final : public servo::TipAudience {
     std::int64_t time_ns = 0;
     double force_n = 0;
     std::int32_t material = -1;
-    bool event = false;  // else a sample: a force
+    bool event = false;  // false: a sample, which has a force
     bool audible = false;
     HeardEvent what{};
   };
@@ -76,10 +77,10 @@ class SoundMixer final : public servo::TipAudience {
   void add_voice(std::span<float> interleaved) noexcept;
   float next_of_voice() noexcept;
 
-  // ---- of the thread that listens
+  // ---- used by the thread that reads the servo
   TipEar ear_;
 
-  // ---- crossing
+  // ---- shared by two threads
   core::SpscRing<TipUpdate, 1024> tip_updates_;
   core::SpscRing<ProgramUpdate, 64> program_updates_;
   core::SpscRing<VoiceBlock, 64> voice_;
@@ -87,12 +88,12 @@ class SoundMixer final : public servo::TipAudience {
   std::atomic<bool> tones_{true};
   std::atomic<std::uint32_t> phrase_{0};
 
-  // ---- of the audio thread
+  // ---- used by the audio thread
   std::array<Ear, kMaxMaterials> ears_ = filled_with(Ear(1e-9, 1e-9), std::make_index_sequence<kMaxMaterials>());
   StreamClock clock_;
   Synthesizer synthesizer_;
   VoiceBlock block_;
-  std::size_t spoken_ = 0;  // of the block
+  std::size_t spoken_ = 0;  // position in the block
   float voice_gain_ = 0;
   double last_hz_ = 0;
 

@@ -10,14 +10,15 @@
 
 namespace afm::exhibit {
 
-// The sound card, through SDL2, which is loaded when it is opened: the program needs neither where there is no sound.
-// Its thread pulls from the mixer, 256 frames at a time: two such buffers are 10.7 ms. The environment variable
-// SDL_AUDIODRIVER chooses SDL's driver.
+// The sound card through SDL2, which is loaded at run time, so that the program runs without both. SDL's thread reads
+// from the mixer, 256 frames at a time: two such buffers are 10.7 ms. The environment variable SDL_AUDIODRIVER selects
+// SDL's driver.
 class SoundOutput {
  public:
   static constexpr int kFramesOfBuffer = 256;
 
-  // Mixer and clock must outlive it. DeviceMissing, with one line, if there is no SDL2, no card, or none that plays.
+  // Mixer and clock must outlive the object. DeviceMissing, with one line of text, if SDL2 or a working card is
+  // missing.
   static core::Result<std::unique_ptr<SoundOutput>> open(SoundMixer& mixer, const core::Clock& clock);
 
   SoundOutput(const SoundOutput&) = delete;
@@ -26,7 +27,7 @@ class SoundOutput {
 
   virtual const std::string& driver() const = 0;  // "pulseaudio"
 
-  // False once the card is gone, which is for good.
+  // False once the card is gone, which is permanent.
   virtual bool plays() = 0;
 
  protected:

@@ -17,11 +17,11 @@
 
 namespace afm::exhibit {
 
-// Speaks texts in its own thread, in the order of a SpeechQueue. A program that fails costs one line of the log,
-// however often it fails. offer() is for one thread, and waits for nothing.
+// Speaks texts in a separate thread, in the order of a SpeechQueue. A failing program costs one line of the log,
+// however often it fails. Call offer() from one thread; it never waits.
 class Speaker {
  public:
-  // `mixer` gets the voice of a program that writes to a pipe; it and the clock must outlive this.
+  // `mixer` receives the voice of a program that writes to a pipe. Mixer and clock must outlive the object.
   Speaker(SpeechProgram program, SoundMixer& mixer, const core::Clock& clock);
   Speaker(const Speaker&) = delete;
   Speaker& operator=(const Speaker&) = delete;
@@ -42,14 +42,14 @@ class Speaker {
   const core::Clock& clock_;
   SpeechChild child_;
   core::OnInterruption ended_;
-  std::mutex mutex_;  // of the queue
+  std::mutex mutex_;  // protects the queue
   std::condition_variable wake_;
   SpeechQueue queue_;
-  std::atomic<bool> newer_{false};  // what is spoken is cut off
+  std::atomic<bool> newer_{false};  // interrupts the current phrase
   std::atomic<bool> ending_{false};
   std::uint32_t phrase_ = 0;
   bool logged_ = false;
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // last, because it uses all other members
 };
 
 }  // namespace afm::exhibit

@@ -13,33 +13,34 @@
 
 namespace afm::exhibit {
 
-// A program that speaks, started once for each phrase: espeak-ng, which is GPL and therefore never linked, writes the
-// voice to a pipe; spd-say hands the text to the voice of a screen reader.
+// A speech program, started for each phrase: espeak-ng, which is GPL and therefore never linked, writes the voice to a
+// pipe; spd-say passes the text to the voice of a screen reader.
 struct SpeechProgram {
   enum class Voice { Piped, ItsOwn };
 
-  std::string path;      // of the executable
+  std::string path;      // path of the executable
   std::string language;  // "en"
   Voice voice = Voice::Piped;
 
-  // With the text as its last argument, which is never taken for an option.
+  // Command-line arguments with the text as the last one, protected from being parsed as an option.
   std::vector<std::string> arguments(const std::string& text) const;
 };
 
-// A run of it in its own process group, with no input and no say on our stderr. Ended, by force if need be, when
-// the run is over. One thread; only stop() may be called from any.
+// One run of the program, in a separate process group, without input and with its stderr discarded. Ends with the
+// object, by force if necessary. One thread, except for stop().
 class SpeechChild {
  public:
-  // Longer it may not take to give a whole phrase to a pipe, and to speak it itself.
+  // Longest time for writing a whole phrase to a pipe, and for speaking it.
   static constexpr std::int64_t kPipedMs = 2'000, kItsOwnMs = 30'000;
   static constexpr std::size_t kMostBytes = 16'000'000;  // three minutes of a voice
 
-  // What it wrote. Asks `cut_off` every few milliseconds, and ends the child with nothing once that is true. Failed,
-  // with one line, if it cannot be started, takes too long, ends with an error, or writes too much.
+  // Runs the program and returns its output. Calls `cut_off` every few milliseconds and ends the child, with an empty
+  // result, once it returns true. Failed, with one line of text, if it cannot be started, takes too long, ends with an
+  // error, or writes too much.
   core::Result<std::string> run(const SpeechProgram& program, const std::string& text,
                                 const std::function<bool()>& cut_off);
 
-  // Kills the child that runs, if one does. Any thread; an interruption's too.
+  // Kills the running child, if any. Any thread, including that of an interruption.
   void stop() noexcept;
 
  private:

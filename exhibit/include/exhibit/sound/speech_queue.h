@@ -14,19 +14,19 @@ struct SpeechText {
   SpeechKind kind = SpeechKind::Guidance;
 };
 
-// What is spoken next: the newest. An event, or an answer to the key Y, cuts off whatever is spoken. Guidance cuts off
-// older guidance alone, and waits until an event has been spoken. One text of each kind waits at most: a flood ends in
-// its newest text. One thread.
+// Selects the next text to speak: the newest. An event, or the answer to key Y, interrupts any speech. Guidance
+// interrupts only older guidance, and waits for the end of an event. At most one text of each kind waits, so many texts
+// at once end in the newest. One thread.
 class SpeechQueue {
  public:
   void offer(SpeechText text);
 
-  // The text that begins now, if one does; it cuts off the one before. As soon as it is known, say when it will have
-  // been spoken: until then an event is not followed by guidance.
+  // The text to begin now, or empty; it interrupts the previous one. Report the end of its speech as soon as it is
+  // known: until then no guidance follows an event.
   std::optional<SpeechText> take(std::int64_t now_ns);
   void spoken_until(std::int64_t end_ns) { end_ns_ = end_ns; }
 
-  // When take() may give a text without a new offer: none waits, or at once, or then.
+  // Earliest time at which take() may return a text without a new offer: empty if none waits, 0 for at once.
   std::optional<std::int64_t> next_ns() const;
 
  private:

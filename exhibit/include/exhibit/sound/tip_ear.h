@@ -10,28 +10,28 @@
 
 namespace afm::exhibit {
 
-// An event with its time and, where it has one, its force.
+// An event with its time and, if it has one, its force.
 struct Heard {
   HeardEvent event = HeardEvent::SnapIn;
-  std::int64_t time_ns = 0;  // CLOCK_MONOTONIC, interpolated where the servo interpolates
-  double force_n = 0;        // on the tip, positive away from the sample; of a slip its size; 0: none
+  std::int64_t time_ns = 0;  // CLOCK_MONOTONIC, interpolated if the servo interpolates
+  double force_n = 0;        // on the tip, positive away from the sample; for a slip, its size; 0: none
   std::int32_t material = -1;
 };
 
-// What is heard of an event of the servo.
+// Converts an event of the servo.
 Heard heard_of(const scene::TipEvent& event);
 
-// Where a signal comes from: a jump from where its force does, all others from the middle.
+// Stereo position of a signal: for a jump, that of its force; otherwise the middle.
 double side_of(const Heard& heard, const Ear& ear);
 
-// True while the force has its tone.
+// Returns whether the force is audible as a tone.
 bool is_audible(const scene::TipSample& sample);
 
-// What is heard of the servo's samples, one after the other: the force comes on and goes off, and the tip touches. A
-// touch is heard again only after the tip was free or was pulled. One thread.
+// Derives events from the servo's samples: the force is switched on or off, and the tip touches. Another touch is
+// reported only after the tip was free or pulled. One thread.
 class TipEar {
  public:
-  // In the order of their times; at most one event a sample.
+  // Adds a sample; call in order of time. Returns at most one event.
   std::optional<Heard> add(const scene::TipSample& sample);
 
  private:

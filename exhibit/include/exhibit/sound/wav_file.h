@@ -9,18 +9,18 @@
 
 namespace afm::exhibit {
 
-// The bytes of a WAV file of 16-bit samples, left and right in turn, at kSoundRateHz; 1 is full scale.
+// Contents of a WAV file with 16-bit samples, left and right alternating, at kSoundRateHz; 1 is full scale.
 std::string wav_bytes(std::span<const float> interleaved);
 
-// What a program wrote as WAV: 16 bits, one channel. Programs that write to a pipe do not know its length beforehand:
-// the samples reach to the end.
+// A program's WAV output: 16 bits, one channel. A program that writes to a pipe does not know the length in advance, so
+// the samples extend to the end.
 struct MonoWav {
   int rate_hz = 0;
   std::vector<float> samples;
 };
 std::optional<MonoWav> parse_mono_wav(std::string_view bytes);
 
-// At another rate, by straight lines between the samples: good enough for a voice.
+// Resampled by linear interpolation, which suffices for a voice.
 std::vector<float> resampled(const MonoWav& wav, int rate_hz);
 
 }  // namespace afm::exhibit

@@ -6,18 +6,18 @@
 
 namespace afm::physics {
 
-// Dry friction as a spring whose other end is anchored on the sample: it holds up to a yield force and drags its anchor
-// beyond (Hayward & Armstrong 2000; elastic, perfectly plastic). With L the way from the anchor to the support,
+// Dry friction as a spring anchored on the sample: it holds up to a yield force and drags its anchor beyond (Hayward &
+// Armstrong 2000; elastic, perfectly plastic). With L the vector from the anchor to the support,
 //
-//   force on the support = -k L,  |k L| <= yield;  the anchor moves along L alone, and only while L is as long as that
+//   force on the support = -k L,  |k L| <= yield;  the anchor moves along L only, and only at the yield force
 //
-// - A held tip does not drift, and the forces do not depend on time: only on the path.
+// - A held tip does not drift, and the forces depend only on the path, not on time.
 // - A straight path with one yield force gives the same in one step as in many: the anchor then follows a tractrix,
 //   tan(angle/2) = tan(angle_0/2) exp(-way/r) with r = yield/k, which has a closed form.
-// - It takes energy only: what a path costs is 1/2 k |L|^2 at its end less that at its beginning, and `lost` above
-//   zero.
+// - It only dissipates energy: a path costs 1/2 k |L|^2 at its end minus that at its beginning, plus `lost`, which is
+//   positive.
 //
-// For one thread; does not allocate or throw.
+// One thread; does not allocate or throw.
 class AnchoredTip {
  public:
   explicit AnchoredTip(Stiffness spring) noexcept : k_(spring.si) {}
@@ -25,8 +25,8 @@ class AnchoredTip {
   // The tip touches down: no force.
   void land(const Sideways<Length>& support) noexcept;
 
-  // Along a straight line to `support`, under a yield force that is the new one all along; what it took from the hand
-  // for good. A yield force that falls shortens L.
+  // Moves along a straight line to `support`, with the new yield force for the whole line. Returns the dissipated
+  // energy. A lower yield force shortens L.
   Energy move_to(const Sideways<Length>& support, Force yield) noexcept;
 
   Sideways<Force> force() const noexcept { return {Force(-k_ * x_), Force(-k_ * y_)}; }  // on the support

@@ -11,35 +11,35 @@
 
 namespace afm::physics {
 
-// The lateral force on the tip's holder, positive where it is pulled back along -x, at the holder's place x: a point of
-// a friction loop.
+// A point of a friction loop: the position x of the tip's holder and the lateral force on it, positive if it is pulled
+// back along -x.
 struct LateralPoint {
   Length place;
   Force force;
 };
 
-// A place of the tip's holder on the sample, and the lateral force on the tip there.
+// A position of the tip's holder on the sample, and the lateral force on the tip there.
 struct SidewaysPoint {
   Sideways<Length> place;
   Sideways<Force> force;
 };
 
-// The same along the line through the origin on which the places spread most, which leads to +x.
+// Projects the points to the line through the origin along which the positions vary most, oriented to +x.
 std::vector<LateralPoint> along_main_line(std::span<const SidewaysPoint> points);
 
-// What a friction loop shows. Forces and places as in LateralPoint.
+// Results of a friction loop. Forces and positions as in LateralPoint.
 struct FrictionLoop {
-  Force half_width;   // half of the forward stroke's mean less the backward one's: the friction
-  Force offset;       // half of their sum: what does not change its sign with the direction, a slope or a crosstalk
-  Stiffness slope;    // dF/dx of the tip that sticks, after a turn
-  Energy dissipated;  // by a cycle, between its turning points
-  std::size_t begin = 0, turn = 0, end = 0;  // of the run: the points where the cycle begins, turns and ends
+  Force half_width;   // friction: half the difference of the forward and the backward stroke's mean
+  Force offset;       // half their sum: independent of the direction, from a slope or crosstalk
+  Stiffness slope;    // dF/dx after a turn, while the tip sticks
+  Energy dissipated;  // energy per cycle, between its turning points
+  std::size_t begin = 0, turn = 0, end = 0;  // indices in the run where the cycle begins, turns and ends
 };
 
-// The last whole cycle of a run over the sample there and back, in the order of time: two strokes of opposite
-// directions, each longer than the way on which the tip sticks after its turn; the stroke that is under way counts as
-// soon as it is so long. That way is left out of the means, at both ends. None where there is no such cycle, or no
-// friction in it.
+// The last complete cycle of a run back and forth over the sample, in order of time: two strokes of opposite
+// directions, each longer than the distance over which the tip sticks after its turn. The stroke in progress counts as
+// soon as it is long enough. The means exclude the sticking distance at both ends. Empty if there is no such cycle, or
+// no friction in it.
 std::optional<FrictionLoop> last_friction_loop(std::span<const LateralPoint> run);
 
 }  // namespace afm::physics

@@ -9,11 +9,11 @@
 #include "physics/friction/lattice_tip.h"
 #include "physics/friction/sideways.h"
 
-// One tip for each law of friction. A new law adds its tip here and its row to kFrictionLaws
+// One tip type for each friction law. A new law adds its tip here and its row to kFrictionLaws
 // (docs/adding-a-friction-law.md); an enumerator without a tip does not compile.
 namespace afm::physics {
 
-// One sample and its friction, as a tip is made for it. `adhesion` is the magnitude of the pull-off force.
+// Inputs for making a tip: one sample and its friction. `adhesion` is the magnitude of the pull-off force.
 struct FrictionContact {
   const FrictionParameters& friction;  // validated
   Law law;
@@ -64,7 +64,7 @@ class AmontonsYield {
   double coefficient_;
 };
 
-// tau A. Throws for a law of force without an area.
+// tau A. Throws for a force law without a contact area.
 class ContactAreaYield {
  public:
   static constexpr FrictionLaw kLaw = FrictionLaw::ContactArea;
@@ -74,11 +74,11 @@ class ContactAreaYield {
 
  private:
   Pressure shear_strength_;
-  std::vector<double> areas_m2_;  // at equal steps of the load's root
+  std::vector<double> areas_m2_;  // at equal steps of the square root of the load
   double root_step_ = 1.0;        // sqrt(N)
 };
 
-// A tip in the wells of a lattice, whose depth follows the load. Its yield force is the largest along x.
+// A tip in the wells of a lattice, whose depth is proportional to the load. Its yield force is the largest along x.
 class WellTip {
  public:
   static constexpr FrictionLaw kLaw = FrictionLaw::Lattice;

@@ -6,13 +6,13 @@
 
 namespace afm::physics {
 
-// One tip and its friction on one sample, by any of the laws, as the load comes and goes. Held only while it touches.
-// Its constructor allocates; the rest is for one thread and does not allocate, lock or throw.
+// A tip with friction by any of the laws on one sample, under a varying load. Active only while the tip touches. The
+// constructor allocates; everything else is for one thread and does not allocate, lock or throw.
 class LateralContact {
  public:
-  // `adhesion` is the magnitude of the pull-off force: what is to be added to the force on the tip for a load. Throws
-  // std::invalid_argument for parameters out of range, FrictionLaw::None among them, and for FrictionLaw::ContactArea
-  // with a law of force that has no area.
+  // `adhesion` is the magnitude of the pull-off force; the force on the tip plus `adhesion` is the load. Throws
+  // std::invalid_argument for parameters out of range, including FrictionLaw::None, and for FrictionLaw::ContactArea
+  // with a force law without contact area.
   LateralContact(const FrictionParameters& friction, Law law, const ContactParameters& contact, Force adhesion);
 
   using Step = LatticeTip::Step;  // only a lattice has slips
@@ -24,17 +24,17 @@ class LateralContact {
 
   // All zero while not touching.
   Sideways<Force> force() const noexcept;  // on the support
-  Energy stored() const noexcept;          // in spring and landscape
-  Length lift_per_load() const noexcept;   // d stored/dN at a support that is held: what a rising load has to pay
+  Energy stored() const noexcept;          // in spring and lattice
+  Length lift_per_load() const noexcept;   // d stored/dN at a fixed support: paid by a rising load
 
-  Stiffness stiffness() const noexcept { return stiffness_; }  // no spring in it is stiffer
+  Stiffness stiffness() const noexcept { return stiffness_; }  // stiffness of its stiffest spring
 
-  // The least force that slides the tip, at a load at or above zero; of a lattice the largest along x.
+  // The smallest force that slides the tip, at a load at or above zero; for a lattice the largest along x.
   Force yield(Force load) const noexcept;
 
  private:
   Stiffness stiffness_;
-  FrictionTip tip_;  // never without a value, so that visiting it cannot throw
+  FrictionTip tip_;  // never valueless, so visiting it cannot throw
   bool touching_ = false;
 };
 

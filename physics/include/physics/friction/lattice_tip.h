@@ -11,10 +11,10 @@
 
 namespace afm::physics {
 
-// The landscape that a lattice is to a tip, in units of U: v(x) = sum over its waves of 1 - cos(g . x), zero in the
-// wells. Hexagonal: three waves of the length sqrt(3)/2 a, so that
-// V = U v = const - U [2 cos(2 pi x/a) cos(2 pi y/(sqrt3 a)) + cos(4 pi y/(sqrt3 a))], with wells of 0, saddles of 4 U
-// and tops of 4.5 U, and the stiffness 8 pi^2 U/a^2 all around a well. Rows and Square: waves along x, and along y.
+// The lattice's potential in units of U: v(x) = sum over its waves of 1 - cos(g . x), zero in the wells. Hexagonal:
+// three waves of the length sqrt(3)/2 a, so that V = U v = const - U [2 cos(2 pi x/a) cos(2 pi y/(sqrt3 a)) + cos(4 pi
+// y/(sqrt3 a))], with wells of 0, saddles of 4 U and tops of 4.5 U, and the stiffness 8 pi^2 U/a^2 all around a well.
+// Rows and Square: waves along x, and along y.
 class LatticeLandscape {
  public:
   LatticeLandscape(LatticeKind kind, Length period) noexcept;
@@ -28,10 +28,10 @@ class LatticeLandscape {
   Place at(double x_m, double y_m) const noexcept;
 
   double period_m() const noexcept { return period_m_; }
-  double sharpest_bend() const noexcept;  // no curvature is larger, 1/m^2
-  double highest() const noexcept;        // no height is
+  double sharpest_bend() const noexcept;  // upper bound of the curvature, 1/m^2
+  double highest() const noexcept;        // upper bound of the height
 
-  // U where the largest force along x is that of a row of the amplitude E0: E0/4 for Hexagonal, else E0/2.
+  // U for which the largest force along x equals that of a row of the amplitude E0: E0/4 for Hexagonal, otherwise E0/2.
   static Energy scale_of_row(LatticeKind kind, Energy amplitude) noexcept;
 
  private:
@@ -43,31 +43,31 @@ class LatticeLandscape {
   std::uint32_t count_ = 0;
 };
 
-// The stiffness 8 pi^2 U/a^2 of a well of the hexagonal lattice; a spring below it slips along y = 0, one above it does
+// The stiffness 8 pi^2 U/a^2 of a well of the hexagonal lattice. A weaker spring slips along y = 0, a stiffer one does
 // not (there V is the sine of physics/friction/prandtl_tomlinson.h with E0 = 4 U).
 Stiffness hexagonal_well_stiffness(Energy scale, Length period);
 
 // A jump of the tip from one well to another.
 struct LatticeSlip {
-  double fraction = 0.0;         // of the step's path, in [0, 1]
-  Sideways<Length> support;      // where it happened
-  Sideways<Length> way;          // of the tip
+  double fraction = 0.0;         // share of the step's path, in [0, 1]
+  Sideways<Length> support;      // position of the support
+  Sideways<Length> way;          // displacement of the tip
   Sideways<Force> force_before;  // on the support
   Sideways<Force> force_after;
-  Energy lost;  // above zero
+  Energy lost;  // positive
 };
 
-// The tip of Prandtl and Tomlinson on a lattice, V = U v(x) + (k/2) |x - X|^2, in its well as long as there is one, and
-// then down the steepest way to the next (an overdamped tip, pulled infinitely slowly). Its state is its place alone:
+// The tip of Prandtl and Tomlinson on a lattice, V = U v(x) + (k/2) |x - X|^2. It stays in its well as long as there is
+// one, and then takes the steepest way down to the next (an overdamped tip, pulled infinitely slowly). Its state is its
+// position only:
 //
-// - The slips lie where the well ends, exactly, on the straight path between two steps, as many as there are; forces
-// and
-//   slips do not depend on where the steps end or on time.
-// - It takes energy only: dV = F . dX + v dU along a path, and every slip loses some.
-// - U changes as the load does. V then pushes along the load's axis as well, with v dU/dN dN/dz: see relief().
+// - Slips are exactly where the well ends, on the straight path between two steps, as many as there are. Forces and
+//   slips do not depend on the division into steps or on time.
+// - It only dissipates energy: dV = F . dX + v dU along a path, and every slip loses some.
+// - U changes with the load. V then also pushes along the load's axis, with v dU/dN dN/dz: see relief().
 //
-// A path of many periods in one step is cut at its beginning (kLongestPath), so that the work of a step is bounded.
-// For one thread; does not allocate or throw.
+// A path of many periods in one step is cut at its beginning (kLongestPath), which bounds the work of a step. One
+// thread; does not allocate or throw.
 class LatticeTip {
  public:
   static constexpr double kLongestPath = 3.0;  // in periods
@@ -75,36 +75,36 @@ class LatticeTip {
 
   LatticeTip(LatticeKind kind, Length period, Stiffness spring) noexcept;
 
-  // What a step did. Only a path that is cut, or a touch-down, can store energy that the hand has not paid: `given`.
+  // Result of a step. Only a cut path or a touch-down can store energy that the hand has not supplied: `given`.
   struct Step {
     std::array<LatticeSlip, kMostSlips> slips{};
     std::uint32_t slip_count = 0;
-    Energy lost;   // by slips, and where an unstable place was left
+    Energy lost;   // by slips and by leaving an unstable position
     Energy given;  // at or above zero
     std::span<const LatticeSlip> slipped() const noexcept { return std::span(slips).first(slip_count); }
   };
 
-  // The tip touches down above the support and finds its well; `scale` is U.
+  // Puts the tip down above the support and lets it settle in its well; `scale` is U.
   Step land(const Sideways<Length>& support, Energy scale) noexcept;
 
-  // To `support`, U going on to `scale` along the way.
+  // Moves to `support`, with U changing to `scale` along the way.
   Step move_to(const Sideways<Length>& support, Energy scale) noexcept;
 
   Sideways<Force> force() const noexcept;  // on the support: k (x - X)
   Sideways<Length> tip() const noexcept { return {Length(x_), Length(y_)}; }
   Energy stored() const noexcept;  // V
-  double relief() const noexcept;  // v: dV/dU at a support that is held
+  double relief() const noexcept;  // v: dV/dU at a fixed support
 
  private:
-  // A support and a U.
+  // Inputs of the potential: a support and a U.
   struct Control {
     double x = 0.0, y = 0.0, scale = 0.0;
   };
-  // x and V's second derivatives there.
+  // x and V's second derivatives at x.
   struct Rest {
     double x = 0.0, y = 0.0;
     double xx = 0.0, xy = 0.0, yy = 0.0;
-    double least() const noexcept;  // curvature
+    double least() const noexcept;  // least curvature
   };
 
   Control on_path(const Control& from, const Control& change, double t) const noexcept;
@@ -123,7 +123,7 @@ class LatticeTip {
   LatticeLandscape landscape_;
   double k_;
   Control now_;
-  double x_ = 0.0, y_ = 0.0;  // of the tip
+  double x_ = 0.0, y_ = 0.0;  // position of the tip
 };
 
 }  // namespace afm::physics

@@ -9,8 +9,8 @@
 
 namespace afm::physics {
 
-// What is taken off a measured topography before it is shown or felt: the sample's tilt, and the steps that the
-// instrument makes between one line and the next.
+// Correction of a measured topography before it is shown or felt. Plane: removes the sample's tilt. Lines: also the
+// instrument's steps from one line to the next.
 enum class Levelling { None, Plane, Lines };
 
 struct LevellingText {
@@ -27,8 +27,8 @@ inline constexpr std::array kLevellings{
 
 constexpr const LevellingText& text_of(Levelling levelling) { return kLevellings[static_cast<std::size_t>(levelling)]; }
 
-// Of the points that were measured: NaN is none. Sq is the root of the mean square of the distance from the mean
-// (ISO 25178-2, 4.2.1).
+// Statistics of the measured points, ignoring NaN. Sq is the root mean square of the distance from the mean (ISO
+// 25178-2, 4.2.1).
 struct HeightStatistics {
   std::size_t measured = 0;
   double mean = 0;
@@ -42,13 +42,13 @@ struct LevelledHeights {
   std::vector<double> heights;  // all finite; row 0 at the top, as in ScanImage
   double slope_x = 0;           // slope of the subtracted plane: per column, to the right
   double slope_y = 0;           // per row, upwards
-  std::size_t filled = 0;       // points that were not measured
+  std::size_t filled = 0;       // number of points without a measurement
 };
 
-// `heights` row by row. Points that were not measured take no part; then they are filled from their neighbours, ring by
-// ring, each with the mean of those of the eight around it that are known. The mean height stays as it was measured.
-// Throws std::invalid_argument unless the sizes fit, a point was measured, and none lies beyond kMostImageValue
-// (scan_image.h), where the sums would have no value.
+// `heights` row by row. Points without a measurement (NaN) do not influence the levelling; then they are filled ring by
+// ring, each with the mean of the known ones of its eight neighbours. The mean height does not change. Throws
+// std::invalid_argument unless the sizes fit, a point was measured, and none is beyond kMostImageValue (scan_image.h),
+// which would overflow the sums.
 LevelledHeights levelled(std::span<const double> heights, std::size_t columns, std::size_t rows, Levelling levelling);
 
 }  // namespace afm::physics

@@ -11,23 +11,23 @@
 
 namespace afm::physics {
 
-// What keeps an image from showing the sample. Names and phrases of the wall are in this order.
+// Artefacts of an image. Names and phrases of the wall are in this order.
 enum class ScanArtefact {
   None,
-  LostContact,  // the tip hangs above the sample: setpoint too low, or the sample drifted away
-  Ringing,      // the loop swings by itself: gain too high for the z scanner or the feedback's ticks
-  Parachuting,  // behind a step down the tip is off, and the image a slope: too fast, or setpoint too low
+  LostContact,  // the tip is above the sample: setpoint too low, or the sample drifted away
+  Ringing,      // the loop oscillates: gain too high for the z scanner or the tick rate
+  Parachuting,  // behind a step down the tip is off and the image a slope: too fast, or setpoint too low
   Overload,     // in front of a step up the lever presses harder than three times the setpoint
-  DoubleTip,    // a second apex draws ghosts
-  Drift,        // the sample moves on while it is scanned: the image is sheared or stretched
+  DoubleTip,    // a second apex causes ghosts
+  Drift,        // the sample moves during the scan: the image is sheared or stretched
   Noise,        // detector noise as large as the relief
-  Blur,         // the loop is too slow: the image is flatter than the sample, and trace and retrace part
+  Blur,         // the loop is too slow: the image is flatter than the sample, and trace and retrace differ
   BluntTip,     // dents close and bumps grow wide: visible only by comparison with a sharper tip
 };
 
 struct ScanArtefactName {
   ScanArtefact artefact;
-  std::string_view name;  // as --json has it
+  std::string_view name;  // name in --json
 };
 
 inline constexpr std::array kScanArtefacts{
@@ -41,23 +41,23 @@ static_assert(has_row_for_each(kScanArtefacts, &ScanArtefactName::artefact));
 
 std::string_view name_of(ScanArtefact artefact);
 
-// What the newest lines of a scan show, both passes of each.
+// Observations in the newest lines of a scan, both passes of each.
 struct ScanEvidence {
   double off_surface = 0;      // largest share of a line's time without contact
   double on_second_apex = 0;   // largest share of a line's time on the second apex
   double highest_force_n = 0;  // force of the lever
-  double relief_m = 0;         // from the lowest to the highest place that was measured
-  double bluntness = 1;        // radius of the tip over that of a sharper one; 1: no other tip is known
+  double relief_m = 0;         // range of the measured heights
+  double bluntness = 1;        // ratio of the tip's radius to that of a sharper one; 1: no other tip is known
 };
 
-// Evidence of one line alone.
+// Evidence of a single line.
 ScanEvidence evidence_of(const ScanLine& line);
 
-// A scan is judged by its newest lines, so that one that differs does not change the verdict.
+// Number of newest lines that are judged, so that a single different line does not change the verdict.
 inline constexpr std::size_t kJudgedLines = 6;
 
-// Evidence of the lines of an image, in the order in which they are taken: of the newest kJudgedLines, with the relief
-// of all.
+// Evidence of the lines of an image, added in the order of scanning: of the newest kJudgedLines, with the relief of
+// all.
 class NewestLines {
  public:
   void add(const ScanLine& line);
@@ -69,16 +69,16 @@ class NewestLines {
   double low_m_ = HUGE_VAL, high_m_ = -HUGE_VAL;
 };
 
-// What a scan is judged by besides its lines.
+// Inputs of the judgement in addition to the lines.
 struct ScanConditions {
   const ScanSettings& settings;
   const ScanArea& area;
   Frequency largest_integral_gain;  // ScanLoop::largest_integral_gain()
 };
 
-// The one judge of wall and --json: of the artefacts that hold, the one that hides the others. A tip that is off or
-// doubled is seen first, then an image that swings, drifts or is noise, which lifts the tip as well; what a slow loop
-// does to a clean image comes last.
+// The only judge for wall and --json: of the artefacts found, the one that hides all others. First a tip that is off or
+// doubled; then an image that oscillates, drifts or is noise, which also lifts the tip; last the effects of a slow loop
+// on a clean image.
 ScanArtefact main_artefact(const ScanConditions& conditions, const ScanEvidence& evidence);
 
 }  // namespace afm::physics

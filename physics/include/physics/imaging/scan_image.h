@@ -8,8 +8,7 @@
 
 namespace afm::physics {
 
-// Of a channel's values: far beyond what any instrument measures, and small enough that sums of products of two stay
-// finite.
+// Limit of a channel's values: far beyond any instrument's, and small enough to keep sums of products of two finite.
 inline constexpr double kMostImageValue = 1e100;
 
 // One quantity of a scan, row by row. Row 0 is the top one, with the largest y; columns run along x. NaN: not measured.
@@ -19,7 +18,7 @@ struct ImageChannel {
   std::vector<double> values;
 };
 
-// What an AFM's image file holds, whether the virtual microscope scanned it or an instrument wrote it.
+// Content of an AFM's image file, from the virtual microscope or from an instrument.
 struct ScanImage {
   std::size_t columns = 0;
   std::size_t rows = 0;

@@ -14,17 +14,18 @@ namespace afm::physics {
 
 // Lever, controller and z scanner of a microscope in static contact mode, tick by tick of the controller.
 //
-//   lever      d = h - z while the tip touches; it leaves at d < -F_ad/k and touches again at a gap of snap_in;
-//              free: d = 0. h is the height that the apex traces, z the height of the unbent lever's apex.
-//   detector   d_m = d + white noise, `detector_delay` ago
-//   controller e = d_m - setpoint/k, u <- u + Kp (e - e of the tick before) + Ki dt e: velocity-form PI, so that no
-//              integral winds up at an end of the z range
-//   z scanner  z'' + (w0/Q) z' + w0^2 z = w0^2 u, exact for a command that is held for a tick; z = u without resonance
+//   lever       d = h - z while the tip touches; it leaves at d < -F_ad/k and touches again at a gap of snap_in; free:
+//               d = 0. h is the height traced by the apex, z the height of the unbent lever's apex.
+//   detector    d_m = d + white noise, `detector_delay` ago
+//   controller  e = d_m - setpoint/k, u <- u + Kp (e - e of the previous tick) + Ki dt e: velocity-form PI, which
+//               prevents integral windup at an end of the z range
+//   z scanner   z'' + (w0/Q) z' + w0^2 z = w0^2 u, exact for a command that is constant for a tick; z = u without
+//               resonance
 //
 // - On a rigid contact and without Kp the loop is z' = (d - d_set)/tau, tau = 1/Ki, to first order in dt/tau.
 // - The same seed, settings and heights give the same path, bit for bit.
 //
-// For one thread. tick() neither allocates nor throws.
+// One thread. tick() neither allocates nor throws.
 class ScanLoop {
  public:
   static constexpr std::size_t kMostDelayTicks = 64;
@@ -32,16 +33,16 @@ class ScanLoop {
   // Starts engaged on z = 0. Throws UnphysicalValue as validate() does.
   ScanLoop(const ScanSettings& settings, Time tick, std::uint64_t seed);
 
-  // From the next tick on; the motion goes on. Throws as the constructor does, and then changes nothing.
+  // Takes effect from the next tick on; the motion continues. Throws as the constructor does, without any change.
   void change(const ScanSettings& settings, Time tick);
 
   // Puts the tip on the surface with the force of the setpoint, at rest.
   void engage(double height_m) noexcept;
 
-  // Where the z scanner is told to go, as far as it reaches; with the feedback off a hand may be the controller.
+  // Commanded position of the z scanner, clamped to its range. With the feedback off, a hand may be the controller.
   void command(double z_m) noexcept { command_m_ = std::clamp(z_m, -reach_m_, reach_m_); }
 
-  // Moves the z scanner for one tick, then looks at the surface below the apex and sets the next command.
+  // Moves the z scanner for one tick, then measures the surface below the apex and sets the next command.
   void tick(double height_m) noexcept {
     follow_command();
     const double gap_m = z_m_ - height_m;
@@ -53,9 +54,9 @@ class ScanLoop {
     error_m_ = error_m;
   }
 
-  // The integral gain at which the loop, in contact, begins to swing by itself: with its ticks, delay, proportional
-  // gain and z resonance. Without delay Ki dt = 2 (1 - Kp) for an ideal z scanner (Jury), and Ki = (1 + Kp) w0/Q for
-  // slow ones. Zero where the proportional gain alone is too large.
+  // The integral gain at which the loop, in contact, begins to oscillate, given its ticks, delay, proportional gain and
+  // z resonance. Without delay Ki dt = 2 (1 - Kp) for an ideal z scanner (Jury), and Ki = (1 + Kp) w0/Q for slow ones.
+  // Zero if the proportional gain by itself is too large.
   Frequency largest_integral_gain() const noexcept { return largest_gain_; }
 
   double z_m() const noexcept { return z_m_; }
@@ -93,7 +94,7 @@ class ScanLoop {
   Frequency largest_gain_;
   bool feedback_ = true, resonant_ = false;
   std::size_t delay_ticks_ = 0;
-  // z - u and z' after a tick, from those before it
+  // z - u and z' after a tick, as functions of those before it
   struct Swing {
     double zz = 0, zv = 0, vz = 0, vv = 0;
   } swing_;

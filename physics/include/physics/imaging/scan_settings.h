@@ -13,7 +13,7 @@ namespace afm::physics {
 
 enum class Feedback { On, Off };
 
-// Towards which end of the slow axis a frame is taken: Down begins at the top row, Up at the bottom one.
+// Direction of a frame along the slow axis: Down begins at the top row, Up at the bottom one.
 enum class SlowDirection { Down, Up };
 
 // The area of one frame, in the sample's frame at time zero. The fast axis is x.
@@ -28,8 +28,8 @@ struct ScanArea {
 
 inline constexpr std::size_t kMostScanPixels = 4096;
 
-// What a person may change while a scan runs: the microscope in static contact mode. The tip's shape and radius are not
-// here: they make the surface that the apex traces (physics/imaging/morphology.h).
+// Settings that may change during a scan: the microscope in static contact mode. The tip's shape and radius are not
+// included; they determine the surface traced by the apex (physics/imaging/morphology.h).
 struct ScanSettings {
   Frequency line_rate{2.0};          // lines a second, each there and back: tip speed 2 * width * line_rate
   Force setpoint{0.5e-9};            // lever force; negative: only adhesion holds the tip
@@ -58,7 +58,7 @@ inline constexpr Frequency kNoiseBandwidth{1e3};
 // The rms that the detector's noise has in the height, on a rigid contact: sqrt(S/(4 tau)), S its power density.
 Length noise_of_height(const ScanSettings& settings) noexcept;
 
-// One number of ScanSettings as options, files, panels and checks know it.
+// Description of one member of ScanSettings for options, files, panels and checks.
 struct ScanField {
   std::string_view name;                        // name of the member; messages print it with spaces for underscores
   std::string_view option;                      // option of the command line, without its dashes
@@ -66,7 +66,7 @@ struct ScanField {
   std::string_view help;                        // description for help texts
   double smallest;                              // SI, legal itself
   double largest;                               // largest accepted value
-  const Units* units;                           // kPlainNumber where it has none
+  const Units* units;                           // kPlainNumber if it has none
   double (*get)(const ScanSettings& settings);  // SI
   void (*set)(ScanSettings& settings, double si);
 
@@ -75,10 +75,10 @@ struct ScanField {
 
 inline constexpr std::size_t kScanFieldCount = 18;
 
-// In the order of the members; without Feedback, which is no number.
+// In the order of the members, without Feedback, which is not a number.
 extern const std::array<ScanField, kScanFieldCount> kScanFields;
 
-// Throw UnphysicalValue unless every number lies within its range.
+// Throw UnphysicalValue unless every number is within its range.
 void validate(const ScanSettings& settings);
 void validate(const ScanArea& area);
 

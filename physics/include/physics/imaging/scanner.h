@@ -16,7 +16,7 @@ namespace afm::physics {
 
 enum class ScanPass { Trace, Retrace };  // along +x, along -x
 
-// What is recorded at the middle of one pixel.
+// Record of one pixel, at its centre.
 struct ScanPixel {
   std::size_t row = 0;     // 0 is the top one, with the largest y
   std::size_t column = 0;  // 0 is the left one, on both passes
@@ -24,11 +24,11 @@ struct ScanPixel {
   double height_m = 0;   // z + d_set
   double error_n = 0;    // k (d - d_set), with the detector's noise averaged over the pixel
   double lateral_n = 0;  // positive along -x: against the trace
-  // of all ticks since the pixel before
+  // over all ticks since the previous pixel
   double lowest_force_n = 0;   // lever force
   double highest_force_n = 0;  // lever force
-  double off_surface = 0;      // share of them without contact, 0 to 1
-  double on_second_apex = 0;   // share of them in which the second apex touched
+  double off_surface = 0;      // share without contact, 0 to 1
+  double on_second_apex = 0;   // share in contact with the second apex
 };
 
 // One pass, by column.
@@ -48,46 +48,46 @@ struct ScanLine {
   ScanTrack retrace;
 };
 
-// Takes an image of a surface, pixel by pixel, as a microscope in static contact mode does. Its own time runs with the
-// pixels: a live window calls next() until time() has caught up with the clock, a batch calls it as fast as it can.
+// Takes an image of a surface, pixel by pixel, like a microscope in static contact mode. Its time advances with the
+// pixels: a live window calls next() until time() has caught up with the clock, a batch calls it without waiting.
 //
 // - A line is a trace along +x and a retrace along -x at the same speed; between lines the tip moves to the next row
-//   within one pixel's time. Pixel (column, row) lies at ((column + 1/2)/columns, (row + 1/2)/rows) of the area.
-// - Changed settings and surfaces act from the next pixel on.
-// - The surface is asked up to kSurfaceSamples times a pixel; between them its height is linear in time.
+//   within one pixel's time. Pixel (column, row) is at ((column + 1/2)/columns, (row + 1/2)/rows) of the area.
+// - Changed settings and surfaces take effect from the next pixel on.
+// - The surface is evaluated up to kSurfaceSamples times per pixel; in between its height is linear in time.
 // - The same seed and calls give the same image, bit for bit.
 //
-// For one thread. next() does not allocate.
+// One thread. next() does not allocate.
 class Scanner {
  public:
-  // Height that the apex traces at a place of the sample, in metres: the surface dilated by the tip. Finite everywhere.
+  // Height traced by the apex at a place of the sample, in metres: the surface dilated by the tip. Finite everywhere.
   using Surface = std::function<double(double x_m, double y_m)>;
 
   static constexpr std::size_t kSurfaceSamples = 16;
 
-  // Throws UnphysicalValue as validate() does. `surface` is not empty.
+  // Throws UnphysicalValue as validate() does. `surface` must not be empty.
   Scanner(const ScanArea& area, const ScanSettings& settings, Surface surface, std::uint64_t seed = 1);
 
-  // Throws UnphysicalValue as validate() does, and then changes nothing.
+  // Throws UnphysicalValue as validate() does, without any change.
   void change(const ScanSettings& settings);
   void change_surface(Surface surface);  // another sample, or another tip
   const ScanSettings& settings() const noexcept { return settings_; }
   const ScanArea& area() const noexcept { return area_; }
 
-  // Begins a frame: lifts the tip, moves to the first row and engages. Time and drift go on. The first frame is begun,
-  // downwards, by the constructor.
+  // Begins a frame: lifts the tip, moves to the first row and engages. Time and drift continue. The constructor begins
+  // the first frame, downwards.
   void begin_frame(SlowDirection direction);
 
-  // Scans on to the next pixel. None: the frame is complete.
+  // Scans the next pixel. Empty: the frame is complete.
   std::optional<ScanPixel> next();
 
-  // Scans the rest of the current line, at most; false: the frame was complete. Vectors grow once.
+  // Scans the rest of the current line. Returns false if the frame was complete. Vectors grow only once.
   bool next_line(ScanLine& line);
 
   Time time() const noexcept { return Time(time_s_); }  // time since the scanner was created
   Time pixel_time() const noexcept;
   std::size_t row() const noexcept { return row_; }  // row of the next pixel
-  // The apex now, in the area's frame at time zero: for drawing it.
+  // Current position of the apex, in the area's frame at time zero, for drawing it.
   double x_m() const noexcept { return x_m_; }
   double y_m() const noexcept { return y_m_; }
   double z_m() const noexcept;  // apex height: includes the lever's deflection
@@ -119,13 +119,13 @@ class Scanner {
 };
 
 // Lateral force on a tip that slides over a slope with lever load `normal`, adhesion and friction coefficient mu,
-// positive against a motion along +x (Ogletree, Carpick & Salmeron, Rev. Sci. Instrum. 67, 3298 (1996), wedge):
-//   (N sin(theta) +- mu (N cos(theta) + A))/(cos(theta) -+ mu sin(theta)), + and upper signs along +x.
-// Gwyddion 2.62's latsim stores the value of the retrace with the other sign. `slope` is dh/dx = tan(theta).
+// positive against a motion along +x (Ogletree, Carpick & Salmeron, Rev. Sci. Instrum. 67, 3298 (1996), wedge): (N
+// sin(theta) +- mu (N cos(theta) + A))/(cos(theta) -+ mu sin(theta)), + and upper signs along +x. Gwyddion 2.62's
+// latsim stores the value of the retrace with the other sign. `slope` is dh/dx = tan(theta).
 Force lateral_force(Force normal, Force adhesion, double slope, double mu, ScanPass pass) noexcept;
 
-// The rest of a frame as channels "Height", "Error", "Lateral force", each with its " (retrace)"; without metadata, NaN
-// where it was not scanned. `taken` sees each line; where it says no, the scan ends.
+// Scans the rest of a frame into channels "Height", "Error" and "Lateral force", each also with " (retrace)"; without
+// metadata, NaN where it was not scanned. Calls `taken` with each line; the scan ends if it returns false.
 ScanImage scan_frame(Scanner& scanner, const std::function<bool(const ScanLine&)>& taken = nullptr);
 
 }  // namespace afm::physics

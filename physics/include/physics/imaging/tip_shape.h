@@ -28,7 +28,7 @@ inline constexpr std::array kTipKinds{
 
 std::string_view name_of(TipKind kind);
 
-// The end of a tip. A cone and a pyramid end in a ball of the radius, which their faces touch; a sphere's shaft is as
+// The end of a tip. A cone and a pyramid end in a ball of the radius, tangent to their faces; a sphere's shaft is as
 // wide as the ball. One edge of the three-sided pyramid points along +x, the faces of the four-sided one along x and y.
 struct TipShape {
   TipKind kind = TipKind::Paraboloid;
@@ -37,11 +37,11 @@ struct TipShape {
   Length second_apex_distance{};  // along +x; zero: there is none
   Length second_apex_height{};    // height of its end above the first apex
 
-  // How high the tip's material begins above the apex, at a place beside it; infinite beyond a sphere's equator.
+  // Height of the tip's surface above the apex, at a lateral position; infinite beyond a sphere's equator.
   double height_above_apex_m(double x_m, double y_m) const noexcept;
 };
 
-// A tip on a grid: what stands how high above its apex, `reach` pixels to each side. At least 1 x 1.
+// A tip on a grid: heights above its apex, `reach` pixels to each side. At least 1 x 1.
 struct TipGrid {
   std::size_t reach_columns = 0;
   std::size_t reach_rows = 0;
@@ -51,7 +51,7 @@ struct TipGrid {
   std::size_t rows() const { return 2 * reach_rows + 1; }
 };
 
-// The tip as far up as `depth_m`, at the steps of `grid`, but never wider than it.
+// The tip up to the height `depth_m`, at the steps of `grid`, but never wider than it.
 TipGrid sample_tip(const TipShape& tip, const HeightGrid& grid, double depth_m);
 
 }  // namespace afm::physics

@@ -18,7 +18,7 @@
 
 namespace afm::scene {
 
-// One choice of tip, lever, sample and medium, with where each number comes from.
+// One combination of tip, lever, sample and medium, with the source of each number.
 struct MaterialEntry {
   std::string name;   // name in commands and models: "mica"
   std::string title;  // name for display: "Mica"
@@ -39,7 +39,7 @@ struct MaterialEntry {
 };
 
 struct MaterialLibrary {
-  std::vector<MaterialEntry> materials;  // in the file's order, names unique, every interaction valid
+  std::vector<MaterialEntry> materials;  // in the file's order, with unique names and valid interactions
 
   std::vector<std::string> names() const;  // in file order
 
@@ -49,21 +49,21 @@ struct MaterialLibrary {
   // find(), or an error of wrong usage that lists the known names.
   core::Result<const MaterialEntry*> require(std::string_view name) const;
 
-  // The materials of those names, in that order; an error as require() gives it.
+  // The materials with those names, in that order. Fails as require() does.
   core::Result<MaterialLibrary> only(std::span<const std::string> names) const;
 
-  // Adds another file's materials behind; one of a known name takes the place of the old one.
+  // Adds another file's materials at the end. One of a known name replaces the old one.
   void add(MaterialLibrary other);
 };
 
-// The samples of Liu & Peng, which the built-in file holds first.
+// The samples of Liu & Peng, the first ones in the built-in file.
 inline const std::array<std::string, 3> kPaperMaterials{"mica", "gold", "si3n4"};
 
-// Reads a material file (TOML, assets/materials.toml; docs/manual.md has its keys). An unreadable file, an unknown or
-// missing key, a wrong type and an unphysical value are errors that name file, line and key.
+// Reads a material file (TOML, assets/materials.toml; docs/manual.md lists its keys). Errors that name file, line and
+// key: an unreadable file, an unknown or missing key, a wrong type and an unphysical value.
 core::Result<MaterialLibrary> load_materials(const std::string& path);
 
-// Several files, the later ones added to the first.
+// Several files, each added to the previous ones.
 core::Result<MaterialLibrary> load_materials(std::span<const std::string> paths);
 
 }  // namespace afm::scene

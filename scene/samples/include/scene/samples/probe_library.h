@@ -15,7 +15,7 @@
 
 namespace afm::scene {
 
-// A lever with its tip, as a catalogue lists it.
+// A lever with its tip, as in a catalogue.
 struct ProbeEntry {
   std::string name;   // name in commands
   std::string title;  // name for display
@@ -23,7 +23,7 @@ struct ProbeEntry {
   std::string tip;    // material of the tip
   std::string note;   // may be empty
   physics::Length tip_radius;
-  physics::Stiffness spring_constant;  // nominal, or of the geometry
+  physics::Stiffness spring_constant;  // nominal, or computed from the geometry
   std::optional<physics::Elasticity> tip_elasticity;
   std::optional<physics::Frequency> resonance_in_air, resonance_in_liquid;
   std::optional<double> quality_factor_in_air, quality_factor_in_liquid;
@@ -39,21 +39,21 @@ struct ProbeLibrary {
   // find(), or an error of wrong usage that lists the known names.
   core::Result<const ProbeEntry*> require(std::string_view name) const;
 
-  // Adds another file's probes behind; one of a known name takes the place of the old one.
+  // Adds another file's probes at the end. One of a known name replaces the old one.
   void add(ProbeLibrary other);
 };
 
-// Reads a probe file (TOML, assets/probes.toml; docs/manual.md has its keys). A spring constant that is not given is
-// that of the geometry (physics/cantilever.h), and so is a rectangular lever's resonance. Errors as load_materials()
-// has them.
+// Reads a probe file (TOML, assets/probes.toml; docs/manual.md lists its keys). A missing spring constant is computed
+// from the geometry (physics/cantilever.h), as is a missing resonance of a rectangular lever. Fails as load_materials()
+// does.
 core::Result<ProbeLibrary> load_probes(const std::string& path);
 
-// Several files, the later ones added to the first.
+// Several files, each added to the previous ones.
 core::Result<ProbeLibrary> load_probes(std::span<const std::string> paths);
 
-// The same sample and medium under another lever and tip: radius, spring constant, and where the probe has them the
-// tip's modulus and the resonance and quality factor in the medium ("air", or a liquid). The Hamaker constant and the
-// work of adhesion stay, since no probe knows them for the pair; the note says so where the tip is of another material.
+// The same sample and medium with another lever and tip: radius, spring constant, and, if the probe has them, the tip's
+// modulus and the resonance and quality factor in the medium ("air", or a liquid). The Hamaker constant and the work of
+// adhesion do not change, because they belong to the pair; if the tip is of another material, the note says so.
 MaterialEntry with_probe(MaterialEntry material, const ProbeEntry& probe);
 
 }  // namespace afm::scene

@@ -7,15 +7,15 @@
 
 namespace afm::scene {
 
-// A number as it was written ("50 nm") and where it comes from.
+// A number as written ("50 nm") and its source.
 struct SourcedValue {
   std::string key;  // key in files: "tip_radius"
   std::string value;
   std::string source;
-  bool estimated = false;  // not measured for this very system; must be mentioned wherever the number is shown
+  bool estimated = false;  // not measured for exactly this system; must be mentioned wherever the number is shown
 };
 
-// Null if none has the key.
+// Null if there is none with the key.
 const SourcedValue* find_source(std::span<const SourcedValue> sources, std::string_view key);
 
 }  // namespace afm::scene

@@ -46,7 +46,7 @@ inline constexpr std::array kFaultTexts{
     FaultText{FaultCode::EnergyExceeded, "energy-exceeded", "the hand was given more energy than the model holds"},
     FaultText{FaultCode::OutOfWorkspace, "out-of-workspace", "the hand left the device's workspace"},
     FaultText{FaultCode::StopPressed, "stop-pressed", "Stop was pressed"},
-    FaultText{FaultCode::PictureUnseen, "picture-unseen", "nobody sees the picture in the headset"}};
+    FaultText{FaultCode::PictureUnseen, "picture-unseen", "nobody sees the picture"}};
 static_assert(core::has_row_for_each(kFaultTexts, &FaultText::code));
 
 // "the renderer gave no frame for 250 ms"

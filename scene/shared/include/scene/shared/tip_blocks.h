@@ -146,6 +146,7 @@ struct TipState {
   std::uint32_t realtime = 0;        // 1: SCHED_FIFO and locked pages were granted
   std::uint32_t garbage_blocks = 0;  // shared blocks rejected as out of range
   std::uint32_t led = 0;             // 1: the scan leads the hand
+  std::uint32_t lead_lost = 0;       // 1: it no longer does, and waits until Turn-On is released
   std::uint32_t level = 0;           // 1: the hand feels the sample level, due to a scan's feedback
   std::uint64_t presses = 0;         // presses of Turn-On since the servo started
 };
@@ -169,6 +170,7 @@ constexpr void for_each_field(Visit&& visit, Record&... state) {
   visit("realtime", state.realtime...);
   visit("garbage_blocks", state.garbage_blocks...);
   visit("led", state.led...);
+  visit("lead_lost", state.lead_lost...);
   visit("level", state.level...);
   visit("presses", state.presses...);
 }
@@ -211,7 +213,7 @@ struct TipSample {
   SurfacePoint surface{};
   double motor_heat = 0;                    // as in SafetyFigures
   std::uint32_t device_healthy = 1;         // 0: the device failed, and the hand's position is the last one known
-  std::uint32_t changing = 0;               // 1: force removed for a new selection or an edit
+  std::uint32_t changing = 0;               // 1: force removed for a selection or an edit
   std::array<double, 2> lateral_force_n{};  // friction of the sample on the lever, along the sample's x and y
   ScanLead scan{};                          // in effect in this tick; default: none
 };

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "core/whole_file.h"
+#include "curves/curve_error.h"
+#include "formats/confined_child.h"
+
+namespace afm::curves {
+
+inline constexpr const char* kNotSurvived = "it is damaged: its reader could not survive it";
+
+// The whole file. BadInputFile if it is larger than 256 MiB.
+core::Result<std::string> bytes_of_file(const std::string& path);
+
+// Reason for the exception that is being handled, for a person; throws on what is a fault of our own.
+std::string reason_of_failure();
+
+// Runs `read` in a child that can open nothing, whose answer `take_over` makes of the bytes that `hand_over` made of
+// it. `confined` false: here.
+template <class Read, class HandOver, class TakeOver>
+auto read_confined(bool confined, const Read& read, const HandOver& hand_over, const TakeOver& take_over) {
+  if (!confined) return read();
+  return take_over(in_confined_child([&] { return hand_over(read()); }, kNotSurvived));
+}
+
+// The formats of one kind of file, which are known by their content. A Row has bool (*begins)(std::string_view bytes)
+// and its `files`, as the table lists them.
+template <class Row, std::size_t Count>
+struct FormatTable {
+  const char* kind;               // "curve"
+  const char* files;              // all formats, as refusals list them
+  std::size_t longest_beginning;  // bytes that `begins` needs
+  std::array<Row, Count> rows;    // the first whose `begins` holds has the file
+
+  // Whether `files` names those of every row.
+  constexpr bool names_all() const {
+    return std::all_of(rows.begin(), rows.end(), [&](const Row& row) {
+      return std::string_view(files).find(row.files) != std::string_view::npos;
+    });
+  }
+
+  // Null: of no known format.
+  constexpr const Row* row_of(std::string_view bytes) const {
+    const auto found = std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.begins(bytes); });
+    return found != rows.end() ? &*found : nullptr;
+  }
+
+  // Whether the beginning of a regular file is that of a format.
+  bool has(const std::string& path) const {
+    const auto beginning = core::read_beginning(path, longest_beginning);
+    return beginning && row_of(*beginning) != nullptr;
+  }
+
+  // The result of `read`, which gets the row of the content and throws; BadInputFile with the name of the file.
+  template <class Read>
+  auto parse(std::string_view bytes, const std::string& name, const Read& read) const
+      -> core::Result<decltype(read(rows.front()))> {
+    try {
+      const Row* const row = row_of(bytes);
+      if (row == nullptr) throw CurveError(fmt::format("it is no {} of a known kind; known are {}", kind, files));
+      return read(*row);
+    } catch (...) {
+      return core::failure(core::ErrorCategory::BadInputFile,
+                           fmt::format("cannot read the {} {}: {}", kind, name, reason_of_failure()));
+    }
+  }
+};
+
+}  // namespace afm::curves

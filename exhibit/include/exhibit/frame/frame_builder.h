@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "curves/sample_model.h"
+#include "exhibit/scenery/wall_scene.h"
+#include "exhibit/state/moment.h"
+#include "exhibit/words/phrases.h"
+#include "render/frame.h"
+#include "scene/display/wall.h"
+#include "scene/shared/shared_blocks.h"
+
+namespace afm::exhibit {
+
+// Phase of the cycle, with the letters of the paper's Fig. 2.
+Phrase stage_of_cycle(const Moment& moment, double z_jtc_m);
+
+// Converts moments to frames for one wall and one viewer.
+class FrameBuilder {
+ public:
+  // `wall_scene`, whose language it uses, and `materials` must outlive the object. A material's parameters may change
+  // between two frames.
+  FrameBuilder(const WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
+               const std::array<scene::EyeView, 2>& eyes);
+
+  render::FrameState build(const Moment& moment) const;
+
+ private:
+  render::ForcePanel force_panel(const Moment& moment) const;
+  render::Banner banner(const Moment& moment) const;
+
+  const WallScene* wall_scene_;
+  const Phrases* phrases_;
+  const std::vector<curves::SampleModel>* materials_;
+  std::array<scene::EyeView, 2> eyes_;
+};
+
+// Eyes of the wall's first viewer at the sweet spot, for the first screen.
+core::Result<std::array<scene::EyeView, 2>> eyes_at_sweet_spot(const scene::Wall& wall);
+
+// Colours of the curves, by the material's index in its file: Okabe and Ito's palette for colour-blind viewers.
+glm::vec3 curve_color(std::size_t material);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/result.h"
+#include "curves/measured_topography.h"
+#include "exhibit/models/topography_model.h"
+#include "scene/graph/scene.h"
+#include "scene/samples/material_library.h"
+
+namespace afm::exhibit {
+
+// Models that replace those of the assets (docs/gltf.md, "Roles"), at rest. Each part becomes one node, so that the
+// servo's block has room whatever the number of nodes in the file.
+struct UserModels {
+  std::optional<scene::Scene> probe;          // nodes "cantilever" > "tip" > "apex", as in the assets' probe.glb
+  std::optional<scene::Scene> sample;         // node "surface", as in the assets' sample-*.glb
+  std::optional<TopographyModel> topography;  // an instrument's topography instead of a sample
+};
+
+// An empty name means no model. The first bytes of the sample's file decide whether it is an image. The error names the
+// file and the part that it lacks.
+core::Result<UserModels> load_own_models(const std::string& probe_file, const std::string& sample_file,
+                                         const curves::TopographyReading& reading = {});
+
+// The sample in the variant with the name of the material or of its look, ignoring case, if there is one.
+scene::Scene sample_as(const scene::Scene& sample, const scene::MaterialEntry& material);
+
+}  // namespace afm::exhibit

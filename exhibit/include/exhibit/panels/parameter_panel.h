@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "curves/live_parameters.h"
+#include "exhibit/words/phrases.h"
+#include "render/frame.h"
+
+namespace afm::exhibit {
+
+// State of a parameter change, for display.
+enum class ChangeState { AsLoaded, Waiting, Applied, Refused };
+
+// Buttons of the panel, in order.
+enum class PanelButton { Reset, Close };
+
+// A material's parameters and the values that follow from them, for the wall. `title` is in the language of the wall.
+render::ControlPanel parameter_panel(const curves::LiveParameters& parameters, const std::string& title,
+                                     ChangeState state, const Phrases& phrases);
+
+// Adds the predicted curve behind the felt ones, and sets axes and markers that fit it.
+void add_prediction(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <glm/mat4x4.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exhibit/models/model_builder.h"
+#include "exhibit/words/phrases.h"
+#include "scene/graph/scene.h"
+
+namespace afm::exhibit {
+
+// From the bench to the atoms. At `orders` of the journey, one layout unit shows 10^-orders metres.
+inline constexpr double kJourneyOrders = 9.0;
+
+// Name of the visible part, such as the cantilever.
+Phrase journey_place(double orders);
+
+// The instrument at its true proportions, from the bench to the last atom of its tip, and the samples below it, at one
+// scale at a time. The origin is the contact point, which keeps its place on the wall. Each part is a mesh of its real
+// size below one common frame that scales; transforms are composed in double precision.
+class Journey {
+ public:
+  Journey() = default;
+  // Adds its nodes below `layout`, whose units it uses.
+  Journey(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout);
+
+  // Loads the sample's ground "ground-LOOK.glb", once per look, and returns its number.
+  std::size_t add_ground(ModelBuilder& build, scene::Scene& scene, const std::string& look);
+
+  // Places all parts. Clamps `orders` to 0 to kJourneyOrders.
+  void place(double orders, std::vector<glm::dmat4>& local) const;
+
+  // Returns whether a node below the journey's frame needs drawing: not in the fog, and at least a pixel large.
+  bool shows(scene::NodeIndex node, double orders, std::size_t ground) const;
+
+  // A familiar object next to the tip for comparison at this scale, with the place of its label, in the sample's axes
+  // relative to the contact point, layout units.
+  struct Companion {
+    Phrase name;
+    glm::dvec3 place;
+  };
+  std::optional<Companion> companion(double orders) const;
+
+  scene::NodeIndex frame() const { return frame_; }
+
+ private:
+  struct Part {
+    scene::NodeIndex node = 0;
+    std::optional<std::size_t> ground;     // ground that contains the part
+    double nearest_m = 0, farthest_m = 0;  // distances of its vertices from the contact point
+  };
+  void measure(const scene::Scene& scene, scene::NodeIndex first, std::optional<std::size_t> ground);
+
+  scene::NodeIndex frame_ = 0;
+  std::vector<Part> parts_;
+  std::vector<std::string> grounds_;
+};
+
+// The animation of the journey: the wall dissolves, the instrument appears, and the scale decreases to the atoms,
+// eased, by equal factors in equal times; then the same way back. Can be reversed at any time.
+class JourneyTravel {
+ public:
+  // Steps: jumps from each power of ten to the next while the picture is blank, for a headset, in which a moving scene
+  // causes motion sickness.
+  enum class Motion { Glide, Steps };
+  explicit JourneyTravel(Motion motion = Motion::Glide) : motion_(motion) {}
+
+  void turn_round(std::int64_t now_ns);
+  void update(std::int64_t now_ns);
+
+  bool away() const { return progress_s_ > 0.0; }  // has left the instrument, or is about to
+  double fade() const;                             // dissolved share of the picture, 0 to 1
+  std::optional<double> orders() const;            // empty while the instrument is in view
+
+ private:
+  Motion motion_;
+  double progress_s_ = 0;
+  double direction_ = -1;
+  std::int64_t updated_ns_ = 0;
+};
+
+}  // namespace afm::exhibit

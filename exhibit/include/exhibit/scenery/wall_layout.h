@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "exhibit/scenery/stage_place.h"
+#include "scene/display/wall.h"
+
+namespace afm::exhibit {
+
+// The layout in metres of the paper's wall; another wall shows it as large as possible. The origin is the contact
+// point; x right, y up, z out of the wall towards the viewer.
+inline constexpr double kReferenceWallWidthM = 3.048, kReferenceWallHeightM = 2.286;
+// Drawn height of the current material's stroke, and the tip's length. The lifted lever, which moves forward along the
+// tilted sample's normal, then remains visible below the banner.
+inline constexpr double kStrokeHeight = 0.30 * kReferenceWallHeightM;
+inline constexpr double kTipDrawnLength = 0.14;
+inline constexpr double kSampleTiltRad = 0.26;    // towards the viewer, to make terraces visible
+inline constexpr double kLeverAzimuthRad = 0.42;  // direction of the lever: from behind, a little from the left
+inline constexpr double kLeverDrawnLength = 1.25;
+inline constexpr double kLeverDrawnThickness = 0.0125;
+inline constexpr double kStageDrawnWidth = 1.44;  // in front of the wall it reaches to the panels on both sides
+inline constexpr double kLeastPost = 0.08;        // shortest post between floor and stage
+// The light is always on the upper side of the lever, however it bends; both are visible below the banner.
+inline constexpr glm::dvec3 kLaser(-0.48, 0.79, -0.18);
+inline constexpr glm::dvec3 kPhotodiode(0.56, 0.80, -0.42);
+inline constexpr double kPhotodiodeHalfSize = 0.0875;
+inline constexpr double kSpotReach = 0.8;  // share of the half size at the deflection of the pull-off
+inline constexpr double kBeamRadius = 0.007;
+inline constexpr double kSpotRadius = 0.032;
+inline constexpr glm::dvec3 kWandGrip(0.66, -0.24, 1.00);
+inline constexpr double kShelfY = -0.85, kHighestShelfY = -0.45;
+inline constexpr double kShelfHeight = 0.10;  // includes the swatches' names
+inline constexpr double kShelfZ = 0.62;
+inline constexpr double kSwatchSpacing = 0.42;
+inline constexpr std::size_t kFrontSwatches = 5;  // number in one row of the shelf; all others are raised behind it
+inline constexpr double kBackRise = 0.25;
+inline constexpr double kBackZ = 0.52;  // distance in front of the stage
+inline constexpr double kBackSpacing = 0.38;
+inline constexpr double kSwatchRadius = 0.16;
+inline constexpr std::size_t kFewSwatches = 3;
+inline constexpr double kSlimSwatchRadius = 0.11;  // with more than kFewSwatches, so that the ray passes them
+inline constexpr glm::dvec3 kSwatchCenter(0.0, 0.13, 0.0);
+inline constexpr double kSwatchReach = 0.17, kWandReach = 0.15;  // extent towards the viewer
+inline constexpr double kLeastShelfZ = 0.10;
+inline constexpr double kComfortMargin = 0.95;  // share of the one degree; allows for small motions of the viewer
+inline constexpr double kRayGap = 0.08;         // gap between the ray's end and its target
+inline constexpr double kFreeRayLength = 1.2;
+inline constexpr double kLongestRay = 3.0;
+inline constexpr glm::dvec3 kTowardsViewer(0.0, 0.0, 1.6);
+inline constexpr double kLabelWidth = 0.27;
+inline constexpr double kLabelHeight = 0.072;
+inline constexpr double kLabelLift = 0.002;
+inline constexpr double kPanelMargin = 0.03;
+inline constexpr double kPanelInnerEdge = 0.74;
+inline constexpr double kPanelBottom = -0.20;
+inline constexpr double kPanelHeight = 0.92;
+inline constexpr double kTabHeight = 0.10;
+// to the right of the sample, which is in front of the wall
+inline constexpr double kParameterInset = 0.06;
+inline constexpr double kTabInset = 0.18;
+// ruler on the sample, right of the tip, in the wall's plane
+inline constexpr glm::dvec3 kRulerFoot(0.45, 0.0, 0.0);
+inline constexpr double kRulerLongest = 0.46;
+inline constexpr double kRulerTick = 0.026;
+inline constexpr double kRulerRadius = 0.0045;
+inline constexpr double kRulerTextGap = 0.04;
+inline constexpr double kRulerTextWidth = 0.22;
+inline constexpr double kRulerTextHeight = 0.08;
+// colour scale of a measured sample's heights, in the wall's plane, below the right panel
+inline constexpr double kHeightBarX = 0.80, kHeightBarBottom = -0.80;
+inline constexpr double kHeightBarHeight = 0.27, kHeightBarWidth = 0.045;
+inline constexpr double kHeightBarTextWidth = 0.24, kHeightBarTextHeight = 0.07;
+inline constexpr double kHeightBarTextGap = 0.02;
+inline constexpr double kUnbentBeyond = 0.16;
+inline constexpr double kUnbentBeside = 0.09;  // distance to the right of the tip's axis
+inline constexpr double kUnbentLowest = 0.05;  // height above the sample, whose terraces rise behind the tip
+inline constexpr double kUnbentRadius = 0.0045;
+inline constexpr double kBendRadius = 0.008;
+inline constexpr double kShadeRadius = 0.085;  // soft shade at the contact
+// the scan line, over the sample
+inline constexpr double kScanLineRadius = 0.004;
+inline constexpr double kScanLineLift = 0.004;  // height above the surface
+// smaller than the instrument's stroke, so that the hand stays below the banner
+inline constexpr double kAnalogyScale = 0.55;
+inline constexpr double kAnalogyLabelWidth = 0.40;
+inline constexpr double kAnalogyLabelHeight = 0.075;
+inline constexpr double kAnalogyLabelGap = 0.16;
+inline constexpr glm::dvec3 kAnalogyPlateLabel(0.0, -0.382, -0.07);  // in the sample's frame, on the plate's front
+inline constexpr double kCompanionLabelWidth = 0.44, kCompanionLabelHeight = 0.075;  // in the journey
+inline constexpr float kFogBegin = 3.5F, kFogEnd = 14.0F;  // distances behind the wall in the journey
+inline constexpr double kBannerHeight = 0.21;
+// extent of the wall below and above the contact point: the whole shelf is visible, and the banner is above the panels
+inline constexpr double kRoomBelow = 1.20;
+inline constexpr double kRoomAbove = kPanelBottom + kPanelHeight + kBannerHeight + 2.0 * kPanelMargin;
+
+// The same with the panels below the shelf. The contact point is then a third of the height from the top.
+inline constexpr double kBelowBottom = -kRoomBelow - 0.08 - kPanelHeight;  // leaves the stage's foot visible
+inline constexpr double kRoomBelowPanels = -kBelowBottom + 2.0 * kPanelMargin + kTabHeight;
+inline constexpr double kRoomAboveNarrow = 0.5 * kRoomBelowPanels;
+inline constexpr double kNarrowWidth = 1.75;  // width of a composition without panels at its sides
+inline constexpr double kWidestPanel = 1.6 * kPanelHeight;
+inline constexpr double kWidestPlot = 2.0 * kPanelInnerEdge + 0.724;  // the finale's, as in the paper
+inline constexpr double kCornerGap = 0.10;                            // from the corner of two screens to a panel
+
+// The stroke of a cycle in units of Z_joc: from the deepest push below zero to the highest lift.
+inline constexpr double kStrokeOfZjoc = 0.30 + 1.40;
+
+// Place of the panels: beside the instrument, below the shelf of an upright screen, or on the side screens.
+enum class Arrangement { Beside, Below, SideScreens };
+
+struct WallShape {
+  Arrangement arrangement = Arrangement::Beside;
+  double unit_m = 1.0;  // size of a layout unit in the room
+};
+
+// The arrangement that allows the largest scale. Uses the side screens if there are two.
+WallShape wall_shape(const StagePlace& stage);
+
+// Elevation of the view, radians, below which only the sample's edge would be visible, as in front of a floor screen.
+// Below it, instrument and shelf are rotated to look as from the paper's wall.
+inline constexpr double kLowestLookRad = 0.35;
+
+// Matrix with axes and origin as columns.
+glm::dmat4 frame_matrix(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& origin);
+
+// A frame at `origin` whose z axis is `direction`, as upright as possible.
+glm::dmat4 looking_along(const glm::dvec3& origin, const glm::dvec3& direction);
+
+// Transform of a unit cylinder along +z to one between two points.
+glm::dmat4 stretched(const glm::dvec3& from, const glm::dvec3& to, double radius);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+
+#include "scene/shared/tip_blocks.h"
+
+namespace afm::exhibit {
+
+// Time for which a jump is shown. A CPU device draws two frames a second, so a shorter cue might never be drawn.
+inline constexpr double kCueSeconds = 0.5;
+
+// A recent jump.
+struct JumpCue {
+  physics::EventKind kind = physics::EventKind::JumpToContact;
+  double age_s = 0;  // 0 to kCueSeconds
+};
+
+template <class Visit, scene::RecordOf<JumpCue>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... cue) {
+  visit("kind", cue.kind...);
+  visit("age_s", cue.age_s...);
+}
+static_assert(scene::all_fields_described<JumpCue>());
+
+// Selects the jump to show: the newest one. Each is shown for at least kLeastNs, so that a chattering tip does not
+// flash more than three times a second (WCAG 2.3.1). One thread.
+class JumpCues {
+ public:
+  static constexpr std::int64_t kLeastNs = 400'000'000;
+
+  // Adds an event; call in order of time. Ignores slips, which occur many times a second.
+  void add(const scene::TipEvent& event);
+
+  std::optional<JumpCue> at(std::int64_t now_ns) const;
+
+  // Time at which the newest cue began, even if it has ended: a slow frame may have missed it.
+  std::optional<std::int64_t> begun_ns(std::int64_t now_ns) const;
+
+ private:
+  struct Shown {
+    physics::EventKind kind = physics::EventKind::JumpToContact;
+    std::int64_t since_ns = 0;
+  };
+  std::optional<Shown> begun(std::int64_t now_ns) const;
+
+  std::optional<Shown> shown_, next_;
+};
+
+// The cue that results from these events, in order of time.
+std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::int64_t now_ns);
+
+// The ring of light for a jump, distinguished by its motion as well as its colour: for a jump to contact it closes in
+// on the apex, for a jump off contact it spreads from it. Both fade.
+struct CueRing {
+  glm::vec3 color{0.0F};  // linear radiance
+  double radius = 0;      // in radii of the contact's shade
+};
+CueRing cue_ring(const JumpCue& cue);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "exhibit/words/phrases.h"
+#include "haptics/hand_controls.h"
+#include "scene/shared/tip_blocks.h"
+
+namespace afm::exhibit {
+
+// Lines of guidance: the steps of the procedure, and the end of the servo.
+enum class Hint {
+  ChooseSample,
+  Lift,
+  TurnOn,
+  TurnOnAndHold,
+  ComingOn,
+  GoingOff,
+  MoveDown,
+  PressOn,
+  Pressed,
+  MoveUp,
+  LetGo,
+  PressToGoOn,
+  ServoEnded
+};
+
+// Progress of the current cycle.
+struct StepsDone {
+  bool ascending = false;  // direction of the hand's last motion
+  bool pressed = false;    // below Z = 0 since the tip touched
+  bool let_go = false;     // since the force was switched on
+};
+
+// Progress counted by CycleHistory.
+struct CycleProgress {
+  bool ascending = false;
+  bool pressed = false;
+  int cycles = 0;  // number on the sample under the tip
+};
+
+// Next step of the procedure, derived from the tip's real events.
+Hint next_step(const scene::TipState& tip, const StepsDone& done);
+
+using haptics::HandControls;
+enum class Pointer { Mouse, Wand };
+struct Controls {
+  HandControls hand = HandControls::Simulated;
+  Pointer pointer = Pointer::Wand;
+};
+
+// How to leave a view that replaces the instrument, and how to show the list of keys.
+enum class Note { Keys, LeaveJourney, LeaveAnalogy };
+const std::string& note_text(const Phrases& phrases, Note note);
+
+// Text of the step, with the names of the device's controls.
+std::string step_text(const Phrases& phrases, Hint hint, const Controls& controls);
+
+// One line for the wall: the reason if the force went off, and the next step.
+std::string guidance_line(const Phrases& phrases, Hint hint, const scene::TipState& tip, const Controls& controls);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/scenery/journey.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <utility>
+
+#include "exhibit/scenery/wall_layout.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+using glm::dmat4;
+using glm::dvec3;
+
+// Seen from above, like the sample on the wall; lower at scales at which the ball of the tip would hide the view or
+// enclose the viewer.
+constexpr double kLowTiltRad = 0.12, kLowFromOrders = 6.0, kLowAtOrders = 7.5;
+
+constexpr double kBeyondFog = 20.0;     // in layout units; beyond the fog
+constexpr double kBelowPixel = 0.0015;  // size in layout units
+
+constexpr double kVeilS = 0.5, kTravelS = 20.0;
+constexpr double kWholeS = 2.0 * kVeilS + kTravelS;
+constexpr double kStepS = kTravelS / (kJourneyOrders + 1.0);  // time at each power of ten
+static_assert(kStepS > 2.0 * kVeilS);
+
+double eased(double t) {
+  const double x = std::clamp(t, 0.0, 1.0);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+double scale_of(double orders) { return std::pow(10.0, std::clamp(orders, 0.0, kJourneyOrders)); }
+
+}  // namespace
+
+Phrase journey_place(double orders) {
+  // upper limits of the places
+  static constexpr std::array kEnds{0.7, 1.7, 2.6, 3.5, 4.7, 6.2, 7.6, 8.3};
+  static_assert(after(Phrase::PlaceBench, kEnds.size()) == Phrase::PlaceAtoms);
+  const auto* const end = std::find_if(kEnds.begin(), kEnds.end(), [&](double e) { return orders < e; });
+  return after(Phrase::PlaceBench, static_cast<std::size_t>(end - kEnds.begin()));
+}
+
+Journey::Journey(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout) {
+  frame_ = build.frame("journey-frame", layout, dmat4(1.0));
+  const scene::NodeIndex root = build.model_in_frame_of("journey", "journey.glb", "journey", frame_);
+  measure(scene, root, std::nullopt);
+  measure(scene, build.model_in_frame_of("companions", "companions.glb", "companions", frame_), std::nullopt);
+}
+
+std::size_t Journey::add_ground(ModelBuilder& build, scene::Scene& scene, const std::string& look) {
+  const auto known = std::find(grounds_.begin(), grounds_.end(), look);
+  if (known != grounds_.end()) return static_cast<std::size_t>(known - grounds_.begin());
+  const std::string name = "ground-" + look;
+  grounds_.push_back(look);
+  measure(scene, build.model_in_frame_of("ground", name + ".glb", name, frame_), grounds_.size() - 1);
+  return grounds_.size() - 1;
+}
+
+void Journey::measure(const scene::Scene& scene, scene::NodeIndex first, std::optional<std::size_t> ground) {
+  for (scene::NodeIndex i = first; i < scene.nodes.size(); ++i) {
+    if (!scene.nodes[i].mesh) continue;
+    Part part{.node = i, .ground = ground, .nearest_m = std::numeric_limits<double>::infinity(), .farthest_m = 0.0};
+    const dmat4 frame_from_node = ancestor_from_node(scene, frame_, i);
+    for (const scene::Primitive& primitive : scene.meshes[*scene.nodes[i].mesh].primitives) {
+      for (const scene::Vertex& vertex : primitive.vertices) {
+        const double away = glm::length(dvec3(frame_from_node * glm::dvec4(dvec3(vertex.position), 1.0)));
+        part.nearest_m = std::min(part.nearest_m, away);
+        part.farthest_m = std::max(part.farthest_m, away);
+      }
+    }
+    parts_.push_back(part);
+  }
+}
+
+void Journey::place(double orders, std::vector<dmat4>& local) const {
+  const double low = eased((orders - kLowFromOrders) / (kLowAtOrders - kLowFromOrders));
+  const double tilt = kSampleTiltRad + (kLowTiltRad - kSampleTiltRad) * low;
+  const double c = std::cos(tilt), s = std::sin(tilt);
+  local[frame_] = glm::scale(frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)), dvec3(scale_of(orders)));
+}
+
+bool Journey::shows(scene::NodeIndex node, double orders, std::size_t ground) const {
+  const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.node == node; });
+  if (part == parts_.end() || part->ground.value_or(ground) != ground) return false;
+  const double scale = scale_of(orders);
+  return part->nearest_m * scale < kBeyondFog && part->farthest_m * scale > kBelowPixel;
+}
+
+std::optional<Journey::Companion> Journey::companion(double orders) const {
+  // above their highest points, in metres (assets/generate/companions.cpp)
+  static constexpr std::array<Companion, 4> kCompanions{{{Phrase::CompanionHair, {560e-6, 300e-6, 95e-6}},
+                                                         {Phrase::CompanionCell, {-9.5e-6, 0.5e-6, 6e-6}},
+                                                         {Phrase::CompanionVirus, {-118e-9, 10e-9, 105e-9}},
+                                                         {Phrase::CompanionDna, {-21e-9, -1e-9, 3.2e-9}}}};
+  constexpr double kNearest = 0.25, kFarthest = 1.15;  // layout units from the tip, for full visibility
+  for (const Companion& companion : kCompanions) {
+    const dvec3 place = companion.place * scale_of(orders);
+    if (std::abs(place.x) > kNearest && std::abs(place.x) < kFarthest) return Companion{companion.name, place};
+  }
+  return std::nullopt;
+}
+
+void JourneyTravel::turn_round(std::int64_t now_ns) {
+  update(now_ns);
+  direction_ = -direction_;
+}
+
+void JourneyTravel::update(std::int64_t now_ns) {
+  const double passed_s = static_cast<double>(now_ns - std::exchange(updated_ns_, now_ns)) * 1e-9;
+  progress_s_ = std::clamp(progress_s_ + direction_ * passed_s, 0.0, kWholeS);
+}
+
+double JourneyTravel::fade() const {
+  const auto veil = [&](double at_s) { return std::max(0.0, 1.0 - std::abs(progress_s_ - at_s) / kVeilS); };
+  if (motion_ == Motion::Glide) return veil(kVeilS);
+  const double nearest = std::clamp(std::round((progress_s_ - 2.0 * kVeilS) / kStepS), 1.0, kJourneyOrders);
+  return std::max(veil(kVeilS), veil(2.0 * kVeilS + nearest * kStepS));
+}
+
+std::optional<double> JourneyTravel::orders() const {
+  if (progress_s_ <= kVeilS) return std::nullopt;
+  const double travelled_s = progress_s_ - 2.0 * kVeilS;
+  if (motion_ == Motion::Steps) return std::clamp(std::floor(travelled_s / kStepS), 0.0, kJourneyOrders);
+  return kJourneyOrders * eased(travelled_s / kTravelS);
+}
+
+}  // namespace afm::exhibit

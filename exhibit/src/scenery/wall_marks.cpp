@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/scenery/wall_marks.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "exhibit/scenery/wall_layout.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+using glm::dmat4;
+using glm::dvec3;
+
+constexpr double kSmallestBend = 0.02;  // layout units; smaller bends are hidden by the lines' thickness
+
+scene::NodeIndex another(scene::Scene& scene, scene::NodeIndex of, std::string name, scene::NodeIndex parent) {
+  scene::Node node = scene.nodes[of];
+  node.name = std::move(name);
+  node.parent = parent;
+  scene.nodes.push_back(node);
+  return static_cast<scene::NodeIndex>(scene.nodes.size() - 1);
+}
+
+}  // namespace
+
+ScaleBar scale_bar(double m_per_unit, double longest) {
+  const double limit_m = m_per_unit * longest;
+  double decade = std::pow(10.0, std::floor(std::log10(limit_m)));
+  if (decade > limit_m) decade /= 10.0;
+  const double factor = 5.0 * decade <= limit_m ? 5.0 : 2.0 * decade <= limit_m ? 2.0 : 1.0;
+  const double length_m = factor * decade;
+  static constexpr std::array<std::pair<double, const char*>, 5> kUnits{
+      {{1.0, "m"}, {1e-3, "mm"}, {1e-6, "\u00b5m"}, {1e-9, "nm"}, {1e-12, "pm"}}};
+  const auto* unit = kUnits.begin();
+  while (unit + 1 != kUnits.end() && length_m < unit->first * (1.0 - 1e-9)) ++unit;
+  return {length_m, length_m / m_per_unit, fmt::format("{:.3g} {}", length_m / unit->first, unit->second)};
+}
+
+WallMarks::WallMarks(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout, scene::NodeIndex sample) {
+  build.model("marks.glb", "marks", layout);
+  ruler_ = build.node("marks/line");
+  bend_ = build.node("marks/bend");
+  if (build.error()) return;
+  scene.nodes[ruler_].parent = layout;
+  scene.nodes[bend_].parent = sample;
+  ruler_low_ = another(scene, ruler_, "marks/low", layout);
+  ruler_high_ = another(scene, ruler_, "marks/high", layout);
+  unbent_ = another(scene, ruler_, "marks/unbent", sample);
+  scan_line_ = another(scene, bend_, "marks/scan", sample);
+}
+
+void WallMarks::place_ruler(const ScaleBar& bar, std::vector<dmat4>& local) const {
+  const dvec3 low = kRulerFoot, high = kRulerFoot + dvec3(0.0, bar.drawn, 0.0);
+  const dvec3 reach(kRulerTick, 0.0, 0.0);
+  local[ruler_] = stretched(low, high, kRulerRadius);
+  local[ruler_low_] = stretched(low - reach, low + reach, kRulerRadius);
+  local[ruler_high_] = stretched(high - reach, high + reach, kRulerRadius);
+}
+
+void WallMarks::place_unbent(const dvec3& clamp, const dvec3& end, std::vector<dmat4>& local) const {
+  local[unbent_] = stretched(clamp, end, kUnbentRadius);
+}
+
+void WallMarks::hide_unbent(std::vector<dmat4>& local) const { local[unbent_] = dmat4(0.0); }
+
+void WallMarks::place_scan_line(const dvec3& from, const dvec3& to, std::vector<dmat4>& local) const {
+  local[scan_line_] = stretched(from, to, kScanLineRadius);
+}
+
+void WallMarks::place_bend(const dvec3& unbent_end, const dvec3& end, std::vector<dmat4>& local) const {
+  const bool bent = glm::distance(unbent_end, end) > kSmallestBend;
+  local[bend_] = bent ? stretched(unbent_end, end, kBendRadius) : dmat4(0.0);
+}
+
+}  // namespace afm::exhibit

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/scenery/wall_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/check.h"
+#include "exhibit/models/drawn_surface.h"
+#include "exhibit/models/model_builder.h"
+#include "models/height_bar.h"
+#include "physics/contact.h"
+#include "scene/graph/height_field.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+using glm::dmat4;
+using glm::dvec3;
+
+}  // namespace
+
+void WallScene::add_instrument(ModelBuilder& build, const UserModels& own) {
+  layout_ = build.frame("layout", std::nullopt, room_from_layout_);
+  const double c = std::cos(kSampleTiltRad), s = std::sin(kSampleTiltRad);
+  sample_frame_ = build.frame("sample", layout_, frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)));
+  floor_ = build.model("room.glb", "room", layout_);
+  stage_ = build.model_in_frame_of("stage", "stage.glb", "stage", sample_frame_);
+  post_ = build.node("stage/post");
+  foot_ = build.node("stage/foot");
+  probe_frame_ = build.frame("probe-frame", sample_frame_, dmat4(1.0));
+  lever_ = own.probe ? build.part(*own.probe, "probe", probe_frame_) : build.model("probe.glb", "probe", probe_frame_);
+  cantilever_ = build.node("probe/cantilever");
+  tip_ = build.node("probe/tip");
+  apex_ = build.node("probe/apex");
+  optics_ = build.model("optics.glb", "optics", layout_);
+  laser_ = build.node("optics/laser");
+  photodiode_ = build.node("optics/photodiode");
+  beam_in_ = build.node("optics/beam");
+  spot_ = build.node("optics/spot");
+  build.model("wand.glb", "wand", layout_);
+  wand_ = build.node("wand/wand");
+  ray_ = build.node("wand/ray");
+  marks_ = WallMarks(build, scene_, layout_, sample_frame_);
+  analogy_ = Analogy(build, scene_, sample_frame_);
+  journey_ = Journey(build, scene_, layout_);
+}
+
+void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir, const scene::MaterialEntry& material,
+                             const UserModels& own) {
+  const physics::ApproachRetractEvents events = physics::approach_retract_events(material.contact);
+  MaterialLook look{};
+  const std::string model = model_of(assets_dir, material);
+  const std::string sample = "sample-" + material.name;
+  look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
+  if (own.topography) {
+    add_topography(build, sample, own, look);
+  } else {
+    look.sample = own.sample ? build.part(sample_as(*own.sample, material), sample, sample_frame_)
+                             : build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, sample_frame_);
+    const scene::NodeIndex surface = build.node(sample + "/surface");
+    look.height_field = build.error() ? scene::kNoHeightField : height_field_of(own.sample ? "own" : model, surface);
+    look.thickness_m = build.error() ? 0.0 : -bounds_below(scene_, surface).low.z;
+  }
+  look.ground = journey_.add_ground(build, scene_, model);
+  const std::string swatch = "swatch-" + material.name;
+  look.swatch = build.model("swatch-" + model + ".glb", swatch, layout_);
+  look.label = build.node(swatch + "/label");
+  look.full_deflection_m = events.f_ad.si / material.contact.spring_constant.si;
+  looks_.push_back(look);
+}
+
+core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
+                                        const StagePlace& place, const Phrases& phrases, const UserModels& own) {
+  WallScene w;
+  w.phrases_ = phrases;
+  w.lay_out(place);
+  ModelBuilder build(assets_dir + "/models", w.scene_);
+  w.add_instrument(build, own);
+  for (const scene::MaterialEntry& material : materials.materials) {
+    w.add_material(build, assets_dir, material, own);
+    const auto of_this_title = [&](const scene::MaterialEntry& other) { return other.title == material.title; };
+    const bool alone = std::count_if(materials.materials.begin(), materials.materials.end(), of_this_title) == 1;
+    const std::string title = phrases.word(material.title);
+    w.titles_.push_back(alone ? title : phrases.text<Phrase::TitleAndMedium>(title, phrases.word(material.medium)));
+  }
+  if (build.error()) return tl::unexpected(*build.error());
+
+  // the second half of the beam is a separate node with the same mesh
+  scene::Node beam_out = w.scene_.nodes[w.beam_in_];
+  beam_out.name = "optics/beam-reflected";
+  w.beam_out_ = static_cast<scene::NodeIndex>(w.scene_.nodes.size());
+  w.scene_.nodes.push_back(beam_out);
+
+  w.lever_length_ = dvec3(glm::inverse(ancestor_from_node(w.scene_, w.lever_, w.cantilever_)) *
+                          ancestor_from_node(w.scene_, w.lever_, w.tip_)[3])
+                        .x;
+  w.tip_length_ = -bounds_below(w.scene_, w.tip_).low.z;
+  const Bounds stage = bounds_below(w.scene_, build.node("stage/stage"));
+  w.stage_scale_ = kStageDrawnWidth / (stage.high.x - stage.low.x);
+  w.stage_height_ = w.stage_scale_ * (stage.high.z - stage.low.z);
+  w.floor_y_ = w.shelf_y_;
+  for (const MaterialLook& look : w.looks_) {
+    const double thickness = look.thickness_m * kStrokeHeight / look.stroke_m + w.stage_height_;
+    w.floor_y_ = std::min(w.floor_y_, -std::cos(kSampleTiltRad) * thickness - kLeastPost);
+  }
+  return w;
+}
+
+void WallScene::add_height_bar(ModelBuilder& build) {
+  height_bar_ = build.part(height_bar(kHeightBarWidth / kHeightBarHeight), "height-bar", layout_);
+  scene_.nodes[height_bar_].parent_from_node =
+      glm::scale(glm::translate(dmat4(1.0), dvec3(height_bar_x(), kHeightBarBottom, 0.0)), dvec3(kHeightBarHeight));
+}
+
+// One mesh for all materials, in metres as measured. Each material's node contains its scale.
+void WallScene::add_topography(ModelBuilder& build, const std::string& sample, const UserModels& own,
+                               MaterialLook& look) {
+  const TopographyModel& model = *own.topography;
+  look.height_field = scene::kTopography;
+  look.topography = exhibit::topography_scale(model, look.stroke_m);
+  const dmat4 shown =
+      glm::scale(dmat4(1.0), dvec3(look.topography.lateral, look.topography.lateral, look.topography.vertical));
+  if (!topography_mesh_) {
+    topography_ = model.topography;
+    topography_relief_m_ = model.highest_m - model.lowest_m;
+    topography_exaggeration_ = model.exaggeration;
+    add_height_bar(build);
+    look.sample = build.part(model.sample, sample, sample_frame_);
+    topography_mesh_ = scene_.nodes[build.node(sample + "/surface")].mesh;
+  } else {
+    look.sample = build.frame(sample, sample_frame_, dmat4(1.0));
+    build.frame(sample + "/surface", look.sample, dmat4(1.0));
+  }
+  scene::Node& surface = scene_.nodes[build.node(sample + "/surface")];
+  surface.mesh = topography_mesh_;
+  surface.parent_from_node = shown;
+  look.thickness_m = -bounds_below(scene_, look.sample).low.z;
+}
+
+// Materials with the same model share its surface. Surfaces beyond the servo's capacity are felt as planes.
+std::uint32_t WallScene::height_field_of(const std::string& model, scene::NodeIndex surface) {
+  const auto known = std::find(surface_models_.begin(), surface_models_.end(), model);
+  if (known != surface_models_.end()) return static_cast<std::uint32_t>(known - surface_models_.begin());
+  const auto field = scene::height_field_below(scene_, surface);
+  if (!field || height_fields_.size() == scene::kMaxHeightFields) return scene::kNoHeightField;
+  surface_models_.push_back(model);
+  height_fields_.push_back(*field);
+  return static_cast<std::uint32_t>(height_fields_.size() - 1);
+}
+
+double WallScene::parameter_factor(std::size_t material, double release_z_m) const {
+  return release_z_m > 0.0 ? release_z_m * kStrokeOfZjoc / looks_[material].stroke_m : 1.0;
+}
+
+DrawnScale WallScene::drawn_scale(std::size_t material, double release_z_m) const {
+  const double unit_m = glm::length(dvec3(room_from_layout_[0]));
+  const double stroke_m = looks_[material].stroke_m * parameter_factor(material, release_z_m);
+  return {.sample_m_per_m = stroke_m / (kStrokeHeight * unit_m),
+          .lever_m_per_m = lever_length_ / (kLeverDrawnLength * unit_m),
+          .tip_m_per_m = tip_length_ / (kTipDrawnLength * unit_m)};
+}
+
+double WallScene::journey_m_per_m(double orders) const {
+  return std::pow(10.0, -orders) / glm::length(dvec3(room_from_layout_[0]));
+}
+
+double WallScene::layout_per_m(const WallState& state) const {
+  // before a choice the stage is empty, and the tip is at zero height
+  if (!state.material) return 0.0;
+  return kStrokeHeight / (looks_[*state.material].stroke_m * parameter_factor(*state.material, state.release_z_m));
+}
+
+glm::dvec3 WallScene::swatch_place(std::size_t i) const {
+  const std::size_t front = std::min(looks_.size(), kFrontSwatches);
+  const auto across = [](std::size_t place, std::size_t count, double spacing) {
+    return spacing * (static_cast<double>(place) - 0.5 * static_cast<double>(count - 1));
+  };
+  if (i < front) return {across(i, front, kSwatchSpacing), shelf_y_, shelf_z_};
+  return {across(i - front, looks_.size() - front, kBackSpacing), shelf_y_ + kBackRise, back_z_};
+}
+
+std::vector<input::Target> WallScene::swatch_targets() const {
+  const double radius = looks_.size() <= kFewSwatches ? kSwatchRadius : kSlimSwatchRadius;
+  std::vector<input::Target> targets;
+  targets.reserve(looks_.size());
+  for (std::size_t i = 0; i < looks_.size(); ++i) {
+    targets.push_back({dvec3(room_from_layout_ * glm::dvec4(swatch_place(i) + kSwatchCenter, 1.0)),
+                       radius * glm::length(dvec3(room_from_layout_[0]))});
+  }
+  return targets;
+}
+
+glm::dvec3 WallScene::sample_normal() const {
+  return glm::normalize(
+      dvec3(room_from_layout_ * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(0, 0, 1, 0)));
+}
+
+glm::dvec3 WallScene::sample_right() const {
+  return glm::normalize(
+      dvec3(room_from_layout_ * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(1, 0, 0, 0)));
+}
+
+glm::dvec3 WallScene::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(wand_grip_, 1.0)); }
+
+glm::dvec3 WallScene::below_tip(const WallState& state) const {
+  const auto& [x, y] = state.surface.xy_m;
+  return layout_per_m(state) * dvec3(x, y, state.surface.height_m);
+}
+
+}  // namespace afm::exhibit

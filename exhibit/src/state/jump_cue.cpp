@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/state/jump_cue.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace afm::exhibit {
+
+namespace {
+
+constexpr double kNearRadius = 0.4, kFarRadius = 4.0;
+constexpr glm::vec3 kInColor(0.25F, 1.1F, 2.0F), kOffColor(2.2F, 0.75F, 0.05F);
+
+}  // namespace
+
+void JumpCues::add(const scene::TipEvent& event) {
+  if (event.kind == physics::EventKind::Slip) return;
+  if (next_ && next_->since_ns <= event.time_ns) shown_ = std::exchange(next_, std::nullopt);
+  if (!shown_ || event.time_ns - shown_->since_ns >= kLeastNs) {
+    shown_ = {event.kind, event.time_ns};
+    next_.reset();
+  } else {
+    next_ = {event.kind, shown_->since_ns + kLeastNs};
+  }
+}
+
+std::optional<JumpCues::Shown> JumpCues::begun(std::int64_t now_ns) const {
+  const std::optional<Shown>& shown = next_ && next_->since_ns <= now_ns ? next_ : shown_;
+  return shown && now_ns >= shown->since_ns ? shown : std::nullopt;
+}
+
+std::optional<std::int64_t> JumpCues::begun_ns(std::int64_t now_ns) const {
+  const std::optional<Shown> shown = begun(now_ns);
+  return shown ? std::optional(shown->since_ns) : std::nullopt;
+}
+
+std::optional<JumpCue> JumpCues::at(std::int64_t now_ns) const {
+  const std::optional<Shown> shown = begun(now_ns);
+  if (!shown) return std::nullopt;
+  const double age_s = static_cast<double>(now_ns - shown->since_ns) * 1e-9;
+  if (age_s > kCueSeconds) return std::nullopt;
+  return JumpCue{shown->kind, age_s};
+}
+
+std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::int64_t now_ns) {
+  JumpCues cues;
+  for (const scene::TipEvent& event : events) {
+    if (event.time_ns > now_ns) break;
+    cues.add(event);
+  }
+  return cues.at(now_ns);
+}
+
+CueRing cue_ring(const JumpCue& cue) {
+  const double t = std::clamp(cue.age_s / kCueSeconds, 0.0, 1.0);
+  const bool in = cue.kind == physics::EventKind::JumpToContact;
+  const double way = in ? 1.0 - t : t;
+  const auto strength = static_cast<float>((1.0 - t) * (1.0 - t));
+  return {(in ? kInColor : kOffColor) * strength, kNearRadius + (kFarRadius - kNearRadius) * way};
+}
+
+}  // namespace afm::exhibit

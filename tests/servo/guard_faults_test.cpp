@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "haptics/devices/haply_service.h"
+#include "live_renderer.h"
+#include "servo/servo_client.h"
+#include "servo/watchdog.h"
+#include "support/deep.h"
+#include "support/stall_watch.h"
+
+// Faults that take the guard and the guarded together: renderer, servo and watchdog are killed, stopped, terminated or
+// hung up in every order, with force on the hand. Who is left has to release it. Two devices: Haply's service, which
+// holds the last force it was sent and which other processes can reach, and the simulated hand, which nobody but the
+// servo can reach, like a device behind a vendor's library.
+namespace afm::servo {
+namespace guard_faults_test {
+
+using namespace test;
+using std::chrono::milliseconds;
+
+enum class Victim { Renderer, Servo, Watchdog };
+constexpr std::array kVictims{Victim::Renderer, Victim::Servo, Victim::Watchdog};
+constexpr std::array kSignals{SIGKILL, SIGSTOP, SIGTERM, SIGHUP};
+constexpr int kSpacingMs = 50;  // between two faults
+
+struct Fault {
+  Victim victim;
+  int signal;
+};
+using Faults = std::vector<Fault>;
+
+std::string text_of(const Faults& faults) {
+  std::string text;
+  for (const Fault& fault : faults) {
+    text += fmt::format("{}{}:{}", text.empty() ? "" : " ", "vsw"[static_cast<int>(fault.victim)],
+                        ::sigabbrev_np(fault.signal));
+  }
+  return text;
+}
+
+// All sequences of `count` different victims, each with each signal.
+std::vector<Faults> every(std::size_t count) {
+  std::vector<Faults> all{{}};
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<Faults> longer;
+    for (const Faults& begun : all) {
+      for (const Victim victim : kVictims) {
+        if (std::any_of(begun.begin(), begun.end(), [&](const Fault& fault) { return fault.victim == victim; }))
+          continue;
+        for (const int signal : kSignals) {
+          longer.push_back(begun);
+          longer.back().push_back({victim, signal});
+        }
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+// The manual's table, "What dies, and when the force is gone", in ms from the first fault; empty where nobody is left
+// but the device's own watchdog. A fade that the next fault may interrupt does not count.
+struct Table {
+  bool reachable;  // by other processes than the servo
+
+  std::optional<int> operator()(const Faults& faults) const {
+    constexpr int kNever = 1'000'000;
+    std::array<int, 3> stopped_ms{kNever, kNever, kNever}, dead_ms{kNever, kNever, kNever};
+    int told_ms = kNever;
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+      const auto [victim, signal] = faults[i];
+      const int at_ms = static_cast<int>(i) * kSpacingMs;
+      const bool ends = signal != SIGSTOP;
+      if (victim == Victim::Servo && ends && signal != SIGKILL) {
+        told_ms = at_ms;
+      } else if (victim != Victim::Watchdog || signal == SIGKILL || signal == SIGSTOP) {
+        (ends ? dead_ms : stopped_ms)[static_cast<std::size_t>(victim)] = at_ms;
+      }
+    }
+    const auto lost_ms = [&](Victim v) {
+      return std::min(stopped_ms[static_cast<std::size_t>(v)], dead_ms[static_cast<std::size_t>(v)]);
+    };
+    const int renderer_ms = lost_ms(Victim::Renderer), servo_ms = lost_ms(Victim::Servo),
+              watchdog_ms = lost_ms(Victim::Watchdog);
+    std::vector<int> released{kNever};
+    const auto by_servo = [&](int from_ms, int takes_ms) {
+      if (from_ms + takes_ms + kSpacingMs / 2 <= servo_ms) released.push_back(from_ms + takes_ms);
+    };
+    // 20 on a quiet machine; a busy one closes a dead process's sockets late
+    by_servo(dead_ms[static_cast<std::size_t>(Victim::Renderer)], 100);
+    by_servo(stopped_ms[static_cast<std::size_t>(Victim::Renderer)], 340);
+    by_servo(dead_ms[static_cast<std::size_t>(Victim::Watchdog)], 90);
+    by_servo(stopped_ms[static_cast<std::size_t>(Victim::Watchdog)], 190);
+    by_servo(told_ms, 90);
+    const bool killed = dead_ms[static_cast<std::size_t>(Victim::Servo)] < kNever;
+    const auto by_guard = [&](int guard_ms, int takes_ms, int kills_ms) {
+      // a dead servo closes its device at once, on a busy machine a little later
+      const int until_ms = reachable ? takes_ms : killed ? 30 : kills_ms;
+      if (servo_ms < kNever && servo_ms + until_ms + kSpacingMs / 2 <= guard_ms)
+        released.push_back(servo_ms + until_ms);
+    };
+    by_guard(watchdog_ms, 25, 1000);
+    by_guard(renderer_ms, 80, 1520);
+    // the kernel continues a stopped servo whose renderer has died, and hangs up
+    const int orphaned_ms = dead_ms[static_cast<std::size_t>(Victim::Renderer)];
+    if (!killed && servo_ms < orphaned_ms && orphaned_ms < kNever) released.push_back(orphaned_ms + 100);
+    const int first_ms = *std::min_element(released.begin(), released.end());
+    return first_ms < kNever ? std::optional(first_ms) : std::nullopt;
+  }
+};
+
+// The only child of a process, or -1.
+pid_t child_of(pid_t process) {
+  std::ifstream children(fmt::format("/proc/{}/task/{}/children", process, process));
+  pid_t child = -1;
+  children >> child;
+  return child;
+}
+
+// Renderer, servo and watchdog in a session of their own, with force on the hand.
+class Chain {
+ public:
+  explicit Chain(bool haply) : haply_(haply) {
+    EXPECT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1UL, 0UL, 0UL, 0UL), 0);
+    ::setenv("TOUCHAFM_HAPLY_PORT", std::to_string(service_.port()).c_str(), 1);
+    renderer_ = ::fork();
+    if (renderer_ == 0) draw();
+    eventually([&] { return (servo_ = child_of(renderer_)) > 0 && (watchdog_ = child_of(servo_)) > 0; });
+    attached_ = haply_ ? attach() : eventually([&] { return renderer_holds() || !renderer_lives(); });
+  }
+  Chain(const Chain&) = delete;
+  Chain& operator=(const Chain&) = delete;
+  ~Chain() {
+    for (const pid_t process : {renderer_, servo_, watchdog_}) {
+      if (process > 0) ::kill(process, SIGKILL);
+    }
+    while (::waitpid(-1, nullptr, 0) > 0) {
+    }
+    ::unsetenv("TOUCHAFM_HAPLY_PORT");
+  }
+
+  bool attached() const { return attached_; }
+
+  void raise(const Fault& fault) const {
+    const std::array processes{renderer_, servo_, watchdog_};
+    ::kill(processes[static_cast<std::size_t>(fault.victim)], fault.signal);
+  }
+
+  // Force at the device: as the service holds it; of the simulated hand, as long as its servo lives.
+  double force_n() {
+    if (haply_) {
+      const auto forces = service_.forces();
+      return forces.empty() ? 0.0 : std::hypot(forces.back().x, forces.back().y, forces.back().z);
+    }
+    while (::waitpid(-1, nullptr, WNOHANG) > 0) {
+    }
+    if (ended(servo_)) return 0.0;
+    if (const auto state = side_.tip_state()) hand_n_ = std::abs(state->hand.force_n[1]);
+    return hand_n_;
+  }
+
+ private:
+  // A zombie's device is closed.
+  static bool ended(pid_t process) {
+    std::ifstream stat(fmt::format("/proc/{}/stat", process));
+    std::string number, name, state;
+    return !(stat >> number >> name >> state) || state == "Z" || state == "X";
+  }
+
+  [[noreturn]] void draw() {
+    ::setsid();
+    scene::RendererSide side = segment_.renderer_side();
+    auto servo = ServoProcess::spawn(kServoProgram, segment_, side, {.rate_hz = kRateHz}, haply_ ? "haply" : "sim");
+    if (!servo) ::_exit(1);
+    LiveRenderer renderer(side);
+    side.store(scene::Selection{.material = kMica, .revision = 1});
+    if (!haply_ && !renderer.hold_attached()) ::_exit(1);
+    // as the program, which looks for its servo's end in each frame
+    while ((*servo)->alive()) {
+      renderer.beat();
+      wait_a_little();
+    }
+    for (;;) ::pause();
+  }
+
+  bool renderer_lives() const { return !ended(renderer_); }
+  bool renderer_holds() {
+    const auto state = side_.tip_state();
+    return state && state->servo_state == scene::ServoState::Running && state->hand.force_n[1] < -0.5;
+  }
+
+  // The paper's procedure, by a hand at 0.1 m/s, until the pull of the sample is on it.
+  bool attach() {
+    const auto move_to = [&](double up_m) {
+      constexpr double kStepM = 0.1 * 0.002;
+      for (double here_m = service_.up_m; here_m != up_m; service_.up_m = here_m) {
+        here_m = here_m < up_m ? std::min(here_m + kStepM, up_m) : std::max(here_m - kStepM, up_m);
+        wait_a_little();
+      }
+    };
+    return eventually([&] {
+      if (!renderer_lives() || ended(servo_)) return true;
+      move_to(0.19);
+      std::this_thread::sleep_for(milliseconds(300));
+      for (const bool pressed : {true, false}) {
+        service_.button = pressed;
+        std::this_thread::sleep_for(milliseconds(300));
+      }
+      std::this_thread::sleep_for(milliseconds(700));
+      move_to(0.105);
+      move_to(0.14);
+      return renderer_holds() && force_n() > 0.3;
+    });
+  }
+
+  bool haply_;
+  HaplyService service_;
+  scene::SharedSegment segment_ = create_segment();
+  scene::RendererSide side_ = segment_.renderer_side();
+  double hand_n_ = 1.0;
+  pid_t renderer_ = -1, servo_ = -1, watchdog_ = -1;
+  bool attached_ = false;
+};
+
+// Time from the first fault to the first moment without force, or `limit`.
+support::Timed time_of_force(Chain& chain, const Faults& faults, milliseconds limit) {
+  return support::timed([&] {
+    const auto begin = std::chrono::steady_clock::now();
+    bool gone = false;
+    std::thread raiser([&] {
+      for (std::size_t i = 0; i < faults.size(); ++i) {
+        std::this_thread::sleep_until(begin + milliseconds(kSpacingMs) * static_cast<int>(i));
+        chain.raise(faults[i]);
+      }
+    });
+    while (!gone && std::chrono::steady_clock::now() < begin + limit) {
+      gone = chain.force_n() == 0.0;
+      if (!gone) wait_a_little();
+    }
+    raiser.join();
+  });
+}
+
+// Each bound is doubled, as the others of real processes are.
+void expect_release(bool haply, const Faults& faults) {
+  SCOPED_TRACE(fmt::format("{} {}", haply ? "haply" : "simulated", text_of(faults)));
+  const auto bound_ms = Table{.reachable = haply}(faults);
+  if (!bound_ms) {
+    std::printf("%s %s: nobody is left but the device's own watchdog\n", haply ? "haply" : "simulated",
+                text_of(faults).c_str());
+    return;
+  }
+  std::printf("%s %s: ", haply ? "haply" : "simulated", text_of(faults).c_str());
+  const milliseconds bound(2 * *bound_ms + 20);
+  support::expect_within(bound, [&]() -> support::Timed {
+    Chain chain(haply);
+    EXPECT_TRUE(chain.attached());
+    if (testing::Test::HasFailure()) return {};
+    return time_of_force(chain, faults, 3 * bound);
+  });
+}
+
+TEST(GuardFaults, AreNamedByTheManualsTable) {
+  constexpr Table haply{.reachable = true}, library{.reachable = false};
+  const Faults servo_and_watchdog{{Victim::Servo, SIGKILL}, {Victim::Watchdog, SIGKILL}};
+  EXPECT_EQ(haply(servo_and_watchdog), 25);
+  EXPECT_EQ(library(servo_and_watchdog), 30);
+  const Faults stopped{{Victim::Watchdog, SIGSTOP}, {Victim::Servo, SIGSTOP}};
+  EXPECT_EQ(haply(stopped), kSpacingMs + 80);
+  EXPECT_EQ(library(stopped), kSpacingMs + 1520);
+  const Faults all{{Victim::Watchdog, SIGSTOP}, {Victim::Renderer, SIGSTOP}, {Victim::Servo, SIGSTOP}};
+  EXPECT_EQ(haply(all), std::nullopt);
+  EXPECT_EQ(every(2).size(), 96U);
+  EXPECT_EQ(every(3).size(), 384U);
+}
+
+// The worst that the program itself can meet.
+class WorstGuardFaults : public testing::TestWithParam<Faults> {};
+
+TEST_P(WorstGuardFaults, LeaveNoForce) { expect_release(true, GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, WorstGuardFaults,
+    testing::Values(Faults{{Victim::Watchdog, SIGSTOP}}, Faults{{Victim::Watchdog, SIGKILL}, {Victim::Servo, SIGKILL}},
+                    Faults{{Victim::Watchdog, SIGSTOP}, {Victim::Servo, SIGSTOP}},
+                    Faults{{Victim::Watchdog, SIGSTOP}, {Victim::Servo, SIGSTOP}, {Victim::Renderer, SIGKILL}}),
+    [](const auto& parameter) {
+      std::string name = text_of(parameter.param);
+      name.erase(std::remove_if(name.begin(), name.end(), [](char c) { return c == ' ' || c == ':'; }), name.end());
+      return name;
+    });
+
+// A draw of the pairs and triples, on both devices in turn: 40 in the deep checks. AFM_ALL_GUARD_FAULTS: all of them on
+// both, which takes two hours.
+TEST(GuardFaults, LeaveNoForceInAnyOrder) {
+  std::vector<Faults> all = every(2);
+  const std::vector<Faults> triples = every(3);
+  all.insert(all.end(), triples.begin(), triples.end());
+  const bool whole = std::getenv("AFM_ALL_GUARD_FAULTS") != nullptr;
+  if (!whole) {
+    std::shuffle(all.begin(), all.end(), std::mt19937(34));
+    all.resize(support::deep() ? 40 : 2);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (whole || i % 2 == 0) expect_release(true, all[i]);
+    if (whole || i % 2 == 1) expect_release(false, all[i]);
+  }
+}
+
+}  // namespace guard_faults_test
+}  // namespace afm::servo
