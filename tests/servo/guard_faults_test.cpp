@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -141,10 +142,9 @@ pid_t child_of(pid_t process) {
 class Chain {
  public:
   explicit Chain(bool haply) : haply_(haply) {
-    EXPECT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1UL, 0UL, 0UL, 0UL), 0);
-    ::setenv("TOUCHAFM_HAPLY_PORT", std::to_string(service_.port()).c_str(), 1);
-    renderer_ = ::fork();
-    if (renderer_ == 0) draw();
+    const int port = service_.port();
+    EXPECT_EQ(::write(port_in_, &port, sizeof port), ssize_t{sizeof port});
+    ::close(port_in_);
     eventually([&] { return (servo_ = child_of(renderer_)) > 0 && (watchdog_ = child_of(servo_)) > 0; });
     attached_ = haply_ ? attach() : eventually([&] { return renderer_holds() || !renderer_lives(); });
   }
@@ -156,7 +156,6 @@ class Chain {
     }
     while (::waitpid(-1, nullptr, 0) > 0) {
     }
-    ::unsetenv("TOUCHAFM_HAPLY_PORT");
   }
 
   bool attached() const { return attached_; }
@@ -187,8 +186,26 @@ class Chain {
     return !(stat >> number >> name >> state) || state == "Z" || state == "X";
   }
 
-  [[noreturn]] void draw() {
+  // Before the service and its thread: a child of several threads cannot be trusted to start threads.
+  pid_t start_renderer() {
+    EXPECT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1UL, 0UL, 0UL, 0UL), 0);
+    std::array<int, 2> port{};
+    EXPECT_EQ(::pipe2(port.data(), O_CLOEXEC), 0);
+    const pid_t renderer = ::fork();
+    if (renderer == 0) {
+      ::close(port[1]);
+      draw(port[0]);
+    }
+    ::close(port[0]);
+    port_in_ = port[1];
+    return renderer;
+  }
+
+  [[noreturn]] void draw(int port_out) {
     ::setsid();
+    int port = 0;
+    if (::read(port_out, &port, sizeof port) != ssize_t{sizeof port}) ::_exit(1);
+    ::setenv("TOUCHAFM_HAPLY_PORT", std::to_string(port).c_str(), 1);
     scene::RendererSide side = segment_.renderer_side();
     auto servo = ServoProcess::spawn(kServoProgram, segment_, side, {.rate_hz = kRateHz}, haply_ ? "haply" : "sim");
     if (!servo) ::_exit(1);
@@ -234,11 +251,12 @@ class Chain {
   }
 
   bool haply_;
-  HaplyService service_;
   scene::SharedSegment segment_ = create_segment();
   scene::RendererSide side_ = segment_.renderer_side();
+  int port_in_ = -1;  // end of the pipe that tells the renderer the service's port
+  pid_t renderer_ = start_renderer(), servo_ = -1, watchdog_ = -1;
+  HaplyService service_;
   double hand_n_ = 1.0;
-  pid_t renderer_ = -1, servo_ = -1, watchdog_ = -1;
   bool attached_ = false;
 };
 

@@ -6,9 +6,9 @@
 
 namespace afm::render {
 
-// Keeps the screen saver and the monitors' power saving from blanking the screen while it exists, since pen, wand and
-// headset are no input to them. They go on when it ends, also by a kill. Any thread; the constructor takes at most a
-// second where a session bus is stuck.
+// Wakes the screen, and keeps the screen saver and the monitors' power saving from blanking it while this exists, since
+// pen, wand and headset are no input to them. They go on when it ends, also by a kill. Any thread; the constructor
+// takes at most a second where a session bus is stuck.
 class SaverInhibition {
  public:
   SaverInhibition();

@@ -37,10 +37,11 @@ constexpr std::array<StyleRow, kTextStyles> kStyles{{
     {72.0F, "Inter-SemiBold.otf", "DejaVuSans-Bold.ttf"},
 }};
 
-// Latin, Greek, punctuation with the typographic minus and dashes, subscripts and superscripts, arrows, mathematical
-// operators.
-constexpr std::array<ImWchar, 17> kGlyphRanges{0x0020, 0x00FF, 0x0391, 0x03C9, 0x2010, 0x2027, 0x2030, 0x2044, 0x2070,
-                                               0x209C, 0x2190, 0x2193, 0x2200, 0x2265, 0x2266, 0x226B, 0};
+// Latin, Greek, Cyrillic capitals for the labels of keys, punctuation with the typographic minus and dashes, subscripts
+// and superscripts, arrows, mathematical operators.
+constexpr std::array<ImWchar, 19> kGlyphRanges{0x0020, 0x00FF, 0x0391, 0x03C9, 0x0401, 0x042F, 0x2010,
+                                               0x2027, 0x2030, 0x2044, 0x2070, 0x209C, 0x2190, 0x2193,
+                                               0x2200, 0x2265, 0x2266, 0x226B, 0};
 
 // True for a file with an OpenType signature; ImGui ends the program for any other.
 bool is_font(const std::string& bytes) {
