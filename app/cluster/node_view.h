@@ -3,20 +3,28 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "app/display/view_display.h"
-#include "app/view/view_panels.h"
+#include "app/view/key_list.h"
 #include "cluster/node_link.h"
 #include "core/clock.h"
 #include "curves/sample_model.h"
-#include "exhibit/cluster/wall_history.h"
-#include "exhibit/frame/exhibit_setup.h"
-#include "exhibit/frame/frame_builder.h"
 #include "exhibit/scan/live_scan.h"
 
+namespace afm::exhibit {
+class FrameBuilder;
+struct Stage;
+struct WallHistory;
+}  // namespace afm::exhibit
+
 namespace afm::app {
+
+class ViewDisplay;
+class ViewPanels;
+class ViewPicture;
+class ViewWindows;
 
 // A machine of a wall without the hand: builds every frame from the inputs that the master sends, and shows it together
 // with all others. It starts no servo and opens no haptic device. Main thread only.
@@ -31,6 +39,7 @@ class NodeView {
   // All must outlive it; `key_list` is that of the master's window.
   NodeView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewDisplay& display,
            cluster::NodeLink& link, Place place, KeyList key_list, const core::Clock& clock);
+  ~NodeView();
 
   // Until the window is closed or a signal comes; or until a master shows another wall, whose description it returns.
   std::optional<cluster::NodeLink::Document> run();
@@ -58,9 +67,9 @@ class NodeView {
   Place place_;
   const core::Clock& clock_;
   std::vector<curves::SampleModel> felt_;
-  exhibit::FrameBuilder frames_;
-  ViewPanels panels_;
-  exhibit::WallHistory history_;
+  std::unique_ptr<exhibit::FrameBuilder> frames_;
+  std::unique_ptr<ViewPanels> panels_;
+  std::unique_ptr<exhibit::WallHistory> history_;
   bool knows_history_ = false;
   std::optional<exhibit::LiveScan> scan_;
   std::deque<cluster::NodeLink::Numbered> records_;  // that have come and are not applied yet

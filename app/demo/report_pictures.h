@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "app/demo/report.h"
-#include "app/options/output_folder.h"
+#include "core/output_folder.h"
 #include "core/result.h"
+#include "exhibit/report/report.h"
 #include "render/screenshot_queue.h"
 
 namespace afm::app {
@@ -16,20 +16,20 @@ namespace afm::app {
 class ReportPictures {
  public:
   // All must outlive it.
-  ReportPictures(render::Context& context, render::Renderer& renderer, const OutputFolder& out);
+  ReportPictures(render::Context& context, render::Renderer& renderer, const core::OutputFolder& out);
 
   // Saves the renderer's newest frame, side by side. Waits only if ScreenshotQueue::kMostPictures are pending.
   void add(const std::string& file, const std::string& caption);
 
   // All of them, in order; Failed if one could not be written.
-  core::Result<std::vector<ReportPicture>> finish();
+  core::Result<std::vector<exhibit::ReportPicture>> finish();
 
  private:
   void keep_errors(std::vector<render::SavedPicture> saved);
 
   render::ScreenshotQueue saver_;
-  const OutputFolder& out_;
-  std::vector<ReportPicture> pictures_;
+  const core::OutputFolder& out_;
+  std::vector<exhibit::ReportPicture> pictures_;
   std::vector<std::string> paths_;
   std::vector<core::Error> errors_;
 };

@@ -7,28 +7,24 @@
 #include <string>
 #include <vector>
 
-#include "app/display/instructor_window.h"
+#include "app/display/display_options.h"
 #include "app/display/view_outputs.h"
 #include "app/display/view_picture.h"
 #include "app/display/view_windows.h"
 #include "core/result.h"
 #include "render/context.h"
 
+namespace afm::core {
+class Clock;
+}
+namespace afm::render {
+class HeadsetRuntime;
+}
+
 namespace afm::app {
 
-// Options of the live view's windows and of the picture in them.
-struct DisplayOptions {
-  exhibit::PictureOptions picture;
-  WindowOptions window;
-  std::uint32_t eye_width = 0;     // 0: the windows'
-  double frame_budget_ms = 0;      // 0: none
-  double comfort_deg = 1;          // how much more or less the eyes may turn in than for the wall
-  std::string saved_folder = ".";  // for the pictures that are saved
-  bool validate = false;           // every Vulkan call
-  render::PanelContrast contrast = render::PanelContrast::Normal;
-  render::Swap swap = render::Swap::Alone;  // with the other machines of a wall
-  std::string instructor;  // where the instructor's window is, as open_window() takes it; empty: there is none
-};
+class InstructorWindow;
+class ViewHeadset;
 
 // The windows of the live view with all that draws into them. Main thread only.
 class ViewDisplay {
@@ -38,6 +34,7 @@ class ViewDisplay {
   // be null, and must outlive it, as the clock.
   static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayOptions& options,
                                                          render::HeadsetRuntime* runtime, const core::Clock& clock);
+  ~ViewDisplay();
   ViewDisplay(const ViewDisplay&) = delete;
   ViewDisplay& operator=(const ViewDisplay&) = delete;
 
@@ -48,7 +45,7 @@ class ViewDisplay {
   ViewHeadset* headset() { return headset_.get(); }             // null: none
 
  private:
-  ViewDisplay() = default;
+  ViewDisplay();
   render::RendererOptions drawing(const exhibit::Stage& stage, const DisplayOptions& options) const;
   core::Result<void> check_outputs(render::Swap swap) const;
   static render::RendererOptions drawing_in_headset(const exhibit::Stage& stage, glm::uvec2 eye_px);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The picture in a headset, and its left eye's in the window.
+#include "app/display/view_headset.h"
 #include "app/display/view_picture.h"
+#include "exhibit/frame/exhibit_setup.h"
 
 namespace afm::app {
 

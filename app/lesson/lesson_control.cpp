@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "app/lesson/live_lesson.h"
 #include "app/view/live_sound.h"
 #include "app/view/servo_supervisor.h"
 #include "app/view/view_choice.h"
@@ -14,13 +13,14 @@
 #include "app/view/view_wand.h"
 #include "exhibit/frame/blank_picture.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/lesson/live_lesson.h"
 #include "exhibit/panels/panel_hit.h"
 #include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
 
-LessonControl::LessonControl(ViewParts& parts, LiveLesson& lesson) : parts_(parts), lesson_(lesson) {
+LessonControl::LessonControl(ViewParts& parts, exhibit::LiveLesson& lesson) : parts_(parts), lesson_(lesson) {
   parts_.panels.use_for(WallUse::Lesson);
   parts_.choice.set_guide(*this);
   parts_.servo.hear_jumps([this](const scene::TipEvent& event) { lesson_.happened(event, parts_.servo.link()); });

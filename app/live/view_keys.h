@@ -24,7 +24,7 @@ struct KeyOwners {
   ViewParts& parts;
   PlaceControl* place = nullptr;
   JourneyControl* journey = nullptr;
-  LessonControl* lesson = nullptr;  // for rows of lessons only; null without a lesson
+  LessonControl* lesson = nullptr;  // used by rows of lessons; null without a lesson
   ScanControl* scan = nullptr;
   SoundControl* sound = nullptr;
 };

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "exhibit/words/phrases.h"
-#include "render/frame.h"
+namespace afm::exhibit {
+class Phrases;
+}
+namespace afm::render {
+struct DataPanel;
+}
 
 namespace afm::app {
 

@@ -13,11 +13,14 @@
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/state/cycle_history.h"
 #include "exhibit/state/jump_cue.h"
-#include "servo/servo_client.h"
 #include "servo/session_folder.h"
-#include "servo/session_recorder.h"
-#include "servo/tip_listener.h"
-#include "servo/tip_stream.h"
+
+namespace afm::servo {
+class ServoClient;
+class SessionRecorder;
+class TipAudience;
+class TipStream;
+}  // namespace afm::servo
 
 namespace afm::app {
 
@@ -34,6 +37,7 @@ class ServoSupervisor {
   // that update() receives, and must outlive this.
   ServoSupervisor(Starter starter, Started started, std::size_t materials, std::string record_folder,
                   servo::TipAudience& audience);
+  ~ServoSupervisor();
 
   // The first servo, or another after one has ended for good. Failed if it cannot be started or nothing can be kept in
   // the folder.
@@ -50,7 +54,7 @@ class ServoSupervisor {
   void hear_jumps(std::function<void(const scene::TipEvent&)> hears) { hears_jumps_.push_back(std::move(hears)); }
 
   // Adds a frame of the wall to the current session.
-  void record(const servo::WallFrame& frame) { recorder_.add(frame); }
+  void record(const servo::WallFrame& frame);
   bool recording() const { return folder_.has_value(); }
 
   // Saves the current session, logs the servo's timing, and releases the hand.
@@ -91,11 +95,11 @@ class ServoSupervisor {
   std::unique_ptr<servo::ServoClient> link_;
   std::optional<core::Error> error_;      // the servo has ended
   std::deque<std::int64_t> restarts_ns_;  // of servos that died, within the last minute
-  servo::TipStream stream_;
+  std::unique_ptr<servo::TipStream> stream_;
   exhibit::CycleHistory cycles_;
   exhibit::FrictionHistory friction_;
   std::optional<servo::SessionFolder> folder_;
-  servo::SessionRecorder recorder_;
+  std::unique_ptr<servo::SessionRecorder> recorder_;
   std::int64_t kept_ns_ = 0;  // when a part of the session was kept last
   exhibit::JumpCues cues_;
   scene::ServoState logged_state_ = scene::ServoState::Disarmed;

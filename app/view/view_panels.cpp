@@ -7,13 +7,21 @@
 #include <array>
 #include <utility>
 
+#include "cluster/frame_message.h"
 #include "core/enumerators.h"
 #include "core/log.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/friction/friction_panel.h"
 #include "exhibit/panels/panel_hit.h"
+#include "exhibit/panels/parameter_panel.h"
+#include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_panels.h"
+#include "exhibit/scenery/wall_scene.h"
+#include "exhibit/state/moment.h"
+#include "exhibit/words/guidance.h"
 #include "render/control_layout.h"
 #include "scene/shared/field_copy.h"
+#include "servo/servo_client.h"
 
 namespace afm::app {
 
@@ -65,6 +73,8 @@ void log_scan(const exhibit::LiveScan& scan) {
 ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
                        KeyList key_list)
     : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials), key_list_(key_list) {}
+
+const exhibit::Phrases& ViewPanels::phrases() const { return wall_scene_.phrases(); }
 
 std::string ViewPanels::shown() const {
   if (keys_shown_) return "keys";

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/log.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "input/hid_source.h"
 
 namespace afm::app {

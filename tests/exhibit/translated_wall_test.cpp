@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/demo/report.h"
 #include "app/live/view_keys.h"
 #include "app/options/dynamic_resolution.h"
 #include "core/enumerators.h"
@@ -25,6 +24,7 @@
 #include "exhibit/panels/depth_report.h"
 #include "exhibit/panels/parameter_panel.h"
 #include "exhibit/panels/servo_rows.h"
+#include "exhibit/report/report.h"
 #include "exhibit/words/guidance.h"
 #include "scene/shared/shared_blocks.h"
 #include "support/phrases.h"

@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "exhibit/models/drawn_surface.h"
 #include "exhibit/models/model_builder.h"
+#include "exhibit/models/user_models.h"
 #include "models/height_bar.h"
 #include "physics/contact.h"
 #include "scene/graph/height_field.h"
@@ -72,6 +73,11 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
   look.label = build.node(swatch + "/label");
   look.full_deflection_m = events.f_ad.si / material.contact.spring_constant.si;
   looks_.push_back(look);
+}
+
+core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
+                                        const StagePlace& place, const Phrases& phrases) {
+  return load(assets_dir, materials, place, phrases, UserModels{});
 }
 
 core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,

@@ -5,9 +5,10 @@
 
 #include "curves/sample_model.h"
 #include "exhibit/scan/live_scan.h"
-#include "exhibit/scenery/wall_scene.h"
 
 namespace afm::exhibit {
+
+class WallScene;
 
 // The drawn sample of a material as a scan meets it: the surface that is felt (haptics::SampleSurface) before it is
 // smoothed to the stiffness of a device, or a topography that was measured, which holds the usual tip already; the

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/models/user_models.h"
 #include "exhibit/scenery/analogy.h"
 #include "exhibit/scenery/journey.h"
 #include "exhibit/scenery/wall_layout.h"
@@ -22,11 +21,13 @@
 #include "scene/display/wall.h"
 #include "scene/graph/scene.h"
 #include "scene/samples/material_library.h"
+#include "scene/shared/felt_heights.h"
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::exhibit {
 
 class ModelBuilder;
+struct UserModels;
 
 // Scales of the drawing: metres of the nanoworld (or of the instrument) shown as one metre on the wall.
 struct DrawnScale {
@@ -40,7 +41,9 @@ struct DrawnScale {
 class WallScene {
  public:
   static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
-                                      const StagePlace& place, const Phrases& phrases, const UserModels& own = {});
+                                      const StagePlace& place, const Phrases& phrases, const UserModels& own);
+  static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
+                                      const StagePlace& place, const Phrases& phrases);
 
   // The language of everything that is read on this wall.
   const Phrases& phrases() const { return phrases_; }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "exhibit/words/controls.h"
 #include "exhibit/words/phrases.h"
 #include "scene/shared/tip_blocks.h"
 
@@ -41,14 +42,6 @@ struct CycleProgress {
 
 // The step of the procedure that comes next, from what has really happened to the tip.
 Hint next_step(const scene::TipState& tip, const StepsDone& done);
-
-// The device in the hand, whose controls the wall names. Device: one without names for them, found by --haptics auto.
-enum class HandControls { Mouse, Pen, Grip, Gamepad, Device, Simulated };
-enum class Pointer { Mouse, Wand };
-struct Controls {
-  HandControls hand = HandControls::Simulated;
-  Pointer pointer = Pointer::Wand;
-};
 
 // Ways back from what is shown instead of the instrument, and the place of the list of keys.
 enum class Note { Keys, LeaveJourney, LeaveAnalogy };

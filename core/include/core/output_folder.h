@@ -10,14 +10,14 @@
 #include "core/interruption.h"
 #include "core/result.h"
 
-namespace afm::app {
+namespace afm::core {
 
 // A results folder that appears completely or not at all: files are written into a temporary folder next to it, and
 // commit() moves them into place. Without a commit nothing is left, even after a signal. One thread.
 class OutputFolder {
  public:
   // Checks in advance, before hours of work, that `path` is writable.
-  static core::Result<OutputFolder> open(const std::string& path);
+  static Result<OutputFolder> open(const std::string& path);
 
   OutputFolder(OutputFolder&& other) noexcept;
   OutputFolder& operator=(OutputFolder&&) = delete;
@@ -26,18 +26,18 @@ class OutputFolder {
   // Path to write a file of this name to until commit().
   std::string staged(std::string_view name) const;
 
-  core::Result<void> write(std::string_view name, std::string_view bytes);
+  Result<void> write(std::string_view name, std::string_view bytes);
 
   // Moves every staged file into the folder; older files of the same names are replaced, others stay.
-  core::Result<void> commit();
+  Result<void> commit();
 
  private:
-  OutputFolder(std::string path, std::string staging, core::FileDescriptor lock);
+  OutputFolder(std::string path, std::string staging, FileDescriptor lock);
 
   std::string path_;
   std::string staging_;
-  core::FileDescriptor lock_;  // of the staging folder, for as long as this process lives
-  std::unique_ptr<core::OnInterruption> undo_;
+  FileDescriptor lock_;  // lock of the staging folder while this process lives
+  std::unique_ptr<OnInterruption> undo_;
 };
 
-}  // namespace afm::app
+}  // namespace afm::core

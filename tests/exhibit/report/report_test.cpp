@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/demo/report.h"
+#include "exhibit/report/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "support/phrases.h"
 
-namespace afm::app {
+namespace afm::exhibit {
 namespace report_test {
 
 using ::testing::HasSubstr;
@@ -65,4 +65,4 @@ TEST(Report, LetsWhatIsWideBeMovedInItsOwnBox) {
 }
 
 }  // namespace report_test
-}  // namespace afm::app
+}  // namespace afm::exhibit

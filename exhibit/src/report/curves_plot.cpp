@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/demo/curves_plot.h"
+#include "exhibit/report/curves_plot.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,11 +8,9 @@
 #include "curves/svg_plot.h"
 #include "exhibit/state/cycle_curve.h"
 
-namespace afm::app {
+namespace afm::exhibit {
 
 namespace {
-
-using exhibit::Phrase;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -36,7 +34,7 @@ std::vector<curves::SvgPoint> points_within(const std::vector<render::PlotPoint>
 }
 
 curves::SvgPlot plot_within(std::span<const LabelledSession> sessions, Phrase title, const Window& window,
-                            const exhibit::Phrases& phrases) {
+                            const Phrases& phrases) {
   curves::SvgPlot plot;
   plot.title = phrases[title];
   plot.decimal_mark = phrases.decimal_mark();
@@ -44,7 +42,7 @@ curves::SvgPlot plot_within(std::span<const LabelledSession> sessions, Phrase ti
   plot.y_label = phrases[Phrase::ReportForceAxis];
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     const auto& [name, session] = sessions[i];
-    const render::PlotCurve curve = exhibit::curve_until(*session, session->samples.back().time_ns).plot(name, {});
+    const render::PlotCurve curve = curve_until(*session, session->samples.back().time_ns).plot(name, {});
     plot.lines.push_back({phrases.text<Phrase::ReportApproach>(phrases.word(name)),
                           std::string(curves::distinct_color(i)), curves::LineStyle::Dashed,
                           points_within(curve.approach, window)});
@@ -73,7 +71,7 @@ std::optional<Window> window_of_smallest(std::span<const LabelledSession> sessio
 
 }  // namespace
 
-std::string curves_svg(std::span<const LabelledSession> sessions, const exhibit::Phrases& phrases) {
+std::string curves_svg(std::span<const LabelledSession> sessions, const Phrases& phrases) {
   std::string plots = curves::svg(plot_within(sessions, Phrase::ReportAllCurves, {}, phrases));
   if (const auto near = window_of_smallest(sessions)) {
     plots += "\n" + curves::svg(plot_within(sessions, Phrase::ReportNearCurves, *near, phrases));
@@ -81,4 +79,4 @@ std::string curves_svg(std::span<const LabelledSession> sessions, const exhibit:
   return plots;
 }
 
-}  // namespace afm::app
+}  // namespace afm::exhibit

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/demo/measurement.h"
+#include "exhibit/report/measurement.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace afm::app {
+namespace afm::exhibit {
 
 namespace {
 
@@ -120,4 +120,4 @@ core::Result<void> check_accuracy(const Measurement& m) {
                   m.recorded ? "recorded curve" : "equations", 100.0 * m.error_bound()));
 }
 
-}  // namespace afm::app
+}  // namespace afm::exhibit

@@ -8,7 +8,7 @@
 #include "physics/imaging/scanner.h"
 #include "physics/imaging/tip_shape.h"
 
-namespace afm::app {
+namespace afm::exhibit {
 
 // A sample as the scanner meets it.
 struct ScanSurface {
@@ -24,4 +24,4 @@ struct ScanSurface {
 core::Result<ScanSurface> scan_surface(const curves::ContactSetup& setup, const physics::TipShape& tip,
                                        const std::string& assets_dir);
 
-}  // namespace afm::app
+}  // namespace afm::exhibit

@@ -13,7 +13,7 @@
 #include "scene/shared/shared_blocks.h"
 #include "servo/session_file.h"
 
-namespace afm::app {
+namespace afm::exhibit {
 
 // The four numbers of the paper's Table 2 and Fig. 5, magnitudes in SI.
 struct CycleEvents {
@@ -64,4 +64,4 @@ core::Result<Measurement> measure(const servo::RecordedSession& session, const c
 // Failed, with one line, if it is worse than its error bound.
 core::Result<void> check_accuracy(const Measurement& m);
 
-}  // namespace afm::app
+}  // namespace afm::exhibit

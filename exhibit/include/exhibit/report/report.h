@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "app/demo/measurement.h"
+#include "exhibit/report/measurement.h"
 #include "exhibit/words/phrases.h"
 #include "render/frame.h"
 #include "scene/shared/shared_blocks.h"
 #include "servo/session_file.h"
 
-namespace afm::app {
+namespace afm::exhibit {
 
 // One cycle on a sample whose parameters were changed while the servo ran.
 struct Variation {
@@ -48,9 +48,9 @@ struct ReportPicture {
 
 // One HTML file that opens anywhere: pictures and plots are inside it.
 std::string report_html(const DemoResult& result, const std::vector<ReportPicture>& pictures,
-                        const std::string& curves_svg, const exhibit::Phrases& phrases);
+                        const std::string& curves_svg, const Phrases& phrases);
 
 // Every sample of a session as CSV with a # header that holds every parameter and event.
 std::string session_csv(const servo::RecordedSession& session);
 
-}  // namespace afm::app
+}  // namespace afm::exhibit

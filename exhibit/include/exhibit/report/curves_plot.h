@@ -7,7 +7,7 @@
 #include "exhibit/words/phrases.h"
 #include "servo/session_file.h"
 
-namespace afm::app {
+namespace afm::exhibit {
 
 struct LabelledSession {
   std::string label;
@@ -16,6 +16,6 @@ struct LabelledSession {
 
 // The whole curves of the sessions as plots: all together, and, where the largest loop dwarfs the smallest, the same
 // around that. Self-contained SVG elements, one below the other.
-std::string curves_svg(std::span<const LabelledSession> sessions, const exhibit::Phrases& phrases);
+std::string curves_svg(std::span<const LabelledSession> sessions, const Phrases& phrases);
 
-}  // namespace afm::app
+}  // namespace afm::exhibit

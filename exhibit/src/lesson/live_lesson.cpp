@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/lesson/live_lesson.h"
+#include "exhibit/lesson/live_lesson.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/log.h"
+#include "servo/servo_client.h"
 
-namespace afm::app {
+namespace afm::exhibit {
 
 namespace {
 
-using exhibit::Condition;
-using Wants = exhibit::LessonPrompt::Wants;
+using Wants = LessonPrompt::Wants;
 
 }  // namespace
 
-LiveLesson::LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::SampleModel>& samples,
-                       const exhibit::Phrases& phrases, const std::optional<exhibit::DataSetEntry>& study,
-                       const core::Clock& clock)
+LiveLesson::LiveLesson(const Lesson& lesson, const std::vector<curves::SampleModel>& samples, const Phrases& phrases,
+                       const std::optional<DataSetEntry>& study, const core::Clock& clock)
     : lesson_(lesson),
       samples_(samples),
       phrases_(phrases),
@@ -28,17 +27,17 @@ LiveLesson::LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::
           {.seed = study ? study->seed : static_cast<std::uint64_t>(clock.now_ns()),
            .order = study ? study->order.value_or(0) : 0,
            .ask_consent = study.has_value()},
-          [this](const exhibit::TrialRow& row) { return keep(row); }, now_s()),
+          [this](const TrialRow& row) { return keep(row); }, now_s()),
       varied_(samples.size(), false) {
   acted();
 }
 
 void LiveLesson::update() {
   run_.watch_time(now_s());
-  exhibit::LessonPrompt next = run_.prompt(now_s());
+  LessonPrompt next = run_.prompt(now_s());
   if (next.words != prompt_.words || next.progress != prompt_.progress) {
     const bool scale = is_scale(next);
-    mark_.ask(next.answers.size(), scale ? exhibit::HandAnswer::Layout::Scale : exhibit::HandAnswer::Layout::List,
+    mark_.ask(next.answers.size(), scale ? HandAnswer::Layout::Scale : HandAnswer::Layout::List,
               scale ? std::optional(next.marked) : std::nullopt);
     told_mark_ = mark_.marked();
     core::log_line("lesson: " + (next.progress.empty() ? "" : next.progress + ": ") + next.words);
@@ -58,14 +57,14 @@ void LiveLesson::acted() {
 }
 
 core::Result<void> LiveLesson::begin_data() {
-  auto data = exhibit::DataSet::create(lesson_, *study_);
+  auto data = DataSet::create(lesson_, *study_);
   if (!data) return tl::unexpected(data.error());
   data_ = std::move(*data);
   core::log_line("lesson: results go to " + data_->participant_folder());
   return {};
 }
 
-core::Result<void> LiveLesson::keep(const exhibit::TrialRow& row) {
+core::Result<void> LiveLesson::keep(const TrialRow& row) {
   if (row.correct && !row.practice) {
     ++judged_;
     if (*row.correct) ++right_;
@@ -79,7 +78,7 @@ void LiveLesson::sound_is_lost() {
   if (auto noted = data_->note_sound_lost(run_.elapsed_s(now_s())); !noted) error_ = noted.error();
 }
 
-exhibit::InstructorState LiveLesson::instructor_state() const {
+InstructorState LiveLesson::instructor_state() const {
   return {.prompt = prompt_,
           .participant = study_ ? study_->code : "",
           .elapsed_s = run_.elapsed_s(now_s()),
@@ -94,14 +93,14 @@ void LiveLesson::number(std::size_t number) {
   if (prompt_.wants != Wants::Answer || number >= prompt_.answers.size()) return;
   if (is_scale(prompt_)) {
     // the keys stand for the whole scale
-    return mark_.set_marked(number * (prompt_.answers.size() - 1) / (exhibit::kMostNumberedAnswers - 1));
+    return mark_.set_marked(number * (prompt_.answers.size() - 1) / (kMostNumberedAnswers - 1));
   }
   run_.answer(number, now_s());
   acted();
 }
 
-void LiveLesson::press(const exhibit::LessonTarget& target) {
-  using Action = exhibit::LessonTarget::Action;
+void LiveLesson::press(const LessonTarget& target) {
+  using Action = LessonTarget::Action;
   switch (target.action) {
     case Action::Answer:
       return number(target.answer);
@@ -213,4 +212,4 @@ core::Result<void> LiveLesson::finish() {
   return {};
 }
 
-}  // namespace afm::app
+}  // namespace afm::exhibit

@@ -8,7 +8,7 @@
 #include "input/head_tracker.h"
 #include "scene/display/wall.h"
 
-namespace afm::app {
+namespace afm::input {
 
 // The viewer's head in the live window: the tracked position, predicted over the measured latency from a packet to its
 // picture. Main thread only.
@@ -33,13 +33,13 @@ class ViewHead {
   bool believed(const scene::HeadPose& pose);
 
   const scene::Wall& wall_;
-  input::HeadTracker tracker_;
+  HeadTracker tracker_;
   bool doubted_ = false;
   bool tracked_ = false;
   std::int64_t cause_ns_ = 0;    // when the pose of this frame came
-  std::int64_t counted_ns_ = 0;  // of the pose that was counted last
+  std::int64_t counted_ns_ = 0;  // time of the pose counted last
   double latency_s_ = 0.03;      // smoothed; at first a guess of two frames
   std::vector<double> latencies_ms_;
 };
 
-}  // namespace afm::app
+}  // namespace afm::input

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/options/output_folder.h"
+#include "core/output_folder.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 
 #include <cerrno>
@@ -15,7 +14,7 @@
 #include "core/system_error.h"
 #include "core/whole_file.h"
 
-namespace afm::app {
+namespace afm::core {
 
 namespace fs = std::filesystem;
 
@@ -24,8 +23,8 @@ namespace {
 constexpr const char* kUnfinished = ".unfinished-";
 
 // Ours until the descriptor closes; empty if it is another process's.
-std::optional<core::FileDescriptor> locked(const std::string& folder) {
-  core::FileDescriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+std::optional<FileDescriptor> locked(const std::string& folder) {
+  FileDescriptor file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   if (!file.is_open() || ::flock(file.get(), LOCK_EX | LOCK_NB) != 0) return std::nullopt;
   return file;
 }
@@ -41,10 +40,10 @@ void remove_abandoned(const std::string& path) {
 
 }  // namespace
 
-core::Result<OutputFolder> OutputFolder::open(const std::string& path) {
+Result<OutputFolder> OutputFolder::open(const std::string& path) {
   const auto failed = [&](const std::string& why) {
-    return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot write to the output folder {}: {}; choose another with --out", path, why));
+    return failure(ErrorCategory::Failed,
+                   "cannot write to the output folder " + path + ": " + why + "; choose another with --out");
   };
   std::error_code error;
   fs::create_directories(path, error);
@@ -55,17 +54,17 @@ core::Result<OutputFolder> OutputFolder::open(const std::string& path) {
   // inside the folder, so that commit() moves within one file system; an unpredictable name, so that no link waits
   // there
   std::string staging = path + "/" + kUnfinished + "XXXXXX";
-  if (::mkdtemp(staging.data()) == nullptr) return failed(core::system_error(errno));
+  if (::mkdtemp(staging.data()) == nullptr) return failed(system_error(errno));
   auto lock = locked(staging);
   if (!lock) return failed("another program is using " + staging);
   return OutputFolder(path, staging, std::move(*lock));
 }
 
-OutputFolder::OutputFolder(std::string path, std::string staging, core::FileDescriptor lock)
+OutputFolder::OutputFolder(std::string path, std::string staging, FileDescriptor lock)
     : path_(std::move(path)),
       staging_(std::move(staging)),
       lock_(std::move(lock)),
-      undo_(std::make_unique<core::OnInterruption>([folder = staging_] {
+      undo_(std::make_unique<OnInterruption>([folder = staging_] {
         std::error_code ignored;
         fs::remove_all(folder, ignored);
       })) {}
@@ -83,22 +82,21 @@ OutputFolder::~OutputFolder() {
 
 std::string OutputFolder::staged(std::string_view name) const { return staging_ + "/" + std::string(name); }
 
-core::Result<void> OutputFolder::write(std::string_view name, std::string_view bytes) {
-  return core::write_file(staged(name), bytes);
+Result<void> OutputFolder::write(std::string_view name, std::string_view bytes) {
+  return write_file(staged(name), bytes);
 }
 
-core::Result<void> OutputFolder::commit() {
-  const core::Uninterrupted all_or_none;
+Result<void> OutputFolder::commit() {
+  const Uninterrupted all_or_none;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(staging_, error)) {
     fs::rename(entry.path(), fs::path(path_) / entry.path().filename(), error);
     if (error) break;
   }
   if (error) {
-    return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot move the results into {}: {}", path_, error.message()));
+    return failure(ErrorCategory::Failed, "cannot move the results into " + path_ + ": " + error.message());
   }
   return {};
 }
 
-}  // namespace afm::app
+}  // namespace afm::core

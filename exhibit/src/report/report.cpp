@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/demo/report.h"
+#include "exhibit/report/report.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "core/version.h"
 #include "curves/html_page.h"
 
-namespace afm::app {
+namespace afm::exhibit {
 
 namespace {
 
@@ -26,8 +26,6 @@ using curves::html_picture;
 using curves::html_scrolled;
 using curves::html_table_head;
 using curves::html_text;
-using exhibit::Phrase;
-using exhibit::Phrases;
 
 nlohmann::json json_of(const core::Percentiles& p) {
   return {{"p50", p.p50}, {"p99", p.p99}, {"p99.9", p.p999}, {"max", p.max}};
@@ -270,4 +268,4 @@ std::string session_csv(const servo::RecordedSession& session) {
   return fmt::to_string(csv);
 }
 
-}  // namespace afm::app
+}  // namespace afm::exhibit

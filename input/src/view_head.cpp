@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live/view_head.h"
+#include "input/view_head.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "core/log.h"
 
-namespace afm::app {
+namespace afm::input {
 
 namespace {
 
@@ -64,4 +64,4 @@ void ViewHead::log_latency() {
   latencies_ms_.clear();
 }
 
-}  // namespace afm::app
+}  // namespace afm::input

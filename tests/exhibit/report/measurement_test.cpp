@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/demo/measurement.h"
-#include "core/percentiles.h"
-#include "support/places.h"
+#include "exhibit/report/measurement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
 
-namespace afm::app {
+#include "core/percentiles.h"
+#include "support/places.h"
+
+namespace afm::exhibit {
 namespace measurement_test {
 
 curves::SampleModel mica(physics::Law law = physics::Law::Paper) {
@@ -123,4 +124,4 @@ TEST(Percentiles, OfNothingAreZero) {
 }
 
 }  // namespace measurement_test
-}  // namespace afm::app
+}  // namespace afm::exhibit

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/options/output_folder.h"
+#include "core/output_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include "core/whole_file.h"
 #include "support/scratch_folder.h"
 
-namespace afm::app {
+namespace afm::core {
 namespace output_folder_test {
 
 namespace fs = std::filesystem;
@@ -26,7 +26,7 @@ TEST(OutputFolder, ShowsNothingUntilItIsCommitted) {
   ASSERT_TRUE(out->write("a.txt", "a").has_value());
   EXPECT_FALSE(fs::exists(path + "/a.txt"));
   ASSERT_TRUE(out->commit().has_value());
-  EXPECT_EQ(core::read_file(path + "/a.txt").value(), "a");
+  EXPECT_EQ(read_file(path + "/a.txt").value(), "a");
 }
 
 TEST(OutputFolder, LeavesNothingBehindWithoutACommit) {
@@ -49,8 +49,8 @@ TEST(OutputFolder, ReplacesItsOwnFilesAndKeepsTheOthers) {
     ASSERT_TRUE(out->write("a.txt", "new").has_value());
     ASSERT_TRUE(out->commit().has_value());
   }
-  EXPECT_EQ(core::read_file(scratch.file("a.txt")).value(), "new");
-  EXPECT_EQ(core::read_file(scratch.file("mine.txt")).value(), "mine");
+  EXPECT_EQ(read_file(scratch.file("a.txt")).value(), "new");
+  EXPECT_EQ(read_file(scratch.file("mine.txt")).value(), "mine");
   EXPECT_EQ(entries(scratch.path()), 2U);
 }
 
@@ -72,16 +72,16 @@ TEST(OutputFolder, LeavesWhatAnotherRunIsWriting) {
   ASSERT_TRUE(other && other->write("a.txt", "a"));
   auto out = OutputFolder::open(scratch.path());
   ASSERT_TRUE(out && out->commit() && other->commit());
-  EXPECT_EQ(core::read_file(scratch.file("a.txt")).value(), "a");
+  EXPECT_EQ(read_file(scratch.file("a.txt")).value(), "a");
 }
 
 TEST(OutputFolder, ThatIsAFileIsRefusedAtOnce) {
   const support::ScratchFolder scratch;
   const auto out = OutputFolder::open(scratch.write("file", "x"));
   ASSERT_FALSE(out.has_value());
-  EXPECT_EQ(out.error().category, core::ErrorCategory::Failed);
+  EXPECT_EQ(out.error().category, ErrorCategory::Failed);
   EXPECT_THAT(out.error().message, ::testing::HasSubstr("choose another with --out"));
 }
 
 }  // namespace output_folder_test
-}  // namespace afm::app
+}  // namespace afm::core

@@ -16,9 +16,12 @@
 #include "exhibit/lesson/lesson_panel.h"
 #include "exhibit/lesson/lesson_run.h"
 #include "exhibit/words/phrases.h"
-#include "servo/servo_client.h"
 
-namespace afm::app {
+namespace afm::servo {
+class ServoClient;
+}
+
+namespace afm::exhibit {
 
 // A lesson at the live window: what it asks for, the person's answers, the sample that it lays under the tip, and what
 // is kept of it. Main thread.
@@ -26,22 +29,21 @@ class LiveLesson {
  public:
   // `study`: where results go; without one nothing is kept and nobody is asked. Lesson, samples, phrases and clock must
   // outlive it.
-  LiveLesson(const exhibit::Lesson& lesson, const std::vector<curves::SampleModel>& samples,
-             const exhibit::Phrases& phrases, const std::optional<exhibit::DataSetEntry>& study,
-             const core::Clock& clock);
+  LiveLesson(const Lesson& lesson, const std::vector<curves::SampleModel>& samples, const Phrases& phrases,
+             const std::optional<DataSetEntry>& study, const core::Clock& clock);
 
   // Once a frame.
   void update();
 
-  const exhibit::LessonPrompt& prompt() const { return prompt_; }
-  const exhibit::Lesson& lesson() const { return lesson_; }
-  bool over() const { return prompt_.wants == exhibit::LessonPrompt::Wants::Nothing; }
+  const LessonPrompt& prompt() const { return prompt_; }
+  const Lesson& lesson() const { return lesson_; }
+  bool over() const { return prompt_.wants == LessonPrompt::Wants::Nothing; }
 
   // Whether keys and swatches choose a sample: in free exploration of several.
   bool chooses_sample() const;
 
   void number(std::size_t number);  // keys 1 to 9, from 0
-  void press(const exhibit::LessonTarget& target);
+  void press(const LessonTarget& target);
   void enter();
   void step(int steps);  // of the mark of a scale
   void skip();
@@ -57,14 +59,14 @@ class LiveLesson {
   // The answer under the mark, if that has moved since the last call.
   std::optional<std::string> newly_marked();
 
-  std::vector<exhibit::LessonTarget> targets() const { return lesson_targets(prompt_, mark_.marked(), phrases_); }
+  std::vector<LessonTarget> targets() const { return lesson_targets(prompt_, mark_.marked(), phrases_); }
   render::DataPanel panel() const { return lesson_panel(prompt_, phrases_); }
 
   // What is to be spoken before the line of guidance, since the prompt is a new one.
   std::string speech() const { return lesson_speech(prompt_, phrases_); }
 
   // All of it but the hand.
-  exhibit::InstructorState instructor_state() const;
+  InstructorState instructor_state() const;
 
   // Sound was asked for, and there is none from now on: what is kept says so. Once a frame.
   void sound_is_lost();
@@ -95,24 +97,24 @@ class LiveLesson {
   double now_s() const { return static_cast<double>(clock_.now_ns()) * 1e-9; }
   void acted();
   core::Result<void> begin_data();
-  core::Result<void> keep(const exhibit::TrialRow& row);
+  core::Result<void> keep(const TrialRow& row);
 
-  const exhibit::Lesson& lesson_;
+  const Lesson& lesson_;
   const std::vector<curves::SampleModel>& samples_;
-  const exhibit::Phrases& phrases_;
-  std::optional<exhibit::DataSetEntry> study_;
+  const Phrases& phrases_;
+  std::optional<DataSetEntry> study_;
   const core::Clock& clock_;
-  std::optional<exhibit::DataSet> data_;
+  std::optional<DataSet> data_;
   std::optional<core::Error> error_;
   bool sound_lost_noted_ = false;
   std::size_t right_ = 0, judged_ = 0;  // of the counted trials
-  exhibit::LessonRun run_;
-  exhibit::LessonPrompt prompt_;
-  exhibit::HandAnswer mark_;
+  LessonRun run_;
+  LessonPrompt prompt_;
+  HandAnswer mark_;
   std::optional<std::size_t> told_mark_;
   std::optional<Laid> laid_;
   std::uint32_t edit_ = 0;    // of the variant under the tip; 0: as loaded
   std::vector<bool> varied_;  // materials whose parameters were changed
 };
 
-}  // namespace afm::app
+}  // namespace afm::exhibit

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/scan_surface.h"
+#include "exhibit/scan/scan_surface.h"
 
 #include <array>
 #include <memory>
@@ -11,7 +11,7 @@
 #include "haptics/simulated_device.h"
 #include "physics/imaging/morphology.h"
 
-namespace afm::app {
+namespace afm::exhibit {
 namespace {
 
 physics::HeightGrid grid_of(const scene::SharedHeightField& drawn) {
@@ -41,7 +41,7 @@ core::Result<haptics::SampleSurface> felt_surface(const curves::SampleModel& mat
 
 core::Result<ScanSurface> scan_surface(const curves::ContactSetup& setup, const physics::TipShape& tip,
                                        const std::string& assets_dir) {
-  const auto drawn = exhibit::drawn_surface(assets_dir, setup.material);
+  const auto drawn = drawn_surface(assets_dir, setup.material);
   if (!drawn) return tl::unexpected(drawn.error());
   const auto material = curves::make_sample_model(setup);
   if (!material) return tl::unexpected(material.error());
@@ -65,4 +65,4 @@ core::Result<ScanSurface> scan_surface(const curves::ContactSetup& setup, const 
   return surface;
 }
 
-}  // namespace afm::app
+}  // namespace afm::exhibit
