@@ -55,7 +55,7 @@ void LessonControl::press(const Pointed& pointed, const input::Ray& ray) {
 std::optional<exhibit::LessonTarget> LessonControl::target_at(const input::Ray& ray) const {
   const exhibit::WallScene& wall = parts_.stage.wall_scene;
   const auto targets = lesson_.targets();
-  const exhibit::LessonPlaces places = exhibit::lesson_places(wall.parameter_placement(), targets.size());
+  const exhibit::LessonPlaces places = exhibit::lesson_places(wall.places().parameters(), targets.size());
   for (std::size_t i = 0; i < targets.size(); ++i) {
     if (exhibit::hit_of(ray, places.targets[i], wall.panel_millimetre_m())) return targets[i];
   }
@@ -95,7 +95,7 @@ void LessonControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
 }
 
 void LessonControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
-  const render::PanelPlacement words = parts_.stage.wall_scene.parameter_placement();
+  const render::PanelPlacement words = parts_.stage.wall_scene.places().parameters();
   const render::PanelPlacement banner = picture.panels.banner.placement;
   if (!lesson_.shows_scene()) {
     exhibit::blank(picture);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The composition of a wall of any shape and the place of its panels.
+#include "exhibit/scenery/wall_places.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 
-#include "exhibit/scenery/wall_layout.h"
-#include "exhibit/scenery/wall_scene.h"
 #include "scene/display/disparity.h"
 
 namespace afm::exhibit {
@@ -41,8 +40,7 @@ render::PanelPlacement in_frame(const glm::dmat4& room_from_frame, double left, 
 
 }  // namespace
 
-// The layout, from the screens and the viewer in front of them.
-void WallScene::lay_out(const StagePlace& stage) {
+WallPlaces::WallPlaces(const StagePlace& stage) {
   // the contact point: at eye height, in the middle, as far as everything finds its place above and below it, but never
   // out of the wall's middle third
   const scene::Screen& screen = stage.main;
@@ -69,7 +67,7 @@ void WallScene::lay_out(const StagePlace& stage) {
 }
 
 // Shelf and wand, which stand before the wall: no nearer than eyes can look at without strain.
-void WallScene::lay_out_front(const StagePlace& stage, double contact_height_m) {
+void WallPlaces::lay_out_front(const StagePlace& stage, double contact_height_m) {
   const double unit = shape_.unit_m;
   const dvec3 eye(glm::inverse(room_from_layout_) * glm::dvec4(stage.viewer_m, 1.0));
   const scene::ComfortZone zone =
@@ -87,19 +85,19 @@ void WallScene::lay_out_front(const StagePlace& stage, double contact_height_m) 
 }
 
 // Panels are no wider than 1.6 of their height, however wide the wall.
-void WallScene::lay_out_panels(const StagePlace& stage) {
+void WallPlaces::lay_out_panels(const StagePlace& stage) {
   const double half_wall = 0.5 * stage.main.width_m() / shape_.unit_m;
   const auto beside = [&] {
     const double width = half_width_ - kPanelInnerEdge - kPanelMargin;
-    force_placement_ = panel(-half_width_ + kPanelMargin, kPanelBottom, width, kPanelHeight);
-    data_placement_ = panel(kPanelInnerEdge, kPanelBottom, width, kPanelHeight);
+    force_placement_ = in_wall(-half_width_ + kPanelMargin, kPanelBottom, width, kPanelHeight);
+    data_placement_ = in_wall(kPanelInnerEdge, kPanelBottom, width, kPanelHeight);
   };
   half_width_ = std::min(half_wall, kPanelInnerEdge + kWidestPanel + kPanelMargin);
   if (shape_.arrangement == Arrangement::Below) {
     half_width_ = std::min(half_wall, kWidestPanel + 1.5 * kPanelMargin);
     const double width = half_width_ - 1.5 * kPanelMargin;
-    force_placement_ = panel(-half_width_ + kPanelMargin, kBelowBottom, width, kPanelHeight);
-    data_placement_ = panel(0.5 * kPanelMargin, kBelowBottom, width, kPanelHeight);
+    force_placement_ = in_wall(-half_width_ + kPanelMargin, kBelowBottom, width, kPanelHeight);
+    data_placement_ = in_wall(0.5 * kPanelMargin, kBelowBottom, width, kPanelHeight);
     return;
   }
   if (shape_.arrangement == Arrangement::Beside) return beside();
@@ -108,16 +106,16 @@ void WallScene::lay_out_panels(const StagePlace& stage) {
   data_placement_ = on_side_screen(*stage.right, false, bottom, shape_.unit_m);
 }
 
-render::PanelPlacement WallScene::panel(double left, double bottom, double width, double height) const {
+render::PanelPlacement WallPlaces::in_wall(double left, double bottom, double width, double height) const {
   return in_frame(room_from_wall_, left, bottom, width, height);
 }
 
-render::PanelPlacement WallScene::panel_beside(double left, double bottom, double width, double height) const {
+render::PanelPlacement WallPlaces::in_scene(double left, double bottom, double width, double height) const {
   return in_frame(room_from_layout_, left, bottom, width, height);
 }
 
 // The data's without a strip at its left.
-render::PanelPlacement WallScene::right_of_data(double inset) const {
+render::PanelPlacement WallPlaces::right_of_data(double inset) const {
   render::PanelPlacement panel = data_placement_;
   const dvec3 step = inset * shape_.unit_m * glm::normalize(panel.right_m);
   panel.lower_left_m += step;
@@ -125,9 +123,9 @@ render::PanelPlacement WallScene::right_of_data(double inset) const {
   return panel;
 }
 
-render::PanelPlacement WallScene::parameter_placement() const { return right_of_data(kParameterInset); }
+render::PanelPlacement WallPlaces::parameters() const { return right_of_data(kParameterInset); }
 
-render::PanelPlacement WallScene::parameter_tab_placement() const {
+render::PanelPlacement WallPlaces::parameter_tab() const {
   render::PanelPlacement tab = right_of_data(kTabInset);
   const dvec3 up = shape_.unit_m * glm::normalize(tab.up_m);
   tab.lower_left_m -= (kPanelMargin + kTabHeight) * up;
@@ -135,7 +133,7 @@ render::PanelPlacement WallScene::parameter_tab_placement() const {
   return tab;
 }
 
-render::PanelPlacement WallScene::note_placement() const {
+render::PanelPlacement WallPlaces::note() const {
   render::PanelPlacement note = force_placement_;
   const dvec3 right = shape_.unit_m * glm::normalize(note.right_m), up = shape_.unit_m * glm::normalize(note.up_m);
   note.lower_left_m -= (kPanelMargin + kTabHeight) * up;
@@ -144,24 +142,42 @@ render::PanelPlacement WallScene::note_placement() const {
   return note;
 }
 
-// The finale's large plot takes the room of the instrument.
-render::PanelPlacement WallScene::plot_placement() const {
-  if (shape_.arrangement == Arrangement::Beside) {
-    const double width = std::min(kPanelInnerEdge + half_width_ - 2.0 * kPanelMargin, kWidestPlot);
-    return panel(kPanelInnerEdge - kPanelMargin - width, kPanelBottom, width, kPanelHeight);
-  }
-  const double width = std::min(2.0 * (half_width_ - kPanelMargin), kWidestPanel);
-  return panel(-0.5 * width, kPanelBottom, width, kPanelHeight);
+glm::dvec3 WallPlaces::swatch(std::size_t i, std::size_t count) const {
+  const std::size_t front = std::min(count, kFrontSwatches);
+  const auto across = [](std::size_t place, std::size_t places, double spacing) {
+    return spacing * (static_cast<double>(place) - 0.5 * static_cast<double>(places - 1));
+  };
+  if (i < front) return {across(i, front, kSwatchSpacing), shelf_y_, shelf_z_};
+  return {across(i - front, count - front, kBackSpacing), shelf_y_ + kBackRise, back_z_};
 }
 
-void WallScene::place_panels(const WallState& state, render::FrameState& frame) const {
+// So far to the right as an upright wall, whose panels stand below, has room for the numbers.
+double WallPlaces::height_bar_x() const {
+  return std::min(kHeightBarX, half_width_ - kPanelMargin - kHeightBarWidth - kHeightBarTextGap - kHeightBarTextWidth);
+}
+
+double WallPlaces::unit_m() const { return glm::length(dvec3(room_from_layout_[0])); }
+
+glm::dvec3 WallPlaces::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(wand_grip_, 1.0)); }
+
+// The finale's large plot takes the room of the instrument.
+render::PanelPlacement WallPlaces::finale() const {
+  if (shape_.arrangement == Arrangement::Beside) {
+    const double width = std::min(kPanelInnerEdge + half_width_ - 2.0 * kPanelMargin, kWidestPlot);
+    return in_wall(kPanelInnerEdge - kPanelMargin - width, kPanelBottom, width, kPanelHeight);
+  }
+  const double width = std::min(2.0 * (half_width_ - kPanelMargin), kWidestPanel);
+  return in_wall(-0.5 * width, kPanelBottom, width, kPanelHeight);
+}
+
+void WallPlaces::place_panels(const WallState& state, render::FrameState& frame) const {
   render::FramePanels& panels = frame.panels;
   hide(panels);
-  panels.banner.placement = panel(-half_width_ + kPanelMargin, wall_top_ - kBannerHeight - kPanelMargin,
-                                  2.0 * (half_width_ - kPanelMargin), kBannerHeight);
+  panels.banner.placement = in_wall(-half_width_ + kPanelMargin, wall_top_ - kBannerHeight - kPanelMargin,
+                                    2.0 * (half_width_ - kPanelMargin), kBannerHeight);
   if (state.centerpiece == Centerpiece::Journey) return;
   const bool plot = state.centerpiece == Centerpiece::Plot;
-  (state.scan && !plot ? panels.image.placement : panels.force.placement) = plot ? plot_placement() : force_placement_;
+  (state.scan && !plot ? panels.image.placement : panels.force.placement) = plot ? finale() : force_placement_;
   panels.data.placement = data_placement_;
 }
 
