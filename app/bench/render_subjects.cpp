@@ -11,6 +11,7 @@
 
 #include "core/check.h"
 #include "curves/sample_model.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/wall_pictures.h"
 #include "exhibit/state/cycle_curve.h"

@@ -7,10 +7,13 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/frame/exhibit_setup.h"
 #include "render/frame.h"
 #include "render/renderer.h"
 #include "scene/graph/scene.h"
+
+namespace afm::exhibit {
+struct Stage;
+}
 
 namespace afm::app {
 

@@ -7,8 +7,13 @@
 #include <utility>
 
 #include "app/display/view_outputs.h"
+#include "app/view/parameter_edits.h"
 #include "core/log.h"
 #include "exhibit/cluster/wall_history.h"
+#include "exhibit/friction/friction_history.h"
+#include "exhibit/scan/live_scan.h"
+#include "exhibit/state/cycle_history.h"
+#include "exhibit/words/phrases.h"
 
 namespace afm::app {
 

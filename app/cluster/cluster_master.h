@@ -9,16 +9,26 @@
 #include <utility>
 #include <vector>
 
-#include "app/view/parameter_edits.h"
 #include "cluster/master_link.h"
 #include "cluster/membership.h"
 #include "core/clock.h"
-#include "exhibit/friction/friction_history.h"
-#include "exhibit/scan/live_scan.h"
-#include "exhibit/state/cycle_history.h"
-#include "scene/display/wall.h"
+
+namespace afm::exhibit {
+class CycleHistory;
+class FrictionHistory;
+class LiveScan;
+class Phrases;
+}  // namespace afm::exhibit
+namespace afm::render {
+struct Banner;
+}
+namespace afm::scene {
+struct Wall;
+}
 
 namespace afm::app {
+
+class ParameterEdits;
 
 // The live window as the master of a wall of several machines: sends the inputs of each frame, waits until every
 // connected node has drawn it, and lets all show it. Main thread only. Waits for the network no longer than the

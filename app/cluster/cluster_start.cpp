@@ -7,8 +7,12 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/cluster/cluster_master.h"
+#include "app/display/view_outputs.h"
 #include "core/log.h"
 #include "core/whole_file.h"
+#include "exhibit/cluster/wall_model.h"
+#include "exhibit/frame/exhibit_setup.h"
 
 namespace afm::app {
 

@@ -5,15 +5,28 @@
 #include <memory>
 #include <string>
 
-#include "app/cluster/cluster_master.h"
-#include "app/display/view_outputs.h"
 #include "app/options/command_line.h"
 #include "cluster/network.h"
-#include "core/clock.h"
 #include "core/result.h"
-#include "exhibit/cluster/wall_model.h"
+#include "exhibit/frame/wall_pictures.h"
+#include "physics/friction/friction.h"
+#include "render/renderer.h"
+
+namespace afm::cluster {
+class MasterLink;
+}
+namespace afm::core {
+class Clock;
+}
+namespace afm::exhibit {
+struct ExhibitFiles;
+struct Stage;
+}  // namespace afm::exhibit
 
 namespace afm::app {
+
+class ClusterMaster;
+struct WindowOptions;
 
 struct ClusterOptions {
   bool wanted = false;

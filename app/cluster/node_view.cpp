@@ -7,11 +7,18 @@
 #include <utility>
 
 #include "app/cluster/cluster_master.h"
+#include "app/display/view_display.h"
+#include "app/view/parameter_edits.h"
+#include "app/view/view_panels.h"
+#include "cluster/frame_message.h"
 #include "core/interruption.h"
 #include "core/log.h"
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
+#include "exhibit/cluster/wall_history.h"
 #include "exhibit/frame/blank_picture.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 
@@ -36,12 +43,14 @@ NodeView::NodeView(const exhibit::Stage& stage, const std::vector<curves::Sample
       place_(std::move(place)),
       clock_(clock),
       felt_(materials),
-      frames_(stage.wall_scene, felt_, stage.eyes),
-      panels_(stage.wall_scene, materials, key_list),
-      history_(materials.size()),
+      frames_(std::make_unique<exhibit::FrameBuilder>(stage.wall_scene, felt_, stage.eyes)),
+      panels_(std::make_unique<ViewPanels>(stage.wall_scene, materials, key_list)),
+      history_(std::make_unique<exhibit::WallHistory>(materials.size())),
       sight_(display.windows().all(), clock) {
-  panels_.set_friction(&history_.friction);
+  panels_->set_friction(&history_->friction);
 }
+
+NodeView::~NodeView() = default;
 
 // Handles Stop and the staff keys that concern only this machine; returns whether to leave.
 bool NodeView::leaves() {
@@ -65,11 +74,11 @@ void NodeView::forget() {
 void NodeView::restore(std::span<const std::byte> document) {
   auto history = exhibit::load_history(document, felt_.size());
   if (!history) return core::log_line("the master sent a history that is not valid; asking again");
-  history_ = std::move(*history);
+  *history_ = std::move(*history);
   knows_history_ = true;
   scan_.reset();
-  while (!records_.empty() && records_.front().number <= history_.journal) records_.pop_front();
-  for (const cluster::EditRecord& edit : history_.edits) panels_.edits().follow(edit);
+  while (!records_.empty() && records_.front().number <= history_->journal) records_.pop_front();
+  for (const cluster::EditRecord& edit : history_->edits) panels_->edits().follow(edit);
 }
 
 // Applies the records in order. A record that cannot be applied leaves a gap, which the next history fills.
@@ -104,16 +113,16 @@ void NodeView::apply_until(std::uint64_t journal) {
   while (!records_.empty() && records_.front().number <= journal) {
     const cluster::NodeLink::Numbered next = records_.front();
     records_.pop_front();
-    if (next.number <= history_.journal) continue;
-    if (next.number != history_.journal + 1) {
-      lost_records_ += next.number - history_.journal - 1;
+    if (next.number <= history_->journal) continue;
+    if (next.number != history_->journal + 1) {
+      lost_records_ += next.number - history_->journal - 1;
       knows_history_ = false;
       records_.push_front(next);
       return;
     }
-    history_.apply(next.record);
+    history_->apply(next.record);
     apply_to_scan(next.record);
-    if (next.record.kind() == cluster::JournalKind::Edit) panels_.edits().follow(next.record.edit());
+    if (next.record.kind() == cluster::JournalKind::Edit) panels_->edits().follow(next.record.edit());
   }
 }
 
@@ -137,16 +146,16 @@ void NodeView::apply_to_scan(const cluster::JournalRecord& record) {
 
 // Recomputes a scan that began before this node joined, or that is far ahead.
 void NodeView::follow_scan(const cluster::ShownMoment& shown) {
-  if ((shown.flags & cluster::ShownMoment::kScan) == 0 || history_.scan.empty()) return scan_.reset();
+  if ((shown.flags & cluster::ShownMoment::kScan) == 0 || history_->scan.empty()) return scan_.reset();
   const bool truth = (shown.flags & cluster::ShownMoment::kTruth) != 0;
   if (!scan_ || !scan_->follow(shown.scan_frame, shown.scan_pixel)) {
-    const cluster::ScanRecord& begin = history_.scan.front();
+    const cluster::ScanRecord& begin = history_->scan.front();
     exhibit::ScanProgress progress{.frame = shown.scan_frame,
                                    .pixel = shown.scan_pixel,
                                    .truth = truth,
                                    .changes = {},
                                    .hand = exhibit::hand_of(begin)};
-    for (const cluster::ScanRecord& change : history_.scan) progress.changes.push_back(exhibit::change_of(change));
+    for (const cluster::ScanRecord& change : history_->scan) progress.changes.push_back(exhibit::change_of(change));
     if (begin.material >= felt_.size() || !exhibit::LiveScan::valid(progress)) return scan_.reset();
     scan_.emplace(exhibit::scan_subject(stage_.wall_scene, begin.material, felt_[begin.material]), progress);
   }
@@ -158,8 +167,8 @@ bool NodeView::catch_up(std::uint64_t journal) {
   const std::int64_t until_ns = clock_.now_ns() + kCatchUpNs;
   for (;;) {
     if (knows_history_) apply_until(journal);
-    if (!knows_history_ || history_.journal > journal) return false;
-    if (history_.journal == journal) return true;
+    if (!knows_history_ || history_->journal > journal) return false;
+    if (history_->journal == journal) return true;
     if (clock_.now_ns() >= until_ns) {
       // the newest records are missing: a new history brings them
       knows_history_ = false;
@@ -193,15 +202,15 @@ cluster::ReadyMessage NodeView::answer_to(const cluster::FrameMessage& message, 
 void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
                     const std::function<void(std::uint64_t)>& drawn) {
   const scene::TipState tip = exhibit::tip_of(message);
-  panels_.edits().take_felt(tip, felt_);
+  panels_->edits().take_felt(tip, felt_);
   exhibit::Moment now = exhibit::moment_of(message);
-  now.curves = history_.cycles.curves();
+  now.curves = history_->cycles.curves();
   follow_scan(message.moment);
   if (scan_) exhibit::show_scan(*scan_, now);
-  panels_.set_scan(scan_ ? &*scan_ : nullptr);
-  render::FrameState frame = frames_.build(now);
-  const ViewPanels::Told told = panels_.follow(message.panels);
-  add_panels(stage_, panels_, now, {.pointed = told.pointed, .hand = told.hand, .tip = tip},
+  panels_->set_scan(scan_ ? &*scan_ : nullptr);
+  render::FrameState frame = frames_->build(now);
+  const ViewPanels::Told told = panels_->follow(message.panels);
+  add_panels(stage_, *panels_, now, {.pointed = told.pointed, .hand = told.hand, .tip = tip},
              exhibit::caption_of(message), frame);
   if ((message.moment.flags & cluster::ShownMoment::kBlank) != 0) exhibit::blank(frame);
   add_warning(missing_text(message.missing, stage_.wall, stage_.phrases()), frame.panels.banner.content);

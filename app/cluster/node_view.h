@@ -4,21 +4,29 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "app/display/view_display.h"
-#include "app/view/view_panels.h"
+#include "app/view/key_list.h"
 #include "cluster/node_link.h"
 #include "core/clock.h"
 #include "curves/sample_model.h"
-#include "exhibit/cluster/wall_history.h"
-#include "exhibit/frame/exhibit_setup.h"
-#include "exhibit/frame/frame_builder.h"
 #include "exhibit/scan/live_scan.h"
 #include "render/window_sight.h"
 
+namespace afm::exhibit {
+class FrameBuilder;
+struct Stage;
+struct WallHistory;
+}  // namespace afm::exhibit
+
 namespace afm::app {
+
+class ViewDisplay;
+class ViewPanels;
+class ViewPicture;
+class ViewWindows;
 
 // A machine of a wall without the haptic device: builds every frame from the master's inputs and shows it together with
 // all other machines. Starts no servo and opens no haptic device. Main thread only.
@@ -33,6 +41,7 @@ class NodeView {
   // All must outlive it; `key_list` is the one of the master's window.
   NodeView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewDisplay& display,
            cluster::NodeLink& link, Place place, KeyList key_list, const core::Clock& clock);
+  ~NodeView();
 
   // Prepares another wall; false: it cannot be shown, and this one goes on.
   using Prepare = std::function<bool(const cluster::NodeLink::Document& other)>;
@@ -64,9 +73,9 @@ class NodeView {
   std::vector<std::byte> refused_;  // newest description that could not be prepared
   const core::Clock& clock_;
   std::vector<curves::SampleModel> felt_;
-  exhibit::FrameBuilder frames_;
-  ViewPanels panels_;
-  exhibit::WallHistory history_;
+  std::unique_ptr<exhibit::FrameBuilder> frames_;
+  std::unique_ptr<ViewPanels> panels_;
+  std::unique_ptr<exhibit::WallHistory> history_;
   bool knows_history_ = false;
   std::optional<exhibit::LiveScan> scan_;
   std::deque<cluster::NodeLink::Numbered> records_;  // received and not yet applied

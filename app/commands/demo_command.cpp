@@ -9,30 +9,32 @@
 #include <optional>
 #include <utility>
 
-#include "app/demo/curves_plot.h"
 #include "app/demo/demo_figures.h"
 #include "app/demo/demonstration.h"
-#include "app/demo/report.h"
 #include "app/demo/report_pictures.h"
 #include "app/options/command.h"
 #include "app/options/dynamic_resolution.h"
 #include "app/options/exhibit_options.h"
-#include "app/options/output_folder.h"
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"
 #include "core/log.h"
+#include "core/output_folder.h"
 #include "curves/measured_material.h"
 #include "curves/sweep.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
 #include "exhibit/models/shared_model.h"
 #include "exhibit/models/topography_model.h"
+#include "exhibit/report/curves_plot.h"
+#include "exhibit/report/report.h"
 #include "exhibit/sound/session_sound.h"
 #include "haptics/scaling.h"
 #include "haptics/simulated_device.h"
 #include "render/context.h"
 #include "render/image_file.h"
 #include "scene/samples/probe_library.h"
+#include "servo/servo_client.h"
 
 namespace afm::app {
 
@@ -159,8 +161,9 @@ void draw_picture(const std::string& file, const std::string& caption, const exh
   pictures.add(file, caption);
 }
 
-core::Result<void> draw_journey(const exhibit::FrameBuilder& frames, render::Renderer& renderer, OutputFolder& out,
-                                std::vector<ReportPicture>& pictures, const exhibit::Phrases& phrases) {
+core::Result<void> draw_journey(const exhibit::FrameBuilder& frames, render::Renderer& renderer,
+                                core::OutputFolder& out, std::vector<exhibit::ReportPicture>& pictures,
+                                const exhibit::Phrases& phrases) {
   say("  journey.png");
   const auto png = render::encode_png(journey_strip(frames, renderer));
   if (!png) return tl::unexpected(png.error());
@@ -169,7 +172,8 @@ core::Result<void> draw_journey(const exhibit::FrameBuilder& frames, render::Ren
 }
 
 core::Result<void> draw_figures(render::Context& context, const exhibit::Stage& stage, const DemoPlan& plan,
-                                const DemoResult& result, OutputFolder& out, std::vector<ReportPicture>& pictures) {
+                                const exhibit::DemoResult& result, core::OutputFolder& out,
+                                std::vector<exhibit::ReportPicture>& pictures) {
   auto renderer = render::Renderer::create(context, stage.wall_scene.scene(), stage.renderer_options(kFigureEyeWidth));
   if (!renderer) return tl::unexpected(renderer.error());
   const exhibit::FrameBuilder frames(stage.wall_scene, plan.materials, stage.eyes);
@@ -195,58 +199,58 @@ core::Result<void> draw_figures(render::Context& context, const exhibit::Stage& 
 }
 
 core::Result<void> write_session(const servo::RecordedSession& session, const std::string& name,
-                                 const DemoOptions& options, OutputFolder& out) {
+                                 const DemoOptions& options, core::OutputFolder& out) {
   if (auto saved = servo::save_session(session, out.staged("session-" + name + ".afms")); !saved) return saved;
   if (options.sound) {
     const auto wav = exhibit::wav_of(session, options.sound_options.channels(), options.sound_options.gain());
     if (!wav) return tl::unexpected(wav.error());
     if (auto written = out.write("sound-" + name + ".wav", *wav); !written) return written;
   }
-  return out.write("curve-" + name + ".csv", session_csv(session));
+  return out.write("curve-" + name + ".csv", exhibit::session_csv(session));
 }
 
-core::Result<void> write_results(const DemoResult& result, const std::vector<ReportPicture>& pictures,
-                                 const exhibit::Phrases& phrases, const DemoOptions& options, OutputFolder& out) {
-  std::vector<LabelledSession> plotted;
+core::Result<void> write_results(const exhibit::DemoResult& result, const std::vector<exhibit::ReportPicture>& pictures,
+                                 const exhibit::Phrases& phrases, const DemoOptions& options, core::OutputFolder& out) {
+  std::vector<exhibit::LabelledSession> plotted;
   for (std::size_t i = 0; i < result.sessions.size(); ++i) {
     const servo::RecordedSession& session = result.sessions[i];
     if (auto saved = write_session(session, session.material, options, out); !saved) return saved;
     plotted.push_back({result.measurements[i].title, &session});
     int number = 0;
-    for (const Variation& variation : result.variations) {
+    for (const exhibit::Variation& variation : result.variations) {
       if (variation.material != i) continue;
       const std::string name = fmt::format("{}-vary-{}", session.material, ++number);
       if (auto saved = write_session(variation.session, name, options, out); !saved) return saved;
       plotted.push_back({variation.measurement.title, &variation.session});
     }
   }
-  if (auto saved = out.write("summary.json", summary_json(result).dump(2) + "\n"); !saved) return saved;
-  const std::string report = report_html(result, pictures, curves_svg(plotted, phrases), phrases);
+  if (auto saved = out.write("summary.json", exhibit::summary_json(result).dump(2) + "\n"); !saved) return saved;
+  const std::string report = exhibit::report_html(result, pictures, exhibit::curves_svg(plotted, phrases), phrases);
   if (auto saved = out.write("report.html", report); !saved) return saved;
   return out.commit();
 }
 
-core::Result<void> measure_all(const DemoPlan& plan, DemoResult& result) {
+core::Result<void> measure_all(const DemoPlan& plan, exhibit::DemoResult& result) {
   for (std::size_t i = 0; i < result.sessions.size(); ++i) {
     const bool recorded = plan.materials[i].parameters.law == physics::Law::Measured;
-    auto measured = measure(result.sessions[i], plan.materials[i], recorded ? &*plan.recorded : nullptr);
+    auto measured = exhibit::measure(result.sessions[i], plan.materials[i], recorded ? &*plan.recorded : nullptr);
     if (!measured) return tl::unexpected(measured.error());
     result.measurements.push_back(std::move(*measured));
   }
-  for (Variation& variation : result.variations) {
-    auto measured = measure(variation.session, variation.model);
+  for (exhibit::Variation& variation : result.variations) {
+    auto measured = exhibit::measure(variation.session, variation.model);
     if (!measured) return tl::unexpected(measured.error());
     variation.measurement = std::move(*measured);
   }
   return {};
 }
 
-core::Result<void> check_accuracy(const DemoResult& result) {
-  for (const Measurement& m : result.measurements) {
-    if (auto accurate = check_accuracy(m); !accurate) return accurate;
+core::Result<void> check_measurements(const exhibit::DemoResult& result) {
+  for (const exhibit::Measurement& m : result.measurements) {
+    if (auto accurate = exhibit::check_accuracy(m); !accurate) return accurate;
   }
-  for (const Variation& variation : result.variations) {
-    if (auto accurate = check_accuracy(variation.measurement); !accurate) return accurate;
+  for (const exhibit::Variation& variation : result.variations) {
+    if (auto accurate = exhibit::check_accuracy(variation.measurement); !accurate) return accurate;
   }
   return {};
 }
@@ -263,7 +267,7 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   if (!stage) return tl::unexpected(stage.error());
   const auto plan = plan_demo(*stage, *curve, options);
   if (!plan) return tl::unexpected(plan.error());
-  auto out = OutputFolder::open(options.out);
+  auto out = core::OutputFolder::open(options.out);
   if (!out) return tl::unexpected(out.error());
   auto context = render::Context::open();
   if (!context) return tl::unexpected(context.error());
@@ -272,7 +276,7 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   auto renderer = render::Renderer::create(*context, stage->wall_scene.scene(), renderer_options);
   if (!renderer) return tl::unexpected(renderer.error());
 
-  DemoResult result;
+  exhibit::DemoResult result;
   result.vulkan_device = context->device_name();
   result.haptic_device = "simulated hand";
   result.eye_width = renderer_options.eye_width;
@@ -280,7 +284,7 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   result.hand_speed_m_per_s = options.hand.speed_m_per_s;
   say(fmt::format("drawing 2 x {} x {} pixels on {}", result.eye_width, result.eye_height, result.vulkan_device));
 
-  std::vector<ReportPicture> pictures;
+  std::vector<exhibit::ReportPicture> pictures;
   {
     const auto model =
         exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), plan->materials,
@@ -304,7 +308,7 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   if (auto drawn = draw_figures(*context, *stage, *plan, result, *out, pictures); !drawn) return drawn;
   result.seconds = static_cast<double>(clock.now_ns() - start_ns) * 1e-9;
   if (auto written = write_results(result, pictures, stage->phrases(), options, *out); !written) return written;
-  if (auto accurate = check_accuracy(result); !accurate) return accurate;
+  if (auto accurate = check_measurements(result); !accurate) return accurate;
 
   std::printf("open %s/report.html\n", options.out.c_str());
   return {};

@@ -20,6 +20,7 @@
 #include "core/printable.h"
 #include "exhibit/cluster/frame_inputs.h"
 #include "exhibit/cluster/wall_history.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/recorded_wall.h"
 
 namespace afm::app {

@@ -5,6 +5,7 @@
 
 #include "app/cluster/cluster_start.h"
 #include "app/options/command.h"
+#include "exhibit/frame/exhibit_files.h"
 
 namespace afm::app {
 

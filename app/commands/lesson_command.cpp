@@ -12,11 +12,13 @@
 #include <utility>
 
 #include "app/commands/view_command.h"
+#include "app/lesson/view_lesson.h"
 #include "app/options/command.h"
 #include "app/options/enum_option.h"
 #include "app/options/exhibit_options.h"
 #include "core/fnv1a.h"
 #include "core/log.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/lesson/data_set.h"
 #include "exhibit/lesson/lesson_file.h"
 #include "exhibit/lesson/lesson_run.h"

@@ -14,6 +14,7 @@
 #include "app/cluster/cluster_start.h"
 #include "app/cluster/node_view.h"
 #include "app/commands/view_command.h"
+#include "app/display/view_display.h"
 #include "app/live/view_keys.h"
 #include "app/options/command.h"
 #include "app/options/pixel_size_option.h"
@@ -23,6 +24,7 @@
 #include "core/log.h"
 #include "core/system_error.h"
 #include "exhibit/cluster/wall_model.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "render/device_failure.h"
 
 namespace afm::app {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "app/options/command.h"
-#include "app/options/output_folder.h"
 #include "core/log.h"
+#include "core/output_folder.h"
 #include "curves/paper_report.h"
 #include "curves/paper_tables.h"
 #include "study/survey_report.h"
@@ -42,7 +42,7 @@ core::Result<void> write_paper(const PaperOptions& options) {
        {"table2.csv", curves::table2_csv(*tables)},
        {"fig2.svg", curves::figure2_svg(samples->materials.front())},
        {"fig5e.svg", curves::figure5e_svg(*samples)}}};
-  auto folder = OutputFolder::open(options.out);
+  auto folder = core::OutputFolder::open(options.out);
   if (!folder) return tl::unexpected(folder.error());
   for (const auto& [name, bytes] : files) {
     if (const auto written = folder->write(name, bytes); !written) return written;

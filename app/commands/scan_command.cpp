@@ -12,7 +12,6 @@
 #include <numbers>
 #include <utility>
 
-#include "app/commands/scan_surface.h"
 #include "app/options/command.h"
 #include "app/options/enum_option.h"
 #include "app/options/quantity_option.h"
@@ -21,6 +20,7 @@
 #include "core/whole_file.h"
 #include "curves/image_output.h"
 #include "exhibit/scan/image_picture.h"
+#include "exhibit/scan/scan_surface.h"
 #include "physics/imaging/scan_artefact.h"
 #include "physics/imaging/scan_truth.h"
 #include "render/image_file.h"
@@ -52,7 +52,7 @@ struct Scan {
 };
 
 physics::ScanSettings settings_of(const ScanOptions& options, const curves::ContactSetup& setup,
-                                  const ScanSurface& surface) {
+                                  const exhibit::ScanSurface& surface) {
   physics::ScanSettings settings;
   settings.spring_constant = setup.material.contact.spring_constant;
   settings.adhesion = physics::Force(surface.pull_off_force_n);
@@ -98,7 +98,7 @@ void describe(const ScanOptions& options, const curves::ContactSetup& setup, con
 core::Result<Scan> take_scan(const ScanOptions& options) {
   const auto setup = contact_setup(options.contact);
   if (!setup) return tl::unexpected(setup.error());
-  const auto surface = scan_surface(*setup, tip_of(options, *setup, {}), options.contact.assets_dir);
+  const auto surface = exhibit::scan_surface(*setup, tip_of(options, *setup, {}), options.contact.assets_dir);
   if (!surface) return tl::unexpected(surface.error());
 
   Scan scan;

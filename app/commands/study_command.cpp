@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "app/options/command.h"
-#include "app/options/output_folder.h"
 #include "core/log.h"
+#include "core/output_folder.h"
 #include "study/study_data.h"
 #include "study/study_report.h"
 
@@ -22,7 +22,7 @@ core::Result<void> write_study(const StudyOptions& options) {
   const auto data = study::read_study(options.folder);
   if (!data) return tl::unexpected(data.error());
   const study::ReportFiles files = study::study_report(study::study_results(*data));
-  auto folder = OutputFolder::open(options.out);
+  auto folder = core::OutputFolder::open(options.out);
   if (!folder) return tl::unexpected(folder.error());
   for (const auto& [name, bytes] : files) {
     if (const auto written = folder->write(name, bytes); !written) return written;

@@ -9,9 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "app/cluster/cluster_master.h"
 #include "app/commands/view_people.h"
+#include "app/display/instructor_window.h"
+#include "app/display/view_display.h"
+#include "app/display/view_headset.h"
 #include "app/headset/headset_runtime.h"
-#include "app/lesson/live_lesson.h"
+#include "app/lesson/view_lesson.h"
 #include "app/live/live_window.h"
 #include "app/live/view_keys.h"
 #include "app/options/command.h"
@@ -21,17 +25,21 @@
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"
+#include "app/view/view_wand.h"
 #include "core/exit_code.h"
 #include "core/interruption.h"
 #include "core/log.h"
 #include "curves/sample_model.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/lesson/lesson_samples.h"
+#include "exhibit/lesson/live_lesson.h"
 #include "exhibit/models/shared_model.h"
 #include "exhibit/models/topography_model.h"
 #include "render/context.h"
 #include "render/monitor.h"
 #include "servo/haptic_choice.h"
 #include "servo/keep_running.h"
+#include "servo/servo_client.h"
 
 namespace afm::app {
 
@@ -281,7 +289,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
     return servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), servo, program,
                                      stage->wall_scene.topography());
   };
-  std::optional<LiveLesson> guide;
+  std::optional<exhibit::LiveLesson> guide;
   if (lesson != nullptr) guide.emplace(lesson->lesson, materials, stage->phrases(), lesson->study, clock);
   const LiveFeatures features{.headset = (*display)->headset(),
                               .cluster = cluster->get(),

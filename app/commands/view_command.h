@@ -4,19 +4,28 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/cluster/cluster_start.h"
-#include "app/display/view_display.h"
-#include "app/lesson/live_lesson.h"
+#include "app/display/display_options.h"
 #include "app/live/view_settings.h"
 #include "app/options/command.h"
-#include "app/view/view_wand.h"
+#include "app/view/wand_options.h"
 #include "core/result.h"
-#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/exhibit_files.h"
 #include "physics/friction/friction.h"
-#include "servo/servo_client.h"
+#include "servo/servo_choice.h"
+
+namespace afm::curves {
+struct SampleModel;
+}
+namespace afm::exhibit {
+struct Stage;
+}
 
 namespace afm::app {
+
+struct ViewLesson;
 
 // Options of the live window.
 struct ViewOptions {
@@ -33,12 +42,6 @@ struct ViewOptions {
   std::int64_t spin_us = 0;
   WandOptions wand;
   ClusterOptions cluster;
-};
-
-// A lesson to run in the window.
-struct ViewLesson {
-  exhibit::Lesson lesson;
-  std::optional<exhibit::DataSetEntry> study;
 };
 
 // Opens the window and runs it until it ends; `lesson` may be null. `program` is the running touchafm.

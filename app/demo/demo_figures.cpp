@@ -8,6 +8,8 @@
 #include "app/demo/demonstration.h"
 #include "core/check.h"
 #include "exhibit/frame/film_strip.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/scenery/journey.h"
 
 namespace afm::app {
 
@@ -17,8 +19,8 @@ constexpr std::int64_t kAfterJumpInNs = 5'000'000;
 constexpr std::uint32_t kFilmColumns = 5, kFilmReduction = 4;
 constexpr std::int64_t kAfterJumpOffNs = 400'000'000;
 
-exhibit::CycleResult result_of(const Measurement& m) {
-  const CycleEvents& events = m.measured;
+exhibit::CycleResult result_of(const exhibit::Measurement& m) {
+  const exhibit::CycleEvents& events = m.measured;
   return {m.title, m.law, m.hysteretic, events.f_attr_n, events.f_ad_n, events.z_jtc_m, events.z_joc_m};
 }
 
@@ -34,7 +36,7 @@ std::pair<std::int64_t, std::int64_t> contact_of(const servo::RecordedSession& s
 }  // namespace
 
 FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
-                       const std::vector<Measurement>& measurements, std::size_t shown_material,
+                       const std::vector<exhibit::Measurement>& measurements, std::size_t shown_material,
                        const exhibit::Phrases& phrases) {
   const servo::RecordedSession& shown = sessions.at(shown_material);
   const auto [in_ns, off_ns] = contact_of(shown);
@@ -68,25 +70,25 @@ FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
     curves_.back().push_back(exhibit::curve_until(session, session.samples.back().time_ns));
   exhibit::Moment finale = exhibit::moment_of(shown, shown_material, plans.back().time_ns, curves_.back());
   finale.wall.centerpiece = exhibit::Centerpiece::Plot;
-  for (const Measurement& m : measurements) {
+  for (const exhibit::Measurement& m : measurements) {
     finale.results.push_back(result_of(m));
   }
   finale.guidance = phrases[AllSamples];
   figures_.push_back({"fig5e.png", phrases[CaptionAll], finale});
 }
 
-VariationFigure::VariationFigure(const servo::RecordedSession& base, const Measurement& measurement,
-                                 const curves::SampleModel& model, std::span<const Variation> variations,
+VariationFigure::VariationFigure(const servo::RecordedSession& base, const exhibit::Measurement& measurement,
+                                 const curves::SampleModel& model, std::span<const exhibit::Variation> variations,
                                  std::size_t material, const exhibit::Phrases& phrases) {
   std::vector<exhibit::CycleResult> all;
-  const auto add = [&](const servo::RecordedSession& session, const Measurement& m,
+  const auto add = [&](const servo::RecordedSession& session, const exhibit::Measurement& m,
                        const curves::SampleModel& was_felt) {
     materials_.push_back(was_felt);
     curves_.push_back(exhibit::curve_until(session, session.samples.back().time_ns));
     all.push_back(result_of(m));
   };
   add(base, measurement, model);
-  for (const Variation& variation : variations) {
+  for (const exhibit::Variation& variation : variations) {
     if (variation.material == material) add(variation.session, variation.measurement, variation.model);
   }
   moment_ = exhibit::moment_of(base, material, base.samples.back().time_ns, curves_);

@@ -5,12 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "app/demo/measurement.h"
-#include "app/demo/report.h"
 #include "core/result.h"
-#include "exhibit/frame/frame_builder.h"
+#include "curves/sample_model.h"
+#include "exhibit/report/measurement.h"
+#include "exhibit/report/report.h"
+#include "exhibit/state/moment.h"
+#include "exhibit/words/phrases.h"
 #include "render/renderer.h"
 #include "servo/session_file.h"
+
+namespace afm::exhibit {
+class FrameBuilder;
+}
 
 namespace afm::app {
 
@@ -25,7 +31,7 @@ struct Figure {
 // receives one curve per material for each moment and must outlive the figures.
 class FigurePlan {
  public:
-  FigurePlan(const std::vector<servo::RecordedSession>& sessions, const std::vector<Measurement>& measurements,
+  FigurePlan(const std::vector<servo::RecordedSession>& sessions, const std::vector<exhibit::Measurement>& measurements,
              std::size_t shown_material, const exhibit::Phrases& phrases);
 
   const std::vector<Figure>& figures() const { return figures_; }
@@ -38,8 +44,9 @@ class FigurePlan {
 // A material and its own variations together in the same picture as (e). The FrameBuilder must draw from `materials()`.
 class VariationFigure {
  public:
-  VariationFigure(const servo::RecordedSession& base, const Measurement& measurement, const curves::SampleModel& model,
-                  std::span<const Variation> variations, std::size_t material, const exhibit::Phrases& phrases);
+  VariationFigure(const servo::RecordedSession& base, const exhibit::Measurement& measurement,
+                  const curves::SampleModel& model, std::span<const exhibit::Variation> variations,
+                  std::size_t material, const exhibit::Phrases& phrases);
   VariationFigure(const VariationFigure&) = delete;
   VariationFigure& operator=(const VariationFigure&) = delete;
 

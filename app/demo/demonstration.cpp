@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/demo/demonstration.h"
-#include "core/percentiles.h"
-#include "servo/frame_heartbeat.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +10,17 @@
 #include <utility>
 
 #include "core/log.h"
+#include "core/percentiles.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
 #include "exhibit/models/shared_model.h"
 #include "exhibit/panels/servo_rows.h"
+#include "exhibit/report/report.h"
+#include "exhibit/words/guidance.h"
+#include "servo/frame_heartbeat.h"
+#include "servo/servo_client.h"
+#include "servo/session_recorder.h"
+#include "servo/tip_stream.h"
 
 namespace afm::app {
 
@@ -31,20 +38,24 @@ Demonstration::Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, 
       phrases_(stage.phrases()),
       plan_(plan),
       materials_(plan.materials),
-      frames_(wall_scene_, materials_, stage.eyes),
+      frames_(std::make_unique<exhibit::FrameBuilder>(wall_scene_, materials_, stage.eyes)),
       renderer_(renderer),
       servo_(servo),
       clock_(clock),
       path_(path),
       chosen_(std::move(chosen)),
-      person_(wall_scene_.wand_grip_m(), wall_scene_.sample_normal(), path),
+      person_(wall_scene_.places().wand_grip_m(), wall_scene_.sample_normal(), path),
       targets_(wall_scene_.swatch_targets()),
       between_eyes_m_(0.5 * (stage.eyes[0].eye_position_m + stage.eyes[1].eye_position_m)),
+      recorder_(std::make_unique<servo::SessionRecorder>()),
+      stream_(std::make_unique<servo::TipStream>()),
       curves_(materials_.size()) {
   if (plan.frame_budget_ms > 0) budget_.emplace(plan.frame_budget_ms, renderer.quality().samples);
 }
 
-core::Result<void> Demonstration::run(DemoResult& result, const Progress& progress) {
+Demonstration::~Demonstration() = default;
+
+core::Result<void> Demonstration::run(exhibit::DemoResult& result, const Progress& progress) {
   for (std::size_t i = 0; i < materials_.size(); ++i) {
     progress(fmt::format("{} of {}: {}", i + 1, materials_.size(), materials_[i].setup.material.title));
     person_.begin(targets_[i].center_m, static_cast<std::int32_t>(i), clock_.now_ns());
@@ -64,7 +75,8 @@ core::Result<void> Demonstration::run(DemoResult& result, const Progress& progre
 
 core::Result<servo::RecordedSession> Demonstration::feel_variation(std::size_t material,
                                                                    const curves::SampleModel& variation,
-                                                                   DemoResult& result, const Progress& progress) {
+                                                                   exhibit::DemoResult& result,
+                                                                   const Progress& progress) {
   progress(fmt::format("  {}", variation.setup.material.title));
   const std::uint32_t revision = servo_.change(material, variation.parameters);
   const std::int64_t start_ns = clock_.now_ns();
@@ -81,7 +93,7 @@ core::Result<servo::RecordedSession> Demonstration::feel_variation(std::size_t m
   return feel(material, result, progress);
 }
 
-core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, DemoResult& result,
+core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, exhibit::DemoResult& result,
                                                          const Progress& progress) {
   const std::string title = materials_[material].setup.material.title;
   const double stroke_seconds = (path_.lift_m - path_.push_m) / path_.speed_m_per_s;
@@ -99,11 +111,11 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, D
                         title, restarts, scene::reason(servo_.tip().fault)));
       }
       progress(fmt::format("  the servo released the hand: {}; lifting again", scene::reason(servo_.tip().fault)));
-      recorder_.begin_again();
+      recorder_->begin_again();
       forget_cycle(material);
       events_logged = 0;
     }
-    const std::vector<scene::TipEvent>& events = recorder_.session().events;
+    const std::vector<scene::TipEvent>& events = recorder_->session().events;
     for (; events_logged < events.size() && events[events_logged].material == static_cast<std::int32_t>(material);
          ++events_logged) {
       const scene::TipEvent& e = events[events_logged];
@@ -114,13 +126,13 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, D
     }
     if (auto patient = keep_patience(title, stroke_seconds, result); !patient) return tl::unexpected(patient.error());
   }
-  servo::RecordedSession session = recorder_.session();
+  servo::RecordedSession session = recorder_->session();
   session.material = materials_[material].setup.material.name;
   return session;
 }
 
 core::Result<void> Demonstration::keep_patience(const std::string& title, double step_seconds,
-                                                const DemoResult& result) const {
+                                                const exhibit::DemoResult& result) const {
   if (person_.seconds_in_step(clock_.now_ns()) <= kPatienceSeconds + step_seconds) return {};
   return core::failure(core::ErrorCategory::Failed,
                        fmt::format("{}: waited {:.0f} s for {} without success ({}; a frame took {:.0f} ms); reduce "
@@ -129,7 +141,7 @@ core::Result<void> Demonstration::keep_patience(const std::string& title, double
                                    scene::reason(servo_.tip().fault), core::percentiles(result.frame_ms).p50));
 }
 
-core::Result<void> Demonstration::step(DemoResult& result) {
+core::Result<void> Demonstration::step(exhibit::DemoResult& result) {
   const std::int64_t start_ns = clock_.now_ns();
   renderer_.wait_until_ready(servo::FrameHeartbeat(servo_, clock_));
   const std::int64_t now_ns = clock_.now_ns();
@@ -144,7 +156,7 @@ core::Result<void> Demonstration::step(DemoResult& result) {
   if (pointing.chosen) servo_.choose(static_cast<std::int32_t>(*pointing.chosen), plan_.scale);
 
   const exhibit::Moment now = moment(wand, pointing);
-  const render::FrameState frame = frames_.build(now);
+  const render::FrameState frame = frames_->build(now);
   servo_.place(exhibit::shared_transforms(frame.room_from_node));
   renderer_.render(frame);
   if (budget_) budget_->follow(renderer_);
@@ -157,17 +169,17 @@ core::Result<void> Demonstration::consume_update(std::int64_t now_ns) {
   auto update = servo_.poll(now_ns);
   if (!update) return core::failure(update.error().category, update.error().message + "; run again");
 
-  stream_.consume(
+  stream_->consume(
       *update,
       [&](const scene::TipSample& sample) {
         const auto material = static_cast<std::size_t>(sample.material);
-        if (recorder_.add(sample, servo_)) forget_cycle(material);
+        if (recorder_->add(sample, servo_)) forget_cycle(material);
         curves_[material].add(sample);
         deepest_z_m_ = std::min(deepest_z_m_, sample.tip.z_m);
       },
       [&](const scene::TipEvent& event) {
         curves_[static_cast<std::size_t>(event.material)].add(event);
-        recorder_.add(event);
+        recorder_->add(event);
       });
   return {};
 }
@@ -185,7 +197,7 @@ exhibit::Moment Demonstration::moment(const input::WandState& wand, const input:
   now.curves = curves_;
   now.servo = exhibit::servo_rows(servo_.tip(), servo_.timing(), servo_.device(), phrases_);
   if (budget_) now.servo.push_back(budget_->row(phrases_));
-  now.wall.cue = exhibit::jump_cue(recorder_.session().events, servo_.tip().time_ns);
+  now.wall.cue = exhibit::jump_cue(recorder_->session().events, servo_.tip().time_ns);
   return now;
 }
 

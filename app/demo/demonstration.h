@@ -2,23 +2,35 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/demo/report.h"
 #include "app/options/dynamic_resolution.h"
 #include "core/clock.h"
-#include "exhibit/frame/exhibit_setup.h"
-#include "exhibit/frame/frame_builder.h"
-#include "exhibit/state/moment.h"
-#include "exhibit/words/guidance.h"
+#include "curves/sample_model.h"
+#include "exhibit/state/cycle_curve.h"
+#include "input/selection.h"
 #include "input/simulated_person.h"
 #include "physics/curve_analysis.h"
 #include "render/renderer.h"
-#include "servo/servo_client.h"
-#include "servo/session_recorder.h"
-#include "servo/tip_stream.h"
+
+namespace afm::exhibit {
+struct DemoResult;
+class FrameBuilder;
+enum class Hint;
+struct Moment;
+class Phrases;
+struct Stage;
+class WallScene;
+}  // namespace afm::exhibit
+namespace afm::servo {
+struct RecordedSession;
+class ServoClient;
+class SessionRecorder;
+class TipStream;
+}  // namespace afm::servo
 
 namespace afm::app {
 
@@ -42,17 +54,20 @@ class Demonstration {
   Demonstration(const exhibit::Stage& stage, const DemoPlan& plan, render::Renderer& renderer,
                 servo::ServoClient& servo, const core::Clock& clock, const input::HandPath& path,
                 std::function<void()> chosen);
+  ~Demonstration();
 
   // Runs until all cycles are done. Fails if the servo dies or an expected event does not occur. Fills the sessions,
   // variations, frame times and servo timing of the result.
-  core::Result<void> run(DemoResult& result, const Progress& progress);
+  core::Result<void> run(exhibit::DemoResult& result, const Progress& progress);
 
  private:
-  core::Result<servo::RecordedSession> feel(std::size_t material, DemoResult& result, const Progress& progress);
+  core::Result<servo::RecordedSession> feel(std::size_t material, exhibit::DemoResult& result,
+                                            const Progress& progress);
   core::Result<servo::RecordedSession> feel_variation(std::size_t material, const curves::SampleModel& variation,
-                                                      DemoResult& result, const Progress& progress);
-  core::Result<void> keep_patience(const std::string& title, double step_seconds, const DemoResult& result) const;
-  core::Result<void> step(DemoResult& result);
+                                                      exhibit::DemoResult& result, const Progress& progress);
+  core::Result<void> keep_patience(const std::string& title, double step_seconds,
+                                   const exhibit::DemoResult& result) const;
+  core::Result<void> step(exhibit::DemoResult& result);
   core::Result<void> consume_update(std::int64_t now_ns);
   void forget_cycle(std::size_t material);
   exhibit::Moment moment(const input::WandState& wand, const input::Selector::Result& pointing) const;
@@ -62,7 +77,7 @@ class Demonstration {
   const exhibit::Phrases& phrases_;
   const DemoPlan& plan_;
   std::vector<curves::SampleModel> materials_;  // as currently felt
-  exhibit::FrameBuilder frames_;
+  std::unique_ptr<exhibit::FrameBuilder> frames_;
   render::Renderer& renderer_;
   servo::ServoClient& servo_;
   const core::Clock& clock_;
@@ -74,9 +89,9 @@ class Demonstration {
   std::vector<input::Target> targets_;
   glm::dvec3 between_eyes_m_;
 
-  servo::SessionRecorder recorder_;
+  std::unique_ptr<servo::SessionRecorder> recorder_;
   double deepest_z_m_ = 0;
-  servo::TipStream stream_;
+  std::unique_ptr<servo::TipStream> stream_;
   std::vector<exhibit::CycleCurve> curves_;
 };
 

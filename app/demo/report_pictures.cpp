@@ -7,7 +7,7 @@
 
 namespace afm::app {
 
-ReportPictures::ReportPictures(render::Context& context, render::Renderer& renderer, const OutputFolder& out)
+ReportPictures::ReportPictures(render::Context& context, render::Renderer& renderer, const core::OutputFolder& out)
     : saver_(context, renderer), out_(out) {}
 
 void ReportPictures::keep_errors(std::vector<render::SavedPicture> saved) {
@@ -25,7 +25,7 @@ void ReportPictures::add(const std::string& file, const std::string& caption) {
   saver_.save({}, paths_.back());
 }
 
-core::Result<std::vector<ReportPicture>> ReportPictures::finish() {
+core::Result<std::vector<exhibit::ReportPicture>> ReportPictures::finish() {
   keep_errors(saver_.finish());
   if (!errors_.empty()) return tl::unexpected(errors_.front());
   for (std::size_t i = 0; i < pictures_.size(); ++i) {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "app/demo/report.h"
-#include "app/options/output_folder.h"
+#include "core/output_folder.h"
 #include "core/result.h"
+#include "exhibit/report/report.h"
 #include "render/screenshot_queue.h"
 
 namespace afm::app {
@@ -15,21 +15,21 @@ namespace afm::app {
 // thread.
 class ReportPictures {
  public:
-  // All arguments must outlive the object.
-  ReportPictures(render::Context& context, render::Renderer& renderer, const OutputFolder& out);
+  // All must outlive it.
+  ReportPictures(render::Context& context, render::Renderer& renderer, const core::OutputFolder& out);
 
   // Saves the renderer's newest frame, side by side. Waits only if ScreenshotQueue::kMostPictures are pending.
   void add(const std::string& file, const std::string& caption);
 
   // Returns all pictures, in order. Failed if one could not be written.
-  core::Result<std::vector<ReportPicture>> finish();
+  core::Result<std::vector<exhibit::ReportPicture>> finish();
 
  private:
   void keep_errors(std::vector<render::SavedPicture> saved);
 
   render::ScreenshotQueue saver_;
-  const OutputFolder& out_;
-  std::vector<ReportPicture> pictures_;
+  const core::OutputFolder& out_;
+  std::vector<exhibit::ReportPicture> pictures_;
   std::vector<std::string> paths_;
   std::vector<core::Error> errors_;
 };

@@ -8,6 +8,8 @@
 
 #include "app/display/view_outputs.h"
 #include "core/log.h"
+#include "exhibit/lesson/instructor_page.h"
+#include "exhibit/words/phrases.h"
 #include "scene/graph/scene.h"
 
 namespace afm::app {
@@ -58,16 +60,18 @@ InstructorWindow::InstructorWindow(render::Window& window, const exhibit::Phrase
       renderer_(std::move(renderer)),
       presenter_(std::move(presenter)),
       size_px_(size_px),
-      page_(shape_of(size_px)) {}
+      page_(std::make_unique<exhibit::InstructorPage>(shape_of(size_px))) {}
+
+InstructorWindow::~InstructorWindow() = default;
 
 InstructorWindow::Input InstructorWindow::poll(const exhibit::LessonPrompt& prompt) {
   render::WindowInput input = window_.poll();
   Input result{.actions = {}, .keys = {}, .close_requested = input.close_requested};
-  pointed_ = page_.action_at(input.cursor_px / glm::dvec2(size_px_), prompt);
+  pointed_ = page_->action_at(input.cursor_px / glm::dvec2(size_px_), prompt);
   for (const render::WindowEvent& event : input.events) {
     using Kind = render::WindowEvent::Kind;
     if (event.kind == Kind::ButtonDown && event.button == render::MouseButton::Left) {
-      const auto pressed = page_.action_at(event.cursor_px / glm::dvec2(size_px_), prompt);
+      const auto pressed = page_->action_at(event.cursor_px / glm::dvec2(size_px_), prompt);
       if (pressed) result.actions.push_back(*pressed);
     }
     if (event.kind != Kind::KeyDown) continue;
@@ -88,14 +92,14 @@ void InstructorWindow::follow_size() {
   if (size_px == size_px_ || size_px.x == 0 || size_px.y == 0) return;
   if (auto resized = renderer_.resize(size_px.x, size_px.y); !resized) return core::log_line(resized.error().message);
   size_px_ = size_px;
-  page_ = exhibit::InstructorPage(shape_of(size_px));
+  *page_ = exhibit::InstructorPage(shape_of(size_px));
   shown_.reset();
 }
 
 void InstructorWindow::show(const exhibit::InstructorState& state, std::int64_t now_ns,
                             const std::function<void()>& while_waiting) {
   follow_size();
-  const render::FrameState frame = page_.frame(state, pointed_, phrases_);
+  const render::FrameState frame = page_->frame(state, pointed_, phrases_);
   const bool same = shown_ == frame.panels.data.content && shown_labels_ == frame.labels;
   if (same && now_ns - shown_ns_ < kAnewNs) return;
   const std::array<render::WindowPicture, 1> pictures{{{.composition = {.mode = scene::StereoMode::Mono}}}};

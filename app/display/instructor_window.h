@@ -9,12 +9,19 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/lesson/instructor_page.h"
 #include "render/context.h"
 #include "render/monitor.h"
 #include "render/presenter.h"
 #include "render/renderer.h"
 #include "render/window.h"
+
+namespace afm::exhibit {
+enum class InstructorAction;
+class InstructorPage;
+struct InstructorState;
+struct LessonPrompt;
+class Phrases;
+}  // namespace afm::exhibit
 
 namespace afm::app {
 
@@ -31,6 +38,7 @@ class InstructorWindow {
   static core::Result<std::unique_ptr<InstructorWindow>> create(render::Context& context, render::Window& window,
                                                                 const exhibit::Phrases& phrases,
                                                                 render::PanelContrast contrast);
+  ~InstructorWindow();
 
   // The instructor's input since the last call: keys 1 to 4, or a click on an action that applies to `prompt`. All
   // other keys belong to the wall.
@@ -54,7 +62,7 @@ class InstructorWindow {
   render::Renderer renderer_;
   render::Presenter presenter_;
   glm::uvec2 size_px_;
-  exhibit::InstructorPage page_;
+  std::unique_ptr<exhibit::InstructorPage> page_;
   std::optional<exhibit::InstructorAction> pointed_;
   std::optional<render::DataPanel> shown_;
   std::vector<render::Label> shown_labels_;

@@ -9,10 +9,17 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "app/display/instructor_window.h"
+#include "app/display/view_headset.h"
 #include "core/log.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "render/monitor.h"
 
 namespace afm::app {
+
+ViewDisplay::ViewDisplay() = default;
+
+ViewDisplay::~ViewDisplay() = default;
 
 // Sizes for the windows as they have opened. Panels are as sharp as the screen with the finest pixels.
 render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const DisplayOptions& options) const {

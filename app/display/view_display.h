@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/display/instructor_window.h"
+#include "app/display/display_options.h"
 #include "app/display/view_outputs.h"
 #include "app/display/view_picture.h"
 #include "app/display/view_windows.h"
@@ -15,21 +15,17 @@
 #include "render/context.h"
 #include "render/saver_inhibition.h"
 
+namespace afm::core {
+class Clock;
+}
+namespace afm::render {
+class HeadsetRuntime;
+}
+
 namespace afm::app {
 
-// Options of the live view's windows and of the picture in them.
-struct DisplayOptions {
-  exhibit::PictureOptions picture;
-  WindowOptions window;
-  std::uint32_t eye_width = 0;     // 0: from the windows
-  double frame_budget_ms = 0;      // 0: none
-  double comfort_deg = 1;          // largest change of the eyes' convergence from that for the wall
-  std::string saved_folder = ".";  // receives the saved pictures
-  bool validate = false;           // check every Vulkan call
-  render::PanelContrast contrast = render::PanelContrast::Normal;
-  render::Swap swap = render::Swap::Alone;  // synchronisation with the other machines of a wall
-  std::string instructor;                   // place of the instructor's window, for open_window(); empty: there is none
-};
+class InstructorWindow;
+class ViewHeadset;
 
 // The windows of the live view with everything that draws into them. Main thread only.
 class ViewDisplay {
@@ -39,6 +35,7 @@ class ViewDisplay {
   // it may be null, and must outlive the object, as must the clock.
   static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayOptions& options,
                                                          render::HeadsetRuntime* runtime, const core::Clock& clock);
+  ~ViewDisplay();
   ViewDisplay(const ViewDisplay&) = delete;
   ViewDisplay& operator=(const ViewDisplay&) = delete;
 
@@ -49,7 +46,7 @@ class ViewDisplay {
   ViewHeadset* headset() { return headset_.get(); }             // may be null
 
  private:
-  ViewDisplay() = default;
+  ViewDisplay();
   render::RendererOptions drawing(const exhibit::Stage& stage, const DisplayOptions& options) const;
   core::Result<void> check_outputs(render::Swap swap) const;
   static render::RendererOptions drawing_in_headset(const exhibit::Stage& stage, glm::uvec2 eye_px);

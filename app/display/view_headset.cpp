@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/log.h"
+#include "exhibit/frame/exhibit_setup.h"
 
 namespace afm::app {
 

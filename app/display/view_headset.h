@@ -9,9 +9,13 @@
 
 #include "app/display/picture_age.h"
 #include "core/clock.h"
-#include "exhibit/frame/exhibit_setup.h"
 #include "input/wand.h"
 #include "render/headset.h"
+#include "scene/display/wall.h"
+
+namespace afm::exhibit {
+struct Stage;
+}
 
 namespace afm::app {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/display/view_outputs.h"
+#include "exhibit/frame/exhibit_setup.h"
 
 #include <fmt/format.h>
 

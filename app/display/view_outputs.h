@@ -7,10 +7,14 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/wall_pictures.h"
 #include "render/monitor.h"
 #include "render/presenter.h"
 #include "render/window.h"
+
+namespace afm::exhibit {
+struct Stage;
+}
 
 namespace afm::app {
 

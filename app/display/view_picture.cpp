@@ -8,9 +8,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "cluster/frame_message.h"
 #include "core/log.h"
 #include "exhibit/cluster/frame_inputs.h"
 #include "exhibit/frame/calibration.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/recorded_wall.h"
 
 namespace afm::app {

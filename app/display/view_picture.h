@@ -10,20 +10,26 @@
 
 #include "app/display/frame_times.h"
 #include "app/display/mouse_wand.h"
-#include "app/display/view_headset.h"
 #include "app/display/view_outputs.h"
 #include "app/display/view_windows.h"
 #include "app/options/dynamic_resolution.h"
-#include "cluster/frame_message.h"
 #include "exhibit/frame/comfort_clamp.h"
-#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/panels/depth_report.h"
 #include "render/depth_meter.h"
 #include "render/presenter.h"
 #include "render/renderer.h"
 #include "render/screenshot_queue.h"
 
+namespace afm::cluster {
+struct ShownView;
+}
+namespace afm::exhibit {
+struct Stage;
+}
+
 namespace afm::app {
+
+class ViewHeadset;
 
 struct PictureSettings {
   double ipd_m = 0.063;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of ViewPicture for a headset, whose left eye the window mirrors.
+#include "app/display/view_headset.h"
 #include "app/display/view_picture.h"
+#include "exhibit/frame/exhibit_setup.h"
 
 namespace afm::app {
 

@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "app/display/instructor_window.h"
-#include "app/lesson/live_lesson.h"
 #include "app/view/servo_supervisor.h"
 #include "app/view/view_choice.h"
 #include "app/view/view_parts.h"
 #include "core/log.h"
+#include "exhibit/lesson/live_lesson.h"
 #include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
 
@@ -20,7 +20,7 @@ constexpr std::int64_t kAskedNs = 10'000'000'000;  // longest time between the t
 
 }  // namespace
 
-InstructorControl::InstructorControl(ViewParts& parts, LiveLesson& lesson, InstructorWindow& window,
+InstructorControl::InstructorControl(ViewParts& parts, exhibit::LiveLesson& lesson, InstructorWindow& window,
                                      std::function<void(render::Key)> press_key)
     : parts_(parts), lesson_(lesson), window_(window), press_key_(std::move(press_key)) {}
 

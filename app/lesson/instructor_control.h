@@ -10,19 +10,19 @@
 
 namespace afm::exhibit {
 enum class InstructorAction;
-}
+class LiveLesson;
+}  // namespace afm::exhibit
 
 namespace afm::app {
 
 class InstructorWindow;
-class LiveLesson;
 struct ViewParts;
 
 // The instructor of a lesson, who uses a separate window.
 class InstructorControl final : public ViewControl {
  public:
   // `press_key` receives the keys that belong to the wall. All arguments must outlive the object.
-  InstructorControl(ViewParts& parts, LiveLesson& lesson, InstructorWindow& window,
+  InstructorControl(ViewParts& parts, exhibit::LiveLesson& lesson, InstructorWindow& window,
                     std::function<void(render::Key)> press_key);
 
   void take(const ViewInput& input, const ViewFrame& frame) override;
@@ -33,7 +33,7 @@ class InstructorControl final : public ViewControl {
   void act(exhibit::InstructorAction action, std::int64_t now_ns);
 
   ViewParts& parts_;
-  LiveLesson& lesson_;
+  exhibit::LiveLesson& lesson_;
   InstructorWindow& window_;
   std::function<void(render::Key)> press_key_;
   bool hand_off_ = false;  // the instructor has disabled the force

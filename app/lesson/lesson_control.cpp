@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "app/lesson/live_lesson.h"
 #include "app/view/live_sound.h"
 #include "app/view/servo_supervisor.h"
 #include "app/view/view_choice.h"
@@ -14,13 +13,14 @@
 #include "app/view/view_wand.h"
 #include "exhibit/frame/blank_picture.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/lesson/live_lesson.h"
 #include "exhibit/panels/panel_hit.h"
 #include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
 
-LessonControl::LessonControl(ViewParts& parts, LiveLesson& lesson) : parts_(parts), lesson_(lesson) {
+LessonControl::LessonControl(ViewParts& parts, exhibit::LiveLesson& lesson) : parts_(parts), lesson_(lesson) {
   parts_.panels.use_for(WallUse::Lesson);
   parts_.choice.set_guide(*this);
   parts_.servo.hear_jumps([this](const scene::TipEvent& event) { lesson_.happened(event, parts_.servo.link()); });
@@ -55,7 +55,7 @@ void LessonControl::press(const Pointed& pointed, const input::Ray& ray) {
 std::optional<exhibit::LessonTarget> LessonControl::target_at(const input::Ray& ray) const {
   const exhibit::WallScene& wall = parts_.stage.wall_scene;
   const auto targets = lesson_.targets();
-  const exhibit::LessonPlaces places = exhibit::lesson_places(wall.parameter_placement(), targets.size());
+  const exhibit::LessonPlaces places = exhibit::lesson_places(wall.places().parameters(), targets.size());
   for (std::size_t i = 0; i < targets.size(); ++i) {
     if (exhibit::hit_of(ray, places.targets[i], wall.panel_millimetre_m())) return targets[i];
   }
@@ -95,7 +95,7 @@ void LessonControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
 }
 
 void LessonControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
-  const render::PanelPlacement words = parts_.stage.wall_scene.parameter_placement();
+  const render::PanelPlacement words = parts_.stage.wall_scene.places().parameters();
   const render::PanelPlacement banner = picture.panels.banner.placement;
   if (!lesson_.shows_scene()) {
     exhibit::blank(picture);

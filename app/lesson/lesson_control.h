@@ -9,18 +9,18 @@
 
 namespace afm::exhibit {
 struct LessonTarget;
-}
+class LiveLesson;
+}  // namespace afm::exhibit
 
 namespace afm::app {
 
-class LiveLesson;
 struct ViewParts;
 
 // A lesson at the live window, as a guide for the other controls.
 class LessonControl final : public ViewControl, public ViewGuide {
  public:
   // Both must outlive it.
-  LessonControl(ViewParts& parts, LiveLesson& lesson);
+  LessonControl(ViewParts& parts, exhibit::LiveLesson& lesson);
 
   void skip();
   void try_again();
@@ -43,7 +43,7 @@ class LessonControl final : public ViewControl, public ViewGuide {
   bool asks() const;  // an answer is due
 
   ViewParts& parts_;
-  LiveLesson& lesson_;
+  exhibit::LiveLesson& lesson_;
   std::string said_, line_;  // spoken text of the newest prompt, and the guidance after it
 };
 

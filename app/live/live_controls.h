@@ -6,11 +6,14 @@
 
 #include "app/live/view_keys.h"
 
+namespace afm::exhibit {
+class LiveLesson;
+}
+
 namespace afm::app {
 
 class ClusterMaster;
 class InstructorWindow;
-class LiveLesson;
 class ViewControl;
 class ViewHeadset;
 struct ViewParts;
@@ -20,7 +23,7 @@ struct ViewSettings;
 struct LiveFeatures {
   ViewHeadset* headset = nullptr;          // draws the picture if set
   ClusterMaster* cluster = nullptr;        // other machines of the wall
-  LiveLesson* lesson = nullptr;            // lesson to run
+  exhibit::LiveLesson* lesson = nullptr;   // guides through the window
   InstructorWindow* instructor = nullptr;  // the lesson's second window
 };
 

@@ -4,9 +4,9 @@
 #include <glm/mat4x4.hpp>
 #include <vector>
 
-#include "app/live/view_head.h"
 #include "app/view/view_control.h"
 #include "input/simulated_head.h"
+#include "input/view_head.h"
 
 namespace afm::app {
 
@@ -39,7 +39,7 @@ class PlaceControl final : public ViewControl {
 
   ViewParts& parts_;
   Eyes eyes_;
-  ViewHead head_;
+  input::ViewHead head_;
   input::SimulatedHead simulated_head_;  // used if there is no tracker
   glm::dmat4 to_wall_{1.0};              // applied after the wand's navigation
 };

@@ -28,7 +28,7 @@ namespace {
 
 constexpr double kSimulatedMPerS = 0.1;     // speed of a simulated hand that paints
 constexpr double kSimulatedLineM = 0.0015;  // distance between its lines
-constexpr double kPressedM = -0.004;        // height of its aim, below the height of contact
+constexpr double kPressedM = -0.004;        // height of its aim relative to the touching tip
 
 // Words for the log, in the order of scene::ScanHand.
 constexpr const char* kHandTexts[] = {"scan: the tip scans alone", "scan: the tip leads the hand",

@@ -16,6 +16,7 @@
 #include "app/view/view_controls.h"
 #include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
+#include "exhibit/words/phrases.h"
 
 namespace afm::app {
 

@@ -26,7 +26,7 @@ struct KeyOwners {
   ViewParts& parts;
   PlaceControl* place = nullptr;
   JourneyControl* journey = nullptr;
-  LessonControl* lesson = nullptr;  // null without a lesson; used only by rows of lessons
+  LessonControl* lesson = nullptr;  // used by rows of lessons; null without a lesson
   ScanControl* scan = nullptr;
   SoundControl* sound = nullptr;
 };

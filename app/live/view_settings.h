@@ -9,7 +9,7 @@
 
 #include "app/view/key_list.h"
 #include "app/view/sound_settings.h"
-#include "exhibit/words/guidance.h"
+#include "exhibit/words/controls.h"
 #include "input/simulated_head.h"
 #include "scene/shared/scale_modes.h"
 
@@ -19,17 +19,18 @@ class KeptBeat;
 
 namespace afm::app {
 
+// Settings of the live window, from the options of its command.
 struct ViewSettings {
   HandSource hand = HandSource::Mouse;
-  exhibit::HandControls device_controls = exhibit::HandControls::Device;  // used with HandSource::Device
+  exhibit::HandControls device_controls = exhibit::HandControls::Device;  // names of a device's controls
   double most_frames_per_s = 60.0;
-  scene::ScaleMode scale = scene::ScaleMode::Fit;  // M goes on to the next
-  std::optional<std::size_t> first_material;       // chosen whenever a servo starts
-  std::string frame_log;                           // a file; empty: none is written
-  std::vector<input::HeadKey> head_script;         // moves a head that no tracker follows; may be empty
-  bool unattended = false;    // staff keys are locked; without a visitor the wall restarts and demonstrates itself
+  scene::ScaleMode scale = scene::ScaleMode::Fit;  // initial scale; M goes on to the next
+  std::optional<std::size_t> first_material;       // material chosen after every start of a servo
+  std::string frame_log;                           // file name; empty: no log
+  std::vector<input::HeadKey> head_script;         // simulated motion of an untracked head; may be empty
+  bool unattended = false;    // staff keys locked; starts over and demonstrates itself when no visitor is there
   double idle_s = 60;         // seconds without input before the demonstration starts
-  std::string record_folder;  // receives session files; empty: none is written
+  std::string record_folder;  // folder for sessions; empty: none are kept
   LiveSoundSettings sound;
   std::shared_ptr<servo::KeptBeat> kept;  // beat of a kiosk's window; shared because settings are copied
 };

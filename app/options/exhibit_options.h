@@ -4,7 +4,8 @@
 #include <string>
 
 #include "app/options/command.h"
-#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/exhibit_files.h"
+#include "exhibit/frame/wall_pictures.h"
 #include "physics/friction/friction.h"
 #include "scene/shared/scale_modes.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "servo/servo_client.h"
+#include "servo/servo_choice.h"
 
 namespace afm::app {
 

@@ -8,7 +8,11 @@
 #include <string>
 #include <system_error>
 
+#include "exhibit/sound/synthesizer.h"
+
 namespace afm::app {
+
+exhibit::Channels SoundOptions::channels() const { return mono ? exhibit::Channels::Mono : exhibit::Channels::Stereo; }
 
 double SoundOptions::gain() const { return std::pow(10.0, volume_db / 20.0); }
 

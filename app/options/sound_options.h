@@ -5,7 +5,10 @@
 #include <string_view>
 
 #include "app/options/command_line.h"
-#include "exhibit/sound/synthesizer.h"
+
+namespace afm::exhibit {
+enum class Channels;
+}
 
 namespace afm::app {
 
@@ -13,7 +16,7 @@ struct SoundOptions {
   double volume_db = -6;
   bool mono = false;
 
-  exhibit::Channels channels() const { return mono ? exhibit::Channels::Mono : exhibit::Channels::Stereo; }
+  exhibit::Channels channels() const;
   double gain() const;  // linear amplitude of the volume
 };
 

@@ -3,8 +3,12 @@
 
 #include <string_view>
 
-#include "exhibit/words/phrases.h"
-#include "render/frame.h"
+namespace afm::exhibit {
+class Phrases;
+}
+namespace afm::render {
+struct DataPanel;
+}
 
 namespace afm::app {
 

@@ -5,6 +5,11 @@
 
 #include "app/view/speech_choice.h"
 #include "core/log.h"
+#include "curves/sample_model.h"
+#include "exhibit/sound/sound_mixer.h"
+#include "exhibit/sound/sound_output.h"
+#include "exhibit/sound/speaker.h"
+#include "servo/servo_client.h"
 
 namespace afm::app {
 
@@ -22,6 +27,8 @@ LiveSound::LiveSound(const LiveSoundSettings& settings, const exhibit::Phrases& 
   if (settings_.sound) open_card();
   if (settings_.speech) open_voice(*settings_.speech);
 }
+
+LiveSound::~LiveSound() = default;
 
 void LiveSound::open_card() {
   if (output_) return;

@@ -8,12 +8,19 @@
 
 #include "app/view/sound_settings.h"
 #include "core/clock.h"
-#include "curves/sample_model.h"
 #include "exhibit/sound/narrator.h"
-#include "exhibit/sound/sound_mixer.h"
-#include "exhibit/sound/sound_output.h"
-#include "exhibit/sound/speaker.h"
-#include "servo/servo_client.h"
+
+namespace afm::curves {
+struct SampleModel;
+}
+namespace afm::exhibit {
+class SoundMixer;
+class SoundOutput;
+class Speaker;
+}  // namespace afm::exhibit
+namespace afm::servo {
+class ServoClient;
+}
 
 namespace afm::app {
 
@@ -24,6 +31,7 @@ class LiveSound {
   // Phrases and clock must outlive the object.
   LiveSound(const LiveSoundSettings& settings, const exhibit::Phrases& phrases, std::vector<std::string> titles,
             const core::Clock& clock);
+  ~LiveSound();
 
   // Makes the tip of a newly started servo audible, at these ears.
   void attach(servo::ServoClient& servo, const std::vector<curves::SampleModel>& materials);

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <array>
 
+#include "cluster/messages.h"
+#include "exhibit/panels/parameter_panel.h"
+#include "servo/servo_client.h"
+
 namespace afm::app {
 
 curves::LiveParameters& ParameterEdits::parameters(std::size_t material) {

@@ -5,11 +5,21 @@
 #include <optional>
 #include <vector>
 
-#include "cluster/messages.h"
 #include "curves/live_parameters.h"
-#include "exhibit/panels/parameter_panel.h"
 #include "render/frame.h"
-#include "servo/servo_client.h"
+
+namespace afm::cluster {
+struct EditRecord;
+}
+namespace afm::exhibit {
+enum class ChangeState;
+}
+namespace afm::scene {
+struct TipState;
+}
+namespace afm::servo {
+class ServoClient;
+}
 
 namespace afm::app {
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/view/servo_supervisor.h"
-#include "core/percentiles.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 
 #include "core/log.h"
+#include "core/percentiles.h"
+#include "servo/servo_client.h"
+#include "servo/session_recorder.h"
+#include "servo/tip_stream.h"
 
 namespace afm::app {
 
@@ -30,7 +33,13 @@ ServoSupervisor::ServoSupervisor(Starter starter, Started started, std::size_t m
       materials_(materials),
       record_folder_(std::move(record_folder)),
       audience_(audience),
-      cycles_(materials) {}
+      stream_(std::make_unique<servo::TipStream>()),
+      cycles_(materials),
+      recorder_(std::make_unique<servo::SessionRecorder>()) {}
+
+ServoSupervisor::~ServoSupervisor() = default;
+
+void ServoSupervisor::record(const servo::WallFrame& frame) { recorder_->add(frame); }
 
 core::Result<void> ServoSupervisor::start() {
   if (!link_ && !record_folder_.empty()) {
@@ -52,7 +61,7 @@ core::Result<void> ServoSupervisor::launch(const char* message) {
   }
   link_ = std::move(*servo);
   error_.reset();
-  stream_ = {};
+  *stream_ = {};
   logged_state_ = scene::ServoState::Disarmed;
   if (message != nullptr) core::log_line(message);
   started_(*link_, chosen_before);
@@ -71,7 +80,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
     replace(polled.error(), now_ns);
     return;
   }
-  stream_.consume(
+  stream_->consume(
       *polled,
       [&](const scene::TipSample& sample) {
         cycles_.add(sample);
@@ -79,12 +88,12 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         for (const auto& hears : hears_) hears(sample);
         audience_.heard(sample);
         if (!folder_) return;
-        if (recorder_.add(sample, *link_)) recorder_.set_earlier(curves_on_wall());
+        if (recorder_->add(sample, *link_)) recorder_->set_earlier(curves_on_wall());
         keep_finished();
       },
       [&](const scene::TipEvent& event) {
         cycles_.add(event);
-        recorder_.add(event);
+        recorder_->add(event);
         audience_.heard(event);
         cues_.add(event);
         if (event.kind == physics::EventKind::Slip) return;  // occurs many times a second
@@ -122,7 +131,7 @@ void ServoSupervisor::replace(const core::Error& error, std::int64_t now_ns) {
 }
 
 void ServoSupervisor::keep_finished() {
-  const auto session = recorder_.take_finished();
+  const auto session = recorder_->take_finished();
   if (!session || !folder_) return;
   auto kept = folder_->add(*session);
   if (kept) kept = folder_->end();
@@ -130,10 +139,10 @@ void ServoSupervisor::keep_finished() {
 }
 
 void ServoSupervisor::keep_part(std::int64_t now_ns) {
-  if (!folder_ || !recorder_.has_head() || now_ns - kept_ns_ < servo::SessionWriter::kPauseNs) return;
+  if (!folder_ || !recorder_->has_head() || now_ns - kept_ns_ < servo::SessionWriter::kPauseNs) return;
   kept_ns_ = now_ns;
-  if (auto kept = folder_->add(recorder_.session()); !kept) return stop_recording(kept.error());
-  recorder_.forget_records();
+  if (auto kept = folder_->add(recorder_->session()); !kept) return stop_recording(kept.error());
+  recorder_->forget_records();
 }
 
 // A folder that has become full or read-only ends the recording but not the view.
@@ -165,7 +174,7 @@ void ServoSupervisor::log_timing() const {
 
 void ServoSupervisor::finish() {
   log_timing();
-  recorder_.finish();
+  recorder_->finish();
   keep_finished();
   link_.reset();
 }

@@ -13,11 +13,14 @@
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/state/cycle_history.h"
 #include "exhibit/state/jump_cue.h"
-#include "servo/servo_client.h"
 #include "servo/session_folder.h"
-#include "servo/session_recorder.h"
-#include "servo/tip_listener.h"
-#include "servo/tip_stream.h"
+
+namespace afm::servo {
+class ServoClient;
+class SessionRecorder;
+class TipAudience;
+class TipStream;
+}  // namespace afm::servo
 
 namespace afm::app {
 
@@ -34,6 +37,7 @@ class ServoSupervisor {
   // and must outlive the object.
   ServoSupervisor(Starter starter, Started started, std::size_t materials, std::string record_folder,
                   servo::TipAudience& audience);
+  ~ServoSupervisor();
 
   // Starts the first servo, or another after a final failure. Failed if it cannot be started or the folder is not
   // writable.
@@ -51,7 +55,7 @@ class ServoSupervisor {
   void hear_jumps(std::function<void(const scene::TipEvent&)> hears) { hears_jumps_.push_back(std::move(hears)); }
 
   // Adds a frame of the wall to the current session.
-  void record(const servo::WallFrame& frame) { recorder_.add(frame); }
+  void record(const servo::WallFrame& frame);
   bool recording() const { return folder_.has_value(); }
 
   // Saves the current session, logs the servo's timing, and releases the hand.
@@ -92,11 +96,11 @@ class ServoSupervisor {
   std::unique_ptr<servo::ServoClient> link_;
   std::optional<core::Error> error_;      // set once the servo has ended for good
   std::deque<std::int64_t> restarts_ns_;  // times of restarts within the last minute
-  servo::TipStream stream_;
+  std::unique_ptr<servo::TipStream> stream_;
   exhibit::CycleHistory cycles_;
   exhibit::FrictionHistory friction_;
   std::optional<servo::SessionFolder> folder_;
-  servo::SessionRecorder recorder_;
+  std::unique_ptr<servo::SessionRecorder> recorder_;
   std::int64_t kept_ns_ = 0;  // time of the newest partial save of the session
   exhibit::JumpCues cues_;
   scene::ServoState logged_state_ = scene::ServoState::Disarmed;

@@ -25,7 +25,7 @@ struct ViewFrame {
   std::int64_t now_ns = 0;                               // beginning of the frame
   double frame_s = 0;                                    // time since the beginning of the previous frame
   Pointed pointed{};                                     // set after update()
-  std::string caption{};                                 // text of the sound that is played; set after update()
+  std::string caption{};                                 // text for what is heard; set after update()
   exhibit::Relief relief = exhibit::Relief::NarrowEyes;  // advice if the depth is hard to look at
 };
 

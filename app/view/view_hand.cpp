@@ -23,7 +23,7 @@ ViewHand::ViewHand(const exhibit::Stage& stage, ServoSupervisor& servo, const Se
       settings_(settings),
       swatches_(stage.wall_scene.swatch_targets()),
       mouse_(hand_over(stage.wall_scene)),
-      person_(stage.wall_scene.wand_grip_m(), stage.wall_scene.sample_normal(), input::HandPath{}) {}
+      person_(stage.wall_scene.places().wand_grip_m(), stage.wall_scene.sample_normal(), input::HandPath{}) {}
 
 // Mouse and simulated person cannot move a real device.
 HandSource ViewHand::source() const {

@@ -7,13 +7,21 @@
 #include <array>
 #include <utility>
 
+#include "cluster/frame_message.h"
 #include "core/enumerators.h"
 #include "core/log.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/friction/friction_panel.h"
 #include "exhibit/panels/panel_hit.h"
+#include "exhibit/panels/parameter_panel.h"
+#include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_panels.h"
+#include "exhibit/scenery/wall_scene.h"
+#include "exhibit/state/moment.h"
+#include "exhibit/words/guidance.h"
 #include "render/control_layout.h"
 #include "scene/shared/field_copy.h"
+#include "servo/servo_client.h"
 
 namespace afm::app {
 
@@ -66,6 +74,8 @@ ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<c
                        KeyList key_list)
     : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials), key_list_(key_list) {}
 
+const exhibit::Phrases& ViewPanels::phrases() const { return wall_scene_.phrases(); }
+
 std::string ViewPanels::shown() const {
   if (keys_shown_) return "keys";
   if (hidden_) return "none";
@@ -112,7 +122,7 @@ ViewPanels::Told ViewPanels::follow(const cluster::ShownPanels& panels) {
 Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m,
                                std::optional<std::size_t> material) {
   Pointed pointed{.control = {}, .tab = false, .swatch = {}, .point_m = wall_point_m};
-  const render::PanelPlacement panel = wall_scene_.parameter_placement();
+  const render::PanelPlacement panel = wall_scene_.places().parameters();
   const double millimetre_m = wall_scene_.panel_millimetre_m();
   if (const auto hit = material && right_ == RightPanel::Parameters && !hidden_
                            ? exhibit::hit_of(ray, panel, millimetre_m)
@@ -122,7 +132,7 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
     return pointed;
   }
   if (use_ == WallUse::Free && right_ != RightPanel::Parameters && material &&
-      exhibit::hit_of(ray, wall_scene_.parameter_tab_placement(), millimetre_m)) {
+      exhibit::hit_of(ray, wall_scene_.places().parameter_tab(), millimetre_m)) {
     pointed.tab = true;
     return pointed;
   }
@@ -189,7 +199,7 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
   if (!open) {
     frame.labels.push_back({.text = phrases()[exhibit::Phrase::ChangeParameters],
                             .highlighted = pointed.tab,
-                            .placement = wall_scene_.parameter_tab_placement()});
+                            .placement = wall_scene_.places().parameter_tab()});
   }
   if (open || parameters.changed()) exhibit::add_prediction(parameters, phrases(), frame.panels.force.content);
 }
@@ -198,7 +208,7 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
 template <class Content>
 void ViewPanels::show_right(render::FramePanels& panels, render::PanelSlot<Content>& slot, Content content) const {
   panels.data.placement = render::kNoPlacement;
-  slot = {.content = std::move(content), .placement = wall_scene_.parameter_placement()};
+  slot = {.content = std::move(content), .placement = wall_scene_.places().parameters()};
 }
 
 void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, std::size_t material,
@@ -222,7 +232,7 @@ void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece center
                           const std::string& caption) const {
   using exhibit::Note;
   if (!caption.empty()) {
-    frame.labels.push_back({.text = caption, .highlighted = false, .placement = wall_scene_.note_placement()});
+    frame.labels.push_back({.text = caption, .highlighted = false, .placement = wall_scene_.places().note()});
     return;
   }
   std::string text;
@@ -230,7 +240,7 @@ void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece center
   if (centerpiece == exhibit::Centerpiece::Analogy) text = note_text(phrases(), Note::LeaveAnalogy);
   if (!keys_known_) text += (text.empty() ? "" : "     ") + note_text(phrases(), Note::Keys);
   if (text.empty()) return;
-  frame.labels.push_back({.text = std::move(text), .highlighted = false, .placement = wall_scene_.note_placement()});
+  frame.labels.push_back({.text = std::move(text), .highlighted = false, .placement = wall_scene_.places().note()});
 }
 
 void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,

@@ -8,15 +8,22 @@
 #include "app/view/key_list.h"
 #include "app/view/parameter_edits.h"
 #include "app/view/pointed.h"
-#include "cluster/frame_message.h"
-#include "exhibit/frame/exhibit_setup.h"
-#include "exhibit/friction/friction_history.h"
-#include "exhibit/scan/live_scan.h"
-#include "exhibit/scenery/wall_scene.h"
-#include "exhibit/state/moment.h"
-#include "exhibit/words/guidance.h"
+#include "input/selection.h"
 #include "input/wand.h"
 #include "render/frame.h"
+#include "scene/shared/tip_blocks.h"
+
+namespace afm::cluster {
+struct ShownPanels;
+}
+namespace afm::exhibit {
+enum class Centerpiece;
+class FrictionHistory;
+class LiveScan;
+struct Moment;
+struct Stage;
+class WallScene;
+}  // namespace afm::exhibit
 
 namespace afm::app {
 
@@ -92,7 +99,7 @@ class ViewPanels {
     right_ = right_ == panel ? RightPanel::Data : panel;
     return right_ == panel;
   }
-  const exhibit::Phrases& phrases() const { return wall_scene_.phrases(); }
+  const exhibit::Phrases& phrases() const;
   render::ControlPanel control_panel(std::size_t material, const std::string& title, exhibit::ChangeState state);
   void change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo);
   void add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material);

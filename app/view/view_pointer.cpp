@@ -25,7 +25,7 @@ ViewPointer::ViewPointer(const exhibit::Stage& stage, ViewPicture& picture, View
       panels_(panels),
       servo_(servo),
       view_wand_(wand),
-      mouse_(stage.screen, stage.wall_scene.wand_grip_m()),
+      mouse_(stage.screen, stage.wall_scene.places().wand_grip_m()),
       swatches_(stage.wall_scene.swatch_targets()) {}
 
 void ViewPointer::follow(const glm::dvec2& cursor_px, bool dragging, std::int64_t now_ns) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/log.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "input/hid_source.h"
 
 namespace afm::app {
@@ -116,7 +117,7 @@ ViewWand::ViewWand(const exhibit::Stage& stage, const glm::dvec3& grip_m)
 
 core::Result<std::unique_ptr<ViewWand>> ViewWand::open(const WandChoice& choice, const exhibit::Stage& stage,
                                                        const std::string& assets_dir, const core::Clock& clock) {
-  const glm::dvec3 hand = choice.file.hand_m.value_or(stage.wall_scene.wand_grip_m());
+  const glm::dvec3 hand = choice.file.hand_m.value_or(stage.wall_scene.places().wand_grip_m());
   std::unique_ptr<ViewWand> wand(new ViewWand(stage, hand));
   const input::HandPlace place{.position_m = hand, .forward = contact_point(stage.wall_scene) - hand};
   using Source = WandChoice::Source;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "app/view/wand_options.h"
 #include "core/clock.h"
 #include "core/result.h"
-#include "exhibit/frame/exhibit_setup.h"
 #include "input/dtrack_source.h"
 #include "input/navigation.h"
 #include "input/selection.h"
@@ -19,14 +19,14 @@
 #include "input/wand_file.h"
 #include "input/wand_source.h"
 
-namespace afm::app {
+namespace afm::core {
+class Clock;
+}
+namespace afm::exhibit {
+struct Stage;
+}
 
-// Values of --wand, --wand-file and --head.
-struct WandOptions {
-  std::string source = "auto";  // auto, hid, dtrack[:ADDRESS:PORT], sim or mouse
-  std::string file{};           // empty: none
-  std::string head{};           // dtrack:BODY[@ADDRESS:PORT], sim:FILE, or empty: as in the wand file, if it has one
-};
+namespace afm::app {
 
 // Validated values of the options.
 struct WandChoice {

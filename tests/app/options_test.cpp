@@ -12,6 +12,7 @@
 #include "app/options/pixel_size_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/sound_options.h"
+#include "exhibit/sound/synthesizer.h"
 
 namespace afm::app {
 namespace options_test {

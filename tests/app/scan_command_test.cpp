@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "app/commands/scan_surface.h"
 #include "core/whole_file.h"
 #include "curves/sample_model.h"
+#include "exhibit/scan/scan_surface.h"
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
 #include "scene/gltf/gltf_loader.h"
@@ -94,7 +94,8 @@ TEST(ScanCommand, IsLevelBeyondTheRimOfTheSampleAsAHandFeelsIt) {
   const ScanOptions options = options_for("mica");
   const haptics::SampleSurface felt = felt_surface(options);
   for (const physics::TipKind kind : {physics::TipKind::Paraboloid, physics::TipKind::Sphere}) {
-    const auto surface = scan_surface(*contact_setup(options.contact), {.kind = kind}, options.contact.assets_dir);
+    const auto surface =
+        exhibit::scan_surface(*contact_setup(options.contact), {.kind = kind}, options.contact.assets_dir);
     ASSERT_TRUE(surface);
     const double half_m = 0.5 * surface->width_m, rim_m = surface->height_m(2.0 * half_m, 3e-9);
     EXPECT_NE(rim_m, surface->height_m(0.0, 3e-9));
@@ -111,9 +112,9 @@ TEST(ScanCommand, MakesTheImageOfABluntTipHigherOrEqual) {
   ScanOptions options = options_for("gold");
   physics::TipShape ball{.kind = physics::TipKind::Sphere, .radius = physics::Length(5e-9)};
   const auto setup = *contact_setup(options.contact);
-  const auto sharp = scan_surface(setup, ball, options.contact.assets_dir);
+  const auto sharp = exhibit::scan_surface(setup, ball, options.contact.assets_dir);
   ball.radius = physics::Length(80e-9);
-  const auto blunt = scan_surface(setup, ball, options.contact.assets_dir);
+  const auto blunt = exhibit::scan_surface(setup, ball, options.contact.assets_dir);
   ASSERT_TRUE(sharp && blunt);
   double lift_m = 0.0;
   for (int i = -50; i <= 50; ++i) {

@@ -75,7 +75,7 @@ class ViewTest : public ::testing::Test {
 
   // The middle of a target of gold's parameter panel.
   glm::dvec2 pixel_of(const render::ControlTarget& target) const {
-    const render::PanelPlacement panel = stage_.wall_scene.parameter_placement();
+    const render::PanelPlacement panel = stage_.wall_scene.places().parameters();
     const glm::dvec2 size = exhibit::size_mm(panel, stage_.wall_scene.panel_millimetre_m());
     const curves::LiveParameters gold(
         curves::make_sample_model(curves::ContactSetup{stage_.materials.materials[1], {}, {}}).value());

@@ -9,6 +9,8 @@
 #include <string>
 
 #include "exhibit/frame/frame_builder.h"
+#include "exhibit/scenery/stage_place.h"
+#include "exhibit/scenery/wall_scene.h"
 #include "panels/marker_layout.h"
 #include "physics/cycle_figures.h"
 #include "support/phrases.h"

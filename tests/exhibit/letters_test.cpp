@@ -44,7 +44,7 @@ TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWal
     RecordProperty(fmt::format("minutes of {}", name), fmt::format("{:.1f}", minutes));
   };
   const Phrases& phrases = stage->phrases();
-  const render::PanelPlacement right = stage->wall_scene.parameter_placement();
+  const render::PanelPlacement right = stage->wall_scene.places().parameters();
   expect_large(frame.panels.force.content, frame.panels.force.placement, "the plot");
   expect_large(frame.panels.data.content, frame.panels.data.placement, "the data");
   expect_large(full_banner(phrases, frame.panels.banner.content), frame.panels.banner.placement, "the banner");

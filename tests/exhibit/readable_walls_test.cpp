@@ -65,15 +65,15 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   }
   expect_whole(frame.panels.force.content, frame.panels.force.placement, "the plot");
   expect_whole(frame.panels.data.content, frame.panels.data.placement, "the data");
-  expect_whole(app::key_list(app::HandSource::Mouse, false, phrases), stage.wall_scene.parameter_placement(),
+  expect_whole(app::key_list(app::HandSource::Mouse, false, phrases), stage.wall_scene.places().parameters(),
                "the list of keys");
-  expect_whole(full_parameters(stage), stage.wall_scene.parameter_placement(), "the parameters");
+  expect_whole(full_parameters(stage), stage.wall_scene.places().parameters(), "the parameters");
   for (const auto law : {physics::FrictionLaw::None, physics::FrictionLaw::Lattice}) {
-    expect_whole(full_friction_loop(law, phrases), stage.wall_scene.parameter_placement(), "the friction loop");
+    expect_whole(full_friction_loop(law, phrases), stage.wall_scene.places().parameters(), "the friction loop");
   }
   for (const LessonPrompt& prompt : full_prompts(phrases)) {
     const auto targets = lesson_targets(prompt, std::nullopt, phrases);
-    const LessonPlaces places = lesson_places(stage.wall_scene.parameter_placement(), targets.size());
+    const LessonPlaces places = lesson_places(stage.wall_scene.places().parameters(), targets.size());
     expect_whole(lesson_panel(prompt, phrases), places.words, "the words of a lesson");
     for (std::size_t i = 0; i < targets.size(); ++i) {
       expect_whole(render::Label{.text = targets[i].text, .highlighted = false, .placement = places.targets[i]},
@@ -82,17 +82,17 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   }
   const LiveScan scan = full_scan(stage);
   expect_whole(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.panels.force.placement, "the images");
-  expect_whole(scan_panel(scan, phrases.word("Silicon nitride"), phrases), stage.wall_scene.parameter_placement(),
+  expect_whole(scan_panel(scan, phrases.word("Silicon nitride"), phrases), stage.wall_scene.places().parameters(),
                "the settings of a scan");
   const DepthReport depth = report_depth({.nearest_m = 1.0, .farthest_m = 10.0}, 2.5, 0.063, Relief::BringToWall);
   std::vector<render::Label> labels = frame.labels;
   labels.push_back(depth_label(depth, stage.screen, phrases));
   labels.push_back({.text = phrases[Phrase::ChangeParameters],
                     .highlighted = false,
-                    .placement = stage.wall_scene.parameter_tab_placement()});
+                    .placement = stage.wall_scene.places().parameter_tab()});
   labels.push_back({.text = phrases[Phrase::LeaveAnalogy] + "     " + phrases[Phrase::AllKeys],
                     .highlighted = false,
-                    .placement = stage.wall_scene.note_placement()});
+                    .placement = stage.wall_scene.places().note()});
   for (const render::Label& label : labels) expect_whole(label, label.placement, label.text.c_str());
   constexpr double kRulerM = 0.080;  // at true scale, whatever the screen
   if (stage.screen.width_m() < kRulerM) return;
@@ -142,7 +142,7 @@ TEST_P(ReadableWalls, HaveLargerLettersWhereTheyAreAskedFor) {
     const render::FrameState frame = app::wall_subject(stage, 64, app::WallMotion::Tip).value().frames.back();
     const auto words_px = [&](const LessonPrompt& prompt) {
       const std::size_t targets = lesson_targets(prompt, std::nullopt, stage.phrases()).size();
-      const LessonPlaces places = lesson_places(stage.wall_scene.parameter_placement(), targets);
+      const LessonPlaces places = lesson_places(stage.wall_scene.places().parameters(), targets);
       return painter.paint(lesson_panel(prompt, stage.phrases()), places.words).letter_px;
     };
     LessonPrompt consent = full_prompts(stage.phrases()).front(), cycle;

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "app/demo/report.h"
 #include "app/live/view_keys.h"
 #include "app/options/dynamic_resolution.h"
 #include "core/enumerators.h"
@@ -25,6 +24,7 @@
 #include "exhibit/panels/depth_report.h"
 #include "exhibit/panels/parameter_panel.h"
 #include "exhibit/panels/servo_rows.h"
+#include "exhibit/report/report.h"
 #include "exhibit/words/guidance.h"
 #include "scene/shared/shared_blocks.h"
 #include "support/phrases.h"
@@ -232,10 +232,10 @@ TEST_F(TranslatedWall, HasNoEnglishWordOnTheInstructorsPage) {
 }
 
 TEST_F(TranslatedWall, HasNoEnglishWordInItsReport) {
-  app::DemoResult result;
+  exhibit::DemoResult result;
   result.haptic_device = "simulated hand";
   result.vulkan_device = "llvmpipe";
-  app::Measurement gold;
+  exhibit::Measurement gold;
   gold.title = "Gold 0.1 N/m";
   gold.law = "paper";
   for (const bool recorded : {false, true}) {
@@ -246,7 +246,7 @@ TEST_F(TranslatedWall, HasNoEnglishWordInItsReport) {
       result.measurements.push_back(gold);
     }
   }
-  std::string html = app::report_html(result, {}, "", phrases());
+  std::string html = exhibit::report_html(result, {}, "", phrases());
   EXPECT_NE(html.find("<html lang=\"en\">"), std::string::npos);
   html.erase(0, html.find("</style>"));
   std::string text;

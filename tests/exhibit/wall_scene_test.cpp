@@ -165,7 +165,7 @@ TEST_F(WallSceneTest, TheSwatchesAreSoFarApartThatTheRayCannotConfuseThem) {
   const auto targets = scene_.swatch_targets();
   ASSERT_EQ(targets.size(), 3U);
   for (std::size_t aim = 0; aim < targets.size(); ++aim) {
-    const glm::dvec3 grip = scene_.wand_grip_m();
+    const glm::dvec3 grip = scene_.places().wand_grip_m();
     const input::Ray ray{.origin_m = grip, .direction = glm::normalize(targets[aim].center_m - grip)};
     EXPECT_EQ(input::pick(ray, input::kPickConeRad, targets), aim);
   }
@@ -194,7 +194,7 @@ TEST_F(WallSceneTest, NineMaterialsStandApartAndAllCanBePicked) {
   ASSERT_EQ(targets.size(), 9U);
   for (std::size_t aim = 0; aim < targets.size(); ++aim) {
     // from the eye, as the mouse points, and from the hand, as the wand does
-    for (const glm::dvec3& from : {viewer_, many.wand_grip_m()}) {
+    for (const glm::dvec3& from : {viewer_, many.places().wand_grip_m()}) {
       const input::Ray ray{.origin_m = from, .direction = glm::normalize(targets[aim].center_m - from)};
       EXPECT_EQ(input::pick(ray, input::kPickConeRad, targets), aim);
     }

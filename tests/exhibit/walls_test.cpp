@@ -140,7 +140,7 @@ void expect_everything_in_its_place(const std::string& wall_file, const std::str
   std::vector<Place> places{place_of("banner", frame.panels.banner.placement, *stage),
                             place_of("force", frame.panels.force.placement, *stage),
                             place_of("data", frame.panels.data.placement, *stage),
-                            place_of("tab", stage->wall_scene.parameter_tab_placement(), *stage)};
+                            place_of("tab", stage->wall_scene.places().parameter_tab(), *stage)};
   for (const render::Label& label : frame.labels) places.push_back(place_of(label.text, label.placement, *stage));
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto& [name, screen, rectangle] = places[i];
@@ -192,7 +192,7 @@ class DepthOfAWall : public test::VulkanTest {
     render::DepthMeter meter(context_, renderer);
     render::DepthRange whole{1e9, 0.0};
     for (const double lift : {-0.3, 1.4}) {
-      const glm::dvec3 grip = stage.wall_scene.wand_grip_m();
+      const glm::dvec3 grip = stage.wall_scene.places().wand_grip_m();
       const glm::dvec3 target = stage.wall_scene.swatch_targets().front().center_m;
       Moment moment;
       input::WandState wand;

@@ -76,7 +76,7 @@ class ViewInAHeadset : public ::testing::Test {
   void choose(std::size_t material) const {
     const scene::HeadPose floor = room_from_headset_floor(stage_.wall, stage_.screen);
     const glm::dquat floor_from_room = glm::conjugate(floor.room_from_head);
-    const glm::dvec3 hand = stage_.wall_scene.wand_grip_m();
+    const glm::dvec3 hand = stage_.wall_scene.places().wand_grip_m();
     const glm::dvec3 swatch = stage_.wall_scene.swatch_targets()[material].center_m;
     const glm::dvec3 from = floor_from_room * (hand - floor.position_m);
     const glm::dquat turn =

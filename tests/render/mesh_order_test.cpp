@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "passes/mesh_order.h"
+#include "drawing/mesh_order.h"
 
 #include <gtest/gtest.h>
 

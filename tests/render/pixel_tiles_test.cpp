@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "passes/pixel_tiles.h"
+#include "drawing/pixel_tiles.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "passes/shader_variant.h"
+#include "drawing/shader_variant.h"
 
 #include <gtest/gtest.h>
 

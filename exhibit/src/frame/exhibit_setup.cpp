@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "exhibit/frame/frame_builder.h"
+#include "exhibit/models/user_models.h"
 #include "physics/quantity_text.h"
 
 namespace afm::exhibit {

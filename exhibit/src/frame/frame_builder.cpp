@@ -12,6 +12,7 @@
 #include "exhibit/panels/data_panel.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scenery/journey.h"
+#include "exhibit/scenery/wall_scene.h"
 #include "haptics/scaling.h"
 #include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"

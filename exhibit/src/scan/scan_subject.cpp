@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "exhibit/scenery/wall_scene.h"
 #include "haptics/sample_surface.h"
 #include "physics/imaging/height_grid.h"
 #include "physics/imaging/morphology.h"

@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "exhibit/models/drawn_surface.h"
 #include "exhibit/models/model_builder.h"
+#include "exhibit/models/user_models.h"
 #include "models/height_bar.h"
 #include "physics/contact.h"
 #include "scene/graph/height_field.h"
@@ -24,24 +25,11 @@ using glm::dvec3;
 
 }  // namespace
 
-void WallScene::add_instrument(ModelBuilder& build, const UserModels& own) {
-  layout_ = build.frame("layout", std::nullopt, room_from_layout_);
+void WallScene::add_frames(ModelBuilder& build, const UserModels& own) {
+  layout_ = build.frame("layout", std::nullopt, places_.room_from_layout());
   const double c = std::cos(kSampleTiltRad), s = std::sin(kSampleTiltRad);
   sample_frame_ = build.frame("sample", layout_, frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)));
-  floor_ = build.model("room.glb", "room", layout_);
-  stage_ = build.model_in_frame_of("stage", "stage.glb", "stage", sample_frame_);
-  post_ = build.node("stage/post");
-  foot_ = build.node("stage/foot");
-  probe_frame_ = build.frame("probe-frame", sample_frame_, dmat4(1.0));
-  lever_ = own.probe ? build.part(*own.probe, "probe", probe_frame_) : build.model("probe.glb", "probe", probe_frame_);
-  cantilever_ = build.node("probe/cantilever");
-  tip_ = build.node("probe/tip");
-  apex_ = build.node("probe/apex");
-  optics_ = build.model("optics.glb", "optics", layout_);
-  laser_ = build.node("optics/laser");
-  photodiode_ = build.node("optics/photodiode");
-  beam_in_ = build.node("optics/beam");
-  spot_ = build.node("optics/spot");
+  instrument_ = Instrument(build, layout_, sample_frame_, own);
   build.model("wand.glb", "wand", layout_);
   wand_ = build.node("wand/wand");
   ray_ = build.node("wand/ray");
@@ -75,12 +63,17 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
 }
 
 core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
+                                        const StagePlace& place, const Phrases& phrases) {
+  return load(assets_dir, materials, place, phrases, UserModels{});
+}
+
+core::Result<WallScene> WallScene::load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
                                         const StagePlace& place, const Phrases& phrases, const UserModels& own) {
   WallScene w;
   w.phrases_ = phrases;
-  w.lay_out(place);
+  w.places_ = WallPlaces(place);
   ModelBuilder build(assets_dir + "/models", w.scene_);
-  w.add_instrument(build, own);
+  w.add_frames(build, own);
   for (const scene::MaterialEntry& material : materials.materials) {
     w.add_material(build, assets_dir, material, own);
     const auto of_this_title = [&](const scene::MaterialEntry& other) { return other.title == material.title; };
@@ -90,31 +83,14 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   }
   if (build.error()) return tl::unexpected(*build.error());
 
-  // the second half of the beam is a separate node with the same mesh
-  scene::Node beam_out = w.scene_.nodes[w.beam_in_];
-  beam_out.name = "optics/beam-reflected";
-  w.beam_out_ = static_cast<scene::NodeIndex>(w.scene_.nodes.size());
-  w.scene_.nodes.push_back(beam_out);
-
-  w.lever_length_ = dvec3(glm::inverse(ancestor_from_node(w.scene_, w.lever_, w.cantilever_)) *
-                          ancestor_from_node(w.scene_, w.lever_, w.tip_)[3])
-                        .x;
-  w.tip_length_ = -bounds_below(w.scene_, w.tip_).low.z;
-  const Bounds stage = bounds_below(w.scene_, build.node("stage/stage"));
-  w.stage_scale_ = kStageDrawnWidth / (stage.high.x - stage.low.x);
-  w.stage_height_ = w.stage_scale_ * (stage.high.z - stage.low.z);
-  w.floor_y_ = w.shelf_y_;
+  w.instrument_.measure(w.scene_, build);
+  double floor_y = w.places_.shelf_y();
   for (const MaterialLook& look : w.looks_) {
-    const double thickness = look.thickness_m * kStrokeHeight / look.stroke_m + w.stage_height_;
-    w.floor_y_ = std::min(w.floor_y_, -std::cos(kSampleTiltRad) * thickness - kLeastPost);
+    const double thickness = look.thickness_m * kStrokeHeight / look.stroke_m + w.instrument_.stage_height();
+    floor_y = std::min(floor_y, -std::cos(kSampleTiltRad) * thickness - kLeastPost);
   }
+  w.instrument_.set_floor(floor_y);
   return w;
-}
-
-void WallScene::add_height_bar(ModelBuilder& build) {
-  height_bar_ = build.part(height_bar(kHeightBarWidth / kHeightBarHeight), "height-bar", layout_);
-  scene_.nodes[height_bar_].parent_from_node =
-      glm::scale(glm::translate(dmat4(1.0), dvec3(height_bar_x(), kHeightBarBottom, 0.0)), dvec3(kHeightBarHeight));
 }
 
 // One mesh for all materials, in metres as measured. Each material's node contains its scale.
@@ -129,7 +105,9 @@ void WallScene::add_topography(ModelBuilder& build, const std::string& sample, c
     topography_ = model.topography;
     topography_relief_m_ = model.highest_m - model.lowest_m;
     topography_exaggeration_ = model.exaggeration;
-    add_height_bar(build);
+    height_bar_ = build.part(height_bar(kHeightBarWidth / kHeightBarHeight), "height-bar", layout_);
+    scene_.nodes[height_bar_].parent_from_node = glm::scale(
+        glm::translate(dmat4(1.0), dvec3(places_.height_bar_x(), kHeightBarBottom, 0.0)), dvec3(kHeightBarHeight));
     look.sample = build.part(model.sample, sample, sample_frame_);
     topography_mesh_ = scene_.nodes[build.node(sample + "/surface")].mesh;
   } else {
@@ -158,16 +136,14 @@ double WallScene::parameter_factor(std::size_t material, double release_z_m) con
 }
 
 DrawnScale WallScene::drawn_scale(std::size_t material, double release_z_m) const {
-  const double unit_m = glm::length(dvec3(room_from_layout_[0]));
+  const double unit_m = places_.unit_m();
   const double stroke_m = looks_[material].stroke_m * parameter_factor(material, release_z_m);
   return {.sample_m_per_m = stroke_m / (kStrokeHeight * unit_m),
-          .lever_m_per_m = lever_length_ / (kLeverDrawnLength * unit_m),
-          .tip_m_per_m = tip_length_ / (kTipDrawnLength * unit_m)};
+          .lever_m_per_m = instrument_.lever_length() / (kLeverDrawnLength * unit_m),
+          .tip_m_per_m = instrument_.tip_length() / (kTipDrawnLength * unit_m)};
 }
 
-double WallScene::journey_m_per_m(double orders) const {
-  return std::pow(10.0, -orders) / glm::length(dvec3(room_from_layout_[0]));
-}
+double WallScene::journey_m_per_m(double orders) const { return std::pow(10.0, -orders) / places_.unit_m(); }
 
 double WallScene::layout_per_m(const WallState& state) const {
   // before a choice the stage is empty, and the tip is at zero height
@@ -175,37 +151,27 @@ double WallScene::layout_per_m(const WallState& state) const {
   return kStrokeHeight / (looks_[*state.material].stroke_m * parameter_factor(*state.material, state.release_z_m));
 }
 
-glm::dvec3 WallScene::swatch_place(std::size_t i) const {
-  const std::size_t front = std::min(looks_.size(), kFrontSwatches);
-  const auto across = [](std::size_t place, std::size_t count, double spacing) {
-    return spacing * (static_cast<double>(place) - 0.5 * static_cast<double>(count - 1));
-  };
-  if (i < front) return {across(i, front, kSwatchSpacing), shelf_y_, shelf_z_};
-  return {across(i - front, looks_.size() - front, kBackSpacing), shelf_y_ + kBackRise, back_z_};
-}
-
 std::vector<input::Target> WallScene::swatch_targets() const {
   const double radius = looks_.size() <= kFewSwatches ? kSwatchRadius : kSlimSwatchRadius;
   std::vector<input::Target> targets;
   targets.reserve(looks_.size());
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    targets.push_back({dvec3(room_from_layout_ * glm::dvec4(swatch_place(i) + kSwatchCenter, 1.0)),
-                       radius * glm::length(dvec3(room_from_layout_[0]))});
+    targets.push_back(
+        {dvec3(places_.room_from_layout() * glm::dvec4(places_.swatch(i, looks_.size()) + kSwatchCenter, 1.0)),
+         radius * places_.unit_m()});
   }
   return targets;
 }
 
 glm::dvec3 WallScene::sample_normal() const {
   return glm::normalize(
-      dvec3(room_from_layout_ * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(0, 0, 1, 0)));
+      dvec3(places_.room_from_layout() * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(0, 0, 1, 0)));
 }
 
 glm::dvec3 WallScene::sample_right() const {
   return glm::normalize(
-      dvec3(room_from_layout_ * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(1, 0, 0, 0)));
+      dvec3(places_.room_from_layout() * scene_.nodes[sample_frame_].parent_from_node * glm::dvec4(1, 0, 0, 0)));
 }
-
-glm::dvec3 WallScene::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(wand_grip_, 1.0)); }
 
 glm::dvec3 WallScene::below_tip(const WallState& state) const {
   const auto& [x, y] = state.surface.xy_m;

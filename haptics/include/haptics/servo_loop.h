@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -19,18 +18,10 @@
 #include "haptics/safety.h"
 #include "haptics/sample_axes.h"
 #include "haptics/scan_guide.h"
+#include "haptics/servo_settings.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::haptics {
-
-// Settings of the servo, from touchafm's options.
-struct ServoSettings {
-  double rate_hz = 1000.0;                                       // 100 Hz to 10 kHz
-  double max_force_n = std::numeric_limits<double>::infinity();  // operator's limit, at least kLeastForceLimitN
-  bool dead_man = false;                                         // the force lasts only while Turn-On is held
-  std::int64_t spin_ns = 0;  // time spent spinning at the end of every wait, for a punctual tick; 0 to half a period
-  double linger_s = 0;       // time for which touchafm-servo keeps the device for another renderer after one has died
-};
 
 enum class ServoExit { RendererLeft, RendererDied, Stopped };
 
@@ -86,6 +77,17 @@ class ServoLoop {
     bool led = false;
   };
 
+  // Newest word of the renderer.
+  struct Heard {
+    std::optional<scene::RendererHeartbeat> heartbeat;
+    std::int64_t seen_ns = 0;
+    bool leaving = false;
+  };
+  struct Hand {
+    glm::dvec3 position_m;
+    glm::dvec3 from_contact_m{0.0};
+  };
+
   void read_shared_blocks(std::int64_t now_ns) noexcept;
   Wanted meet_sample(std::int64_t elapsed_ns) noexcept;
   std::optional<ScanGuide::Target> guide_target() const noexcept;
@@ -114,8 +116,7 @@ class ServoLoop {
   SampleAxes sample_;
   bool sample_moved_ = false;  // in this tick
   PositionCheck position_check_;
-  glm::dvec3 hand_position_m_;
-  glm::dvec3 hand_from_contact_m_{0.0};
+  Hand hand_;
   bool turn_on_ = false;
   bool device_healthy_ = true;
   bool changing_ = false;  // force removed for a change of material, scale or parameters
@@ -124,9 +125,7 @@ class ServoLoop {
   scene::TipState state_;
   std::int64_t previous_ns_ = 0;
 
-  std::optional<scene::RendererHeartbeat> heartbeat_;  // newest
-  bool leaving_ = false;
-  std::int64_t heartbeat_seen_ns_ = 0;
+  Heard heard_;
   std::uint32_t refused_transforms_ = 0;
   enum class Presence { Here, Lost, Died };
   std::atomic<Presence> presence_{Presence::Here};

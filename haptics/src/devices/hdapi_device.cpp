@@ -60,7 +60,7 @@ HdapiDevice::HdapiDevice(const HdapiFunctions& functions, const core::Clock& clo
       clock_(clock),
       handle_(handle),
       spec_(std::move(spec)),
-      calibration_style_(hdapi::calibration_style(functions)) {
+      calibration_{.style = hdapi::calibration_style(functions)} {
   spec_.force_lasts_s = core::seconds(kStaleNs);
 }
 
@@ -144,9 +144,9 @@ std::optional<std::string> HdapiDevice::supervise() {
   cut_ = stalled;
   // a driver with too few callbacks keeps stalling and recovering
   const std::int64_t now_ns = clock_.now_ns();
-  std::int64_t& told_ns = told_ns_[static_cast<std::size_t>(now)];
-  if (now == told_ || (told_ns != 0 && now_ns - told_ns < kSameLineNs)) return std::nullopt;
-  told_ = now;
+  std::int64_t& told_ns = told_.at_ns[static_cast<std::size_t>(now)];
+  if (now == told_.newest || (told_ns != 0 && now_ns - told_ns < kSameLineNs)) return std::nullopt;
+  told_.newest = now;
   told_ns = now_ns;
   const std::uint32_t code = stalled ? 0 : error_code_.load();
   return fmt::format("{}: {}{}", spec_.name, describe(now),
@@ -175,7 +175,7 @@ void HdapiDevice::run_frame() noexcept {
   const HdapiHealth health = own_health(now_ns);
   frame_.ready = health == HdapiHealth::Ready ? 1 : 0;
   frames_.store(frame_);
-  error_code_.store(health == fault_ ? fault_code_ : 0);
+  error_code_.store(health == fault_.health ? fault_.code : 0);
   health_.store(health);
   last_frame_ns_.store(now_ns);
   called_.store(true);
@@ -215,17 +215,17 @@ void HdapiDevice::read_hand(std::int64_t now_ns) noexcept {
 }
 
 void HdapiDevice::follow_calibration(std::int64_t now_ns) noexcept {
-  if (calibration_ != HdapiHealth::Starting && now_ns - calibration_checked_ns_ < kCalibrationCheckNs) return;
-  calibration_checked_ns_ = now_ns;
+  if (calibration_.health != HdapiHealth::Starting && now_ns - calibration_.checked_ns < kCalibrationCheckNs) return;
+  calibration_.checked_ns = now_ns;
   const std::uint32_t status = hd_.check_calibration();
   if (status == hdapi::kCalibrated) {
-    calibration_ = HdapiHealth::Ready;
+    calibration_.health = HdapiHealth::Ready;
   } else if (status == hdapi::kNeedsUpdate) {
     // the new origin may move the hand's position, so never while a force is on
-    if (output_ == Output::Off) hd_.update_calibration(calibration_style_);
-    calibration_ = HdapiHealth::Calibrating;
+    if (output_ == Output::Off) hd_.update_calibration(calibration_.style);
+    calibration_.health = HdapiHealth::Calibrating;
   } else {
-    calibration_ = HdapiHealth::NeedsInkwell;
+    calibration_.health = HdapiHealth::NeedsInkwell;
   }
 }
 
@@ -270,15 +270,15 @@ void HdapiDevice::take_errors(std::int64_t now_ns) noexcept {
 }
 
 void HdapiDevice::raise(HdapiHealth fault, std::uint32_t error_code, std::int64_t now_ns) noexcept {
-  if (fault_until_ns_ == kForEver) return;
+  if (fault_.until_ns == kForEver) return;
   const auto recovery = recovery_ns(fault);
-  fault_ = fault;
-  fault_code_ = error_code;
-  fault_until_ns_ = recovery ? now_ns + *recovery : kForEver;
+  fault_.health = fault;
+  fault_.code = error_code;
+  fault_.until_ns = recovery ? now_ns + *recovery : kForEver;
 }
 
 HdapiHealth HdapiDevice::own_health(std::int64_t now_ns) const noexcept {
-  return now_ns < fault_until_ns_ ? fault_ : calibration_;
+  return now_ns < fault_.until_ns ? fault_.health : calibration_.health;
 }
 
 namespace {

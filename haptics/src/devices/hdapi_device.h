@@ -82,6 +82,20 @@ class HdapiDevice final : public HapticDevice {
     glm::dvec3 force_n{0.0};
   };
   enum class Output { Unknown, Off, On };
+  struct Calibration {
+    std::uint32_t style = 0;
+    HdapiHealth health = HdapiHealth::Starting;
+    std::int64_t checked_ns = 0;
+  };
+  struct Fault {
+    HdapiHealth health = HdapiHealth::Ready;
+    std::uint32_t code = 0;
+    std::int64_t until_ns = 0;
+  };
+  struct Told {
+    HdapiHealth newest = HdapiHealth::Starting;
+    std::array<std::int64_t, static_cast<std::size_t>(HdapiHealth::DeviceFault) + 1> at_ns{};  // time of each line
+  };
 
   HdapiDevice(const HdapiFunctions& functions, const core::Clock& clock, HdapiHandle handle, DeviceSpec spec);
 
@@ -121,12 +135,8 @@ class HdapiDevice final : public HapticDevice {
   Frame frame_;
   bool has_position_ = false;
   glm::dvec3 raw_position_m_{0.0};
-  std::uint32_t calibration_style_ = 0;
-  HdapiHealth calibration_ = HdapiHealth::Starting;
-  std::int64_t calibration_checked_ns_ = 0;
-  HdapiHealth fault_ = HdapiHealth::Ready;
-  std::uint32_t fault_code_ = 0;
-  std::int64_t fault_until_ns_ = 0;
+  Calibration calibration_;
+  Fault fault_;
   Output output_ = Output::Unknown;
   TimedForce command_;
   std::int64_t trust_ns_ = 0;  // 0 to kReturnNs: weight of the servo's commands
@@ -137,8 +147,7 @@ class HdapiDevice final : public HapticDevice {
   std::int64_t tick_ns_ = 0;
 
   // supervisor's thread
-  HdapiHealth told_ = HdapiHealth::Starting;
-  std::array<std::int64_t, static_cast<std::size_t>(HdapiHealth::DeviceFault) + 1> told_ns_{};  // time of each line
+  Told told_;
   bool cut_ = false;
   std::thread supervisor_;
 };

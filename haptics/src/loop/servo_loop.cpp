@@ -108,7 +108,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       governor_(safety_limits(spec_, period_ns_, Scaling::kStrokeM, settings.dead_man)),
       guide_(spec_),
       position_check_(spec_.measures),
-      hand_position_m_(spec_.contact_point_m) {
+      hand_{.position_m = spec_.contact_point_m} {
   shared_.store(shared(spec_));
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
   const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
@@ -135,8 +135,8 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   // a failed device, or an implausible position, leaves the last known one in use; the governor handles it below
   device_healthy_ = hand.healthy && is_within_reach(hand.position_m);
   if (device_healthy_) {
-    hand_position_m_ = hand.position_m;
-    hand_from_contact_m_ = hand.position_m - spec_.contact_point_m;
+    hand_.position_m = hand.position_m;
+    hand_.from_contact_m = hand.position_m - spec_.contact_point_m;
   } else if (model_ != nullptr) {
     model_->wait_for_lift();
   }
@@ -179,16 +179,16 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
 // While the scan leads the hand, the force law is silent and waits for a lift.
 ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
   touch_ = {};
-  Wanted wanted{.hand_height_m = glm::dot(hand_from_contact_m_, sample_.normal()), .energy = {}};
+  Wanted wanted{.hand_height_m = glm::dot(hand_.from_contact_m, sample_.normal()), .energy = {}};
   if (model_ == nullptr) return wanted;
   const double elapsed_s = 1e-9 * static_cast<double>(std::min(elapsed_ns, kMostTicksOfMotion * period_ns_));
-  const ScanGuide::Pull pull = guide_.step({.hand_m = hand_from_contact_m_,
+  const ScanGuide::Pull pull = guide_.step({.hand_m = hand_.from_contact_m,
                                             .target = guide_target(),
                                             .force_on = governor_.state() == scene::ServoState::Running,
                                             .turn_on = turn_on_ && device_healthy_,
                                             .elapsed_s = elapsed_s});
   if (pull.leads) model_->wait_for_lift();
-  touch_ = model_->step(sample_.in_sample(hand_from_contact_m_),
+  touch_ = model_->step(sample_.in_sample(hand_.from_contact_m),
                         {.on = scan_.hand == scene::ScanHand::Scans && scan_.feedback != 0,
                          .gain_per_s = scan_.gain_per_s,
                          .elapsed_s = elapsed_s,
@@ -216,9 +216,9 @@ std::optional<ScanGuide::Target> ServoLoop::guide_target() const noexcept {
 void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
   if (const auto heartbeat = shared_.new_heartbeat()) {
     // the time of arrival counts, not the time in the heartbeat
-    heartbeat_seen_ns_ = now_ns;
-    leaving_ = leaving_ || heartbeat->leaving != 0;
-    heartbeat_ = heartbeat;
+    heard_.seen_ns = now_ns;
+    heard_.leaving = heard_.leaving || heartbeat->leaving != 0;
+    heard_.heartbeat = heartbeat;
   }
   if (const auto transforms = shared_.new_transforms()) {
     const SampleAxes before = sample_;
@@ -278,11 +278,11 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
 
 RendererLink ServoLoop::renderer_link(std::int64_t now_ns) const noexcept {
   if (presence_.load(std::memory_order_relaxed) != Presence::Here) return RendererLink::Died;
-  if (leaving_ || stop_.load(std::memory_order_relaxed)) return RendererLink::Leaving;
-  if (!heartbeat_) return RendererLink::Absent;
-  if (heartbeat_->stop != 0) return RendererLink::Stopped;
-  if (now_ns - heartbeat_seen_ns_ > SafetyGovernor::kHangNs) return RendererLink::Hung;
-  return heartbeat_->unseen != 0 ? RendererLink::Unseen : RendererLink::Alive;
+  if (heard_.leaving || stop_.load(std::memory_order_relaxed)) return RendererLink::Leaving;
+  if (!heard_.heartbeat) return RendererLink::Absent;
+  if (heard_.heartbeat->stop != 0) return RendererLink::Stopped;
+  if (now_ns - heard_.seen_ns > SafetyGovernor::kHangNs) return RendererLink::Hung;
+  return heard_.heartbeat->unseen != 0 ? RendererLink::Unseen : RendererLink::Alive;
 }
 
 void ServoLoop::publish_events(std::int64_t now_ns) noexcept {
@@ -319,7 +319,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                 .sample_deformation_m = response.sample_deformation.si};
   state_.surface = {.xy_m = {touch_.tip_xy_m.x, touch_.tip_xy_m.y}, .height_m = touch_.surface_height_m};
   state_.normal = array_of(sample_.in_device(touch_.normal));
-  state_.hand.position_m = array_of(hand_position_m_);
+  state_.hand.position_m = array_of(hand_.position_m);
   state_.safety = {.force_cap_n = governor_.force_cap_n(),
                    .slew_limit_n_per_s = governor_.slew_limit_n_per_s(),
                    .motor_heat = governor_.motors().heat(),
@@ -344,7 +344,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   shared_.push(scene::TipSample{.time_ns = now_ns,
                                 .tick = state_.tick,
                                 .tip = state_.tip,
-                                .hand_height_m = glm::dot(hand_from_contact_m_, normal),
+                                .hand_height_m = glm::dot(hand_.from_contact_m, normal),
                                 .hand_force_n = glm::dot(glm::dvec3(x, y, z), normal),
                                 .servo_state = state_.servo_state,
                                 .phase = state_.phase,
@@ -354,7 +354,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                 .turn_on = turn_on_ ? 1U : 0U,
                                 .renderer = renderer_,
                                 .scale_mode = state_.active.scale_mode,
-                                .hand_from_contact_m = array_of(hand_from_contact_m_),
+                                .hand_from_contact_m = array_of(hand_.from_contact_m),
                                 .sample_normal = array_of(normal),
                                 .sample_x = array_of(sample_.x()),
                                 .surface = state_.surface,
@@ -366,8 +366,8 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
 }
 
 bool ServoLoop::finished() const noexcept {
-  const bool ending =
-      leaving_ || presence_.load(std::memory_order_relaxed) == Presence::Died || stop_.load(std::memory_order_relaxed);
+  const bool ending = heard_.leaving || presence_.load(std::memory_order_relaxed) == Presence::Died ||
+                      stop_.load(std::memory_order_relaxed);
   return ending && governor_.released();
 }
 
@@ -393,7 +393,7 @@ ServoExit ServoLoop::run(const core::MonotonicClock& clock) noexcept {
   } while (!finished());
 
   shared_.store(timing_);
-  if (leaving_) return ServoExit::RendererLeft;
+  if (heard_.leaving) return ServoExit::RendererLeft;
   return presence_.load(std::memory_order_relaxed) == Presence::Here ? ServoExit::Stopped : ServoExit::RendererDied;
 }
 

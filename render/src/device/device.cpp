@@ -14,7 +14,7 @@
 #include "core/check.h"
 #include "core/interruption.h"
 #include "device/extensions.h"
-#include "output/window_handle.h"
+#include "device/presentation.h"
 
 namespace afm::render {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "device/memory.h"
+#include "drawing/eye_targets.h"
 #include "headset/openxr_calls.h"
-#include "passes/eye_targets.h"
 
 namespace afm::render {
 

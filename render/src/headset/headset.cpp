@@ -7,7 +7,7 @@
 
 #include "device/device_error.h"
 #include "headset/headset_session.h"
-#include "passes/renderer_parts.h"
+#include "renderer/renderer_parts.h"
 
 namespace afm::render {
 

@@ -13,7 +13,7 @@
 #include "core/check.h"
 #include "device/device_error.h"
 #include "output/window_surface.h"
-#include "passes/renderer_parts.h"
+#include "renderer/renderer_parts.h"
 
 namespace afm::render {
 namespace {

@@ -7,12 +7,12 @@
 #include <span>
 #include <utility>
 
+#include "composition/readback.h"
 #include "core/check.h"
 #include "device/barriers.h"
 #include "device/device_error.h"
 #include "output/png_writer.h"
-#include "output/readback.h"
-#include "passes/renderer_parts.h"
+#include "renderer/renderer_parts.h"
 
 namespace afm::render {
 

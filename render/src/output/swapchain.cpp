@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "passes/eye_targets.h"
+#include "drawing/eye_targets.h"
 
 namespace afm::render {
 namespace {

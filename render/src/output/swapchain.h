@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "composition/composer.h"
 #include "device/device.h"
-#include "output/composer.h"
 #include "render/presenter.h"
 
 namespace afm::render {

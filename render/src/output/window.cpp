@@ -37,16 +37,6 @@ std::string label_of_key(int code) {
 
 }  // namespace
 
-std::vector<const char*> surface_extensions() {
-  std::uint32_t count = 0;
-  const char* const* names = glfwGetRequiredInstanceExtensions(&count);
-  return {names, names + count};
-}
-
-bool can_present(const vk::raii::Instance& instance, const vk::raii::PhysicalDevice& physical, std::uint32_t family) {
-  return glfwGetPhysicalDevicePresentationSupport(*instance, *physical, family) == GLFW_TRUE;
-}
-
 core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptions& options) {
   auto system = WindowSystem::join();
   if (!system) return tl::unexpected(system.error());

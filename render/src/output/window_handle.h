@@ -68,10 +68,4 @@ class WindowHandle {
   int windowed_x_ = 0, windowed_y_ = 0, windowed_width_ = 0, windowed_height_ = 0;  // restored after full screen
 };
 
-// Instance extensions that GLFW needs for surfaces. Empty before a window has been opened.
-std::vector<const char*> surface_extensions();
-
-// True if this queue can present to this machine's windows.
-bool can_present(const vk::raii::Instance& instance, const vk::raii::PhysicalDevice& physical, std::uint32_t family);
-
 }  // namespace afm::render

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "output/composer.h"
+#include "composition/composer.h"
 #include "output/swapchain.h"
 #include "output/window_handle.h"
 #include "render/presenter.h"

@@ -4,8 +4,8 @@
 #include <glm/vec2.hpp>
 
 #include "device/vulkan.h"
+#include "drawing/pixel_area.h"
 #include "panels/painted_shapes.h"
-#include "passes/pixel_area.h"
 
 namespace afm::render {
 

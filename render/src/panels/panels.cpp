@@ -139,25 +139,25 @@ void Panels::upload_atlas() {
   const Buffer staging =
       create_host_buffer(device_, "font atlas staging", bytes, vk::BufferUsageFlagBits::eTransferSrc);
   std::memcpy(staging.mapped, pixels, bytes);
-  atlas_ = create_image(device_, "font atlas",
-                        {.format = vk::Format::eR8Unorm,
-                         .extent = extent,
-                         .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
+  atlas_.image = create_image(device_, "font atlas",
+                              {.format = vk::Format::eR8Unorm,
+                               .extent = extent,
+                               .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
   const ImageUse fresh{};
   const ImageUse copied{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferWrite,
                         vk::ImageLayout::eTransferDstOptimal};
   const ImageUse sampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
                          vk::ImageLayout::eShaderReadOnlyOptimal};
   device_.run_once([&](const vk::raii::CommandBuffer& command) {
-    record_barriers(command, {image_barrier(*atlas_.image, kColorAspect, fresh, copied)});
-    command.copyBufferToImage(*staging.buffer, *atlas_.image, copied.layout,
+    record_barriers(command, {image_barrier(*atlas_.image.image, kColorAspect, fresh, copied)});
+    command.copyBufferToImage(*staging.buffer, *atlas_.image.image, copied.layout,
                               vk::BufferImageCopy{.imageSubresource = {.aspectMask = kColorAspect, .layerCount = 1},
                                                   .imageExtent = {extent.width, extent.height, 1}});
-    record_barriers(command, {image_barrier(*atlas_.image, kColorAspect, copied, sampled)});
+    record_barriers(command, {image_barrier(*atlas_.image.image, kColorAspect, copied, sampled)});
   });
-  atlas_view_ = create_view(device_, atlas_, kColorAspect, 0, 1);
-  atlas_pool_ = create_pool();
-  atlas_set_ = create_set(atlas_pool_, *atlas_view_);
+  atlas_.view = create_view(device_, atlas_.image, kColorAspect, 0, 1);
+  atlas_.pool = create_pool();
+  atlas_.set = create_set(atlas_.pool, *atlas_.view);
 }
 
 vk::raii::DescriptorPool Panels::create_pool() const {
@@ -280,19 +280,19 @@ bool Panels::update(const FrameState& frame, std::size_t slot) {
       [&](auto& painted, const auto& shown) {
         update(slots_[slot_index++], shown.placement, shown.content, painted.content);
       },
-      painted_, frame.panels);
+      painted_.panels, frame.panels);
   labels_.resize(std::max(labels_.size(), frame.labels.size()));
-  painted_labels_.resize(labels_.size());
+  painted_.labels.resize(labels_.size());
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     const Label& label = i < frame.labels.size() ? frame.labels[i] : kNoLabel;
-    update(labels_[i], label.placement, label, painted_labels_[i]);
+    update(labels_[i], label.placement, label, painted_.labels[i]);
   }
   const PanelSlot<CalibrationPanel>& calibration = frame.panels.calibration;
   for (std::size_t i = 0; i < eye_marks_.size(); ++i) {
     eye_marks_[i].only_eye = scene::kEyes[i];
     update(eye_marks_[i],
            calibration.content.eye_marks ? mark_placement(calibration.placement, scene::kEyes[i]) : kNoPlacement,
-           EyeMark{scene::kEyes[i]}, painted_marks_[i]);
+           EyeMark{scene::kEyes[i]}, painted_.marks[i]);
   }
   return !paintings_.empty();
 }
@@ -328,7 +328,7 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
       {.renderArea = part.rect(), .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &color});
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, *canvas_pipeline_);
   set_viewport(command, extent);
-  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *canvas_layout_, 0, *atlas_set_, nullptr);
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *canvas_layout_, 0, *atlas_.set, nullptr);
   const CanvasBlock block{.scale = {2.0F / panel.canvas_texels.x, 2.0F / panel.canvas_texels.y, 0.0F, 0.0F}};
   command.pushConstants<CanvasBlock>(*canvas_layout_, vk::ShaderStageFlagBits::eVertex, 0, block);
   command.bindVertexBuffers(0, *geometry.vertices.buffer, vk::DeviceSize{0});

@@ -11,12 +11,12 @@
 
 #include "core/members.h"
 #include "device/memory.h"
+#include "drawing/eye_targets.h"
+#include "drawing/panel_sight.h"
 #include "panels/painted_shapes.h"
 #include "panels/panel_fonts.h"
 #include "panels/panel_painting.h"
 #include "panels/panel_part.h"
-#include "passes/eye_targets.h"
-#include "passes/panel_sight.h"
 #include "render/frame.h"
 #include "render/renderer.h"
 
@@ -103,6 +103,12 @@ class Panels {
     bool has_place = false;              // room to show it apart
     std::optional<scene::Eye> only_eye;  // shown to this eye only
   };
+  // Contents that the textures show.
+  struct Contents {
+    FramePanels panels;
+    std::vector<Label> labels;
+    std::array<EyeMark, 2> marks;
+  };
   // Vertices and indices of everything painted in one frame.
   struct Geometry {
     Buffer vertices;
@@ -143,18 +149,12 @@ class Panels {
   EyePipeline rectangle_pipeline_;
   EyePipeline over_all_pipeline_;  // draws the banner, which nothing covers
   vk::raii::Sampler sampler_;
-  DeviceImage atlas_;
-  vk::raii::ImageView atlas_view_{nullptr};
-  vk::raii::DescriptorPool atlas_pool_{nullptr};
-  vk::raii::DescriptorSet atlas_set_{nullptr};
+  Texture atlas_;
   std::array<Geometry, kFramesInFlight> geometry_;
   std::array<Panel, kSlots> slots_;  // in the order of FramePanels
   std::vector<Panel> labels_;
   std::array<Panel, 2> eye_marks_;
-  // what the textures of these show
-  FramePanels painted_;
-  std::vector<Label> painted_labels_;
-  std::array<EyeMark, 2> painted_marks_;
+  Contents painted_;
   std::uint64_t revision_ = 0;
   std::vector<Panel*> order_, drawn_;  // used by set_apart(); kept to reuse their memory
 

@@ -10,8 +10,8 @@
 #include <limits>
 #include <span>
 
-#include "device/frame_blocks.h"
-#include "panels/draw_box.h"
+#include "drawing/draw_box.h"
+#include "drawing/frame_blocks.h"
 
 namespace afm::render {
 namespace {

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "device/shader_interface.h"
+#include "drawing/draw_list.h"
+#include "drawing/eye_targets.h"
+#include "drawing/pixel_area.h"
+#include "drawing/pixel_tiles.h"
+#include "drawing/scene_geometry.h"
 #include "panels/panels.h"
-#include "passes/draw_list.h"
-#include "passes/eye_targets.h"
-#include "passes/pixel_area.h"
-#include "passes/pixel_tiles.h"
-#include "passes/scene_geometry.h"
 #include "render/frame.h"
 
 namespace afm::render {

@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "device/frame_blocks.h"
 #include "device/memory.h"
-#include "passes/draw_list.h"
-#include "passes/eye_targets.h"
-#include "passes/pixel_area.h"
+#include "drawing/draw_list.h"
+#include "drawing/eye_targets.h"
+#include "drawing/frame_blocks.h"
+#include "drawing/pixel_area.h"
 #include "passes/shadow_map.h"
 
 namespace afm::render {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <span>
 
+#include "drawing/draw_list.h"
+#include "drawing/eye_targets.h"
+#include "drawing/scene_geometry.h"
 #include "passes/damage.h"
-#include "passes/draw_list.h"
-#include "passes/eye_targets.h"
-#include "passes/scene_geometry.h"
 #include "passes/scene_materials.h"
 
 namespace afm::render {

@@ -5,8 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
-#include "device/frame_blocks.h"
-#include "panels/draw_box.h"
+#include "drawing/draw_box.h"
+#include "drawing/frame_blocks.h"
 
 namespace afm::render {
 namespace {

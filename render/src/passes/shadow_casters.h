@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "device/vulkan.h"
-#include "passes/draw_list.h"
-#include "passes/scene_geometry.h"
+#include "drawing/draw_list.h"
+#include "drawing/scene_geometry.h"
 #include "render/frame.h"
 
 namespace afm::render {

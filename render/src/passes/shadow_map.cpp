@@ -2,9 +2,9 @@
 #include "passes/shadow_map.h"
 
 #include "device/barriers.h"
-#include "device/frame_blocks.h"
 #include "device/pipelines.h"
-#include "passes/eye_targets.h"
+#include "drawing/eye_targets.h"
+#include "drawing/frame_blocks.h"
 
 namespace afm::render {
 namespace {

@@ -12,21 +12,11 @@
 #include "core/clock.h"
 #include "core/result.h"
 #include "scene/shared/shared_segment.h"
-#include "servo/servo_process.h"
+#include "servo/running_servo.h"
+#include "servo/servo_choice.h"
 #include "servo/tip_listener.h"
 
 namespace afm::servo {
-
-enum class ServoMode { Process, Thread };
-
-inline constexpr double kServoRateHz = 1000.0;
-
-// Settings of a servo and its device.
-struct ServoChoice {
-  ServoMode mode = ServoMode::Process;
-  std::string haptic_device = "sim";  // value for parse_haptic_choice()
-  haptics::ServoSettings settings{.rate_hz = kServoRateHz};
-};
 
 // Frame loop's interface to the servo: starts it with a new segment, sends it the selection and the transforms, and
 // receives every sample and event. One thread.

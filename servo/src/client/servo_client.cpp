@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "core/exit_code.h"
 #include "servo/haptic_choice.h"
+#include "servo/servo_process.h"
 #include "servo/servo_takeover.h"
 
 namespace afm::servo {

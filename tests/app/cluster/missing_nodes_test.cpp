@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/cluster/cluster_master.h"
+#include "render/frame.h"
 #include "support/phrases.h"
 
 namespace afm::app {

@@ -58,7 +58,7 @@ class LessonView : public ::testing::Test {
     files.aspect = static_cast<double>(kWidth) / kHeight;
     exhibit::Stage stage = exhibit::load_exhibit(files).value();
     stage.wall.viewers.front().ipd_m = 0.0;
-    const auto place = exhibit::lesson_places(stage.wall_scene.parameter_placement(), targets).targets.at(target);
+    const auto place = exhibit::lesson_places(stage.wall_scene.places().parameters(), targets).targets.at(target);
     const glm::dvec3 middle_m = place.lower_left_m + 0.5 * (place.right_m + place.up_m);
     const scene::EyeView eye = exhibit::eyes_at_sweet_spot(stage.wall).value()[0];
     const glm::dvec4 clip = eye.projection * eye.view * glm::dvec4(middle_m, 1.0);

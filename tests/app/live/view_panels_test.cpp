@@ -13,10 +13,13 @@
 #include <vector>
 
 #include "app/live/view_keys.h"
+#include "cluster/frame_message.h"
 #include "core/enumerators.h"
 #include "curves/sample_model.h"
 #include "exhibit/frame/calibration.h"
+#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
+#include "exhibit/friction/friction_history.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 #include "support/places.h"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "curves/sample_model.h"
-#include "exhibit/scenery/wall_scene.h"
 #include "exhibit/state/moment.h"
 #include "exhibit/words/phrases.h"
 #include "render/frame.h"
@@ -15,6 +14,8 @@
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::exhibit {
+
+class WallScene;
 
 // Phase of the cycle, with the letters of the paper's Fig. 2.
 Phrase stage_of_cycle(const Moment& moment, double z_jtc_m);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/enumerators.h"
-#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/exhibit_files.h"
 #include "scene/shared/scale_modes.h"
 #include "study/step_kind.h"
 

@@ -5,9 +5,10 @@
 
 #include "curves/sample_model.h"
 #include "exhibit/scan/live_scan.h"
-#include "exhibit/scenery/wall_scene.h"
 
 namespace afm::exhibit {
+
+class WallScene;
 
 // The drawn sample of a material for a scan: the surface that is felt (haptics::SampleSurface) before its smoothing for
 // the device's stiffness, or a measured topography, which already includes its tip. The scanned square is within its

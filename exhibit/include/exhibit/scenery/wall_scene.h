@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/models/user_models.h"
 #include "exhibit/scenery/analogy.h"
+#include "exhibit/scenery/instrument.h"
 #include "exhibit/scenery/journey.h"
-#include "exhibit/scenery/wall_layout.h"
 #include "exhibit/scenery/wall_marks.h"
+#include "exhibit/scenery/wall_places.h"
 #include "exhibit/state/wall_state.h"
 #include "exhibit/words/phrases.h"
 #include "input/selection.h"
@@ -22,11 +22,13 @@
 #include "scene/display/wall.h"
 #include "scene/graph/scene.h"
 #include "scene/samples/material_library.h"
+#include "scene/shared/felt_heights.h"
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::exhibit {
 
 class ModelBuilder;
+struct UserModels;
 
 // Drawing scales: metres of the nanoworld (or of the instrument) per metre of the wall.
 struct DrawnScale {
@@ -40,7 +42,9 @@ struct DrawnScale {
 class WallScene {
  public:
   static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
-                                      const StagePlace& place, const Phrases& phrases, const UserModels& own = {});
+                                      const StagePlace& place, const Phrases& phrases, const UserModels& own);
+  static core::Result<WallScene> load(const std::string& assets_dir, const scene::MaterialLibrary& materials,
+                                      const StagePlace& place, const Phrases& phrases);
 
   // Language of all texts on this wall.
   const Phrases& phrases() const { return phrases_; }
@@ -66,10 +70,13 @@ class WallScene {
   }
 
   // The contact point; in the wall's plane until something has been moved.
-  glm::dvec3 contact_m() const { return glm::dvec3(room_from_layout_[3]); }
+  glm::dvec3 contact_m() const { return glm::dvec3(places_.room_from_layout()[3]); }
+
+  // The places of its panels, and of the wand in a simulated person's hand.
+  const WallPlaces& places() const { return places_; }
 
   // Size of one layout unit in metres, chosen so that every wall looks the same.
-  double unit_m() const;
+  double unit_m() const { return places_.unit_m(); }
 
   // Size of a panel's millimetre in metres; larger than the layout's if the text is enlarged.
   double panel_millimetre_m() const { return 1e-3 * text_size_ * unit_m(); }
@@ -79,21 +86,11 @@ class WallScene {
   glm::dvec3 sample_normal() const;
   glm::dvec3 sample_right() const;
 
-  // Place of the wand in a simulated person's hand.
-  glm::dvec3 wand_grip_m() const;
-
   // Metres of the nanoworld per metre of the wall, at a point of the journey.
   double journey_m_per_m(double orders) const;
 
   // `release_z_m` as in WallState.
   DrawnScale drawn_scale(std::size_t material, double release_z_m = 0) const;
-
-  // Panel of a material's parameters, in place of its data, and the target that opens it.
-  render::PanelPlacement parameter_placement() const;
-  render::PanelPlacement parameter_tab_placement() const;
-
-  // Placement of a short note below the left panel.
-  render::PanelPlacement note_placement() const;
 
   // Transforms of all nodes, room from node.
   std::vector<glm::dmat4> node_transforms(const WallState& state) const;
@@ -114,49 +111,25 @@ class WallScene {
     scene::TopographyScale topography;
   };
 
-  // Pose of the lever in the sample's frame, layout units.
-  struct LeverPose {
-    glm::dmat4 frame_from_lever{1.0};  // origin at the clamp, x along the unbent lever, z away from the sample
-    double end = 0;                    // end of the bent lever, along z
-    double angle = 0;                  // slope at that end, rad
-  };
-
-  void lay_out(const StagePlace& stage);
-  void lay_out_front(const StagePlace& stage, double contact_height_m);
-  void lay_out_panels(const StagePlace& stage);
-  void add_instrument(ModelBuilder& build, const UserModels& own);
+  void add_frames(ModelBuilder& build, const UserModels& own);
   void add_material(ModelBuilder& build, const std::string& assets_dir, const scene::MaterialEntry& material,
                     const UserModels& own);
   void add_topography(ModelBuilder& build, const std::string& sample, const UserModels& own, MaterialLook& look);
   std::uint32_t height_field_of(const std::string& model, scene::NodeIndex surface);
-  LeverPose lever_pose(const WallState& state) const;
-  void place_probe(const WallState& state, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
   void place_sample(const WallState& state, std::vector<glm::dmat4>& local) const;
-  void place_stand(double thickness, std::vector<glm::dmat4>& local) const;
-  void place_optics(const WallState& state, std::vector<glm::dmat4>& local) const;
   void place_wand(const WallState& state, std::vector<glm::dmat4>& local) const;
   double parameter_factor(std::size_t material, double release_z_m) const;  // ratio of Z_joc to the material's own
   double layout_per_m(const WallState& state) const;                        // layout units per metre of the nanoworld
-  render::PanelPlacement plot_placement() const;                            // plot of the finale
-  render::PanelPlacement right_of_data(double inset) const;
-  glm::dvec3 swatch_place(std::size_t i) const;
   glm::dvec3 below_tip(const WallState& state) const;     // surface point below the tip, sample's frame, layout units
   double ruler_m_per_unit(const WallState& state) const;  // metres per layout unit at the ruler; 0: no ruler
   Analogy::Heights analogy_heights(const WallState& state) const;
   std::vector<scene::NodeIndex> hidden_roots(const WallState& state) const;
-  void place_panels(const WallState& state, render::FrameState& frame) const;
   void place_swatch_labels(const WallState& state, render::FrameState& frame) const;
   void place_analogy_labels(const WallState& state, render::FrameState& frame) const;
-  void place_fog(const WallState& state, render::FrameState& frame) const;
   void place_marks(const WallState& state, render::FrameState& frame) const;
-  void add_height_bar(ModelBuilder& build);
   void place_companion_label(const Journey::Companion& companion, render::FrameState& frame) const;
   void place_height_bar(const WallState& state, render::FrameState& frame) const;
-  double height_bar_x() const;
   std::vector<glm::dmat4> local_transforms(const WallState& state, render::BeamBend& bend) const;
-  std::vector<glm::dmat4> compose(const std::vector<glm::dmat4>& local) const;
-  render::PanelPlacement panel(double left, double bottom, double width, double height) const;         // in the wall
-  render::PanelPlacement panel_beside(double left, double bottom, double width, double height) const;  // in the layout
 
   scene::Scene scene_;
   Phrases phrases_;
@@ -169,27 +142,14 @@ class WallScene {
   double topography_exaggeration_ = 1;
   scene::NodeIndex height_bar_{};            // used if there is a topography
   std::vector<std::string> surface_models_;  // model of each surface
-  // origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre
-  glm::dmat4 room_from_layout_{1.0};
-  glm::dmat4 room_from_wall_{1.0};  // the same with y along the main screen; differs if that lies flat
+  WallPlaces places_;
   double text_size_ = 1.0;
-  WallShape shape_;
-  double half_width_ = 0;  // half width of the composition in layout units
-  double wall_top_ = 0;
-  double shelf_y_ = 0, shelf_z_ = 0, back_z_ = 0;
-  glm::dvec3 wand_grip_{0.0};
-  render::PanelPlacement force_placement_, data_placement_;
 
-  scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, stage_{}, post_{},
-      foot_{}, floor_{};
-  scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{}, wand_{}, ray_{}, apex_{};
+  scene::NodeIndex layout_{}, sample_frame_{}, wand_{}, ray_{};
+  Instrument instrument_;
   WallMarks marks_;
   Journey journey_;
   Analogy analogy_;
-  double lever_length_ = 0;  // glTF metres, clamp to tip axis
-  double tip_length_ = 0;    // glTF metres, base to apex
-  double stage_scale_ = 0, stage_height_ = 0;
-  double floor_y_ = 0;  // below the shelf and every sample's stage; layout units
 };
 
 }  // namespace afm::exhibit

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "exhibit/words/controls.h"
 #include "exhibit/words/phrases.h"
 #include "haptics/hand_controls.h"
 #include "scene/shared/tip_blocks.h"
@@ -42,13 +43,6 @@ struct CycleProgress {
 
 // Next step of the procedure, derived from the tip's real events.
 Hint next_step(const scene::TipState& tip, const StepsDone& done);
-
-using haptics::HandControls;
-enum class Pointer { Mouse, Wand };
-struct Controls {
-  HandControls hand = HandControls::Simulated;
-  Pointer pointer = Pointer::Wand;
-};
 
 // How to leave a view that replaces the instrument, and how to show the list of keys.
 enum class Note { Keys, LeaveJourney, LeaveAnalogy };

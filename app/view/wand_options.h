@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace afm::app {
+
+// Values of --wand, --wand-file and --head.
+struct WandOptions {
+  std::string source = "auto";  // auto, hid, dtrack[:ADDRESS:PORT], sim or mouse
+  std::string file{};           // empty: none
+  std::string head{};           // dtrack:BODY[@ADDRESS:PORT], sim:FILE, or empty: as in the wand file, if it has one
+};
+
+}  // namespace afm::app

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/clock.h"
+#include "curves/sample_model.h"
+#include "exhibit/lesson/data_set.h"
+#include "exhibit/lesson/hand_answer.h"
+#include "exhibit/lesson/instructor_page.h"
+#include "exhibit/lesson/lesson.h"
+#include "exhibit/lesson/lesson_panel.h"
+#include "exhibit/lesson/lesson_run.h"
+#include "exhibit/words/phrases.h"
+
+namespace afm::servo {
+class ServoClient;
+}
+
+namespace afm::exhibit {
+
+// A lesson at the live window: its prompts, the person's answers, the sample under the tip, and the data that are kept.
+// Main thread only.
+class LiveLesson {
+ public:
+  // `study`: where to store results; empty: nothing is kept and no consent is requested. Lesson, samples, phrases and
+  // clock must outlive the object.
+  LiveLesson(const Lesson& lesson, const std::vector<curves::SampleModel>& samples, const Phrases& phrases,
+             const std::optional<DataSetEntry>& study, const core::Clock& clock);
+
+  // Call once a frame.
+  void update();
+
+  const LessonPrompt& prompt() const { return prompt_; }
+  const Lesson& lesson() const { return lesson_; }
+  bool over() const { return prompt_.wants == LessonPrompt::Wants::Nothing; }
+
+  // Returns whether keys and swatches choose a sample: in free exploration of several.
+  bool chooses_sample() const;
+
+  void number(std::size_t number);  // keys 1 to 9, from 0
+  void press(const LessonTarget& target);
+  void enter();
+  void step(int steps);  // moves the mark on a scale
+  void skip();
+  void try_again();
+  void next();  // instructor: continues as Enter does
+  void stop();  // instructor: ends the lesson
+
+  // Call once a frame if a person moves the hand. The height moves the mark; Turn-On answers or continues, unless the
+  // lesson waits for a cycle.
+  void hand_moved(double height_m, std::uint64_t presses);
+  bool takes_hand() const;  // the hand answers, so it needs no force
+
+  // The marked answer, if the mark has moved since the last call.
+  std::optional<std::string> newly_marked();
+
+  std::vector<LessonTarget> targets() const { return lesson_targets(prompt_, mark_.marked(), phrases_); }
+  render::DataPanel panel() const { return lesson_panel(prompt_, phrases_); }
+
+  // Text to speak before the guidance when the prompt is new; empty otherwise.
+  std::string speech() const { return lesson_speech(prompt_, phrases_); }
+
+  // The page's state except that of the hand.
+  InstructorState instructor_state() const;
+
+  // Records in the kept data that sound was requested but is no longer available. Call once a frame.
+  void sound_is_lost();
+
+  // What the current prompt allows a participant: the scene on the wall, tones, the force.
+  bool shows_scene() const;
+  bool has_tones() const;
+  bool has_force() const;
+
+  // Puts the requested sample under the tip. Lays a blind sample again for each cycle, even the same one, so that the
+  // pause does not reveal whether it has changed. Call once a frame.
+  void lay_sample(servo::ServoClient& servo);
+  void forget_laid() { laid_.reset(); }  // after a new servo or a restart of the wall
+
+  // Handles a jump of the tip on the servo's current sample.
+  void happened(const scene::TipEvent& event, const servo::ServoClient& servo);
+
+  // Stops the running lesson when the window ends. Returns the error if results could not be stored.
+  core::Result<void> finish();
+
+ private:
+  struct Laid {
+    std::size_t task = 0;
+    std::uint32_t cycle = 0;
+    bool operator==(const Laid&) const = default;
+  };
+
+  double now_s() const { return static_cast<double>(clock_.now_ns()) * 1e-9; }
+  void acted();
+  core::Result<void> begin_data();
+  core::Result<void> keep(const TrialRow& row);
+
+  const Lesson& lesson_;
+  const std::vector<curves::SampleModel>& samples_;
+  const Phrases& phrases_;
+  std::optional<DataSetEntry> study_;
+  const core::Clock& clock_;
+  std::optional<DataSet> data_;
+  std::optional<core::Error> error_;
+  bool sound_lost_noted_ = false;
+  std::size_t right_ = 0, judged_ = 0;  // number of counted trials
+  LessonRun run_;
+  LessonPrompt prompt_;
+  HandAnswer mark_;
+  std::optional<std::size_t> told_mark_;
+  std::optional<Laid> laid_;
+  std::uint32_t edit_ = 0;    // revision of the variant under the tip; 0: parameters as loaded
+  std::vector<bool> varied_;  // true for materials with changed parameters
+};
+
+}  // namespace afm::exhibit

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "curves/sample_model.h"
+#include "physics/curve_analysis.h"
+#include "scene/shared/shared_blocks.h"
+#include "servo/session_file.h"
+
+namespace afm::exhibit {
+
+// The four numbers of the paper's Table 2 and Fig. 5, magnitudes in SI.
+struct CycleEvents {
+  double f_attr_n = 0;
+  double f_ad_n = 0;
+  double z_jtc_m = 0;
+  double z_joc_m = 0;
+};
+
+// Results of a recorded cycle, with the values from the law and from the experiments.
+struct Measurement {
+  std::string material;
+  std::string title;
+  std::string law;          // "dmt"
+  bool hysteretic = true;   // false: the lever is too stiff for jumps, so there is nothing to compare
+  bool judged = true;       // false: inertia and noise move a dynamic lever's jumps, so their error is not judged
+  CycleEvents measured;     // from the events, which have the exact crossing of the folds within a tick
+  CycleEvents calculation;  // folds of the law, solved with its tables; for a recording, its analysis
+  bool recorded = false;    // an instrument's curve, which may have no snap-in or pull-off; their values are then 0
+  bool snaps_in = true;
+  bool pulls_off = true;
+  double fold_n = 0;                  // attraction of the calculation just before the jump to contact
+  double loop_energy_j = 0;           // loop energy of the law as felt
+  double recorded_loop_energy_j = 0;  // loop energy of the recording
+  double sampled_f_attr_n = 0;  // from the ticks only: the first one in contact, and the strongest pull of the retract
+  double sampled_f_ad_n = 0;
+  std::optional<double> experiment_f_attr_n;
+  std::optional<double> experiment_f_ad_n;
+
+  // Relative errors; for a jump to contact at Z = 0 (JKR), relative to Z_joc.
+  CycleEvents error_vs_calculation() const;
+  double error_of_loop_energy() const;  // relative, for a recording; otherwise 0
+  std::optional<double> experiment_error_f_attr() const;
+  std::optional<double> experiment_error_f_ad() const;
+  double worst_error() const;  // largest relative error against the calculation; 0 if nothing is judged
+  double error_bound() const;
+};
+
+// Largest accepted relative error. The second value is for a measured curve, whose noise is smoothed.
+inline constexpr double kEventErrorBound = 1e-3;
+inline constexpr double kRecordingErrorBound = 1e-2;
+
+// Fails if the law has hysteresis but the cycle has no jump to contact or no jump off contact. `material` is the one
+// felt in the session; `recorded` is the analysis of an instrument's curve, otherwise null.
+core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::SampleModel& material,
+                                  const physics::CurveFeatures* recorded = nullptr);
+
+// Failed, with one line of text, if the error exceeds its bound.
+core::Result<void> check_accuracy(const Measurement& m);
+
+}  // namespace afm::exhibit

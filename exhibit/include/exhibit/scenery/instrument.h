@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "render/frame.h"
+#include "scene/graph/scene.h"
+#include "scene/shared/tip_blocks.h"
+
+namespace afm::exhibit {
+
+class ModelBuilder;
+class WallMarks;
+struct UserModels;
+
+// The instrument on the wall: probe, stage with its stand, and optics. It knows its nodes; the graph that has them is
+// the wall's.
+class Instrument {
+ public:
+  Instrument() = default;
+
+  // Appends its nodes: the stage's and the probe's below `sample`, the others below `layout`.
+  Instrument(ModelBuilder& build, scene::NodeIndex layout, scene::NodeIndex sample, const UserModels& own);
+
+  // Call once, when the graph has all its models without an error.
+  void measure(scene::Scene& scene, ModelBuilder& build);
+
+  // Layout units, below the shelf and every sample's stage.
+  void set_floor(double y) { floor_y_ = y; }
+
+  // State of the tip, and the scale that it is shown at.
+  struct Setting {
+    scene::Tip tip;
+    double layout_per_m = 0;       // layout units per metre of the nanoworld
+    glm::dvec3 below_tip{0.0};     // the surface's point, sample's frame, layout units
+    double full_deflection_m = 1;  // shown as the diode's whole reach
+  };
+
+  // Each sets the transforms of its nodes from their parents.
+  void place_probe(const scene::Scene& scene, const Setting& setting, const WallMarks& marks,
+                   std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
+  void place_optics(const scene::Scene& scene, const Setting& setting, std::vector<glm::dmat4>& local) const;
+  void place_stage(const scene::Scene& scene, double thickness, std::vector<glm::dmat4>& local) const;
+
+  double lever_length() const { return lever_length_; }
+  double tip_length() const { return tip_length_; }
+  double stage_height() const { return stage_height_; }
+
+  scene::NodeIndex lever() const { return lever_; }
+  scene::NodeIndex apex() const { return apex_; }
+  scene::NodeIndex optics() const { return optics_; }
+  scene::NodeIndex stage() const { return stage_; }
+  scene::NodeIndex floor() const { return floor_; }
+
+ private:
+  // Pose of the lever in the sample's frame, layout units.
+  struct LeverPose {
+    glm::dmat4 frame_from_lever{1.0};  // origin at the clamp, x along the unbent lever, z away from the sample
+    double end = 0;                    // end of the bent lever, along z
+    double angle = 0;                  // slope at that end, rad
+  };
+
+  LeverPose lever_pose(const Setting& setting) const;
+
+  scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, apex_{}, stage_{},
+      post_{}, foot_{}, floor_{};
+  scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{};
+  double lever_length_ = 0;  // glTF metres, clamp to tip axis
+  double tip_length_ = 0;    // glTF metres, base to apex
+  double stage_scale_ = 0, stage_height_ = 0;
+  double floor_y_ = 0;
+};
+
+}  // namespace afm::exhibit

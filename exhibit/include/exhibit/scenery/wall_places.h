@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "exhibit/scenery/stage_place.h"
+#include "exhibit/scenery/wall_layout.h"
+#include "exhibit/state/wall_state.h"
+#include "render/frame.h"
+
+namespace afm::exhibit {
+
+// The composition of a wall of any shape: the places of panels, shelf, swatches and wand.
+class WallPlaces {
+ public:
+  WallPlaces() = default;
+
+  // Computes the layout from the screens and the viewer in front of them.
+  explicit WallPlaces(const StagePlace& stage);
+
+  // Origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre.
+  const glm::dmat4& room_from_layout() const { return room_from_layout_; }
+  double unit_m() const;  // length of what the layout has as a metre
+  double shelf_y() const { return shelf_y_; }
+  double height_bar_x() const;
+
+  // In the layout, of so many swatches.
+  glm::dvec3 swatch(std::size_t i, std::size_t count) const;
+
+  glm::dvec3 wand_grip_m() const;
+
+  // Panel of a material's parameters, in place of its data, and the target that opens it.
+  render::PanelPlacement parameters() const;
+  render::PanelPlacement parameter_tab() const;
+
+  // Placement of a short note below the left panel.
+  render::PanelPlacement note() const;
+
+  // A rectangle of the layout in the wall's plane, or in the scene's.
+  render::PanelPlacement in_wall(double left, double bottom, double width, double height) const;
+  render::PanelPlacement in_scene(double left, double bottom, double width, double height) const;
+
+  void place_panels(const WallState& state, render::FrameState& frame) const;
+
+ private:
+  void lay_out_front(const StagePlace& stage, double contact_height_m);
+  void lay_out_panels(const StagePlace& stage);
+  render::PanelPlacement finale() const;  // the large plot
+  render::PanelPlacement right_of_data(double inset) const;
+
+  glm::dmat4 room_from_layout_{1.0};
+  glm::dmat4 room_from_wall_{1.0};  // the same with y along the main screen; differs if that lies flat
+  WallShape shape_;
+  double half_width_ = 0;  // half width of the composition in layout units
+  double wall_top_ = 0;
+  double shelf_y_ = 0, shelf_z_ = 0, back_z_ = 0;
+  glm::dvec3 wand_grip_{0.0};
+  render::PanelPlacement force_placement_, data_placement_;
+};
+
+}  // namespace afm::exhibit

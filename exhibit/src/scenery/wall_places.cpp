@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/scenery/wall_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <utility>
+
+#include "scene/display/disparity.h"
+
+namespace afm::exhibit {
+
+using glm::dvec3;
+
+namespace {
+
+// Placement on a side screen, at the corner shared with the main screen, at the height of `beside_m`.
+render::PanelPlacement on_side_screen(const scene::Screen& side, bool at_its_right_end, const dvec3& beside_m,
+                                      double unit_m) {
+  const dvec3 right = glm::normalize(side.lower_right - side.lower_left);
+  const dvec3 up = glm::cross(side.normal(), right);
+  const double gap_m = kCornerGap * unit_m, height_m = kPanelHeight * unit_m;
+  const double width_m = std::min(kWidestPanel * unit_m, side.width_m() - 2.0 * gap_m);
+  const double left_m = at_its_right_end ? side.width_m() - gap_m - width_m : gap_m;
+  const double bottom_m =
+      std::clamp(glm::dot(beside_m - side.lower_left, up), 0.0, std::max(0.0, side.height_m() - height_m));
+  return {.lower_left_m = side.lower_left + left_m * right + bottom_m * up,
+          .right_m = width_m * right,
+          .up_m = height_m * up};
+}
+
+render::PanelPlacement in_frame(const glm::dmat4& room_from_frame, double left, double bottom, double width,
+                                double height) {
+  const auto vector = [&](const dvec3& v) { return dvec3(room_from_frame * glm::dvec4(v, 0.0)); };
+  return {.lower_left_m = dvec3(room_from_frame * glm::dvec4(left, bottom, 0.0, 1.0)),
+          .right_m = vector({width, 0.0, 0.0}),
+          .up_m = vector({0.0, height, 0.0})};
+}
+
+}  // namespace
+
+WallPlaces::WallPlaces(const StagePlace& stage) {
+  // the contact point: in the middle at eye height, moved to leave room above and below, but within the wall's middle
+  // third
+  const scene::Screen& screen = stage.main;
+  shape_ = wall_shape(stage);
+  const double unit = shape_.unit_m;
+  const bool narrow = shape_.arrangement == Arrangement::Below;
+  const dvec3 right = glm::normalize(screen.lower_right - screen.lower_left);
+  const dvec3 out = screen.normal();
+  const dvec3 up = glm::cross(out, right);
+  const double eye_height = glm::dot(stage.viewer_m - screen.lower_left, up);
+  const double third_m = screen.height_m() / 3.0;
+  const double lowest = std::max((narrow ? kRoomBelowPanels : kRoomBelow) * unit, third_m);
+  const double highest = std::min(screen.height_m() - (narrow ? kRoomAboveNarrow : kRoomAbove) * unit, 2.0 * third_m);
+  const double contact_height = std::min(std::max(eye_height, lowest), std::max(lowest, highest));
+  const dvec3 contact = screen.lower_left + 0.5 * screen.width_m() * right + contact_height * up;
+  room_from_wall_ = frame_matrix(unit * right, unit * up, unit * out, contact);
+  const dvec3 to_eye = glm::transpose(glm::dmat3(right, up, out)) * (stage.viewer_m - contact);
+  const double look = std::atan2(to_eye.y, to_eye.z);
+  room_from_layout_ =
+      look < -kLowestLookRad ? glm::rotate(room_from_wall_, -look, dvec3(1.0, 0.0, 0.0)) : room_from_wall_;
+  wall_top_ = (screen.height_m() - contact_height) / unit;
+  lay_out_front(stage, contact_height);
+  lay_out_panels(stage);
+}
+
+// Places shelf and wand in front of the wall, no nearer than the eyes can look without strain.
+void WallPlaces::lay_out_front(const StagePlace& stage, double contact_height_m) {
+  const double unit = shape_.unit_m;
+  const dvec3 eye(glm::inverse(room_from_layout_) * glm::dvec4(stage.viewer_m, 1.0));
+  const scene::ComfortZone zone =
+      scene::comfort_zone(eye.z * unit, stage.ipd_m, kComfortMargin * scene::kComfortableDisparityRad);
+  const double nearest = eye.z - zone.nearest_m / unit;
+  shelf_z_ = std::clamp(nearest - kSwatchReach, kLeastShelfZ, kShelfZ);
+  back_z_ = shelf_z_ - (kShelfZ - kBackZ);
+  wand_grip_ = kWandGrip;
+  wand_grip_.z = std::clamp(nearest - kWandReach, kLeastShelfZ, kWandGrip.z);
+
+  // objects in front of the wall appear lower to a viewer above them, so the shelf is raised
+  const double bottom = shape_.arrangement == Arrangement::Below ? -kRoomBelow : -contact_height_m / unit;
+  const double lowest_seen = eye.y + (bottom + kPanelMargin - eye.y) * (eye.z - shelf_z_) / eye.z;
+  shelf_y_ = std::clamp(lowest_seen + kShelfHeight, kShelfY, kHighestShelfY);
+}
+
+// Limits the width of panels to 1.6 times their height on wide walls.
+void WallPlaces::lay_out_panels(const StagePlace& stage) {
+  const double half_wall = 0.5 * stage.main.width_m() / shape_.unit_m;
+  const auto beside = [&] {
+    const double width = half_width_ - kPanelInnerEdge - kPanelMargin;
+    force_placement_ = in_wall(-half_width_ + kPanelMargin, kPanelBottom, width, kPanelHeight);
+    data_placement_ = in_wall(kPanelInnerEdge, kPanelBottom, width, kPanelHeight);
+  };
+  half_width_ = std::min(half_wall, kPanelInnerEdge + kWidestPanel + kPanelMargin);
+  if (shape_.arrangement == Arrangement::Below) {
+    half_width_ = std::min(half_wall, kWidestPanel + 1.5 * kPanelMargin);
+    const double width = half_width_ - 1.5 * kPanelMargin;
+    force_placement_ = in_wall(-half_width_ + kPanelMargin, kBelowBottom, width, kPanelHeight);
+    data_placement_ = in_wall(0.5 * kPanelMargin, kBelowBottom, width, kPanelHeight);
+    return;
+  }
+  if (shape_.arrangement == Arrangement::Beside) return beside();
+  const dvec3 bottom(room_from_wall_ * glm::dvec4(0.0, kPanelBottom, 0.0, 1.0));
+  force_placement_ = on_side_screen(*stage.left, true, bottom, shape_.unit_m);
+  data_placement_ = on_side_screen(*stage.right, false, bottom, shape_.unit_m);
+}
+
+render::PanelPlacement WallPlaces::in_wall(double left, double bottom, double width, double height) const {
+  return in_frame(room_from_wall_, left, bottom, width, height);
+}
+
+render::PanelPlacement WallPlaces::in_scene(double left, double bottom, double width, double height) const {
+  return in_frame(room_from_layout_, left, bottom, width, height);
+}
+
+// The data panel's place without a strip at its left.
+render::PanelPlacement WallPlaces::right_of_data(double inset) const {
+  render::PanelPlacement panel = data_placement_;
+  const dvec3 step = inset * shape_.unit_m * glm::normalize(panel.right_m);
+  panel.lower_left_m += step;
+  panel.right_m -= step;
+  return panel;
+}
+
+render::PanelPlacement WallPlaces::parameters() const { return right_of_data(kParameterInset); }
+
+render::PanelPlacement WallPlaces::parameter_tab() const {
+  render::PanelPlacement tab = right_of_data(kTabInset);
+  const dvec3 up = shape_.unit_m * glm::normalize(tab.up_m);
+  tab.lower_left_m -= (kPanelMargin + kTabHeight) * up;
+  tab.up_m = kTabHeight * up;
+  return tab;
+}
+
+render::PanelPlacement WallPlaces::note() const {
+  render::PanelPlacement note = force_placement_;
+  const dvec3 right = shape_.unit_m * glm::normalize(note.right_m), up = shape_.unit_m * glm::normalize(note.up_m);
+  note.lower_left_m -= (kPanelMargin + kTabHeight) * up;
+  note.right_m -= kTabInset * right;
+  note.up_m = kTabHeight * up;
+  return note;
+}
+
+glm::dvec3 WallPlaces::swatch(std::size_t i, std::size_t count) const {
+  const std::size_t front = std::min(count, kFrontSwatches);
+  const auto across = [](std::size_t place, std::size_t places, double spacing) {
+    return spacing * (static_cast<double>(place) - 0.5 * static_cast<double>(places - 1));
+  };
+  if (i < front) return {across(i, front, kSwatchSpacing), shelf_y_, shelf_z_};
+  return {across(i - front, count - front, kBackSpacing), shelf_y_ + kBackRise, back_z_};
+}
+
+// As far to the right as a narrow wall with panels below leaves room for the numbers.
+double WallPlaces::height_bar_x() const {
+  return std::min(kHeightBarX, half_width_ - kPanelMargin - kHeightBarWidth - kHeightBarTextGap - kHeightBarTextWidth);
+}
+
+double WallPlaces::unit_m() const { return glm::length(dvec3(room_from_layout_[0])); }
+
+glm::dvec3 WallPlaces::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(wand_grip_, 1.0)); }
+
+// The finale's large plot replaces the instrument.
+render::PanelPlacement WallPlaces::finale() const {
+  if (shape_.arrangement == Arrangement::Beside) {
+    const double width = std::min(kPanelInnerEdge + half_width_ - 2.0 * kPanelMargin, kWidestPlot);
+    return in_wall(kPanelInnerEdge - kPanelMargin - width, kPanelBottom, width, kPanelHeight);
+  }
+  const double width = std::min(2.0 * (half_width_ - kPanelMargin), kWidestPanel);
+  return in_wall(-0.5 * width, kPanelBottom, width, kPanelHeight);
+}
+
+void WallPlaces::place_panels(const WallState& state, render::FrameState& frame) const {
+  render::FramePanels& panels = frame.panels;
+  hide(panels);
+  panels.banner.placement = in_wall(-half_width_ + kPanelMargin, wall_top_ - kBannerHeight - kPanelMargin,
+                                    2.0 * (half_width_ - kPanelMargin), kBannerHeight);
+  if (state.centerpiece == Centerpiece::Journey) return;
+  const bool plot = state.centerpiece == Centerpiece::Plot;
+  (state.scan && !plot ? panels.image.placement : panels.force.placement) = plot ? finale() : force_placement_;
+  panels.data.placement = data_placement_;
+}
+
+}  // namespace afm::exhibit

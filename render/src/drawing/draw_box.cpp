@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drawing/draw_box.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace afm::render {
+
+DrawBox box_of(const Draw& draw) { return {glm::dvec3(draw.center), glm::dvec3(draw.half_size)}; }
+
+DrawBox bent_box(const DrawBox& box, const glm::vec4& bend) {
+  DrawBox bent = box;
+  // the deflection grows along x (shaders/beam.glsl); beyond its end a loaded beam is straight
+  const double reach = (box.center.x + box.half_size.x) * static_cast<double>(bend.x);
+  const double xi = std::clamp(reach, 0.0, 1.0);
+  bent.half_size.z +=
+      std::abs(static_cast<double>(bend.y)) * (0.5 * xi * xi * (3.0 - xi) + 1.5 * std::max(reach - 1.0, 0.0));
+  return bent;
+}
+
+DrawBox bent_box(const Draw& draw, const glm::vec4& bend) { return bent_box(box_of(draw), bend); }
+
+std::pair<double, double> range(const glm::dvec4& form, const DrawBox& box) {
+  const glm::dvec3 slope(form);
+  const double middle = glm::dot(slope, box.center) + form.w;
+  const double reach = glm::dot(glm::abs(slope), box.half_size);
+  return {middle - reach, middle + reach};
+}
+
+}  // namespace afm::render

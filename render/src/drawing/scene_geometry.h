@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "device/memory.h"
+#include "device/shader_interface.h"
+#include "drawing/shader_variant.h"
+#include "scene/graph/scene.h"
+
+namespace afm::render {
+
+// One primitive shown by one node: an indexed draw. Its index in SceneGeometry::draws() is also that of its DrawBlock.
+struct Draw {
+  scene::NodeIndex node = 0;
+  std::uint32_t first_index = 0;
+  std::uint32_t index_count = 0;
+  std::int32_t first_vertex = 0;
+  bool double_sided = false;
+  bool unlit = false;
+  bool blended = false;
+  bool casts_shadow = true;
+  std::optional<std::uint32_t> variant{};  // index into SceneGeometry::variants(); none: drawn by the plain pipelines
+  std::uint32_t material = 0;
+  glm::vec3 center{0.0F};  // centre of the primitive's box, in the node's frame
+  glm::vec3 half_size{0.0F};
+  float usual_edge = 0.0F;    // in the node's frame; the longest edge of nine triangles in ten is at most this
+  float longest_edge = 0.0F;  // 0: no triangles
+  float largest_turn = 0.0F;  // radians, between the normals at two corners of a triangle
+  DrawBlock block{};          // includes the material's constants
+};
+
+// Vertex data read only by a ShaderVariant.
+struct LookVertex {
+  glm::vec4 tangent{0.0F};
+  glm::vec4 coordinates{0.0F};
+};
+
+// All meshes of a scene in one vertex and one index buffer, and its draws: opaque ones first, then blended ones.
+class SceneGeometry {
+ public:
+  SceneGeometry(const Device& device, const scene::Scene& scene);
+
+  const std::vector<Draw>& draws() const { return draws_; }
+  std::size_t opaque_count() const { return opaque_count_; }
+  const std::vector<std::optional<scene::NodeIndex>>& parents() const { return parents_; }
+
+  const std::vector<ShaderVariant>& variants() const { return variants_; }
+
+  void bind(const vk::raii::CommandBuffer& command) const;
+
+  static const std::array<vk::VertexInputBindingDescription, 1>& bindings();
+  static const std::array<vk::VertexInputAttributeDescription, 3>& attributes();
+  static const std::array<vk::VertexInputBindingDescription, 2>& variant_bindings();
+  static const std::array<vk::VertexInputAttributeDescription, 5>& variant_attributes();
+
+ private:
+  std::vector<Draw> draws_;
+  std::size_t opaque_count_ = 0;
+  std::vector<std::optional<scene::NodeIndex>> parents_;
+  std::vector<ShaderVariant> variants_;
+  Buffer vertices_;
+  Buffer variant_vertices_;  // first vertex with a look
+  Buffer indices_;
+};
+
+}  // namespace afm::render

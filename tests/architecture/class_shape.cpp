@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "architecture/class_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+
+namespace afm::support {
+
+namespace {
+
+using Tokens = std::vector<std::string>;
+
+constexpr bool is_word(char c) { return (std::isalnum(static_cast<unsigned char>(c)) != 0) || c == '_'; }
+
+// End of the literal that begins at `at` with this quote.
+std::size_t after_literal(std::string_view source, std::size_t at) {
+  const char quote = source[at];
+  for (++at; at < source.size() && source[at] != quote; ++at) {
+    if (source[at] == '\\') ++at;
+  }
+  return at + 1;
+}
+
+// End of the raw string whose quote is at `at`.
+std::size_t after_raw_string(std::string_view source, std::size_t at) {
+  const std::size_t open = source.find('(', at);
+  const std::string close = ")" + std::string(source.substr(at + 1, open - at - 1)) + "\"";
+  return std::min(source.size(), source.find(close, open) + close.size());
+}
+
+// End of the line, with the lines that continue it.
+std::size_t after_directive(std::string_view source, std::size_t at) {
+  std::size_t end = source.find('\n', at);
+  while (end != std::string_view::npos && source[end - 1] == '\\') end = source.find('\n', end + 1);
+  return std::min(end, source.size());
+}
+
+// Words, numbers, "::" and single other characters. A literal is one token; comments and directives are left out.
+Tokens tokens_of(std::string_view source) {
+  Tokens tokens;
+  std::size_t i = 0;
+  while (i < source.size()) {
+    const char c = source[i];
+    const std::string_view rest = source.substr(i);
+    if (std::isspace(static_cast<unsigned char>(c)) != 0) {
+      ++i;
+    } else if (rest.starts_with("//")) {
+      i = std::min(source.find('\n', i), source.size());
+    } else if (rest.starts_with("/*")) {
+      i = std::min(source.find("*/", i), source.size() - 2) + 2;
+    } else if (c == '#') {
+      i = after_directive(source, i);
+    } else if (rest.starts_with("R\"")) {
+      i = after_raw_string(source, i + 1);
+      tokens.emplace_back("\"\"");
+    } else if (c == '"' || c == '\'') {
+      i = after_literal(source, i);
+      tokens.emplace_back("\"\"");
+    } else if (is_word(c)) {
+      std::size_t end = i;
+      // a digit separator belongs to its number
+      while (end < source.size() &&
+             (is_word(source[end]) || (source[end] == '\'' && std::isdigit(static_cast<unsigned char>(c)) != 0))) {
+        ++end;
+      }
+      tokens.emplace_back(source.substr(i, end - i));
+      i = end;
+    } else if (rest.starts_with("::")) {
+      tokens.emplace_back("::");
+      i += 2;
+    } else {
+      tokens.emplace_back(1, c);
+      ++i;
+    }
+  }
+  return tokens;
+}
+
+bool is_name(const std::string& token) {
+  return is_word(token.front()) && std::isdigit(static_cast<unsigned char>(token.front())) == 0;
+}
+
+// Index after the bracket that closes the one at `at`.
+std::size_t after_bracket(const Tokens& tokens, std::size_t at) {
+  int depth = 0;
+  for (; at < tokens.size(); ++at) {
+    const std::string& token = tokens[at];
+    if (token == "(" || token == "[" || token == "{") ++depth;
+    if (token == ")" || token == "]" || token == "}") --depth;
+    if (depth == 0) return at + 1;
+  }
+  return at;
+}
+
+// A declaration in a class, as far as it has been read.
+struct Declaration {
+  std::string first;       // word
+  int commas = 0;          // between declarators
+  int angles = 0;          // open
+  bool call = false;       // parameters of a function
+  bool value = false;      // after =
+  bool fixed = false;      // static
+  bool operation = false;  // operator
+  bool members = false;    // initialisers of a constructor
+};
+
+void count(const Declaration& declaration, ClassShape& shape) {
+  constexpr std::array<std::string_view, 8> kOthers{"using", "friend", "typedef", "static_assert",
+                                                    "enum",  "class",  "struct",  "union"};
+  if (declaration.first.empty()) return;
+  if (declaration.call && declaration.first != "friend" && declaration.first != "static_assert" &&
+      declaration.first != "using") {
+    ++shape.functions;
+  } else if (!declaration.fixed && std::find(kOthers.begin(), kOthers.end(), declaration.first) == kOthers.end()) {
+    shape.fields += 1 + declaration.commas;
+  }
+}
+
+class ClassReader {
+ public:
+  explicit ClassReader(const Tokens& tokens) : tokens_(tokens) {}
+
+  std::vector<ClassShape> read() {
+    for (std::size_t i = 0; i < tokens_.size();) {
+      if (const std::size_t body = body_of_class(i); body > 0) {
+        i = read_body(name_before(i, body), body);
+      } else if (tokens_[i] == "{" && !opens_namespace(i)) {
+        i = after_bracket(tokens_, i);
+      } else {
+        ++i;
+      }
+    }
+    return std::move(shapes_);
+  }
+
+ private:
+  // Index of the { of a class whose definition begins at `at`; 0: none does.
+  std::size_t body_of_class(std::size_t at) const {
+    if (tokens_[at] != "class" && tokens_[at] != "struct") return 0;
+    if (at > 0 && (tokens_[at - 1] == "enum" || tokens_[at - 1] == "<" || tokens_[at - 1] == ",")) return 0;
+    for (std::size_t i = at + 1; i < tokens_.size(); ++i) {
+      if (tokens_[i] == "{") return i;
+      if (tokens_[i] == ";" || tokens_[i] == "(" || tokens_[i] == ")" || tokens_[i] == "=") return 0;
+    }
+    return 0;
+  }
+
+  // The last name before the base classes, `final`, the arguments of a specialisation or the body.
+  std::string name_before(std::size_t at, std::size_t body) const {
+    std::string name;
+    for (std::size_t i = at + 1; i < body; ++i) {
+      if (tokens_[i] == ":" || tokens_[i] == "<" || tokens_[i] == "final") break;
+      if (is_name(tokens_[i])) name = tokens_[i];
+    }
+    return name;
+  }
+
+  bool opens_namespace(std::size_t brace) const {
+    for (std::size_t i = brace; i > 0; --i) {
+      const std::string& token = tokens_[i - 1];
+      if (token == "namespace") return true;
+      if (token != "::" && !is_name(token)) return false;
+    }
+    return false;
+  }
+
+  // Reads the members from the { at `at`; returns the index after its }.
+  std::size_t read_body(const std::string& name, std::size_t at) {
+    ClassShape shape{.name = name};
+    Declaration now;
+    std::size_t i = at + 1;
+    while (i < tokens_.size() && tokens_[i] != "}") {
+      if (now.first.empty()) {
+        if (const std::size_t body = body_of_class(i); body > 0) {
+          i = read_body(name_before(i, body), body);
+          while (i < tokens_.size() && tokens_[i] != ";") ++i;
+          ++i;
+          continue;
+        }
+      }
+      i = read_token(i, now, shape);
+    }
+    shapes_.push_back(std::move(shape));
+    return i + 1;
+  }
+
+  std::size_t read_token(std::size_t i, Declaration& now, ClassShape& shape) const {
+    const std::string& token = tokens_[i];
+    const bool inside = now.angles > 0;
+    if (token == ";") {
+      count(now, shape);
+      now = {};
+    } else if (token == "[") {
+      return after_bracket(tokens_, i);
+    } else if (token == "(") {
+      const std::string& before = tokens_[i - 1];
+      if (!inside && !now.value && before != "alignas" && before != "decltype") now.call = true;
+      return after_bracket(tokens_, i);
+    } else if (token == "{") {
+      return read_brace(i, now, shape);
+    } else if (token == ":" && (now.first == "public" || now.first == "private" || now.first == "protected")) {
+      now = {};
+    } else if (token == ":") {
+      now.members = now.call;
+    } else if (token == "=" && (!now.operation || now.call)) {
+      now.value = now.value || !inside;
+    } else if (token == "<" && !now.value && (!now.operation || now.call)) {
+      ++now.angles;
+    } else if (token == ">" && inside) {
+      --now.angles;
+    } else if (token == "," && !inside && !now.call) {
+      ++now.commas;
+    } else if (is_name(token)) {
+      if (now.first == "template" && !inside) now.first = token;
+      if (now.first.empty()) now.first = token;
+      now.fixed = now.fixed || token == "static";
+      now.operation = now.operation || token == "operator";
+    }
+    return i + 1;
+  }
+
+  // The body of a function ends its declaration; other braces hold a value, or the enumerators of an enum.
+  std::size_t read_brace(std::size_t i, Declaration& now, ClassShape& shape) const {
+    const std::string& before = tokens_[i - 1];
+    const bool member = now.members && (is_name(before) || before == ">");
+    if (now.call && !now.value && now.angles == 0 && !member) {
+      count(now, shape);
+      now = {};
+    }
+    return after_bracket(tokens_, i);
+  }
+
+  const Tokens& tokens_;
+  std::vector<ClassShape> shapes_;
+};
+
+}  // namespace
+
+std::vector<ClassShape> classes_of(std::string_view source) {
+  const Tokens tokens = tokens_of(source);
+  return ClassReader(tokens).read();
+}
+
+std::set<std::string> owners_of_members(std::string_view source) {
+  const Tokens tokens = tokens_of(source);
+  std::set<std::string> owners;
+  bool value = false;  // after the = of a declaration
+  for (std::size_t i = 0; i < tokens.size();) {
+    const std::string& token = tokens[i];
+    if (token == "=" && tokens[i - 1] != "operator") value = true;
+    if (token == ";" || token == "}") value = false;
+    if (token == "(" || token == "[") {
+      i = after_bracket(tokens, i);
+      continue;
+    }
+    if (token == "{") {
+      // all braces but those of namespaces are skipped
+      std::size_t name = i;
+      while (name > 0 && (tokens[name - 1] == "::" || (is_name(tokens[name - 1]) && tokens[name - 1] != "namespace")))
+        --name;
+      const bool space = name > 0 && tokens[name - 1] == "namespace";
+      i = space ? i + 1 : after_bracket(tokens, i);
+      value = value && !space;
+      continue;
+    }
+    if (!value && token == "::" && i > 0 && is_name(tokens[i - 1])) {
+      std::string owner = tokens[i - 1];
+      for (std::size_t at = i - 1; at >= 2 && tokens[at - 1] == "::" && is_name(tokens[at - 2]); at -= 2) {
+        owner.insert(0, tokens[at - 2] + "::");
+      }
+      std::size_t end = i + 1;
+      if (end < tokens.size() && tokens[end] == "operator") {
+        while (end < tokens.size() && tokens[end] != "(") ++end;
+        owners.insert(owner);
+      } else {
+        if (end < tokens.size() && tokens[end] == "~") ++end;
+        if (end + 1 < tokens.size() && is_name(tokens[end]) && tokens[end + 1] == "(") owners.insert(owner);
+      }
+    }
+    ++i;
+  }
+  return owners;
+}
+
+}  // namespace afm::support

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+# include(includes.cmake) sets `headers`, all of ours relative to ROOT, and defines read_includes(FILE), which sets includes_FILE, those
+# of them that a header or source includes itself, and adds their number to `arrows`.
+include(${CMAKE_CURRENT_LIST_DIR}/production.cmake)
+
+# The name by which a header is included: below include/ for everyone, below src/ within its folder, else from the root or tests/.
+set(headers "")
+foreach(top ${production} assets shaders tests)
+  file(GLOB_RECURSE found RELATIVE ${ROOT} ${ROOT}/${top}/*.h)
+  list(APPEND headers ${found})
+endforeach()
+foreach(header ${headers})
+  if(header MATCHES "^(.*)/include/(.*)$")
+    set(file_of_${CMAKE_MATCH_2} ${header})
+  elseif(header MATCHES "^(.*)/src/(.*)$")
+    set(file_of_${CMAKE_MATCH_1}:${CMAKE_MATCH_2} ${header})
+  elseif(header MATCHES "^tests/(.*)$")
+    set(file_of_${CMAKE_MATCH_1} ${header})
+  endif()
+  set(file_of_${header} ${header})
+endforeach()
+
+macro(read_includes file)
+  set(includes_${file} "")
+  string(REGEX REPLACE "/(include|src)/.*" "" module ${file})
+  if(module STREQUAL "${file}")
+    string(REGEX REPLACE "/.*" "" module ${file})  # app, and the second program of a folder
+  endif()
+  get_filename_component(beside ${file} DIRECTORY)
+  file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]*\"")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^[^\"]*\"([^\"]*)\".*" "\\1" name "${line}")
+    foreach(key "${beside}/${name}" "${module}:${name}" "${name}")
+      if(DEFINED file_of_${key})
+        list(APPEND includes_${file} ${file_of_${key}})
+        math(EXPR arrows "${arrows} + 1")
+        break()
+      endif()
+    endforeach()
+  endforeach()
+endmacro()
+set(arrows 0)
