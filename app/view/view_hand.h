@@ -42,7 +42,6 @@ class ViewHand {
 
   // While there is no visitor, the simulated person moves a simulated hand and demonstrates each sample in turn.
   void demonstrate(bool on) { demonstrates_ = on; }
-  bool demonstrates() const { return demonstrates_; }
 
   MouseHand& mouse() { return mouse_; }
   void renew_mouse();  // at rest, after a start of another servo

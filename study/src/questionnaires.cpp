@@ -32,13 +32,6 @@ double tlx_raw(std::span<const double, 6> ratings) {
   return std::accumulate(ratings.begin(), ratings.end(), 0.0) / static_cast<double>(ratings.size());
 }
 
-double tlx_weighted(std::span<const double, 6> ratings, std::span<const int, 6> weights) {
-  constexpr double kPairs = 15.0;
-  double sum = 0.0;
-  for (std::size_t i = 0; i < ratings.size(); ++i) sum += ratings[i] * weights[i];
-  return sum / kPairs;
-}
-
 SsqScores ssq_scores(std::span<const double, 16> answers) {
   const double n = raw_sum(answers, kNausea), o = raw_sum(answers, kOculomotor), d = raw_sum(answers, kDisorientation);
   return {9.54 * n, 7.58 * o, 13.92 * d, 3.74 * (n + o + d)};

@@ -51,11 +51,16 @@ TEST(Contact, JumpSharesOutBetweenGapLeverAndSample) {
   }
 }
 
+// A_H R/(6 D^2) of a sphere and a half-space, on which (3.8) and (3.9) rest.
+Force attraction(const ContactParameters& contact, Length gap) {
+  return contact.hamaker * contact.tip_radius / (6.0 * gap * gap);
+}
+
 TEST(Contact, LeverBalancesVanDerWaalsAttractionAtTheFold) {
   for (const Stiffness k_s : kSampleStiffnesses) {
     const ContactParameters contact = mica(k_s);
     const auto events = approach_retract_events(contact);
-    expect_ratio(van_der_waals_attraction(contact, events.d_attr), events.f_fold, 1.0);
+    expect_ratio(attraction(contact, events.d_attr), events.f_fold, 1.0);
   }
 }
 
@@ -64,9 +69,7 @@ TEST(Contact, JumpToContactIsTheFoldOfTheEquilibrium) {
   for (const Stiffness k_s : kSampleStiffnesses) {
     const ContactParameters contact = mica(k_s);
     const auto events = approach_retract_events(contact);
-    const auto z = [&](Length gap) {
-      return gap + van_der_waals_attraction(contact, gap) / effective_stiffness(contact);
-    };
+    const auto z = [&](Length gap) { return gap + attraction(contact, gap) / effective_stiffness(contact); };
     expect_ratio(z(events.d_attr), events.z_jtc, 1.0);
     for (const double away : {0.5, 0.9, 0.999, 1.001, 1.1, 2.0}) EXPECT_GT(z(events.d_attr * away), events.z_jtc);
   }

@@ -13,6 +13,7 @@
 #include "physics/direction_rule.h"
 #include "physics/force_model.h"
 #include "physics/jkr.h"
+#include "physics/jkr_pull_off.h"
 #include "physics/law_tables.h"
 
 namespace afm::physics {

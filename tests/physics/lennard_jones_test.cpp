@@ -24,6 +24,13 @@ LennardJones law_of(const ContactParameters& m) {
   return {2.0 * m.mean_surface_energy, m.tip_radius, m.atomic_distance};
 }
 
+// F = (A R/(6 sigma^2)) [(sigma/D)^8/30 - (sigma/D)^2] (Sarid 1994; Fok, Liu & Li 2004): z0 = 7.5^(-1/6) sigma and
+// W = A/(16 pi z0^2).
+LennardJones of_hamaker(Energy hamaker, Length tip_radius, Length sigma) {
+  const Length z0 = sigma * std::pow(7.5, -1.0 / 6.0);
+  return {hamaker / (16.0 * pi * z0 * z0), tip_radius, z0};
+}
+
 TEST(LennardJones, ForceIsTheSlopeOfThePotentialAndGradientThatOfTheForce) {
   RandomInteraction random(1);
   for (int i = 0; i < kMaterials; ++i) {
@@ -69,10 +76,10 @@ TEST(LennardJones, BothPublishedFormsAreOneLaw) {
     const double x = sigma / gap;
     const double sarid = a * r / (6.0 * sigma * sigma) * (std::pow(x, 8.0) / 30.0 - x * x);
     const double size = a * r / (6.0 * sigma * sigma) * (std::pow(x, 8.0) / 30.0 + x * x);
-    const auto law = LennardJones::from_hamaker(Energy(a), Length(r), Length(sigma));
+    const auto law = of_hamaker(Energy(a), Length(r), Length(sigma));
     EXPECT_NEAR(law.force(Length(gap)).si, sarid, kRounding * size);
   }
-  const auto law = LennardJones::from_hamaker(24.5_zJ, 50_nm, 0.4_nm);
+  const auto law = of_hamaker(24.5_zJ, 50_nm, 0.4_nm);
   EXPECT_NEAR(law.atomic_distance() / 0.4_nm, 0.714754, 1e-6);
   const Force unit = 24.5_zJ * 50_nm / (6.0 * 0.4_nm * 0.4_nm);
   EXPECT_NEAR(law.force(law.atomic_distance()) / unit, -1.4681, 5e-5);
@@ -80,7 +87,7 @@ TEST(LennardJones, BothPublishedFormsAreOneLaw) {
 }
 
 TEST(LennardJones, IsVanDerWaalsFarAway) {
-  const auto law = LennardJones::from_hamaker(24.5_zJ, 50_nm, 0.4_nm);
+  const auto law = of_hamaker(24.5_zJ, 50_nm, 0.4_nm);
   const VanDerWaals tail(24.5_zJ, 50_nm);
   for (const Length gap : {20_nm, 1_um}) {
     EXPECT_NEAR(law.force(gap) / tail.force(gap), 1.0, 1e-9);

@@ -30,23 +30,7 @@ TEST_P(ComfortRow, GivesTheDepthsAndTheirParallax) {
 
 INSTANTIATE_TEST_SUITE_P(Stereo, ComfortRow, ::testing::ValuesIn(test::stereo_cases("comfort")), case_name);
 
-class ParallaxAngleRow : public ::testing::TestWithParam<StereoCase> {};
-
-TEST_P(ParallaxAngleRow, IsTheAngleBeforeTheWall) {
-  const std::vector<double>& in = GetParam().inputs;
-  const auto at = [&](std::size_t i) { return glm::dvec3(in[i], in[i + 1], in[i + 2]); };
-  const Screen screen{"case", at(0), at(3), at(6)};
-  const Disparity found = disparity_of(screen, at(9), at(12), at(15));
-  EXPECT_NEAR(glm::degrees(found.crossed_rad), GetParam().expected[7], 1e-9);
-  EXPECT_NEAR(1e3 * found.uncrossed_m, GetParam().expected[6], 1e-9);
-}
-
-INSTANTIATE_TEST_SUITE_P(Stereo, ParallaxAngleRow, ::testing::ValuesIn(test::stereo_cases("parallax")), case_name);
-
-TEST(ResearchComfort, WasAllRead) {
-  EXPECT_EQ(test::stereo_cases("comfort").size(), 4U);
-  EXPECT_EQ(test::stereo_cases("parallax").size(), 6U);
-}
+TEST(ResearchComfort, WasAllRead) { EXPECT_EQ(test::stereo_cases("comfort").size(), 4U); }
 
 TEST(Disparity, IsCrossedBeforeTheWallNothingOnItAndNeverMoreThanTheEyesAreApartBehind) {
   constexpr double kIpd = 0.063, kWall = 2.5;

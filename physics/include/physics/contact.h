@@ -38,10 +38,6 @@ SurfaceEnergy work_of_adhesion(const ContactParameters& contact);
 // F_ad = 2 pi R W_ad (3.2), (3.4), from Derjaguin, Muller & Toporov 1975: the pull-off force.
 Force adhesion_force(const ContactParameters& contact);
 
-// Attraction A_H R/(6 D^2) between a sphere and a half-space at the gap D > 0, a magnitude (Derjaguin's approximation,
-// on which (3.8) and (3.9) are based).
-Force van_der_waals_attraction(const ContactParameters& contact, Length gap);
-
 // All events of one cycle, as magnitudes.
 struct ApproachRetractEvents {
   double alpha = 1.0;

@@ -12,9 +12,6 @@ namespace afm::physics {
 // 4/3 E* sqrt(R) delta^(3/2) for an indentation delta >= 0; 0 for a tip without contact.
 Force hertz_load(const AdhesiveContact& contact, Length indentation) noexcept;
 
-// delta = a^2/R.
-Length hertz_indentation(const AdhesiveContact& contact, Length contact_radius) noexcept;
-
 // a = cbrt(3 R P/(4 E*)) for a load P >= 0.
 Length hertz_contact_radius(const AdhesiveContact& contact, Force load) noexcept;
 

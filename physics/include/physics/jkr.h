@@ -22,9 +22,8 @@ Energy jkr_energy(const AdhesiveContact& contact, Length contact_radius) noexcep
 // Throws std::invalid_argument for a load below the pull-off.
 Length jkr_contact_radius(const AdhesiveContact& contact, Force load);
 
-// Pull-off at a given load: P = -3/2 pi W R, a^3 = 9 pi W R^2/(8 E*).
+// Pull-off at a given load: P = -3/2 pi W R.
 Force jkr_pull_off_load(const AdhesiveContact& contact) noexcept;
-Length jkr_pull_off_radius(const AdhesiveContact& contact) noexcept;
 
 // Pull-off at a given indentation (fixed grips; Maugis, Contact, Adhesion and Rupture, 2000): a^3 = pi W R^2/(8 E*), P
 // = -5/6 pi W R, delta = -3/4 cbrt(pi^2 W^2 R/E*^2).

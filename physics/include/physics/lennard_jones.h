@@ -18,10 +18,6 @@ class LennardJones {
   LennardJones(SurfaceEnergy work_of_adhesion, Length tip_radius, Length atomic_distance) noexcept
       : force_scale_(work_of_adhesion * tip_radius), z0_(atomic_distance) {}
 
-  // The same law as F = (A R/(6 sigma^2)) [(sigma/D)^8/30 - (sigma/D)^2] (Sarid 1994; Fok, Liu & Li 2004), in which z0
-  // = 7.5^(-1/6) sigma and W = A/(16 pi z0^2).
-  static LennardJones from_hamaker(Energy hamaker, Length tip_radius, Length sigma) noexcept;
-
   Energy potential(Length gap) const noexcept;  // U, zero far away
   Force force(Length gap) const noexcept;
   Stiffness gradient(Length gap) const noexcept;  // dF/dD

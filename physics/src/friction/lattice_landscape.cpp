@@ -64,8 +64,4 @@ Energy LatticeLandscape::scale_of_row(LatticeKind kind, Energy amplitude) noexce
   return 0.5 * amplitude;
 }
 
-Stiffness hexagonal_well_stiffness(Energy scale, Length period) {
-  return Stiffness(8.0 * std::numbers::pi * std::numbers::pi * scale.si / (period.si * period.si));
-}
-
 }  // namespace afm::physics

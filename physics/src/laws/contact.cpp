@@ -31,10 +31,6 @@ Force adhesion_force(const ContactParameters& contact) {
   return 2.0 * std::numbers::pi * contact.tip_radius * work_of_adhesion(contact);
 }
 
-Force van_der_waals_attraction(const ContactParameters& contact, Length gap) {
-  return contact.hamaker * contact.tip_radius / (6.0 * gap * gap);
-}
-
 ApproachRetractEvents approach_retract_events(const ContactParameters& contact) {
   validate(contact);
   ApproachRetractEvents events;

@@ -11,10 +11,6 @@ Force hertz_load(const AdhesiveContact& contact, Length indentation) noexcept {
   return 4.0 / 3.0 * contact.reduced_modulus * indentation * sqrt(contact.tip_radius * indentation);
 }
 
-Length hertz_indentation(const AdhesiveContact& contact, Length contact_radius) noexcept {
-  return contact_radius * contact_radius / contact.tip_radius;
-}
-
 Length hertz_contact_radius(const AdhesiveContact& contact, Force load) noexcept {
   return cbrt(3.0 * contact.tip_radius * load / (4.0 * contact.reduced_modulus));
 }

@@ -47,11 +47,6 @@ Force jkr_pull_off_load(const AdhesiveContact& contact) noexcept {
   return -1.5 * pi * contact.work_of_adhesion * contact.tip_radius;
 }
 
-Length jkr_pull_off_radius(const AdhesiveContact& contact) noexcept {
-  const auto& [r, e, w] = contact;
-  return cbrt(9.0 * pi * w * r * r / (8.0 * e));
-}
-
 Length jkr_fixed_grips_radius(const AdhesiveContact& contact) noexcept {
   const auto& [r, e, w] = contact;
   return cbrt(pi * w * r * r / (8.0 * e));

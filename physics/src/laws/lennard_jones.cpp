@@ -11,11 +11,6 @@ constexpr double kEightPiThirds = 8.0 * std::numbers::pi / 3.0;
 
 }  // namespace
 
-LennardJones LennardJones::from_hamaker(Energy hamaker, Length tip_radius, Length sigma) noexcept {
-  const Length z0 = sigma * std::pow(7.5, -1.0 / 6.0);
-  return {hamaker / (16.0 * std::numbers::pi * z0 * z0), tip_radius, z0};
-}
-
 Energy LennardJones::potential(Length gap) const noexcept {
   const double x = z0_ / gap;
   const double x2 = x * x;

@@ -161,8 +161,6 @@ SceneGeometry::SceneGeometry(const Device& device, const scene::Scene& scene) {
     }
   }
   std::stable_sort(draws_.begin(), draws_.end(), [](const Draw& a, const Draw& b) { return a.blended < b.blended; });
-  opaque_count_ = static_cast<std::size_t>(
-      std::count_if(draws_.begin(), draws_.end(), [](const Draw& draw) { return !draw.blended; }));
   vertices_ = upload_buffer(device, "scene vertices", std::as_bytes(std::span(packed.vertices)),
                             vk::BufferUsageFlagBits::eVertexBuffer);
   if (!variants_.empty()) {

@@ -46,7 +46,6 @@ class SceneGeometry {
   SceneGeometry(const Device& device, const scene::Scene& scene);
 
   const std::vector<Draw>& draws() const { return draws_; }
-  std::size_t opaque_count() const { return opaque_count_; }
   const std::vector<std::optional<scene::NodeIndex>>& parents() const { return parents_; }
 
   const std::vector<ShaderVariant>& variants() const { return variants_; }
@@ -60,7 +59,6 @@ class SceneGeometry {
 
  private:
   std::vector<Draw> draws_;
-  std::size_t opaque_count_ = 0;
   std::vector<std::optional<scene::NodeIndex>> parents_;
   std::vector<ShaderVariant> variants_;
   Buffer vertices_;

@@ -196,7 +196,6 @@ std::optional<TipSample> RendererSide::pop_sample() noexcept {
 std::optional<TipEvent> RendererSide::pop_event() noexcept { return next(layout_->events, refused_, layout_->model); }
 
 std::uint64_t RendererSide::lost_samples() const noexcept { return layout_->samples.dropped(); }
-std::uint64_t RendererSide::lost_events() const noexcept { return layout_->events.dropped(); }
 
 std::optional<SceneTransforms> ServoSide::new_transforms() noexcept {
   auto transforms = layout_->transforms.try_load_newer(seen_transforms_);

@@ -14,9 +14,7 @@ namespace afm::study {
 double sus_score(std::span<const double, 10> answers);
 
 // NASA Task Load Index (Hart & Staveland 1988), 0..100: six ratings from 0 to 100. Raw: their mean (Hart 2006).
-// Weighted: by the number of times that each was chosen in the 15 pairs.
 double tlx_raw(std::span<const double, 6> ratings);
-double tlx_weighted(std::span<const double, 6> ratings, std::span<const int, 6> weights);
 
 // Simulator Sickness Questionnaire (Kennedy, Lane, Berbaum & Lilienthal 1993): sixteen answers from 0 (none) to 3
 // (severe). Raw sums times 9.54, 7.58, 13.92; the total is 3.74 times the sum of the three raw sums, in which items of

@@ -10,6 +10,7 @@
 #include "physics/friction/lateral_contact.h"
 #include "physics/hertz.h"
 #include "physics/jkr.h"
+#include "physics/jkr_pull_off.h"
 #include "physics/mica.h"
 
 namespace afm::physics {
@@ -56,11 +57,6 @@ TEST(Friction, RefusesWhatALawNeedsAndHasNot) {
   EXPECT_EQ(refused({}), "");
 }
 
-TEST(Friction, FindsEachLatticeByItsWord) {
-  for (const LatticeKindText& row : kLatticeKinds) EXPECT_EQ(lattice_kind_of(row.word), row.kind) << row.word;
-  EXPECT_FALSE(lattice_kind_of("diamond"));
-}
-
 TEST(ContactArea, IsThatOfTheLawInUse) {
   const ContactParameters mica = elastic_mica();
   const AdhesiveContact adhesive = adhesive_contact(mica);
@@ -79,13 +75,6 @@ TEST(ContactArea, IsThatOfTheLawInUse) {
     EXPECT_FALSE(has_contact_area(law));
     EXPECT_THROW(contact_area(law, mica, 1_nN), std::invalid_argument);
   }
-}
-
-TEST(TangentialStiffness, IsThatOfTwoBodiesInSeriesWithTheLever) {
-  // the same material on both sides: 1/G* = 2 (2 - nu)/G
-  EXPECT_NEAR(reduced_shear_modulus(Pressure(24e9), 0.2, Pressure(24e9), 0.2).si, 24e9 / 3.6, 1.0);
-  EXPECT_NEAR(tangential_contact_stiffness(Pressure(1e10), 1.5_nm).si, 120.0, 1e-9);
-  EXPECT_NEAR(in_series(Stiffness(80.0), Stiffness(120.0)).si, 48.0, 1e-12);
 }
 
 TEST(LateralContact, RefusesNoLawAndAnUnknownOne) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "physics/law.h"
@@ -57,8 +56,6 @@ inline constexpr std::array kLatticeKinds{LatticeKindText{LatticeKind::Rows, "ro
                                           LatticeKindText{LatticeKind::Hexagonal, "hexagonal"}};
 static_assert(has_row_for_each(kLatticeKinds, &LatticeKindText::kind));
 
-std::optional<LatticeKind> lattice_kind_of(std::string_view word);
-
 // Parameters of one pair of surfaces. A parameter that a law does not use may be zero.
 struct FrictionParameters {
   FrictionLaw law = FrictionLaw::None;
@@ -89,14 +86,5 @@ constexpr bool has_contact_area(Law law) { return traits_of(law).contact_radius 
 // pi a^2 at a force on the tip, from the force law; zero without contact. Throws std::invalid_argument for a law
 // without a contact area or a rigid contact. May iterate, so never call it in a tick.
 Area contact_area(Law law, const ContactParameters& contact, Force force);
-
-// 8 G* a: tangential stiffness of a contact of radius a before it slides, in series with the lever (Mindlin 1949;
-// Carpick, Ogletree & Salmeron 1997). 1/G* = (2 - nu_t)/G_t + (2 - nu_s)/G_s.
-Stiffness tangential_contact_stiffness(Pressure reduced_shear_modulus, Length contact_radius);
-Pressure reduced_shear_modulus(Pressure tip_shear_modulus, double tip_poisson_ratio, Pressure sample_shear_modulus,
-                               double sample_poisson_ratio);
-
-// Stiffness of two springs in series.
-constexpr Stiffness in_series(Stiffness a, Stiffness b) { return Stiffness(a.si * b.si / (a.si + b.si)); }
 
 }  // namespace afm::physics

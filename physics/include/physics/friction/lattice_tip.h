@@ -43,10 +43,6 @@ class LatticeLandscape {
   std::uint32_t count_ = 0;
 };
 
-// The stiffness 8 pi^2 U/a^2 of a well of the hexagonal lattice. A weaker spring slips along y = 0, a stiffer one does
-// not (there V is the sine of physics/friction/prandtl_tomlinson.h with E0 = 4 U).
-Stiffness hexagonal_well_stiffness(Energy scale, Length period);
-
 // A jump of the tip from one well to another.
 struct LatticeSlip {
   double fraction = 0.0;         // share of the step's path, in [0, 1]

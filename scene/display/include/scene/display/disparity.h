@@ -17,10 +17,6 @@ struct Disparity {
   double uncrossed_m = 0;  // on the wall, from the left eye's image to the right eye's; negative in front of it
 };
 
-// Disparity of a point in front of both eyes. The eyes are in front of the screen.
-Disparity disparity_of(const Screen& screen, const glm::dvec3& left_eye_m, const glm::dvec3& right_eye_m,
-                       const glm::dvec3& point_m);
-
 // Disparity of a point straight ahead of a level head that faces the wall squarely; depth_m from the eyes, inf allowed.
 Disparity disparity_at(double wall_distance_m, double ipd_m, double depth_m);
 

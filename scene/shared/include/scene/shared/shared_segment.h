@@ -82,7 +82,6 @@ class RendererSide {
   std::optional<TipEvent> pop_event() noexcept;
 
   std::uint64_t lost_samples() const noexcept;  // pushed into a full ring
-  std::uint64_t lost_events() const noexcept;
   std::uint64_t refused_blocks() const noexcept { return refused_; }
 
  private:
