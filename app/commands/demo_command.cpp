@@ -65,9 +65,8 @@ struct DemoOptions {
 
 // Moves the path to the sample, which is lower on the common scale.
 input::HandPath on_scale(scene::ScaleMode scale, input::HandPath path) {
-  if (scale == scene::ScaleMode::Common) {
-    path.push_m = haptics::Scaling::common_zero_m(haptics::SimulatedDevice().spec()) - kCommonPushM;
-  }
+  if (scale != scene::ScaleMode::Common) return path;
+  path.push_m = haptics::Scaling::common_zero_m(haptics::SimulatedDevice().spec()) - kCommonPushM;
   return path;
 }
 

@@ -105,7 +105,7 @@ TEST(ClassLimits, HoldForEveryClass) {
   std::size_t classes = 0, files = 0;
   for (const char* root : kRoots) {
     std::set<std::string> names;
-    std::map<std::string, std::set<std::string>> sources;  // of each class
+    std::map<std::string, std::set<std::string>> sources;  // source files per class
     for (const auto& entry : fs::recursive_directory_iterator(support::source(root))) {
       const std::string ending = entry.path().extension().string();
       if (!entry.is_regular_file() || (ending != ".cpp" && ending != ".h")) continue;

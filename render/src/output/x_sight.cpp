@@ -204,10 +204,11 @@ Sight XSight::look_at(const Watched& window) const {
 }
 
 Sight XSight::look() {
-  take_events();
   if (xcb_connection_has_error(connection_.get()) != 0) return Sight::Seen;
-  if (blanked()) return Sight::Blanked;
+  const bool blank = blanked();
   if (has_monitors_) find_monitors();
+  take_events();  // after an answer, which comes behind the events before it
+  if (blank) return Sight::Blanked;
   Sight best = Sight::Seen;
   for (const Watched& window : windows_) {
     best = look_at(window);

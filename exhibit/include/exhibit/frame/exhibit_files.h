@@ -14,38 +14,38 @@
 
 namespace afm::exhibit {
 
-// The capacity of the shelf in front of the wall.
+// Number of samples for which the shelf has room.
 inline constexpr std::size_t kMostMaterials = 9;
 
-// The languages of the assets: guidance/en.toml and on.
+// Languages of the assets, such as guidance/en.toml.
 struct LanguageRow {
   std::string_view word;
-  std::string_view name;  // in English
+  std::string_view name;  // English name
 };
 inline constexpr std::array kLanguages{LanguageRow{"en", "English"}, LanguageRow{"de", "German"}};
 
-// The first of these values of LC_ALL, LC_MESSAGES and LANG that is set decides: "de" for "de_AT.UTF-8"; "en" for a
-// language that the assets lack.
+// Language of the first set one of the values of LC_ALL, LC_MESSAGES and LANG: "de" for "de_AT.UTF-8"; "en" if the
+// assets lack it.
 std::string language_of_locale(std::span<const std::string> values);
 
-// Beyond it panels have no room for their words.
+// Largest enlargement for which panels have room.
 inline constexpr double kLargestText = 1.5;
 
-// The files that a picture of the wall is made of.
+// Files and options that determine the exhibit.
 struct ExhibitFiles {
   std::string assets_dir;
-  std::string wall;                // empty: the paper's wall in the assets
-  std::optional<double> aspect{};  // width to height of the picture, which the paper's wall takes on
-  double text_size = 1.0;          // 1 to kLargestText: how much larger panels are drawn, where they have the room
+  std::string wall;                // empty: the paper's wall from the assets
+  std::optional<double> aspect{};  // width to height of the picture, to which the paper's wall is fitted
+  double text_size = 1.0;          // enlargement of panels that have room, 1 to kLargestText
   std::string language = "en";     // a row of kLanguages
-  std::string guidance;            // a phrase file of the user's own on top of it; empty: none
-  std::string materials;           // a file of the user's own; empty: none
-  std::string probe;               // a glTF model of the user's own instead of the assets'; empty: none
-  std::string sample;              // the same, of all materials; or an image that an instrument measured
-  std::string sample_channel;      // of the image; empty: its height
+  std::string guidance;            // user's phrase file with replacements; empty: none
+  std::string materials;           // user's file; empty: none
+  std::string probe;               // user's glTF model in place of the assets'; empty: none
+  std::string sample;              // the same for all materials, or an instrument's image
+  std::string sample_channel;      // channel of that image; empty: its height
   physics::Levelling sample_levelling = physics::Levelling::Plane;
-  std::vector<std::string> shown;           // names; empty: those of the user's file, or the paper's three
-  std::vector<scene::MaterialEntry> added;  // shown behind those
+  std::vector<std::string> shown;           // names; empty: all of the user's file, or the paper's three
+  std::vector<scene::MaterialEntry> added;  // shown after the others
 };
 
 }  // namespace afm::exhibit
