@@ -106,11 +106,11 @@ void ServoSupervisor::update(std::int64_t now_ns) {
 
 void ServoSupervisor::log_state() {
   const scene::TipState& tip = link_->tip();
-  if (logged_state_ == tip.servo_state) return;
-  logged_state_ = tip.servo_state;
+  const scene::ServoState before = std::exchange(logged_state_, tip.servo_state);
+  if (logged_state_ == before) return;
   if (logged_state_ == scene::ServoState::Running) core::log_line("force on");
   const bool off = logged_state_ == scene::ServoState::Disarmed || logged_state_ == scene::ServoState::Fault;
-  if (!off) return;
+  if (!off || before == scene::ServoState::Fault) return;  // the fault has been logged
   if (tip.fault == scene::FaultCode::ServoSilent) return core::log_line(scene::reason(tip.fault));  // even then
   const bool fault = tip.fault != scene::FaultCode::None;
   core::log_line(fault ? std::string("force off: ") + scene::reason(tip.fault) : "force off");

@@ -95,10 +95,17 @@ TEST_F(DeviceFailureTest, AnXServerThatDiesEndsTheViewWithItsSessionKeptAndTheHa
   expect_a_session(sessions);
 }
 
-TEST_F(DeviceFailureTest, ASurfaceThatIsLostForGoodEndsTheView) {
-  support::LiveProgram program(view("surface:30"), display_.name());
+TEST_F(DeviceFailureTest, ASurfaceThatIsLostForGoodEndsTheViewAndItsForce) {
+  const std::string sessions = folder_.file("sessions");
+  support::LiveProgram program(view("surface:200", {"--record", sessions, "--material", "mica"}), display_.name());
+  ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
+  ASSERT_EQ(support::run_program("DISPLAY=" + display_.name() + " xdotool mousemove 100 100 key 1").exit_code, 0);
   ASSERT_EQ(program.ends(), 1) << program.said();
   EXPECT_THAT(last_line(program.said()), HasSubstr("error: the window's surface"));
+  expect_a_session(sessions);
+  const auto session = servo::load_session(sessions + "/session-mica.afms");
+  ASSERT_TRUE(session) << session.error().message;
+  EXPECT_EQ(session->samples.back().servo_state, scene::ServoState::Disarmed);
 }
 
 TEST_F(DeviceFailureTest, ADeviceThatHangsIsGivenUp) {

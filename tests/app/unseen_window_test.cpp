@@ -6,16 +6,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/clock.h"
-#include "servo/session_file.h"
+#include "support/dark_after.h"
 #include "support/live_program.h"
 #include "support/places.h"
 #include "support/run_program.h"
@@ -71,6 +69,7 @@ class Desktop {
   void minimise(::Window window) const { sync(XIconifyWindow(display_.get(), window, 0)); }
   void map(::Window window) const { sync(XMapWindow(display_.get(), window)); }
   void unmap(::Window window) const { sync(XUnmapWindow(display_.get(), window)); }
+  void move(::Window window, int x, int y) const { sync(XMoveWindow(display_.get(), window, x, y)); }
   void blank() const { sync(XForceScreenSaver(display_.get(), ScreenSaverActive)); }
   void wake() const { sync(XForceScreenSaver(display_.get(), ScreenSaverReset)); }
   void change_workspace(long number) const {
@@ -125,18 +124,6 @@ class UnseenWindow : public ::testing::Test {
     ASSERT_EQ(run("xdotool windowfocus " + std::to_string(window_) + " key 1").exit_code, 0);
   }
 
-  // Time from an instant to the first tick without force, by the session.
-  std::optional<support::Milliseconds> dark_after(std::int64_t hidden_ns) const {
-    const auto session = servo::load_session(kept() + "/session-mica.afms");
-    EXPECT_TRUE(session) << session.error().message;
-    if (!session) return std::nullopt;
-    const auto dark = std::find_if(session->samples.begin(), session->samples.end(), [&](const scene::TipSample& s) {
-      return s.time_ns > hidden_ns && s.servo_state == scene::ServoState::Disarmed;
-    });
-    if (dark == session->samples.end()) return std::nullopt;
-    return std::chrono::nanoseconds(dark->time_ns - hidden_ns);
-  }
-
   // The force is gone in time once the window is hidden, and comes back with the window.
   void loses_force(const std::function<void()>& hide, const std::function<void()>& show, const std::string& cause) {
     support::expect_within(kMostDark, [&] {
@@ -157,11 +144,7 @@ class UnseenWindow : public ::testing::Test {
       EXPECT_TRUE(program.says("force on")) << program.said();
       program.signal(SIGINT);
       EXPECT_EQ(program.ends(), 0) << program.said();
-      const auto dark = dark_after(hidden_ns);
-      EXPECT_TRUE(dark.has_value());
-      const support::Milliseconds took = dark.value_or(1s);
-      const auto end_ns = hidden_ns + std::chrono::duration_cast<std::chrono::nanoseconds>(took).count();
-      return support::Timed{took, watch.longest_between(hidden_ns, end_ns)};
+      return support::dark_after(hidden_ns, kept() + "/session-mica.afms", watch);
     });
   }
 
@@ -196,11 +179,15 @@ TEST_F(UnseenWindow, LosesTheForceWhenTheScreenSaverBlanksIt) {
   loses_force([this] { desktop_.blank(); }, [this] { desktop_.wake(); }, "the screen saver or DPMS");
 }
 
-// The time counts from when the command is done.
+// The window's monitor is the right one, since xrandr moves the monitors that are left to the left. The time counts
+// from when the command is done.
 TEST_F(UnseenWindow, LosesTheForceWhenItsMonitorIsOff) {
   hides_by_command_ = true;
-  loses_force([this] { monitors_.xrandr("--fb 640x240 --output DUMMY0 --off --output DUMMY1 --pos 320x0"); },
-              [this] { monitors_.xrandr("--output DUMMY0 --mode small --pos 0x0"); }, "no monitor shows");
+  const auto hide = [this] {
+    desktop_.move(window_, support::TwoMonitors::kWidth, 0);
+    monitors_.xrandr("--fb 640x240 --output DUMMY1 --off");
+  };
+  loses_force(hide, [this] { monitors_.xrandr("--output DUMMY1 --mode small --pos 320x0"); }, "no monitor shows");
 }
 
 // As in a blind step, which hides the picture in the same way.

@@ -28,6 +28,7 @@ class SightOfAWindow : public ::testing::Test {
     display_ = connect(server_.name());
     root_ = DefaultRootWindow(display_.get());
     window_ = make_window(10, 10, 100, 100);
+    XSync(display_.get(), False);  // another connection can select its events
     sight_ = XSight::connect({static_cast<std::uint32_t>(window_)});
     XMapWindow(display_.get(), window_);
   }

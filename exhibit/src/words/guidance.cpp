@@ -76,7 +76,8 @@ std::string step_text(const Phrases& phrases, Hint hint, const Controls& control
 std::string guidance_line(const Phrases& phrases, Hint hint, const scene::TipState& tip, const Controls& controls) {
   std::string step = step_text(phrases, hint, controls);
   const bool off = tip.servo_state == scene::ServoState::Disarmed || tip.servo_state == scene::ServoState::Fault;
-  if (tip.material < 0 || !off || tip.fault == scene::FaultCode::None) return step;
+  const bool unasked = tip.fault != scene::FaultCode::None && tip.fault != scene::FaultCode::StopPressed;
+  if (tip.material < 0 || !off || !unasked) return step;
   const std::string& reason = phrases[after(Phrase::ForceOff, core::index_of(tip.fault))];
   return phrases[Phrase::ForceOff] + ": " + reason + ". " + step;
 }

@@ -166,6 +166,7 @@ TEST_F(LessonView, LaysTheVariantsOfAThresholdAndHidesWhatABlindStepAsksFor) {
   ASSERT_TRUE(view.says("Which sample was it?")) << view.said();
   EXPECT_THAT(view.said(), Not(HasSubstr("chosen: "))) << "the log of a blind step names no sample";
   EXPECT_THAT(view.said(), Not(HasSubstr("scale fit")));
+  EXPECT_THAT(view.said(), Not(HasSubstr("nobody sees"))) << "a picture that is hidden on purpose keeps its force";
   picture("which");
   key("2");
   ASSERT_TRUE(view.says("The lesson is finished")) << view.said();

@@ -51,7 +51,7 @@ const std::string& note_text(const Phrases& phrases, Note note);
 // Text of the step, with the names of the device's controls.
 std::string step_text(const Phrases& phrases, Hint hint, const Controls& controls);
 
-// One line for the wall: the reason if the force went off, and the next step.
+// One line for the wall: the reason if the force went off without a person's Stop, and the next step.
 std::string guidance_line(const Phrases& phrases, Hint hint, const scene::TipState& tip, const Controls& controls);
 
 }  // namespace afm::exhibit
