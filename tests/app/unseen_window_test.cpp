@@ -9,7 +9,9 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/clock.h"
@@ -35,11 +37,14 @@ constexpr support::Milliseconds kMostDark{350.0};
 
 class WindowManager {
  public:
+  // Returns once it manages windows: one that is mapped while it starts may stay unmapped.
   explicit WindowManager(const std::string& display) : pid_(::fork()) {
-    if (pid_ != 0) return;
-    ::setenv("DISPLAY", display.c_str(), 1);
-    ::execlp("openbox", "openbox", "--sm-disable", nullptr);
-    ::_exit(127);
+    if (pid_ == 0) {
+      ::setenv("DISPLAY", display.c_str(), 1);
+      ::execlp("openbox", "openbox", "--sm-disable", nullptr);
+      ::_exit(127);
+    }
+    wait(display);
   }
   WindowManager(const WindowManager&) = delete;
   WindowManager& operator=(const WindowManager&) = delete;
@@ -49,6 +54,14 @@ class WindowManager {
   }
 
  private:
+  static void wait(const std::string& display) {
+    const auto end = std::chrono::steady_clock::now() + 20s;
+    while (support::run_program("DISPLAY=" + display + " xdotool get_num_desktops").exit_code != 0) {
+      if (std::chrono::steady_clock::now() > end) throw std::runtime_error("openbox manages no windows after 20 s");
+      std::this_thread::sleep_for(20ms);
+    }
+  }
+
   pid_t pid_;
 };
 
