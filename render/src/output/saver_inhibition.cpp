@@ -7,7 +7,8 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
+
+#include "core/system_error.h"
 
 namespace afm::render {
 
@@ -61,7 +62,7 @@ struct SaverInhibition::Connections {
     sd_bus_error error{};
     const int called = sd_bus_call_method(bus, kService, kObject, kService, "Inhibit", &error, nullptr, "ss",
                                           "TouchAFM", "the wall is in use");
-    const std::string reason = error.message != nullptr ? error.message : std::strerror(-called);
+    const std::string reason = error.message != nullptr ? error.message : core::system_error(-called);
     sd_bus_error_free(&error);
     if (called < 0) return {.said = reason};
     return {.works = true, .said = "inhibited"};

@@ -44,7 +44,7 @@ core::Error cannot_start(const std::string& program, int error) {
   ::sigemptyset(&none);
   // a killed keeper leaves no window that nobody reopens; unlike its end, this also reaches a stopped program
   const bool kept = ::prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ::getppid() == parent;
-  if (kept && ::dup2(beats, kBeatDescriptor) >= 0 && ::sigprocmask(SIG_SETMASK, &none, nullptr) == 0)
+  if (kept && ::dup2(beats, kBeatDescriptor) >= 0 && ::pthread_sigmask(SIG_SETMASK, &none, nullptr) == 0)
     ::execv(program, words);
   const int error = errno;
   [[maybe_unused]] const auto written = ::write(report, &error, sizeof(error));

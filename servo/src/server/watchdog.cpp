@@ -45,7 +45,7 @@ core::FileDescriptor peer_of(int socket) {
 void block_every_signal() {
   sigset_t every;
   ::sigfillset(&every);
-  ::sigprocmask(SIG_SETMASK, &every, nullptr);
+  ::pthread_sigmask(SIG_SETMASK, &every, nullptr);
 }
 
 // Never chosen by the kernel's memory killer, where the user may ask for that.
@@ -59,7 +59,7 @@ void ask_for_memory() {
 // Asks the user's systemd for a scope, so that a command or a lack of memory that ends the servo's scope leaves this
 // process alone. Does not wait: without systemd there is none.
 void ask_for_scope() {
-  const char* folder = std::getenv("XDG_RUNTIME_DIR");
+  const char* folder = ::secure_getenv("XDG_RUNTIME_DIR");
   std::error_code error;
   if (folder == nullptr || !std::filesystem::exists(std::filesystem::path(folder) / "systemd", error)) return;
   std::string name = fmt::format("touchafm-guard-{}.scope", ::getpid()), process = std::to_string(::getpid());
