@@ -7,6 +7,11 @@
 #include <thread>
 #include <vector>
 
+// With the idlers below every fork is one of several threads, and ThreadSanitizer would end a child that starts
+// another.
+extern "C" const char* __tsan_default_options();
+extern "C" const char* __tsan_default_options() { return "die_after_fork=0"; }
+
 namespace afm::support {
 namespace {
 
