@@ -60,7 +60,8 @@ ForceGuard::Heard ForceGuard::hear(int dismissal) {
   if (watched[1].revents != 0) return Heard::Dismissed;
   core::FileDescriptor device;
   const auto text = letter_.read(servo_, {&device, 1});
-  if (!text) return errno == EAGAIN || errno == EINTR ? Heard::Nothing : Heard::Gone;
+  // ECONNRESET comes once, before what is still to be read: the servo has left beats unread
+  if (!text) return errno == EAGAIN || errno == EINTR || errno == ECONNRESET ? Heard::Nothing : Heard::Gone;
   if (*text == guard_letter::kEnd) {
     ending_ = true;
     silent_wakes_ = 0;

@@ -10,6 +10,8 @@
 #include <set>
 #include <string_view>
 
+#include "core/whole_file.h"
+
 namespace afm::scene {
 
 namespace {
