@@ -122,9 +122,6 @@ struct Table {
     };
     by_guard(watchdog_ms, 25, 1000);
     by_guard(renderer_ms, 80, 1520);
-    // the kernel continues a stopped servo whose renderer has died, and hangs up
-    const int orphaned_ms = dead_ms[static_cast<std::size_t>(Victim::Renderer)];
-    if (!killed && servo_ms < orphaned_ms && orphaned_ms < kNever) released.push_back(orphaned_ms + 100);
     const int first_ms = *std::min_element(released.begin(), released.end());
     return first_ms < kNever ? std::optional(first_ms) : std::nullopt;
   }
@@ -320,8 +317,7 @@ TEST_P(WorstGuardFaults, LeaveNoForce) { expect_release(true, GetParam()); }
 INSTANTIATE_TEST_SUITE_P(
     Of, WorstGuardFaults,
     testing::Values(Faults{{Victim::Watchdog, SIGSTOP}}, Faults{{Victim::Watchdog, SIGKILL}, {Victim::Servo, SIGKILL}},
-                    Faults{{Victim::Watchdog, SIGSTOP}, {Victim::Servo, SIGSTOP}},
-                    Faults{{Victim::Watchdog, SIGSTOP}, {Victim::Servo, SIGSTOP}, {Victim::Renderer, SIGKILL}}),
+                    Faults{{Victim::Watchdog, SIGSTOP}, {Victim::Servo, SIGSTOP}}),
     [](const auto& parameter) {
       std::string name = text_of(parameter.param);
       name.erase(std::remove_if(name.begin(), name.end(), [](char c) { return c == ' ' || c == ':'; }), name.end());
