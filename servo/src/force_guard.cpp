@@ -60,7 +60,7 @@ ForceGuard::Heard ForceGuard::hear(int dismissal) {
   if (watched[1].revents != 0) return Heard::Dismissed;
   core::FileDescriptor device;
   const auto text = letter_.read(servo_, {&device, 1});
-  // ECONNRESET comes once, before what is still to be read: the servo has left beats unread
+  // ECONNRESET: the servo left beats unread. It comes once, before the letters that are still to be read.
   if (!text) return errno == EAGAIN || errno == EINTR || errno == ECONNRESET ? Heard::Nothing : Heard::Gone;
   if (*text == guard_letter::kEnd) {
     ending_ = true;

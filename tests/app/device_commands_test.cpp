@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "haptics/device_registry.h"
-#include "support/loopback_sender.h"
+#include "support/network/loopback_sender.h"
 #include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"

@@ -11,7 +11,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "core/clock.h"
@@ -58,7 +57,6 @@ class WindowManager {
     const auto end = std::chrono::steady_clock::now() + 20s;
     while (support::run_program("DISPLAY=" + display + " xdotool get_num_desktops").exit_code != 0) {
       if (std::chrono::steady_clock::now() > end) throw std::runtime_error("openbox manages no windows after 20 s");
-      std::this_thread::sleep_for(20ms);
     }
   }
 

@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "support/loopback_sender.h"
+#include "support/network/loopback_sender.h"
 
 namespace afm::input {
 namespace dtrack_source_test {

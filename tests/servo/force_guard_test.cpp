@@ -16,7 +16,7 @@
 namespace afm::servo {
 namespace force_guard_test {
 
-// A servo without a device ends within a beat's time, and the kernel tells the guard of the unread beats first.
+// A servo without a device may end with beats unread. The kernel then reports an error before its last letter.
 TEST(ForceGuard, LeavesAServoAloneThatAnnouncedItsEndAndLeftBeatsUnread) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()), 0);

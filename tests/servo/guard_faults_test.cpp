@@ -81,10 +81,18 @@ std::vector<Faults> every(std::size_t count) {
 
 // The manual's table, "What dies, and when the force is gone", in ms from the first fault; empty where nobody is left
 // but the device's own watchdog. A fade that the next fault may interrupt does not count.
-struct Table {
-  bool reachable;  // by other processes than the servo
+class Table {
+ public:
+  // `reachable`: by other processes than the servo.
+  explicit constexpr Table(bool reachable) : reachable_(reachable) {}
 
-  std::optional<int> operator()(const Faults& faults) const {
+  std::optional<int> operator()(const Faults& faults) const { return released_ms(faults, true); }
+
+  // Whether the hand is released only by the renderer's death, which a killed process needs processor time for.
+  bool waits_for_death(const Faults& faults) const { return released_ms(faults, true) != released_ms(faults, false); }
+
+ private:
+  std::optional<int> released_ms(const Faults& faults, bool kernel_continues) const {
     constexpr int kNever = 1'000'000;
     std::array<int, 3> stopped_ms{kNever, kNever, kNever}, dead_ms{kNever, kNever, kNever};
     int told_ms = kNever;
@@ -116,15 +124,21 @@ struct Table {
     const bool killed = dead_ms[static_cast<std::size_t>(Victim::Servo)] < kNever;
     const auto by_guard = [&](int guard_ms, int takes_ms, int kills_ms) {
       // a dead servo closes its device at once, on a busy machine a little later
-      const int until_ms = reachable ? takes_ms : killed ? 30 : kills_ms;
+      const int until_ms = reachable_ ? takes_ms : killed ? 30 : kills_ms;
       if (servo_ms < kNever && servo_ms + until_ms + kSpacingMs / 2 <= guard_ms)
         released.push_back(servo_ms + until_ms);
     };
     by_guard(watchdog_ms, 25, 1000);
     by_guard(renderer_ms, 80, 1520);
+    // the kernel continues a stopped servo whose renderer has died, and hangs up
+    const int orphaned_ms = dead_ms[static_cast<std::size_t>(Victim::Renderer)];
+    if (kernel_continues && !killed && servo_ms < orphaned_ms && orphaned_ms < kNever)
+      released.push_back(orphaned_ms + 100);
     const int first_ms = *std::min_element(released.begin(), released.end());
     return first_ms < kNever ? std::optional(first_ms) : std::nullopt;
   }
+
+  bool reachable_;
 };
 
 // The only child of a process, or -1.
@@ -156,6 +170,7 @@ class Chain {
   }
 
   bool attached() const { return attached_; }
+  bool renderer_lives() const { return !ended(renderer_); }
 
   void raise(const Fault& fault) const {
     const std::array processes{renderer_, servo_, watchdog_};
@@ -217,7 +232,6 @@ class Chain {
     for (;;) ::pause();
   }
 
-  bool renderer_lives() const { return !ended(renderer_); }
   bool renderer_holds() {
     const auto state = side_.tip_state();
     return state && state->servo_state == scene::ServoState::Running && state->hand.force_n[1] < -0.5;
@@ -250,36 +264,54 @@ class Chain {
   bool haply_;
   scene::SharedSegment segment_ = create_segment();
   scene::RendererSide side_ = segment_.renderer_side();
-  int port_in_ = -1;  // end of the pipe that tells the renderer the service's port
+  int port_in_ = -1;  // write end of a pipe for the service's port
   pid_t renderer_ = start_renderer(), servo_ = -1, watchdog_ = -1;
   HaplyService service_;
   double hand_n_ = 1.0;
   bool attached_ = false;
 };
 
-// Time from the first fault to the first moment without force, or `limit`.
-support::Timed time_of_force(Chain& chain, const Faults& faults, milliseconds limit) {
-  return support::timed([&] {
-    const auto begin = std::chrono::steady_clock::now();
-    bool gone = false;
+// Time from the first fault to the renderer's.
+milliseconds killed_after(const Faults& faults) {
+  const auto at =
+      std::find_if(faults.begin(), faults.end(), [](const Fault& f) { return f.victim == Victim::Renderer; });
+  return milliseconds(kSpacingMs) * (at - faults.begin());
+}
+
+// Time from the first fault to the first moment without force, or `limit`; without the time that a killed renderer
+// takes to die where the release waits for that.
+support::Timed time_of_force(Chain& chain, const Faults& faults, bool waits_for_death, milliseconds limit) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::seconds kMostDying{10};
+  Clock::duration dying{};
+  support::Timed seen = support::timed([&] {
+    const auto begin = Clock::now();
+    bool gone = false, dead = false;
     std::thread raiser([&] {
       for (std::size_t i = 0; i < faults.size(); ++i) {
         std::this_thread::sleep_until(begin + milliseconds(kSpacingMs) * static_cast<int>(i));
         chain.raise(faults[i]);
       }
     });
-    while (!gone && std::chrono::steady_clock::now() < begin + limit) {
+    while (!gone && Clock::now() < begin + limit + std::min<Clock::duration>(dying, kMostDying)) {
       gone = chain.force_n() == 0.0;
+      if (waits_for_death && !dead) {
+        dead = !chain.renderer_lives();
+        if (Clock::now() > begin + killed_after(faults)) dying = Clock::now() - begin - killed_after(faults);
+      }
       if (!gone) wait_a_little();
     }
     raiser.join();
   });
+  seen.took -= dying;
+  return seen;
 }
 
 // Each bound is doubled, as the others of real processes are.
 void expect_release(bool haply, const Faults& faults) {
   SCOPED_TRACE(fmt::format("{} {}", haply ? "haply" : "simulated", text_of(faults)));
-  const auto bound_ms = Table{.reachable = haply}(faults);
+  const Table table(haply);
+  const auto bound_ms = table(faults);
   if (!bound_ms) {
     std::printf("%s %s: nobody is left but the device's own watchdog\n", haply ? "haply" : "simulated",
                 text_of(faults).c_str());
@@ -291,12 +323,12 @@ void expect_release(bool haply, const Faults& faults) {
     Chain chain(haply);
     EXPECT_TRUE(chain.attached());
     if (testing::Test::HasFailure()) return {};
-    return time_of_force(chain, faults, 3 * bound);
+    return time_of_force(chain, faults, table.waits_for_death(faults), 3 * bound);
   });
 }
 
 TEST(GuardFaults, AreNamedByTheManualsTable) {
-  constexpr Table haply{.reachable = true}, library{.reachable = false};
+  constexpr Table haply(true), library(false);
   const Faults servo_and_watchdog{{Victim::Servo, SIGKILL}, {Victim::Watchdog, SIGKILL}};
   EXPECT_EQ(haply(servo_and_watchdog), 25);
   EXPECT_EQ(library(servo_and_watchdog), 30);
@@ -305,6 +337,9 @@ TEST(GuardFaults, AreNamedByTheManualsTable) {
   EXPECT_EQ(library(stopped), kSpacingMs + 1520);
   const Faults all{{Victim::Watchdog, SIGSTOP}, {Victim::Renderer, SIGSTOP}, {Victim::Servo, SIGSTOP}};
   EXPECT_EQ(haply(all), std::nullopt);
+  EXPECT_FALSE(haply.waits_for_death(stopped));
+  EXPECT_TRUE(
+      haply.waits_for_death({{Victim::Watchdog, SIGSTOP}, {Victim::Servo, SIGSTOP}, {Victim::Renderer, SIGKILL}}));
   EXPECT_EQ(every(2).size(), 96U);
   EXPECT_EQ(every(3).size(), 384U);
 }
@@ -317,7 +352,8 @@ TEST_P(WorstGuardFaults, LeaveNoForce) { expect_release(true, GetParam()); }
 INSTANTIATE_TEST_SUITE_P(
     Of, WorstGuardFaults,
     testing::Values(Faults{{Victim::Watchdog, SIGSTOP}}, Faults{{Victim::Watchdog, SIGKILL}, {Victim::Servo, SIGKILL}},
-                    Faults{{Victim::Watchdog, SIGSTOP}, {Victim::Servo, SIGSTOP}}),
+                    Faults{{Victim::Watchdog, SIGSTOP}, {Victim::Servo, SIGSTOP}},
+                    Faults{{Victim::Watchdog, SIGSTOP}, {Victim::Servo, SIGSTOP}, {Victim::Renderer, SIGKILL}}),
     [](const auto& parameter) {
       std::string name = text_of(parameter.param);
       name.erase(std::remove_if(name.begin(), name.end(), [](char c) { return c == ' ' || c == ':'; }), name.end());

@@ -131,6 +131,17 @@ TEST(ServoProcess, ReleasesTheHandAndEndsWhenTheRendererIsKilled) {
   }));
 }
 
+// Without a stopped job of an orphaned group, which the kernel would continue: the test is of the renderer's session.
+// The watchdog would kill a servo that stays stopped.
+TEST(ServoProcess, GoesOnWhenItIsStoppedAndItsRendererDies) {
+  SharedSegment segment = create_segment();
+  const RendererProcess renderer(segment);
+  ::kill(renderer.servo_pid(), SIGSTOP);
+  renderer.signal(SIGKILL);
+  EXPECT_EQ(renderer.servo_exit_code(), 1);
+  EXPECT_THAT(renderer.log(), HasSubstr("the renderer died: force released"));
+}
+
 TEST(ServoProcess, FadesWhenTheRendererIsStoppedAndStaysDisarmedWhenItGoesOn) {
   EXPECT_TRUE(eventually([&] {
     SharedSegment segment = create_segment();

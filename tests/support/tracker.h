@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "support/loopback_sender.h"
+#include "support/network/loopback_sender.h"
 
 namespace afm::support {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/cluster/cluster_wall.h"
-#include "support/lossy_network.h"
+#include "support/network/lossy_network.h"
 
 namespace afm::app {
 

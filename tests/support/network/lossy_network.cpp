@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "support/lossy_network.h"
+#include "support/network/lossy_network.h"
 
 #include <fcntl.h>
 #include <linux/if_tun.h>
