@@ -18,7 +18,7 @@
 
 namespace afm::exhibit {
 
-// English, and the language of the wall: the file of that language with the user's own file on top.
+// English, and the language of the wall: its phrase file with the user's replacements.
 struct LoadedPhrases {
   Phrases english, wall;
 };
