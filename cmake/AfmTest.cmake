@@ -20,14 +20,15 @@ pkg_check_modules(UMOCKDEV REQUIRED IMPORTED_TARGET umockdev-1.0)
 set(AFM_WITH_PRETENDED_DEVICES ${CMAKE_SOURCE_DIR}/tests/input/with_pseudo_terminals.sh ${AFM_UMOCKDEV_WRAPPER})
 
 # afm_test(NAME folder.subject SOURCES ... LIBRARIES ... LABELS ... [NEEDS target ...] [TIMEOUT seconds] [OPTIMISED] [SERIAL]
-#          [CASES | SUITES] [DEEP filter] [PRETENDED_DEVICES])
+#          [CASES | SUITES] [DEEP filter] [ONLY_DEEP filter] [PRETENDED_DEVICES])
 # One program, test_folder_subject, of sources that are compiled together: the names in them must differ. It is one case of CTest,
 # folder.subject. With CASES every TEST in it is one, folder.Suite.Case, and with SUITES every suite, folder.Suite. Two cases run side by
 # side; nothing runs beside one that is SERIAL, as everything of labels realtime and hand is. The tests that `filter` names draw more in a
-# second case, NAME.deep of label deep (tests/support/deep.h). NEEDS names the programs that the test starts. PRETENDED_DEVICES runs it
+# second case, NAME.deep of label deep (tests/support/deep.h). Those that ONLY_DEEP names, a filter too but a suite with SUITES, are
+# left out of the usual run and have the label deep beside their own. NEEDS names the programs that the test starts. PRETENDED_DEVICES runs it
 # under umockdev.
 function(afm_test)
-  cmake_parse_arguments(T "OPTIMISED;SERIAL;CASES;SUITES;PRETENDED_DEVICES" "NAME;TIMEOUT;DEEP" "SOURCES;LIBRARIES;LABELS;NEEDS" ${ARGN})
+  cmake_parse_arguments(T "OPTIMISED;SERIAL;CASES;SUITES;PRETENDED_DEVICES" "NAME;TIMEOUT;DEEP;ONLY_DEEP" "SOURCES;LIBRARIES;LABELS;NEEDS" ${ARGN})
   if(T_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "afm_test(${T_NAME}): unknown: ${T_UNPARSED_ARGUMENTS}")
   endif()
@@ -68,22 +69,39 @@ function(afm_test)
   endif()
   afm_compile_together(${target})
 
-  if(T_DEEP)
-    add_test(NAME ${T_NAME}.deep COMMAND ${wrapper} $<TARGET_FILE:${target}> --gtest_filter=${T_DEEP})
+  set(deep ${T_DEEP})  # the filter of NAME.deep
+  set(usual "")         # the filter of the usual run
+  if(T_ONLY_DEEP AND NOT T_SUITES)
+    set(usual --gtest_filter=-${T_ONLY_DEEP})
+    if(NOT T_CASES)
+      list(APPEND deep ${T_ONLY_DEEP})
+    endif()
+  endif()
+  if(deep)
+    list(JOIN deep ":" deep)
+    add_test(NAME ${T_NAME}.deep COMMAND ${wrapper} $<TARGET_FILE:${target}> --gtest_filter=${deep})
     set_tests_properties(${T_NAME}.deep PROPERTIES LABELS deep TIMEOUT 900 RUN_SERIAL ${serial} ENVIRONMENT AFM_DEEP=1)
   endif()
   set(properties LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${serial})
   if(T_CASES)
-    gtest_discover_tests(${target} NO_PRETTY_VALUES TEST_PREFIX "${folder}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                         PROPERTIES ${properties})
+    set(discovery NO_PRETTY_VALUES TEST_PREFIX "${folder}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)
+    if(T_ONLY_DEEP)
+      gtest_discover_tests(${target} ${discovery} TEST_LIST ${target}_deep TEST_FILTER "${T_ONLY_DEEP}"
+                           PROPERTIES LABELS "deep\;${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${serial})
+      list(APPEND discovery TEST_FILTER "-${T_ONLY_DEEP}")
+    endif()
+    gtest_discover_tests(${target} ${discovery} PROPERTIES ${properties})
   elseif(T_SUITES)
     afm_suites_of(suites ${T_SOURCES})
     foreach(suite ${suites})
       add_test(NAME ${folder}.${suite} COMMAND ${wrapper} $<TARGET_FILE:${target}> --gtest_filter=${suite}.*)
       set_tests_properties(${folder}.${suite} PROPERTIES ${properties})
+      if(suite IN_LIST T_ONLY_DEEP)
+        set_tests_properties(${folder}.${suite} PROPERTIES LABELS "deep;${T_LABELS}")
+      endif()
     endforeach()
   else()
-    add_test(NAME ${T_NAME} COMMAND ${wrapper} $<TARGET_FILE:${target}>)
+    add_test(NAME ${T_NAME} COMMAND ${wrapper} $<TARGET_FILE:${target}> ${usual})
     set_tests_properties(${T_NAME} PROPERTIES ${properties})
   endif()
 endfunction()

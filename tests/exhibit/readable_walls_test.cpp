@@ -110,6 +110,7 @@ TEST_P(ReadableWalls, CutNoWordAndShowTheStateOnPicturesOfEverySizeInEveryLangua
   const support::ScratchFolder folder;
   const std::string pseudo = folder.write("pseudo.toml", test::pseudo_language());
   for (const auto& [language, own] : {std::pair<std::string, std::string>{"en", ""}, {"de", ""}, {"en", pseudo}}) {
+    if (!support::deep() && own.empty()) continue;  // the pseudo-locale has the longest words
     ExhibitFiles files;
     files.assets_dir = support::source("assets");
     files.wall = fmt::format("{}/walls/{}.toml", files.assets_dir, GetParam());

@@ -92,7 +92,7 @@ class Table {
   bool waits_for_death(const Faults& faults) const { return released_ms(faults, true) != released_ms(faults, false); }
 
  private:
-  std::optional<int> released_ms(const Faults& faults, bool kernel_continues) const {
+  std::optional<int> released_ms(const Faults& faults, bool by_death) const {
     constexpr int kNever = 1'000'000;
     std::array<int, 3> stopped_ms{kNever, kNever, kNever}, dead_ms{kNever, kNever, kNever};
     int told_ms = kNever;
@@ -116,7 +116,7 @@ class Table {
       if (from_ms + takes_ms + kSpacingMs / 2 <= servo_ms) released.push_back(from_ms + takes_ms);
     };
     // 20 on a quiet machine; a busy one closes a dead process's sockets late
-    by_servo(dead_ms[static_cast<std::size_t>(Victim::Renderer)], 100);
+    if (by_death) by_servo(dead_ms[static_cast<std::size_t>(Victim::Renderer)], 100);
     by_servo(stopped_ms[static_cast<std::size_t>(Victim::Renderer)], 340);
     by_servo(dead_ms[static_cast<std::size_t>(Victim::Watchdog)], 90);
     by_servo(stopped_ms[static_cast<std::size_t>(Victim::Watchdog)], 190);
@@ -132,8 +132,7 @@ class Table {
     by_guard(renderer_ms, 80, 1520);
     // the kernel continues a stopped servo whose renderer has died, and hangs up
     const int orphaned_ms = dead_ms[static_cast<std::size_t>(Victim::Renderer)];
-    if (kernel_continues && !killed && servo_ms < orphaned_ms && orphaned_ms < kNever)
-      released.push_back(orphaned_ms + 100);
+    if (by_death && !killed && servo_ms < orphaned_ms && orphaned_ms < kNever) released.push_back(orphaned_ms + 100);
     const int first_ms = *std::min_element(released.begin(), released.end());
     return first_ms < kNever ? std::optional(first_ms) : std::nullopt;
   }
@@ -284,6 +283,7 @@ support::Timed time_of_force(Chain& chain, const Faults& faults, bool waits_for_
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::seconds kMostDying{10};
   Clock::duration dying{};
+  Clock::duration lasted{};
   support::Timed seen = support::timed([&] {
     const auto begin = Clock::now();
     bool gone = false, dead = false;
@@ -301,9 +301,10 @@ support::Timed time_of_force(Chain& chain, const Faults& faults, bool waits_for_
       }
       if (!gone) wait_a_little();
     }
-    raiser.join();
+    lasted = Clock::now() - begin;
+    raiser.join();  // faults that come after the release
   });
-  seen.took -= dying;
+  seen.took = lasted - dying;
   return seen;
 }
 
