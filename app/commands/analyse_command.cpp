@@ -21,6 +21,7 @@
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
 #include "curves/image_file.h"
+#include "curves/unread_kinds.h"
 #include "physics/friction/friction.h"
 #include "physics/quantity_text.h"
 #include "servo/session_friction.h"
@@ -83,9 +84,12 @@ const FileKindRow* row_of(const std::string& file) {
 
 core::Result<FileKind> kind_of(const std::string& file) {
   if (const FileKindRow* row = row_of(file)) return row->kind;
-  if (const auto readable = core::read_beginning(file, 1); !readable) return tl::unexpected(readable.error());
+  const auto beginning = core::read_beginning(file, curves::kUnreadKindBytes);
+  if (!beginning) return tl::unexpected(beginning.error());
+  const std::string_view kind = curves::unread_kind_of(*beginning);
   return core::failure(core::ErrorCategory::BadInputFile,
-                       fmt::format("cannot analyse {}: it is of no known kind; known are {}", file, known_files()));
+                       fmt::format("cannot analyse {}: it is {}; known are {}", file,
+                                   kind.empty() ? "of no known kind" : kind, known_files()));
 }
 
 // An option that applies to only one kind of file.

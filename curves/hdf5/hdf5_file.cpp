@@ -12,10 +12,13 @@
 #include "core/version.h"
 #include "curves/curve_error.h"
 #include "formats/afmformats_metadata.h"
+#include "formats/segments.h"
 
 namespace afm::curves {
 
 namespace {
+
+constexpr std::size_t kMostCurvesCounted = 1000;
 
 // Owns an HDF5 identifier of any kind; all kinds are reference-counted in the same way.
 class Handle {
@@ -189,6 +192,18 @@ bool has(hid_t group, const char* name) {
   throw CurveError(fmt::format("its \"{}\" is a link, which is not followed; copy the data into the file", name));
 }
 
+// afmformats' files have the groups "0", "1", ...; other programs' files have others.
+std::string missing_curve(hid_t file, const std::string& name) {
+  std::size_t curves = 0;
+  while (curves < kMostCurvesCounted && has(file, std::to_string(curves).c_str())) ++curves;
+  if (curves > 0) return fmt::format("it has no curve \"{}\"; it has {}, counted from 0", name, curves);
+  std::array<char, 64> first{};
+  const ssize_t size =
+      H5Lget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, 0, first.data(), first.size(), H5P_DEFAULT);
+  return fmt::format("it is HDF5, but no curve file of afmformats, whose curves are groups \"0\", \"1\" and so on; {}",
+                     size > 0 ? fmt::format("it begins with \"{}\"", first.data()) : std::string("it is empty"));
+}
+
 // Rejects a data set whose data are in another file.
 void must_hold_its_data(hid_t column, const char* name) {
   const Handle made = must(H5Dget_create_plist(column), "read how a data set was made");
@@ -222,7 +237,7 @@ RecordedCurve read_hdf5(std::string_view bytes, std::size_t index) {
   const Handle file(H5Fopen("curve", H5F_ACC_RDONLY, access.get()));
   if (!file.is_open()) throw CurveError("it is damaged or cut short");
   const std::string name = std::to_string(index);
-  if (!has(file.get(), name.c_str())) throw CurveError(fmt::format("it has no curve \"{}\"", name));
+  if (!has(file.get(), name.c_str())) throw CurveError(missing_curve(file.get(), name));
   const Handle group(H5Gopen2(file.get(), name.c_str(), H5P_DEFAULT));
   if (!group.is_open()) throw CurveError(fmt::format("its curve \"{}\" is damaged", name));
 
@@ -238,12 +253,9 @@ RecordedCurve read_hdf5(std::string_view bytes, std::size_t index) {
     throw CurveError("its columns differ in length");
   }
   for (std::size_t i = 0; i < force.size(); ++i) {
-    if (segment[i] != 0.0 && segment[i] != 1.0) {
-      throw CurveError(fmt::format("segment is {}; known are 0 (approach) and 1 (retract)", segment[i]));
-    }
-    curve.points.push_back({physics::Length(height[i]), physics::Force(force[i]),
-                            segment[i] == 0.0 ? physics::Branch::Approach : physics::Branch::Retract});
+    curve.points.push_back({physics::Length(height[i]), physics::Force(force[i])});
   }
+  assign_branches(segment, curve);
   return curve;
 }
 

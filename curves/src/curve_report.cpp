@@ -88,18 +88,14 @@ std::optional<double> difference(const std::optional<double>& measured, const st
 // Methods that found a contact point, from the deepest to the outermost.
 template <class Out>
 void add_contact_method(const CurveFeatures& features, Out out) {
-  physics::Length lowest = *features.contact_point, highest = lowest;
-  for (const auto& estimate : features.contact_estimates) {
-    if (!estimate) continue;
-    lowest = std::min(lowest, *estimate);
-    highest = std::max(highest, *estimate);
-  }
+  const physics::PlaceRange range = *features.contact_range;
   fmt::format_to(out, "{:<16}{:>16}  (all methods: {} to {})\n", "  its method", name_of(features.contact_method),
-                 kLengthText(lowest.si), kLengthText(highest.si));
+                 kLengthText(range.low.si), kLengthText(range.high.si));
   if (features.contact_doubtful) {
     fmt::format_to(out,
-                   "  DOUBTFUL: the methods differ by more than a third of the pushed depth; look at the curve (--out) "
-                   "and choose one with --contact-point\n");
+                   "  DOUBTFUL: too short or too wavy a baseline, or methods that differ by more than a third of the "
+                   "pushed depth; look at the curve (--out), record more of it before contact, or choose a method with "
+                   "--contact-point\n");
   }
 }
 
@@ -121,6 +117,41 @@ std::string described(const RecordedCurve& curve) {
   return text;
 }
 
+// Adds a remark if the tip is pulled at the deepest twentieth of the approach, where it should be pushed.
+void remark_sign(const CurveFeatures& features, RecordedCurve& curve) {
+  constexpr double kSignificant = 5.0, kRoundingShare = 1e-6, kDeepestShare = 0.05;
+  std::vector<physics::CurvePoint> approach;
+  std::copy_if(curve.points.begin(), curve.points.end(), std::back_inserter(approach),
+               [](const auto& point) { return point.branch == physics::Branch::Approach; });
+  const auto [low, high] =
+      std::minmax_element(approach.begin(), approach.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
+  const physics::Length deepest = low->z + kDeepestShare * (high->z - low->z);
+  std::vector<double> forces;
+  double greatest_n = 0.0;
+  for (const physics::CurvePoint& point : approach) {
+    greatest_n = std::max(greatest_n, std::abs(point.force.si));
+    if (point.z <= deepest) forces.push_back((point.force - features.baseline.at(point.z)).si);
+  }
+  const auto middle = forces.begin() + static_cast<std::ptrdiff_t>(forces.size() / 2);
+  std::nth_element(forces.begin(), middle, forces.end());
+  const double threshold_n = std::max(kSignificant * features.baseline.noise.si, kRoundingShare * greatest_n);
+  if (!(-*middle > threshold_n) || -*middle < features.greatest_push.si) return;
+  curve.metadata.remarks.push_back(
+      fmt::format("at its deepest the tip is pulled by {}, where it should be pushed: is the sign of the sensitivity "
+                  "wrong?",
+                  kForceText(-*middle)));
+}
+
+// Where the places of a report have their zero.
+const char* zero_name(const CurveFeatures& features) {
+  return features.contact_point ? "the contact point" : "the zero of the file's own heights";
+}
+
+// Places with different kinds of zero cannot be subtracted.
+bool is_subtractable(const Figure& figure, const CurveFeatures& a, const CurveFeatures& b) {
+  return a.contact_point.has_value() == b.contact_point.has_value() || !std::string_view(figure.key).ends_with("_z_m");
+}
+
 }  // namespace
 
 core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve,
@@ -134,6 +165,7 @@ core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve,
                            fmt::format("cannot analyse {}: --contact-point {} finds no contact point; try another",
                                        name, physics::name_of(*method)));
     }
+    if (!computed) remark_sign(features, curve);
     return AnalysedCurve{std::move(name), std::move(curve), features};
   } catch (const std::invalid_argument& error) {
     return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot analyse {}: {}", name, error.what()));
@@ -144,6 +176,7 @@ std::string features_text(const AnalysedCurve& measured, const AnalysedCurve* ot
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "{}: {}\n", measured.name, described(measured.curve));
+  for (const std::string& remark : measured.curve.metadata.remarks) fmt::format_to(out, "remark: {}\n", remark);
   if (other != nullptr) fmt::format_to(out, "{:<16}{:>16}{:>16}{:>16}\n", "", "measured", other->name, "difference");
   for (const Figure& figure : kFigures) {
     const auto cell = [&](const std::optional<double>& si) {
@@ -153,13 +186,18 @@ std::string features_text(const AnalysedCurve& measured, const AnalysedCurve* ot
     fmt::format_to(out, "{:<16}{:>16}", figure.title, cell(value));
     if (other != nullptr && is_comparable(figure)) {
       const auto expected = figure.si(other->features);
-      fmt::format_to(out, "{:>16}{:>16}", cell(expected), cell(difference(value, expected)));
+      fmt::format_to(out, "{:>16}{:>16}", cell(expected),
+                     cell(is_subtractable(figure, measured.features, other->features) ? difference(value, expected)
+                                                                                      : std::nullopt));
     }
     text.push_back('\n');
     if (std::string_view(figure.key) == "contact_point_m" && value) add_contact_method(measured.features, out);
   }
-  fmt::format_to(out,
-                 "places are from the contact point; forces are above the baseline, positive away from the sample\n");
+  fmt::format_to(out, "places are from {}; forces are above the baseline, positive away from the sample\n",
+                 zero_name(measured.features));
+  if (other != nullptr && other->features.contact_point.has_value() != measured.features.contact_point.has_value()) {
+    fmt::format_to(out, "places of {} are from {}\n", other->name, zero_name(other->features));
+  }
   return fmt::to_string(text);
 }
 
@@ -173,6 +211,10 @@ json features_json(const AnalysedCurve& measured, const AnalysedCurve* other) {
   result["contact_point_method"] =
       measured.features.contact_point ? json(name_of(measured.features.contact_method)) : json();
   result["contact_point_doubtful"] = measured.features.contact_doubtful;
+  const auto& range = measured.features.contact_range;
+  result["contact_point_range_m"] = range ? json::array({range->low.si, range->high.si}) : json();
+  result["places_are_from"] = zero_name(measured.features);
+  result["remarks"] = from.remarks;
   for (std::size_t i = 0; i < physics::kContactMethods.size(); ++i) {
     const auto& estimate = measured.features.contact_estimates[i];
     result["contact_point_methods_m"][std::string(physics::kContactMethods[i].name)] =
@@ -191,7 +233,9 @@ json features_json(const AnalysedCurve& measured, const AnalysedCurve* other) {
     if (!is_comparable(figure)) continue;
     const auto expected = figure.si(other->features);
     result["beside"][figure.key] = value_or_null(expected);
-    result["difference"][figure.key] = value_or_null(difference(figure.si(measured.features), expected));
+    result["difference"][figure.key] = is_subtractable(figure, measured.features, other->features)
+                                           ? value_or_null(difference(figure.si(measured.features), expected))
+                                           : json();
   }
   return result;
 }
@@ -211,7 +255,7 @@ std::vector<SvgLine> curve_lines(const AnalysedCurve& curve, const std::string& 
 SvgPlot features_plot(const AnalysedCurve& measured, const AnalysedCurve* other) {
   SvgPlot plot;
   plot.title = other == nullptr ? measured.name : fmt::format("{} and {}", measured.name, other->name);
-  plot.x_label = "Z from the contact point (nm)";
+  plot.x_label = fmt::format("Z from {} (nm)", zero_name(measured.features));
   plot.y_label = "force on the tip (nN)";
   plot.lines = curve_lines(measured, std::string(distinct_color(0)));
   if (other != nullptr) {

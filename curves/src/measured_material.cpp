@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "core/log.h"
 #include "curves/curve_file.h"
 #include "physics/measured_branches.h"
 
@@ -35,6 +36,7 @@ scene::MaterialEntry entry_of(const std::string& path, const CurveMetadata& meta
 core::Result<MeasuredMaterial> load_measured_material(const std::string& path, const scene::MaterialEntry& like) {
   const auto recorded = load_curve(path);
   if (!recorded) return tl::unexpected(recorded.error());
+  for (const std::string& remark : recorded->metadata.remarks) core::log_line(fmt::format("{}: {}", path, remark));
   try {
     const auto branches = physics::measured_branches(recorded->points, scene::kMaxMeasuredPoints);
     MeasuredMaterial measured{entry_of(path, recorded->metadata, like), {}, physics::analyse(recorded->points)};

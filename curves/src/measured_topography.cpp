@@ -128,6 +128,8 @@ std::string topography_text(const MeasuredTopography& topography) {
   for (const physics::ImageChannel& each : scan.channels) channels += (channels.empty() ? "" : ", ") + each.name;
   for (const std::string& name : topography.file.left_out) channels += fmt::format(", {} (on another grid)", name);
   line("channels", channels);
+  for (const UnreadChannel& each : topography.file.unread) line("left out", each.name + ": " + each.reason);
+  for (const std::string& remark : topography.file.remarks) line("remark", remark);
   line("channel", topography.channel().name);
   line("measured", fmt::format("{} of {} points", topography.raw.measured, scan.columns * scan.rows));
   line("mean", value_text(topography, topography.raw.mean));
@@ -145,6 +147,9 @@ nlohmann::ordered_json topography_json(const MeasuredTopography& topography) {
   nlohmann::ordered_json channels = nlohmann::ordered_json::array();
   for (const physics::ImageChannel& each : scan.channels)
     channels.push_back({{"name", each.name}, {"unit", each.unit}});
+  nlohmann::ordered_json unread = nlohmann::ordered_json::array();
+  for (const UnreadChannel& each : topography.file.unread)
+    unread.push_back({{"name", each.name}, {"reason", each.reason}});
   const double pixel_x_m = scan.width_m / static_cast<double>(scan.columns),
                pixel_y_m = scan.height_m / static_cast<double>(scan.rows);
   return {{"file", topography.name},
@@ -155,6 +160,8 @@ nlohmann::ordered_json topography_json(const MeasuredTopography& topography) {
           {"height_m", scan.height_m},
           {"channels", channels},
           {"on_other_grids", topography.file.left_out},
+          {"left_out", unread},
+          {"remarks", topography.file.remarks},
           {"channel", topography.channel().name},
           {"unit", topography.channel().unit},
           {"measured", topography.raw.measured},
@@ -172,9 +179,13 @@ nlohmann::ordered_json topography_json(const MeasuredTopography& topography) {
 core::Result<scene::Topography> felt_topography(const MeasuredTopography& topography) {
   const physics::ScanImage& scan = topography.file.image;
   if (topography.channel().unit != "m") {
-    return unfit(topography, fmt::format("its channel {} is in {}, not a height in metres; choose one with --channel",
-                                         topography.channel().name,
-                                         topography.channel().unit.empty() ? "no unit" : topography.channel().unit));
+    std::string unread;
+    for (const UnreadChannel& each : topography.file.unread)
+      unread += fmt::format("; its channel {} cannot be read: {}", each.name, each.reason);
+    return unfit(topography,
+                 fmt::format("its channel {} is in {}, not a height in metres; choose one with --channel{}",
+                             topography.channel().name,
+                             topography.channel().unit.empty() ? "no unit" : topography.channel().unit, unread));
   }
   if (std::max(scan.width_m, scan.height_m) > kWidestScanM ||
       std::max(-topography.levelled.lowest, topography.levelled.highest) > kHighestM) {

@@ -129,10 +129,10 @@ struct LegendEntry {
 };
 
 constexpr double kLegendSample = 34;
+constexpr double kCharacter = 8.3;  // slightly wider than the font's mean advance
 
 // Rows up to the plot's width, at least one.
 std::vector<LegendEntry> legend_entries(const SvgPlot& plot) {
-  constexpr double kCharacter = 8.3;  // slightly wider than the font's mean advance
   const double width = plot.width - kLeft - kRight;
   std::vector<LegendEntry> entries;
   double x = 0;
@@ -231,6 +231,8 @@ void draw_axes(std::string& out, const SvgPlot& plot, const Frame& frame) {
                      middle_y, escaped(plot.y_label));
 }
 
+constexpr double kMarkGap = 10;  // between a dot and its text
+
 const char* dashes(LineStyle style) { return style == LineStyle::Dashed ? " stroke-dasharray=\"7 5\"" : ""; }
 
 double stroke_width(LineStyle style) { return style == LineStyle::Dashed ? 1.8 : 2.4; }
@@ -258,6 +260,19 @@ void draw_line(std::string& out, const SvgLine& line, const Frame& frame) {
                      path, escaped(line.color), stroke_width(line.style), dashes(line.style));
 }
 
+// The side of a mark at `x` on which its text stays within the axes, whose numbers it would cover; the wanted one where
+// neither does.
+SvgMark::Side side_within(const SvgMark& mark, double x, const Frame& frame) {
+  using Side = SvgMark::Side;
+  const auto letters = std::count_if(mark.text.begin(), mark.text.end(),
+                                     [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+  const double reach = kMarkGap + kCharacter * static_cast<double>(letters);
+  const bool fits_left = x - reach >= frame.left(), fits_right = x + reach <= frame.right();
+  if (mark.side == Side::Left && !fits_left && fits_right) return Side::Right;
+  if (mark.side == Side::Right && !fits_right && fits_left) return Side::Left;
+  return mark.side;
+}
+
 void draw_mark(std::string& out, const SvgMark& mark, const Frame& frame) {
   using Side = SvgMark::Side;
   const SvgPoint place = frame.placed(mark.at);
@@ -268,9 +283,10 @@ void draw_mark(std::string& out, const SvgMark& mark, const Frame& frame) {
                        escaped(mark.color));
   }
   if (mark.text.empty()) return;
-  const double dx = mark.side == Side::Left ? -10 : mark.side == Side::Right ? 10 : 0;
-  const double dy = mark.side == Side::Above ? -11 : mark.side == Side::Below ? 21 : 5;
-  const char* anchor = mark.side == Side::Left ? "end" : mark.side == Side::Right ? "start" : "middle";
+  const Side side = side_within(mark, x, frame);
+  const double dx = side == Side::Left ? -kMarkGap : side == Side::Right ? kMarkGap : 0;
+  const double dy = side == Side::Above ? -11 : side == Side::Below ? 21 : 5;
+  const char* anchor = side == Side::Left ? "end" : side == Side::Right ? "start" : "middle";
   // a white outline keeps the text readable where it crosses a line
   out += fmt::format(
       "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\" fill=\"{}\" font-weight=\"600\" stroke=\"#fff\" "

@@ -103,7 +103,7 @@ TEST(JpkFile, IsDecodedThroughItsChainOfConversions) {
 
 TEST(JpkFile, TakesACalibrationThatItDoesNotHold) {
   const std::string bytes = test::stored_zip(jpk_entries(false));
-  EXPECT_THAT(error_of(bytes), HasSubstr("its lever is not calibrated; give --spring-constant"));
+  EXPECT_THAT(error_of(bytes), HasSubstr("its lever is not calibrated; give --spring-constant and --sensitivity"));
   EXPECT_THAT(error_of(bytes, {.spring_constant = physics::Stiffness(0.1), .sensitivity_m_per_v = {}}),
               HasSubstr("give --sensitivity"));
   const auto curve =
@@ -132,18 +132,50 @@ TEST(JpkFile, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THAT(error_of(test::stored_zip({{"a.txt", "text"}})), HasSubstr("a zip archive, but not one of JPK's"));
 }
 
-TEST(JpkFile, RefusesAnExperimentThatRestsAsLongAsItApproaches) {
+// Contact times of cells and ligands are as long as those of creep and relaxation, and in the same segments.
+TEST(JpkFile, LeavesOutARestOfAnyLengthAndSaysIt) {
   const auto with_pause = [](const char* seconds, const char* type) {
     auto entries = jpk_entries();
     entries["segments/0/segment-header.properties"] += "force-segment-header.duration=3.0\n";
     entries["segments/1/segment-header.properties"] += fmt::format(
         "force-segment-header.duration={}\nforce-segment-header.settings.segment-settings.type={}\n", seconds, type);
-    return test::stored_zip(entries);
+    return parse_curve(test::stored_zip(entries), "a.jpk-force");
   };
-  EXPECT_THAT(error_of(with_pause("3.0", "constant-force-pause")), HasSubstr("it is a creep-compliance curve"));
-  EXPECT_THAT(error_of(with_pause("30.0", "constant-height-pause")),
-              HasSubstr("it is a stress-relaxation curve: its tip rests for 30 s"));
-  EXPECT_TRUE(parse_curve(with_pause("0.5", "constant-force-pause"), "a.jpk-force").has_value());
+  const auto creep = with_pause("3.0", "constant-force-pause"),
+             relaxation = with_pause("30.0", "constant-height-pause");
+  ASSERT_TRUE(creep.has_value() && relaxation.has_value());
+  EXPECT_EQ(creep->points.size(), 40U);
+  EXPECT_THAT(creep->metadata.remarks, testing::ElementsAre(HasSubstr("rests at constant force for 3 s")));
+  EXPECT_THAT(relaxation->metadata.remarks, testing::ElementsAre(HasSubstr("rests at constant height for 30 s")));
+  EXPECT_TRUE(with_pause("0", "constant-force-pause")->metadata.remarks.empty());
+}
+
+// The height of jpk_entries() under another name, with the conversion that the instrument shows.
+std::string with_height(const std::string& channel, const std::string& shown) {
+  std::map<std::string, std::string> renamed;
+  const auto rename = [&](std::string text) {
+    constexpr std::string_view kOwn = "measuredHeight";
+    for (auto at = text.find(kOwn); at != std::string::npos; at = text.find(kOwn))
+      text.replace(at, kOwn.size(), channel);
+    return text;
+  };
+  for (const auto& [name, content] : jpk_entries()) renamed[rename(name)] = rename(content);
+  for (const char* segment : {"segments/0/segment-header.properties", "segments/2/segment-header.properties"}) {
+    renamed[segment] += fmt::format("channels.list=vDeflection {}\n", channel);
+  }
+  renamed["shared-data/header.properties"] += fmt::format("lcd-info.3.conversion-set.conversions.default={}\n", shown);
+  return test::stored_zip(renamed);
+}
+
+TEST(JpkFile, TakesTheStageOfACellHesionWithoutAnotherHeight) {
+  for (const char* channel : {"cellhesion-height", "height", "combinedHeight"}) {
+    const auto curve = parse_curve(with_height(channel, "nominal"), "a.jpk-force");
+    ASSERT_TRUE(curve.has_value()) << curve.error().message;
+    EXPECT_DOUBLE_EQ(curve->points[1].z.si, 1e-4 - 1000 * 1e-10);
+    // volts are no height
+    EXPECT_THAT(error_of(with_height(channel, "volts")), HasSubstr("how to convert to \"calibrated\""));
+  }
+  EXPECT_THAT(error_of(with_height("xPosition", "nominal")), HasSubstr("its channels are \"vDeflection xPosition\""));
 }
 
 TEST(JpkFile, RefusesEveryCutAndAnEntryThatClaimsToBeHuge) {

@@ -107,5 +107,23 @@ TEST(SvgPlot, DrawsAxesForNothingAtAll) {
   }
 }
 
+// The numbers of the axes lie beyond its ends.
+TEST(SvgPlot, KeepsTheTextOfAMarkWithinTheAxes) {
+  const auto anchor_of_text = [](double x, SvgMark::Side side, const std::string& text) {
+    SvgPlot plot;
+    plot.lines.push_back({"line", "#000", LineStyle::Solid, {{0, 0}, {100, 1}}});
+    plot.marks.push_back({{x, 0.5}, text, "#000", side});
+    const std::string drawn = svg(plot);
+    const std::size_t end = drawn.find(">" + text), begin = drawn.rfind("text-anchor=\"", end) + 13;
+    return drawn.substr(begin, drawn.find('"', begin) - begin);
+  };
+  const std::string event = "pull-off: 100.3 nm, \u221210 nN";
+  EXPECT_EQ(anchor_of_text(5, SvgMark::Side::Left, event), "start");
+  EXPECT_EQ(anchor_of_text(95, SvgMark::Side::Right, event), "end");
+  EXPECT_EQ(anchor_of_text(50, SvgMark::Side::Left, event), "end");
+  EXPECT_EQ(anchor_of_text(50, SvgMark::Side::Right, event), "start");
+  EXPECT_EQ(anchor_of_text(5, SvgMark::Side::Left, std::string(200, 'x')), "end") << "fits on no side";
+}
+
 }  // namespace svg_plot_test
 }  // namespace afm::curves

@@ -125,7 +125,7 @@ TEST(OwnSample, SaysWhatWasNotMeasuredAndIsFilled) {
 
 TEST(OwnSample, IsRefusedWithWhatWouldBeRead) {
   const support::ScratchFolder folder;
-  for (const char* bytes : {"", "hello", "II*", "\\*EC File list"}) {
+  for (const char* bytes : {"", "hello", "II*", "\\*EC file", "\\*Force file list"}) {
     const std::string file = folder.file("sample.spm");
     std::ofstream(file) << bytes;
     const auto own = load_own_models("", file);
@@ -133,6 +133,8 @@ TEST(OwnSample, IsRefusedWithWhatWouldBeRead) {
     EXPECT_EQ(own.error().category, core::ErrorCategory::BadInputFile);
     EXPECT_THAT(own.error().message, testing::HasSubstr("neither a glTF model nor an image")) << bytes;
     EXPECT_THAT(own.error().message, testing::HasSubstr("Nanoscope .spm or .001")) << bytes;
+    const bool named = own.error().message.find("it is a Nanoscope force curve") != std::string::npos;
+    EXPECT_EQ(named, std::string_view(bytes).starts_with("\\*Force")) << bytes;
   }
   ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
   for (const auto& [file, kind] : {std::pair(folder.file("pipe"), "a pipe"), std::pair(folder.path(), "a folder")}) {

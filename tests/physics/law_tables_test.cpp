@@ -224,6 +224,18 @@ TEST(LawTables, CloseTheLoopAtTheCriticalStiffnessAndNotBelow) {
   }
 }
 
+// A lever so soft that it lets go 1.4 mm above the sample, where the law has no points any more.
+TEST(LawTables, LetTheForceFallOnBeyondTheLaw) {
+  for (const Law law : {Law::Hao, Law::Dmt}) {
+    ContactParameters soft = kContacts[0];
+    soft.spring_constant = Stiffness(1e-6);
+    const CycleFigures figures = build_law_tables(law, soft)->figures;
+    ASSERT_GT(figures.z_joc, Length(1.1e-3));
+    const Force attraction = soft.hamaker * soft.tip_radius / (6.0 * figures.z_joc * figures.z_joc);
+    EXPECT_NEAR(figures.force_after_joc / attraction, -1.0, 1e-4);
+  }
+}
+
 TEST(LawTables, TakeFixedGripsForAnInfiniteSpringConstant) {
   ContactParameters grips = kContacts[2];
   grips.spring_constant = kRigid;

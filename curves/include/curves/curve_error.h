@@ -12,4 +12,10 @@ class CurveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The file ends before its data do: all of it is refused, even where one channel alone is incomplete.
+class CutShort : public CurveError {
+ public:
+  using CurveError::CurveError;
+};
+
 }  // namespace afm::curves

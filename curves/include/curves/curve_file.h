@@ -31,6 +31,9 @@ inline constexpr const char* kCurveFiles =
 // Returns whether a regular file begins like a curve.
 bool is_curve_file(const std::string& path);
 
+// Returns whether the bytes of a file begin like a curve.
+bool begins_like_curve(std::string_view bytes);
+
 // Format that write_curve() writes.
 struct WritableFormat {
   CurveFormat format = CurveFormat::Tab;

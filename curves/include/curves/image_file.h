@@ -30,9 +30,17 @@ std::string_view name_of(ImageFormat format);
 // Returns whether a regular file begins like an image.
 bool is_image_file(const std::string& path);
 
+// Returns whether the bytes of a file begin like an image.
+bool begins_like_image(std::string_view bytes);
+
 struct ImageReading {
   std::string channel;   // name in upper or lower case; empty: the first height channel, trace before retrace
   bool confined = true;  // reads in a process that cannot open anything; false: in this process, for a fuzzer
+};
+
+struct UnreadChannel {
+  std::string name;
+  std::string reason;
 };
 
 // An image as in the file, without levelling; non-finite numbers become NaN.
@@ -41,10 +49,13 @@ struct LoadedImage {
   physics::ScanImage image;           // all channels on the grid of the selected one
   std::size_t chosen = 0;             // index of the requested channel
   std::vector<std::string> left_out;  // names of channels on other grids
+  std::vector<UnreadChannel> unread;  // channels that cannot be read
+  std::vector<std::string> remarks;   // doubts about the header and their solutions, one sentence each
 };
 
 // BadInputFile, in one line that names the file, for any content that is not completely understood: truncated, altered,
-// larger than 256 MiB or 8192 points per side, of another kind, or without the channel. Takes at most 1 GiB.
+// larger than 256 MiB or 8192 points per side, of another kind, or without the channel. Takes at most 1 GiB. A channel
+// that cannot be read costs only itself, unless it is the requested one or the file is cut short.
 core::Result<LoadedImage> load_image(const std::string& path, const ImageReading& reading = {});
 
 // The same for the bytes of a file called `name`.

@@ -28,6 +28,8 @@ struct CurveMetadata {
   std::string curve_id;  // identifies the curve
   // Inputs of a computed curve and other entries of TouchAFM's own files: keys with their units, "tip_radius_m".
   std::vector<std::pair<std::string, std::string>> parameters;
+  // What a reader left out or turned, and what it doubts: one sentence each, for the person who brought the file.
+  std::vector<std::string> remarks;
 };
 
 // One approach-retract cycle from any file or model, in one convention: SI, force positive away from the sample, height
@@ -40,6 +42,7 @@ struct RecordedCurve {
 };
 
 inline constexpr std::size_t kMostCurvePoints = 4'000'000;
+inline constexpr std::size_t kMostRemarks = 64;
 
 // Software name in curves that were computed, not measured.
 inline constexpr const char* kComputedBy = "TouchAFM";

@@ -12,11 +12,13 @@
 #include "core/printable.h"
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
+#include "curves/image_file.h"
 #include "formats/confined_child.h"
 #include "formats/format_table.h"
 #include "formats/igor_file.h"
 #include "formats/igor_wave.h"
 #include "formats/jpk_file.h"
+#include "formats/segments.h"
 #include "formats/tab_file.h"
 #include "formats/touchafm_csv_file.h"
 #include "formats/workshop_file.h"
@@ -55,7 +57,11 @@ struct CurveRow {
 };
 
 constexpr FormatTable kCurves{
-    "curve", kCurveFiles, kLongestHeading,
+    "curve",
+    [](std::string_view b) {
+      return begins_like_image(b) ? std::string_view("an image, not a curve") : std::string_view();
+    },
+    kCurveFiles, kLongestHeading,
     std::array{
         CurveRow{CurveFormat::TouchAfmCsv, "TouchAFM .csv", "",
                  [](std::string_view b) { return b.starts_with("# TouchAFM force-displacement curve"); }, Reader::Ours,
@@ -71,8 +77,8 @@ constexpr FormatTable kCurves{
             CurveFormat::AfmWorkshop, "AFM Workshop .csv", "afm-workshop",
             [](std::string_view b) { return b.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos; },
             Reader::Foreign, false, read_workshop, workshop_bytes},
-        CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", looks_like_igor, Reader::Foreign, false,
-                 [](std::string_view b, const CurveReading&) { return read_igor(b); }, nullptr}}};
+        CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", looks_like_igor, Reader::Foreign, false, read_igor,
+                 nullptr}}};
 static_assert(core::has_row_for_each(kCurves.rows, &CurveRow::format));
 static_assert(kCurves.names_all(), "kCurveFiles names the files of every format");
 
@@ -80,10 +86,15 @@ static_assert(kCurves.names_all(), "kCurveFiles names the files of every format"
 void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
   CurveMetadata& made = curve.metadata;
   double factor = 1.0;
-  if (reading.spring_constant && made.spring_constant) factor *= *reading.spring_constant / *made.spring_constant;
-  if (reading.sensitivity_m_per_v && made.sensitivity_m_per_v) {
-    factor *= *reading.sensitivity_m_per_v / *made.sensitivity_m_per_v;
-  }
+  const auto replace = [&](const auto& given, const auto& own, const char* name) {
+    if (given && own) factor *= *given / *own;
+    if (given && !own) {
+      made.remarks.push_back(fmt::format(
+          "its forces are in newtons, and it does not say with which {} they were made: they do not change", name));
+    }
+  };
+  replace(reading.spring_constant, made.spring_constant, "spring constant");
+  replace(reading.sensitivity_m_per_v, made.sensitivity_m_per_v, "sensitivity");
   for (physics::CurvePoint& point : curve.points) point.force = factor * point.force;
   if (reading.spring_constant) made.spring_constant = reading.spring_constant;
   if (reading.sensitivity_m_per_v) made.sensitivity_m_per_v = reading.sensitivity_m_per_v;
@@ -109,6 +120,7 @@ void check(RecordedCurve& curve) {
     throw CurveError("it does not approach once and retract once");
   }
   if (!is_approach(curve.points.front())) throw CurveError("it has no approach");
+  set_directions(curve);
 }
 
 // Makes the texts safe for terminals and lines of files; the parameters are printable already.
@@ -117,6 +129,7 @@ void make_texts_printable(CurveMetadata& metadata) {
                             &metadata.time, &metadata.curve_id}) {
     *text = core::printable_line(*text);
   }
+  for (std::string& remark : metadata.remarks) remark = core::printable_line(remark);
 }
 
 }  // namespace
@@ -131,6 +144,8 @@ std::vector<WritableFormat> writable_formats() {
 
 bool is_curve_file(const std::string& path) { return kCurves.has(path); }
 
+bool begins_like_curve(std::string_view bytes) { return kCurves.row_of(without_byte_order_mark(bytes)) != nullptr; }
+
 core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReading& reading) {
   const auto bytes = bytes_of_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
@@ -138,10 +153,10 @@ core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReadi
 }
 
 core::Result<RecordedCurve> parse_curve(std::string_view bytes, const std::string& name, const CurveReading& reading) {
-  return kCurves.parse(bytes, name, [&](const CurveRow& row) {
+  return kCurves.parse(bytes, name, [&](const CurveRow& row, std::string_view text) {
     if (reading.index != 0 && !row.several) throw CurveError("it holds one curve alone");
     const bool confined = row.reader == Reader::Foreign && reading.confined;
-    RecordedCurve curve = read_confined(confined, [&] { return row.read(bytes, reading); }, tab_bytes, read_tab);
+    RecordedCurve curve = read_confined(confined, [&] { return row.read(text, reading); }, tab_bytes, read_tab);
     recalibrate(reading, curve);
     check(curve);
     make_texts_printable(curve.metadata);

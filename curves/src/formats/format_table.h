@@ -12,6 +12,7 @@
 #include "core/result.h"
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
+#include "curves/unread_kinds.h"
 #include "formats/confined_child.h"
 
 namespace afm::curves {
@@ -36,10 +37,11 @@ auto read_confined(bool confined, const Read& read, const HandOver& hand_over, c
 // and its `files`, as the table lists them.
 template <class Row, std::size_t Count>
 struct FormatTable {
-  const char* kind;               // "curve"
-  const char* files;              // all formats, as refusals list them
-  std::size_t longest_beginning;  // bytes that `begins` needs
-  std::array<Row, Count> rows;    // the first whose `begins` holds has the file
+  const char* kind;                                           // "curve"
+  std::string_view (*other_kind_of)(std::string_view bytes);  // kind of a file that another table has, or empty
+  const char* files;                                          // all formats, as refusals list them
+  std::size_t longest_beginning;                              // bytes that `begins` needs
+  std::array<Row, Count> rows;                                // the first whose `begins` holds has the file
 
   // Whether `files` names those of every row.
   constexpr bool names_all() const {
@@ -54,20 +56,30 @@ struct FormatTable {
     return found != rows.end() ? &*found : nullptr;
   }
 
+  // What a file of no known format is, as far as its beginning shows.
+  std::string refusal_of(std::string_view bytes) const {
+    std::string_view true_kind = unread_kind_of(bytes.substr(0, kUnreadKindBytes));
+    if (true_kind.empty()) true_kind = other_kind_of(bytes);
+    if (true_kind.empty()) return fmt::format("it is no {} of a known kind; known are {}", kind, files);
+    return fmt::format("it is {}; known are {}", true_kind, files);
+  }
+
   // Whether the beginning of a regular file is that of a format.
   bool has(const std::string& path) const {
     const auto beginning = core::read_beginning(path, longest_beginning);
-    return beginning && row_of(*beginning) != nullptr;
+    return beginning && row_of(without_byte_order_mark(*beginning)) != nullptr;
   }
 
-  // The result of `read`, which gets the row of the content and throws; BadInputFile with the name of the file.
+  // The result of `read`, which gets the row of the content and the bytes without a byte order mark, and throws;
+  // BadInputFile with the name of the file.
   template <class Read>
   auto parse(std::string_view bytes, const std::string& name, const Read& read) const
-      -> core::Result<decltype(read(rows.front()))> {
+      -> core::Result<decltype(read(rows.front(), bytes))> {
     try {
-      const Row* const row = row_of(bytes);
-      if (row == nullptr) throw CurveError(fmt::format("it is no {} of a known kind; known are {}", kind, files));
-      return read(*row);
+      const std::string_view text = without_byte_order_mark(bytes);
+      const Row* const row = row_of(text);
+      if (row == nullptr) throw CurveError(refusal_of(bytes));
+      return read(*row, text);
     } catch (...) {
       return core::failure(core::ErrorCategory::BadInputFile,
                            fmt::format("cannot read the {} {}: {}", kind, name, reason_of_failure()));

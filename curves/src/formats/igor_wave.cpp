@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
+#include "curves/recorded_curve.h"
 #include "formats/text_table.h"
 
 namespace afm::curves {
@@ -57,10 +59,11 @@ void check_header(std::string_view bytes) {
   if (sum_of_words(part(bytes, 0, kData), order) != 0) throw CurveError("the checksum of its header is wrong");
 }
 
-// A plain matrix: two dimensions, without labels that would make the columns of the second one channels.
+// A plain matrix: two dimensions, or a third of one layer, without labels that would make the columns or layers
+// channels.
 bool is_matrix(std::string_view bytes) {
-  return length_at(bytes, kDimensions + 4) > 0 && length_at(bytes, kDimensions + 8) == 0 &&
-         length_at(bytes, kDimLabelsSizes + 4) == 0;
+  return length_at(bytes, kDimensions + 4) > 0 && length_at(bytes, kDimensions + 8) <= 1 &&
+         length_at(bytes, kDimLabelsSizes + 4) == 0 && length_at(bytes, kDimLabelsSizes + 8) == 0;
 }
 
 void read_data(std::string_view bytes, IgorWave& wave) {
@@ -118,7 +121,7 @@ IgorWave read_igor_wave(std::string_view bytes) {
   const std::size_t dimension = wave.layers > 0 ? 2 : 1;
   for (std::size_t i = 0; i < dimension; ++i) offset += length_at(bytes, kDimLabelsSizes + 4 * i);
   const std::string_view labels = part(bytes, offset, length_at(bytes, kDimLabelsSizes + 4 * dimension));
-  // the first label is that of the dimension itself
+  // the first label is that of the dimension itself; the layers of an image may lack theirs
   for (std::size_t i = kLabelSize; i + kLabelSize <= labels.size(); i += kLabelSize) {
     const std::string_view label = labels.substr(i, kLabelSize);
     wave.labels.push_back(label.substr(0, label.find('\0')));
@@ -128,9 +131,10 @@ IgorWave read_igor_wave(std::string_view bytes) {
     wave.labels = {name.substr(0, name.find('\0'))};
     wave.is_matrix = true;
   }
-  if (wave.labels.size() != (wave.layers > 0 ? wave.layers : wave.columns)) {
+  if (wave.layers == 0 && wave.labels.size() != wave.columns) {
     throw CurveError("its columns have no labels, so that their channels are unknown");
   }
+  wave.labels.resize(wave.layers > 0 ? wave.layers : wave.columns);
   wave.trailer = bytes.substr(offset + labels.size());
   return wave;
 }
@@ -147,8 +151,9 @@ bool looks_like_igor_image(std::string_view bytes) {
   if (number_at<std::uint16_t>(bytes, 0, order) != 5) return false;
   const auto number = [&](std::size_t offset) { return number_at<std::int32_t>(bytes, offset, order); };
   const std::int32_t columns = number(kDimensions + 4), layers = number(kDimensions + 8);
-  if (layers == 0) return columns > 0 && number(kDimLabelsSizes + 4) == 0;
-  return layers > 1 || number(kDimLabelsSizes + 8) > 0;
+  const bool has_column_labels = number(kDimLabelsSizes + 4) > 0;
+  if (layers == 0) return columns > 0 && !has_column_labels;
+  return layers > 1 || number(kDimLabelsSizes + 8) > 0 || !has_column_labels;
 }
 
 bool is_old_igor(std::string_view bytes) {
@@ -168,9 +173,12 @@ std::string_view note_value(std::string_view note, std::string_view key) {
 }
 
 std::optional<double> note_number(std::string_view note, std::string_view key) {
-  const std::string_view text = note_value(note, key);
+  std::string_view text = note_value(note, key);
+  if (text.starts_with('+')) text.remove_prefix(1);
   if (text.empty()) return std::nullopt;
-  return number_in(text, key, Lines({}));
+  const auto number = number_of(text);
+  if (!number) throw CurveError(fmt::format("{} in its note is \"{}\", not a number", key, text.substr(0, 40)));
+  return std::isfinite(*number) ? number : std::nullopt;
 }
 
 }  // namespace afm::curves

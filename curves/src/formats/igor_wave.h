@@ -19,7 +19,7 @@ struct IgorWave {
   std::size_t rows = 0;     // length of the first dimension, which runs fastest
   std::size_t columns = 0;  // length of the second dimension
   std::size_t layers = 0;   // length of the third dimension; 0: a table
-  bool is_matrix = false;   // has no labels that would describe its numbers
+  bool is_matrix = false;   // has one layer, without a label
   std::size_t number_size = 0;
   std::endian order = std::endian::little;
   std::array<double, 2> spacing{};  // sampling steps of the first two dimensions, in their units
@@ -28,7 +28,7 @@ struct IgorWave {
   std::string_view data_unit;
   std::string_view data;
   std::string_view note;
-  std::vector<std::string_view> labels;  // names of the channels
+  std::vector<std::string_view> labels;  // names of the channels; empty where a layer has none
   std::string_view trailer;              // data appended by Asylum's program
 
   double value(std::size_t row, std::size_t column, std::size_t layer = 0) const {
@@ -44,13 +44,15 @@ IgorWave read_igor_wave(std::string_view bytes);
 // Returns whether the bytes begin like an Igor wave of any version or byte order.
 bool looks_like_igor(std::string_view bytes);
 
-// Returns whether such bytes have three dimensions, the third with more than one layer or with labels, or are a matrix.
+// Returns whether such bytes have three dimensions, the third with more than one layer, with labels or beside columns
+// without labels, or are a matrix.
 bool looks_like_igor_image(std::string_view bytes);
 
 // Returns whether the bytes are a wave of version 2, which has one dimension and is not supported.
 bool is_old_igor(std::string_view bytes);
 
-// Value of "key: value" in a note; empty if it is missing. The number throws CurveError if it is malformed.
+// Value of "key: value" in a note; empty if it is missing. The number is also empty if it is NaN or infinite, and
+// throws CurveError if it is malformed.
 std::string_view note_value(std::string_view note, std::string_view key);
 std::optional<double> note_number(std::string_view note, std::string_view key);
 

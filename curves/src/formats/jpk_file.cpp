@@ -3,13 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
+#include <utility>
 
 #include "curves/curve_error.h"
 #include "formats/jpk_properties.h"
+#include "formats/segments.h"
 #include "formats/text_table.h"
 #include "formats/zip_archive.h"
 
@@ -63,6 +64,15 @@ class Segment {
 
   const JpkProperties& properties() const { return properties_; }
 
+  // Number of points of the deflection; 0 if it was not recorded.
+  std::size_t points() const {
+    const auto type = properties_.text("channel.vDeflection.data.encoder.type");
+    const auto shared = properties_.text("channel.vDeflection.encoder.type");
+    if ((!type && !shared) || !has("vDeflection")) return 0;
+    return archive_.entry(data_file("vDeflection"), kMostChannelBytes).size() /
+           encoding_of(type ? *type : *shared).bytes;
+  }
+
   bool has(std::string_view channel) const { return archive_.holds(data_file(channel)); }
 
   // The channel's values converted to a slot: "volts", or the result of the chain of conversions.
@@ -88,6 +98,14 @@ class Segment {
       result.push_back(value);
     }
     return result;
+  }
+
+  // The usual conversion of a channel, or, where it is not defined, the one that the file itself shows by default.
+  std::string slot_of(std::string_view channel, const char* usual) const {
+    const std::string set = fmt::format("channel.{}.conversion-set.", channel);
+    if (properties_.text(set + "conversion." + usual + ".defined") == "true") return usual;
+    const auto shown = properties_.text(set + "conversions.default");
+    return shown && *shown != base_slot(fmt::format("channel.{}", channel)) ? *shown : usual;
   }
 
   // The factor of a conversion of the deflection, if it is defined: the lever's calibration.
@@ -120,13 +138,20 @@ class Segment {
         steps.push_back(linear_at(properties_, conversion + ".scaling"));
         slot = properties_.text(conversion + ".base-calibration-slot").value_or(base);
       } else {
-        const bool force = slot == "force";
-        throw CurveError(force || slot == "distance" ? fmt::format("its lever is not calibrated; give {}",
-                                                                   force ? "--spring-constant" : "--sensitivity")
-                                                     : fmt::format("it does not say how to convert to \"{}\"", slot));
+        throw CurveError(uncalibrated(prefix, slot, reading));
       }
     }
     return steps;
+  }
+
+  std::string uncalibrated(const std::string& prefix, const std::string& slot, const CurveReading& reading) const {
+    if (slot != "force" && slot != "distance") return fmt::format("it does not say how to convert to \"{}\"", slot);
+    const bool no_sensitivity =
+        !reading.sensitivity_m_per_v && properties_.text(prefix + ".distance.defined") != "true";
+    return fmt::format("its lever is not calibrated; give {}{}", slot == "force" ? "--spring-constant" : "",
+                       !no_sensitivity   ? ""
+                       : slot == "force" ? " and --sensitivity"
+                                         : "--sensitivity");
   }
 
   const ZipArchive& archive_;
@@ -134,14 +159,28 @@ class Segment {
   JpkProperties properties_;
 };
 
+// The height by its sensor, otherwise by a piezo, at last by the stage of a CellHesion or any other channel that is
+// called a height.
 std::vector<double> heights(const Segment& segment, const CurveReading& reading) {
+  const auto read = [&](std::string_view channel, const char* usual) {
+    return segment.values(channel, segment.slot_of(channel, usual), reading);
+  };
   for (const char* sensor : {"strainGaugeHeight", "capacitiveSensorHeight", "measuredHeight"}) {
-    if (segment.has(sensor)) return segment.values(sensor, "nominal", reading);
+    if (segment.has(sensor)) return read(sensor, "nominal");
   }
   for (const char* piezo : {"height", "head-height"}) {
-    if (segment.has(piezo)) return segment.values(piezo, "calibrated", reading);
+    if (segment.has(piezo)) return read(piezo, "calibrated");
   }
-  throw CurveError("it has no channel of the height");
+  const std::string all = segment.properties().text("channels.list").value_or("");
+  std::vector<std::string_view> channels;
+  split(all, ' ', channels);
+  const auto other = std::find_if(channels.begin(), channels.end(), [&](std::string_view channel) {
+    return (channel.ends_with("height") || channel.ends_with("Height")) && segment.has(channel);
+  });
+  if (other == channels.end()) {
+    throw CurveError(fmt::format("it has no channel of the height; its channels are \"{}\"", all.substr(0, 200)));
+  }
+  return read(*other, "calibrated");
 }
 
 std::string style_of(const Segment& segment) {
@@ -161,15 +200,21 @@ void add_segment(const Segment& segment, physics::Branch branch, const CurveRead
   }
 }
 
-// Rejects a pause as long as the approach, after which the retract measures the changed sample.
-void check_pause(const Segment& pause, double approach_s) {
-  const double rest_s = pause.properties().number("force-segment-header.duration").value_or(0.0);
-  if (approach_s <= 0.0 || rest_s < approach_s) return;
-  const auto type = pause.properties().text("force-segment-header.settings.segment-settings.type").value_or("");
-  throw CurveError(fmt::format(
-      "it is a {} curve: its tip rests for {:g} s between an approach of {:g} s and the retract; only force-distance "
-      "curves are read",
-      type == "constant-height-pause" ? "stress-relaxation" : "creep-compliance", rest_s, approach_s));
+// Leaves a segment out in which the tip neither approaches nor retracts, with a remark unless nothing was recorded.
+void leave_out(const Segment& segment, const std::string& style, RecordedCurve& curve) {
+  const JpkProperties& properties = segment.properties();
+  const auto duration_s = properties.number("force-segment-header.duration");
+  const std::size_t points = segment.points();
+  if (points == 0 && duration_s.value_or(0.0) <= 0.0) return;
+  const auto type = properties.text("force-segment-header.settings.segment-settings.type").value_or("");
+  const std::string held = type == "constant-height-pause"  ? "rests at constant height"
+                           : type == "constant-force-pause" ? "rests at constant force"
+                                                            : "rests";
+  const char* when = curve.points.empty()                                      ? kBeforeApproach
+                     : curve.points.back().branch == physics::Branch::Approach ? kBetweenBranches
+                                                                               : kAfterRetract;
+  remark_left_out(points, when, style == "pause" ? held : fmt::format("is in a segment \"{}\"", style.substr(0, 40)),
+                  duration_s, curve.metadata);
 }
 
 void read_metadata(const Segment& segment, const CurveReading& reading, CurveMetadata& metadata) {
@@ -207,7 +252,6 @@ RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
   }
 
   RecordedCurve curve;
-  double approach_s = 0.0;
   for (int i = 0;; ++i) {
     const std::string folder = fmt::format("segments/{}/", i);
     if (!archive.holds(folder + "segment-header.properties")) break;
@@ -218,12 +262,10 @@ RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
     properties.add(general);
     const Segment segment(archive, folder, std::move(properties));
     const std::string style = style_of(segment);
-    if (style == "pause") {
-      check_pause(segment, approach_s);
+    if (style != "extend" && style != "retract") {
+      leave_out(segment, style, curve);
       continue;
     }
-    if (style != "extend" && style != "retract") throw CurveError(fmt::format("segment {} is \"{}\"", i, style));
-    if (style == "extend") approach_s = segment.properties().number("force-segment-header.duration").value_or(0.0);
     if (curve.points.empty()) read_metadata(segment, reading, curve.metadata);
     add_segment(segment, style == "extend" ? physics::Branch::Approach : physics::Branch::Retract, reading, curve);
   }

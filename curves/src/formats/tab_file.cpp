@@ -7,16 +7,18 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/printable.h"
 #include "core/version.h"
 #include "curves/curve_error.h"
 #include "formats/afmformats_metadata.h"
+#include "formats/segments.h"
 #include "formats/text_table.h"
 
 namespace afm::curves {
 
 namespace {
 
-constexpr std::string_view kBegin = "BEGIN METADATA";
+constexpr std::string_view kBegin = "BEGIN METADATA", kRemark = "# TouchAFM remarks: ";
 
 // The # lines at the top: the curve's inputs, the metadata, and in the last line the column names.
 struct Heading {
@@ -37,6 +39,10 @@ Heading read_heading(Lines& lines, std::string_view& first_row) {
       heading.has_metadata = true;
     } else if (inside && line.starts_with('#')) {
       heading.metadata.append(line.substr(1)).push_back('\n');
+    } else if (line.starts_with(kRemark)) {
+      if (heading.made_from.remarks.size() < kMostRemarks) {
+        heading.made_from.remarks.push_back(core::printable_line(line.substr(kRemark.size())));
+      }
     } else if (line.starts_with('#')) {
       if (!trimmed(line.substr(1)).empty()) heading.columns = trimmed(line.substr(1));
       if (!heading.has_metadata) add_parameter(line.substr(1), heading.made_from);
@@ -49,12 +55,11 @@ Heading read_heading(Lines& lines, std::string_view& first_row) {
   return heading;
 }
 
-physics::Branch branch_in(std::string_view field, const Lines& lines) {
+double segment_in(std::string_view field, const Lines& lines) {
   field = trimmed(field);
-  if (field == "0" || field == "False") return physics::Branch::Approach;
-  if (field == "1" || field == "True") return physics::Branch::Retract;
-  throw CurveError(fmt::format("line {}: segment is \"{}\"; known are 0 (approach) and 1 (retract)", lines.number(),
-                               field.substr(0, 40)));
+  if (field == "False") return 0.0;
+  if (field == "True") return 1.0;
+  return number_in(field, "segment", lines);
 }
 
 void check_count(const nlohmann::json& metadata, std::size_t points, std::string_view bytes) {
@@ -76,6 +81,7 @@ std::string tab_bytes(const RecordedCurve& curve) {
   for (const auto& [key, value] : curve.metadata.parameters) {
     if (!key.starts_with(kBegin)) fmt::format_to(out, "# {}: {}\n", key, value);
   }
+  for (const std::string& remark : curve.metadata.remarks) fmt::format_to(out, "{}{}\n", kRemark, remark);
   fmt::format_to(out, "#\n# {}\n", kBegin);
   const std::string metadata = afmformats_metadata(curve).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
   std::string_view line;
@@ -110,6 +116,7 @@ RecordedCurve read_tab(std::string_view bytes) {
   const std::size_t time = static_cast<std::size_t>(std::find(names.begin(), names.end(), "time") - names.begin());
   // afmformats 0.13 appended its first row to the heading, which then has more columns than the rows
   const std::size_t last_used = std::max({height, force, segment, time < names.size() ? time : 0});
+  std::vector<double> segments;
   for (bool more = !line.empty(); more; more = lines.next(line)) {
     if (trimmed(line).empty() || line.starts_with('#')) continue;
     split(line, '\t', fields);
@@ -119,11 +126,12 @@ RecordedCurve read_tab(std::string_view bytes) {
     }
     if (curve.points.size() == kMostCurvePoints) throw CurveError("it has more points than a curve may have");
     curve.points.push_back({physics::Length(number_in(fields[height], "height", lines)),
-                            physics::Force(number_in(fields[force], "force", lines)),
-                            branch_in(fields[segment], lines)});
+                            physics::Force(number_in(fields[force], "force", lines))});
+    segments.push_back(segment_in(fields[segment], lines));
     if (time < fields.size()) curve.time_s.push_back(number_in(fields[time], "time", lines));
   }
   check_count(metadata, curve.points.size(), bytes);
+  assign_branches(segments, curve);
   return curve;
 }
 

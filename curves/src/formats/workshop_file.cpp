@@ -117,6 +117,9 @@ void read_own_line(std::string_view line, CurveMetadata& metadata) {
 // AFM Workshop writes 1 for a missing calibration, so a true 1 is written slightly larger.
 double never_one(double value) { return value == 1.0 ? std::nextafter(1.0, 2.0) : value; }
 
+// Name of a column that marks the line of them; a comment may have commas too.
+constexpr std::string_view kFirstColumn = "Extend Z-Sense(nm)";
+
 struct Header {
   CurveMetadata metadata;
   std::vector<std::string_view> columns;
@@ -144,12 +147,13 @@ Header read_header(Lines& lines) {
     if (const auto k = calibration("Force Constant, nN/nm:")) header.metadata.spring_constant = physics::Stiffness(*k);
     if (line.starts_with(kOwnLine)) {
       read_own_line(line, header.metadata);
-    } else if (std::count(line.begin(), line.end(), ',') >= 3) {
-      split(line, ',', header.columns);
-      return header;
+      continue;
     }
+    split(line, ',', header.columns);
+    for (std::string_view& name : header.columns) name = trimmed(name);
+    if (std::find(header.columns.begin(), header.columns.end(), kFirstColumn) != header.columns.end()) return header;
   }
-  throw CurveError("it has no line of column names");
+  throw CurveError(fmt::format("it has no line of column names, one of which is \"{}\"", kFirstColumn));
 }
 
 // One of the two branches of the table.
@@ -159,7 +163,8 @@ struct Columns {
   double newton_per_signal;
 };
 
-Columns columns_of(const Header& header, std::string_view branch) {
+// A calibration for volts comes from the header, otherwise from `reading`.
+Columns columns_of(Header& header, std::string_view branch, const CurveReading& reading) {
   const auto has = [&](const std::string& name) {
     return std::find(header.columns.begin(), header.columns.end(), name) != header.columns.end();
   };
@@ -167,7 +172,9 @@ Columns columns_of(const Header& header, std::string_view branch) {
   const std::string force = fmt::format("{} Force(nN)", branch), volts = fmt::format("{} T-B(V)", branch);
   if (has(force)) return {height, column_in(header.columns, force), 1.0 / kNnPerN};
   const std::size_t signal = column_in(header.columns, volts);
-  const CurveMetadata& made = header.metadata;
+  CurveMetadata& made = header.metadata;
+  if (!made.sensitivity_m_per_v) made.sensitivity_m_per_v = reading.sensitivity_m_per_v;
+  if (!made.spring_constant) made.spring_constant = reading.spring_constant;
   if (!made.sensitivity_m_per_v || !made.spring_constant) {
     throw CurveError("its deflection is in volts; give --sensitivity and --spring-constant");
   }
@@ -243,13 +250,12 @@ std::string workshop_bytes(const RecordedCurve& curve) {
 RecordedCurve read_workshop(std::string_view bytes, const CurveReading& reading) {
   Lines lines(bytes);
   Header header = read_header(lines);
-  if (!header.metadata.sensitivity_m_per_v) header.metadata.sensitivity_m_per_v = reading.sensitivity_m_per_v;
-  if (!header.metadata.spring_constant) header.metadata.spring_constant = reading.spring_constant;
-  const Columns extend = columns_of(header, "Extend"), pull = columns_of(header, "Retract");
+  const Columns extend = columns_of(header, "Extend", reading), pull = columns_of(header, "Retract", reading);
 
   RecordedCurve curve{{}, {}, header.metadata};
   std::vector<physics::CurvePoint> retract;
   std::vector<std::string_view> fields;
+  std::size_t row = 0;
   for (std::string_view line; lines.next(line);) {
     if (trimmed(line).empty()) continue;
     split(line, ',', fields);
@@ -257,14 +263,21 @@ RecordedCurve read_workshop(std::string_view bytes, const CurveReading& reading)
       throw CurveError(
           fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), header.columns.size()));
     }
-    if (2 * retract.size() >= kMostCurvePoints) throw CurveError("it has more points than a curve may have");
-    const auto point = [&](const Columns& columns, physics::Branch branch) {
-      return physics::CurvePoint{
-          physics::Length(-number_in(fields[columns.height], "Z-Sense", lines) / kNmPerM),
-          physics::Force(number_in(fields[columns.signal], "force", lines) * columns.newton_per_signal), branch};
+    if (2 * row >= kMostCurvePoints) throw CurveError("it has more points than a curve may have");
+    const auto add_point = [&](const Columns& columns, physics::Branch branch, std::vector<physics::CurvePoint>& to) {
+      // the shorter branch has empty fields behind its end
+      if (trimmed(fields[columns.height]).empty() && trimmed(fields[columns.signal]).empty()) return;
+      if (to.size() < row) {
+        throw CurveError(fmt::format("line {}: the {} goes on behind empty fields", lines.number(),
+                                     branch == physics::Branch::Approach ? "approach" : "retract"));
+      }
+      to.push_back({physics::Length(-number_in(fields[columns.height], "Z-Sense", lines) / kNmPerM),
+                    physics::Force(number_in(fields[columns.signal], "force", lines) * columns.newton_per_signal),
+                    branch});
     };
-    curve.points.push_back(point(extend, physics::Branch::Approach));
-    retract.push_back(point(pull, physics::Branch::Retract));
+    add_point(extend, physics::Branch::Approach, curve.points);
+    add_point(pull, physics::Branch::Retract, retract);
+    ++row;
   }
   curve.points.insert(curve.points.end(), retract.begin(), retract.end());
   return curve;

@@ -74,15 +74,15 @@ ImagePages read_gsf(std::string_view bytes) {
   }
   const std::string_view numbers = part(bytes, data, columns * rows * sizeof(float));
   if (data + numbers.size() != bytes.size()) throw CurveError("it is longer than its XRes and YRes say");
-  const double xy = header.xy_unit.factor, z = header.z_unit.factor;
+  const double z = header.z_unit.factor;
   found.pages.push_back({.name = header.title,
                          .unit = header.z_unit.unit,
                          .columns = columns,
                          .rows = rows,
-                         .width_m = image_length_m(header.width * xy),
-                         .height_m = image_length_m(header.height * xy),
-                         .x_offset_m = header.x_offset * xy,
-                         .y_offset_m = header.y_offset * xy,
+                         .width_m = image_length_m(header.width, header.xy_unit),
+                         .height_m = image_length_m(header.height, header.xy_unit),
+                         .x_offset_m = header.x_offset * header.xy_unit.factor,
+                         .y_offset_m = header.y_offset * header.xy_unit.factor,
                          .values = [=] {
                            return grid_values(columns, rows, false, [=](std::size_t i) {
                              return z * static_cast<double>(number_at<float>(numbers, i * sizeof(float)));

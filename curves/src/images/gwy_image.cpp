@@ -123,7 +123,7 @@ double gwy_number(const Components& components, std::string_view name, double ot
 
 std::size_t gwy_side(const Components& components, std::string_view name) {
   const Component* found = find_component(components, name, 'i');
-  if (found == nullptr) throw CurveError(fmt::format("a data field has no {}", name));
+  if (found == nullptr) throw CurveError(fmt::format("it has no {}", name));
   return image_side(number_at<std::int32_t>(found->payload, 0));
 }
 
@@ -140,7 +140,7 @@ ImagePage gwy_page(std::string_view field, std::string name) {
   const std::size_t columns = gwy_side(parts, "xres"), rows = gwy_side(parts, "yres");
   const Component* data = find_component(parts, "data", 'D');
   if (data == nullptr || data->payload.size() != columns * rows * sizeof(double)) {
-    throw CurveError(fmt::format("the data of {} do not fill {} x {} points", name, columns, rows));
+    throw CurveError(fmt::format("its data do not fill {} x {} points", columns, rows));
   }
   const ScaledUnit xy = gwy_unit(parts, "si_unit_xy"), z = gwy_unit(parts, "si_unit_z");
   const std::string_view numbers = data->payload;
@@ -148,8 +148,8 @@ ImagePage gwy_page(std::string_view field, std::string name) {
           .unit = z.unit,
           .columns = columns,
           .rows = rows,
-          .width_m = image_length_m(gwy_number(parts, "xreal", 1.0) * xy.factor),
-          .height_m = image_length_m(gwy_number(parts, "yreal", 1.0) * xy.factor),
+          .width_m = image_length_m(gwy_number(parts, "xreal", 1.0), xy),
+          .height_m = image_length_m(gwy_number(parts, "yreal", 1.0), xy),
           .x_offset_m = gwy_number(parts, "xoff", 0.0) * xy.factor,
           .y_offset_m = gwy_number(parts, "yoff", 0.0) * xy.factor,
           .values = [=, factor = z.factor] {
@@ -190,8 +190,8 @@ ImagePages read_gwy(std::string_view bytes) {
   for (const auto& [number, name] : fields) {
     const std::string prefix(name.substr(0, name.size() - std::string_view("data").size()));
     const Component* title = find_component(container, prefix + "data/title", 's');
-    found.pages.push_back(gwy_page(container.at(name).payload,
-                                   title != nullptr ? std::string(title->payload) : fmt::format("Channel {}", number)));
+    const std::string channel = title != nullptr ? std::string(title->payload) : fmt::format("Channel {}", number);
+    add_page(channel, found, [&, field = container.at(name).payload] { return gwy_page(field, channel); });
     const Component* meta = find_component(container, prefix + "meta", 'o');
     if (meta == nullptr || !found.metadata.empty()) continue;
     for (const auto& [key, value] : components_of(meta->payload)) {

@@ -26,7 +26,7 @@ std::string igor_unit(std::string_view channel) {
 
 double igor_side_m(const IgorWave& wave, std::size_t dimension, std::size_t count) {
   const ScaledUnit unit = scaled_unit(wave.units[dimension]);
-  return image_length_m(wave.spacing[dimension] * unit.factor * static_cast<double>(count));
+  return image_length_m(wave.spacing[dimension] * static_cast<double>(count), unit);
 }
 
 }  // namespace
@@ -37,10 +37,12 @@ ImagePages read_igor_image(std::string_view bytes) {
                     rows = image_side(static_cast<double>(wave.columns));
   const double width_m = igor_side_m(wave, 0, columns), height_m = igor_side_m(wave, 1, rows);
   ImagePages found;
+  if (wave.layers > kMostChannels) throw CurveError("it has " + std::to_string(wave.layers) + " layers");
   for (std::size_t layer = 0; layer < wave.layers; ++layer) {
     const ScaledUnit data_unit = scaled_unit(wave.data_unit);
-    const std::string unit = wave.is_matrix ? "" : igor_unit(wave.labels[layer]);
-    found.pages.push_back({.name = std::string(wave.labels[layer]),
+    const std::string_view label = wave.labels[layer];
+    const std::string unit = wave.is_matrix || label.empty() ? "" : igor_unit(label);
+    found.pages.push_back({.name = label.empty() ? "Layer " + std::to_string(layer) : std::string(label),
                            .unit = data_unit.unit.empty() ? unit : data_unit.unit,
                            .columns = columns,
                            .rows = rows,

@@ -14,6 +14,7 @@
 #include "core/enumerators.h"
 #include "core/printable.h"
 #include "curves/curve_error.h"
+#include "curves/curve_file.h"
 #include "formats/file_bytes.h"
 #include "formats/format_table.h"
 #include "formats/igor_wave.h"
@@ -29,7 +30,6 @@ namespace afm::curves {
 namespace {
 
 constexpr std::size_t kLongestBeginning = 512;
-constexpr std::size_t kMostChannels = 256;
 constexpr std::size_t kMostTextBytes = 4096;  // limit for a name, a key or a value
 
 struct FormatRow {
@@ -41,14 +41,21 @@ struct FormatRow {
 };
 
 constexpr FormatTable kImages{
-    "image", kImageFiles, kLongestBeginning,
+    "image",
+    [](std::string_view b) {
+      return begins_like_curve(b) ? std::string_view("a curve, not an image") : std::string_view();
+    },
+    kImageFiles, kLongestBeginning,
     std::array{
         FormatRow{ImageFormat::Gsf, "Gwyddion simple field", ".gsf",
                   [](std::string_view b) { return b.starts_with(kGsfMagic); }, read_gsf},
         FormatRow{ImageFormat::Gwy, "Gwyddion", "Gwyddion .gwy",
                   [](std::string_view b) { return b.starts_with(kGwyMagic) || b.starts_with(kOldGwyMagic); }, read_gwy},
         FormatRow{ImageFormat::Nanoscope, "Nanoscope", "Nanoscope .spm or .001",
-                  [](std::string_view b) { return b.starts_with(kNanoscopeMagic); }, read_nanoscope},
+                  [](std::string_view b) {
+                    return b.starts_with(kNanoscopeMagic) || b.starts_with(kNanoscopeElectrochemistryMagic);
+                  },
+                  read_nanoscope},
         FormatRow{ImageFormat::Igor, "Igor", "Igor .ibw",
                   [](std::string_view b) { return looks_like_igor_image(b) || is_old_igor(b); }, read_igor_image},
         FormatRow{ImageFormat::Jpk, "JPK", "JPK .jpk", looks_like_tiff, read_jpk_image}}};
@@ -88,11 +95,17 @@ int rank_as_height(const ImagePage& page) {
   return 2 + way;
 }
 
-std::size_t chosen_page(const std::vector<ImagePage>& pages, const std::string& wanted) {
-  if (pages.empty()) throw CurveError("it has no image");
+// Throws with the reasons of the channels that cannot be read.
+std::size_t chosen_page(const ImagePages& image, const std::string& wanted) {
+  const std::vector<ImagePage>& pages = image.pages;
+  const auto named = [&](const auto& channel) { return wanted.empty() || lower(channel.name) == lower(wanted); };
+  const auto unread = std::find_if(image.unread.begin(), image.unread.end(), named);
+  if (pages.empty() && unread == image.unread.end()) throw CurveError("it has no image");
+  const auto found = std::find_if(pages.begin(), pages.end(), named);
+  if (found == pages.end() && unread != image.unread.end()) {
+    throw CurveError(fmt::format("its channel {} cannot be read: {}", unread->name, unread->reason));
+  }
   if (!wanted.empty()) {
-    const auto named = [&](const ImagePage& page) { return lower(page.name) == lower(wanted); };
-    const auto found = std::find_if(pages.begin(), pages.end(), named);
     if (found == pages.end()) {
       throw CurveError(fmt::format("it has no channel \"{}\"; it has {}", wanted, names_of(pages)));
     }
@@ -109,12 +122,23 @@ bool same_grid(const ImagePage& a, const ImagePage& b) {
   return a.columns == b.columns && a.rows == b.rows && a.width_m == b.width_m && a.height_m == b.height_m;
 }
 
+// The channel's values, those that no instrument measures as NaN.
+std::vector<double> values_of(const ImagePage& page) {
+  std::vector<double> values = page.values();
+  std::replace_if(
+      values.begin(), values.end(), [](double value) { return !is_measured(value); },
+      std::numeric_limits<double>::quiet_NaN());
+  return values;
+}
+
 LoadedImage assembled(ImagePages found, const std::string& wanted, ImageFormat format) {
-  if (found.pages.size() > kMostChannels) throw CurveError(fmt::format("it has {} channels", found.pages.size()));
+  if (found.pages.size() + found.unread.size() > kMostChannels) {
+    throw CurveError(fmt::format("it has {} channels", found.pages.size() + found.unread.size()));
+  }
   number_names(found.pages);
-  const std::size_t chosen = chosen_page(found.pages, wanted);
+  const std::size_t chosen = chosen_page(found, wanted);
   const ImagePage& grid = found.pages[chosen];
-  LoadedImage loaded{.format = format, .image = {}, .chosen = 0, .left_out = {}};
+  LoadedImage loaded{.format = format, .image = {}, .chosen = 0, .left_out = {}, .unread = {}, .remarks = {}};
   physics::ScanImage& image = loaded.image;
   image.columns = grid.columns;
   image.rows = grid.rows;
@@ -135,12 +159,18 @@ LoadedImage assembled(ImagePages found, const std::string& wanted, ImageFormat f
       loaded.left_out.push_back(page.name);
       continue;
     }
-    if (i == chosen) loaded.chosen = image.channels.size();
-    physics::ImageChannel& channel = image.channels.emplace_back(page.name, page.unit, page.values());
-    std::replace_if(
-        channel.values.begin(), channel.values.end(), [](double value) { return !is_measured(value); },
-        std::numeric_limits<double>::quiet_NaN());
+    try {
+      image.channels.emplace_back(page.name, page.unit, values_of(page));
+      if (i == chosen) loaded.chosen = image.channels.size() - 1;
+    } catch (const CutShort&) {
+      throw;
+    } catch (const CurveError& fault) {
+      if (i == chosen) throw;
+      found.unread.push_back({page.name, fault.what()});
+    }
   }
+  loaded.unread = std::move(found.unread);
+  loaded.remarks = std::move(found.remarks);
   return loaded;
 }
 
@@ -178,6 +208,13 @@ std::string handed_over(LoadedImage loaded) {
   }
   put(bytes, std::uint64_t{loaded.left_out.size()});
   for (const std::string& name : loaded.left_out) put_text(bytes, name);
+  put(bytes, std::uint64_t{loaded.unread.size()});
+  for (const UnreadChannel& channel : loaded.unread) {
+    put_text(bytes, channel.name);
+    put_text(bytes, channel.reason);
+  }
+  put(bytes, std::uint64_t{loaded.remarks.size()});
+  for (const std::string& remark : loaded.remarks) put_text(bytes, remark);
   return bytes;
 }
 
@@ -231,6 +268,13 @@ LoadedImage taken_over(std::string_view bytes) {
   }
   loaded.left_out.resize(taker.count(kMostChannels));
   for (std::string& name : loaded.left_out) name = taker.text();
+  loaded.unread.resize(taker.count(kMostChannels));
+  for (UnreadChannel& channel : loaded.unread) {
+    channel.name = taker.text();
+    channel.reason = taker.text();
+  }
+  loaded.remarks.resize(taker.count(kMostChannels));
+  for (std::string& remark : loaded.remarks) remark = taker.text();
   return loaded;
 }
 
@@ -261,6 +305,11 @@ void make_texts_printable(LoadedImage& loaded) {
     make_printable(value);
   }
   std::for_each(loaded.left_out.begin(), loaded.left_out.end(), make_printable);
+  for (UnreadChannel& channel : loaded.unread) {
+    make_printable(channel.name);
+    make_printable(channel.reason);
+  }
+  std::for_each(loaded.remarks.begin(), loaded.remarks.end(), make_printable);
 }
 
 }  // namespace
@@ -269,6 +318,8 @@ std::string_view name_of(ImageFormat format) { return kImages.rows[static_cast<s
 
 bool is_image_file(const std::string& path) { return kImages.has(path); }
 
+bool begins_like_image(std::string_view bytes) { return kImages.row_of(bytes) != nullptr; }
+
 core::Result<LoadedImage> load_image(const std::string& path, const ImageReading& reading) {
   const auto bytes = bytes_of_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
@@ -276,9 +327,9 @@ core::Result<LoadedImage> load_image(const std::string& path, const ImageReading
 }
 
 core::Result<LoadedImage> parse_image(std::string_view bytes, const std::string& name, const ImageReading& reading) {
-  return kImages.parse(bytes, name, [&](const FormatRow& row) {
+  return kImages.parse(bytes, name, [&](const FormatRow& row, std::string_view text) {
     LoadedImage loaded = read_confined(
-        reading.confined, [&] { return assembled(row.read(bytes), reading.channel, row.format); }, handed_over,
+        reading.confined, [&] { return assembled(row.read(text), reading.channel, row.format); }, handed_over,
         taken_over);
     check_image(loaded);
     make_texts_printable(loaded);

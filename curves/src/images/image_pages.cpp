@@ -36,20 +36,9 @@ bool is_unit(std::string_view text) {
 
 std::size_t image_side(double count) {
   if (!(count >= 2.0 && count <= static_cast<double>(kMostImageSide)) || count != std::floor(count)) {
-    throw CurveError(fmt::format("a side of {:g} points is no image's: 2 to {} are read", count, kMostImageSide));
+    throw CurveError(fmt::format("points on a side: {:g}; 2 to {} are read", count, kMostImageSide));
   }
   return static_cast<std::size_t>(count);
-}
-
-double image_length_m(double length_m) {
-  const double length = std::abs(length_m);
-  if (!(length > 0.0 && length <= kLongestSideM)) {
-    throw CurveError(
-        fmt::format("its side of {:g} m is no scan's: up to {:g} m is read; set its size in the program "
-                    "that wrote it",
-                    length_m, kLongestSideM));
-  }
-  return length;
 }
 
 ScaledUnit scaled_unit(std::string_view text) {
@@ -61,6 +50,20 @@ ScaledUnit scaled_unit(std::string_view text) {
     }
   }
   return {1.0, std::string(text)};
+}
+
+double image_length_m(double length, const ScaledUnit& unit) {
+  if (!unit.unit.empty() && unit.unit != "m") {
+    throw CurveError(fmt::format("its sides are in \"{}\", not in a length", unit.unit.substr(0, 40)));
+  }
+  const double length_m = std::abs(length * unit.factor);
+  if (!(length_m > 0.0 && length_m <= kLongestSideM)) {
+    throw CurveError(
+        fmt::format("its side of {:g} m is no scan's: up to {:g} m is read; set its size in the program "
+                    "that wrote it",
+                    length * unit.factor, kLongestSideM));
+  }
+  return length_m;
 }
 
 }  // namespace afm::curves

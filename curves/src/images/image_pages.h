@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "curves/curve_error.h"
+#include "curves/image_file.h"
 
 namespace afm::curves {
 
@@ -26,9 +30,31 @@ struct ImagePage {
 struct ImagePages {
   std::vector<ImagePage> pages;
   std::vector<std::pair<std::string, std::string>> metadata;
+  std::vector<UnreadChannel> unread;
+  std::vector<std::string> remarks;  // each once
+
+  void remark(const std::string& sentence) {
+    constexpr std::size_t kMostImageRemarks = 64;
+    const bool known = std::find(remarks.begin(), remarks.end(), sentence) != remarks.end();
+    if (!known && remarks.size() < kMostImageRemarks) remarks.push_back(sentence);
+  }
 };
 
-// Limits of a side of an image, and of the values of all channels together.
+// Adds the page that `read` returns. If it throws CurveError, the channel is left out with that reason; CutShort
+// concerns the whole file.
+template <class Read>
+void add_page(const std::string& name, ImagePages& found, const Read& read) {
+  try {
+    found.pages.push_back(read());
+  } catch (const CutShort&) {
+    throw;
+  } catch (const CurveError& fault) {
+    found.unread.push_back({name, fault.what()});
+  }
+}
+
+// Limits of a file's channels, of a side of an image, and of the values of all channels together.
+inline constexpr std::size_t kMostChannels = 256;
 inline constexpr std::size_t kMostImageSide = 8192;
 inline constexpr std::size_t kMostImageValues = std::size_t{32} << 20U;
 
@@ -54,14 +80,15 @@ inline constexpr double kLongestSideM = 1.0;
 // Throws CurveError if the side is out of range.
 std::size_t image_side(double count);
 
-// A length on the sample: the absolute value. Throws CurveError unless it is above zero and at most kLongestSideM.
-double image_length_m(double length_m);
-
 // A unit without its prefix: "nm" becomes 1e-9 and "m". An unknown unit has the factor 1 and stays unchanged.
 struct ScaledUnit {
   double factor = 1.0;
   std::string unit;
 };
 ScaledUnit scaled_unit(std::string_view text);
+
+// A length on the sample, in metres: the absolute value. A side without a unit counts as metres. Throws CurveError for
+// another unit, and unless the side is above zero and at most kLongestSideM.
+double image_length_m(double length, const ScaledUnit& unit = {1.0, "m"});
 
 }  // namespace afm::curves

@@ -46,7 +46,8 @@ enum Tag : std::uint16_t {
   kEncoderUnit = 0x80A2,
   kScalingType = 0x80A3,
   kMultiplier = 0x80A4,
-  kOffset = 0x80A5
+  kOffset = 0x80A5,
+  kParkMagic = 0xC500
 };
 
 constexpr unsigned kSlotStride = 0x30;
@@ -137,7 +138,7 @@ struct Calibration {
 };
 
 // Calibration of the page's default slot.
-Calibration default_calibration(const Page& page, const std::string& channel) {
+Calibration default_calibration(const Page& page) {
   const std::string wanted = page.text(kDefaultSlot);
   const double count = std::min(page.number(kSlotCount).value_or(0.0), kMostSlots);
   for (unsigned i = 0; i < count; ++i) {
@@ -149,7 +150,7 @@ Calibration default_calibration(const Page& page, const std::string& channel) {
     if (type != "LinearScaling" || !multiplier || !offset) break;
     return {*multiplier, *offset, page.text(kEncoderUnit + slot)};
   }
-  throw CurveError(fmt::format("its channel {} has no linear calibration \"{}\"", channel, wanted));
+  throw CurveError(fmt::format("it has no linear calibration \"{}\"", wanted));
 }
 
 // The pixels of a page, strip by strip, each with a whole number of rows.
@@ -189,23 +190,27 @@ bool is_channel(const Page& page) {
   return page.number(kPhotometric) == kBlackIsZero && (bits == 16 || bits == 32) && page.count(kBits) == 1;
 }
 
-ImagePage channel_of(std::string_view file, const Page& page, const Grid& grid, std::endian order) {
+// "height", "height (retrace)".
+std::string name_of_channel(const Page& page) {
   std::string name = page.text(kChannelTitle);
   if (name.empty()) name = page.text(kChannel);
-  if (name.empty()) throw CurveError("one of its channels has no name");
+  if (name.empty()) name = "unnamed";
+  return page.number(kRetrace).value_or(0) != 0 ? name + " (retrace)" : name;
+}
+
+ImagePage channel_of(std::string_view file, const Page& page, const Grid& grid, std::endian order) {
   if (page.number(kCompression).value_or(kUncompressed) != kUncompressed ||
       page.number(kSamplesPerPixel).value_or(1) != 1) {
-    throw CurveError(fmt::format("its channel {} is compressed", name));
+    throw CurveError("it is compressed");
   }
-  const Calibration scale = default_calibration(page, name);
-  if (page.number(kRetrace).value_or(0) != 0) name += " (retrace)";
+  const Calibration scale = default_calibration(page);
   const std::size_t columns = image_side(page.number(kColumns).value_or(0)),
                     rows = image_side(page.number(kRows).value_or(0));
   const auto size = static_cast<std::size_t>(*page.number(kBits)) / 8;
   const bool is_signed = page.number(kSampleFormat).value_or(0) == kSignedIntegers;
   const bool reflected = page.number(kGridReflected).value_or(0) != 0;
   const ScaledUnit unit = scaled_unit(scale.unit);
-  return {.name = std::move(name),
+  return {.name = name_of_channel(page),
           .unit = unit.unit,
           .columns = columns,
           .rows = rows,
@@ -231,6 +236,9 @@ ImagePages read_jpk_image(std::string_view bytes) {
   const std::endian order = bytes[0] == 'M' ? std::endian::big : std::endian::little;
   const Page first(bytes, number_at<std::uint32_t>(bytes, 4, order), order);
   const auto width = first.number(kGridWidth), height = first.number(kGridHeight);
+  if (first.count(kParkMagic) > 0) {
+    throw CurveError("it is a TIFF of Park Systems, which is not read; save it as .gsf or .gwy with Gwyddion");
+  }
   if (!width || !height) throw CurveError("it is a TIFF without the size of a scan: none of JPK's");
   const Grid grid{image_length_m(*width), image_length_m(*height), first.number(kGridX).value_or(0.0),
                   first.number(kGridY).value_or(0.0)};
@@ -243,7 +251,7 @@ ImagePages read_jpk_image(std::string_view bytes) {
   for (std::size_t pages = 0; offset != 0; ++pages) {
     if (pages == kMostPages) throw CurveError("its pages have no end");
     const Page page(bytes, offset, order);
-    if (is_channel(page)) found.pages.push_back(channel_of(bytes, page, grid, order));
+    if (is_channel(page)) add_page(name_of_channel(page), found, [&] { return channel_of(bytes, page, grid, order); });
     offset = page.next();
   }
   return found;

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@ namespace {
 constexpr std::size_t kMostHeaderBytes = std::size_t{4} << 20U;
 constexpr std::uint32_t kFourBytesFrom = 0x09200000;
 constexpr std::string_view kImageBlock = "Ciao image list";
+constexpr double kSquarePixelTolerance = 0.02;
 
 std::string lower_key(std::string_view text) {
   std::string lower(text);
@@ -76,18 +78,24 @@ std::optional<double> take_number(std::string_view& text) {
 
 double nanoscope_number(const Block& block, const std::string& key) {
   const std::string_view* text = block.find(key);
-  if (text == nullptr) throw CurveError(fmt::format("an image in it has no \"{}\"", key));
+  if (text == nullptr) throw CurveError(fmt::format("it has no \"{}\"", key));
   std::string_view rest = *text;
   const auto number = take_number(rest);
-  if (!number) throw CurveError(fmt::format("\"{}\" of an image in it is no number", key));
+  if (!number) throw CurveError(fmt::format("its \"{}\" is no number", key));
   return *number;
 }
 
-// Takes the text between the two characters, with all before it; empty if they do not come next.
+// Takes the text between a bracket and its counterpart, with all before it; empty if they do not come next. Brackets
+// may be nested: "(0.0003 log(Arb)/LSB)".
 std::string_view take_between(char open, char close, std::string_view& text) {
   text = trimmed(text);
-  const std::size_t end = text.find(close);
-  if (!text.starts_with(open) || end == std::string_view::npos) return {};
+  if (!text.starts_with(open)) return {};
+  std::size_t end = 1;
+  for (int depth = 1; end < text.size(); ++end) {
+    depth += text[end] == close ? -1 : text[end] == open ? 1 : 0;
+    if (depth == 0) break;
+  }
+  if (end == text.size()) return {};
   const std::string_view inside = text.substr(1, end - 1);
   text.remove_prefix(end + 1);
   return inside;
@@ -98,8 +106,8 @@ struct SoftScale {
   std::string unit;
 };
 
-// "V 12.5 nm/V" of "@Sens. Zsens", from any block.
-std::optional<SoftScale> soft_scale(const std::vector<Block>& blocks, std::string_view name) {
+// "V 12.5 nm/V" of "@Sens. Zsens", or "V 1 log(Pa)/log(Arb)", from any block. `per` is the unit behind the stroke.
+std::optional<SoftScale> soft_scale(const std::vector<Block>& blocks, std::string_view name, std::string_view per) {
   const std::string key = "@" + lower_key(name);
   for (const Block& block : blocks) {
     const std::string_view* text = block.find(key);
@@ -108,7 +116,10 @@ std::optional<SoftScale> soft_scale(const std::vector<Block>& blocks, std::strin
     const auto number = take_number(rest);
     if (!number) continue;
     rest = trimmed(rest);
-    if (rest.ends_with("/V")) rest.remove_suffix(2);
+    for (const std::string_view divisor : {std::string_view("V"), per}) {
+      if (rest.size() <= divisor.size() || !rest.ends_with(divisor)) continue;
+      if (rest[rest.size() - divisor.size() - 1] == '/') rest.remove_suffix(divisor.size() + 1);
+    }
     const ScaledUnit unit = scaled_unit(rest);
     return SoftScale{*number * unit.factor, unit.unit};
   }
@@ -122,16 +133,16 @@ struct ValueScale {
 
 ValueScale value_scale(const Block& image, const std::vector<Block>& blocks) {
   const std::string_view* text = image.find("@2:z scale");
-  if (text == nullptr || !text->starts_with('V')) throw CurveError("an image in it has no \"@2:Z scale\"");
+  if (text == nullptr || !text->starts_with('V')) throw CurveError("it has no \"@2:Z scale\"");
   std::string_view rest = text->substr(1);
   const std::string_view soft_name = take_between('[', ']', rest);
   take_between('(', ')', rest);
   const auto hard = take_number(rest);
-  if (!hard) throw CurveError("\"@2:Z scale\" of an image in it has no number");
+  if (!hard) throw CurveError("its \"@2:Z scale\" has no number");
   const ScaledUnit hard_unit = scaled_unit(rest);
-  const auto soft = soft_name.empty() ? std::nullopt : soft_scale(blocks, soft_name);
+  const auto soft = soft_name.empty() ? std::nullopt : soft_scale(blocks, soft_name, trimmed(rest));
   if (!soft) return {*hard * hard_unit.factor, hard_unit.unit};
-  return {*hard * soft->factor, soft->unit.empty() ? hard_unit.unit : soft->unit};
+  return {*hard * hard_unit.factor * soft->factor, soft->unit.empty() ? hard_unit.unit : soft->unit};
 }
 
 struct ScanSize {
@@ -185,37 +196,131 @@ double nanoscope_integer(std::string_view data, std::size_t index, std::size_t s
   return nanoscope_integer<std::int32_t>(data, index);
 }
 
-ImagePage nanoscope_page(std::string_view bytes, const Block& image, const std::vector<Block>& blocks) {
+struct Points {
+  std::size_t columns = 0, rows = 0;
+};
+
+// The lines that have data, in the order of the file.
+struct Captured {
+  std::size_t first = 0, count = 0;
+};
+
+// All lines if the header does not say otherwise. A scan that was stopped has fewer.
+Captured captured_lines(const Block& image, const Points& points) {
+  const auto whole_number = [&](const char* key) {
+    return image.find(key) != nullptr ? std::max(0.0, std::floor(nanoscope_number(image, key))) : 0.0;
+  };
+  const auto rows = static_cast<double>(points.rows);
+  const double count = whole_number("valid data len y"), first = whole_number("valid data start y");
+  if (count < 1.0 || count >= rows || first + count > rows) return {0, points.rows};
+  return {static_cast<std::size_t>(first), static_cast<std::size_t>(count)};
+}
+
+// The bytes of the captured lines, which a file may have alone.
+std::string_view data_of(std::string_view bytes, const Block& image, const Points& points, std::size_t number_size,
+                         const Captured& captured) {
+  const double offset = nanoscope_number(image, "data offset"), length = nanoscope_number(image, "data length");
+  const std::size_t line = points.columns * number_size, whole = points.rows * line;
+  const bool alone = length == static_cast<double>(captured.count * line);
+  if (!alone && length != static_cast<double>(whole)) {
+    throw CurveError(
+        fmt::format("its data have {:g} bytes; {} x {} points take {}", length, points.columns, points.rows, whole));
+  }
+  if (!(offset >= 0.0 && offset <= static_cast<double>(bytes.size()))) throw CutShort("it is cut short");
+  const std::string_view data = part(bytes, static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
+  return part(data, alone ? 0 : captured.first * line, captured.count * line);
+}
+
+// "2:1", width to height; 1 without it.
+double aspect_ratio(const Block& block) {
+  const std::string_view* text = block.find("aspect ratio");
+  if (text == nullptr) return 1.0;
+  std::string_view rest = *text;
+  const auto width = take_number(rest);
+  if (!rest.starts_with(':')) return 1.0;
+  rest.remove_prefix(1);
+  const auto height = take_number(rest);
+  return width && height && *width > 0.0 && *height > 0.0 ? *width / *height : 1.0;
+}
+
+bool has_square_pixels(const ScanSize& area, const Points& points) {
+  const double ratio =
+      area.width_m / area.height_m * static_cast<double>(points.rows) / static_cast<double>(points.columns);
+  return std::abs(ratio - 1.0) < kSquarePixelTolerance;
+}
+
+// The lines of the scan of which an image has `points`; these if the scan list does not tell, or for other points.
+double lines_of_scan(const Block& list, const Points& points) {
+  const auto rows = static_cast<double>(points.rows), columns = static_cast<double>(points.columns);
+  if (list.find("lines") == nullptr) return rows;
+  const double samples = list.find("samps/line") != nullptr ? nanoscope_number(list, "samps/line") : columns;
+  return samples == columns ? std::max(rows, nanoscope_number(list, "lines")) : rows;
+}
+
+// The area of an image. The header of a scan that was stopped may keep the size of the whole: its lines, or an aspect
+// ratio, tell which part of the height the image has.
+ScanSize area_of(const Block& image, const std::vector<Block>& blocks, const Points& points, ImagePages& found) {
+  auto area = scan_size(image);
+  for (std::size_t i = 0; i < blocks.size() && !area; ++i) area = scan_size(blocks[i]);
+  if (!area) throw CurveError("it has no \"Scan Size\"");
+  const bool square = area->width_m == area->height_m;
+  const auto list = std::find_if(blocks.begin(), blocks.end(),
+                                 [](const Block& block) { return lower_key(block.name) == "ciao scan list"; });
+  if (list != blocks.end()) {
+    const double lines = lines_of_scan(*list, points), share = static_cast<double>(points.rows) / lines;
+    const ScanSize part_of_it{area->width_m, area->height_m * share};
+    if (share < 1.0 && (square || (!has_square_pixels(*area, points) && has_square_pixels(part_of_it, points)))) {
+      found.remark(fmt::format("{} of {:g} lines were captured: the image is as much lower than its header says",
+                               points.rows, lines));
+      return part_of_it;
+    }
+    for (const double aspect : {aspect_ratio(image), aspect_ratio(*list)}) {
+      const ScanSize flat{area->width_m, area->width_m / aspect};
+      if (!square || aspect == 1.0 || !has_square_pixels(flat, points)) continue;
+      found.remark(
+          fmt::format("its header says that it is as high as wide, and that its aspect ratio is {:g}: the "
+                      "ratio is taken, with which its pixels are square",
+                      aspect));
+      return flat;
+    }
+  }
+  if (square && !has_square_pixels(*area, points)) {
+    found.remark(fmt::format("its header says that {} x {} points are as high as wide: its pixels are not square",
+                             points.columns, points.rows));
+  }
+  return *area;
+}
+
+ImagePage nanoscope_page(std::string_view bytes, const Block& image, const std::vector<Block>& blocks,
+                         ImagePages& found) {
   const double bytes_per_pixel = image.find("bytes/pixel") != nullptr ? nanoscope_number(image, "bytes/pixel") : 2.0;
   if (bytes_per_pixel != 1.0 && bytes_per_pixel != 2.0 && bytes_per_pixel != 4.0) {
     throw CurveError(fmt::format("its images have {:g} bytes a pixel; 1, 2 and 4 are read", bytes_per_pixel));
   }
   const std::size_t size = nanoscope_version(blocks) >= kFourBytesFrom ? 4 : static_cast<std::size_t>(bytes_per_pixel);
-  const std::size_t columns = image_side(nanoscope_number(image, "samps/line")),
-                    rows = image_side(nanoscope_number(image, "number of lines"));
-  const double offset = nanoscope_number(image, "data offset");
-  if (!(offset >= 0.0 && offset <= static_cast<double>(bytes.size()))) throw CurveError("it is cut short");
-  const double length = nanoscope_number(image, "data length");
-  if (length != static_cast<double>(columns * rows * size)) {
-    throw CurveError(fmt::format("the data of an image have {:g} bytes; {} x {} points take {}", length, columns, rows,
-                                 columns * rows * size));
-  }
-  const std::string_view data = part(bytes, static_cast<std::size_t>(offset), columns * rows * size);
-
-  auto area = scan_size(image);
-  for (std::size_t i = 0; i < blocks.size() && !area; ++i) area = scan_size(blocks[i]);
-  if (!area) throw CurveError("it has no \"Scan Size\"");
+  const Points points{image_side(nanoscope_number(image, "samps/line")),
+                      image_side(nanoscope_number(image, "number of lines"))};
+  const Captured captured = captured_lines(image, points);
+  const std::string_view data = data_of(bytes, image, points, size, captured);
   const ValueScale scale = value_scale(image, blocks);
+  const ScanSize area = area_of(image, blocks, points, found);
+  if (captured.count < points.rows) {
+    found.remark(
+        fmt::format("{} of {} lines were captured; the others count as not measured", captured.count, points.rows));
+  }
   const double factor = scale.factor / std::pow(256.0, bytes_per_pixel);
   return {.name = nanoscope_name(image),
           .unit = scale.unit,
-          .columns = columns,
-          .rows = rows,
-          .width_m = image_length_m(area->width_m),
-          .height_m = image_length_m(area->height_m),
-          .values = [=] {
-            return grid_values(columns, rows, true,
-                               [=](std::size_t i) { return factor * nanoscope_integer(data, i, size); });
+          .columns = points.columns,
+          .rows = points.rows,
+          .width_m = image_length_m(area.width_m),
+          .height_m = image_length_m(area.height_m),
+          .values = [=, first = captured.first * points.columns, count = captured.count * points.columns] {
+            return grid_values(points.columns, points.rows, true, [=](std::size_t i) {
+              const bool measured = i >= first && i - first < count;
+              return measured ? factor * nanoscope_integer(data, i - first, size)
+                              : std::numeric_limits<double>::quiet_NaN();
+            });
           }};
 }
 
@@ -228,7 +333,7 @@ ImagePages read_nanoscope(std::string_view bytes) {
   ImagePages found;
   for (const Block& block : blocks) {
     if (block.name == kImageBlock) {
-      found.pages.push_back(nanoscope_page(bytes, block, blocks));
+      add_page(nanoscope_name(block), found, [&] { return nanoscope_page(bytes, block, blocks, found); });
       continue;
     }
     for (const auto& [key, value] : block.values) {

@@ -8,6 +8,7 @@
 namespace afm::curves {
 
 inline constexpr std::string_view kNanoscopeMagic = "\\*File list";
+inline constexpr std::string_view kNanoscopeElectrochemistryMagic = "\\*EC File list";
 
 // Images of Bruker's Nanoscope (.spm, .001), with a text header up to a byte 0x1A: blocks "\*Ciao image list" with
 // "\Data offset", "\Samps/line", "\@2:Z scale: V [Sens. X] (...) HARD V", and blocks with "\@Sens. X: V SOFT nm/V". A

@@ -16,10 +16,11 @@
 
 #include "core/log.h"
 #include "core/whole_file.h"
+#include "curves/curve_file.h"
 #include "curves/image_file.h"
-#include "exhibit/models/loading_notice.h"
+#include "curves/unread_kinds.h"
 #include "exhibit/models/model_builder.h"
-#include "scene/gltf/gltf_loader.h"
+#include "models/noted_model.h"
 #include "scene/graph/pose.h"
 
 namespace afm::exhibit {
@@ -83,8 +84,7 @@ scene::Scene without_shape(const scene::Scene& scene) {
 }
 
 core::Result<scene::Scene> load(const std::string& file) {
-  const LoadingNotice notice(file);
-  auto loaded = scene::load_gltf(file);
+  auto loaded = load_noted_model(file);
   if (loaded && !loaded->animations.empty()) {
     core::log_line(fmt::format("'{}' is shown at rest: the wall does not play the animations of a model", file));
   }
@@ -149,6 +149,15 @@ bool is_no_model(const std::string& path) {
   return file && (!(file >> first) || (first != '{' && first != 'g'));
 }
 
+// A file that is neither a model nor an image, as far as its beginning shows.
+std::string described_other(const std::string& file) {
+  const auto beginning = core::read_beginning(file, curves::kUnreadKindBytes);
+  std::string_view kind = beginning ? curves::unread_kind_of(*beginning) : std::string_view();
+  if (kind.empty() && curves::is_curve_file(file)) kind = "a curve, which has no surface";
+  if (kind.empty()) return "it is neither a glTF model nor an image that can be read";
+  return fmt::format("it is {}; it is neither a glTF model nor an image that can be read", kind);
+}
+
 tl::unexpected<core::Error> unusable_sample(const std::string& file, const std::string& why) {
   return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot use the sample '{}': {}", file, why));
 }
@@ -178,9 +187,8 @@ core::Result<UserModels> load_own_models(const std::string& probe_file, const st
     if (!topography) return tl::unexpected(topography.error());
     own.topography = std::move(*topography);
   } else if (is_no_model(sample_file)) {
-    return unusable_sample(sample_file, fmt::format("it is neither a glTF model nor an image that can be read ({}); "
-                                                    "export it in one of these formats",
-                                                    curves::kImageFiles));
+    return unusable_sample(sample_file, fmt::format("{} ({}); export it in one of these formats",
+                                                    described_other(sample_file), curves::kImageFiles));
   } else if (!sample_file.empty()) {
     auto sample = load_sample(sample_file);
     if (!sample) return tl::unexpected(sample.error());

@@ -113,8 +113,8 @@ class Builder {
           " does not lie above jump-to-contact at " + format_quantity(Length(in_from.z), kLengthUnits));
     }
     const Rest in_to = rest(attached_, *in_to_s);
-    // a lever that is so soft that it releases beyond the law's end springs back to zero force
-    const Rest off_to = rest(free_, free_.at_z(off_from.z).value_or(free_curve_.first));
+    const auto off_to_s = free_.at_z(off_from.z);
+    const Rest off_to = off_to_s ? rest(free_, *off_to_s) : rest_beyond_law(off_from.z);
 
     CycleFigures& figures = tables_.figures;
     figures.z_jtc = Length(in_from.z);
@@ -149,12 +149,21 @@ class Builder {
     return Energy(u_from + stored(from) - u_to - stored(to));
   }
 
-  // U at the first point of the free branch, for a force that continues as the same power of h.
+  // The force continues beyond the first point of the free branch as the same power of h.
+  static double falling_exponent(const LawPoint& far) { return -far.dforce_ds / far.dh_ds * far.h.si / far.force.si; }
+
+  // Rest of a lever that is so soft that it lets go where the law has no points any more.
+  Rest rest_beyond_law(double z) const {
+    const LawPoint far = free_curve_.at(free_curve_.first);
+    const double force = far.force.si == 0.0 ? 0.0 : far.force.si * std::pow(far.h.si / z, falling_exponent(far));
+    return {z, force, free_curve_.first};
+  }
+
+  // U at the first point of the free branch.
   double potential_far_away() const {
     const LawPoint far = law_.free.at(law_.free.first);
     if (far.force.si == 0.0) return 0.0;
-    const double exponent = -far.dforce_ds / far.dh_ds * far.h.si / far.force.si;
-    return far.force.si * far.h.si / (exponent - 1.0);
+    return far.force.si * far.h.si / (falling_exponent(far) - 1.0);
   }
 
   void set_tip_heights() {

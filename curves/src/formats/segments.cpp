@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/segments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "curves/curve_error.h"
+
+namespace afm::curves {
+
+namespace {
+
+using physics::CurvePoint;
+
+// Share of the heights of a curve up to which the tip counts as resting.
+constexpr double kRestShare = 0.1;
+
+// A run of points with the same number.
+struct Run {
+  double number = 0;
+  std::size_t first = 0, count = 0;
+};
+
+std::vector<Run> runs_of(std::span<const double> segments) {
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (runs.empty() || runs.back().number != segments[i]) runs.push_back({segments[i], i, 0});
+    ++runs.back().count;
+  }
+  return runs;
+}
+
+std::pair<double, double> z_range_of(std::span<const CurvePoint> points) {
+  const auto [low, high] =
+      std::minmax_element(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
+  return {low->z.si, high->z.si};
+}
+
+double mean_z(std::span<const CurvePoint> points) {
+  double sum = 0;
+  for (const CurvePoint& point : points) sum += point.z.si;
+  return sum / static_cast<double>(points.size());
+}
+
+// Mean height of the last tenth above that of the first, in shares of the points' range: -1 to 1.
+double rise_of(std::span<const CurvePoint> points) {
+  if (points.size() < 2) return 0.0;
+  const auto [low, high] = z_range_of(points);
+  if (!(high > low)) return 0.0;
+  const std::size_t tenth = std::max<std::size_t>(1, points.size() / 10);
+  return (mean_z(points.last(tenth)) - mean_z(points.first(tenth))) / (high - low);
+}
+
+// Median of the force where the height is within `from` to `to`, in shares of the range from its lowest.
+std::optional<double> force_at(std::span<const CurvePoint> points, double from, double to) {
+  const auto [low, high] = z_range_of(points);
+  std::vector<double> forces;
+  for (const CurvePoint& point : points) {
+    const double share = (point.z.si - low) / (high - low);
+    if (share >= from && share <= to) forces.push_back(point.force.si);
+  }
+  if (forces.empty()) return std::nullopt;
+  const auto middle = forces.begin() + static_cast<std::ptrdiff_t>(forces.size() / 2);
+  std::nth_element(forces.begin(), middle, forces.end());
+  return *middle;
+}
+
+enum class ContactEnd { Unknown, Lowest, Highest };
+
+// The end of the heights at which the force changes most, if clearly: that of the contact, for a force of either sign.
+ContactEnd contact_end_of(std::span<const CurvePoint> points) {
+  constexpr double kClearly = 3.0, kOuter = 0.05, kInner = 0.2;
+  const auto lowest = force_at(points, 0.0, kOuter), above = force_at(points, kInner - kOuter, kInner);
+  const auto below = force_at(points, 1.0 - kInner, 1.0 - kInner + kOuter),
+             highest = force_at(points, 1.0 - kOuter, 1.0);
+  if (!lowest || !above || !below || !highest) return ContactEnd::Unknown;
+  const double low = std::abs(*lowest - *above), high = std::abs(*highest - *below);
+  if (low > kClearly * high) return ContactEnd::Lowest;
+  return high > kClearly * low ? ContactEnd::Highest : ContactEnd::Unknown;
+}
+
+void reverse_times(RecordedCurve& curve, std::size_t first, std::size_t count) {
+  if (curve.time_s.empty()) return;
+  const auto begin = curve.time_s.begin() + static_cast<std::ptrdiff_t>(first);
+  std::reverse(begin, begin + static_cast<std::ptrdiff_t>(count));
+}
+
+}  // namespace
+
+void remark_left_out(std::size_t points, std::string_view when, std::string_view what_it_does,
+                     std::optional<double> duration_s, CurveMetadata& metadata) {
+  if (metadata.remarks.size() >= kMostRemarks) return;
+  const std::string duration = duration_s ? fmt::format(" for {:g} s", *duration_s) : std::string();
+  const std::string left_out = points == 1 ? "1 point there is" : fmt::format("{} points there are", points);
+  metadata.remarks.push_back(fmt::format("{} the tip {}{}: {} left out", when, what_it_does, duration, left_out));
+}
+
+void assign_branches(std::span<const double> segments, RecordedCurve& curve) {
+  const std::vector<Run> runs = runs_of(segments);
+  const bool two = std::all_of(segments.begin(), segments.end(), [](double n) { return n == 0.0 || n == 1.0; });
+  const bool in_order = std::adjacent_find(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
+                          return a.number >= b.number;
+                        }) == runs.end();
+  if (!two && (!in_order || runs.size() < 2 || runs.front().number != 0.0)) {
+    throw CurveError(
+        fmt::format("segment is {}; known are 0 (approach) and 1 (retract), or more in their order",
+                    *std::find_if(segments.begin(), segments.end(), [](double n) { return n != 0.0 && n != 1.0; })));
+  }
+  std::vector<CurvePoint> points;
+  std::vector<double> times;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::span<const CurvePoint> here = std::span(curve.points).subspan(runs[i].first, runs[i].count);
+    const bool between = !two && i > 0 && i + 1 < runs.size();
+    if (between) {
+      const auto [low, high] = z_range_of(curve.points);
+      const double moved = std::abs(here.back().z.si - here.front().z.si);
+      if (moved > kRestShare * (high - low)) {
+        throw CurveError(
+            fmt::format("the tip moves by {:.3g} nm in its segment {}, between approach and retract; only "
+                        "curves of one approach and one retract are read",
+                        moved * 1e9, runs[i].number));
+      }
+      remark_left_out(runs[i].count, kBetweenBranches, "rests", std::nullopt, curve.metadata);
+      continue;
+    }
+    const bool retract = two ? runs[i].number == 1.0 : i > 0;
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      points.push_back({here[k].z, here[k].force, retract ? physics::Branch::Retract : physics::Branch::Approach});
+      if (!curve.time_s.empty()) times.push_back(curve.time_s[runs[i].first + k]);
+    }
+  }
+  curve.points = std::move(points);
+  curve.time_s = std::move(times);
+}
+
+void set_directions(RecordedCurve& curve) {
+  constexpr double kClearRise = 0.2;
+  const auto remark = [&](const char* sentence) {
+    if (curve.metadata.remarks.size() < kMostRemarks) curve.metadata.remarks.emplace_back(sentence);
+  };
+  const auto turn = std::find_if(curve.points.begin(), curve.points.end(),
+                                 [](const auto& point) { return point.branch == physics::Branch::Retract; });
+  const auto count = static_cast<std::size_t>(turn - curve.points.begin());
+  const std::span<CurvePoint> all(curve.points), approach = all.first(count), retract = all.subspan(count);
+  if (count < 2 || std::abs(rise_of(approach)) < kClearRise) return;
+
+  const ContactEnd contact = contact_end_of(approach);
+  if (rise_of(approach) < 0.0) {
+    if (contact == ContactEnd::Highest) {
+      remark(
+          "the force of the approach changes most at its far end: do its heights count the other way, or are approach "
+          "and retract exchanged?");
+    }
+  } else if (contact != ContactEnd::Lowest) {
+    for (CurvePoint& point : curve.points) point.z = -point.z;
+    remark("its heights rise while the tip approaches: they are counted the other way here");
+  } else if (rise_of(retract) < -kClearRise) {
+    throw CurveError(
+        "its approach leads away from the sample and its retract towards it: are approach and retract exchanged?");
+  } else {
+    std::reverse(approach.begin(), approach.end());
+    reverse_times(curve, 0, count);
+    remark("the points of its approach lead away from the sample: they are taken in the reverse order");
+  }
+  if (rise_of(retract) < -kClearRise) {
+    std::reverse(retract.begin(), retract.end());
+    reverse_times(curve, count, retract.size());
+    remark("the points of its retract lead towards the sample: they are taken in the reverse order");
+  }
+}
+
+}  // namespace afm::curves
