@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,13 +15,14 @@
 
 #include "app/options/command.h"
 #include "app/options/enum_option.h"
+#include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
 #include "core/log.h"
 #include "core/whole_file.h"
+#include "curves/image_file.h"
 #include "curves/image_output.h"
 #include "exhibit/scan/image_picture.h"
-#include "exhibit/scan/scan_surface.h"
 #include "physics/imaging/scan_artefact.h"
 #include "physics/imaging/scan_truth.h"
 #include "render/image_file.h"
@@ -81,6 +83,10 @@ std::string words(std::string_view name) {
 void describe(const ScanOptions& options, const curves::ContactSetup& setup, const physics::TipShape& tip, Scan& scan) {
   auto& metadata = scan.image.metadata;
   metadata.emplace_back("Material", setup.material.name);
+  if (!options.sample.file.empty()) {
+    metadata.emplace_back("Sample", std::filesystem::path(options.sample.file).filename().string());
+    metadata.emplace_back("Levelling", physics::text_of(options.sample.reading.levelling).word);
+  }
   metadata.emplace_back("Model", setup.used_model());
   metadata.emplace_back("Tip", physics::name_of(tip.kind));
   metadata.emplace_back("Tip radius", physics::format_quantity(tip.radius, physics::kLengthUnits));
@@ -98,7 +104,8 @@ void describe(const ScanOptions& options, const curves::ContactSetup& setup, con
 core::Result<Scan> take_scan(const ScanOptions& options) {
   const auto setup = contact_setup(options.contact);
   if (!setup) return tl::unexpected(setup.error());
-  const auto surface = exhibit::scan_surface(*setup, tip_of(options, *setup, {}), options.contact.assets_dir);
+  const auto surface =
+      exhibit::scan_surface(*setup, tip_of(options, *setup, {}), options.contact.assets_dir, options.sample);
   if (!surface) return tl::unexpected(surface.error());
 
   Scan scan;
@@ -110,8 +117,8 @@ core::Result<Scan> take_scan(const ScanOptions& options) {
   area.y_centre = options.y_centre;
   area.columns = area.rows = options.pixels;
   if (area.width.si > drawn_m * (1.0 + 1e-9)) {
-    core::log_line(fmt::format("the sample of {} is {} wide; beyond its rim the image is level, as it is felt there",
-                               setup->material.name,
+    core::log_line(fmt::format("the sample {} is {} wide; beyond its rim the image is level, as it is felt there",
+                               options.sample.file.empty() ? "of " + setup->material.name : options.sample.file,
                                physics::format_quantity(physics::Length(drawn_m), physics::kLengthUnits, 3)));
   }
   try {
@@ -120,7 +127,7 @@ core::Result<Scan> take_scan(const ScanOptions& options) {
     std::size_t lines = 0;
     physics::NewestLines newest;
     scan.image = physics::scan_frame(scanner, [&](const physics::ScanLine& line) {
-      newest.add(line);
+      newest.add(line, scanner.time().si);
       ++scan.lines_with[physics::main_artefact({scan.settings, area, scanner.loop().largest_integral_gain()},
                                                newest.evidence())];
       ++lines;
@@ -186,6 +193,9 @@ core::Result<void> keep_channel(const std::string& name, ScanImage& image) {
 }
 
 core::Result<void> check(const ScanOptions& options) {
+  if (options.contact.material.empty()) {
+    return wrong_usage("--material is required, such as mica or gold; or name a sample of your own with --sample");
+  }
   if (options.out.empty() && options.picture.empty() && !options.json) {
     return wrong_usage("the image would be lost; name a file with --out, or add --json for its figures");
   }
@@ -242,6 +252,20 @@ void add_area_options(OptionList& command, ScanOptions& options) {
               &DirectionName::direction, "where the slow scan goes; default: down");
 }
 
+void add_own_sample_options(OptionList& command, ScanOptions& options) {
+  Option sample = command.add_option(
+      "--sample", options.sample.file,
+      fmt::format("scan your own sample at its own size: a glTF model with a node for the role surface, or a measured "
+                  "image ({}); without --tip an image is taken as an apex traced it, as it is felt, with --tip as the "
+                  "sample itself; the file's first bytes decide",
+                  curves::kImageFiles));
+  sample.type_name("FILE");
+  for (Option& option : add_channel_options(command, options.sample.reading.image.channel,
+                                            options.sample.reading.levelling, "--sample-channel")) {
+    option.needs(sample);
+  }
+}
+
 void add_setting_options(OptionList& command, ScanOptions& options) {
   const physics::ScanSettings usual;
   for (const physics::ScanField& field : physics::kScanFields) {
@@ -260,14 +284,15 @@ void add_setting_options(OptionList& command, ScanOptions& options) {
       "keep the z scanner where it engaged, so that the error shows the relief");
 }
 
-void add_tip_options(OptionList& command, ScanOptions& options) {
-  enum_option(command, "--tip", options.tip.kind, "a tip", physics::kTipKinds, &physics::TipKindName::name,
-              &physics::TipKindName::kind,
-              "shape of the tip; its radius is --tip-radius; default: paraboloid, as it is felt");
+Option add_tip_options(OptionList& command, ScanOptions& options) {
+  const Option tip = enum_option(command, "--tip", options.tip.kind, "a tip", physics::kTipKinds,
+                                 &physics::TipKindName::name, &physics::TipKindName::kind,
+                                 "shape of the tip; its radius is --tip-radius; default: paraboloid, as it is felt");
   si_option(
       command, "--tip-angle", [&options](double rad) { options.tip.half_angle_rad = rad; },
       {kAngleUnits.sort, kAngleUnits.units, QuantityRange<double>{std::numbers::pi / 180.0, std::numbers::pi * 0.45}},
       "half angle of a cone or a pyramid, between axis and face; default: 17.189 deg");
+  return tip;
 }
 
 void add_output_options(OptionList& command, ScanOptions& options) {
@@ -301,19 +326,27 @@ void add_scan_command(OptionList& program, const CommandContext& context) {
       "scan", "take an image of a sample with the virtual microscope, with its artefacts, as .gwy or .gsf");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<ScanOptions>();
-  command.add_option("--material", options->contact.material, "mica, gold or any other of touchafm material")
-      .required()
+  command
+      .add_option("--material", options->contact.material,
+                  "mica, gold or any other of touchafm material; with --sample, it supplies lever, tip and adhesion; "
+                  "default there: mica")
       .type_name("MATERIAL");
+  add_own_sample_options(command, *options);
   add_area_options(command, *options);
   add_setting_options(command, *options);
-  add_tip_options(command, *options);
+  const Option tip = add_tip_options(command, *options);
   add_contact_options(command, options->contact, context);
   add_output_options(command, *options);
   command.footer(
       "Lever, tip and adhesion are the material's; each parameter overrides its own.\n"
-      "example: touchafm scan --material mica --size 500nm --pixels 256 --rate 2Hz --out image.gwy\n"
-      "example: touchafm scan --material gold --rate 20Hz --integral-gain 200/s --picture blurred.png --json");
-  command.when_chosen([options] { return write_scan_command(*options); });
+      "example: touchafm scan --material mica --size 40nm --pixels 256 --rate 2Hz --out image.gwy\n"
+      "example: touchafm scan --material gold --rate 20Hz --integral-gain 200/s --picture blurred.png --json\n"
+      "example: touchafm scan --sample grating.gwy --tip cone --tip-radius 20nm --rate 1Hz --out image.gwy");
+  command.when_chosen([options, tip] {
+    options->sample.is_traced = !tip.given();
+    if (options->contact.material.empty() && !options->sample.file.empty()) options->contact.material = "mica";
+    return write_scan_command(*options);
+  });
 }
 
 }  // namespace afm::app

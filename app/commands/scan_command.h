@@ -9,6 +9,7 @@
 
 #include "app/options/contact_options.h"
 #include "core/result.h"
+#include "exhibit/scan/scan_surface.h"
 #include "physics/imaging/scan_settings.h"
 #include "physics/imaging/tip_shape.h"
 
@@ -17,6 +18,7 @@ namespace afm::app {
 // Options of `touchafm scan`; empty text and zero: not given.
 struct ScanOptions {
   ContactOptions contact;
+  exhibit::OwnSample sample;
   physics::Length size;  // zero: the size of the drawn sample
   std::size_t pixels = 256;
   physics::Length x_centre, y_centre;

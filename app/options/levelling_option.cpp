@@ -7,19 +7,22 @@
 
 namespace afm::app {
 
-std::array<Option, 2> add_channel_options(OptionList& command, std::string& channel, physics::Levelling& levelling) {
-  Option which = command.add_option("--channel", channel,
+std::array<Option, 2> add_channel_options(OptionList& command, std::string& channel, physics::Levelling& levelling,
+                                          const std::string& channel_name) {
+  Option which = command.add_option(channel_name, channel,
                                     "name of a channel of a measured image; default: the height, of the trace if there "
                                     "is one, otherwise of the retrace");
   which.type_name("NAME");
   std::string meanings;
   for (const physics::LevellingText& row : physics::kLevellings) {
-    meanings += fmt::format("{}{} ({})", meanings.empty() ? "" : ", ", row.word, row.meaning);
+    const bool changes = row.levelling != physics::Levelling::None;
+    meanings += fmt::format("{}{}", meanings.empty() ? "" : ", ", row.word);
+    if (changes) meanings += fmt::format(" ({})", row.meaning);
   }
   const Option level = enum_option(
       command, "--level", levelling, "a way of levelling", physics::kLevellings, &physics::LevellingText::word,
       &physics::LevellingText::levelling,
-      fmt::format("what is taken off a measured image: {}; default: {}", meanings, physics::text_of(levelling).word));
+      fmt::format("levelling of a measured image: {}; default: {}", meanings, physics::text_of(levelling).word));
   return {which, level};
 }
 

@@ -9,7 +9,8 @@
 
 namespace afm::app {
 
-// Adds --channel and --level: how to read an instrument's image.
-std::array<Option, 2> add_channel_options(OptionList& command, std::string& channel, physics::Levelling& levelling);
+// Adds --channel, or another name, and --level: how to read an instrument's image.
+std::array<Option, 2> add_channel_options(OptionList& command, std::string& channel, physics::Levelling& levelling,
+                                          const std::string& channel_name = "--channel");
 
 }  // namespace afm::app

@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
@@ -62,6 +63,11 @@ TEST(CurveReport, NamesTheMethodOfTheContactPointAndWhatTheOthersSay) {
   EXPECT_EQ(json.at("contact_point_method"), "fit-polynomial");
   EXPECT_EQ(json.at("contact_point_doubtful"), false);
   EXPECT_EQ(json.at("contact_point_methods_m").size(), 6U);
+  const auto range_m = json.at("contact_point_range_m").get<std::vector<double>>();
+  ASSERT_EQ(range_m.size(), 2U);
+  EXPECT_LE(range_m[0], 0.0);
+  EXPECT_GE(range_m[1], 0.0);
+  EXPECT_NEAR(json.at("contact_point_m").get<double>(), 0.0, 1e-9);
   const auto chosen = curves::analysed("hertz", recorded, physics::ContactMethod::Gradient);
   EXPECT_EQ(chosen->features.contact_point->si, json.at("contact_point_methods_m").at("gradient").get<double>());
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -19,6 +20,7 @@
 #include "haptics/simulated_device.h"
 #include "scene/gltf/gltf_loader.h"
 #include "scene/graph/height_field.h"
+#include "support/image_files.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
 
@@ -89,23 +91,115 @@ TEST(ScanCommand, ShowsAtZeroSpeedWhatAHandFeels) {
   }
 }
 
-// Under a paraboloid what a hand feels there; under any other tip as high as the rim.
+// Under a paraboloid what a hand feels there; under any tip one level plane.
 TEST(ScanCommand, IsLevelBeyondTheRimOfTheSampleAsAHandFeelsIt) {
-  const ScanOptions options = options_for("mica");
-  const haptics::SampleSurface felt = felt_surface(options);
-  for (const physics::TipKind kind : {physics::TipKind::Paraboloid, physics::TipKind::Sphere}) {
-    const auto surface =
-        exhibit::scan_surface(*contact_setup(options.contact), {.kind = kind}, options.contact.assets_dir);
-    ASSERT_TRUE(surface);
-    const double half_m = 0.5 * surface->width_m, rim_m = surface->height_m(2.0 * half_m, 3e-9);
-    EXPECT_NE(rim_m, surface->height_m(0.0, 3e-9));
-    for (const double beyond_m : {1e-9, 13e-9, 1.99 * half_m, 1.0}) {
-      EXPECT_NEAR(surface->height_m(half_m + beyond_m, 3e-9), rim_m, 1e-9 * beyond_m + 1e-12);
-      if (kind == physics::TipKind::Paraboloid) {
-        EXPECT_EQ(surface->height_m(-half_m - beyond_m, 7e-9), felt.at({-half_m - beyond_m, 7e-9}).height_m);
+  for (const char* material : {"mica", "gold", "si3n4"}) {
+    const ScanOptions options = options_for(material);
+    const haptics::SampleSurface felt = felt_surface(options);
+    for (const physics::TipKind kind : {physics::TipKind::Paraboloid, physics::TipKind::Sphere}) {
+      const auto surface =
+          exhibit::scan_surface(*contact_setup(options.contact), {.kind = kind}, options.contact.assets_dir);
+      ASSERT_TRUE(surface);
+      const double level_m = surface->height_m(1.0, 1.0), half_m = 0.5 * surface->width_m;
+      EXPECT_NE(surface->height_m(half_m, 3e-9), level_m);
+      for (double along_m = -1e-6; along_m < 1e-6; along_m += 7e-9) {
+        EXPECT_EQ(surface->height_m(1e-6, along_m), level_m);
+        EXPECT_EQ(surface->height_m(along_m, -1e-6), level_m);
+        if (kind == physics::TipKind::Sphere) continue;
+        EXPECT_EQ(surface->height_m(-half_m - 3e-9, along_m), felt.at({-half_m - 3e-9, along_m}).height_m);
       }
     }
   }
+}
+
+TEST(ScanCommand, HasNoStepFarBesideTheSample) {
+  const support::ScratchFolder folder;
+  for (const char* material : {"mica", "gold"}) {
+    ScanOptions options = options_for(material);
+    options.out = folder.file("image.gwy");
+    options.size = physics::Length(500e-9);
+    options.x_centre = physics::Length(5e-6);
+    ASSERT_TRUE(write_scan_command(options));
+    const std::vector<double> height = values_of(core::read_file(options.out).value(), 0);
+    const auto [low, high] = std::minmax_element(height.begin(), height.end());
+    EXPECT_LT(*high - *low, 1e-15) << material;
+  }
+}
+
+TEST(ScanCommand, ShowsInTheManualsFirstExampleOnlyWhatTheSampleHas) {
+  const std::string manual = core::read_file(support::source("docs/manual.md")).value();
+  const std::string example = "touchafm scan --material mica --size ";
+  const std::size_t first = manual.find(example);
+  ASSERT_NE(first, std::string::npos);
+  const double size_m = 1e-9 * std::stod(manual.substr(first + example.size()));
+  EXPECT_EQ(manual.substr(manual.find(' ', first + example.size()) - 2, 2), "nm");
+  const ScanOptions options = options_for("mica");
+  const auto surface = exhibit::scan_surface(*contact_setup(options.contact), {}, options.contact.assets_dir);
+  ASSERT_TRUE(surface);
+  EXPECT_LE(size_m, surface->width_m * (1.0 + 1e-9));
+  EXPECT_GT(size_m, 0.5 * surface->width_m);
+}
+
+// ---- a sample of one's own ----
+
+constexpr double kWaveM = 10e-9, kPeriodM = 500e-9, kOwnSideM = 2e-6;
+
+double own_height_m(double x_m) { return kWaveM * std::sin(2.0 * 3.14159265358979 * x_m / kPeriodM); }
+
+std::string write_own_sample(const support::ScratchFolder& folder) {
+  constexpr int kSide = 128;
+  std::vector<float> heights;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    heights.push_back(static_cast<float>(own_height_m(((i % kSide + 0.5) / kSide - 0.5) * kOwnSideM)));
+  }
+  return folder.write("own.gsf", test::gsf_file("XRes = 128\nYRes = 128\nXReal = 2e-6\nYReal = 2e-6\nXYUnits = m\n"
+                                                "ZUnits = m\n",
+                                                heights));
+}
+
+TEST(ScanCommand, ScansASampleOfOnesOwnAsItWasMeasuredAndUnderATipAsTheSampleItself) {
+  const support::ScratchFolder folder;
+  ScanOptions options = options_for("mica");
+  options.sample.file = write_own_sample(folder);
+  options.sample.reading.levelling = physics::Levelling::None;
+  options.out = folder.file("image.gwy");
+  options.pixels = 64;
+  set(options, "line_rate", 0.05);
+  set(options, "loop_rate", 20e3);
+  ASSERT_TRUE(write_scan_command(options));
+  const std::string bytes = core::read_file(options.out).value();
+  EXPECT_THAT(bytes, HasSubstr("own.gsf"));
+  const std::vector<double> height = values_of(bytes, 0);
+  ASSERT_EQ(height.size(), 64U * 64U);
+  const double scanned_m = kOwnSideM * 127.0 / 128.0;  // from the first point to the last
+  for (std::size_t i = 0; i < height.size(); ++i) {
+    const double x_m = ((static_cast<double>(i % 64) + 0.5) / 64.0 - 0.5) * scanned_m;
+    // levelled, 0 at the origin, and linear between points
+    ASSERT_NEAR(height[i], own_height_m(x_m), 0.1e-9);
+  }
+
+  options.sample.is_traced = false;
+  options.tip.kind = physics::TipKind::Sphere;
+  options.contact.values["tip-radius"] = "200nm";
+  ASSERT_TRUE(write_scan_command(options));
+  const std::vector<double> blunt = values_of(core::read_file(options.out).value(), 0);
+  double lift_m = 0.0;
+  for (std::size_t i = 0; i < blunt.size(); ++i) {
+    ASSERT_GE(blunt[i], height[i] - 0.1e-9);
+    lift_m = std::max(lift_m, blunt[i] - height[i]);
+  }
+  EXPECT_GT(lift_m, 0.5e-9);
+}
+
+TEST(ScanCommand, RefusesASampleThatIsNone) {
+  const support::ScratchFolder folder;
+  ScanOptions options = options_for("mica");
+  options.out = folder.file("image.gwy");
+  options.sample.file = folder.write("notes.txt", "no image");
+  const auto written = write_scan_command(options);
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_THAT(written.error().message, HasSubstr("neither a glTF model nor an image"));
 }
 
 TEST(ScanCommand, MakesTheImageOfABluntTipHigherOrEqual) {

@@ -36,7 +36,7 @@ physics::ScanArtefact artefact_in_json(const LiveScan& scan, double lines) {
   physics::NewestLines newest;
   for (double i = 0; i < lines; ++i) {
     scanner.next_line(line);
-    newest.add(line);
+    newest.add(line, scanner.time().si);
   }
   return main_artefact({settings, scanner.area(), scanner.loop().largest_integral_gain()}, newest.evidence());
 }

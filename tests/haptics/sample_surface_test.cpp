@@ -111,12 +111,23 @@ TEST_P(FeltSurfaceOfARoughSample, IsWhatABallTraces) {
   EXPECT_GT(deepest_dent_m, 0.5e-9) << "a surface without dents narrower than the tip";
 }
 
-TEST_P(FeltSurfaceOfARoughSample, GoesOnLevelBeyondTheRim) {
-  const double far = 3.0 * half_;
-  for (const double y : {-0.7 * half_, 0.1 * half_, 0.9 * half_}) {
-    EXPECT_EQ(felt_.at({far, y}).slope.x, 0.0);
-    EXPECT_EQ(felt_.at({far, y}).height_m, felt_.at({1e6, y}).height_m);
-    EXPECT_NEAR(felt_.at({far, y}).height_m, felt_.at({half_ + 0.5 * drawn_.spacing_m, y}).height_m, 1e-20);
+TEST_P(FeltSurfaceOfARoughSample, GoesOverIntoOneLevelBeyondTheRim) {
+  const double level = felt_.at({1.0, 1.0}).height_m, far = 10.0 * half_;
+  double highest = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    const double along = (i - 200) * far / 200.0;
+    for (const glm::dvec2 place :
+         {glm::dvec2(far, along), glm::dvec2(-far, along), glm::dvec2(along, far), glm::dvec2(along, -far)}) {
+      ASSERT_EQ(felt_.at(place).height_m, level);
+      ASSERT_EQ(felt_.at(place).slope, glm::dvec2(0.0));
+    }
+    highest = std::max(highest, std::abs(felt_.at({half_, 0.1 * along}).height_m - level));
+  }
+  EXPECT_GT(highest, 0.1e-9) << "an edge that is level by itself";
+  for (int i = 0; i < 20'000; ++i) {
+    const auto place = felt_.at(anywhere(8.0));
+    ASSERT_LE(glm::length(place.slope), felt_.steepest_slope());
+    ASSERT_TRUE(std::isfinite(place.height_m));
   }
 }
 

@@ -76,6 +76,24 @@ TEST(MeasuredCurve, KeepsTheEnergyOfBranchesOfDifferentDensity) {
   EXPECT_NEAR(figures.force_before_joc / recorded.pull_off->force, 1.0, 0.01);
 }
 
+// Neighbours of the pull-off are means of other samples, and with noise some are deeper than the pull-off's own median.
+TEST(MeasuredCurve, KeepsAGradualPullOffThroughNoise) {
+  for (const double noise : {0.01, 0.02, 0.03}) {
+    for (const double range_m : {60e-9, 300e-9, 1e-6}) {
+      for (unsigned seed = 0; seed < 6; ++seed) {
+        const auto points = test::gradual_pull_off(range_m, noise, seed);
+        const CurveFeatures recorded = analyse(points);
+        ASSERT_TRUE(recorded.pull_off && !recorded.jumps_off) << noise << ", " << range_m << ", " << seed;
+        const auto tables = felt(points);
+        EXPECT_NEAR(hardest_pull(*tables) / recorded.pull_off->force, 1.0, 0.01)
+            << noise << ", " << range_m << ", " << seed;
+        EXPECT_NEAR(tables->figures.loop_energy / recorded.loop_energy, 1.0, 0.01)
+            << noise << ", " << range_m << ", " << seed;
+      }
+    }
+  }
+}
+
 // -integral of F dZ along the path from `from` to `to`.
 Energy work(ApproachRetractModel& model, Length from, Length to) {
   constexpr int kSteps = 20000;

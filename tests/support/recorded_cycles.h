@@ -14,8 +14,8 @@ namespace afm::test {
 // Points between `far` and `deep`; forces by Z, in newtons.
 template <class Down, class Up>
 std::vector<physics::CurvePoint> recording(double far, double deep, Down down, Up up, double noise,
-                                           int count_down = 1000, int count_up = 1000) {
-  std::mt19937_64 random(11);
+                                           int count_down = 1000, int count_up = 1000, unsigned seed = 11) {
+  std::mt19937_64 random(seed);
   std::normal_distribution<double> normal(0.0, noise);
   std::vector<physics::CurvePoint> points;
   for (int i = 0; i < count_down; ++i) {
@@ -46,6 +46,17 @@ inline std::vector<physics::CurvePoint> soft_sample() {
     return push(z) - 1.5e-9 * turned * std::exp(-std::max(0.0, z) / 60e-9);
   };
   return recording(2e-6, -400e-9, down, up, 15e-12);
+}
+
+// A soft sample that lets go over this range, with noise as a share of the pull.
+inline std::vector<physics::CurvePoint> gradual_pull_off(double range, double noise, unsigned seed) {
+  constexpr double kPull = 0.4e-9;
+  const auto push = [](double z) { return z > 0 ? 0.0 : 2e-9 * std::pow(-z / 500e-9, 1.5); };
+  const auto up = [&](double z) {
+    const double turned = std::min(1.0, (z + 500e-9) / 100e-9);
+    return push(z) - kPull * turned * std::exp(-std::max(0.0, z) / range);
+  };
+  return recording(2.5e-6, -500e-9, push, up, noise * kPull, 2000, 2000, seed);
 }
 
 // A soft sample that goes on to pull over many micrometres, recorded more densely on the way down.

@@ -127,6 +127,7 @@ bool LiveScan::next_pixel() {
   facts.highest_force_n = std::max(facts.highest_force_n, pixel->highest_force_n);
   facts.off_surface += pixel->off_surface / (2.0 * kPixels);
   facts.on_second_apex += pixel->on_second_apex / (2.0 * kPixels);
+  facts.ringing += pixel->ringing / (2.0 * kPixels);
   force_n_ = applied_.setpoint_n + pixel->error_n;
   return true;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 namespace afm::exhibit {
 
@@ -21,17 +23,40 @@ double relief_m(const LiveScan& scan) {
   return std::max(high - low, 0.0);
 }
 
+// Time in which drift has added up in the visible image: of whole lines, or of the frame before.
+double seen_s(const LiveScan& scan) {
+  if (scan.progress().frame > 0) return static_cast<double>(LiveScan::kPixels) / scan.choice().line_rate_hz;
+  const auto pixels_of_line = static_cast<double>(scan.progress().pixel % (2 * LiveScan::kPixels));
+  return scan.scanner().time().si - pixels_of_line * scan.scanner().pixel_time().si;
+}
+
+// Difference of both passes of a row.
+std::vector<double> passes_of(const LiveScan& scan, std::size_t row) {
+  const auto line = [&](std::size_t pass) {
+    return std::span(scan.maps().height_m[pass]).subspan(row * LiveScan::kPixels, LiveScan::kPixels);
+  };
+  return physics::difference_of_passes(line(0), line(1));
+}
+
 physics::ScanEvidence evidence_of(const LiveScan& scan) {
   physics::ScanEvidence evidence;
   evidence.relief_m = relief_m(scan);
   evidence.bluntness = scan.choice().tip_radius_m / scan.usual().tip_radius_m;
   const auto newest = scan.newest_row();
   if (!newest) return evidence;
+  evidence.time_s = seen_s(scan);
   for (std::size_t i = 0; i < std::min(kJudgedLines, *newest + 1); ++i) {
     const LineFacts& line = scan.facts()[*newest - i];
     evidence.highest_force_n = std::max(evidence.highest_force_n, line.highest_force_n);
     evidence.off_surface = std::max(evidence.off_surface, line.off_surface);
     evidence.on_second_apex = std::max(evidence.on_second_apex, line.on_second_apex);
+    evidence.ringing = std::max(evidence.ringing, line.ringing);
+    const std::vector<double> passes_m = passes_of(scan, *newest - i);
+    evidence.apart_m = std::max(evidence.apart_m, physics::mean_apart_m(passes_m));
+    if (*newest > i) {
+      evidence.noise_m =
+          std::max(evidence.noise_m, physics::noise_of_lines_m(passes_m, passes_of(scan, *newest - i - 1)));
+    }
   }
   return evidence;
 }

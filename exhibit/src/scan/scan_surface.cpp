@@ -1,28 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/scan/scan_surface.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <utility>
 
+#include "curves/image_file.h"
 #include "curves/sample_model.h"
 #include "exhibit/models/drawn_surface.h"
+#include "exhibit/models/user_models.h"
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
 #include "physics/imaging/morphology.h"
+#include "physics/imaging/rim.h"
+#include "scene/graph/height_field.h"
 
 namespace afm::exhibit {
 namespace {
 
-physics::HeightGrid grid_of(const scene::SharedHeightField& drawn) {
+// Of a scene::SharedHeightField or a scene::Topography: centred on the origin, row by row from -y.
+template <class Heights>
+physics::HeightGrid grid_of(const Heights& heights) {
   physics::HeightGrid grid;
-  grid.columns = drawn.columns;
-  grid.rows = drawn.rows;
-  grid.column_step_m = grid.row_step_m = drawn.spacing_m;
-  grid.x_first_m = -0.5 * static_cast<double>(drawn.columns - 1) * drawn.spacing_m;
-  grid.y_first_m = -0.5 * static_cast<double>(drawn.rows - 1) * drawn.spacing_m;
-  grid.height_m.assign(drawn.height_m.begin(), drawn.height_m.begin() + std::ptrdiff_t{drawn.columns} * drawn.rows);
+  grid.columns = heights.columns;
+  grid.rows = heights.rows;
+  grid.column_step_m = grid.row_step_m = heights.spacing_m;
+  grid.x_first_m = -0.5 * static_cast<double>(heights.columns - 1) * heights.spacing_m;
+  grid.y_first_m = -0.5 * static_cast<double>(heights.rows - 1) * heights.spacing_m;
+  grid.height_m.assign(heights.height_m.begin(),
+                       heights.height_m.begin() + std::ptrdiff_t{heights.columns} * heights.rows);
   return grid;
+}
+
+core::Result<physics::HeightGrid> measured_heights(const OwnSample& own) {
+  const auto measured = curves::load_topography(own.file, own.reading);
+  if (!measured) return tl::unexpected(measured.error());
+  const auto heights = curves::felt_topography(*measured);
+  if (!heights) return tl::unexpected(heights.error());
+  return grid_of(*heights);
+}
+
+core::Result<std::unique_ptr<scene::SharedHeightField>> surface_of_model(const OwnSample& own) {
+  const auto models = load_own_models("", own.file, own.reading);
+  if (!models) return tl::unexpected(models.error());
+  const auto node = models->sample ? models->sample->find_node("surface") : std::nullopt;
+  const auto field = node ? scene::height_field_below(*models->sample, *node) : std::nullopt;
+  if (!field) {
+    return core::failure(core::ErrorCategory::BadInputFile,
+                         fmt::format("cannot scan the sample '{}': its surface has no heights", own.file));
+  }
+  return std::make_unique<scene::SharedHeightField>(*field);
 }
 
 core::Result<haptics::SampleSurface> felt_surface(const curves::SampleModel& material,
@@ -40,28 +70,36 @@ core::Result<haptics::SampleSurface> felt_surface(const curves::SampleModel& mat
 }  // namespace
 
 core::Result<ScanSurface> scan_surface(const curves::ContactSetup& setup, const physics::TipShape& tip,
-                                       const std::string& assets_dir) {
-  const auto drawn = drawn_surface(assets_dir, setup.material);
-  if (!drawn) return tl::unexpected(drawn.error());
+                                       const std::string& assets_dir, const OwnSample& own) {
   const auto material = curves::make_sample_model(setup);
   if (!material) return tl::unexpected(material.error());
-
   ScanSurface surface;
-  surface.width_m = static_cast<double>((*drawn)->columns - 1) * (*drawn)->spacing_m;
-  surface.depth_m = static_cast<double>((*drawn)->rows - 1) * (*drawn)->spacing_m;
   surface.pull_off_force_n = std::max(0.0, -material->figures().force_before_joc.si);
   surface.snap_in_m = std::max(0.0, material->figures().z_jtc.si);
+  physics::TipShape single = tip;
+  single.second_apex_distance = physics::Length();
+  const auto level = [&](physics::HeightGrid grid) {
+    surface.width_m = static_cast<double>(grid.columns - 1) * grid.column_step_m;
+    surface.depth_m = static_cast<double>(grid.rows - 1) * grid.row_step_m;
+    surface.height_m = physics::level_beyond_rim(std::make_shared<const physics::HeightGrid>(std::move(grid)));
+  };
+  if (curves::is_image_file(own.file)) {
+    auto measured = measured_heights(own);
+    if (!measured) return tl::unexpected(measured.error());
+    level(own.is_traced ? std::move(*measured) : physics::image_of(*measured, single));
+    return surface;
+  }
+
+  const auto drawn = own.file.empty() ? drawn_surface(assets_dir, setup.material) : surface_of_model(own);
+  if (!drawn) return tl::unexpected(drawn.error());
+  level(grid_of(**drawn));
   if (tip.kind == physics::TipKind::Paraboloid) {
     auto felt = felt_surface(*material, **drawn);
     if (!felt) return tl::unexpected(felt.error());
     surface.height_m = [felt = std::move(*felt)](double x_m, double y_m) { return felt.at({x_m, y_m}).height_m; };
-    return surface;
+  } else {
+    level(physics::image_of(grid_of(**drawn), single));
   }
-  physics::TipShape single = tip;
-  single.second_apex_distance = physics::Length();
-  surface.height_m = [traced = physics::image_of(grid_of(**drawn), single)](double x_m, double y_m) {
-    return traced.height_at_m(x_m, y_m);
-  };
   return surface;
 }
 

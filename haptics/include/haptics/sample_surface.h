@@ -2,9 +2,14 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <memory>
 #include <vector>
 
 #include "scene/shared/felt_heights.h"
+
+namespace afm::physics {
+class Rim;
+}
 
 namespace afm::haptics {
 
@@ -21,7 +26,7 @@ namespace afm::haptics {
 // - A topography measured by an instrument is not dilated: its heights are already those of an apex. It is smoothed
 //   only as far as those limits require, by a bell curve, however many points it has.
 // - It is shifted along z to the height of the drawn surface at the origin, where events are compared.
-// - Beyond the edge it continues level, at the height of the edge.
+// - Beyond the edge the heights of the edge go over into one level plane (physics::Rim), never steeper than the sample.
 class SampleSurface {
  public:
   // The force acts along (-slope, 1); at this slope it is a tenth longer than the force along the sample's normal.
@@ -60,6 +65,7 @@ class SampleSurface {
  private:
   void trace(double tip_radius_m, double largest_curvature_per_m);
   void smooth_widely(double largest_curvature_per_m);
+  void add_rim(double largest_curvature_per_m);
   bool is_gentle(double largest_curvature_per_m) const;
   const double* line_of(int row) const noexcept;         // row of the grid, clamped
   double control_m(int column, int row) const noexcept;  // clamped to the grid
@@ -68,6 +74,7 @@ class SampleSurface {
   int rows_ = 0;
   double spacing_m_ = 1;
   std::vector<double> controls_m_;
+  std::shared_ptr<const physics::Rim> rim_;  // null: none; shared by copies, which keeps this header small
 };
 
 }  // namespace afm::haptics

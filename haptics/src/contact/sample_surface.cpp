@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <utility>
 
 #include "physics/imaging/morphology.h"
+#include "physics/imaging/rim.h"
 
 namespace afm::haptics {
 
@@ -125,6 +127,20 @@ SampleSurface::SampleSurface(const scene::FeltHeights& drawn, double tip_radius_
   }
   const double shift_m = drawn_m - at({0.0, 0.0}).height_m;
   for (double& control_m : controls_m_) control_m += shift_m;
+  add_rim(largest_curvature_per_m);
+}
+
+// Wide enough that neither slope nor curvature exceeds the sample's limits where the slope along the edge fades.
+void SampleSurface::add_rim(double largest_curvature_per_m) {
+  constexpr double kWidthOfBends = 10.0;  // in radii of the smallest bend at the steepest slope
+  const double slope = steepest_slope();
+  if (slope <= 0.0) return;
+  const std::vector<double> edge_m =
+      physics::edge_of(controls_m_, static_cast<std::size_t>(columns_), static_cast<std::size_t>(rows_));
+  // the spline is level across the edge from here on
+  const auto half_m = [this](int count) { return (0.5 * (count - 1) + 1.5) * spacing_m_; };
+  rim_ = std::make_shared<const physics::Rim>(edge_m, half_m(columns_), half_m(rows_), slope,
+                                              std::max(spacing_m_, kWidthOfBends * slope / largest_curvature_per_m));
 }
 
 bool SampleSurface::is_gentle(double largest_curvature_per_m) const {
@@ -221,6 +237,12 @@ SampleSurface::Place SampleSurface::at(const glm::dvec2& xy_m) const noexcept {
     place.slope.x += wy.value[static_cast<std::size_t>(k)] * slope_m / spacing_m_;
     place.slope.y += wy.slope[static_cast<std::size_t>(k)] * height_m / spacing_m_;
   }
+  if (!rim_) return place;
+  if (const physics::Rim::Share share = rim_->share_at(xy_m.x, xy_m.y); share.value != 1.0) {
+    const double above_m = place.height_m - rim_->level_m();
+    place.height_m = rim_->level_m() + share.value * above_m;
+    place.slope = share.value * place.slope + above_m * glm::dvec2(share.slope_x, share.slope_y);
+  }
   return place;
 }
 
@@ -256,7 +278,11 @@ double SampleSurface::largest_curvature_per_m() const noexcept {
       across = std::max(across, std::abs(above[after] - right - up + here));
     }
   }
-  return (std::max(along_x, along_y) + across) / (spacing_m_ * spacing_m_);
+  const double inside = (std::max(along_x, along_y) + across) / (spacing_m_ * spacing_m_);
+  if (!rim_) return inside;
+  const double of_rim =
+      rim_->highest_m() * rim_->largest_curvature_per_m2() + steepest_slope() * rim_->steepest_per_m();
+  return std::max(inside, of_rim);
 }
 
 }  // namespace afm::haptics

@@ -39,13 +39,13 @@ std::string_view name_of(ContactMethod method);
 // - Deviation: where the force, from the deepest point outwards, falls below the mean of the outermost tenth plus twice
 //   the largest deviation from it there.
 // - FitLine: the kink between zero and a straight line, by least squares.
-// - FitPolynomial: the same with zero and a d + b d^1.5 + c d^2 with a, b, c >= 0, d the depth below the contact point,
-//   for a rigid contact (a line), a sphere on a soft sample (Hertz), and a cone. Little affected by a tail or an
-//   undulation.
+// - FitPolynomial: the same of any straight line, the rest of a tilt, and an elastic contact under a lever, whose depth
+//   below the contact point is a F^(2/3) + b F (sphere) or a F^(1/2) + b F (cone) with a, b >= 0. Little affected by a
+//   tail or an undulation.
 // - Farthest: the point farthest below the straight line from the outermost to the deepest point.
 // - Gradient: where the slope, from the steepest place outwards, falls below a hundredth of its maximum.
 //
-// All except ZeroForce use the means of up to 512 bins along Z. O(n log n), allocates.
+// All except ZeroForce use the means of up to 512 bins along Z, the last fit of up to 256. O(n log n), allocates.
 std::optional<Length> contact_point(std::span<const CurvePoint> approach, ContactMethod method);
 
 }  // namespace afm::physics

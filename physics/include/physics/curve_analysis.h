@@ -52,13 +52,22 @@ struct CurveJump {
   Force force_after;
 };
 
+// Places between which something lies.
+struct PlaceRange {
+  Length low, high;
+};
+
 // Features that users of force microscopes read off a curve. All forces are above the baseline; a feature below the
 // noise is absent.
 //
 // - contact_point: by the requested method. By default the zero of the force if the approach has a pull before contact
-//   (the contact line's zero, not the jump) or the curve is computed, otherwise the polynomial fit.
-// - contact_estimates: result of each method. contact_doubtful: without a pull, fewer than four of the five methods
-//   that need none agree with the contact point within a third of the pushed depth.
+//   that is no wave (the contact line's zero, not the jump) or the curve is computed, otherwise the polynomial fit.
+// - contact_estimates: result of each method. contact_range: from the deepest to the outermost of these; without a
+// pull,
+//   also of the places at which the polynomial fit is not significantly worse. contact_doubtful: without a pull, fewer
+//   than four of the five methods that need none agree with the contact point within a third of the pushed depth, the
+//   fit allows places that are apart by 0.17 of it, or less than 0.18 of the approach lies outside the contact; with a
+//   pull and without a snap-in, the latter or the fit disagrees by a third of the pushed depth.
 // - snap_in: the jump to contact ("jump-in", "pull-on"). Counts only a fall that is sudden at the curve's own step.
 // - pull_off: the jump off contact, the last point before the force rises suddenly for the last time; its forces are
 //   comparable to a model's. A curve that releases without a jump has it at its strongest pull, in the median of
@@ -78,6 +87,7 @@ struct CurveFeatures {
   std::optional<Length> contact_point;
   ContactMethod contact_method = ContactMethod::ZeroForce;
   std::array<std::optional<Length>, kContactMethods.size()> contact_estimates{};  // order of kContactMethods
+  std::optional<PlaceRange> contact_range;
   bool contact_doubtful = false;
   std::optional<CurveJump> snap_in;
   std::optional<Extreme> pull_off;

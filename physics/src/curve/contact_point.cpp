@@ -4,37 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
-#include "curve_bins.h"
+#include "contact_fit.h"
 
 namespace afm::physics {
 
 namespace {
-
-constexpr std::size_t kProfileBins = 512;
-
-// Bins from the outermost inwards, none deeper than the strongest push.
-struct ApproachProfile {
-  std::vector<double> z;
-  std::vector<double> force;
-};
-
-ApproachProfile profile_of(std::span<const CurvePoint> approach) {
-  const auto [low, high] =
-      std::minmax_element(approach.begin(), approach.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
-  std::vector<CurveBin> bins = curve_bins(approach, low->z, high->z, kProfileBins, 1);
-  const auto greatest =
-      std::max_element(bins.begin(), bins.end(), [](const auto& a, const auto& b) { return a.mean < b.mean; });
-  ApproachProfile profile;
-  for (auto bin = bins.end(); bin != greatest;) {
-    --bin;
-    profile.z.push_back(bin->z.si);
-    profile.force.push_back(bin->mean.si);
-  }
-  return profile;
-}
 
 // Place where the straight line between two bins crosses `level`.
 double crossing(const ApproachProfile& profile, std::size_t outer, double level) {
@@ -56,79 +32,27 @@ std::optional<double> by_deviation(const ApproachProfile& profile) {
   return crossing(profile, i - 1, level);
 }
 
-constexpr std::size_t kTerms = 3;
-using Terms = std::array<double, kTerms>;
-
-// Sums over the profile of the products of d, d^1.5 and d^2 with each other and with the force.
-struct NormalEquations {
-  std::array<Terms, kTerms> products{};
-  Terms with_force{};
-  double force_squared = 0.0;
-};
-
-NormalEquations normal_equations(const ApproachProfile& profile, double contact) {
-  NormalEquations sums;
-  const double depth = contact - profile.z.back();
-  for (std::size_t i = 0; i < profile.z.size(); ++i) {
-    const double force = profile.force[i], d = std::max(0.0, contact - profile.z[i]) / depth;
-    const Terms terms{d, d * std::sqrt(d), d * d};
-    sums.force_squared += force * force;
-    for (std::size_t a = 0; a < kTerms; ++a) {
-      sums.with_force[a] += force * terms[a];
-      for (std::size_t b = 0; b < kTerms; ++b) sums.products[a][b] += terms[a] * terms[b];
-    }
-  }
-  return sums;
-}
-
-// Reduction of the sum of squares by the chosen terms (a bit each); empty if a coefficient would be negative.
-std::optional<double> taken_by(NormalEquations sums, unsigned chosen) {
-  const Terms with_force = sums.with_force;
-  const auto is_chosen = [&](std::size_t term) { return (chosen >> term & 1U) != 0; };
-  // Gauss-Jordan; the matrix is positive definite apart from rounding
-  for (std::size_t pivot = 0; pivot < kTerms; ++pivot) {
-    if (!is_chosen(pivot)) continue;
-    const double head = sums.products[pivot][pivot];
-    if (head < 1e-12) return std::nullopt;
-    for (std::size_t row = 0; row < kTerms; ++row) {
-      if (row == pivot || !is_chosen(row)) continue;
-      const double factor = sums.products[row][pivot] / head;
-      for (std::size_t k = 0; k < kTerms; ++k) sums.products[row][k] -= factor * sums.products[pivot][k];
-      sums.with_force[row] -= factor * sums.with_force[pivot];
-    }
-  }
-  double taken = 0.0;
-  for (std::size_t term = 0; term < kTerms; ++term) {
-    if (!is_chosen(term)) continue;
-    const double coefficient = sums.with_force[term] / sums.products[term][term];
-    if (coefficient < 0.0) return std::nullopt;
-    taken += coefficient * with_force[term];
-  }
-  return taken;
-}
-
-// Residual sum of squares of the best fit with this contact point, by a straight line or by all terms.
-double rest_of_fit(const ApproachProfile& profile, double contact, bool curved) {
-  const NormalEquations sums = normal_equations(profile, contact);
-  double most = 0.0;
-  for (unsigned chosen = 1; chosen < (curved ? 1U << kTerms : 2U); ++chosen) {
-    most = std::max(most, taken_by(sums, chosen).value_or(0.0));
-  }
-  return sums.force_squared - most;
-}
-
-// Searches an even grid, then a finer one around its best place.
-std::optional<double> by_fit(const ApproachProfile& profile, bool curved) {
+// The kink of zero and a straight line: an even grid, then a finer one around its best place.
+double by_line(const ApproachProfile& profile) {
   constexpr int kPlaces = 256;
   double low = profile.z.back(), high = profile.z.front(), best = high;
   for (int pass = 0; pass < 2; ++pass) {
     const double step = (high - low) / kPlaces;
-    double least = std::numeric_limits<double>::infinity();
+    double most = -1.0;
     for (int i = 1; i < kPlaces; ++i) {
-      const double rest = rest_of_fit(profile, low + i * step, curved);
-      if (rest < least) {
-        least = rest;
-        best = low + i * step;
+      const double contact = low + i * step;
+      double squares = 0.0, with_force = 0.0;
+      for (std::size_t end = profile.z.size(); end > 0 && profile.z[end - 1] < contact; --end) {
+        const std::size_t k = end - 1;
+        const double depth = contact - profile.z[k];
+        squares += depth * depth;
+        with_force += depth * profile.force[k];
+      }
+      // reduction of the sum of squares
+      const double taken = with_force > 0.0 && squares > 0.0 ? with_force * with_force / squares : 0.0;
+      if (taken > most) {
+        most = taken;
+        best = contact;
       }
     }
     low = std::max(profile.z.back(), best - step);
@@ -213,13 +137,12 @@ std::optional<double> on_profile(const ApproachProfile& profile, ContactMethod m
     case ContactMethod::Deviation:
       return by_deviation(profile);
     case ContactMethod::FitLine:
-      return by_fit(profile, false);
-    case ContactMethod::FitPolynomial:
-      return by_fit(profile, true);
+      return by_line(profile);
     case ContactMethod::Farthest:
       return by_distance(profile);
     case ContactMethod::Gradient:
       return by_gradient(profile);
+    case ContactMethod::FitPolynomial:
     case ContactMethod::ZeroForce:
       break;
   }
@@ -239,6 +162,9 @@ std::optional<Length> contact_point(std::span<const CurvePoint> approach, Contac
   std::optional<double> z;
   if (method == ContactMethod::ZeroForce) {
     z = by_zero_force(approach);
+  } else if (method == ContactMethod::FitPolynomial) {
+    const ApproachProfile profile = profile_of(approach, kMostFitBins);
+    if (profile.z.size() >= kFewestFitBins) z = fit_contact(profile).contact;
   } else if (const ApproachProfile profile = profile_of(approach); profile.z.size() >= 5) {
     z = on_profile(profile, method);
   }

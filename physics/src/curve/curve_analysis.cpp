@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "contact_fit.h"
 #include "retract_features.h"
 
 namespace afm::physics {
@@ -141,12 +142,64 @@ std::optional<Length> estimate_of(const CurveFeatures& features, ContactMethod m
   return std::nullopt;
 }
 
+void widen(Length place, PlaceRange& range) { range = {std::min(range.low, place), std::max(range.high, place)}; }
+
+// The bins before contact above the straight line that fits them, from the outermost inwards: the baseline of the
+// outermost bins alone may lean on a wave.
+std::vector<double> levelled_outside(const ApproachProfile& profile, Length contact) {
+  std::vector<double> force;
+  double z = 0.0, mean = 0.0, zz = 0.0, zf = 0.0;
+  const auto inner = std::find_if(profile.z.begin(), profile.z.end(), [&](double place) { return place < contact.si; });
+  const auto count = static_cast<std::size_t>(inner - profile.z.begin());
+  for (std::size_t i = 0; i < count; ++i) {
+    z += profile.z[i] / static_cast<double>(count);
+    mean += profile.force[i] / static_cast<double>(count);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    zz += (profile.z[i] - z) * (profile.z[i] - z);
+    zf += (profile.z[i] - z) * (profile.force[i] - mean);
+  }
+  force.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    force.push_back(profile.force[i] - mean - (zz > 0.0 ? zf / zz : 0.0) * (profile.z[i] - z));
+  }
+  return force;
+}
+
+// Outwards from the strongest pull before contact, the force rises and stays there; a wave of the baseline falls again.
+bool is_attracted(const ApproachProfile& profile, Length contact) {
+  const std::vector<double> force = levelled_outside(profile, contact);
+  if (force.empty()) return false;
+  const auto strongest = static_cast<std::size_t>(std::min_element(force.begin(), force.end()) - force.begin());
+  double highest = force[strongest], fall = 0.0;
+  for (std::size_t i = strongest + 1; i-- > 0;) {
+    highest = std::max(highest, force[i]);
+    fall = std::max(fall, highest - force[i]);
+  }
+  return fall < 0.5 * (highest - force[strongest]);
+}
+
+// Every method's place; the fit's own range in addition. Empty without a fit.
+std::optional<ContactFit> estimate_contact(std::span<const CurvePoint> approach, const ApproachProfile& profile,
+                                           CurveFeatures& features) {
+  std::optional<ContactFit> fit;
+  if (profile.z.size() >= kFewestFitBins) fit = fit_contact(profile);
+  for (std::size_t i = 0; i < kContactMethods.size(); ++i) {
+    const ContactMethod method = kContactMethods[i].method;
+    if (method != ContactMethod::FitPolynomial) {
+      features.contact_estimates[i] = contact_point(approach, method);
+    } else if (fit) {
+      features.contact_estimates[i] = Length(fit->contact);
+    }
+  }
+  return fit;
+}
+
 // For an approach with a push.
 void find_contact(std::span<const CurvePoint> approach, Force threshold, ForceZero zero_of_force,
                   std::optional<ContactMethod> method, CurveFeatures& features) {
-  for (std::size_t i = 0; i < kContactMethods.size(); ++i) {
-    features.contact_estimates[i] = contact_point(approach, kContactMethods[i].method);
-  }
+  const ApproachProfile profile = profile_of(approach, kMostFitBins);
+  const std::optional<ContactFit> fit = estimate_contact(approach, profile, features);
   const auto zero = estimate_of(features, ContactMethod::ZeroForce);
   const auto deepest_push = std::max_element(approach.begin(), approach.end(),
                                              [](const auto& a, const auto& b) { return a.force < b.force; });
@@ -158,21 +211,38 @@ void find_contact(std::span<const CurvePoint> approach, Force threshold, ForceZe
   features.snap_in = find_snap_in(before_contact, threshold);
   Force pull;
   for (const CurvePoint& point : before_contact) pull = std::max(pull, -point.force);
-  const bool pulled = zero && (zero_of_force == ForceZero::True || features.snap_in ||
-                               pull > std::max(threshold, kPullShareOfPush * features.greatest_push));
+  const bool pulled =
+      zero && (zero_of_force == ForceZero::True || features.snap_in ||
+               (pull > std::max(threshold, kPullShareOfPush * features.greatest_push) && is_attracted(profile, *zero)));
   features.contact_method = method.value_or(pulled ? ContactMethod::ZeroForce : ContactMethod::FitPolynomial);
   features.contact_point = estimate_of(features, features.contact_method);
-  if (!features.contact_point || pulled) return;
+  if (!features.contact_point) return;
+  features.contact_range = PlaceRange{*features.contact_point, *features.contact_point};
+  for (const auto& estimate : features.contact_estimates) {
+    if (estimate) widen(*estimate, *features.contact_range);
+  }
+  const Length deepest =
+      std::min_element(approach.begin(), approach.end(), [](const auto& a, const auto& b) { return a.z < b.z; })->z;
+  const auto agrees = [&](Length place) {
+    return abs(place - *features.contact_point) <= (*features.contact_point - deepest) / 3.0;
+  };
+  if (pulled) {
+    // a wave, or the misfit of a missing baseline, may look like an attraction
+    const bool gradual = zero_of_force == ForceZero::Instrument && !features.snap_in;
+    features.contact_doubtful = gradual && fit && (fit->lacks_baseline || !agrees(Length(fit->contact)));
+    return;
+  }
+  if (fit) {
+    widen(Length(fit->low), *features.contact_range);
+    widen(Length(fit->high), *features.contact_range);
+  }
 
-  const auto deepest =
-      std::min_element(approach.begin(), approach.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
   const auto agreeing =
       std::count_if(kContactMethods.begin(), kContactMethods.end(), [&](const ContactMethodName& each) {
         const auto estimate = estimate_of(features, each.method);
-        return each.method != ContactMethod::ZeroForce && estimate &&
-               abs(*estimate - *features.contact_point) <= (*features.contact_point - deepest->z) / 3.0;
+        return each.method != ContactMethod::ZeroForce && estimate && agrees(*estimate);
       });
-  features.contact_doubtful = agreeing < 4;
+  features.contact_doubtful = agreeing < 4 || !fit || fit->doubtful;
 }
 
 }  // namespace

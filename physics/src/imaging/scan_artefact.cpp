@@ -4,24 +4,49 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace afm::physics {
 namespace {
 
 constexpr double kLostShare = 0.95;        // share of a line's time; more means that the tip is not on the sample
 constexpr double kSecondApexShare = 0.02;  // share of a line's time
-constexpr double kRingingShare = 0.8;      // share of the gain at which the loop oscillates; waves follow each step
+constexpr double kRingingShare = 0.3;      // share of a line's time; less is the echo of steps
+constexpr double kRingingGain = 0.8;       // share of the gain at which the loop oscillates; below it no loop rings
 constexpr double kDriftShare = 0.03;       // share of a side, during one frame
-constexpr double kNoiseShare = 0.03;       // ratio of rms to relief
+constexpr double kNoiseShare = 0.03;       // ratio of the noise's standard deviation to the relief
+constexpr double kOnlyNoise = 10.0;        // ratio of a relief to the noise that alone could make it
 constexpr double kParachuteShare = 0.004;  // share of a line's time; a shorter flight is invisible
 constexpr double kOverloadFactor = 3.0;    // multiple of the setpoint
 constexpr double kLagShare = 0.015;        // share of a side; trace and retrace then differ visibly
+constexpr double kApartShare = 0.003;      // share of the relief; less is invisible
 constexpr double kBluntFactor = 1.5;       // multiple of the sharper tip's radius
 
-bool drifts(const ScanArea& area, const ScanSettings& settings) {
-  const double frame_s = static_cast<double>(area.rows) / settings.line_rate.si;
-  return std::abs(settings.drift_x.si) * frame_s > kDriftShare * area.width.si ||
-         std::abs(settings.drift_y.si) * frame_s > kDriftShare * area.height.si;
+double median_magnitude(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  for (double& value : values) value = std::abs(value);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool rings(const ScanConditions& conditions, const ScanEvidence& evidence) {
+  const ScanSettings& settings = conditions.settings;
+  return settings.feedback == Feedback::On && evidence.ringing > kRingingShare &&
+         settings.integral_gain > kRingingGain * conditions.largest_integral_gain;
+}
+
+// A sheared image, once a feature of the sample has moved by a pixel.
+bool drifts(const ScanConditions& conditions, const ScanEvidence& evidence) {
+  const ScanArea& area = conditions.area;
+  const double frame_s = static_cast<double>(area.rows) / conditions.settings.line_rate.si;
+  const auto along = [&](Velocity drift, Length side, std::size_t pixels) {
+    const double pixel_m = side.si / static_cast<double>(pixels);
+    return std::abs(drift.si) * frame_s > kDriftShare * side.si && std::abs(drift.si) * evidence.time_s > pixel_m;
+  };
+  return evidence.relief_m > kOnlyNoise * evidence.noise_m &&
+         (along(conditions.settings.drift_x, area.width, area.columns) ||
+          along(conditions.settings.drift_y, area.height, area.rows));
 }
 
 }  // namespace
@@ -33,18 +58,49 @@ std::string_view name_of(ScanArtefact artefact) {
   throw std::logic_error("no such artefact");
 }
 
+std::vector<double> difference_of_passes(std::span<const double> trace_m, std::span<const double> retrace_m) {
+  std::vector<double> passes_m;
+  passes_m.reserve(trace_m.size());
+  for (std::size_t i = 0; i < trace_m.size(); ++i) passes_m.push_back(trace_m[i] - retrace_m[i]);
+  return passes_m;
+}
+
+double noise_of_lines_m(std::span<const double> passes_m, std::span<const double> passes_before_m) {
+  std::vector<double> changes_m;
+  for (std::size_t i = 0; i < std::min(passes_m.size(), passes_before_m.size()); ++i) {
+    if (const double change_m = passes_m[i] - passes_before_m[i]; std::isfinite(change_m))
+      changes_m.push_back(change_m);
+  }
+  // four independent heights each; a normal distribution's median absolute deviation
+  return 0.5 * 1.4826 * median_magnitude(std::move(changes_m));
+}
+
+double mean_apart_m(std::span<const double> passes_m) {
+  double sum_m = 0.0;
+  for (const double apart_m : passes_m) sum_m += std::isfinite(apart_m) ? std::abs(apart_m) : 0.0;
+  return passes_m.empty() ? 0.0 : sum_m / static_cast<double>(passes_m.size());
+}
+
+namespace {
+
 ScanEvidence evidence_of(const ScanLine& line) {
   ScanEvidence evidence;
   evidence.off_surface = 0.5 * (line.trace.off_surface + line.retrace.off_surface);
   evidence.on_second_apex = 0.5 * (line.trace.on_second_apex + line.retrace.on_second_apex);
+  evidence.ringing = 0.5 * (line.trace.ringing + line.retrace.ringing);
   evidence.highest_force_n = std::max(line.trace.highest_force_n, line.retrace.highest_force_n);
-  const auto [low, high] = std::minmax_element(line.trace.height_m.begin(), line.trace.height_m.end());
-  if (low != high) evidence.relief_m = *high - *low;
   return evidence;
 }
 
-void NewestLines::add(const ScanLine& line) {
+}  // namespace
+
+void NewestLines::add(const ScanLine& line, double time_s) {
+  std::vector<double> passes_m = difference_of_passes(line.trace.height_m, line.retrace.height_m);
   newest_[next_] = evidence_of(line);
+  newest_[next_].apart_m = mean_apart_m(passes_m);
+  newest_[next_].noise_m = noise_of_lines_m(passes_m, passes_m_);
+  passes_m_ = std::move(passes_m);
+  time_s_ = time_s;
   next_ = (next_ + 1) % kJudgedLines;
   const auto [low, high] = std::minmax_element(line.trace.height_m.begin(), line.trace.height_m.end());
   if (low == line.trace.height_m.end()) return;
@@ -57,8 +113,12 @@ ScanEvidence NewestLines::evidence() const {
   for (const ScanEvidence& line : newest_) {
     all.off_surface = std::max(all.off_surface, line.off_surface);
     all.on_second_apex = std::max(all.on_second_apex, line.on_second_apex);
+    all.ringing = std::max(all.ringing, line.ringing);
     all.highest_force_n = std::max(all.highest_force_n, line.highest_force_n);
+    all.noise_m = std::max(all.noise_m, line.noise_m);
+    all.apart_m = std::max(all.apart_m, line.apart_m);
   }
+  all.time_s = time_s_;
   all.relief_m = std::max(high_m_ - low_m_, 0.0);
   return all;
 }
@@ -70,15 +130,13 @@ ScanArtefact main_artefact(const ScanConditions& conditions, const ScanEvidence&
   if (settings.second_apex_distance.si > 0.0 && evidence.on_second_apex > kSecondApexShare) {
     return ScanArtefact::DoubleTip;
   }
-  if (follows && settings.integral_gain > kRingingShare * conditions.largest_integral_gain) {
-    return ScanArtefact::Ringing;
-  }
-  if (drifts(conditions.area, settings)) return ScanArtefact::Drift;
-  if (noise_of_height(settings).si > kNoiseShare * evidence.relief_m) return ScanArtefact::Noise;
+  if (rings(conditions, evidence)) return ScanArtefact::Ringing;
+  if (drifts(conditions, evidence)) return ScanArtefact::Drift;
+  if (settings.noise.si > 0.0 && evidence.noise_m > kNoiseShare * evidence.relief_m) return ScanArtefact::Noise;
   if (evidence.off_surface > kParachuteShare) return ScanArtefact::Parachuting;
   if (evidence.highest_force_n > kOverloadFactor * std::abs(settings.setpoint.si)) return ScanArtefact::Overload;
   const double lag = 2.0 * settings.line_rate.si / settings.integral_gain.si;
-  if (follows && lag > kLagShare) return ScanArtefact::Blur;
+  if (follows && lag > kLagShare && evidence.apart_m > kApartShare * evidence.relief_m) return ScanArtefact::Blur;
   return evidence.bluntness > kBluntFactor ? ScanArtefact::BluntTip : ScanArtefact::None;
 }
 

@@ -32,7 +32,7 @@ void ScanLoop::change(const ScanSettings& settings, Time tick) {
 
   resonant_ = settings.z_resonance.si > 0.0;
   if (resonant_) set_swing(settings);
-  largest_gain_ = Frequency(swinging_gain() / tick_s_);
+  find_limit();
 }
 
 void ScanLoop::set_swing(const ScanSettings& settings) noexcept {
@@ -46,7 +46,7 @@ void ScanLoop::set_swing(const ScanSettings& settings) noexcept {
 
 // The loop oscillates with z = exp(i theta) per tick if (z - 1) + (Kp (1 - 1/z) + g) z^-delay G(z) = 0, g = Ki dt and G
 // the response of the z scanner to its command.
-double ScanLoop::swinging_gain() const {
+void ScanLoop::find_limit() {
   const auto gain_at = [this](double theta) {
     const std::complex<double> z = std::polar(1.0, theta);
     std::complex<double> scanner = 1.0;
@@ -61,7 +61,7 @@ double ScanLoop::swinging_gain() const {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   // at half the tick rate the gain is real
   const double fastest = gain_at(std::numbers::pi).real();
-  double smallest = fastest > 0.0 ? fastest : kNone;
+  double smallest = fastest > 0.0 ? fastest : kNone, turn_of_tick = std::numbers::pi;
   bool before = gain_at(kSlowest).imag() < 0.0;
   for (double theta = kSlowest; theta < kFastest; theta *= kStep) {
     double low = theta, high = std::min(theta * kStep, kFastest);
@@ -71,9 +71,13 @@ double ScanLoop::swinging_gain() const {
       const double middle = 0.5 * (low + high);
       (after != (gain_at(middle).imag() < 0.0) ? low : high) = middle;
     }
-    if (const double gain = gain_at(low).real(); gain > 0.0) smallest = std::min(smallest, gain);
+    if (const double gain = gain_at(low).real(); gain > 0.0 && gain < smallest) {
+      smallest = gain;
+      turn_of_tick = low;
+    }
   }
-  return smallest == kNone ? 0.0 : smallest;
+  largest_gain_ = Frequency(smallest == kNone ? 0.0 : smallest / tick_s_);
+  ringing_period_ticks_ = 2.0 * std::numbers::pi / turn_of_tick;
 }
 
 void ScanLoop::engage(double height_m) noexcept {

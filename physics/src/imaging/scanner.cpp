@@ -17,7 +17,7 @@ void resize(ScanTrack& track, std::size_t columns) {
   }
   track.lowest_force_n = std::numeric_limits<double>::infinity();
   track.highest_force_n = -std::numeric_limits<double>::infinity();
-  track.off_surface = track.on_second_apex = 0.0;
+  track.off_surface = track.on_second_apex = track.ringing = 0.0;
 }
 
 void put(const ScanPixel& pixel, ScanTrack& track) {
@@ -28,6 +28,7 @@ void put(const ScanPixel& pixel, ScanTrack& track) {
   track.highest_force_n = std::max(track.highest_force_n, pixel.highest_force_n);
   track.off_surface += pixel.off_surface / static_cast<double>(track.height_m.size());
   track.on_second_apex += pixel.on_second_apex / static_cast<double>(track.height_m.size());
+  track.ringing += pixel.ringing / static_cast<double>(track.height_m.size());
 }
 
 }  // namespace
@@ -44,7 +45,15 @@ Scanner::Scanner(const ScanArea& area, const ScanSettings& settings, Surface sur
       settings_((validate(settings), settings)),
       surface_(std::move(surface)),
       loop_(settings, Time(tick_length()), seed) {
+  look_for_swings();
   begin_frame(SlowDirection::Down);
+}
+
+// A loop beyond its limit grows until the tip leaves the sample in each period.
+void Scanner::look_for_swings() noexcept {
+  constexpr double kShareOfHold = 0.5, kSmallestN = 1e-15;
+  const double hold_n = std::abs(settings_.setpoint.si) + settings_.adhesion.si;
+  swings_.look_for(std::max(kShareOfHold * hold_n, kSmallestN), loop_.ringing_period_ticks());
 }
 
 // A pixel is a whole number of segments, each of a whole number of ticks.
@@ -60,6 +69,7 @@ void Scanner::change(const ScanSettings& settings) {
   validate(settings);
   settings_ = settings;
   loop_.change(settings_, Time(tick_length()));
+  look_for_swings();
 }
 
 void Scanner::change_surface(Surface surface) { surface_ = std::move(surface); }
@@ -100,19 +110,21 @@ void Scanner::scan_segment(double x_m, double y_m, ScanPixel& pixel) {
   height_m_ = there.height_m;
   const double rise_m = (height_m_ - from_m) / static_cast<double>(ticks_of_segment_);
   double lowest_n = pixel.lowest_force_n, highest_n = pixel.highest_force_n, noise_m = 0.0;
-  std::size_t off = 0;
+  std::size_t off = 0, swings = 0;
   for (std::size_t i = 1; i <= ticks_of_segment_; ++i) {
     loop_.tick(from_m + rise_m * static_cast<double>(i));
     lowest_n = std::min(lowest_n, loop_.force_n());
     highest_n = std::max(highest_n, loop_.force_n());
     noise_m += loop_.noise_m();
     if (!loop_.touching()) ++off;
+    if (swings_.add(loop_.force_n())) ++swings;
   }
   pixel.lowest_force_n = lowest_n;
   pixel.highest_force_n = highest_n;
   const double share = 1.0 / static_cast<double>(segments_ * ticks_of_segment_);
   pixel.error_n += noise_m * share * settings_.spring_constant.si;
   pixel.off_surface += static_cast<double>(off) * share;
+  pixel.ringing += static_cast<double>(swings) * swings_.period_ticks() * share;
   if (there.second_apex) pixel.on_second_apex += static_cast<double>(ticks_of_segment_ - off) * share;
   slope_ = x_m == before_x_m ? 0.0 : (height_m_ - from_m) / (x_m - before_x_m);
 }

@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t kSamplesABin = 4;
 // Distance between both ends of a jump, too small to contain a sample or to be felt.
 constexpr double kJumpShareOfBin = 1e-3;
+constexpr double kPullOffShareOfBin = 0.25;
 
 // The points of one branch above its baseline, Z from the contact point.
 std::vector<CurvePoint> centred(std::span<const CurvePoint> points, Branch branch, const CurveFeatures& features) {
@@ -39,7 +40,9 @@ std::vector<MeasuredPoint> smoothed(std::span<const CurvePoint> points, Length b
 std::size_t put(std::vector<MeasuredPoint>& branch, const MeasuredPoint& knot, Length width) {
   std::erase_if(branch, [&](const MeasuredPoint& point) { return abs(point.z - knot.z) < 0.5 * width; });
   const auto place = std::find_if(branch.begin(), branch.end(), [&](const auto& point) { return point.z > knot.z; });
-  return static_cast<std::size_t>(branch.insert(place, knot) - branch.begin());
+  const auto index = static_cast<std::size_t>(place - branch.begin());
+  branch.insert(place, knot);
+  return index;
 }
 
 // Inserts a jump with the ends `below` and, a little higher, `above`; returns the number of points below it.
@@ -57,6 +60,15 @@ void flatten_beyond(std::vector<MeasuredPoint>& approach, Length off, Force nois
   for (auto point = approach.rbegin(); point->z > off && abs(point->force) < significant; ++point) {
     point->force = Force();
   }
+}
+
+// A gradual pull-off is the median of neighbouring samples at its place; the bins beside it are means of others, which
+// noise may take deeper. None is felt as a harder pull, and the pull-off has some width, which no table's node misses.
+void put_pull_off(std::vector<MeasuredPoint>& retract, const MeasuredPoint& pull_off, Force hardest, Length width) {
+  for (MeasuredPoint& point : retract) point.force = std::max(point.force, hardest);
+  const std::size_t first = put(retract, pull_off, width);
+  const auto next = retract.begin() + static_cast<std::ptrdiff_t>(first) + 1;
+  retract.insert(next, {pull_off.z + kPullOffShareOfBin * width, pull_off.force});
 }
 
 // Linear interpolation at `z`.
@@ -93,17 +105,21 @@ MeasuredBranches measured_branches(std::span<const CurvePoint> points, std::size
   const Length top = std::min(highest, std::max(off, 0.5 * (in - bottom)) + 0.5 * (off - bottom));
   const Length width = (top - bottom) / static_cast<double>(most_points);
 
-  // plus two knots and an end of a jump
-  MeasuredBranches branches{
-      smoothed(approach, bottom, top, most_points - 3), smoothed(retract, bottom, top, most_points - 3), {}};
+  const bool at_jump = features.jumps_off && off == features.pull_off->z - *features.contact_point;
+  const bool gradual = features.pull_off && !at_jump;
+  // plus two knots and an end of a jump, or the ends of a jump and of a pull-off
+  MeasuredBranches branches{smoothed(approach, bottom, top, most_points - 3),
+                            smoothed(retract, bottom, top, most_points - (gradual ? 4 : 3)),
+                            {}};
   const auto snap = features.snap_in;
   const Force met = force_at(branches.approach, in);
   branches.jumps.approach =
       put_jump(branches.approach, {in, snap ? snap->force_after : met}, snap ? snap->force_before : met, width);
   flatten_beyond(branches.approach, off, features.baseline.noise);
-  const bool at_jump = features.jumps_off && off == features.pull_off->z - *features.contact_point;
-  if (features.pull_off && !at_jump) {
-    put(branches.retract, {features.pull_off->z - *features.contact_point, features.pull_off->force}, width);
+  if (gradual) {
+    const Force pull_off = features.pull_off->force;
+    put_pull_off(branches.retract, {features.pull_off->z - *features.contact_point, pull_off},
+                 std::min(pull_off, features.adhesion->force), width);
   }
   branches.jumps.retract =
       put_jump(branches.retract, {off, at_jump ? features.pull_off->force : force_at(branches.retract, off)},

@@ -8,6 +8,7 @@
 #include <functional>
 #include <set>
 #include <tuple>
+#include <vector>
 
 #include "physics/imaging/morphology.h"
 #include "physics/imaging/scan_truth.h"
@@ -31,9 +32,12 @@ ScanArtefact artefact_of(const ScanSettings& settings, const Scanner::Surface& s
   area.rows = 4;
   Scanner scanner(area, settings, surface);
   ScanLine line;
-  EXPECT_TRUE(scanner.next_line(line));
-  EXPECT_TRUE(scanner.next_line(line));
-  return main_artefact({settings, area, scanner.loop().largest_integral_gain()}, evidence_of(line));
+  NewestLines newest;
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_TRUE(scanner.next_line(line));
+    newest.add(line, scanner.time().si);
+  }
+  return main_artefact({settings, area, scanner.loop().largest_integral_gain()}, newest.evidence());
 }
 
 // One change of the settings brings the artefact, and taking it back removes it.
@@ -84,6 +88,85 @@ TEST(ScanArtefact, IsNoneWhereTheFeedbackIsOff) {
   settings.setpoint = Force(4e-9);
   settings.integral_gain = Frequency(1e5);
   EXPECT_EQ(artefact_of(settings, hills), ScanArtefact::None);
+}
+
+double terraces(double x, double) { return 2e-9 * std::floor(x / 60e-9); }
+double bumps(double x, double y) { return 0.3e-9 * std::exp(-2.0 * (std::sin(x / 30e-9) + std::cos(y / 40e-9))); }
+
+struct Judged {
+  double error_n = 0;  // rms of the error signal
+  std::size_t ringing = 0;
+};
+
+Judged judged(const ScanSettings& settings, const Scanner::Surface& surface) {
+  ScanArea area;
+  area.columns = 64;
+  area.rows = 6;
+  Scanner scanner(area, settings, surface);
+  NewestLines newest;
+  Judged result;
+  const ScanImage image = scan_frame(scanner, [&](const ScanLine& line) {
+    newest.add(line, scanner.time().si);
+    const ScanArtefact artefact =
+        main_artefact({settings, area, scanner.loop().largest_integral_gain()}, newest.evidence());
+    if (artefact == ScanArtefact::Ringing) ++result.ringing;
+    return true;
+  });
+  const std::vector<double>& error = image.channels[2].values;
+  for (const double value : error) result.error_n += value * value / static_cast<double>(error.size());
+  result.error_n = std::sqrt(result.error_n);
+  return result;
+}
+
+// The advice is a lower gain, so that gain must give a better image.
+TEST(ScanArtefact, IsRingingOnlyWhereALowerGainHasASmallerError) {
+  for (const Scanner::Surface& surface :
+       {Scanner::Surface(hills), Scanner::Surface(terraces), Scanner::Surface(bumps)}) {
+    for (const double rate_hz : {2.0, 10.0}) {
+      for (const double noise_m : {0.0, 200e-12}) {
+        for (const double delay_s : {0.0, 40e-6}) {
+          double clean_n = HUGE_VAL;  // error at the highest gain below that has no name
+          std::size_t named = 0, highest_clean = 0;
+          for (std::size_t gain = 500; gain <= 5000; gain += 250) {
+            ScanSettings settings;
+            settings.line_rate = Frequency(rate_hz);
+            settings.noise = Length(noise_m);
+            settings.detector_delay = Time(delay_s);
+            settings.integral_gain = Frequency(static_cast<double>(gain));
+            const auto [error_n, ringing] = judged(settings, surface);
+            if (ringing > 0) {
+              EXPECT_GT(error_n, clean_n) << gain << "/s at " << rate_hz << " Hz, " << noise_m << " m";
+              ++named;
+            } else {
+              clean_n = error_n;
+              highest_clean = gain;
+            }
+          }
+          EXPECT_GE(highest_clean, 3000U) << "up to w0/Q, 3142/s, the error falls";
+          // a delay of a fifth of its period damps this resonance
+          EXPECT_EQ(named, delay_s > 0.0 ? 0U : 8U) << rate_hz << " Hz, " << noise_m << " m";
+        }
+      }
+    }
+  }
+}
+
+TEST(ScanArtefact, IsNoDriftAndNoNoiseThatNobodySees) {
+  const auto flat = [](double, double) { return 0.0; };
+  ScanSettings settings = good_settings();
+  settings.drift_x = Velocity(10e-9);
+  EXPECT_EQ(artefact_of(settings, flat), ScanArtefact::None) << "drift over a plane";
+  settings.integral_gain = Frequency(30.0);
+  EXPECT_EQ(artefact_of(settings, flat), ScanArtefact::None) << "a slow loop over a plane";
+  settings = good_settings();
+  settings.noise = Length(2e-9);
+  EXPECT_EQ(artefact_of(settings, flat), ScanArtefact::Noise) << "noise over a plane is all that is seen";
+  settings.drift_x = Velocity(10e-9);
+  EXPECT_EQ(artefact_of(settings, flat), ScanArtefact::Noise) << "drift of noise alone";
+  // a relief that dwarfs the noise
+  settings = good_settings();
+  settings.noise = Length(2e-9);
+  EXPECT_EQ(artefact_of(settings, [](double x, double) { return 100e-9 * std::sin(x / 80e-9); }), ScanArtefact::None);
 }
 
 TEST(ScanTruth, AddsWhatTheTipReachedAndWhatItIs) {

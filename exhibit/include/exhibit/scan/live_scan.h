@@ -77,6 +77,7 @@ struct LineFacts {
   double highest_force_n = 0;  // force on the lever
   double off_surface = 0;      // mean share of the time, 0 to 1
   double on_second_apex = 0;   // mean share of the time, 0 to 1
+  double ringing = 0;          // mean share of the time, 0 to 1
 };
 
 // Known facts that the image does not show.

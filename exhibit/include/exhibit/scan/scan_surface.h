@@ -5,6 +5,7 @@
 
 #include "core/result.h"
 #include "curves/contact_setup.h"
+#include "curves/measured_topography.h"
 #include "physics/imaging/scanner.h"
 #include "physics/imaging/tip_shape.h"
 
@@ -19,10 +20,17 @@ struct ScanSurface {
   double snap_in_m = 0;         // gap at which a free tip snaps in
 };
 
+// A sample of one's own in place of the drawn one: a glTF model with the role "surface", or an image.
+struct OwnSample {
+  std::string file;  // empty: none
+  curves::TopographyReading reading;
+  bool is_traced = true;  // an image's heights are those of an apex, as for the hand; false: the sample's own
+};
+
 // The sample of a material under a tip. Under a paraboloid: the surface that a hand feels (haptics::SampleSurface of
-// the drawn heights). Under any other tip: the drawn heights dilated by it. The scanner itself adds the tip's second
-// apex.
+// the drawn heights). Under any other tip: the drawn heights dilated by it. An image that is traced is taken as it was
+// measured, under any tip. The scanner itself adds the tip's second apex. Fails as load_own_models() does.
 core::Result<ScanSurface> scan_surface(const curves::ContactSetup& setup, const physics::TipShape& tip,
-                                       const std::string& assets_dir);
+                                       const std::string& assets_dir, const OwnSample& own = {});
 
 }  // namespace afm::exhibit

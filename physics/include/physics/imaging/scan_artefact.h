@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "physics/imaging/scanner.h"
 #include "physics/rows_of_enum.h"
@@ -45,13 +47,24 @@ std::string_view name_of(ScanArtefact artefact);
 struct ScanEvidence {
   double off_surface = 0;      // largest share of a line's time without contact
   double on_second_apex = 0;   // largest share of a line's time on the second apex
+  double ringing = 0;          // largest share of a line's time in which the error rings
   double highest_force_n = 0;  // force of the lever
   double relief_m = 0;         // range of the measured heights
+  double noise_m = 0;          // largest noise_of_lines_m() of two neighbouring lines
+  double apart_m = 0;          // largest mean difference of a line's trace and retrace, a magnitude
+  double time_s = 0;           // since the start of the scan, in which drift adds up
   double bluntness = 1;        // ratio of the tip's radius to that of a sharper one; 1: no other tip is known
 };
 
-// Evidence of a single line.
-ScanEvidence evidence_of(const ScanLine& line);
+// Trace minus retrace, by column. Not a number where a pass has no height.
+std::vector<double> difference_of_passes(std::span<const double> trace_m, std::span<const double> retrace_m);
+
+// Standard deviation of the noise in the heights, from the differences of the passes of two neighbouring lines: a
+// sample, a slow loop and a bent scanner make them alike, noise does not. Robust against steps. Zero for empty ones.
+double noise_of_lines_m(std::span<const double> passes_m, std::span<const double> passes_before_m);
+
+// Mean magnitude of the difference of a line's passes.
+double mean_apart_m(std::span<const double> passes_m);
 
 // Number of newest lines that are judged, so that a single different line does not change the verdict.
 inline constexpr std::size_t kJudgedLines = 6;
@@ -60,12 +73,15 @@ inline constexpr std::size_t kJudgedLines = 6;
 // all.
 class NewestLines {
  public:
-  void add(const ScanLine& line);
+  // `time_s`: at the end of the line, since the start of the scan.
+  void add(const ScanLine& line, double time_s);
   ScanEvidence evidence() const;
 
  private:
   std::array<ScanEvidence, kJudgedLines> newest_{};
-  std::size_t next_ = 0;  // place of the next line in newest_
+  std::size_t next_ = 0;          // place of the next line in newest_
+  std::vector<double> passes_m_;  // difference of the newest line's passes
+  double time_s_ = 0;
   double low_m_ = HUGE_VAL, high_m_ = -HUGE_VAL;
 };
 
@@ -78,7 +94,7 @@ struct ScanConditions {
 
 // The only judge for wall and --json: of the artefacts found, the one that hides all others. First a tip that is off or
 // doubled; then an image that oscillates, drifts or is noise, which also lifts the tip; last the effects of a slow loop
-// on a clean image.
+// on a clean image. Each is named where the lines show it; the settings only say which cause they can have.
 ScanArtefact main_artefact(const ScanConditions& conditions, const ScanEvidence& evidence);
 
 }  // namespace afm::physics

@@ -58,6 +58,8 @@ class ScanLoop {
   // z resonance. Without delay Ki dt = 2 (1 - Kp) for an ideal z scanner (Jury), and Ki = (1 + Kp) w0/Q for slow ones.
   // Zero if the proportional gain by itself is too large.
   Frequency largest_integral_gain() const noexcept { return largest_gain_; }
+  // The period in which it then oscillates, in ticks: at least two.
+  double ringing_period_ticks() const noexcept { return ringing_period_ticks_; }
 
   double z_m() const noexcept { return z_m_; }
   double deflection_m() const noexcept { return deflection_m_; }       // lever, without noise
@@ -69,7 +71,7 @@ class ScanLoop {
 
  private:
   void set_swing(const ScanSettings& settings) noexcept;
-  double swinging_gain() const;  // gain per tick
+  void find_limit();
   void follow_command() noexcept {
     if (!resonant_) {
       z_m_ = command_m_;
@@ -92,6 +94,7 @@ class ScanLoop {
   double noise_of_tick_m_ = 0;
   double reach_m_ = 0;
   Frequency largest_gain_;
+  double ringing_period_ticks_ = 2.0;
   bool feedback_ = true, resonant_ = false;
   std::size_t delay_ticks_ = 0;
   // z - u and z' after a tick, as functions of those before it

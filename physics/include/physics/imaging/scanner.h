@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "physics/imaging/force_swings.h"
 #include "physics/imaging/scan_image.h"
 #include "physics/imaging/scan_loop.h"
 #include "physics/imaging/scan_settings.h"
@@ -29,6 +30,7 @@ struct ScanPixel {
   double highest_force_n = 0;  // lever force
   double off_surface = 0;      // share without contact, 0 to 1
   double on_second_apex = 0;   // share in contact with the second apex
+  double ringing = 0;          // share in which the lever force swings as the loop does when it rings
 };
 
 // One pass, by column.
@@ -40,6 +42,7 @@ struct ScanTrack {
   double highest_force_n = 0;
   double off_surface = 0;
   double on_second_apex = 0;
+  double ringing = 0;
 };
 
 struct ScanLine {
@@ -104,6 +107,7 @@ class Scanner {
   void scan_segment(double x_m, double y_m, ScanPixel& pixel);
   double row_y_m(std::size_t row) const noexcept;
   double tick_length() noexcept;
+  void look_for_swings() noexcept;
 
   ScanArea area_;
   ScanSettings settings_;
@@ -111,6 +115,7 @@ class Scanner {
   std::size_t segments_ = 1, ticks_of_segment_ = 1;  // per pixel
   double tick_s_ = 0;
   ScanLoop loop_;
+  ForceSwings swings_;
   SlowDirection direction_ = SlowDirection::Down;
   std::size_t row_ = 0, lines_done_ = 0, step_ = 0;  // step: 0 to 2 * columns, the pixel within the line
   double time_s_ = 0, x_m_ = 0, y_m_ = 0;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include "physics/curve_analysis.h"
+
+// A sphere of 5 um on gels of 0.3 to 100 kPa under a lever of 0.05 N/m, with 5 pN of noise and what spoils the contact
+// point: a tilt, waves of a laser, an approach without a baseline.
+namespace contact_doubt_test {
+
+using namespace afm::physics;
+
+constexpr double kSpring = 0.05, kRadiusM = 5e-6, kPoisson = 0.5, kNoiseN = 5e-12, kContactM = 12.3e-6;
+
+// Hertz 1882.
+double force_n(double modulus_pa, double indentation_m) {
+  return 4.0 / 3.0 * modulus_pa / (1.0 - kPoisson * kPoisson) * std::sqrt(kRadiusM) * std::pow(indentation_m, 1.5);
+}
+
+// Force with the lever's base at `below_m` below the contact point, by Newton's method.
+double pushed_n(double modulus_pa, double below_m) {
+  if (below_m <= 0.0) return 0.0;
+  double indentation_m = below_m;
+  for (int i = 0; i < 60; ++i) {
+    const double force = force_n(modulus_pa, indentation_m);
+    indentation_m -= (indentation_m + force / kSpring - below_m) / (1.0 + 1.5 * force / indentation_m / kSpring);
+  }
+  return force_n(modulus_pa, indentation_m);
+}
+
+struct Gel {
+  double modulus_pa = 1e3;
+  double depth_m = 1e-6;    // depth of the lever's base at the deepest point
+  double outside_m = 2e-6;  // negative: the approach begins below the contact point
+  double tilt = 0.0;        // N/m
+  double wave_n = 0.0;      // amplitude
+  double period_m = 4e-7;
+  double phase = 0.0;
+  int points = 2000;
+};
+
+std::vector<CurvePoint> cycle(const Gel& gel, std::mt19937_64& random) {
+  std::normal_distribution<double> noise(0.0, kNoiseN);
+  std::vector<CurvePoint> points;
+  for (const Branch branch : {Branch::Approach, Branch::Retract}) {
+    for (int i = 0; i < gel.points; ++i) {
+      const double share = static_cast<double>(branch == Branch::Approach ? i : gel.points - 1 - i) / (gel.points - 1);
+      const double z = gel.outside_m - (gel.outside_m + gel.depth_m) * share;
+      const double wave = gel.wave_n * std::sin(2.0 * 3.14159265358979 * z / gel.period_m + gel.phase);
+      points.push_back({Length(kContactM + z),
+                        Force(pushed_n(gel.modulus_pa, -z) + 1e-9 + gel.tilt * z + wave + noise(random)), branch});
+    }
+  }
+  return points;
+}
+
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : random(seed) {}
+  double even(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+  double ratio(double low, double high) { return std::exp(even(std::log(low), std::log(high))); }
+
+  // Pushed by 0.3 nN to 15 nN.
+  Gel gel() {
+    Gel drawn;
+    drawn.modulus_pa = ratio(300.0, 100e3);
+    const double push_n = std::min(force_n(drawn.modulus_pa, even(200e-9, 2e-6)), even(0.3e-9, 15e-9));
+    drawn.depth_m = std::pow(push_n / force_n(drawn.modulus_pa, 1.0), 2.0 / 3.0) + push_n / kSpring;
+    drawn.outside_m = even(0.5e-6, 3e-6);
+    drawn.period_m = even(200e-9, 800e-9);
+    drawn.phase = even(0.0, 6.28);
+    drawn.points = static_cast<int>(even(500.0, 4000.0));
+    return drawn;
+  }
+
+  std::mt19937_64 random;
+};
+
+struct Judged {
+  CurveFeatures features;
+  double error_m = 0.0;  // error of the contact point
+  bool off = false;      // the true one is outside the stated range
+};
+
+Judged judged(const Gel& gel, std::mt19937_64& random) {
+  Judged result{analyse(cycle(gel, random))};
+  const auto& found = result.features;
+  result.error_m = found.contact_point ? found.contact_point->si - kContactM : HUGE_VAL;
+  result.off =
+      !found.contact_range || found.contact_range->low.si > kContactM || found.contact_range->high.si < kContactM;
+  return result;
+}
+
+TEST(ContactPointOfAGel, IsRightAndNotDoubtfulOnCleanAndTiltedCurves) {
+  Draw draw(1);
+  std::vector<double> errors_m;
+  for (int i = 0; i < 40; ++i) {
+    Gel gel = draw.gel();
+    gel.outside_m = std::max(gel.outside_m, 0.4 * gel.depth_m);
+    if (i % 2 == 1) gel.tilt = draw.even(-1e-3, 1e-3);
+    const Judged found = judged(gel, draw.random);
+    EXPECT_FALSE(found.features.contact_doubtful)
+        << gel.modulus_pa << " Pa, " << gel.depth_m << " m, " << found.error_m;
+    EXPECT_FALSE(found.off) << gel.modulus_pa << " Pa, " << gel.depth_m << " m, " << found.error_m;
+    EXPECT_LT(std::abs(found.error_m), 0.02 * gel.depth_m + 3e-9) << gel.modulus_pa << " Pa, " << gel.depth_m << " m";
+    errors_m.push_back(std::abs(found.error_m));
+  }
+  std::nth_element(errors_m.begin(), errors_m.begin() + 20, errors_m.end());
+  EXPECT_LT(errors_m[20], 3e-9);
+}
+
+// Off by more than the stated range, or by a tenth of the depth.
+TEST(ContactPointOfAGel, IsDoubtfulWhereItIsOffByMoreThanItsRange) {
+  Draw draw(2);
+  std::size_t off = 0, far = 0, doubted_off = 0, doubted_far = 0;
+  for (int i = 0; i < 160; ++i) {
+    Gel gel = draw.gel();
+    if (i % 4 >= 2) gel.tilt = draw.even(-1e-3, 1e-3);
+    if (i % 3 != 1) gel.wave_n = draw.even(10e-12, 150e-12);
+    if (i % 2 == 1) gel.outside_m = draw.even(-0.2, 0.05) * gel.depth_m;
+    const Judged found = judged(gel, draw.random);
+    if (!found.features.contact_point) continue;  // no push above the waves
+    const bool is_far = std::abs(found.error_m) > 0.1 * gel.depth_m, doubted = found.features.contact_doubtful;
+    off += found.off ? 1 : 0;
+    far += is_far ? 1 : 0;
+    doubted_off += found.off && doubted ? 1 : 0;
+    doubted_far += is_far && doubted ? 1 : 0;
+  }
+  EXPECT_GE(doubted_off, off - off / 10) << "of " << off;
+  EXPECT_GE(far, 30U) << "curves that are too easy";
+  EXPECT_GE(doubted_far, far - far / 10) << "of " << far;
+}
+
+}  // namespace contact_doubt_test
