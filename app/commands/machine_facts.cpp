@@ -14,6 +14,7 @@
 
 #include "app/headset/headset_runtime.h"
 #include "render/saver_inhibition.h"
+#include "render/window.h"
 #include "servo/haptic_choice.h"
 #include "servo/servo_client.h"
 
@@ -57,11 +58,12 @@ std::vector<DeviceNode> nodes(const std::string& folder, std::string_view prefix
 }
 
 std::string display() {
+  std::string names;
   for (const char* name : {"WAYLAND_DISPLAY", "DISPLAY"}) {
     const char* value = ::secure_getenv(name);
-    if (value != nullptr && *value != '\0') return std::string(name) + "=" + value;
+    if (value != nullptr && *value != '\0') names += fmt::format("{}{}={}", names.empty() ? "" : ", ", name, value);
   }
-  return {};
+  return names;
 }
 
 }  // namespace
@@ -74,6 +76,7 @@ MachineFacts look_at_machine(const core::Clock& clock, const std::string& progra
     facts.locked_memory_limit_bytes = bytes;
   facts.pages_can_be_locked = lock_pages();
   facts.jitter = measure_wake_jitter(clock, servo::kServoRateHz, jitter_seconds);
+  facts.drawing_refused = !haptics::favour_drawing();
 
   if (const auto graphics = render::list_devices()) {
     facts.graphics = *graphics;
@@ -82,13 +85,15 @@ MachineFacts look_at_machine(const core::Clock& clock, const std::string& progra
   }
   facts.display = display();
   if (!facts.display.empty()) {
-    const render::SaverInhibition saver;
+    const render::SaverInhibition saver;  // its connection keeps alive a server that ends with its last client
     facts.saver = fmt::format("X's screen saver: {}; org.freedesktop.ScreenSaver: {}", saver.x_server().said,
                               saver.session().said);
     facts.saver_stays_off = saver.works();
+    if (const auto checked = render::check_display(); !checked) facts.display_refusal = checked.error().message;
   }
   facts.headset_manifest = headset_manifest();
   if (!facts.headset_manifest.empty()) {
+    facts.headset_manifest_exists = ::access(facts.headset_manifest.c_str(), F_OK) == 0;
     const auto headset = find_headset();
     facts.headset = headset ? text_of(*headset) : "";
     facts.headset_refusal = headset ? "" : headset.error().message;

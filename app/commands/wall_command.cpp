@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -18,12 +19,14 @@
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
 #include "cluster/network.h"
+#include "core/log.h"
 #include "exhibit/frame/calibration.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/wall_drawing.h"
 #include "exhibit/scenery/stage_place.h"
 #include "exhibit/scenery/wall_layout.h"
 #include "scene/display/disparity.h"
+#include "scene/display/wall_doubts.h"
 
 namespace afm::app {
 
@@ -189,15 +192,16 @@ void explain_composition(const scene::Wall& wall, const scene::HeadPose& head) {
   constexpr auto kPanels = std::to_array({"next to the instrument", "below the shelf", "on the side screens"});
   std::printf("composition: scene on screen %s, panels %s\n", stage.main.name.c_str(),
               kPanels[static_cast<std::size_t>(shape.arrangement)]);
-  constexpr double kSmallestLetterM = 0.030;   // em square of the smallest text on the paper's wall
-  constexpr double kReadableArcMinutes = 9.0;  // em square of readable text; a small letter has half of it
+  // A line of the smallest text is 30 mm high on the paper's wall; a capital of Inter has 0.60 of its line.
+  constexpr double kSmallestCapitalM = 0.018;
+  constexpr double kReadableArcMinutes = 6.0;  // capital height; a sharp eye needs 5
   constexpr double kArcMinutesPerRad = 3437.75;
   const double distance_m = glm::distance(head.position_m, stage.main.center());
-  const double letters = kSmallestLetterM * shape.unit_m / distance_m * kArcMinutesPerRad;
-  std::printf("  the smallest letters are %.1f mm high, %.0f arc minutes as seen from the head\n",
-              kSmallestLetterM * shape.unit_m * 1e3, letters);
-  if (letters < kReadableArcMinutes) {
-    std::printf("  note: many people cannot read letters below %.0f arc minutes; move closer or use a larger screen\n",
+  const double capital = kSmallestCapitalM * shape.unit_m / distance_m * kArcMinutesPerRad;
+  std::printf("  the smallest capital letters are %.1f mm high, %.0f arc minutes as seen from the head\n",
+              kSmallestCapitalM * shape.unit_m * 1e3, capital);
+  if (capital < kReadableArcMinutes) {
+    std::printf("  note: many people cannot read capitals below %.0f arc minutes; move closer or use a larger screen\n",
                 kReadableArcMinutes);
   }
 }
@@ -250,6 +254,19 @@ core::Result<void> print_start(const scene::Wall& wall, const std::string& file)
   return {};
 }
 
+// `head_doubt` is that of a head on the command line, which the others may have said.
+void conclude(const std::vector<std::string>& doubts, const std::string& head_doubt) {
+  for (const std::string& doubt : doubts) std::printf("note: %s\n", doubt.c_str());
+  const bool said = std::any_of(doubts.begin(), doubts.end(),
+                                [&](const std::string& doubt) { return doubt.find(head_doubt) != std::string::npos; });
+  if (!head_doubt.empty() && !said) std::printf("note: the head is %s\n", head_doubt.c_str());
+  if (doubts.empty()) {
+    std::printf("the wall file is valid\n");
+  } else {
+    std::printf("the wall file can be used, but check %s\n", doubts.size() == 1 ? "the note above" : "the notes above");
+  }
+}
+
 core::Result<void> run_wall(const WallOptions& options) {
   if (options.test_pattern == options.out.empty()) {
     return core::failure(core::ErrorCategory::WrongUsage,
@@ -257,13 +274,21 @@ core::Result<void> run_wall(const WallOptions& options) {
   }
   const auto wall = scene::load_wall(options.file);
   if (!wall) return tl::unexpected(wall.error());
-  if (options.test_pattern) return draw_test_pattern(*wall, options);
-  if (options.start) return print_start(*wall, options.file);
-  const scene::Viewer& viewer = wall->viewers.front();
+  scene::Wall seen_wall = *wall;
+  if (options.head) seen_wall.viewers.front().sweet_spot = *options.head;
+  const scene::Viewer& viewer = seen_wall.viewers.front();
   const double ipd_m = options.picture.ipd_m.value_or(viewer.ipd_m);
-  const scene::HeadPose head = options.head.value_or(viewer.sweet_spot);
+  const scene::HeadPose& head = viewer.sweet_spot;
   const auto seen = frusta(*wall, head, ipd_m);
   if (!seen) return tl::unexpected(seen.error());
+  const std::vector<std::string> doubts = scene::doubts_of(seen_wall);
+  if (options.test_pattern || options.start || options.json) {
+    for (const std::string& note : scene::notes_of(seen_wall)) {
+      core::log_line(fmt::format("wall file {}: {}", options.file, note));
+    }
+  }
+  if (options.test_pattern) return draw_test_pattern(*wall, options);
+  if (options.start) return print_start(*wall, options.file);
   if (options.json) {
     std::printf("%s\n", seen->dump(2).c_str());
     return {};
@@ -271,13 +296,10 @@ core::Result<void> run_wall(const WallOptions& options) {
   for (const scene::Screen& screen : wall->screens) explain_screen(*wall, screen, head, ipd_m);
   for (const scene::Output& output : wall->outputs) explain_output(*wall, output);
   explain_composition(*wall, head);
-  if (const std::string doubt = scene::doubt_of_head(*wall, head.position_m); !doubt.empty()) {
-    std::printf("note: the head is %s\n", doubt.c_str());
-  }
-  std::printf(
-      "viewer %s: %.1f mm between the eyes, head %s\n"
-      "the wall file is valid\n",
-      viewer.name.c_str(), ipd_m * 1e3, viewer.head == "none" ? "not tracked" : viewer.head.c_str());
+  std::printf("viewer %s: %.1f mm between the eyes, head %s\n", viewer.name.c_str(), ipd_m * 1e3,
+              viewer.head == "none" ? "not tracked" : viewer.head.c_str());
+  for (const std::string& unused : wall->unused) std::printf("note: %s\n", unused.c_str());
+  conclude(doubts, scene::doubt_of_head(*wall, head.position_m));
   return {};
 }
 

@@ -28,9 +28,8 @@ core::Result<render::Window> InstructorWindow::open_window(const std::string& pl
                                                            const std::vector<render::Monitor>& monitors) {
   render::WindowOptions options{.title = kInstructorTitle, .width = kFreeSizePx.x, .height = kFreeSizePx.y};
   if (place != kFree) {
-    auto name = monitor_name("--instructor", place, monitors);
-    if (!name) return tl::unexpected(name.error());
-    options.monitor = std::move(*name);
+    auto filled = fill_monitor("--instructor", place, monitors, options);
+    if (!filled) return tl::unexpected(filled.error());
   }
   return render::Window::open(options);
 }

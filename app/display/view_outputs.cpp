@@ -34,9 +34,8 @@ core::Result<render::WindowOptions> placed(const scene::Output& output, const st
   render::WindowOptions window{.title = fmt::format("{}, {}", kTitle, output.name)};
   const std::string who = fmt::format("output \"{}\"", output.name);
   if (!output.monitor.empty()) {
-    auto name = monitor_name(who, output.monitor, monitors);
-    if (!name) return tl::unexpected(name.error());
-    window.monitor = std::move(*name);
+    if (auto filled = fill_monitor(who, output.monitor, monitors, window); !filled)
+      return tl::unexpected(filled.error());
     return window;
   }
   if (!render::is_shown(output.rect, monitors)) {
@@ -61,9 +60,8 @@ core::Result<std::vector<ViewOutput>> one_window(const scene::Wall& wall, const 
     output.window.height = wanted.size_px->y;
   }
   if (!wanted.monitor.empty()) {
-    auto name = monitor_name("--monitor", wanted.monitor, monitors);
-    if (!name) return tl::unexpected(name.error());
-    output.window.monitor = std::move(*name);
+    auto filled = fill_monitor("--monitor", wanted.monitor, monitors, output.window);
+    if (!filled) return tl::unexpected(filled.error());
   }
   if (!wall.outputs.empty()) {
     const scene::Output& first = wall.outputs.front();
@@ -99,11 +97,16 @@ bool holds(const scene::Screen& screen, const glm::dvec3& point_m) {
          before_m <= kEdge * screen.width_m();
 }
 
-core::Result<std::string> monitor_name(const std::string& who, const std::string& wanted,
-                                       const std::vector<render::Monitor>& monitors) {
-  if (const render::Monitor* found = render::find_monitor(monitors, wanted)) return found->name;
-  return core::failure(ErrorCategory::DeviceMissing,
-                       fmt::format("{}: there is no monitor \"{}\"; choose from: {}", who, wanted, list_of(monitors)));
+core::Result<void> fill_monitor(const std::string& who, const std::string& wanted,
+                                const std::vector<render::Monitor>& monitors, render::WindowOptions& window) {
+  const render::Monitor* const found = render::find_monitor(monitors, wanted);
+  if (found == nullptr) {
+    return core::failure(ErrorCategory::DeviceMissing, fmt::format("{}: there is no monitor \"{}\"; choose from: {}",
+                                                                   who, wanted, list_of(monitors)));
+  }
+  window.monitor = found->name;
+  window.monitor_corner = found->rect.offset_px;
+  return {};
 }
 
 render::Composition ViewOutput::composition(std::optional<StereoMode> other_mode, EyeOrder other_order) const {

@@ -45,10 +45,10 @@ struct WindowOptions {
   bool full_screen = false;
 };
 
-// Finds a monitor by its name or number and returns its name. DeviceMissing, listing the monitors, if there is none.
-// `who` begins the message: "--monitor".
-core::Result<std::string> monitor_name(const std::string& who, const std::string& wanted,
-                                       const std::vector<render::Monitor>& monitors);
+// Has the window fill a monitor, given by its name or number; two of one make have one name, so only their numbers tell
+// them apart. DeviceMissing, listing the monitors, if there is none. `who` begins the message: "--monitor".
+core::Result<void> fill_monitor(const std::string& who, const std::string& wanted,
+                                const std::vector<render::Monitor>& monitors, render::WindowOptions& window);
 
 // Size of the window as expected before it opens.
 glm::uvec2 expected_size(const WindowOptions& window, const std::vector<render::Monitor>& monitors);

@@ -37,6 +37,7 @@ ViewInput ViewWindows::poll() {
     for (render::WindowEvent& event : input.events) all.events.push_back({i, event});
     all.close_requested = all.close_requested || input.close_requested;
     if (input.monitor_change != render::WindowInput::MonitorChange::None) log_monitor_change(i, input);
+    if (input.refused_place) log_refusal(i, *input.refused_place);
   }
   all.window = window_;
   all.cursor_px = cursors_[window_];
@@ -50,6 +51,16 @@ void ViewWindows::log_monitor_change(std::size_t window, const render::WindowInp
   core::log_line(fmt::format("{} is {}", what,
                              lost ? "lost; the window continues at a small size until the monitor returns"
                                   : "back; the window fills its place again"));
+}
+
+void ViewWindows::log_refusal(std::size_t window, const scene::PixelRect& place) const {
+  const scene::PixelRect& wanted = *rects_[window];
+  core::log_line(
+      fmt::format("output \"{}\": the window manager keeps its window of {} x {} pixels at {}, {}, although the "
+                  "wall file says {} x {} pixels at {}, {}: exclude TouchAFM from the manager's placement, or "
+                  "run the wall without a manager",
+                  names_[window], place.size_px.x, place.size_px.y, place.offset_px.x, place.offset_px.y,
+                  wanted.size_px.x, wanted.size_px.y, wanted.offset_px.x, wanted.offset_px.y));
 }
 
 std::vector<render::Window*> ViewWindows::all() const {

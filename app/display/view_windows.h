@@ -50,6 +50,7 @@ class ViewWindows {
 
  private:
   void log_monitor_change(std::size_t window, const render::WindowInput& input) const;
+  void log_refusal(std::size_t window, const scene::PixelRect& place) const;
 
   std::vector<std::unique_ptr<render::Window>> windows_;
   std::vector<scene::Screen> screens_;

@@ -21,6 +21,17 @@ std::string from_environment(const char* name) {
 // NOLINTNEXTLINE(concurrency-mt-unsafe): no command has another thread then that asks
 void silence_loader() { ::setenv("XR_LOADER_DEBUG", "none", 0); }
 
+// OpenXR's loader says only that there is no runtime.
+core::Result<void> check_named_manifest() {
+  const std::string named = from_environment("XR_RUNTIME_JSON");
+  std::error_code ignored;
+  if (named.empty() || std::filesystem::exists(named, ignored)) return {};
+  return core::failure(core::ErrorCategory::DeviceMissing,
+                       fmt::format("no headset: XR_RUNTIME_JSON names {}, which does not exist: set it to the manifest "
+                                   "of your headset's runtime, or unset it to use the system's",
+                                   named));
+}
+
 }  // namespace
 
 std::string headset_manifest() {
@@ -36,11 +47,13 @@ std::string headset_manifest() {
 }
 
 core::Result<std::unique_ptr<render::HeadsetRuntime>> connect_headset() {
+  if (const auto named = check_named_manifest(); !named) return tl::unexpected(named.error());
   silence_loader();
   return render::HeadsetRuntime::connect(headset_manifest());
 }
 
 core::Result<render::HeadsetDescription> find_headset() {
+  if (const auto named = check_named_manifest(); !named) return tl::unexpected(named.error());
   silence_loader();
   return render::describe_headset(headset_manifest());
 }

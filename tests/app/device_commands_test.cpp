@@ -61,6 +61,18 @@ TEST(DevicesCommand, SaysWhatTheLibraryAnswersWhenNoDeviceIsThere) {
   EXPECT_THAT(touchafm("devices", kMock + " MOCK_HD_FAULT=busy").out, HasSubstr("mock: in use (0x0301)"));
 }
 
+TEST(DevicesCommand, NamesAHeadsetRuntimeThatDoesNotExist) {
+  const std::string environment = "XR_RUNTIME_JSON=/nonexistent.json";
+  for (const char* command : {"devices", "doctor --seconds 0.1"}) {
+    const ProgramResult listed = touchafm(command, environment);
+    EXPECT_THAT(listed.out, HasSubstr("XR_RUNTIME_JSON names /nonexistent.json, which does not exist")) << command;
+  }
+  const ProgramResult view = touchafm("view --headset", environment);
+  EXPECT_EQ(view.exit_code, 4);
+  EXPECT_THAT(view.err, HasSubstr("XR_RUNTIME_JSON names /nonexistent.json, which does not exist"));
+  EXPECT_THAT(view.err, ::testing::Not(HasSubstr("install libopenxr-loader1")));
+}
+
 // A tracker that sends garbage, fast, until the end of its scope.
 class Garbage {
  public:

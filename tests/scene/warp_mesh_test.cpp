@@ -190,6 +190,18 @@ TEST(WarpMesh, NamesTheLineOfEveryMistake) {
               HasSubstr("largest x is 0.01"));
 }
 
+TEST(WarpMesh, MayHaveCommentsEmptyLinesAndAByteOrderMark) {
+  const std::string good = "2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 1\n-1 1 0 1 1\n1 1 1 1 1\n";
+  const std::string said =
+      "\xEF\xBB\xBF# made by hand\r\n\n2 # flat\n2 2\n-1 -1 0 0 1\n\n# upper\n1 -1 1 0 1\n-1 1 0 1 1\n1 1 1 1 1\n# end";
+  const auto plain = read(good), commented = read(said);
+  ASSERT_TRUE(commented.has_value()) << commented.error().message;
+  for (std::uint32_t i = 0; i < 4; ++i) EXPECT_EQ(commented->nodes[i].output, plain->nodes[i].output) << i;
+  std::string wrong = said;
+  wrong.replace(wrong.find("1 -1 1 0 1\n-1"), 10, "-1 -1 1 0 1");
+  EXPECT_THAT(error_of(wrong), AllOf(HasSubstr("line 5"), HasSubstr("no area"))) << "comments count as lines";
+}
+
 // Wound about the output's middle a hundred times: no cell folds, and each is as large as the output.
 TEST(WarpMesh, RefusesToDrawTheOutputAgainAndAgain) {
   constexpr int kColumns = 400;

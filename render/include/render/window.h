@@ -35,6 +35,9 @@ struct WindowInput {
   // window continues at a small size on another.
   enum class MonitorChange { None, Lost, Back } monitor_change = MonitorChange::None;
   std::string monitor;  // monitor of `monitor_change`; empty: under the rectangle
+
+  // Place at which a window manager keeps the window instead of its rectangle; said once.
+  std::optional<scene::PixelRect> refused_place{};
 };
 
 struct WindowOptions {
@@ -42,11 +45,17 @@ struct WindowOptions {
   std::uint32_t width = 1280;
   std::uint32_t height = 720;
   bool full_screen = false;
-  std::string monitor{};                   // monitor to fill, named as in list_monitors(); empty: any
-  std::optional<scene::PixelRect> rect{};  // rectangle of the desktop, without a frame, instead of width and height
+  bool hidden = false;
+  std::string monitor{};                       // monitor to fill, named as in list_monitors(); empty: any
+  std::optional<glm::ivec2> monitor_corner{};  // tells it from others of that name; in desktop units
+  std::optional<scene::PixelRect> rect{};      // rectangle of the desktop, without a frame, instead of width and height
 };
 
 class WindowHandle;
+
+// Opens the display, and asks an invisible window on it for its picture formats. DeviceMissing as Window::open and
+// Presenter::create, with the reason why `view` would have no window. Main thread only.
+core::Result<void> check_display();
 
 // Empty window on this machine's display; Presenter draws into it. Main thread only. Must outlive the Context opened to
 // present to it.

@@ -15,6 +15,7 @@
 #include "core/interruption.h"
 #include "device/extensions.h"
 #include "device/presentation.h"
+#include "device/shader_interface.h"
 
 namespace afm::render {
 namespace {
@@ -228,12 +229,14 @@ core::Result<void> Device::choose_physical(Presentation presentation, DeviceSour
     candidates->push_back(source->choose_device(instance_));
   }
   int best = -1;
+  bool display_refuses = false;
   std::string reasons;
   for (auto& candidate : *candidates) {
     const auto properties = candidate.getProperties();
     std::string reason = missing_ability(candidate);
     if (reason.empty() && presentation == Presentation::Window && !shows_windows(instance_, candidate)) {
       reason = "it cannot present to this display";
+      display_refuses = true;
     }
     if (!reason.empty()) {
       reasons += (reasons.empty() ? "" : "; ") + std::string(std::string_view(properties.deviceName)) + ": " + reason;
@@ -243,6 +246,11 @@ core::Result<void> Device::choose_physical(Presentation presentation, DeviceSour
       queue_family_ = *graphics_family(candidate);
       physical_ = std::move(candidate);
     }
+  }
+  if (best < 0 && display_refuses) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         "this display shows no Vulkan pictures (" + reasons +
+                             "): use a display with a colour depth of 24 or 30 bits, and check that its server runs");
   }
   if (best < 0) {
     return core::failure(core::ErrorCategory::DeviceMissing,
@@ -271,11 +279,16 @@ void Device::create_device(Presentation presentation, DeviceSource* source) {
                    .multiview == VK_TRUE;
   const vk::PhysicalDeviceVulkan11Features features11{.pNext = &features12,
                                                       .multiview = multiview_ ? VK_TRUE : VK_FALSE};
+  const vk::PhysicalDeviceFeatures features{.largePoints = physical_.getFeatures().largePoints};
+  if (features.largePoints == VK_TRUE) {
+    largest_point_px_ = std::min<float>(AFM_LARGEST_POINT, physical_.getProperties().limits.pointSizeRange[1]);
+  }
   const vk::DeviceCreateInfo info{.pNext = &features11,
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue_info,
                                   .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
-                                  .ppEnabledExtensionNames = extensions.data()};
+                                  .ppEnabledExtensionNames = extensions.data(),
+                                  .pEnabledFeatures = &features};
   device_ = source != nullptr ? source->create_device(physical_, info) : vk::raii::Device(physical_, info);
   queue_ = device_.getQueue(queue_family_, 0);
   const auto properties = physical_.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();

@@ -59,6 +59,9 @@ class Device {
   // True for Mesa 22.3's lavapipe, which draws a clipped triangle into only the first view of a multiview pass.
   bool clips_first_view_only() const { return clips_first_view_only_; }
 
+  // Size in pixels of the largest point that is drawn: 1 on a device without the feature.
+  float largest_point_px() const { return largest_point_px_; }
+
   // Call before destroying resources that the device may still use. Returns at once if the device is lost.
   void wait_idle() const noexcept;
   void finish_all() const;  // same, but throws vk::SystemError
@@ -105,6 +108,7 @@ class Device {
   bool multiview_ = false;
   bool present_barrier_ = false;
   bool clips_first_view_only_ = false;
+  float largest_point_px_ = 1.0F;
   vk::raii::Device device_{nullptr};
   vk::raii::Queue queue_{nullptr};
   vk::raii::CommandPool pool_{nullptr};

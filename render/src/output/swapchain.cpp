@@ -33,13 +33,18 @@ vk::CompositeAlphaFlagBitsKHR choose_alpha(const vk::SurfaceCapabilitiesKHR& sur
 
 }  // namespace
 
-vk::SurfaceFormatKHR choose_surface_format(const Device& device, vk::SurfaceKHR surface) {
-  const auto formats = device.physical().getSurfaceFormatsKHR(surface);
-  for (const vk::Format wanted : {kEyeFormat, vk::Format::eR8G8B8A8Unorm}) {
-    const vk::SurfaceFormatKHR format{wanted, vk::ColorSpaceKHR::eSrgbNonlinear};
-    if (std::find(formats.begin(), formats.end(), format) != formats.end()) return format;
+core::Result<vk::SurfaceFormatKHR> choose_surface_format(const Device& device, vk::SurfaceKHR surface) {
+  if (device.physical().getSurfaceSupportKHR(device.queue_family(), surface) == VK_TRUE) {
+    const auto formats = device.physical().getSurfaceFormatsKHR(surface);
+    for (const vk::Format wanted : {kEyeFormat, vk::Format::eR8G8B8A8Unorm, vk::Format::eA2B10G10R10UnormPack32,
+                                    vk::Format::eA2R10G10B10UnormPack32}) {
+      const vk::SurfaceFormatKHR format{wanted, vk::ColorSpaceKHR::eSrgbNonlinear};
+      if (std::find(formats.begin(), formats.end(), format) != formats.end()) return format;
+    }
   }
-  return {};
+  return core::failure(core::ErrorCategory::DeviceMissing,
+                       "cannot show pictures with 8 or 10 bits per channel in a window on this display with " +
+                           device.name() + ": set the display to a colour depth of 24 or 30 bits");
 }
 
 bool offers_present_barrier(const Device& device, vk::SurfaceKHR surface) {

@@ -11,8 +11,9 @@
 
 namespace afm::render {
 
-// 8-bit UNORM in sRGB, which takes the eyes' bytes unchanged; eUndefined if the surface has none.
-vk::SurfaceFormatKHR choose_surface_format(const Device& device, vk::SurfaceKHR surface);
+// UNORM in sRGB: 8 bits per channel, which take the eyes' bytes unchanged, or else 10, as on a desktop of 30 bits.
+// DeviceMissing if the surface has neither.
+core::Result<vk::SurfaceFormatKHR> choose_surface_format(const Device& device, vk::SurfaceKHR surface);
 
 // True if the surface can change its picture in the same refresh as synchronised displays of other machines.
 bool offers_present_barrier(const Device& device, vk::SurfaceKHR surface);

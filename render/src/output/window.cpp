@@ -18,18 +18,6 @@ constexpr double kRefreshHz = 60.0;
 
 constexpr auto kNoWindow = core::ErrorCategory::DeviceMissing;
 
-constexpr double kLeftOver = 0.75;  // share of each side of another monitor, when its own has gone
-
-// Monitor of this name; null if there is none.
-GLFWmonitor* monitor_named(const std::string& name) {
-  int count = 0;
-  GLFWmonitor** const monitors = glfwGetMonitors(&count);
-  for (GLFWmonitor* candidate : std::span(monitors, static_cast<std::size_t>(count))) {
-    if (name == glfwGetMonitorName(candidate)) return candidate;
-  }
-  return nullptr;
-}
-
 std::string label_of_key(int code) {
   const char* const label = glfwGetKeyName(code, 0);
   return label == nullptr ? std::string() : label;
@@ -49,7 +37,8 @@ core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptio
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a wall stays full screen when its operator uses another screen
   glfwWindowHint(GLFW_DECORATED, options.rect ? GLFW_FALSE : GLFW_TRUE);
-  glfwWindowHint(GLFW_VISIBLE, options.rect ? GLFW_FALSE : GLFW_TRUE);  // hidden until it is in position
+  glfwWindowHint(GLFW_VISIBLE,
+                 options.rect || options.hidden ? GLFW_FALSE : GLFW_TRUE);  // hidden until it is in position
   const glm::uvec2 size = options.rect ? options.rect->size_px : glm::uvec2(options.width, options.height);
   handle->window_ =
       glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), options.title.c_str(), nullptr, nullptr);
@@ -66,28 +55,6 @@ core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptio
   glfwGetCursorPos(handle->window_, &handle->cursor_.x, &handle->cursor_.y);
   if (auto placed = handle->place(options); !placed) return tl::unexpected(placed.error());
   return handle;
-}
-
-core::Result<void> WindowHandle::place(const WindowOptions& options) {
-  if (options.rect) {
-    if (!can_place_windows()) {
-      return core::failure(kNoWindow,
-                           "a Wayland desktop does not let programs place their windows: name a monitor instead of a "
-                           "rectangle, or log in to an X11 session");
-    }
-    rect_ = options.rect;
-    fill_rect();
-    glfwShowWindow(window_);
-    return {};
-  }
-  if (options.monitor.empty()) {
-    if (options.full_screen) set_full_screen(true);
-    return {};
-  }
-  GLFWmonitor* const wanted = monitor_named(options.monitor);
-  if (wanted == nullptr) return core::failure(kNoWindow, "there is no monitor \"" + options.monitor + "\" here");
-  fill(wanted);
-  return {};
 }
 
 WindowHandle::~WindowHandle() {
@@ -119,54 +86,8 @@ WindowInput WindowHandle::poll() {
           .origin_px = glm::dvec2(x, y) * pixels_per_unit(),
           .close_requested = glfwWindowShouldClose(window_) == GLFW_TRUE,
           .monitor_change = update,
-          .monitor = update == WindowInput::MonitorChange::None ? std::string() : full_on_};
-}
-
-WindowInput::MonitorChange WindowHandle::follow_monitor() {
-  if (rect_) return follow_rect();
-  if (full_on_.empty() || full_screen()) return WindowInput::MonitorChange::None;
-  if (!monitor_lost_) {
-    monitor_lost_ = true;
-    become_small();
-    return WindowInput::MonitorChange::Lost;
-  }
-  GLFWmonitor* const back = monitor_named(full_on_);
-  if (back == nullptr) return WindowInput::MonitorChange::None;
-  fill(back);
-  return WindowInput::MonitorChange::Back;
-}
-
-// Querying monitor positions is slow, so this does it only when one came or went, or the window waits for one.
-WindowInput::MonitorChange WindowHandle::follow_rect() {
-  const unsigned changes = WindowSystem::monitor_changes();
-  const bool changed = std::exchange(monitor_changes_, changes) != changes;
-  if (!changed && !monitor_lost_) return WindowInput::MonitorChange::None;
-  const auto monitors = list_monitors();
-  const bool lost = !monitors || !is_shown(*rect_, *monitors);
-  if (std::exchange(monitor_lost_, lost) == lost) return WindowInput::MonitorChange::None;
-  if (lost) {
-    become_small();
-    return WindowInput::MonitorChange::Lost;
-  }
-  fill_rect();
-  return WindowInput::MonitorChange::Back;
-}
-
-// Moves the window onto a remaining monitor, wherever it lay when its own monitor went.
-void WindowHandle::become_small() {
-  GLFWmonitor* const left = glfwGetPrimaryMonitor();
-  const GLFWvidmode* const mode = left == nullptr ? nullptr : glfwGetVideoMode(left);
-  if (mode == nullptr) return;
-  const glm::ivec2 whole(mode->width, mode->height), size(kLeftOver * glm::dvec2(whole));
-  glm::ivec2 corner(0);
-  glfwGetMonitorPos(left, &corner.x, &corner.y);
-  corner += (whole - size) / 2;
-  glfwSetWindowMonitor(window_, nullptr, corner.x, corner.y, size.x, size.y, 0);
-}
-
-void WindowHandle::fill_rect() {
-  const glm::ivec2 size(rect_->size_px);
-  glfwSetWindowMonitor(window_, nullptr, rect_->offset_px.x, rect_->offset_px.y, size.x, size.y, 0);
+          .monitor = update == WindowInput::MonitorChange::None ? std::string() : full_on_,
+          .refused_place = std::exchange(refused_place_, std::nullopt)};
 }
 
 void WindowHandle::wait(double seconds) { glfwWaitEventsTimeout(seconds); }
@@ -190,59 +111,6 @@ glm::dvec2 WindowHandle::pixels_per_unit() const {
 }
 
 glm::dvec2 WindowHandle::picture_px(const glm::dvec2& place) const { return place * pixels_per_unit(); }
-
-// Monitor that shows the largest part of the window.
-GLFWmonitor* WindowHandle::monitor() const {
-  if (GLFWmonitor* current = glfwGetWindowMonitor(window_)) {
-    return current;
-  }
-  int x = 0, y = 0, width = 0, height = 0, count = 0;
-  glfwGetWindowPos(window_, &x, &y);
-  glfwGetWindowSize(window_, &width, &height);
-  GLFWmonitor* best = glfwGetPrimaryMonitor();
-  int best_area = 0;
-  GLFWmonitor** const monitors = glfwGetMonitors(&count);
-  for (GLFWmonitor* candidate : std::span(monitors, static_cast<std::size_t>(count))) {
-    const GLFWvidmode* mode = glfwGetVideoMode(candidate);
-    if (mode == nullptr) {
-      continue;
-    }
-    int left = 0, top = 0;
-    glfwGetMonitorPos(candidate, &left, &top);
-    const int shared_width = std::min(x + width, left + mode->width) - std::max(x, left);
-    const int shared_height = std::min(y + height, top + mode->height) - std::max(y, top);
-    const int area = std::max(shared_width, 0) * std::max(shared_height, 0);
-    if (area > best_area) {
-      best = candidate;
-      best_area = area;
-    }
-  }
-  return best;
-}
-
-void WindowHandle::fill(GLFWmonitor* monitor) {
-  const GLFWvidmode* const mode = glfwGetVideoMode(monitor);
-  if (mode == nullptr) {
-    return;
-  }
-  glfwGetWindowPos(window_, &windowed_x_, &windowed_y_);
-  glfwGetWindowSize(window_, &windowed_width_, &windowed_height_);
-  full_on_ = glfwGetMonitorName(monitor);
-  monitor_lost_ = false;
-  glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
-}
-
-void WindowHandle::set_full_screen(bool wanted) {
-  if (wanted == full_screen() || rect_) {
-    return;
-  }
-  if (!wanted) {
-    full_on_.clear();
-    glfwSetWindowMonitor(window_, nullptr, windowed_x_, windowed_y_, windowed_width_, windowed_height_, 0);
-  } else if (GLFWmonitor* const screen = monitor()) {
-    fill(screen);
-  }
-}
 
 glm::ivec2 WindowHandle::screen_px() const {
   GLFWmonitor* const screen = monitor();

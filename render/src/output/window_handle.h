@@ -41,6 +41,8 @@ class WindowHandle {
   void fill(GLFWmonitor* monitor);
   WindowInput::MonitorChange follow_monitor();
   WindowInput::MonitorChange follow_rect();
+  void follow_mode();
+  void keep_rect();
   void become_small();
   void fill_rect();
   glm::dvec2 picture_px(const glm::dvec2& place) const;
@@ -56,7 +58,12 @@ class WindowHandle {
   GLFWwindow* window_ = nullptr;
   std::optional<scene::PixelRect> rect_;                        // position, restored when a monitor is back
   unsigned monitor_changes_ = WindowSystem::monitor_changes();  // as last seen by follow_rect()
-  std::string full_on_;  // monitor filled, or filled again when it is back; empty: a window
+  std::optional<scene::PixelRect> refused_place_;  // place that a window manager insists on, until the next poll
+  int refills_ = 0;                                // attempts to place the window, in a row
+  double last_refill_s_ = 0, next_look_s_ = 0;     // by GLFW's clock
+  std::string full_on_;                            // monitor filled, or filled again when it is back; empty: a window
+  glm::ivec2 full_corner_{0};                      // corner of the filled monitor on the desktop
+  glm::ivec2 full_size_{0};                        // size of that monitor's mode when it was filled
   bool monitor_lost_ = false;
   std::vector<WindowEvent> events_;
   struct Pressed {

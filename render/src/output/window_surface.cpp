@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/log.h"
 #include "device/barriers.h"
 #include "render/presenter.h"
 
@@ -26,13 +27,15 @@ WindowSurface::WindowSurface(const Device& device, Window& window, Composer& com
       acquired_(*device, vk::SemaphoreCreateInfo{}) {}
 
 core::Result<void> WindowSurface::choose_format() {
-  if (device_.physical().getSurfaceSupportKHR(device_.queue_family(), *surface_) == VK_TRUE) {
-    format_ = choose_surface_format(device_, *surface_);
-  }
-  if (format_.format == vk::Format::eUndefined) {
-    return core::failure(core::ErrorCategory::DeviceMissing,
-                         "cannot show pictures with 8 bits per channel in a window on this display with " +
-                             device_.name() + ": set the display to a colour depth of 24 bits");
+  const auto format = choose_surface_format(device_, *surface_);
+  if (!format) return tl::unexpected(format.error());
+  format_ = *format;
+  const bool ten_bits =
+      format_.format == vk::Format::eA2B10G10R10UnormPack32 || format_.format == vk::Format::eA2R10G10B10UnormPack32;
+  if (ten_bits && device_.physical().getProperties().deviceType == vk::PhysicalDeviceType::eCpu) {
+    // Mesa 22.3 sends every picture as one of 24 bits, which such a window refuses
+    core::log_line("the display has a colour depth of 30 bits: where " + device_.name() +
+                   " shows a black window, set the display to 24 bits");
   }
   pipeline_ = composer_.create_pipeline_for(format_.format);
   return {};

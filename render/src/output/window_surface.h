@@ -22,7 +22,7 @@ class WindowSurface {
   WindowSurface(const WindowSurface&) = delete;
   WindowSurface& operator=(const WindowSurface&) = delete;
 
-  // DeviceMissing: the display shows no pictures of 8 bits per channel.
+  // DeviceMissing: the display shows no pictures of 8 or 10 bits per channel.
   core::Result<void> choose_format();
 
   // 2 on a display with a picture for each eye; 1 while the surface is lost.

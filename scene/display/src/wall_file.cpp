@@ -20,6 +20,7 @@
 #include "scene/config/toml_file.h"
 #include "scene/config/toml_table.h"
 #include "scene/display/wall.h"
+#include "scene/display/wall_doubts.h"
 #include "screen_blends.h"
 #include "wall_pvx.h"
 
@@ -189,11 +190,6 @@ Output read_output(const TomlTable& table, const Wall& wall, const std::string& 
   return output;
 }
 
-bool overlap(const PixelRect& a, const PixelRect& b) {
-  const glm::ivec2 a_end = a.offset_px + glm::ivec2(a.size_px), b_end = b.offset_px + glm::ivec2(b.size_px);
-  return a.offset_px.x < b_end.x && b.offset_px.x < a_end.x && a.offset_px.y < b_end.y && b.offset_px.y < a_end.y;
-}
-
 // Checks what two outputs may not share, and the pair that dual needs.
 void check_together(const Output& output, const std::vector<Output>& earlier, const TomlTable& table) {
   for (const Output& other : earlier) {
@@ -265,6 +261,16 @@ void blend(Wall& wall, const TomlTable& root, const std::vector<EdgeWidths>& wid
   root.tables(kind).at(fault->index).refuse(fault->key, fault->what);
 }
 
+void check_in_front(const Wall& wall, const Viewer& viewer, const TomlTable& table) {
+  for (const Screen& screen : wall.screens) {
+    for (const Eye eye : kEyes) {
+      const auto view = off_axis_view(screen, eye_position(viewer.sweet_spot, eye, viewer.ipd_m),
+                                      DepthConvention::VulkanReversedInfinite, kNearM, 0.0);
+      if (!view) table.refuse("sweet_spot", view.error().message);
+    }
+  }
+}
+
 Wall read_wall(const TomlTable& root, const std::string& path) {
   root.allow_only({"screen", "node", "output", "viewer"});
   Wall wall;
@@ -287,17 +293,13 @@ Wall read_wall(const TomlTable& root, const std::string& path) {
     }
     check_pairs(wall.outputs, tables);
   }
-  for (const TomlTable& table : root.tables("viewer")) {
-    wall.viewers.push_back(read_viewer(table));
-    const Viewer& viewer = wall.viewers.back();
-    for (const Screen& screen : wall.screens) {
-      for (const Eye eye : kEyes) {
-        const auto view = off_axis_view(screen, eye_position(viewer.sweet_spot, eye, viewer.ipd_m),
-                                        DepthConvention::VulkanReversedInfinite, kNearM, 0.0);
-        if (!view) table.refuse("sweet_spot", view.error().message);
-      }
-    }
+  const std::vector<TomlTable> viewers = root.tables("viewer");
+  for (const TomlTable& table : viewers) wall.viewers.push_back(read_viewer(table));
+  if (const auto fault = impossible_length(wall)) {
+    if (fault->of_viewer) viewers[fault->index].refuse("sweet_spot", fault->what);
+    root.tables("screen")[fault->index].refuse("lower_left", fault->what);
   }
+  for (std::size_t i = 0; i < viewers.size(); ++i) check_in_front(wall, wall.viewers[i], viewers[i]);
   blend(wall, root, widths_m, lights);
   return wall;
 }

@@ -27,10 +27,14 @@ struct MeshFault {
   std::string what;
 };
 
-// Reads lines of numbers separated by spaces.
+// Reads lines of numbers separated by spaces. Skips a byte order mark, empty lines, and comments from # to the line's
+// end.
 class MeshLines {
  public:
-  explicit MeshLines(std::string_view text) : rest_(text) {}
+  explicit MeshLines(std::string_view text) : rest_(text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+  }
 
   std::size_t number() const { return number_; }
 
@@ -39,11 +43,8 @@ class MeshLines {
   // Next line, with exactly `Count` numbers.
   template <std::size_t Count>
   std::array<double, Count> next(const char* meaning) {
-    ++number_;
-    if (rest_.empty()) fail(fmt::format("the file ends here; expected {}", meaning));
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    std::string_view line = next_line();
+    if (line.empty()) fail(fmt::format("the file ends here; expected {}", meaning));
     std::array<double, Count> values{};
     for (double& value : values) {
       skip_blanks(line);
@@ -58,13 +59,7 @@ class MeshLines {
   }
 
   void expect_end() {
-    while (!rest_.empty() && (is_blank(rest_.front()) || rest_.front() == '\n')) {
-      number_ += rest_.front() == '\n' ? 1U : 0U;
-      rest_.remove_prefix(1);
-    }
-    if (rest_.empty()) return;
-    ++number_;
-    fail("there are more lines than nodes; check the columns and rows of line 2");
+    if (!next_line().empty()) fail("there are more lines than nodes; check the columns and rows in its second line");
   }
 
  private:
@@ -73,8 +68,23 @@ class MeshLines {
     while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
   }
 
+  // The next line with anything but blanks, without them at its beginning, and without its comment; empty at the end.
+  std::string_view next_line() {
+    while (!rest_.empty()) {
+      ++number_;
+      const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+      std::string_view line = rest_.substr(0, end);
+      rest_.remove_prefix(std::min(end + 1, rest_.size()));
+      line = line.substr(0, line.find('#'));
+      skip_blanks(line);
+      if (!line.empty()) return line;
+    }
+    ++number_;
+    return {};
+  }
+
   std::string_view rest_;
-  std::size_t number_ = 0;
+  std::size_t number_ = 0;  // number of the newest line
 };
 
 // Coordinates as in the file: x to the right, y and v up.
@@ -107,8 +117,8 @@ double drawn_area(const WarpNode& a, const WarpNode& b, const WarpNode& c) {
 }
 
 // A picture that overlaps itself has two colours for one pixel; a mirrored one exchanges near and far.
-void check_cells(const WarpMesh& mesh) {
-  constexpr std::size_t kFirstNodeLine = 3;
+// `lines` has the line of each node.
+void check_cells(const WarpMesh& mesh, const std::vector<std::size_t>& lines) {
   double turn = 0.0;  // common orientation of all triangles: 1 or -1
   double drawn = 0.0;
   for (std::uint32_t row = 0; row + 1 < mesh.rows; ++row) {
@@ -116,7 +126,7 @@ void check_cells(const WarpMesh& mesh) {
       const std::array cell{&mesh.node(column, row), &mesh.node(column + 1, row), &mesh.node(column + 1, row + 1),
                             &mesh.node(column, row + 1)};
       if (std::any_of(cell.begin(), cell.end(), [](const WarpNode* node) { return node->intensity < 0.0; })) continue;
-      const std::size_t line = kFirstNodeLine + std::size_t{row} * mesh.columns + column;
+      const std::size_t line = lines[std::size_t{row} * mesh.columns + column];
       for (const auto& [b, c] : {std::pair(cell[1], cell[2]), std::pair(cell[2], cell[3])}) {
         const double area = doubled_area(cell[0]->output, b->output, c->output);
         const double seen = doubled_area(cell[0]->picture, b->picture, c->picture);
@@ -133,7 +143,7 @@ void check_cells(const WarpMesh& mesh) {
       }
     }
   }
-  if (drawn > kMostDrawn) throw MeshFault{kFirstNodeLine, "the mesh lies over itself many times"};
+  if (drawn > kMostDrawn) throw MeshFault{lines.front(), "the mesh lies over itself many times"};
   if (turn == 0.0) throw MeshFault{1, "no cell of the mesh is drawn: every one has a node of negative intensity"};
 }
 
@@ -158,19 +168,24 @@ WarpMesh read_mesh(std::string_view text, std::optional<double> aspect) {
   WarpMesh mesh{static_cast<std::uint32_t>(size[0]), static_cast<std::uint32_t>(size[1]), {}};
   const std::size_t count = std::size_t{mesh.columns} * mesh.rows;
   mesh.nodes.reserve(count);
-  while (mesh.nodes.size() < count) mesh.nodes.push_back(read_node(lines));
+  std::vector<std::size_t> node_lines;
+  node_lines.reserve(count);
+  while (mesh.nodes.size() < count) {
+    mesh.nodes.push_back(read_node(lines));
+    node_lines.push_back(lines.number());
+  }
   lines.expect_end();
 
   const double width = aspect.value_or(largest_x(mesh));
   if (width < kSmallestAspect || width > kLargestAspect) {
-    throw MeshFault{3,
+    throw MeshFault{node_lines.front(),
                     fmt::format("the largest x is {:g}; it must be the output's width divided by its height", width)};
   }
   for (WarpNode& node : mesh.nodes) {
     node.output = {0.5 * (node.output.x / width + 1.0), 0.5 * (1.0 - node.output.y)};
     node.picture.y = 1.0 - node.picture.y;
   }
-  check_cells(mesh);
+  check_cells(mesh, node_lines);
   return mesh;
 }
 

@@ -44,8 +44,7 @@ class ViewOutputsTest : public ::testing::Test {
   }
 
   const scene::Screen stage_{"wall", {-2.0, 0.0, 0.0}, {2.0, 0.0, 0.0}, {-2.0, 3.0, 0.0}};
-  const std::vector<render::Monitor> monitors_{{"DP-1", {{0, 0}, {800, 600}}, 60.0},
-                                               {"DP-2", {{800, 0}, {800, 600}}, 60.0}};
+  std::vector<render::Monitor> monitors_{{"DP-1", {{0, 0}, {800, 600}}, 60.0}, {"DP-2", {{800, 0}, {800, 600}}, 60.0}};
   scene::Wall wall_;
 };
 
@@ -86,6 +85,17 @@ TEST_F(ViewOutputsTest, EachTileKeepsItsOwnScreen) {
   EXPECT_EQ(outputs[0].screen.name, "wall");
   EXPECT_EQ(outputs[1].screen.name, "side");
   EXPECT_EQ(outputs[1].window.monitor, "DP-2");  // by its number
+}
+
+// Wayland names a monitor by its make.
+TEST_F(ViewOutputsTest, TwoMonitorsOfOneNameAreToldApartByTheirNumbers) {
+  for (render::Monitor& monitor : monitors_) monitor.name = "ACME projector";
+  wall_.outputs = {output_on("a", "1"), output_on("b", "2")};
+  const auto outputs = plan().value();
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    EXPECT_EQ(outputs[i].window.monitor, "ACME projector");
+    EXPECT_EQ(outputs[i].window.monitor_corner, monitors_.at(i).rect.offset_px);
+  }
 }
 
 TEST_F(ViewOutputsTest, AMonitorThatIsNotThereIsNamedWithThoseThatAre) {

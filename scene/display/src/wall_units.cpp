@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wall_units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace afm::scene {
+
+namespace {
+
+constexpr double kMostExtents = 20.0;
+constexpr double kHighestHeadM = 3.2;
+constexpr double kLeastExtentM = 0.05, kMostExtentM = 60.0, kLeastDistanceM = 0.15;
+
+// A person in front of a wall: lengths that are farther from these are less probable.
+constexpr double kUsualExtentM = 3.7, kUsualDistanceM = 2.5, kUsualHeightM = 1.6;
+
+// `penalty` is added to the distance from the usual lengths: decimetres come last.
+struct LengthUnit {
+  std::string_view name;
+  double m;
+  double penalty;
+};
+constexpr LengthUnit kMetres{"metres", 1.0, 0.0};
+constexpr std::array kOtherUnits{LengthUnit{"millimetres", 1e-3, 0.0}, LengthUnit{"centimetres", 1e-2, 0.0},
+                                 LengthUnit{"inches", 0.0254, 0.0}, LengthUnit{"feet", 0.3048, 0.0},
+                                 LengthUnit{"decimetres", 0.1, 5.0}};
+constexpr double kPenaltyOfOneInMetres = 0.7, kPenaltyOfTwoUnits = 2.5;
+constexpr double kNearlyAsGood = 3.0;
+
+std::array<glm::dvec3, 4> corners_of(const Screen& screen) {
+  return {screen.lower_left, screen.lower_right, screen.upper_left,
+          screen.lower_right + screen.upper_left - screen.lower_left};
+}
+
+struct Reading {
+  LengthUnit screens, head;
+  WallLengths lengths;
+  double width_m = 0, height_m = 0;
+  double penalty = std::numeric_limits<double>::infinity();
+
+  bool in_one_unit() const { return screens.m == head.m; }
+};
+
+double from_usual(double length_m, double usual_m) { return std::abs(std::log(length_m / usual_m)); }
+
+Reading read_in(const Wall& wall, Viewer viewer, const LengthUnit& screens, const LengthUnit& head) {
+  Wall scaled{.screens = wall.screens, .outputs = {}, .viewers = {}};
+  for (Screen& screen : scaled.screens) {
+    for (glm::dvec3* corner : {&screen.lower_left, &screen.lower_right, &screen.upper_left}) *corner *= screens.m;
+  }
+  viewer.sweet_spot.position_m *= head.m;
+  Reading reading{screens, head, lengths_of(scaled, viewer)};
+  reading.width_m = scaled.screens.front().width_m();
+  reading.height_m = scaled.screens.front().height_m();
+  const WallLengths& lengths = reading.lengths;
+  const bool possible = lengths.extent_m >= kLeastExtentM && lengths.extent_m <= kMostExtentM &&
+                        lengths.distance_m >= kLeastDistanceM && !too_far(lengths) && !too_high(lengths);
+  if (!possible) return reading;
+  const bool one_in_metres = screens.m == kMetres.m || head.m == kMetres.m;
+  reading.penalty =
+      screens.penalty + from_usual(lengths.extent_m, kUsualExtentM) + from_usual(lengths.distance_m, kUsualDistanceM);
+  if (!reading.in_one_unit())
+    reading.penalty += head.penalty + (one_in_metres ? kPenaltyOfOneInMetres : kPenaltyOfTwoUnits);
+  if (lengths.head_height_m > 0.0) reading.penalty += from_usual(lengths.head_height_m, kUsualHeightM);
+  return reading;
+}
+
+std::string described(const Reading& reading) {
+  const std::string screen = fmt::format("{:.2f} m x {:.2f} m", reading.width_m, reading.height_m);
+  const std::string head = fmt::format("{:.2f} m in front of it", reading.lengths.distance_m);
+  if (reading.in_one_unit()) {
+    return fmt::format("as {}, the screen would be {} with the head {}", reading.screens.name, screen, head);
+  }
+  if (reading.screens.m == kMetres.m) {
+    return fmt::format("with sweet_spot in {}, the head would be {}", reading.head.name, head);
+  }
+  return fmt::format("with the corners in {} and sweet_spot in {}, the screen would be {} with the head {}",
+                     reading.screens.name, reading.head.name, screen, head);
+}
+
+}  // namespace
+
+WallLengths lengths_of(const Wall& wall, const Viewer& viewer) {
+  std::vector<glm::dvec3> corners;
+  WallLengths lengths{.distance_m = std::numeric_limits<double>::infinity()};
+  double lowest_m = std::numeric_limits<double>::infinity();
+  const glm::dvec3& head_m = viewer.sweet_spot.position_m;
+  for (const Screen& screen : wall.screens) {
+    for (const glm::dvec3& corner : corners_of(screen)) {
+      for (const glm::dvec3& other : corners)
+        lengths.extent_m = std::max(lengths.extent_m, glm::distance(corner, other));
+      corners.push_back(corner);
+      lowest_m = std::min(lowest_m, corner.y);
+    }
+    lengths.distance_m = std::min(lengths.distance_m, glm::dot(head_m - screen.lower_left, screen.normal()));
+  }
+  constexpr double kOnFloor = -0.05;  // share of the wall's extent
+  if (lowest_m >= kOnFloor * lengths.extent_m) lengths.head_height_m = std::max(head_m.y, 0.0);
+  return lengths;
+}
+
+bool too_far(const WallLengths& lengths) { return lengths.distance_m > kMostExtents * lengths.extent_m; }
+bool too_high(const WallLengths& lengths) { return lengths.head_height_m > kHighestHeadM; }
+
+std::string unit_that_fits(const Wall& wall, const Viewer& viewer) {
+  std::vector<Reading> readings;
+  for (const LengthUnit& unit : kOtherUnits) {
+    readings.push_back(read_in(wall, viewer, unit, unit));
+    readings.push_back(read_in(wall, viewer, unit, kMetres));
+    readings.push_back(read_in(wall, viewer, kMetres, unit));
+    for (const LengthUnit& other : kOtherUnits) {
+      if (other.m != unit.m) readings.push_back(read_in(wall, viewer, unit, other));
+    }
+  }
+  std::sort(readings.begin(), readings.end(), [](const Reading& a, const Reading& b) { return a.penalty < b.penalty; });
+  const Reading& best = readings.front();
+  if (!std::isfinite(best.penalty)) return "lengths are in metres: check the unit";
+  std::string text = "lengths are in metres: " + described(best);
+  if (!best.in_one_unit()) return text;
+  for (const Reading& next : readings) {
+    if (&next == &best || !next.in_one_unit() || next.penalty > best.penalty + kNearlyAsGood) continue;
+    return text + "; " + described(next);
+  }
+  return text;
+}
+
+}  // namespace afm::scene

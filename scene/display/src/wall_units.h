@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "scene/display/wall.h"
+
+namespace afm::scene {
+
+// The lengths by which a unit is doubted, for one viewer.
+struct WallLengths {
+  double extent_m = 0;       // between the farthest corners of all screens
+  double distance_m = 0;     // from the head to the nearest screen's plane; negative behind one
+  double head_height_m = 0;  // above the room's floor; 0 if the screens reach below y = 0 and the floor is unknown
+};
+WallLengths lengths_of(const Wall& wall, const Viewer& viewer);
+
+// Farther than any viewer of a wall of that size: the picture would fill less than three degrees.
+bool too_far(const WallLengths& lengths);
+// Higher than the eyes of a standing person on any usual platform.
+bool too_high(const WallLengths& lengths);
+
+// Names the unit in which the wall or the viewer's place may be written, such as "; read as millimetres, ..."; or only
+// asks to check it.
+std::string unit_that_fits(const Wall& wall, const Viewer& viewer);
+
+}  // namespace afm::scene

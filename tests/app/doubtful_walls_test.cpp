@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wall files in other units, axes and turns, as wall, view and render meet them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/live_program.h"
+#include "support/places.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+#include "support/virtual_display.h"
+
+namespace afm::app {
+namespace doubtful_walls_test {
+
+using support::ProgramResult;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Case {
+  const char* file;
+  bool refused;
+  std::vector<const char*> said;
+};
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all{
+      {"millimetres.toml", true, {"3200 m x 1800 m", "as millimetres, the screen would be 3.20 m x 1.80 m"}},
+      {"centimetres.toml", true, {"320 m x 180 m", "as centimetres, the screen would be 3.20 m x 1.80 m"}},
+      {"head-in-millimetres.toml", true, {"2400 m in front", "sweet_spot in millimetres"}},
+      {"upside-down.toml",
+       false,
+       {"the upper edge is below the lower edge", "upside down in the room", "lit from below"}},
+      {"z-up.toml", false, {"the upper edge points along +z", "on its back", "[x, z, -y]"}},
+      {"head-looks-away.toml", false, {"away from every screen", "exchanged", "[0, 0, 0, 1]"}},
+      {"quaternion-w-first.toml", false, {"upside down", "x, y, z, w"}}};
+  return all;
+}
+
+std::string wall(const char* file) { return support::source(std::string("tests/scene/data/walls/") + file); }
+
+TEST(DoubtfulWalls, AreRefusedOrNotedByTheWallCommand) {
+  for (const Case& one : cases()) {
+    const ProgramResult result = support::run_program(support::touchafm() + " wall " + wall(one.file));
+    EXPECT_EQ(result.exit_code, one.refused ? 3 : 0) << one.file;
+    const std::string& text = one.refused ? result.err : result.out;
+    for (const char* said : one.said) EXPECT_THAT(text, HasSubstr(said)) << one.file;
+    EXPECT_THAT(text, HasSubstr(one.refused ? "touchafm: " : "note: ")) << one.file;
+    EXPECT_THAT(result.out, Not(HasSubstr("the wall file is valid"))) << one.file;
+
+    // JSON stays JSON
+    const ProgramResult json = support::run_program(support::touchafm() + " wall --json " + wall(one.file));
+    for (const char* said : one.said) EXPECT_THAT(json.err, HasSubstr(said)) << one.file;
+    EXPECT_THAT(json.out, Not(HasSubstr("note"))) << one.file;
+  }
+}
+
+TEST(DoubtfulWalls, AreRefusedOrLoggedByRender) {
+  const support::ScratchFolder folder;
+  for (const Case& one : cases()) {
+    const ProgramResult result = support::run_program(support::touchafm() + " render --journey 4 --size 64x36 --out " +
+                                                      folder.file("wall.png") + " --wall " + wall(one.file));
+    EXPECT_EQ(result.exit_code, one.refused ? 3 : 0) << one.file << result.err;
+    for (const char* said : one.said) EXPECT_THAT(result.err, HasSubstr(said)) << one.file;
+  }
+}
+
+TEST(DoubtfulWalls, AreRefusedOrLoggedByView) {
+  const support::VirtualDisplay display(320, 240);
+  for (const Case& one : {cases()[0], cases()[5]}) {
+    support::LiveProgram program({support::touchafm(), "view", "--size", "160x90", "--eye-width", "160", "--servo",
+                                  support::servo_mode(), "--wall", wall(one.file)},
+                                 display.name());
+    if (!one.refused) {
+      ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();
+      program.signal(SIGTERM);
+    }
+    EXPECT_EQ(program.ends(), one.refused ? 3 : 0) << program.said();
+    for (const char* said : one.said) EXPECT_THAT(program.said(), HasSubstr(said)) << one.file;
+  }
+}
+
+TEST(DoubtfulWalls, OfParaViewTakeStereoAndViewers) {
+  const ProgramResult pair = support::run_program(support::touchafm() + " wall " + wall("stereo-types.pvx"));
+  EXPECT_EQ(pair.exit_code, 0) << pair.err;
+  EXPECT_THAT(pair.out, AllOf(HasSubstr("output pl: screen pl, dual, left eye, 1920 x 1080 pixels at 0, 0"),
+                              HasSubstr("output pr: screen pl, dual, right eye, 1920 x 1080 pixels at 1920, 0"),
+                              HasSubstr("64.0 mm between the eyes")));
+  const ProgramResult viewers = support::run_program(support::touchafm() + " wall " + wall("viewers.pvx"));
+  EXPECT_THAT(viewers.out, HasSubstr("58.0 mm between the eyes"));
+}
+
+// The height of a capital letter, as a person measures it on the wall, not of the em square.
+TEST(WallCommand, SaysHowHighACapitalIs) {
+  const ProgramResult result =
+      support::run_program(support::touchafm() + " wall " + support::source("assets/walls/powerwall.toml"));
+  EXPECT_THAT(result.out, HasSubstr("the smallest capital letters are 18.0 mm high, 25 arc minutes"));
+}
+
+}  // namespace doubtful_walls_test
+}  // namespace afm::app

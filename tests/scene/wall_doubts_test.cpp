@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walls as people bring them: in other units, axes and turns. A wall that is meant as it is written has no doubt.
+#include "scene/display/wall_doubts.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+#include "support/places.h"
+#include "support/scratch_folder.h"
+
+namespace afm::scene {
+namespace wall_doubts_test {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+struct Written {
+  glm::dvec3 lower_left{-1.6, 0.5, 0}, lower_right{1.6, 0.5, 0}, upper_left{-1.6, 2.3, 0}, head{0, 1.65, 2.4};
+  std::string orientation{};  // in the file's order; empty: not given
+  std::string more{};         // other tables, before the viewer
+  std::string viewers{};      // behind it
+
+  Written scaled(double screens, double head_scale) const {
+    Written other = *this;
+    for (glm::dvec3* corner : {&other.lower_left, &other.lower_right, &other.upper_left}) *corner *= screens;
+    other.head *= head_scale;
+    return other;
+  }
+  std::string text() const {
+    const auto point = [](const glm::dvec3& v) { return fmt::format("[{:.6f}, {:.6f}, {:.6f}]", v.x, v.y, v.z); };
+    return fmt::format(
+        "[[screen]]\nname = \"wall\"\nlower_left = {}\nlower_right = {}\nupper_left = {}\n{}\n"
+        "[[viewer]]\nname = \"guest\"\nipd = \"63 mm\"\nsweet_spot = {}\n{}{}",
+        point(lower_left), point(lower_right), point(upper_left), more, point(head),
+        orientation.empty() ? "" : "sweet_spot_orientation = " + orientation + "\n", viewers);
+  }
+  core::Result<Wall> wall() const {
+    const support::ScratchFolder folder;
+    return load_wall(folder.write("wall.toml", text()));
+  }
+  std::vector<std::string> doubts() const {
+    const auto read = wall();
+    EXPECT_TRUE(read.has_value()) << read.error().message;
+    return read ? doubts_of(*read) : std::vector<std::string>{read.error().message};
+  }
+  std::string refusal() const {
+    const auto read = wall();
+    if (read) return "accepted";
+    EXPECT_EQ(read.error().category, core::ErrorCategory::BadInputFile);
+    return read.error().message;
+  }
+};
+
+Written desk() { return {{-0.2985, 0.12, 0}, {0.2985, 0.12, 0}, {-0.2985, 0.456, 0}, {0, 0.34, 0.65}, {}, {}, {}}; }
+
+// Every preset is meant as it is written.
+TEST(WallDoubts, ArisesForNoPreset) {
+  std::size_t presets = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(support::source("assets/walls"))) {
+    if (entry.path().extension() != ".toml") continue;
+    const auto wall = load_wall(entry.path().string());
+    ASSERT_TRUE(wall.has_value()) << wall.error().message;
+    EXPECT_THAT(notes_of(*wall), IsEmpty()) << entry.path();
+    ++presets;
+  }
+  EXPECT_GE(presets, 11U);
+  EXPECT_THAT(Written().doubts(), IsEmpty());
+}
+
+TEST(WallDoubts, RefuseAWallInAnotherUnitAndNameTheUnit) {
+  const auto refused = [](double units_per_m, const char* unit) {
+    const std::string refusal = Written().scaled(units_per_m, units_per_m).refusal();
+    EXPECT_THAT(refusal, AllOf(HasSubstr("line 3"), HasSubstr("screen.lower_left"), HasSubstr(unit),
+                               HasSubstr("3.20 m x 1.80 m with the head 2.40 m in front of it")));
+  };
+  refused(1e3, "as millimetres");
+  refused(1e2, "as centimetres");
+  refused(1.0 / 0.0254, "as inches");
+  EXPECT_THAT(Written().scaled(1e3, 1e3).refusal(), HasSubstr("3200 m x 1800 m"));
+  EXPECT_THAT(desk().scaled(1e3, 1e3).refusal(), HasSubstr("as millimetres"));
+}
+
+TEST(WallDoubts, NameTheUnitWhereTheWallCouldBeInMetres) {
+  EXPECT_THAT(
+      Written().scaled(1.0 / 0.3048, 1.0 / 0.3048).doubts(),
+      ElementsAre(AllOf(HasSubstr("viewer \"guest\""), HasSubstr("5.41 m above the floor"), HasSubstr("as feet"))));
+  EXPECT_THAT(desk().scaled(1.0 / 0.0254, 1.0 / 0.0254).doubts(), ElementsAre(HasSubstr("as inches")));
+  EXPECT_THAT(desk().scaled(1e2, 1e2).doubts(), ElementsAre(HasSubstr("as centimetres")));
+}
+
+TEST(WallDoubts, NameTheUnitOfCornersOrHeadAlone) {
+  EXPECT_THAT(Written().scaled(1.0, 1e3).refusal(),
+              AllOf(HasSubstr("line 10"), HasSubstr("viewer.sweet_spot"), HasSubstr("2400 m in front"),
+                    HasSubstr("sweet_spot in millimetres"), HasSubstr("2.40 m in front")));
+  EXPECT_THAT(Written().scaled(1.0, 1e2).refusal(), HasSubstr("sweet_spot in centimetres"));
+  EXPECT_THAT(Written().scaled(1.0, 1.0 / 0.0254).refusal(), HasSubstr("sweet_spot in inches"));
+  EXPECT_THAT(Written().scaled(1.0, 1.0 / 0.3048).doubts(), ElementsAre(HasSubstr("sweet_spot in feet")));
+  EXPECT_THAT(Written().scaled(1e3, 1.0).refusal(), HasSubstr("corners in millimetres and sweet_spot in metres"));
+}
+
+TEST(WallDoubts, AreSaidOfEveryViewer) {
+  Written two;
+  two.viewers = "[[viewer]]\nname = \"second\"\nipd = \"60 mm\"\nsweet_spot = [0, 1650, 2400]\n";
+  EXPECT_THAT(two.refusal(), AllOf(HasSubstr("line 14"), HasSubstr("sweet_spot in millimetres")));
+  two.viewers =
+      "[[viewer]]\nname = \"second\"\nipd = \"60 mm\"\nsweet_spot = [0, 1.65, 2.4]\n"
+      "sweet_spot_orientation = [0, 1, 0, 0]\n";
+  EXPECT_THAT(two.doubts(), ElementsAre(AllOf(HasSubstr("viewer \"second\""), HasSubstr("away"))));
+}
+
+TEST(WallDoubts, KnowAHeadThatIsTooNearOrTooFar) {
+  Written near;
+  near.head = {0, 1.65, 0.076};
+  EXPECT_THAT(near.doubts(),
+              ElementsAre(AllOf(HasSubstr("76 mm in front of screen \"wall\""), HasSubstr("3.20 m wide"))));
+  Written phone{{-0.03, 1.2, 0}, {0.03, 1.2, 0}, {-0.03, 1.3, 0}, {0, 1.65, 5}, {}, {}, {}};
+  EXPECT_THAT(phone.doubts(), ElementsAre(HasSubstr("5.00 m in front")));
+  Written lecture;  // the last row of a lecture hall
+  lecture.head = {0, 2.8, 30};
+  EXPECT_THAT(lecture.doubts(), IsEmpty());
+}
+
+TEST(WallDoubts, KnowAPictureThatIsUpsideDown) {
+  Written hanging;
+  hanging.lower_left = {1.6, 2.3, 0};
+  hanging.lower_right = {-1.6, 2.3, 0};
+  hanging.upper_left = {1.6, 0.5, 0};
+  EXPECT_THAT(hanging.doubts(), ElementsAre(AllOf(HasSubstr("screen \"wall\""), HasSubstr("upper edge is below"),
+                                                  HasSubstr("upside down"))));
+}
+
+// The same wall in a room whose z points up, seen from each side, and a picture on its side.
+TEST(WallDoubts, KnowARoomWhoseZPointsUp) {
+  const auto turned = [](const glm::dmat3& room_from_usual) {
+    Written other;
+    for (glm::dvec3* point : {&other.lower_left, &other.lower_right, &other.upper_left, &other.head}) {
+      *point = room_from_usual * *point;
+    }
+    return other.doubts();
+  };
+  const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  const auto is_said = [&](const glm::dvec3& right, const glm::dvec3& back) {
+    const auto doubts = turned(glm::dmat3(right, z, back));
+    ASSERT_FALSE(doubts.empty());
+    EXPECT_THAT(doubts.front(), AllOf(HasSubstr("upper edge points along +z"), HasSubstr("[x, z, -y]")));
+  };
+  is_said(x, -y);   // looks along y, as Blender's and Vicon's rooms do
+  is_said(-y, -x);  // looks along x, as in ROS
+  is_said(-x, y);
+  is_said(y, x);
+  Written on_its_side;
+  on_its_side.lower_left = {1.6, 0.5, 0};
+  on_its_side.lower_right = {1.6, 3.7, 0};
+  on_its_side.upper_left = {-0.2, 0.5, 0};
+  EXPECT_THAT(on_its_side.doubts(), ElementsAre(HasSubstr("upper edge points along -x")));
+}
+
+TEST(WallDoubts, ExceptFloorsCeilingsAndTables) {
+  const Written floor{{-1.5, 0, 1}, {1.5, 0, 1}, {-1.5, 0, -1}, {0, 1.65, 1.3}, {}, {}, {}};
+  EXPECT_THAT(floor.doubts(), IsEmpty());
+  Written from_behind = floor;  // a viewer at the other side of a table
+  from_behind.orientation = "[0, 1, 0, 0]";
+  from_behind.head.z = -1.3;
+  EXPECT_THAT(from_behind.doubts(), IsEmpty());
+  const Written ceiling{{-1.6, 2.8, -1}, {1.6, 2.8, -1}, {-1.6, 2.8, 1}, {0, 1.2, 0}, {}, {}, {}};
+  EXPECT_THAT(ceiling.doubts(), IsEmpty());
+  const Written drafting_table{{-0.6, 0.8, 0}, {0.6, 0.8, 0}, {-0.6, 1.2, -0.7}, {0, 1.6, 0.6}, {}, {}, {}};
+  EXPECT_THAT(drafting_table.doubts(), IsEmpty());
+
+  // a CAVE around the room's origin, ceiling and floor too
+  Written cave{{-1.5, -1.5, -1.5}, {1.5, -1.5, -1.5}, {-1.5, 1.5, -1.5}, {0, 0, 0}, {}, {}, {}};
+  cave.more =
+      "[[screen]]\nname = \"ceiling\"\nlower_left = [-1.5, 1.5, -1.5]\nlower_right = [1.5, 1.5, -1.5]\n"
+      "upper_left = [-1.5, 1.5, 1.5]\n"
+      "[[screen]]\nname = \"floor\"\nlower_left = [-1.5, -1.5, 1.5]\nlower_right = [1.5, -1.5, 1.5]\n"
+      "upper_left = [-1.5, -1.5, -1.5]\n"
+      "[[screen]]\nname = \"left\"\nlower_left = [-1.5, -1.5, 1.5]\nlower_right = [-1.5, -1.5, -1.5]\n"
+      "upper_left = [-1.5, 1.5, 1.5]\n";
+  EXPECT_THAT(cave.doubts(), IsEmpty());
+}
+
+TEST(WallDoubts, KnowAHeadBelowTheFloor) {
+  Written mixed;  // the head of a room with z up before a screen of one with y up
+  mixed.head = {0, -2.5, 1.65};
+  EXPECT_THAT(mixed.doubts(), ElementsAre(AllOf(HasSubstr("2.50 m below the floor"), HasSubstr("[x, z, -y]"))));
+}
+
+TEST(WallDoubts, KnowAHeadThatFacesNoScreen) {
+  Written wall;
+  wall.orientation = "[0, 1, 0, 0]";
+  EXPECT_THAT(wall.doubts(),
+              ElementsAre(AllOf(HasSubstr("away from every screen"),
+                                HasSubstr("facing screen \"wall\", sweet_spot_orientation is [0, 0, 0, 1]"))));
+  wall.orientation = "[0, 0.70710678, 0, 0.70710678]";
+  EXPECT_THAT(wall.doubts(), ElementsAre(HasSubstr("past every screen")));
+  Written aside{{2, 0.5, -1.6}, {2, 0.5, 1.6}, {2, 2.3, -1.6}, {0, 1.65, 0}, {}, {}, {}};
+  EXPECT_THAT(aside.doubts(), ElementsAre(AllOf(HasSubstr("past every screen"), HasSubstr("[0, -0.7071, 0, 0.7071]"))));
+  aside.orientation = "[0, -0.70710678, 0, 0.70710678]";
+  EXPECT_THAT(aside.doubts(), IsEmpty());
+  wall.orientation = "[0, 0.34202014, 0, 0.93969262]";  // 40 degrees to the left
+  EXPECT_THAT(wall.doubts(), IsEmpty());
+}
+
+TEST(WallDoubts, KnowAQuaternionThatBeginsWithW) {
+  for (const double degrees : {0.0, 30.0, -30.0}) {
+    const glm::dquat turn = glm::angleAxis(glm::radians(degrees), glm::dvec3(0, 1, 0));
+    Written wall;
+    wall.orientation = fmt::format("[{:.8f}, {:.8f}, {:.8f}, {:.8f}]", turn.w, turn.x, turn.y, turn.z);
+    const auto doubts = wall.doubts();
+    ASSERT_EQ(doubts.size(), 1U) << degrees;
+    EXPECT_THAT(doubts[0],
+                AllOf(HasSubstr("upside down"), HasSubstr("x, y, z, w"), HasSubstr(fmt::format(", {:.4g}]", turn.w))));
+  }
+}
+
+TEST(WallDoubts, KnowAMeshThatLeavesTheProjectorDark) {
+  const support::ScratchFolder folder;
+  folder.write("square.data", "2\n2 2\n-1 -1 0 0 1\n1 -1 1 0 1\n-1 1 0 1 1\n1 1 1 1 1\n");
+  folder.write("wide.data", "2\n2 2\n-1.7778 -1 0 0 1\n1.7778 -1 1 0 1\n-1.7778 1 0 1 1\n1.7778 1 1 1 1\n");
+  const auto doubts = [&](const std::string& mesh) {
+    Written wall;
+    wall.more =
+        "[[output]]\nname = \"beamer\"\nscreen = \"wall\"\nmode = \"mono\"\nrect = [0, 0, 1920, 1080]\nwarp_mesh = \"" +
+        mesh + "\"\n";
+    return doubts_of(load_wall(folder.write("wall.toml", wall.text())).value());
+  };
+  EXPECT_THAT(doubts("square.data"), ElementsAre(AllOf(HasSubstr("output \"beamer\""), HasSubstr("44 %"),
+                                                       HasSubstr("stays dark"), HasSubstr("1.78"))));
+  EXPECT_THAT(doubts("wide.data"), IsEmpty());
+}
+
+}  // namespace wall_doubts_test
+}  // namespace afm::scene
