@@ -34,6 +34,9 @@ void main() {
   vertex_color = color * draw.base_color;
   texture_coordinates = coordinates;
   shadow_place = place_in_shadow_map(room_position, normalize(room_normal));
-  gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
-  gl_PointSize = 1.0;
+  mat4 clip = view_clip_from_room(frame);
+  gl_Position = clip * vec4(room_position, 1.0);
+  float pixels_per_metre = 0.5 * frame.punctual_count.z * frame.target_size.y * length(vec3(clip[0].y, clip[1].y, clip[2].y)) / gl_Position.w;
+  float largest = frame.punctual_count.y;
+  gl_PointSize = clamp(AFM_POINT_SIZE * pixels_per_metre, min(float(AFM_SMALLEST_POINT), largest), largest);
 }

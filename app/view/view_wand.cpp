@@ -39,11 +39,12 @@ core::Result<void> parse_place(std::string_view option, std::string_view text, i
 
 core::Result<void> parse_source(const std::string& text, WandChoice& choice) {
   using Source = WandChoice::Source;
-  constexpr std::string_view kDtrack = "dtrack:";
+  constexpr std::string_view kDtrack = "dtrack:", kHid = "hid:";
   if (text == "auto") {
     choice.source = choice.file.dtrack ? Source::Dtrack : Source::Auto;
-  } else if (text == "hid") {
+  } else if (text == "hid" || (text.rfind(kHid, 0) == 0 && text.size() > kHid.size())) {
     choice.source = Source::Hid;
+    if (text != "hid") choice.hid_name = text.substr(kHid.size());
   } else if (text == "sim") {
     choice.source = Source::Simulated;
   } else if (text == "mouse") {
@@ -55,8 +56,9 @@ core::Result<void> parse_source(const std::string& text, WandChoice& choice) {
   } else {
     return core::failure(
         core::ErrorCategory::WrongUsage,
-        fmt::format("--wand: unknown source \"{}\"; choose auto, hid, dtrack, dtrack:ADDRESS:PORT, sim or mouse",
-                    text));
+        fmt::format(
+            "--wand: unknown source \"{}\"; choose auto, hid, hid:NAME, dtrack, dtrack:ADDRESS:PORT, sim or mouse",
+            text));
   }
   return {};
 }
@@ -139,7 +141,7 @@ core::Result<void> ViewWand::open_hid(const WandChoice& choice, const std::strin
   auto mappings = input::load_mappings(assets_dir + "/wands");
   if (!mappings) return tl::unexpected(mappings.error());
   if (choice.file.device) mappings->insert(mappings->begin(), *choice.file.device);
-  auto source = input::HidSource::open(std::move(*mappings), place, clock);
+  auto source = input::HidSource::open(std::move(*mappings), place, clock, choice.hid_name);
   if (!source) return tl::unexpected(source.error());
   wand_thread_ = std::make_unique<input::WandThread>(std::move(*source));
   return {};
@@ -158,7 +160,7 @@ core::Result<void> ViewWand::open_dtrack(const WandChoice& choice, const core::C
         "tracker: assuming that z points up and y towards the wall, from the room's origin; to change this, set "
         "room_from_tracker in a wand file");
   }
-  tracker_report_.emplace(place, clock.now_ns());
+  tracker_report_.emplace(place, clock.now_ns(), head_body_);
   auto& thread = choice.source == WandChoice::Source::Dtrack ? wand_thread_ : head_thread_;
   thread = std::make_unique<input::WandThread>(std::move(*source));
   return {};

@@ -32,6 +32,7 @@ namespace afm::app {
 struct WandChoice {
   enum class Source { Auto, Hid, Dtrack, Simulated, Mouse };
   Source source = Source::Auto;
+  std::string hid_name{};                   // node, numbers or a part of the name of the wand; empty: any
   input::WandFile file;                     // with the file's mapping, hand and tracker
   bool has_tracker_file = false;            // the file gives the tracker's frame in the room
   std::optional<std::uint32_t> head_body;   // number of the tracker's body

@@ -7,7 +7,7 @@ namespace afm::app {
 
 // Values of --wand, --wand-file and --head.
 struct WandOptions {
-  std::string source = "auto";  // auto, hid, dtrack[:ADDRESS:PORT], sim or mouse
+  std::string source = "auto";  // auto, hid[:NAME], dtrack[:ADDRESS:PORT], sim or mouse
   std::string file{};           // empty: none
   std::string head{};           // dtrack:BODY[@ADDRESS:PORT], sim:FILE, or empty: as in the wand file, if it has one
 };

@@ -4,6 +4,7 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
+#include <net/if.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -21,6 +22,19 @@ constexpr int kMostPacketsAPoll = 256;
 constexpr std::size_t kLongestPacket = 65'536;
 constexpr std::int64_t kSilenceNs = 250'000'000;
 
+// Joins the group on every network of this machine, since the tracker's is often not the one of the default route.
+bool join_everywhere(int socket, in_addr group) {
+  bool joined = false;
+  struct if_nameindex* const interfaces = ::if_nameindex();
+  for (const struct if_nameindex* one = interfaces; one != nullptr && one->if_index != 0; ++one) {
+    const ip_mreqn membership{
+        .imr_multiaddr = group, .imr_address = {}, .imr_ifindex = static_cast<int>(one->if_index)};
+    joined |= ::setsockopt(socket, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) == 0;
+  }
+  if (interfaces != nullptr) ::if_freenameindex(interfaces);
+  return joined;
+}
+
 core::Result<void> bind_to(int socket, const DtrackSettings& settings) {
   sockaddr_in place{};
   place.sin_family = AF_INET;
@@ -28,10 +42,21 @@ core::Result<void> bind_to(int socket, const DtrackSettings& settings) {
   if (::inet_pton(AF_INET, settings.address.c_str(), &place.sin_addr) != 1) {
     return core::failure(
         core::ErrorCategory::WrongUsage,
-        fmt::format("the tracker's address \"{}\" is not an IPv4 address of this machine, such as 127.0.0.1",
+        fmt::format("the tracker's address \"{}\" is not an IPv4 address of this machine, such as 127.0.0.1, or a "
+                    "multicast group, such as 224.0.1.0",
                     settings.address));
   }
-  if (::bind(socket, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0) return {};
+  const bool is_group = IN_MULTICAST(ntohl(place.sin_addr.s_addr));
+  const int several = 1;
+  if (is_group) ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &several, sizeof several);
+  const bool bound = ::bind(socket, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0;
+  if (bound && is_group && !join_everywhere(socket, place.sin_addr)) {
+    return core::failure(core::ErrorCategory::DeviceMissing,
+                         fmt::format("cannot join the tracker's multicast group {} on any network ({}): check the "
+                                     "network cable, or let the tracker send to an address of this machine",
+                                     settings.address, core::system_error(errno)));
+  }
+  if (bound) return {};
   return core::failure(core::ErrorCategory::DeviceMissing,
                        fmt::format("cannot listen for a tracker at {}:{} ({}): give an address of this machine, and "
                                    "close other programs that listen there",
@@ -83,14 +108,18 @@ bool DtrackSource::receive(int patience_ms) {
   std::array<char, kLongestPacket> packet;
   const ssize_t size = ::recv(socket_.get(), packet.data(), packet.size(), 0);
   if (size < 0) return false;
-  const auto frame = parse_dtrack({packet.data(), static_cast<std::size_t>(size)});
+  DtrackFaults refused;
+  const auto frame = parse_dtrack({packet.data(), static_cast<std::size_t>(size)}, &refused);
   if (!frame) {
     ++now_.bad_packets;
+    now_.faults = refused;
   } else if (!is_silent() && static_cast<std::int32_t>(frame->frame - now_.frame.frame) <= 0) {
     ++now_.old_packets;  // frame numbers wrap around
   } else {
     if (!is_silent()) count_lost(frame->frame - now_.frame.frame);
     now_.frame = *frame;
+    now_.left_out += frame->faults.count;
+    if (frame->faults.count > 0) now_.faults = frame->faults;
     now_.time_ns = clock_.now_ns();
     ++now_.good_packets;
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "input/dualsense.h"
@@ -77,7 +78,11 @@ std::span<const HidModel> hid_models() { return kModels; }
 std::optional<KnownHid> identify(const HidIdentity& device, std::span<const HidMapping> mappings) {
   for (const HidMapping& mapping : mappings) {
     if (mapping.vendor != device.vendor || mapping.product != device.product) continue;
-    return KnownHid{.name = mapping.name, .make = [mapping] { return mapped_driver(mapping); }};
+    const bool only_stops =
+        mapping.axes.empty() && std::all_of(mapping.buttons.begin(), mapping.buttons.end(),
+                                            [](const auto& b) { return b.button == WandButton::Stop; });
+    return KnownHid{
+        .name = mapping.name, .make = [mapping] { return mapped_driver(mapping); }, .only_stops = only_stops};
   }
   for (const HidModel& model : kModels) {
     if (model.vendor != device.vendor || model.product != device.product) continue;

@@ -2,40 +2,25 @@
 #include "input/hid_source.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <hidapi/hidapi.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <chrono>
-#include <cwchar>
 #include <thread>
 #include <utility>
 
 #include "core/log.h"
+#include "hid_candidate.h"
 
 namespace afm::input {
 
 namespace {
 
 constexpr std::int64_t kLookPauseNs = 1'000'000'000;
-constexpr std::int64_t kFirstOpenPauseNs = 100'000'000;
-constexpr std::int64_t kLongestOpenPauseNs = 6'400'000'000;
 constexpr int kReadPatienceMs = 10;
-constexpr int kMostReportsAPoll = 64;
-constexpr auto kSetUpPause = std::chrono::milliseconds(20);  // a Wii Remote drops an output report sent sooner
-constexpr std::size_t kLongestReport = 256;
-constexpr const char* kRule =
-    "copy assets/wands/70-touchafm-wands.rules to /etc/udev/rules.d, run sudo udevadm control --reload, replug it";
-
-// Reduces a text to printable ASCII, since a device's own name may contain terminal codes.
-std::string plain(const wchar_t* text) {
-  std::string result;
-  for (; text != nullptr && *text != L'\0'; ++text) {
-    result += *text >= L' ' && *text < 0x7F ? static_cast<char>(*text) : '?';
-  }
-  return result;
-}
+constexpr std::int64_t kKeepNs = 1'000'000'000;  // a wand that is in use keeps its place for so long
 
 struct Seen {
   std::string path;
@@ -53,7 +38,7 @@ std::vector<Seen> enumerate(const std::vector<HidMapping>& mappings) {
     const auto known = identify(identity, mappings);
     auto same = std::find_if(seen.begin(), seen.end(), [&](const Seen& s) { return s.path == info->path; });
     if (same == seen.end()) {
-      const std::string product = plain(info->product_string);
+      const std::string product = plain_hid_text(info->product_string);
       seen.push_back({info->path,
                       fmt::format("{} ({:04x}:{:04x})", product.empty() ? "HID device" : product, info->vendor_id,
                                   info->product_id),
@@ -67,11 +52,17 @@ std::vector<Seen> enumerate(const std::vector<HidMapping>& mappings) {
   return seen;
 }
 
-std::string why_not_open(const std::string& path) {
-  if (::access(path.c_str(), F_OK) == 0 && ::access(path.c_str(), R_OK | W_OK) != 0) {
-    return fmt::format("permission denied for {}: {}", path, kRule);
-  }
-  return fmt::format("cannot open {} ({}): unplug it and plug it in again", path, plain(hid_error(nullptr)));
+// True for what `touchafm devices` prints of a device: its node, its numbers, or a part of its name. A pedal is always
+// meant.
+bool is_meant(const Seen& seen, const std::string& wanted) {
+  const auto lower = [](std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  };
+  return wanted.empty() || seen.known->only_stops || seen.path == wanted ||
+         lower(seen.name).find(lower(wanted)) != std::string::npos ||
+         lower(seen.known->name).find(lower(wanted)) != std::string::npos;
 }
 
 core::Result<void> start_library() {
@@ -80,41 +71,6 @@ core::Result<void> start_library() {
 }
 
 }  // namespace
-
-struct HidSource::Device {
-  explicit Device(hid_device* opened) : handle(opened) {}
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
-  ~Device() { hid_close(handle); }
-
-  // Requests the calibration and sends the set-up reports. False if the device rejects them.
-  bool set_up(HidDriver& driver) const {
-    if (const auto request = driver.calibration()) {
-      std::vector<std::vector<std::uint8_t>> reports;
-      for (int i = 0; i < request->times; ++i) {
-        std::vector<std::uint8_t> report(request->size);
-        report[0] = request->id;
-        const int got = hid_get_feature_report(handle, report.data(), report.size());
-        if (got < 0) continue;  // falls back to nominal numbers
-        report.resize(static_cast<std::size_t>(got));
-        reports.push_back(std::move(report));
-      }
-      driver.calibrate(reports);
-    }
-    return write(driver.set_up());
-  }
-
-  // False if the device rejects one of them.
-  bool write(const std::vector<std::vector<std::uint8_t>>& reports) const {
-    for (const std::vector<std::uint8_t>& report : reports) {
-      if (hid_write(handle, report.data(), report.size()) < 0) return false;
-      std::this_thread::sleep_for(kSetUpPause);
-    }
-    return true;
-  }
-
-  hid_device* handle;
-};
 
 core::Result<std::vector<HidFinding>> find_hid_wands(const std::vector<HidMapping>& mappings) {
   if (auto started = start_library(); !started) return tl::unexpected(started.error());
@@ -129,7 +85,8 @@ core::Result<std::vector<HidFinding>> find_hid_wands(const std::vector<HidMappin
       finding.is_wand = true;
       hid_device* const handle = hid_open_path(seen.path.c_str());
       finding.usable = handle != nullptr;
-      finding.said = finding.usable ? fmt::format("{} at {}", seen.known->name, seen.path) : why_not_open(seen.path);
+      finding.said =
+          finding.usable ? fmt::format("{} at {}", seen.known->name, seen.path) : why_hid_is_closed(seen.path);
       if (finding.usable) hid_close(handle);
     }
     findings.push_back(std::move(finding));
@@ -137,101 +94,120 @@ core::Result<std::vector<HidFinding>> find_hid_wands(const std::vector<HidMappin
   return findings;
 }
 
-HidSource::HidSource(std::vector<HidMapping> mappings, const HandPlace& place, const core::Clock& clock)
-    : mappings_(std::move(mappings)), place_(place), clock_(clock) {}
+HidSource::HidSource(std::vector<HidMapping> mappings, const HandPlace& place, const core::Clock& clock,
+                     std::string wanted)
+    : mappings_(std::move(mappings)), place_(place), clock_(clock), wanted_(std::move(wanted)) {}
 
 HidSource::~HidSource() = default;
 
 core::Result<std::unique_ptr<HidSource>> HidSource::open(std::vector<HidMapping> mappings, const HandPlace& place,
-                                                         const core::Clock& clock) {
+                                                         const core::Clock& clock, const std::string& wanted) {
   if (auto started = start_library(); !started) return tl::unexpected(started.error());
-  return std::unique_ptr<HidSource>(new HidSource(std::move(mappings), place, clock));
+  return std::unique_ptr<HidSource>(new HidSource(std::move(mappings), place, clock, wanted));
 }
 
+// Keeps the candidates that are still there, and adds the new ones.
 void HidSource::look(std::int64_t now_ns) {
   next_look_ns_ = now_ns + kLookPauseNs;
-  std::vector<std::string> paths;
-  known_.clear();
+  std::vector<std::unique_ptr<HidCandidate>> candidates;
+  bool named = false;
   for (const Seen& seen : enumerate(mappings_)) {
-    if (!seen.known || !seen.known->make) continue;
-    paths.push_back(seen.path);
-    known_.push_back({.name = seen.name, .make = seen.known->make});
+    if (!seen.known || !seen.known->make || !is_meant(seen, wanted_)) continue;
+    named = named || !seen.known->only_stops;
+    const auto same = std::find_if(candidates_.begin(), candidates_.end(),
+                                   [&](const auto& c) { return c && c->path() == seen.path; });
+    candidates.push_back(same != candidates_.end() ? std::move(*same)
+                                                   : std::make_unique<HidCandidate>(
+                                                         seen.path, KnownHid{.name = seen.name,
+                                                                             .make = seen.known->make,
+                                                                             .only_stops = seen.known->only_stops}));
   }
-  if (paths == paths_) return;
-  paths_ = std::move(paths);
-  next_open_ns_ = now_ns;
-  open_pause_ns_ = kFirstOpenPauseNs;
+  // an open one that is no longer listed is lost by its next reading
+  for (auto& old : candidates_) {
+    if (old && old->is_open()) candidates.push_back(std::move(old));
+  }
+  candidates_ = std::move(candidates);
+  if (!named && !wanted_.empty() && !std::exchange(complained_, true)) {
+    core::log_line(
+        fmt::format("wand: no connected wand is \"{}\": plug it in, or choose a node, numbers or a name that "
+                    "touchafm devices lists",
+                    wanted_));
+  }
 }
 
-void HidSource::try_to_open(std::int64_t now_ns) {
-  next_open_ns_ = now_ns + open_pause_ns_;
-  open_pause_ns_ = std::min(2 * open_pause_ns_, kLongestOpenPauseNs);
-  for (std::size_t i = 0; i < paths_.size(); ++i) {
-    hid_device* const handle = hid_open_path(paths_[i].c_str());
-    if (handle == nullptr) {
-      complain(fmt::format("wand: {}: {}", known_[i].name, why_not_open(paths_[i])));
-      continue;
+void HidSource::open_candidates(std::int64_t now_ns) {
+  std::vector<std::string> more;
+  for (const auto& candidate : candidates_) {
+    if (!candidate->try_to_open(place_, now_ns)) continue;
+    if (followed_ == nullptr) {
+      follow(*candidate, "");
+    } else {
+      more.push_back(candidate->name() + " at " + candidate->path());
     }
-    auto device = std::make_unique<Device>(handle);
-    auto driver = known_[i].make();
-    if (!device->set_up(*driver)) {
-      complain(fmt::format("wand: {} rejected its set-up ({})", known_[i].name, plain(hid_error(handle))));
-      continue;
-    }
-    device_ = std::move(device);
-    wand_ = std::make_unique<HidWand>(std::move(driver), place_);
-    complaint_.clear();
-    core::log_line(fmt::format("wand: {}", known_[i].name));
+  }
+  if (more.empty()) return;
+  core::log_line(fmt::format("wand: also {}; the one that is moved or pressed is followed", fmt::join(more, ", ")));
+}
+
+void HidSource::follow(HidCandidate& candidate, const std::string& place) {
+  followed_ = &candidate;
+  core::log_line(fmt::format("wand: {}{}", candidate.name(), place));
+}
+
+// Takes the wand used last, unless the present one is in use.
+void HidSource::choose(std::int64_t now_ns) {
+  if (followed_ != nullptr && followed_->used_ns() != 0 &&
+      (now_ns - followed_->used_ns() < kKeepNs || followed_->state().buttons != 0)) {
     return;
   }
+  HidCandidate* newest = followed_;
+  for (const auto& candidate : candidates_) {
+    if (candidate->is_open() && (newest == nullptr || candidate->used_ns() > newest->used_ns()))
+      newest = candidate.get();
+  }
+  if (newest != nullptr && newest != followed_) follow(*newest, " at " + newest->path());
 }
 
-void HidSource::complain(const std::string& complaint) {
-  if (complaint == complaint_) return;
-  complaint_ = complaint;
-  core::log_line(complaint);
-}
-
-void HidSource::lose() {
-  core::log_line("wand: unplugged; plug it in again to continue");
-  wand_.reset();
-  device_.reset();
-  paths_.clear();
-  next_look_ns_ = 0;
+// Returns whether the followed wand is there still.
+bool HidSource::read_candidates() {
+  bool kept = true;
+  const auto is_lost = [&](const std::unique_ptr<HidCandidate>& candidate) {
+    if (!candidate->is_open()) return false;
+    const bool there = candidate->read(candidate.get() == followed_ ? kReadPatienceMs : 0, clock_, refused_);
+    stops_ += candidate->take_stops();
+    if (!there && candidate.get() == followed_) kept = false;
+    return !there;
+  };
+  candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(), is_lost), candidates_.end());
+  return kept;
 }
 
 WandState HidSource::nothing() const {
   WandState none;
   none.time_ns = clock_.now_ns();
   none.position_m = place_.position_m;
+  none.stops = stops_;
   return none;
 }
 
 WandState HidSource::poll() {
-  if (!device_) {
-    const std::int64_t now_ns = clock_.now_ns();
-    if (now_ns >= next_look_ns_) look(now_ns);
-    if (!paths_.empty() && now_ns >= next_open_ns_) try_to_open(now_ns);
+  const std::int64_t now_ns = clock_.now_ns();
+  if (now_ns >= next_look_ns_) look(now_ns);
+  open_candidates(now_ns);
+  if (!read_candidates()) {
+    core::log_line("wand: unplugged; plug it in again to continue");
+    followed_ = nullptr;
+    next_look_ns_ = 0;
+    return nothing();
   }
-  if (!device_) {
+  choose(clock_.now_ns());
+  if (followed_ == nullptr) {
     std::this_thread::sleep_for(std::chrono::milliseconds(kReadPatienceMs));
     return nothing();
   }
-  std::array<std::uint8_t, kLongestReport> report;
-  for (int i = 0; i < kMostReportsAPoll; ++i) {
-    const int size = hid_read_timeout(device_->handle, report.data(), report.size(), i == 0 ? kReadPatienceMs : 0);
-    if (size == 0) break;
-    if (size < 0) {
-      lose();
-      return nothing();
-    }
-    if (!wand_->take(Bytes(report).first(static_cast<std::size_t>(size)), clock_.now_ns())) ++refused_;
-    if (!device_->write(wand_->take_answers())) {
-      lose();
-      return nothing();
-    }
-  }
-  return wand_->state(clock_.now_ns());
+  WandState state = followed_->state();
+  state.stops = stops_;
+  return state;
 }
 
 }  // namespace afm::input

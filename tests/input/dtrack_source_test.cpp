@@ -143,5 +143,37 @@ TEST(DtrackSource, SaysWhyItCannotListen) {
   EXPECT_EQ(third.error().category, core::ErrorCategory::WrongUsage);
 }
 
+TEST(DtrackSource, JoinsAMulticastGroupBesideAnotherProgram) {
+  HandClock clock;
+  DtrackSettings settings = on_any_port();
+  settings.address = "239.192.7.13";
+  const auto first = DtrackSource::open(settings, clock);
+  ASSERT_TRUE(first) << first.error().message;
+  settings.port = (*first)->port();
+  const auto second = DtrackSource::open(settings, clock);
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_TRUE(support::LoopbackSender(settings.port, "239.192.7.13").send(kFlystick));
+  EXPECT_TRUE((*first)->poll().connected);
+  EXPECT_TRUE((*second)->poll().connected);
+}
+
+TEST(DtrackSource, CountsWhatIsLeftOutAndKeepsTheLatest) {
+  HandClock clock;
+  const auto source = DtrackSource::open(on_any_port(), clock);
+  ASSERT_TRUE(source) << source.error().message;
+  const support::LoopbackSender sender((*source)->port());
+  EXPECT_TRUE(sender.send("fr 1\n6d 2 [0 1][1 2 3 0 0 0][1 0 0 0 1 0 0 0 1] [4 1][0 0 0 0 0 0][0 0 0 0 0 0 0 0 0]\n"));
+  (*source)->poll();
+  EXPECT_TRUE(sender.send("fr 2\n6d 1 [0 1][1 2 3 0 0 0][1 0 0 0 1 0 0 0 1]\n"));
+  (*source)->poll();
+  const DtrackUpdate update = (*source)->newest();
+  EXPECT_EQ(update.good_packets, 2U);
+  EXPECT_EQ(update.left_out, 1U);
+  EXPECT_EQ(update.faults.first[0].id, 4U);
+  EXPECT_TRUE(sender.send("nonsense"));
+  (*source)->poll();
+  EXPECT_EQ((*source)->newest().faults.first[0].line, "");
+}
+
 }  // namespace dtrack_source_test
 }  // namespace afm::input

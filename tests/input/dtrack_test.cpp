@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <iterator>
 #include <string>
 #include <vector>
 
+#include "support/places.h"
 #include "support/stereo_cases.h"
 
 namespace afm::input {
@@ -71,14 +75,153 @@ TEST(Dtrack, SkipsLinesThatItDoesNotKnowAndTakesTheLatency) {
   EXPECT_EQ(frame->body(4), nullptr);
 }
 
-TEST(Dtrack, ReadsSixtyFourBodiesAndRefusesMore) {
+TEST(Dtrack, ReadsSixtyFourBodiesAndLeavesOutWhatHasNoNumber) {
   const auto packet = [](int count) {
     std::string text = "fr 1\n6d " + std::to_string(count) + " ";
     for (int i = 0; i < count; ++i) text += "[" + std::to_string(i) + " 1.000][0 0 0 0 0 0]" + kIdentity + " ";
     return text;
   };
-  EXPECT_TRUE(parse_dtrack(packet(64)));
-  EXPECT_FALSE(parse_dtrack(packet(65)));
+  EXPECT_EQ(parse_dtrack(packet(64))->body_count, 64U);
+  EXPECT_EQ(parse_dtrack(packet(64))->faults.count, 0U);
+  EXPECT_EQ(parse_dtrack(packet(67))->body_count, 64U);
+  EXPECT_EQ(parse_dtrack(packet(67))->faults.count, 3U);
+}
+
+// A datagram of the research, as it was sent.
+std::string datagram(const std::string& name) {
+  std::ifstream file(support::source("tests/fuzz/corpus/dtrack/" + name), std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+const glm::dvec3 kHead(0.120, -2.400, 1.660), kHand(0.300, -1.500, 1.200);
+
+void expect_at(const DtrackBody* body, const glm::dvec3& place_m) {
+  ASSERT_NE(body, nullptr);
+  EXPECT_TRUE(body->tracked);
+  EXPECT_LT(glm::distance(body->position_m, place_m), 1e-9);
+}
+
+TEST(Dtrack, ReadsAHybridBodyOfDtrack3) {
+  const auto frame = parse_dtrack(datagram("hybrid-head-6di"));
+  ASSERT_TRUE(frame);
+  expect_at(frame->body(0), kHead);
+  expect_at(&frame->flystick(0)->body, kHand);
+  EXPECT_EQ(frame->faults.count, 0U);
+  const auto lost =
+      parse_dtrack("fr 1\n6di 1 [0 0 0.000][0 0 0][0 0 0 0 0 0 0 0 0]\n6d 1 [0 1][1 2 3 0 0 0]" + kIdentity);
+  expect_at(lost->body(0), {0.001, 0.002, 0.003});
+  EXPECT_EQ(lost->body_count, 1U) << "once, by the line that has a pose";
+  EXPECT_EQ(lost->faults.count, 0U);
+}
+
+TEST(Dtrack, ReadsTheFirstFlystickWithItsHatSwitch) {
+  const auto frame = parse_dtrack(datagram("flystick1-6df"));
+  ASSERT_TRUE(frame);
+  expect_at(frame->body(0), kHead);
+  expect_at(&frame->flystick(0)->body, kHand);
+  EXPECT_EQ(frame->flystick(0)->buttons, 1U);
+  const auto hat = [](unsigned buttons) {
+    const auto f = parse_dtrack("fr 1\n6df 1 [3 1.0 " + std::to_string(buttons) + "][0 0 0 0 0 0]" + kIdentity);
+    return std::pair(f->flystick(3)->joystick[0], f->flystick(3)->joystick[1]);
+  };
+  EXPECT_EQ(hat(0x20), std::pair(-1.0, 0.0));
+  EXPECT_EQ(hat(0x80), std::pair(1.0, 0.0));
+  EXPECT_EQ(hat(0x10), std::pair(0.0, -1.0));
+  EXPECT_EQ(hat(0x42), std::pair(0.0, 1.0));
+}
+
+struct BadBody {
+  std::string body;
+  std::string_view reason;
+};
+
+// Each beside a good head in its line and a good Flystick in the next one.
+TEST(Dtrack, LeavesOutOnlyTheBodyThatCannotBeRead) {
+  const std::string matrix(kIdentity), pose = "[1 2 3 0 0 0]";
+  for (const BadBody& bad : std::vector<BadBody>{
+           {"[4 1.000][0 0 0 0 0 0][0 0 0 0 0 0 0 0 0]", "its matrix is not a rotation"},
+           {"[4 1.000]" + pose + "[2 0 0 0 1 0 0 0 1]", "its matrix is not a rotation"},
+           {"[4 1.000]" + pose + "[1 0 0 0.1 1 0 0 0 1]", "its matrix is not a rotation"},
+           {"[4 1.000]" + pose + "[1 0 0 0 1 0 0 0 -1]", "its matrix is a reflection"},
+           {"[4 1.000]" + pose + "[1 0 0 0 nan 0 0 0 1]", "its rotation matrix does not consist of nine numbers"},
+           {"[4 1.000]" + pose + "[]", "its rotation matrix does not consist of nine numbers"},
+           {"[4 1.000][1 nan 3 0 0 0]" + matrix, "its position does not consist of numbers"},
+           {"[4 1.000][inf 2 3 0 0 0]" + matrix, "its position does not consist of numbers"},
+           {"[4 1.000][]" + matrix, "its position does not consist of numbers"},
+           {"[64 1.000]" + pose + matrix, "its number is not one of 0 to 63"},
+           {"[-1 1.000]" + pose + matrix, "its number is not one of 0 to 63"},
+           {"[4 nan]" + pose + matrix, "its quality is not a number"},
+           {"[4 1.000" + pose + matrix, "it is incomplete"},
+           {"[4 1.000]" + pose + "[1 0 0 0 1 0 0 0 1", "it is incomplete"},
+       }) {
+    const std::string good = "[0 1.000][120 -2400 1660 0 0 0]" + matrix;
+    for (const std::string& line : {good + " " + bad.body, bad.body + " " + good}) {
+      const auto frame =
+          parse_dtrack("fr 1\n6d 2 " + line + "\n6df2 1 1 [0 1 4 2][300 -1500 1200]" + matrix + "[1 0 0]\n");
+      ASSERT_TRUE(frame) << line;
+      expect_at(frame->body(0), kHead);
+      EXPECT_EQ(frame->body(4), nullptr) << line;
+      expect_at(&frame->flystick(0)->body, kHand);
+      ASSERT_EQ(frame->faults.count, 1U) << line;
+      const DtrackFault& fault = frame->faults.first[0];
+      EXPECT_EQ(fault.line, "6d");
+      EXPECT_EQ(fault.subject, "body");
+      EXPECT_EQ(fault.reason, bad.reason) << line;
+      EXPECT_EQ(std::string(fault.text.data()).substr(0, 2), bad.body.substr(0, 2));
+    }
+  }
+}
+
+TEST(Dtrack, LeavesOutOnlyTheFlystickThatCannotBeRead) {
+  const auto stick = [](int id) {
+    return "[" + std::to_string(id) + " 1 4 2][300 -1500 1200]" + kIdentity + "[1 0 0]";
+  };
+  std::string ten = "fr 1\n6df2 10 10 ";
+  for (int i = 0; i < 10; ++i) ten += stick(i);
+  EXPECT_EQ(parse_dtrack(ten)->flystick_count, 10U);
+  for (const std::string& bad : std::vector<std::string>{
+           "[1 1 99 2][1 2 3]" + kIdentity + "[0 0 0]", "[1 1 4 9][1 2 3]" + kIdentity + "[0 0 0]",
+           "[1 1 4 2][1 2 3]" + kIdentity + "[0 0]", "[1 1 4 2][1 2 3][0 0 0 0 0 0 0 0 0][0 0 0]"}) {
+    const auto frame = parse_dtrack("fr 1\n6df2 2 2 " + bad + " " + stick(0));
+    ASSERT_TRUE(frame) << bad;
+    expect_at(&frame->flystick(0)->body, kHand);
+    EXPECT_EQ(frame->flystick(1), nullptr);
+    EXPECT_EQ(frame->faults.count, 1U);
+  }
+}
+
+TEST(Dtrack, LeavesOutALineThatContradictsItsCountAndKeepsTheOthers) {
+  const std::string body = "[0 1.000][1 2 3 0 0 0]" + kIdentity;
+  const std::string stick = "\n6df2 1 1 [0 1 4 2][300 -1500 1200]" + kIdentity + "[1 0 0]";
+  for (const std::string& line :
+       std::vector<std::string>{"6d 2 " + body, "6d 1 " + body + body, "6d 4000000000 " + body, "6d x " + body,
+                                "6d -1 " + body, "ts2 1 2 x"}) {
+    const auto frame = parse_dtrack("fr 1\n" + line + stick);
+    ASSERT_TRUE(frame) << line;
+    EXPECT_EQ(frame->body_count, 0U) << line;
+    expect_at(&frame->flystick(0)->body, kHand);
+    ASSERT_EQ(frame->faults.count, 1U) << line;
+    EXPECT_EQ(frame->faults.first[0].subject, "");
+    EXPECT_EQ(frame->latency_us, 0U);
+  }
+}
+
+TEST(Dtrack, LosesOneBodyOfZerosOrWithoutANumberAndNotTheHead) {
+  for (const char* name : {"one-body-of-zeros", "body-64"}) {
+    const auto frame = parse_dtrack(datagram(name));
+    ASSERT_TRUE(frame) << name;
+    expect_at(frame->body(0), kHead);
+    expect_at(&frame->flystick(0)->body, kHand);
+    EXPECT_EQ(frame->faults.count, 1U);
+  }
+}
+
+TEST(Dtrack, NamesWhatAPacketLacks) {
+  DtrackFaults faults;
+  EXPECT_FALSE(parse_dtrack("<html>\x1b[2J", &faults));
+  ASSERT_EQ(faults.count, 1U);
+  EXPECT_EQ(faults.first[0].reason, "it has no line \"fr NUMBER\"");
+  EXPECT_STREQ(faults.first[0].text.data(), "<html>?[2J");
 }
 
 TEST(Dtrack, RefusesWhatContradictsItself) {

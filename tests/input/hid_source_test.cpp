@@ -103,5 +103,127 @@ TEST_F(HidSourceTest, CountsReportsOfTheWrongLengthAndGoesOn) {
   poll_until(**source, [](const WandState& wand) { return wand.pressed(WandButton::Select); });
 }
 
+constexpr const char* kReceiver = "256F:0000C652";
+constexpr const char* kDualSense = "054C:00000CE6";
+constexpr std::array<std::uint8_t, 7> kPush{1, 0x5e, 0x01, 0, 0, 0, 0}, kRest{1, 0, 0, 0, 0, 0, 0};
+
+// 3Dconnexion's receiver has five interfaces of one usage; the cap speaks on any of them.
+TEST_F(HidSourceTest, FollowsTheInterfaceOfAReceiverThatSpeaks) {
+  for (std::size_t speaking = 0; speaking < 5; ++speaking) {
+    for (int i = 0; i < 5; ++i) plug(kReceiver, "3Dconnexion Universal Receiver");
+    const auto source = HidSource::open({}, HandPlace{}, clock_);
+    ASSERT_TRUE(source) << source.error().message;
+    poll_until(**source, [](const WandState& wand) { return wand.connected; });
+    ASSERT_TRUE(port_.send(speaking, kPush));
+    poll_until(**source, [](const WandState& wand) { return wand.push.x == 1.0; });
+    ASSERT_TRUE(port_.send(speaking, std::array<std::uint8_t, 3>{3, 2, 0}));
+    poll_until(**source, [](const WandState& wand) { return wand.pressed(WandButton::Grab); });
+    while (port_.plugged()) unplug();
+    poll_until(**source, [](const WandState& wand) { return !wand.connected && wand.buttons == 0; });
+  }
+}
+
+TEST_F(HidSourceTest, FollowsTheWandThatIsUsedOnceTheOtherRests) {
+  plug(kCompact, "SpaceMouse Compact");
+  plug(kCompact, "SpaceMouse Compact");
+  const auto source = HidSource::open({}, HandPlace{}, clock_);
+  ASSERT_TRUE(source) << source.error().message;
+  poll_until(**source, [](const WandState& wand) { return wand.connected; });
+  ASSERT_TRUE(port_.send(0, std::array<std::uint8_t, 3>{3, 1, 0}));
+  poll_until(**source, [](const WandState& wand) { return wand.pressed(WandButton::Select); });
+  // while the first has a button down, the second does not take it away
+  ASSERT_TRUE(port_.send(1, kPush));
+  for (int i = 0; i < 200; ++i) {
+    clock_.now += 10'000'000;
+    ASSERT_TRUE((*source)->poll().pressed(WandButton::Select));
+  }
+  ASSERT_TRUE(port_.send(0, std::array<std::uint8_t, 3>{3, 0, 0}));
+  ASSERT_TRUE(port_.send(1, kRest));
+  poll_until(**source, [](const WandState& wand) { return wand.buttons == 0; });
+  ASSERT_TRUE(port_.send(1, kPush));
+  poll_until(**source, [](const WandState& wand) { return wand.push.x == 1.0; });
+}
+
+// A gamepad that is only charged sends its state all the time.
+TEST_F(HidSourceTest, DoesNotFollowAWandThatOnlyLiesThere) {
+  plug(kDualSense, "DualSense");
+  plug(kCompact, "SpaceMouse Compact");
+  std::array<std::uint8_t, 64> lying{};
+  lying[0] = 1;
+  lying[1] = lying[2] = lying[3] = lying[4] = 128;
+  lying[8] = 8;
+  const auto source = HidSource::open({}, HandPlace{}, clock_);
+  ASSERT_TRUE(source) << source.error().message;
+  poll_until(**source, [](const WandState& wand) { return wand.connected; });
+  ASSERT_TRUE(port_.send(1, kPush));
+  poll_until(**source, [](const WandState& wand) { return wand.push.x == 1.0; });
+  for (int i = 0; i < 400; ++i) {
+    clock_.now += 10'000'000;
+    lying[1] = lying[2] = static_cast<std::uint8_t>(127 + i % 3);
+    port_.send(0, lying);
+    ASSERT_EQ((*source)->poll().push.x, 1.0) << i;
+  }
+  EXPECT_EQ((*source)->refused_reports(), 0U);
+}
+
+TEST_F(HidSourceTest, OpensAWandPluggedInBesideAnother) {
+  plug(kCompact, "SpaceMouse Compact");
+  const auto source = HidSource::open({}, HandPlace{}, clock_);
+  ASSERT_TRUE(source) << source.error().message;
+  poll_until(**source, [](const WandState& wand) { return wand.connected; });
+  plug(kReceiver, "3Dconnexion Universal Receiver");
+  for (int i = 0; i < 300; ++i) {
+    clock_.now += 10'000'000;
+    (*source)->poll();
+  }
+  ASSERT_TRUE(port_.send(1, kPush));
+  poll_until(**source, [](const WandState& wand) { return wand.push.x == 1.0; });
+  unplug();
+  poll_until(**source, [](const WandState& wand) { return !wand.connected; });
+  ASSERT_TRUE(port_.send(0, std::array<std::uint8_t, 3>{3, 1, 0}));
+  poll_until(**source, [](const WandState& wand) { return wand.pressed(WandButton::Select); });
+}
+
+TEST_F(HidSourceTest, KeepsToTheWandThatIsNamed) {
+  plug(kReceiver, "3Dconnexion Universal Receiver");
+  plug(kCompact, "SpaceMouse Compact");
+  for (const char* name : {"spacemouse comp", "256F:c635", "/dev/hidraw2"}) {
+    const auto source = HidSource::open({}, HandPlace{}, clock_, name);
+    ASSERT_TRUE(source) << source.error().message;
+    poll_until(**source, [](const WandState& wand) { return wand.connected; });
+    port_.send(0, kPush);
+    for (int i = 0; i < 20; ++i) {
+      clock_.now += 10'000'000;
+      ASSERT_EQ((*source)->poll().push.x, 0.0) << name;
+    }
+    ASSERT_TRUE(port_.send(1, kPush));
+    poll_until(**source, [](const WandState& wand) { return wand.push.x == 1.0; });
+    ASSERT_TRUE(port_.send(1, kRest));
+    poll_until(**source, [](const WandState& wand) { return wand.push.x == 0.0; });
+  }
+  const auto none = HidSource::open({}, HandPlace{}, clock_, "DualSense");
+  ASSERT_TRUE(none);
+  for (int i = 0; i < 20; ++i) {
+    clock_.now += 100'000'000;
+    EXPECT_FALSE((*none)->poll().connected);
+  }
+}
+
+// A pedal that only stops the force lies beside a wand, even one that is named.
+TEST_F(HidSourceTest, StopsByAPedalBesideTheWand) {
+  HidMapping pedal{.name = "Pedal", .vendor = 0x1234, .product = 0xab, .axes = {}, .buttons = {}};
+  pedal.buttons.push_back({.button = WandButton::Stop, .report = 3, .byte = 1, .bit = 0});
+  plug(kCompact, "SpaceMouse Compact");
+  plug("1234:000000AB", "Pedal");
+  const auto source = HidSource::open({pedal}, HandPlace{}, clock_, "SpaceMouse");
+  ASSERT_TRUE(source) << source.error().message;
+  poll_until(**source, [](const WandState& wand) { return wand.connected; });
+  ASSERT_TRUE(port_.send(0, kPush));
+  poll_until(**source, [](const WandState& wand) { return wand.push.x == 1.0; });
+  ASSERT_TRUE(port_.send(1, std::array<std::uint8_t, 3>{3, 1, 0}));
+  const WandState wand = poll_until(**source, [](const WandState& w) { return w.stops == 1; });
+  EXPECT_EQ(wand.push.x, 1.0) << "the wand is followed still";
+}
+
 }  // namespace hid_source_test
 }  // namespace afm::input

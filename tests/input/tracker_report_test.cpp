@@ -54,5 +54,49 @@ TEST(TrackerReport, AddsUpWhatWasLost) {
   EXPECT_THAT(report.total(), HasSubstr("361 frames received, 5 lost, 1 late or repeated"));
 }
 
+TEST(TrackerReport, NamesEachKindOfFaultOnceWithItsLine) {
+  TrackerReport report("127.0.0.1:5000", kSecond);
+  const auto heard = [&](const std::string& lines) {
+    DtrackUpdate update{.time_ns = kSecond, .good_packets = 1};
+    update.frame = parse_dtrack("fr 1\n" + lines).value();
+    update.faults = update.frame.faults;
+    return report.follow(update, kSecond);
+  };
+  const std::string good = "[0 1][1 2 3 0 0 0][1 0 0 0 1 0 0 0 1] ", zeros = "[4 1][0 0 0 0 0 0][0 0 0 0 0 0 0 0 0]";
+  EXPECT_THAT(heard("6d 1 " + good), Optional(HasSubstr("receiving frames")));
+  EXPECT_THAT(
+      heard("6d 2 " + good + zeros),
+      Optional(std::string("tracker: line 6d: body 4 is left out: its matrix is not a rotation (\"" + zeros + "\")")));
+  EXPECT_FALSE(heard("6d 2 " + good + zeros)) << "once";
+  EXPECT_THAT(heard("6d 2 " + good + "[5 1][0 0 0 0 0 0][0 0 0 0 0 0 0 0 0]"),
+              Optional(HasSubstr("line 6d: body 5 is")));
+  EXPECT_THAT(heard("6d 1 " + good + "\n6d 7"),
+              Optional(HasSubstr("line 6d is left out: it does not have the number")));
+}
+
+TEST(TrackerReport, SaysThatTheHeadIsNotAmongTheBodies) {
+  TrackerReport report("127.0.0.1:5000", kSecond, 2);
+  DtrackUpdate update{.good_packets = 1};
+  const auto after = [&](std::int64_t s, const std::string& body) {
+    update.time_ns = s * kSecond;
+    update.frame = parse_dtrack("fr 1\n6d 1 [" + body + "][1 2 3 0 0 0][1 0 0 0 1 0 0 0 1]").value();
+    return report.follow(update, s * kSecond);
+  };
+  EXPECT_THAT(after(1, "0 1"), Optional(HasSubstr("receiving frames")));
+  EXPECT_FALSE(after(1, "0 1"));
+  EXPECT_FALSE(after(2, "3 1"));
+  EXPECT_FALSE(after(6, "2 -1"));
+  EXPECT_THAT(after(7, "2 -1"), Optional(HasSubstr("no pose of body 2, the head, for 5 s; of bodies: 0, 3")));
+  EXPECT_FALSE(after(20, "0 1")) << "once";
+  TrackerReport another("127.0.0.1:5000", kSecond, 2);
+  another.follow(update, 21 * kSecond);
+  another.follow(update, 21 * kSecond);
+  after(22, "2 1");
+  EXPECT_FALSE(another.follow(update, 22 * kSecond));
+  after(23, "0 1");
+  EXPECT_FALSE(another.follow(update, 40 * kSecond) == std::nullopt) << "silent";
+  EXPECT_FALSE(another.follow(update, 41 * kSecond)) << "the head was seen";
+}
+
 }  // namespace tracker_report_test
 }  // namespace afm::input

@@ -201,9 +201,22 @@ TEST_F(Materials, DrawLinesAndPoints) {
   square_.topology = scene::Topology::Lines;
   EXPECT_GT(drawn(), 100.0);
   EXPECT_LT(drawn(), 800.0) << "no more than a diagonal";
+}
+
+// 6 mm in the room, but at least two pixels each way: a distant point is not lost on a fine wall.
+TEST_F(Materials, DrawPointsWithTheirSizeInTheRoom) {
+  const render::Image bare = see(glm::translate(glm::dmat4(1.0), glm::dvec3(50, 0, 0)));
+  square_.indices = {0, 2};
   square_.topology = scene::Topology::Points;
-  EXPECT_GE(drawn(), 2.0);
-  EXPECT_LE(drawn(), 8.0);
+  const auto pixels_of_one = [&](double nearer_m) {
+    const glm::dmat4 place = glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, 0.0, nearer_m));
+    const auto image = see(glm::scale(place, glm::dvec3(nearer_m > 0.0 ? 0.01 : 1.0)));
+    return 0.5 * difference(image, bare, 8).share_beyond * bare.width * bare.height;
+  };
+  EXPECT_GE(pixels_of_one(0.0), 4.0);
+  EXPECT_LE(pixels_of_one(0.0), 16.0) << "two pixels, smoothed";
+  EXPECT_GT(pixels_of_one(2.4), 60.0) << "0.1 m before the eyes";
+  EXPECT_LE(pixels_of_one(2.4), 18.0 * 18.0);
 }
 
 TEST_F(Materials, TakeLightFromWhereItStands) {

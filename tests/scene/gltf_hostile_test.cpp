@@ -379,8 +379,18 @@ TEST_F(HostileGltf, IsRefusedForImagesThatAreNone) {
   write("text.png", "not an image at all");
   expect_refused(load(with_image("text.png")), "neither PNG nor JPEG");
   expect_refused(load(with_image("data:image/png;base64,####")), "invalid base64");
-  expect_refused(load(with_image("missing.png")), "not a regular file in the model's folder");
-  expect_refused(load(with_image("../../../../etc/passwd")), "not a regular file in the model's folder");
+}
+
+// Drawn without it, and never read.
+TEST_F(HostileGltf, ReadsNoImageOutsideItsFolder) {
+  for (const char* uri : {"missing.png", "../../../../etc/passwd", "/etc/passwd", "..\\..\\secret.png"}) {
+    GltfWarnings notes;
+    std::ofstream(folder_ / "secret.png", std::ios::binary) << tiny_png();
+    const auto scene = load_gltf(write("model.glb", glb(with_image(uri).dump(), square_binary())), &notes);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene->images.empty()) << uri;
+    EXPECT_THAT(notes.missing, testing::ElementsAre(HasSubstr("not a regular file in the model's folder")));
+  }
 }
 
 }  // namespace gltf_hostile_test

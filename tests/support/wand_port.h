@@ -13,12 +13,14 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "hid_guest/virtual_spacemouse.h"
 
 namespace afm::support {
 
-// A computer into which one HID device at a time can be plugged: umockdev shows it to libhidapi and to udev's library,
+// A computer into which HID devices can be plugged: umockdev shows it to libhidapi and to udev's library,
 // in this process and in those that it starts. Run by umockdev-wrapper; throws where that does not work.
 class WandPort {
  public:
@@ -28,7 +30,7 @@ class WandPort {
   WandPort(const WandPort&) = delete;
   WandPort& operator=(const WandPort&) = delete;
   ~WandPort() {
-    if (plugged()) unplug();
+    while (plugged()) unplug();
   }
 
   // `ids` is the kernel's "256F:0000C635". Every time as another node, as a kernel does that still holds the old one.
@@ -49,27 +51,38 @@ class WandPort {
                                        reinterpret_cast<UMockdevIoctlBase*>(ioctls_.get()), &error)) {
       throw refusal(error);
     }
-    device_ = umockdev_testbed_get_dev_fd(testbed_.get(), ("/dev/" + node()).c_str());
-    if (device_ < 0 || ::fcntl(device_, F_SETFL, O_NONBLOCK) != 0) {
+    const int end = umockdev_testbed_get_dev_fd(testbed_.get(), ("/dev/" + node()).c_str());
+    if (end < 0 || ::fcntl(end, F_SETFL, O_NONBLOCK) != 0) {
       throw std::runtime_error("umockdev gives no end of /dev/" + node());
     }
+    ends_.push_back({number_, end});
   }
 
-  bool plugged() const { return device_ >= 0; }
+  bool plugged() const { return !ends_.empty(); }
 
+  // The one plugged in last.
   void unplug() {
-    ::close(device_);
-    device_ = -1;
+    const End last = ends_.back();
+    ends_.pop_back();
+    ::close(last.descriptor);
+    const unsigned newest = std::exchange(number_, last.number);
     umockdev_testbed_remove_device(testbed_.get(), ("/sys" + device_path() + "/hidraw/" + node()).c_str());
     umockdev_testbed_remove_device(testbed_.get(), ("/sys" + device_path()).c_str());
+    number_ = newest;
   }
 
-  // Sends an input report. Returns false if it is not read and there is no more room.
-  bool send(std::span<const std::uint8_t> report) const {
-    return ::write(device_, report.data(), report.size()) == static_cast<ssize_t>(report.size());
+  // Sends an input report of the device plugged in last, or of the one of that number in the order of plugging in.
+  // Returns false if it is not read and there is no more room.
+  bool send(std::span<const std::uint8_t> report) const { return send(ends_.size() - 1, report); }
+  bool send(std::size_t device, std::span<const std::uint8_t> report) const {
+    return ::write(ends_.at(device).descriptor, report.data(), report.size()) == static_cast<ssize_t>(report.size());
   }
 
  private:
+  struct End {
+    unsigned number;
+    int descriptor;
+  };
   struct Releaser {
     void operator()(gpointer object) const { g_object_unref(object); }
   };
@@ -113,7 +126,7 @@ class WandPort {
 
   std::unique_ptr<UMockdevTestbed, Releaser> testbed_;
   std::unique_ptr<void, Releaser> ioctls_;
-  int device_ = -1;
+  std::vector<End> ends_;
   unsigned number_ = 0;  // number of the device, in the order of plugging in
 };
 

@@ -134,6 +134,9 @@ core::Result<void> describe_model(const std::string& file, DescriptionForm form,
     json["generator"] = notes.generator;
     json["understood"] = notes.extensions;
     json["ignored"] = notes.ignored;
+    json["corrected"] = notes.corrected;
+    json["missing"] = notes.missing;
+    json["nothing_shown"] = notes.empty;
     out << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     return {};
   }
@@ -142,6 +145,9 @@ core::Result<void> describe_model(const std::string& file, DescriptionForm form,
   describe_parts(*scene, out);
   for (const std::string& extension : notes.extensions) out << fmt::format("understood: {}\n", quoted(extension));
   for (const std::string& ignored : notes.ignored) out << fmt::format("ignored: {}\n", ignored);
+  for (const std::string& corrected : notes.corrected) out << fmt::format("corrected: {}\n", corrected);
+  for (const std::string& missing : notes.missing) out << fmt::format("missing: {}\n", missing);
+  if (!notes.empty.empty()) out << fmt::format("nothing is shown: {}\n", notes.empty);
   return {};
 }
 

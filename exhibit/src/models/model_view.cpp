@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-#include "exhibit/models/loading_notice.h"
+#include "models/noted_model.h"
 #include "scene/graph/pose.h"
 
 namespace afm::exhibit {
@@ -186,10 +186,7 @@ std::string camera_name(const scene::Scene& scene, const scene::Node& node) {
 }
 
 core::Result<ModelView> open_model(const ModelChoice& choice) {
-  auto loaded = [&] {
-    const LoadingNotice notice(choice.file);
-    return scene::load_gltf(choice.file);
-  }();
+  auto loaded = load_noted_model(choice.file);
   if (!loaded) return tl::unexpected(loaded.error());
   ModelView view;
   view.scene =

@@ -26,21 +26,42 @@ struct DtrackFlystick {
   std::array<double, 8> joystick{};  // -1 to 1: right, up
 };
 
-// One datagram. Trivially copyable.
+// Part of a datagram that is left out. Trivially copyable.
+struct DtrackFault {
+  std::string_view line;              // identifier of the line: "6d"; empty: the whole packet
+  std::string_view subject;           // "body", "Flystick"; empty: the whole line
+  std::optional<std::uint32_t> id{};  // its number, if that could be read
+  std::string_view reason;            // as the end of a sentence
+  std::array<char, 72> text{};        // its beginning, printable ASCII, with a final zero
+
+  bool same_kind(const DtrackFault& other) const {
+    return line == other.line && subject == other.subject && id == other.id && reason == other.reason;
+  }
+};
+
+struct DtrackFaults {
+  std::size_t count = 0;
+  std::array<DtrackFault, 4> first{};  // the first `count` of them
+};
+
+// One datagram. Trivially copyable; no number appears twice among the bodies or among the Flysticks.
 struct DtrackFrame {
   std::uint32_t frame = 0;
   std::uint32_t latency_us = 0;  // from the cameras to sending, from line ts2; 0: unknown
   std::size_t body_count = 0;
   std::array<DtrackBody, 64> bodies{};
   std::size_t flystick_count = 0;
-  std::array<DtrackFlystick, 8> flysticks{};
+  std::array<DtrackFlystick, 64> flysticks{};
+  DtrackFaults faults{};
 
   const DtrackBody* body(std::uint32_t id) const;
   const DtrackFlystick* flystick(std::uint32_t id) const;
 };
 
-// Parses any UDP datagram: the lines fr, ts2, 6d and 6df2 of DTrack's ASCII output; other lines are skipped. Empty: no
-// frame number, or an inconsistent line: wrong counts, body numbers below 0 or above 63, an invalid rotation.
-std::optional<DtrackFrame> parse_dtrack(std::string_view packet);
+// Parses any UDP datagram: the lines fr, ts2, 6d, 6di (hybrid bodies of DTrack 3), 6df2 and 6df (Flystick 1) of
+// DTrack's ASCII output; other lines are skipped. A body with an invalid number, pose or rotation is left out and
+// becomes a fault, as does a line that contradicts its own count; the rest of the packet is kept. Empty: no frame
+// number, or faults only; `refused` then receives them.
+std::optional<DtrackFrame> parse_dtrack(std::string_view packet, DtrackFaults* refused = nullptr);
 
 }  // namespace afm::input

@@ -18,7 +18,7 @@ namespace afm::input {
 
 // Address that a tracker sends to, and the pose of its frame in the room.
 struct DtrackSettings {
-  std::string address = "127.0.0.1";  // IPv4 address of this machine
+  std::string address = "127.0.0.1";  // IPv4 address of this machine, or a multicast group, which is joined
   std::uint16_t port = 5000;
   std::uint32_t flystick = 0;
   glm::dvec3 tracker_origin_m{0.0};  // room_from_tracker, a rigid transform
@@ -33,6 +33,8 @@ struct DtrackUpdate {
   std::uint64_t bad_packets = 0;  // packets without a valid frame
   std::uint64_t old_packets = 0;  // frames with a number not above the newest: late, or repeated
   std::uint64_t lost_frames = 0;  // frames missing between the numbers of two frames
+  std::uint64_t left_out = 0;     // bodies, Flysticks and lines left out of valid frames
+  DtrackFaults faults{};          // those of the newest packet that has any
   DtrackFrame frame{};
 };
 
@@ -40,9 +42,10 @@ struct DtrackUpdate {
 DtrackBody in_room(const DtrackBody& body, const DtrackSettings& settings);
 
 // A Flystick and everything else that a DTrack system tracks. Accepts any traffic on the port, at any rate: invalid
-// packets are counted and dropped, as are frames older than the newest one. A restarted tracker counts from the
-// beginning, after 250 ms of silence. Without a valid packet for 250 ms, the wand is not connected and its buttons are
-// up. Button 1 selects, 2 grabs, 3 scales, 4 goes home; the joystick flies.
+// packets are counted and dropped, as are frames older than the newest one. Several programs can listen to a multicast
+// group, but only one to an address: a second one would take the first one's packets. A restarted tracker counts from
+// the beginning, after 250 ms of silence. Without a valid packet for 250 ms, the wand is not connected and its buttons
+// are up. Button 1 selects, 2 grabs, 3 scales, 4 goes home; the joystick flies.
 class DtrackSource final : public WandSource {
  public:
   // The clock must outlive it. DeviceMissing: the port cannot be opened.

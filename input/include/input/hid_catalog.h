@@ -34,6 +34,7 @@ struct HidIdentity {
 struct KnownHid {
   std::string name;
   std::function<std::unique_ptr<HidDriver>()> make;  // empty: known not to be a wand
+  bool only_stops = false;                           // a pedal that stops the force and does nothing else
 };
 
 // Description of a device; empty if it is unknown. A mapping takes precedence over the built-in entry.

@@ -15,6 +15,8 @@
 
 namespace afm::input {
 
+class HidCandidate;
+
 // Result of the search for one HID device, as text.
 struct HidFinding {
   std::string path;
@@ -28,15 +30,15 @@ struct HidFinding {
 // started. One thread at a time.
 core::Result<std::vector<HidFinding>> find_hid_wands(const std::vector<HidMapping>& mappings);
 
-// Wand through hidapi: the first one that can be opened, plugged in before or later. Looks for devices once a second
-// while none is open. A device that cannot be opened is tried again after 0.1, 0.2, 0.4 s and so on, because the
-// permissions of a new device are set a little after it appears. When unplugged, it releases its buttons and points
-// nowhere until it is back.
+// Wand through hidapi, plugged in before or later. Every wand that could be meant is opened; the first one is followed
+// until another one is used, which takes over as soon as the present one rests: for a second, with no button down. Stop
+// counts on all of them. Looks for devices once a second. When the followed one is unplugged, it releases its buttons
+// and points nowhere until it or another one is there.
 class HidSource final : public WandSource {
  public:
-  // The clock must outlive it.
+  // The clock must outlive it. With a text, only wands with that node, or with it in their name or numbers, are opened.
   static core::Result<std::unique_ptr<HidSource>> open(std::vector<HidMapping> mappings, const HandPlace& place,
-                                                       const core::Clock& clock);
+                                                       const core::Clock& clock, const std::string& wanted = "");
   ~HidSource() override;
 
   WandState poll() override;
@@ -44,26 +46,24 @@ class HidSource final : public WandSource {
   std::uint64_t refused_reports() const { return refused_; }  // only on the polling thread
 
  private:
-  struct Device;
-  HidSource(std::vector<HidMapping> mappings, const HandPlace& place, const core::Clock& clock);
+  HidSource(std::vector<HidMapping> mappings, const HandPlace& place, const core::Clock& clock, std::string wanted);
 
   void look(std::int64_t now_ns);
-  void try_to_open(std::int64_t now_ns);
-  void lose();
+  void open_candidates(std::int64_t now_ns);
+  bool read_candidates();
+  void choose(std::int64_t now_ns);
+  void follow(HidCandidate& candidate, const std::string& place);
   WandState nothing() const;
-  void complain(const std::string& complaint);
 
   std::vector<HidMapping> mappings_;
   HandPlace place_;
   const core::Clock& clock_;
-  std::unique_ptr<Device> device_;
-  std::unique_ptr<HidWand> wand_;
-  std::vector<std::string> paths_;  // wands seen last, in the order of attempts
-  std::vector<KnownHid> known_;     // descriptions of these wands
+  std::string wanted_;
+  std::vector<std::unique_ptr<HidCandidate>> candidates_;  // wands seen last, by their nodes
+  HidCandidate* followed_ = nullptr;                       // one of them
   std::int64_t next_look_ns_ = 0;
-  std::int64_t next_open_ns_ = 0;
-  std::int64_t open_pause_ns_ = 0;
-  std::string complaint_;  // as last logged
+  bool complained_ = false;  // log names the wanted wand as missing
+  std::uint32_t stops_ = 0;
   std::uint64_t refused_ = 0;
 };
 

@@ -153,6 +153,12 @@ void DrawnFrame::take(const FrameState& frame, const SceneGeometry& geometry, co
     } else {
       const DrawBox box = bent_box(draws[i], blocks_[i].bend);
       bounds_[i] = seen(placing(blocks_[i]), box.center - box.half_size, box.center + box.half_size);
+      const auto& variant = draws[i].variant;
+      if (variant && geometry.variants()[*variant].topology == scene::Topology::Points && !bounds_[i].empty()) {
+        constexpr int kHalfPointPx = AFM_LARGEST_POINT / 2;
+        bounds_[i] = PixelBox{bounds_[i].low - kHalfPointPx, bounds_[i].high + kHalfPointPx}.within(
+            PixelBox::whole(drawing.extent));
+      }
     }
   }
   panels.list(panels_);

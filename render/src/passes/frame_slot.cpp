@@ -81,6 +81,7 @@ FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::D
                                                .queueFamilyIndex = device.queue_family()}),
       commands_(*device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 4}),
       draw_stride_(aligned_stride(device, sizeof(DrawBlock))),
+      largest_point_px_(device.largest_point_px()),
       draw_blocks_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * draw_stride_,
                                       vk::BufferUsageFlagBits::eUniformBuffer)),
       descriptor_pool_(create_frame_pool(device, kMostPasses + 1)) {
@@ -115,7 +116,9 @@ void FrameSlot::write(const FrameState& frame, std::span<const DrawBlock> blocks
                       float guard_band) {
   const glm::vec2 size(static_cast<float>(drawing.extent.width), static_cast<float>(drawing.extent.height));
   for (std::size_t pass = 0; pass < uniforms_.size(); ++pass) {
-    const FrameBlock block = make_frame_block(frame, pass, size, guard_band);
+    FrameBlock block = make_frame_block(frame, pass, size, guard_band);
+    block.punctual_count.y = largest_point_px_;
+    block.punctual_count.z = guard_band;
     std::memcpy(uniforms_[pass].mapped, &block, sizeof(block));
   }
   for (std::size_t i = 0; i < blocks.size(); ++i) {

@@ -74,6 +74,7 @@ class FrameSlot {
   vk::raii::CommandBuffers commands_{nullptr};
   std::vector<Buffer> uniforms_;  // one per pass
   std::uint32_t draw_stride_;
+  float largest_point_px_;
   Buffer draw_blocks_;
   vk::raii::DescriptorPool descriptor_pool_{nullptr};
   std::vector<vk::raii::DescriptorSet> sets_;

@@ -37,6 +37,7 @@ class AccessorReader {
     accessor_.normalized = source_.normalized;
     if (accessor_.normalized && size_of(accessor_.type) == 4) fail("normalises a type other than 8 or 16-bit integers");
     accessor_.count = source_.count;
+    if (accessor_.count == 0) return accessor_;  // refused where it is used
     const std::size_t size = element_size(accessor_);
     accessor_.stride = size;
     if (source_.bufferView >= 0) {
@@ -152,6 +153,13 @@ GltfAccessors::GltfAccessors(const GltfBuffers& buffers, const tinygltf::Model& 
   for (std::size_t i = 0; i < model.accessors.size(); ++i) {
     accessors_.push_back(AccessorReader(i, model.accessors[i], buffers.views()).read());
   }
+}
+
+const Accessor& GltfAccessors::operator[](int index) const {
+  const Accessor& accessor = accessors_[static_cast<std::size_t>(index)];
+  if (accessor.count == 0)
+    throw GltfError(fmt::format("/accessors/{}/count is 0, but a part of the model uses it", index));
+  return accessor;
 }
 
 std::vector<float> GltfAccessors::floats(int index) const {

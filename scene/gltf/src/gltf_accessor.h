@@ -36,8 +36,8 @@ class GltfAccessors {
   // Throws GltfError. `buffers` must outlive it.
   GltfAccessors(const GltfBuffers& buffers, const tinygltf::Model& model);
 
-  // `index` is the accessor's number in the file.
-  const Accessor& operator[](int index) const { return accessors_[static_cast<std::size_t>(index)]; }
+  // `index` is the accessor's number in the file. Throws GltfError for one without elements.
+  const Accessor& operator[](int index) const;
 
   // All components of all elements; normalised integers as 0..1 or -1..1. Throws GltfError for numbers that are not
   // finite.

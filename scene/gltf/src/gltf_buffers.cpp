@@ -68,7 +68,9 @@ std::span<const std::uint8_t> range(const tinygltf::Model& model, std::size_t vi
 GltfBuffers::GltfBuffers(const tinygltf::Model& model) {
   for (std::size_t i = 0; i < model.bufferViews.size(); ++i) {
     const tinygltf::BufferView& view = model.bufferViews[i];
-    if (const auto* compression = find_extension(view.extensions, "EXT_meshopt_compression")) {
+    if (view.byteLength == 0) {
+      views_.emplace_back();  // refused where it is used
+    } else if (const auto* compression = find_extension(view.extensions, "EXT_meshopt_compression")) {
       views_.push_back(decompress(model, i, *compression));
     } else {
       const auto bytes = range(model, i, static_cast<std::size_t>(view.buffer), view.byteOffset, view.byteLength);

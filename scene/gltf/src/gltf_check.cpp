@@ -76,7 +76,7 @@ std::array<std::size_t, kGltfLists> list_sizes(const Json& document) {
 
 class Checker {
  public:
-  explicit Checker(const Json& document) : sizes_(list_sizes(document)) {}
+  Checker(const Json& document, GltfWarnings& notes) : sizes_(list_sizes(document)), notes_(notes) {}
 
   void check_members(Json& object, std::span<const GltfMember> members, const Place& place) const {
     if (!object.is_object()) place.fail(fmt::format("is {}, not an object", quoted(object)));
@@ -169,12 +169,15 @@ class Checker {
     }
   }
 
-  static void check_number(Json& value, const GltfMember& member, const Place& place) {
+  void check_number(Json& value, const GltfMember& member, const Place& place) const {
     const double number = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-    if (!(number >= member.low && number <= member.high)) {
+    const double highest = member.clamps_above ? std::numeric_limits<double>::max() : member.high + member.slack;
+    if (!(number >= member.low - member.slack && number <= highest)) {
       place.fail(fmt::format("is {}, not a number of {:g} to {:g}", quoted(value), member.low, member.high));
     }
-    value = number;
+    const double used = std::clamp(number, member.low, member.high);
+    if (used != number) notes_.correct(fmt::format("{} is {}: drawn as {:g}", place.path(), quoted(value), used));
+    value = used;
   }
 
   static void check_whole(Json& value, const GltfMember& member, const Place& place) {
@@ -221,14 +224,18 @@ class Checker {
   }
 
   std::array<std::size_t, kGltfLists> sizes_;
+  GltfWarnings& notes_;
 };
 
 }  // namespace
 
-void check_gltf_header(Json& document) { Checker(document).check_members(document, gltf_header(), {}); }
+void check_gltf_header(Json& document) {
+  GltfWarnings none;  // a header has no numbers
+  Checker(document, none).check_members(document, gltf_header(), {});
+}
 
-void check_gltf_document(Json& document) {
-  const Checker checker(document);
+void check_gltf_document(Json& document, GltfWarnings& notes) {
+  const Checker checker(document, notes);
   checker.check_members(document, gltf_document(), {});
   Checker::keep_only(document, {gltf_header(), gltf_document()});
 }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "gltf_schema.h"
+#include "scene/gltf/gltf_loader.h"
 
 namespace afm::scene {
 
@@ -15,8 +16,9 @@ using Json = nlohmann::json;
 //
 // The check of the header comes first and leaves the rest unchanged. The other one removes everything unknown to the
 // schema, including all `extras` except TouchAFM's own on nodes. It writes integers as such ("4.0" becomes 4) and other
-// numbers with a point, which is how tinygltf distinguishes them.
+// numbers with a point, which is how tinygltf distinguishes them. Numbers that an exporter has rounded beyond their
+// range become its limit, with a note.
 void check_gltf_header(Json& document);
-void check_gltf_document(Json& document);
+void check_gltf_document(Json& document, GltfWarnings& notes);
 
 }  // namespace afm::scene

@@ -11,4 +11,9 @@ struct GltfError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// A side file that is not there or must not be read. A model is drawn without such an image.
+struct GltfMissingFile : GltfError {
+  using GltfError::GltfError;
+};
+
 }  // namespace afm::scene

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <system_error>
 
 #include "core/system_error.h"
+#include "foreign_file.h"
 #include "gltf_error.h"
 #include "gltf_uri.h"
 
@@ -103,24 +105,31 @@ Chunks split(const Bytes& bytes) {
   if (const std::uint32_t version = little_endian(bytes, 4); version != 2) {
     throw GltfError(fmt::format("it is binary glTF of version {}, not 2; export it as glTF 2.0", version));
   }
-  if (little_endian(bytes, 8) != bytes.size()) {
-    throw GltfError(fmt::format("its header announces {} bytes but it has {}; copy it again", little_endian(bytes, 8),
-                                bytes.size()));
-  }
+  // bytes behind the announced end are ignored, as other readers do
+  const std::size_t end = little_endian(bytes, 8);
+  const std::string disagreement =
+      end == bytes.size() ? "" : fmt::format("its header announces {} bytes but it has {}: ", end, bytes.size());
+  if (end > bytes.size()) throw GltfError(disagreement + "it is cut off; copy it again");
   Chunks chunks;
   int chunk = 0;
-  for (std::size_t offset = kHeader; offset < bytes.size(); ++chunk) {
-    if (bytes.size() - offset < kChunkHeader) throw GltfError("a chunk ends inside its header; copy it again");
+  for (std::size_t offset = kHeader; offset < end; ++chunk) {
+    if (end - offset < kChunkHeader) throw GltfError(disagreement + "a chunk ends inside its header; copy it again");
     const std::uint32_t length = little_endian(bytes, offset);
     const std::uint32_t type = little_endian(bytes, offset + 4);
     offset += kChunkHeader;
-    if (length > bytes.size() - offset) throw GltfError("a chunk extends past its end; copy it again");
+    if (length > end - offset) throw GltfError(disagreement + "a chunk extends past its end; copy it again");
     if (chunk == 0 && type != kJson) throw GltfError("its first chunk is not JSON; export it again");
     if (chunk == 0) chunks.text = {reinterpret_cast<const char*>(bytes.data()) + offset, length};
     if (chunk == 1 && type == kBinary) chunks.binary.emplace(offset, length);
     offset += length;
   }
   return chunks;
+}
+
+// For programs of Windows, which write backslashes.
+std::string with_slashes(std::string name) {
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return name;
 }
 
 }  // namespace
@@ -143,10 +152,12 @@ std::optional<fs::path> SideFiles::resolve(const std::string& uri) const {
 
 Bytes SideFiles::read(const std::string& uri) {
   if (is_data_uri(uri)) return decode_data_uri(uri);
-  const std::optional<fs::path> file = resolve(decode_percent(uri));
+  const std::string name = decode_percent(uri);
+  std::optional<fs::path> file = resolve(name);
+  if (!file) file = resolve(with_slashes(name));
   if (!file) {
-    throw GltfError(fmt::format("it refers to '{}', which is not a regular file in the model's folder; put it there",
-                                uri.substr(0, 80)));
+    throw GltfMissingFile(fmt::format(
+        "it refers to '{}', which is not a regular file in the model's folder; put it there", uri.substr(0, 80)));
   }
   Bytes bytes = read_plain_file(*file, bytes_left_);
   bytes_left_ -= bytes.size();
@@ -161,6 +172,7 @@ GltfFile read_gltf_file(const std::string& path) {
   if (folder.empty()) folder = ".";
   file.side_files = SideFiles(std::move(folder), kLargestGltfBytes - bytes.size());
   if (!is_binary(bytes)) {
+    if (const std::string kind = foreign_kind(bytes); !kind.empty()) throw GltfError(kind);
     file.document = parse_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     return file;
   }

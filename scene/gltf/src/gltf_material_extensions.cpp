@@ -42,14 +42,18 @@ void read_clearcoat(const Value& coat, PbrMaterial& material, GltfWarnings& note
   }
 }
 
-constexpr GltfMember kStrength[]{number("emissiveStrength", 0, 1e6)};
+constexpr GltfMember kStrength[]{positive("emissiveStrength", 1e6)};
 void read_strength(const Value& strong, PbrMaterial& material, GltfWarnings&) {
   material.emissive *= number_in(strong, "emissiveStrength", 1);
 }
 
 constexpr GltfMember kIor[]{positive("ior")};
-void read_ior(const Value& refractive, PbrMaterial& material, GltfWarnings&) {
+void read_ior(const Value& refractive, PbrMaterial& material, GltfWarnings& notes) {
   material.ior = number_in(refractive, "ior", 1.5);
+  if (material.ior < 1.0F && material.ior >= 1.0F - static_cast<float>(kRounding)) {
+    notes.correct(fmt::format("the ior of '{}' is {}: drawn as 1", material.name.substr(0, 60), material.ior));
+    material.ior = 1.0F;
+  }
   if (material.ior != 0.0F && material.ior < 1.0F) {
     throw GltfError(fmt::format("its material '{}' has an ior between 0 and 1", material.name.substr(0, 60)));
   }
@@ -57,7 +61,7 @@ void read_ior(const Value& refractive, PbrMaterial& material, GltfWarnings&) {
 
 constexpr GltfMember kIridescence[]{share("iridescenceFactor"),
                                     texture("iridescenceTexture"),
-                                    number("iridescenceIor", 1),
+                                    number("iridescenceIor", 1).rounded(kRounding),
                                     positive("iridescenceThicknessMinimum"),
                                     positive("iridescenceThicknessMaximum"),
                                     texture("iridescenceThicknessTexture")};

@@ -28,8 +28,12 @@ constexpr GltfMember object(std::string_view name, Members members) {
   return {name, Kind::Object, 0, 0, {}, {}, members};
 }
 constexpr GltfMember accessors(std::string_view name) { return {name, Kind::Accessors}; }
-constexpr GltfMember share(std::string_view name) { return number(name, 0, 1); }
-constexpr GltfMember positive(std::string_view name) { return number(name, 0); }
+// A factor that is off by 1 % of its range of 1 is drawn as its limit.
+inline constexpr double kRounding = 0.01;
+constexpr GltfMember share(std::string_view name) { return number(name, 0, 1).rounded(kRounding); }
+constexpr GltfMember positive(std::string_view name, double high = kLargest) {
+  return number(name, 0, high).rounded(kRounding);
+}
 constexpr GltfMember above_zero(std::string_view name) { return number(name, 1e-30); }
 
 inline constexpr GltfMember kTransform[]{number("offset").list(2, 2), number("rotation"), number("scale").list(2, 2),

@@ -43,7 +43,8 @@ void check_header(const Json& document, GltfWarnings& notes) {
 // Changes the document before tinygltf parses it. The URIs of buffers and images are replaced by numbers that
 // read_buffer() answers, so that tinygltf opens and decodes nothing itself. Valid constructs that tinygltf 2.7 rejects
 // are changed too, and restored in the model afterwards:
-// - a buffer without a URI that is not a .glb's first (a placeholder for compressed data) becomes one byte;
+// - a buffer of no bytes, or without a URI and not a .glb's first (a placeholder for compressed data), becomes one
+// byte;
 // - indices in an accessor without a view (zeros, or a Draco stream) get a view that does not exist;
 // - an animation's channel that moves no node is removed.
 class Exchange {
@@ -108,6 +109,7 @@ class Exchange {
       } else if (i == 0 && file_.binary) {
         source.kind = Source::Chunk;
       }
+      if (buffers[i]["byteLength"] == 0) source.kind = Source::Nothing;
       if (source.kind == Source::Nothing) buffers[i]["byteLength"] = 1;
       source.length = buffers[i]["byteLength"];
       buffers[i]["uri"] = std::to_string(i);
@@ -117,9 +119,6 @@ class Exchange {
   void take_images(Json& images) {
     for (std::size_t i = 0; i < images.size(); ++i) {
       ImageSource& source = images_.emplace_back();
-      if (!images[i].contains("uri") && !images[i].contains("bufferView")) {
-        throw GltfError(fmt::format("/images/{} has neither a uri nor a bufferView", i));
-      }
       if (images[i].contains("uri")) source.uri = std::move(images[i]["uri"].get_ref<std::string&>());
       source.view = images[i].value("bufferView", -1);
       images[i].erase("bufferView");
@@ -186,7 +185,7 @@ GltfModel read_gltf_model(const std::string& path, GltfWarnings& notes) {
   GltfFile file = read_gltf_file(path);
   check_gltf_header(file.document);
   check_header(file.document, notes);
-  check_gltf_document(file.document);
+  check_gltf_document(file.document, notes);
   Exchange exchange(file, notes);
   const std::string text = file.document.dump();
   file.document = Json();

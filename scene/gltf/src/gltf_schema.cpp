@@ -19,11 +19,12 @@ constexpr GltfMember kAsset[]{text("version").required(), text("minVersion"), te
 constexpr GltfMember kHeader[]{object("asset", kAsset).required(), text("extensionsUsed").list(0, kMostMaterials),
                                text("extensionsRequired").list(0, kMostMaterials)};
 
-// an accessor without a view is all zeros, so that a small file can require much memory
-constexpr GltfMember kCount = whole("count", 1, 24'000'000).required();
+// Empty parts that nothing uses are common; the users of a view, an accessor or a skin check that it is not empty. An
+// accessor without a view is all zeros, so that a small file can require much memory
+constexpr GltfMember kCount = whole("count", 0, 24'000'000).required();
 constexpr GltfMember kView = index("bufferView", GltfList::BufferViews);
 constexpr GltfMember kOffset = whole("byteOffset", 0, kBytes);
-constexpr GltfMember kLength = whole("byteLength", 1, kBytes).required();
+constexpr GltfMember kLength = whole("byteLength", 0, kBytes).required();
 constexpr GltfMember kSparseIndices[]{kView.required(), kOffset, choice("componentType", "5121 5123 5125").required()};
 constexpr GltfMember kSparseValues[]{kView.required(), kOffset};
 constexpr GltfMember kSparse[]{kCount, object("indices", kSparseIndices).required(),
@@ -34,8 +35,8 @@ constexpr GltfMember kAccessor[]{kView,
                                  flag("normalized"),
                                  kCount,
                                  choice("type", "SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4").required(),
-                                 number("max", -1e300, 1e300).list(1, 16),
-                                 number("min", -1e300, 1e300).list(1, 16),
+                                 number("max", -1e300, 1e300).list(0, 16),
+                                 number("min", -1e300, 1e300).list(0, 16),
                                  object("sparse", kSparse),
                                  text("name")};
 
@@ -52,7 +53,7 @@ constexpr GltfMember kMeshopt[]{index("buffer", GltfList::Buffers).required(),
                                 kOffset,
                                 kLength,
                                 whole("byteStride", 1, 256).required(),
-                                whole("count", 1, kBytes).required(),
+                                whole("count", 0, kBytes).required(),
                                 choice("mode", "ATTRIBUTES TRIANGLES INDICES").required(),
                                 choice("filter", "NONE OCTAHEDRAL QUATERNION EXPONENTIAL")};
 constexpr GltfMember kBufferViewExtensions[]{object("EXT_meshopt_compression", kMeshopt)};
@@ -86,7 +87,7 @@ constexpr GltfMember kPrimitiveExtensions[]{object("KHR_draco_mesh_compression",
 constexpr GltfMember kPrimitive[]{accessors("attributes").required(),     index("indices", GltfList::Accessors),
                                   index("material", GltfList::Materials), whole("mode", 0, 6),
                                   accessors("targets").list(0, kMany),    object("extensions", kPrimitiveExtensions)};
-constexpr GltfMember kMesh[]{object("primitives", kPrimitive).list(1, kMany).required(),
+constexpr GltfMember kMesh[]{object("primitives", kPrimitive).list(0, kMany).required(),
                              number("weights").list(0, kMany), text("name")};
 
 constexpr GltfMember kInstancing[]{accessors("attributes").required()};
@@ -110,13 +111,14 @@ constexpr GltfMember kSampler[]{choice("magFilter", "9728 9729"), choice("minFil
                                 text("name")};
 constexpr GltfMember kScene[]{index("nodes", GltfList::Nodes).list(0, kMany), text("name")};
 constexpr GltfMember kSkin[]{index("inverseBindMatrices", GltfList::Accessors), index("skeleton", GltfList::Nodes),
-                             index("joints", GltfList::Nodes).list(1, kMany).required(), text("name")};
+                             index("joints", GltfList::Nodes).list(0, kMany).required(), text("name")};
 constexpr GltfMember kTexture[]{index("sampler", GltfList::Samplers), index("source", GltfList::Images), text("name")};
 
-constexpr GltfMember kSpot[]{number("innerConeAngle", 0, kRightAngle), number("outerConeAngle", 0, kRightAngle)};
+constexpr GltfMember kSpot[]{number("innerConeAngle", 0, kRightAngle).rounded(kRounding),
+                             number("outerConeAngle", 0, kRightAngle).rounded(kRounding)};
 constexpr GltfMember kLight[]{text("name"),
-                              number("color", 0, 1e6).list(3, 3),
-                              number("intensity", 0, 1e12),
+                              positive("color", 1e6).list(3, 3),
+                              positive("intensity", 1e12),
                               choice("type", "directional point spot").required(),
                               above_zero("range"),
                               object("spot", kSpot)};
@@ -145,7 +147,7 @@ std::span<const GltfMember> gltf_document() {
                                       object("normalTexture", kNormalTexture),
                                       object("occlusionTexture", kOcclusionTexture),
                                       texture("emissiveTexture"),
-                                      share("emissiveFactor").list(3, 3),
+                                      share("emissiveFactor").clamped_above().list(3, 3),
                                       choice("alphaMode", "OPAQUE MASK BLEND"),
                                       positive("alphaCutoff"),
                                       flag("doubleSided")};

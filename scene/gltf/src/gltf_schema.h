@@ -56,8 +56,10 @@ struct GltfMember {
   bool is_list = false;
   std::size_t least_elements = 0;  // shortest list
   std::size_t most_elements = 0;
-  std::string_view needs{};  // required member of the same object
-  std::string_view bars{};   // excluded members of the same object, separated by spaces
+  std::string_view needs{};   // required member of the same object
+  std::string_view bars{};    // excluded members of the same object, separated by spaces
+  double slack = 0.0;         // distance beyond `low` and `high` within which a number becomes the limit, with a note
+  bool clamps_above = false;  // any number above `high` becomes it, with a note
 
   constexpr GltfMember required() const {
     GltfMember copy = *this;
@@ -72,6 +74,17 @@ struct GltfMember {
   constexpr GltfMember without(std::string_view beside) const {
     GltfMember copy = *this;
     copy.bars = beside;
+    return copy;
+  }
+  // For exporters that round, or convert from float.
+  constexpr GltfMember rounded(double distance) const {
+    GltfMember copy = *this;
+    copy.slack = distance;
+    return copy;
+  }
+  constexpr GltfMember clamped_above() const {
+    GltfMember copy = *this;
+    copy.clamps_above = true;
     return copy;
   }
   // List of such values.

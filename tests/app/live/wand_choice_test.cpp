@@ -20,6 +20,9 @@ core::Result<WandChoice> choose(const std::string& source, const std::string& he
 TEST(WandChoice, KnowsEverySource) {
   EXPECT_EQ(choose("auto")->source, Source::Auto);
   EXPECT_EQ(choose("hid")->source, Source::Hid);
+  EXPECT_EQ(choose("hid")->hid_name, "");
+  EXPECT_EQ(choose("hid:SpaceMouse Pro")->source, Source::Hid);
+  EXPECT_EQ(choose("hid:/dev/hidraw3")->hid_name, "/dev/hidraw3");
   EXPECT_EQ(choose("sim")->source, Source::Simulated);
   EXPECT_EQ(choose("mouse")->source, Source::Mouse);
   const auto tracker = choose("dtrack:10.0.0.7:5001");
@@ -64,7 +67,7 @@ TEST(WandChoice, TakesAHeadWithoutAFlystick) {
 }
 
 TEST(WandChoice, RefusesWhatIsNone) {
-  for (const char* bad : {"", "HID", "dtrack:", "dtrack:5000", "dtrack:1.2.3.4:", "dtrack:1.2.3.4:0",
+  for (const char* bad : {"", "HID", "hid:", "dtrack:", "dtrack:5000", "dtrack:1.2.3.4:", "dtrack:1.2.3.4:0",
                           "dtrack:1.2.3.4:70000", "dtrack:1.2.3.4:5x", "laser"}) {
     const auto choice = choose(bad);
     ASSERT_FALSE(choice) << bad;

@@ -29,6 +29,13 @@ class LoopbackSender {
     EXPECT_EQ(::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&to_), &size), 0);
   }
 
+  // To everybody who has joined a group, on this machine only.
+  LoopbackSender(std::uint16_t port, const char* group) : LoopbackSender(port) {
+    const in_addr interface{.s_addr = htonl(INADDR_LOOPBACK)};
+    EXPECT_EQ(::setsockopt(socket_.get(), IPPROTO_IP, IP_MULTICAST_IF, &interface, sizeof interface), 0);
+    EXPECT_EQ(::inet_pton(AF_INET, group, &to_.sin_addr), 1);
+  }
+
   std::uint16_t port() const { return ntohs(to_.sin_port); }
 
   // Returns false if the system accepted none or not all of it, as it does without a listener.

@@ -18,6 +18,32 @@
 namespace afm::scene {
 namespace {
 
+// Escapes a message, which may quote the file: it must stay on one line, without control sequences for a terminal.
+std::string printable(std::string text) {
+  std::replace_if(text.begin(), text.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, '?');
+  return text;
+}
+
+void add_note(std::vector<std::string>& notes, const std::string& what) {
+  constexpr std::size_t kMostNotes = 100;
+  const std::string line = printable(what);
+  if (notes.size() < kMostNotes && std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(line);
+}
+
+// Names the scene that was taken if nothing in it can be drawn.
+std::string why_empty(const tinygltf::Model& model, const Scene& scene) {
+  bool has_mesh = false;
+  for (const Node& node : scene.nodes) {
+    if (node.mesh && !scene.meshes[*node.mesh].primitives.empty()) return "";
+    has_mesh |= node.mesh.has_value();
+  }
+  const std::string reason = has_mesh ? "has only meshes that cannot be drawn" : "has no node with a mesh";
+  if (model.scenes.empty()) return "the file, which lists no scene, " + reason;
+  const auto shown = static_cast<std::size_t>(std::max(0, model.defaultScene));
+  const std::string& name = model.scenes[shown].name;
+  return fmt::format("scene {}{} {}", shown, name.empty() ? "" : fmt::format(" '{}'", name.substr(0, 60)), reason);
+}
+
 Scene read_scene(const std::string& path, GltfWarnings& notes) {
   GltfModel file = read_gltf_model(path, notes);
   const tinygltf::Model& model = file.parts;
@@ -30,23 +56,15 @@ Scene read_scene(const std::string& path, GltfWarnings& notes) {
   read_meshes(model, buffers, accessors, budget, scene, notes);
   const NodePlaces places = read_nodes(model, accessors, budget, scene, notes);
   read_animations(model, accessors, places, budget, scene);
+  notes.empty = printable(why_empty(model, scene));
   return scene;
-}
-
-// Escapes a message, which may quote the file: it must stay on one line, without control sequences for a terminal.
-std::string printable(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, '?');
-  return text;
 }
 
 }  // namespace
 
-void GltfWarnings::ignore(const std::string& what) {
-  constexpr std::size_t kMostNotes = 100;
-  const std::string line = printable(what);
-  if (ignored.size() < kMostNotes && std::find(ignored.begin(), ignored.end(), line) == ignored.end())
-    ignored.push_back(line);
-}
+void GltfWarnings::ignore(const std::string& what) { add_note(ignored, what); }
+void GltfWarnings::correct(const std::string& what) { add_note(corrected, what); }
+void GltfWarnings::miss(const std::string& what) { add_note(missing, what); }
 
 core::Result<Scene> load_gltf(const std::string& path, GltfWarnings* notes) {
   const auto refuse = [&](std::string reason) {

@@ -20,6 +20,8 @@
 namespace afm::scene {
 namespace {
 
+constexpr float kRoundedWeight = 0.01F;  // below zero, from an exporter's rounding
+
 glm::vec3 unit_or(glm::vec3 direction, glm::vec3 missing) {
   const float length = glm::length(direction);
   return length > 0 && std::isfinite(length) ? direction / length : missing;
@@ -183,8 +185,8 @@ class PrimitiveReader {
       for (std::size_t k = 0; k < 4; ++k) {
         influences[i].joints[k] = static_cast<std::uint32_t>((*joints)[4 * i + k]);
         const float weight = (*weights)[4 * i + k];
-        if (weight < 0) fail(fmt::format("has a negative {}", weights_name));
-        influences[i].weights[static_cast<int>(k)] = weight;
+        if (weight < -kRoundedWeight) fail(fmt::format("has a negative {}", weights_name));
+        influences[i].weights[static_cast<int>(k)] = std::max(weight, 0.0F);
       }
     }
   }
@@ -258,30 +260,44 @@ void read_weights(std::size_t index, const tinygltf::Mesh& source, Mesh& mesh) {
   mesh.weights.resize(targets, 0.0F);
 }
 
+bool is_drawn(const tinygltf::Primitive& primitive, GltfWarnings& notes) {
+  for (const auto& [name, accessor] : primitive.attributes) {
+    if (!is_read_attribute(name)) notes.ignore(fmt::format("attribute {}: not drawn", name));
+  }
+  const bool has_position = primitive.attributes.count("POSITION") != 0;
+  if (!has_position) notes.ignore("a primitive without POSITION: cannot be drawn");
+  return has_position;
+}
+
 }  // namespace
 
 void read_meshes(const tinygltf::Model& model, const GltfBuffers& buffers, const GltfAccessors& accessors,
                  GltfBudget& budget, Scene& scene, GltfWarnings& notes) {
   const auto default_material = static_cast<std::uint32_t>(scene.materials.size());
+  std::vector<bool> used(model.meshes.size(), false);
+  for (const tinygltf::Node& node : model.nodes) {
+    if (node.mesh >= 0) used[static_cast<std::size_t>(node.mesh)] = true;
+  }
   bool uses_default = false;
   for (std::size_t m = 0; m < model.meshes.size(); ++m) {
     Mesh& mesh = scene.meshes.emplace_back();
     mesh.name = model.meshes[m].name;
-    for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
-      const tinygltf::Primitive& primitive = model.meshes[m].primitives[p];
-      for (const auto& [name, accessor] : primitive.attributes) {
-        if (!is_read_attribute(name)) notes.ignore(fmt::format("attribute {}: not drawn", name));
+    if (used[m] && model.meshes[m].primitives.empty()) notes.ignore(fmt::format("/meshes/{}: has no primitives", m));
+    try {
+      for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p) {
+        const tinygltf::Primitive& primitive = model.meshes[m].primitives[p];
+        if (!is_drawn(primitive, notes)) continue;
+        uses_default |= primitive.material < 0;
+        PrimitiveReader reader(fmt::format("/meshes/{}/primitives/{}", m, p), primitive, model, buffers, accessors,
+                               budget);
+        mesh.primitives.push_back(reader.read(default_material));
       }
-      if (primitive.attributes.count("POSITION") == 0) {
-        notes.ignore("a primitive without POSITION: cannot be drawn");
-        continue;
-      }
-      uses_default |= primitive.material < 0;
-      PrimitiveReader reader(fmt::format("/meshes/{}/primitives/{}", m, p), primitive, model, buffers, accessors,
-                             budget);
-      mesh.primitives.push_back(reader.read(default_material));
+      read_weights(m, model.meshes[m], mesh);
+    } catch (const GltfError& fault) {
+      if (used[m]) throw;
+      mesh.primitives.clear();
+      notes.ignore(fmt::format("/meshes/{}: no node uses it, and it cannot be read ({})", m, fault.what()));
     }
-    read_weights(m, model.meshes[m], mesh);
   }
   if (uses_default) scene.materials.push_back(PbrMaterial{.name = "default"});
 }

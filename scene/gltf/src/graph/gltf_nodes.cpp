@@ -46,22 +46,48 @@ std::vector<bool> find_parents(const std::vector<tinygltf::Node>& nodes) {
   return has_parent;
 }
 
-// Roots to show: those of the default scene, of the first one, or of the whole file.
-std::vector<std::size_t> shown_roots(const tinygltf::Model& model, const std::vector<bool>& has_parent) {
-  const std::size_t shown = model.defaultScene < 0 ? 0 : static_cast<std::size_t>(model.defaultScene);
-  std::vector<std::size_t> roots, listed_by(has_parent.size(), model.scenes.size());
-  for (std::size_t i = 0; i < model.scenes.size(); ++i) {
-    for (const int root : model.scenes[i].nodes) {
-      const auto node = static_cast<std::size_t>(root);
-      if (has_parent[node] || listed_by[node] == i) {
-        throw GltfError(fmt::format("/scenes/{} has the node {}, which is not a root or listed twice", i, node));
-      }
-      listed_by[node] = i;
-      if (i == shown) roots.push_back(node);
+// Nodes below one of `roots`, without these.
+std::vector<bool> descendants(const std::vector<tinygltf::Node>& nodes, const std::vector<int>& roots) {
+  std::vector<bool> below(nodes.size(), false);
+  std::vector<int> waiting = roots;
+  while (!waiting.empty()) {
+    const auto node = static_cast<std::size_t>(waiting.back());
+    waiting.pop_back();
+    for (const int child : nodes[node].children) {
+      if (below[static_cast<std::size_t>(child)]) continue;
+      below[static_cast<std::size_t>(child)] = true;
+      waiting.push_back(child);
     }
   }
-  for (std::size_t i = 0; model.scenes.empty() && i < has_parent.size(); ++i) {
-    if (!has_parent[i]) roots.push_back(i);
+  return below;
+}
+
+// Roots to show: those of the default scene, of the first one, or of the whole file. Old versions of UniGLTF list a
+// child of a node that is in no scene: it is shown by itself.
+std::vector<std::size_t> shown_roots(const tinygltf::Model& model, const std::vector<bool>& has_parent,
+                                     GltfWarnings& notes) {
+  std::vector<std::size_t> roots;
+  if (model.scenes.empty()) {
+    for (std::size_t i = 0; i < has_parent.size(); ++i) {
+      if (!has_parent[i]) roots.push_back(i);
+    }
+    return roots;
+  }
+  const std::size_t shown = model.defaultScene < 0 ? 0 : static_cast<std::size_t>(model.defaultScene);
+  const std::vector<int>& listed = model.scenes[shown].nodes;
+  const std::vector<bool> below = descendants(model.nodes, listed);
+  std::vector<bool> seen(has_parent.size(), false);
+  for (const int root : listed) {
+    const auto node = static_cast<std::size_t>(root);
+    if (below[node] || seen[node]) {
+      throw GltfError(fmt::format("/scenes/{} has the node {}, which is not a root or listed twice", shown, node));
+    }
+    if (has_parent[node]) {
+      notes.correct(fmt::format("/scenes/{} lists the node {}, whose parent it does not list: drawn without the parent",
+                                shown, node));
+    }
+    seen[node] = true;
+    roots.push_back(node);
   }
   return roots;
 }
@@ -72,13 +98,13 @@ std::optional<std::uint32_t> index_or_none(int index) {
 
 class NodeReader {
  public:
-  NodeReader(const tinygltf::Model& model, const GltfAccessors& accessors, Scene& scene)
-      : model_(model), accessors_(accessors), scene_(scene), places_(model.nodes.size()) {}
+  NodeReader(const tinygltf::Model& model, const GltfAccessors& accessors, Scene& scene, GltfWarnings& notes)
+      : model_(model), accessors_(accessors), scene_(scene), notes_(notes), places_(model.nodes.size()) {}
 
   // Depth first without recursion: a hierarchy may be as deep as its number of nodes.
   NodePlaces read() {
     std::vector<std::pair<std::size_t, std::optional<NodeIndex>>> waiting;
-    const auto roots = shown_roots(model_, find_parents(model_.nodes));
+    const auto roots = shown_roots(model_, find_parents(model_.nodes), notes_);
     for (auto node = roots.rbegin(); node != roots.rend(); ++node) waiting.emplace_back(*node, std::nullopt);
     while (!waiting.empty()) {
       const auto [index, parent] = waiting.back();
@@ -187,6 +213,7 @@ class NodeReader {
   const tinygltf::Model& model_;
   const GltfAccessors& accessors_;
   Scene& scene_;
+  GltfWarnings& notes_;
   NodePlaces places_;
   std::uint64_t drawn_corners_ = 0, draws_ = 0, moved_vertices_ = 0;
 };
@@ -201,6 +228,10 @@ void read_skins(const tinygltf::Model& model, const GltfAccessors& accessors, co
     const tinygltf::Skin& source = model.skins[i];
     Skin& skin = scene.skins.emplace_back();
     skin.name = source.name;
+    if (source.joints.empty()) {
+      if (used[i]) throw GltfError(fmt::format("/skins/{}/joints is a list of 0, but a node uses it", i));
+      continue;
+    }
     for (const int joint : source.joints) {
       const auto place = places[static_cast<std::size_t>(joint)];
       if (!place && used[i]) {
@@ -272,7 +303,8 @@ void read_cameras(const tinygltf::Model& model, Scene& scene) {
   }
 }
 
-void read_lights(const tinygltf::Model& model, Scene& scene) {
+void read_lights(const tinygltf::Model& model, Scene& scene, GltfWarnings& notes) {
+  constexpr float kNarrower = 0.999F;  // inner cone within an outer one of the same angle
   for (std::size_t i = 0; i < model.lights.size(); ++i) {
     const tinygltf::Light& source = model.lights[i];
     PunctualLight& light = scene.lights.emplace_back();
@@ -286,6 +318,12 @@ void read_lights(const tinygltf::Model& model, Scene& scene) {
     light.kind = PunctualLight::Kind::Spot;
     light.inner_cone_rad = static_cast<float>(source.spot.innerConeAngle);
     light.outer_cone_rad = static_cast<float>(source.spot.outerConeAngle);
+    const bool same =
+        light.inner_cone_rad >= light.outer_cone_rad && light.inner_cone_rad <= 1.01F * light.outer_cone_rad;
+    if (same && light.outer_cone_rad > 0.0F) {
+      light.inner_cone_rad = kNarrower * light.outer_cone_rad;
+      notes.correct(fmt::format("light {} has equal cones: the inner one is drawn narrower", i));
+    }
     if (light.inner_cone_rad >= light.outer_cone_rad) {
       throw GltfError(
           fmt::format("/extensions/KHR_lights_punctual/lights/{} has an inner cone that is not within the "
@@ -308,9 +346,9 @@ void read_variants(const tinygltf::Model& model, Scene& scene) {
 NodePlaces read_nodes(const tinygltf::Model& model, const GltfAccessors& accessors, GltfBudget& budget, Scene& scene,
                       GltfWarnings& notes) {
   read_cameras(model, scene);
-  read_lights(model, scene);
+  read_lights(model, scene, notes);
   read_variants(model, scene);
-  const NodePlaces places = NodeReader(model, accessors, scene).read();
+  const NodePlaces places = NodeReader(model, accessors, scene, notes).read();
   read_skins(model, accessors, places, budget, scene);
   check_joints(scene);
   if (model.scenes.size() > 1)

@@ -62,6 +62,8 @@ EncodedImage read_image(GltfModel& model, const GltfBuffers& buffers, std::uint3
   const tinygltf::Image& source = model.parts.images[index];
   if (source.bufferView >= 0) {
     image.bytes = buffers.views()[static_cast<std::size_t>(source.bufferView)].bytes;
+  } else if (source.uri.empty()) {
+    throw GltfMissingFile("it has neither a uri nor a bufferView");
   } else {
     image.owned = model.side_files.read(source.uri);
     image.bytes = image.owned;
@@ -148,6 +150,19 @@ void read_textures(GltfModel& model, const GltfBuffers& buffers, Scene& scene, G
       }
     }
   }
+  std::vector<EncodedImage> encoded;
+  for (auto i = used_images.begin(); i != used_images.end();) {
+    try {
+      encoded.push_back(read_image(model, buffers, *i));
+      scene.images.emplace_back().name = model.parts.images[*i].name;
+      ++i;
+    } catch (const GltfMissingFile& fault) {
+      notes.miss(fmt::format("/images/{}: {}", *i, fault.what()));
+      i = used_images.erase(i);
+    }
+  }
+  std::erase_if(used_textures,
+                [&](std::uint32_t i) { return !used_images.contains(static_cast<std::uint32_t>(textures[i].source)); });
 
   const auto places = numbered(used_images);
   for (const std::uint32_t i : used_textures) {
@@ -155,11 +170,6 @@ void read_textures(GltfModel& model, const GltfBuffers& buffers, Scene& scene, G
     texture.image = places.at(static_cast<std::uint32_t>(textures[i].source));
     const int sampler = textures[i].sampler;
     if (sampler >= 0) read_sampler(model.parts.samplers[static_cast<std::size_t>(sampler)], texture);
-  }
-  std::vector<EncodedImage> encoded;
-  for (const std::uint32_t i : used_images) {
-    encoded.push_back(read_image(model, buffers, i));
-    scene.images.emplace_back().name = model.parts.images[i].name;
   }
   renumber(numbered(used_textures), scene);
   measure(encoded, scene.images);

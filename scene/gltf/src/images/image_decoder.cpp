@@ -9,6 +9,7 @@
 #include <cstring>
 #include <memory>
 
+#include "foreign_file.h"
 #include "gltf_error.h"
 
 namespace afm::scene {
@@ -95,7 +96,11 @@ void decode_jpeg(Encoded bytes, Image& image) {
 }  // namespace
 
 ImageSize image_size(Encoded encoded) {
-  if (!is_png(encoded) && !is_jpeg(encoded)) throw GltfError("it is neither PNG nor JPEG");
+  if (!is_png(encoded) && !is_jpeg(encoded)) {
+    const std::string kind = encoded.empty() ? "empty" : foreign_image(encoded);
+    throw GltfError(fmt::format("it is {}; export the model with PNG or JPEG images",
+                                kind.empty() ? "neither PNG nor JPEG" : kind));
+  }
   const ImageSize size = is_png(encoded) ? png_size(encoded) : jpeg_size(encoded);
   if (size.width == 0 || size.height == 0 || size.width > kLargestImageSide || size.height > kLargestImageSide) {
     throw GltfError(

@@ -9,14 +9,19 @@
 
 namespace afm::scene {
 
-// Warnings about a loaded model, one line each.
+// Warnings about a loaded model, one line each. At most 100 of a kind are kept.
 struct GltfWarnings {
   std::string generator;                // program that wrote the file, as stated in it
   std::vector<std::string> extensions;  // extensions used by the file and supported by the loader
   std::vector<std::string> ignored;     // parts that are not shown, with the reason
+  std::vector<std::string> corrected;   // values that break glTF and are drawn as others
+  std::vector<std::string> missing;     // images that are not there, without which the model is drawn
+  std::string empty;                    // reason why nothing is shown; empty: something is
 
-  // Adds a warning unless it is already listed.
+  // Each adds a warning unless it is already listed.
   void ignore(const std::string& what);
+  void correct(const std::string& what);
+  void miss(const std::string& what);
 };
 
 // Reads a glTF 2.0 model, .glb or .gltf (distinguished by content), and checks all of it before building anything from
