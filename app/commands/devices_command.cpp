@@ -15,9 +15,11 @@
 #include "core/printable.h"
 #include "input/dtrack_source.h"
 #include "input/hid_source.h"
+#include "input/tracker_report.h"
 #include "input/wand_file.h"
 #include "render/context.h"
 #include "render/monitor.h"
+#include "render/window.h"
 #include "servo/haptic_choice.h"
 
 namespace afm::app {
@@ -57,8 +59,9 @@ Row listen_for_tracker(const input::DtrackSettings& settings) {
   if (update.good_packets + update.bad_packets == 0) {
     return {"tracker", name, false, "no packet in 0.3 s: start the measurement, and send its output to this address"};
   }
-  const std::string damaged = fmt::format("{} malformed packets, {} frames lost, {} late or repeated in 0.3 s",
-                                          update.bad_packets, update.lost_frames, update.old_packets);
+  const std::string damaged = fmt::format(
+      "{} malformed packets, {} frames lost, {} late or repeated in 0.3 s{}", update.bad_packets, update.lost_frames,
+      update.old_packets, update.faults.count > 0 ? "; " + input::text_of(update.faults.first.front()) : "");
   if (update.good_packets == 0) return {"tracker", name, false, damaged};
   return {"tracker", name, true,
           fmt::format("{} frames, {} bodies, {} Flysticks; {}", update.good_packets, update.frame.body_count,
@@ -71,9 +74,14 @@ void look_for_monitors(std::vector<Row>& rows) {
     rows.push_back({"monitor", "any", false, monitors.error().message});
     return;
   }
+  const auto display = render::check_display();
   for (std::size_t i = 0; i < monitors->size(); ++i) {
     const render::Monitor& monitor = monitors->at(i);
     const scene::PixelRect& rect = monitor.rect;
+    if (!display) {
+      rows.push_back({"monitor", monitor.name, false, display.error().message});
+      continue;
+    }
     rows.push_back({"monitor", monitor.name, true,
                     fmt::format("number {}, {} x {} pixels at {}, {}, {}", i + 1, rect.size_px.x, rect.size_px.y,
                                 rect.offset_px.x, rect.offset_px.y,

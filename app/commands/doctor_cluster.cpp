@@ -16,6 +16,7 @@
 #include "app/commands/findings_json.h"
 #include "cluster/clock_offset.h"
 #include "cluster/master_link.h"
+#include "core/log.h"
 #include "core/percentiles.h"
 #include "core/printable.h"
 #include "exhibit/cluster/frame_inputs.h"
@@ -146,6 +147,8 @@ core::Result<void> examine_cluster(const CommandContext& context, const ClusterC
                       .found = fmt::format("{} ({}), {}", interface->name, interface->address,
                                            interface->multicast ? "multicast" : "no multicast"),
                       .fix = "plug in the cable, or name another interface with --interface"});
+  core::log_line(
+      fmt::format("waiting up to {:g} s for the answers of {} machines", check.seconds, stage->wall.nodes.size()));
   const std::vector<NodeAnswers> answers = ask_nodes(*opened->link, *stage, check.seconds, clock);
   for (std::size_t i = 0; i < answers.size(); ++i) {
     findings.push_back(judge(stage->wall.nodes[i], answers[i], opened->network));

@@ -113,8 +113,9 @@ void add_wand_options(OptionList& command, ViewOptions& options) {
   command
       .add_option(
           "--wand", options.wand.source,
-          "pointing device in addition to the mouse: auto or hid for any connected wand (hot-plug), dtrack or "
-          "dtrack:ADDRESS:PORT for a tracker's Flystick, sim for a simulated wand, or mouse for none; default: auto")
+          "pointing device in addition to the mouse: auto or hid for the connected wand that is used (hot-plug), "
+          "hid:NAME for the wand whose node, numbers or name contain NAME, dtrack or dtrack:ADDRESS:PORT for a "
+          "tracker's Flystick, sim for a simulated wand, or mouse for none; default: auto")
       .type_name("SOURCE");
   command
       .add_option("--wand-file", options.wand.file,

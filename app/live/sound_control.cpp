@@ -40,7 +40,7 @@ void SoundControl::update(const ViewFrame& /*frame*/) {
 }
 
 void SoundControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
-  if (parts_.turn.blank) exhibit::blank(picture);
+  if (parts_.turn.blank) exhibit::blank(picture, parts_.stage.phrases()[exhibit::Phrase::PictureBlank]);
 }
 
 void SoundControl::restart(Restart what) {

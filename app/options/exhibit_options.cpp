@@ -64,10 +64,9 @@ void add_friction_option(OptionList& command, physics::FrictionLaw& friction) {
   for (const physics::FrictionLawText& row : physics::kFrictionLaws) {
     meanings += fmt::format("{}{} ({})", meanings.empty() ? "" : ", ", row.word, row.meaning);
   }
-  enum_option(
-      command, "--friction", friction, "a friction", physics::kFrictionLaws, &physics::FrictionLawText::word,
-      &physics::FrictionLawText::law,
-      fmt::format("what holds the tip back sideways: {}; default: {}", meanings, physics::text_of(friction).word));
+  enum_option(command, "--friction", friction, "a friction", physics::kFrictionLaws, &physics::FrictionLawText::word,
+              &physics::FrictionLawText::law,
+              fmt::format("friction model: {}; default: {}", meanings, physics::text_of(friction).word));
 }
 
 void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {

@@ -35,8 +35,9 @@ Option si_option(OptionList& command, const std::string& name, std::function<voi
 // Adds an option whose value is a number with a unit. Help and error show the range if there is one, otherwise the
 // units.
 template <class Q, class Store>
-Option quantity_option(OptionList& command, const std::string& name, Store store, const physics::UnitList<Q>& units,
-                       const std::string& description, std::optional<QuantityRange<Q>> range = std::nullopt) {
+Option quantity_option(OptionList& command, const std::string& name, const Store& store,
+                       const physics::UnitList<Q>& units, const std::string& description,
+                       std::optional<QuantityRange<Q>> range = std::nullopt) {
   QuantityDomain domain{units.sort, units.units};
   if (range) domain.range = {range->least.si, range->most.si};
   return si_option(command, name, [store](double si) { store(Q(si)); }, domain, description);

@@ -107,6 +107,14 @@ std::vector<double> holm_adjusted(std::span<const double> p) {
   return adjusted;
 }
 
+void correct_by_holm(std::span<TestResult* const> tests) {
+  std::vector<double> p;
+  for (const TestResult* test : tests) p.push_back(test->p);
+  if (std::count_if(p.begin(), p.end(), [](double each) { return !std::isnan(each); }) < 2) return;
+  const std::vector<double> adjusted = holm_adjusted(p);
+  for (std::size_t i = 0; i < tests.size(); ++i) tests[i]->holm_p = adjusted[i];
+}
+
 double normalised_gain(double pre, double post) { return pre < 1.0 ? (post - pre) / (1.0 - pre) : kNoValue; }
 
 double cronbach_alpha(const std::vector<std::vector<double>>& people) {

@@ -118,8 +118,10 @@ std::string p_text(double p) {
 
 std::string test_text(const TestResult& test) {
   if (std::isnan(test.p)) return test.name + ": too few values, or no spread";
-  return fmt::format("{}: {}, {}; {} = {}", test.name, test.statistic, p_text(test.p), test.effect_name,
-                     estimate_text(test.effect, 2));
+  std::string text = fmt::format("{}: {}, {}; {} = {}", test.name, test.statistic, p_text(test.p), test.effect_name,
+                                 estimate_text(test.effect, 2));
+  if (!std::isnan(test.holm_p)) text += "; after Holm's correction " + p_text(test.holm_p);
+  return text;
 }
 
 }  // namespace afm::study

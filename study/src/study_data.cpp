@@ -32,6 +32,7 @@ constexpr std::size_t kMostTrialsInAll = 2'000'000;
 constexpr std::uintmax_t kLargestTable = 32U << 20U;
 constexpr std::uintmax_t kLargestDescription = 1U << 20U;
 constexpr std::string_view kPersonPrefix = "sub-", kTaskPrefix = "task-", kEventsEnding = "_events.tsv";
+constexpr std::string_view kTrialsFolder = "beh";
 
 tl::unexpected<core::Error> bad_file(const std::string& path, const std::string& what) {
   return core::failure(core::ErrorCategory::BadInputFile, path + ": " + what);
@@ -79,6 +80,11 @@ std::string text_in(const nlohmann::json& table, const char* key) {
   return found->is_string() ? printable(found->get<std::string>().substr(0, kLongest)) : std::string{};
 }
 
+std::string without_dashes(std::string id) {
+  std::erase(id, '-');
+  return id;
+}
+
 std::string cut_remark(const std::string& name, std::size_t line) {
   return fmt::format("{}: line {} was cut off and is left out", name, line);
 }
@@ -86,7 +92,7 @@ std::string cut_remark(const std::string& name, std::size_t line) {
 // An events file of a person, with its description.
 core::Result<LessonVisit> read_visit(const std::string& folder, const std::string& name, StudyData& data) {
   LessonVisit visit;
-  visit.task = name.substr(name.rfind('/') + 1 + kTaskPrefix.size());
+  visit.task = name.substr(name.find(kTaskPrefix, name.rfind('/')) + kTaskPrefix.size());
   visit.task.resize(visit.task.size() - kEventsEnding.size());
   if (!is_word(visit.task)) return bad_file(folder + "/" + printable(name), "the name holds no lesson's id");
   const std::string path = folder + "/" + name;
@@ -108,6 +114,10 @@ core::Result<LessonVisit> read_visit(const std::string& folder, const std::strin
   auto facts = parse_lesson_facts(*text, folder + "/" + description);
   if (!facts) return tl::unexpected(facts.error());
   visit.facts = std::move(*facts);
+  // of the id, the names of files have letters and digits alone; those of 0.2.0 have its dashes, too
+  if (is_word(visit.facts.id) && without_dashes(visit.facts.id) == without_dashes(visit.task)) {
+    visit.task = visit.facts.id;
+  }
   if (visit.facts.sound_lost_s) {
     data.remarks.push_back(fmt::format("{}: without sound from {:.0f} s on; the trials since then count", description,
                                        *visit.facts.sound_lost_s));
@@ -120,7 +130,12 @@ core::Result<void> read_person(const std::string& folder, const StudyPerson& per
     data.left_out.push_back(person.id + ": withdrew");
     return {};
   }
-  const auto names = names_in(folder + "/" + person.id, kTaskPrefix, kEventsEnding);
+  auto names = names_in(folder + "/" + person.id, kTaskPrefix, kEventsEnding);
+  const std::string trials = fmt::format("{}/{}", person.id, kTrialsFolder);
+  const std::string of_person = fmt::format("{}_{}", person.id, kTaskPrefix);
+  for (const std::string& name : names_in(fmt::format("{}/{}", folder, trials), of_person, kEventsEnding)) {
+    names.insert(fmt::format("{}/{}", kTrialsFolder, name));
+  }
   if (names.empty()) {
     data.left_out.push_back(person.id + ": there is no task-*_events.tsv");
     return {};
@@ -135,6 +150,8 @@ core::Result<void> read_person(const std::string& folder, const StudyPerson& per
     if (!visit) return tl::unexpected(visit.error());
     member.visits.push_back(std::move(*visit));
   }
+  std::stable_sort(member.visits.begin(), member.visits.end(),
+                   [](const LessonVisit& a, const LessonVisit& b) { return a.task < b.task; });
   data.members.push_back(std::move(member));
   return {};
 }

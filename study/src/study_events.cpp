@@ -26,11 +26,13 @@ enum EventsColumn {
   Stimulus,
   Response,
   Correct,
-  Rt
+  Rt,
+  Force
 };
-constexpr std::array<std::string_view, 12> kEventsColumns{"onset",     "duration", "step",    "trial_type",
-                                                          "condition", "practice", "trial",   "level",
-                                                          "stimulus",  "response", "correct", "rt"};
+constexpr std::array<std::string_view, 13> kEventsColumns{"onset",    "duration", "step",  "trial_type", "condition",
+                                                          "practice", "trial",    "level", "stimulus",   "response",
+                                                          "correct",  "rt",       "force"};
+constexpr std::size_t kNewerColumns = 1;  // force
 constexpr double kLongestLesson_s = 1e7;
 constexpr double kHighestLevel = 1e3;
 constexpr double kMostTrialsOfAStep = 1e6;
@@ -74,6 +76,9 @@ class EventsLine {
     trial.stimulus = word(Stimulus);
     trial.response = word(Response);
     trial.rt_s = optional(Rt, 0, kLongestLesson_s);
+    const auto force = optional(Force, 0, 1);
+    if (force && *force != std::floor(*force)) refuse(Force, "0 or 1");
+    if (force) trial.force = *force == 1.0;
     judge(trial);
     return trial;
   }
@@ -169,7 +174,7 @@ class EventsLine {
 }  // namespace
 
 core::Result<EventsFile> parse_events(std::string_view bytes, const std::string& name) {
-  const auto table = parse_tsv(bytes, name, kEventsColumns);
+  const auto table = parse_tsv(bytes, name, kEventsColumns, kNewerColumns);
   if (!table) return tl::unexpected(table.error());
   EventsFile file{.trials = {}, .cut_line = table->cut_line};
   for (std::size_t row = 0; row < table->lines.size(); ++row) {

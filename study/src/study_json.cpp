@@ -97,7 +97,12 @@ Json lesson_json(const LessonResults& lesson) {
           {"facts", lesson.facts},
           {"participants", lesson.people},
           {"simulated", lesson.simulated},
-          {"trials", {{"counted", lesson.counted}, {"practice", lesson.practice}, {"unanswered", lesson.unanswered}}},
+          {"trials",
+           {{"counted", lesson.counted},
+            {"practice", lesson.practice},
+            {"unanswered", lesson.unanswered},
+            {"not_felt", lesson.not_felt},
+            {"force_unknown", lesson.force_unknown}}},
           {"left_out", lesson.left_out},
           {"identify", array_of(lesson.identify, identify_json)},
           {"thresholds", array_of(lesson.thresholds, threshold_json)},
@@ -108,7 +113,7 @@ Json lesson_json(const LessonResults& lesson) {
                                              {"a", condition_json(each.a)},
                                              {"b", condition_json(each.b)},
                                              {"test", json_of(each.test)},
-                                             {"p_holm", json_of(each.holm_p)}};
+                                             {"p_holm", json_of(each.test.holm_p)}};
                                    })},
           {"learning", array_of(lesson.learning,
                                 [](const LearningResult& each) -> Json {

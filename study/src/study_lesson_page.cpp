@@ -103,10 +103,9 @@ void add_comparisons(const LessonResults& lesson, Blocks& blocks) {
   blocks.push_back(PageHeading{3, "Conditions compared"});
   PageList list;
   for (const ConditionComparison& comparison : lesson.comparisons) {
-    std::string line = fmt::format("{}, {} against {} (n = {}): {}", comparison.measure, condition_text(comparison.a),
-                                   condition_text(comparison.b), comparison.test.effect.n, test_text(comparison.test));
-    if (!std::isnan(comparison.holm_p)) line += "; after Holm's correction " + p_text(comparison.holm_p);
-    list.items.push_back(std::move(line));
+    list.items.push_back(fmt::format("{}, {} against {} (n = {}): {}", comparison.measure, condition_text(comparison.a),
+                                     condition_text(comparison.b), comparison.test.effect.n,
+                                     test_text(comparison.test)));
   }
   blocks.push_back(std::move(list));
 }
@@ -148,8 +147,14 @@ std::vector<PageBlock> lesson_blocks(const LessonResults& lesson) {
   Blocks blocks{PageHeading{2, "Lesson " + lesson.task + (lesson.title.empty() ? "" : ": " + lesson.title)}};
   PageList facts{{fmt::format("participants: {}{}", lesson.people,
                               lesson.simulated > 0 ? fmt::format(", of which simulated {}", lesson.simulated) : ""),
-                  fmt::format("trials: {} counted, {} of practice (left out), {} without an answer (left out)",
-                              lesson.counted, lesson.practice, lesson.unanswered)}};
+                  fmt::format("trials: {} counted, {} of practice (left out), {} without an answer (left out), {} in "
+                              "which the force was not as the step sets it (left out)",
+                              lesson.counted, lesson.practice, lesson.unanswered, lesson.not_felt)}};
+  if (lesson.force_unknown > 0) {
+    facts.items.push_back(
+        fmt::format("force on the hand: not known for {} of the counted trials, whose data set has no column \"force\"",
+                    lesson.force_unknown));
+  }
   facts.items.insert(facts.items.end(), lesson.facts.begin(), lesson.facts.end());
   for (const std::string& line : lesson.left_out) facts.items.push_back("left out: " + line);
   blocks.push_back(std::move(facts));

@@ -103,6 +103,14 @@ bool has_answer(const StudyTrial& trial) {
   return true;
 }
 
+// The tests of one list of a report.
+template <class Row>
+void correct_side_by_side(std::vector<Row>& rows, TestResult Row::* test) {
+  std::vector<TestResult*> tests;
+  for (Row& row : rows) tests.push_back(&(row.*test));
+  correct_by_holm(tests);
+}
+
 using GroupsByKind = std::map<StepKind, TrialGroups>;
 
 GroupsByKind counted_trials(const LessonVisits& lesson, LessonResults& results) {
@@ -111,10 +119,13 @@ GroupsByKind counted_trials(const LessonVisits& lesson, LessonResults& results) 
     for (const StudyTrial& trial : visit->trials) {
       if (trial.practice) {
         ++results.practice;
+      } else if (!trial.felt_as_set().value_or(true)) {
+        ++results.not_felt;
       } else if (!has_answer(trial)) {
         ++results.unanswered;
       } else {
         ++results.counted;
+        if (row_of(trial.kind).has_cycles && !trial.force) ++results.force_unknown;
         groups[trial.kind][{trial.step, trial.condition}][id].push_back(&trial);
       }
     }
@@ -169,6 +180,11 @@ LessonResults lesson_results(const std::string& task, const LessonVisits& lesson
     const auto compared = compared_conditions(measure);
     results.comparisons.insert(results.comparisons.end(), compared.begin(), compared.end());
   }
+  correct_side_by_side(results.comparisons, &ConditionComparison::test);
+  correct_side_by_side(results.identify, &IdentifyResult::against_chance);
+  correct_side_by_side(results.learning, &LearningResult::change);
+  correct_side_by_side(results.learning, &LearningResult::single_trials);
+  correct_side_by_side(results.ssq, &SsqResult::change);
   return results;
 }
 
@@ -216,6 +232,7 @@ void add_survey(const StudyData& data, StudyResults& results) {
     results.survey.push_back({summary, t_interval(summary).within(kAnswerScale),
                               as_result("Welch t", welch_test(summary, printed_summary(survey_questions()[i])), "d")});
   }
+  correct_side_by_side(results.survey, &SurveyResult::against_paper);
   std::vector<double> differences;
   for (const auto& [id, given] : answers) {
     if (given[kHapticsQuestion] && given[kGraphicsQuestion]) {

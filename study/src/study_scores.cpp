@@ -167,16 +167,11 @@ double Measure::sd(const std::string& condition) const {
 
 std::vector<ConditionComparison> compared_conditions(const Measure& measure) {
   std::vector<ConditionComparison> comparisons;
-  std::vector<double> p;
   for (auto a = measure.values.begin(); a != measure.values.end(); ++a) {
     for (auto b = std::next(a); b != measure.values.end(); ++b) {
-      comparisons.push_back(
-          {measure.title, a->first, b->first, comparison_of(measure, a->second, b->second), kNoValue});
-      p.push_back(comparisons.back().test.p);
+      comparisons.push_back({measure.title, a->first, b->first, comparison_of(measure, a->second, b->second)});
     }
   }
-  const std::vector<double> adjusted = holm_adjusted(p);
-  for (std::size_t i = 0; i < adjusted.size(); ++i) comparisons[i].holm_p = adjusted[i];
   return comparisons;
 }
 

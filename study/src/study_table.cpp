@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/printable.h"
+#include "core/text_lines.h"
 
 namespace afm::study {
 
@@ -30,10 +31,12 @@ tl::unexpected<core::Error> bad_line(const std::string& name, std::size_t line, 
   return core::failure(core::ErrorCategory::BadInputFile, fmt::format("{}:{}: {}", name, line, what));
 }
 
-// Index in the header of each wanted column.
+constexpr std::size_t kNowhere = std::string_view::npos;
+
+// Index in the header of each wanted column; kNowhere for a missing one of the last `newer`.
 core::Result<std::vector<std::size_t>> column_places(const std::vector<std::string_view>& header,
-                                                     const std::string& name,
-                                                     std::span<const std::string_view> columns) {
+                                                     const std::string& name, std::span<const std::string_view> columns,
+                                                     std::size_t newer) {
   for (const std::string_view each : header) {
     if (std::find(columns.begin(), columns.end(), each) != columns.end()) continue;
     return bad_line(name, 1, fmt::format("unknown column \"{}\"", core::printable(each.substr(0, kLongestWord))));
@@ -41,6 +44,10 @@ core::Result<std::vector<std::size_t>> column_places(const std::vector<std::stri
   std::vector<std::size_t> places;
   for (const std::string_view column : columns) {
     const auto found = std::find(header.begin(), header.end(), column);
+    if (found == header.end() && places.size() + newer >= columns.size()) {
+      places.push_back(kNowhere);
+      continue;
+    }
     if (found == header.end()) return bad_line(name, 1, fmt::format("there is no column \"{}\"", column));
     if (std::find(found + 1, header.end(), column) != header.end()) {
       return bad_line(name, 1, fmt::format("the column \"{}\" is there twice", column));
@@ -57,9 +64,14 @@ tl::unexpected<core::Error> TsvTable::bad(std::size_t row, const std::string& wh
 }
 
 core::Result<TsvTable> parse_tsv(std::string_view bytes, const std::string& name,
-                                 std::span<const std::string_view> columns) {
+                                 std::span<const std::string_view> columns, std::size_t newer) {
   TsvTable table{.name = name, .lines = {}, .cut_line = 0};
   std::vector<std::size_t> places;
+  std::size_t width = 0;
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
+    return bad_line(name, 1, "the text is UTF-16; save it as UTF-8, with tabs between the columns");
+  }
+  bytes = core::without_byte_order_mark(bytes);
   for (std::size_t number = 1; !bytes.empty(); ++number) {
     const std::size_t end = bytes.find('\n');
     if (end == std::string_view::npos) {
@@ -67,19 +79,22 @@ core::Result<TsvTable> parse_tsv(std::string_view bytes, const std::string& name
       break;
     }
     if (number > kMostLines) return bad_line(name, number, fmt::format("more than {} lines", kMostLines));
-    const std::vector<std::string_view> fields = tab_fields(bytes.substr(0, end));
+    const std::vector<std::string_view> fields = tab_fields(core::without_line_end(bytes.substr(0, end)));
     bytes.remove_prefix(end + 1);
     if (number == 1) {
-      auto found = column_places(fields, name, columns);
+      auto found = column_places(fields, name, columns, newer);
       if (!found) return tl::unexpected(found.error());
       places = std::move(*found);
+      width = fields.size();
       continue;
     }
-    if (fields.size() != columns.size()) {
-      return bad_line(name, number, fmt::format("{} fields instead of {}", fields.size(), columns.size()));
+    if (fields.size() != width) {
+      return bad_line(name, number, fmt::format("{} fields instead of {}", fields.size(), width));
     }
     std::vector<std::string_view>& line = table.lines.emplace_back();
-    for (const std::size_t place : places) line.push_back(fields[place] == "n/a" ? "" : fields[place]);
+    for (const std::size_t place : places) {
+      line.push_back(place == kNowhere || fields[place] == "n/a" ? "" : fields[place]);
+    }
   }
   if (places.empty()) return bad_line(name, 1, "there is no header line");
   return table;

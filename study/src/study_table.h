@@ -23,10 +23,11 @@ struct TsvTable {
   tl::unexpected<core::Error> bad(std::size_t row, const std::string& what) const;
 };
 
-// The columns may be in any order; each must exist exactly once, and no other may exist. At most 100000 lines. The
-// views refer to `bytes`.
+// The columns may be in any order; each must exist exactly once, and no other may exist. A table of before may lack the
+// last `newer` of them, whose fields are then empty. At most 100000 lines, with the line ends of Unix or Windows, after
+// a byte order mark or none. The views refer to `bytes`.
 core::Result<TsvTable> parse_tsv(std::string_view bytes, const std::string& name,
-                                 std::span<const std::string_view> columns);
+                                 std::span<const std::string_view> columns, std::size_t newer = 0);
 
 // The whole text as a number within limits; empty for anything else.
 std::optional<double> parse_number(std::string_view text, double least, double most);

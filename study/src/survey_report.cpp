@@ -71,11 +71,13 @@ Json json_of(const Estimate& estimate) {
 }
 
 Json json_of(const TestResult& test) {
-  return {{"test", test.name},
-          {"statistic", test.statistic},
-          {"p", json_of(test.p)},
-          {"effect", test.effect_name},
-          {"effect_size", json_of(test.effect)}};
+  Json json{{"test", test.name},
+            {"statistic", test.statistic},
+            {"p", json_of(test.p)},
+            {"effect", test.effect_name},
+            {"effect_size", json_of(test.effect)}};
+  if (!std::isnan(test.holm_p)) json["p_holm"] = test.holm_p;
+  return json;
 }
 
 Json paper_survey_json() {

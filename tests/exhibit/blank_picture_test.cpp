@@ -18,5 +18,15 @@ TEST(BlankPicture, ShowsNoPanelWhateverWasShown) {
   EXPECT_EQ(frame.visible, std::vector<std::uint8_t>(3, 0));
 }
 
+TEST(BlankPicture, KeepsTheWordsThatSayHowToGetItBack) {
+  render::FrameState frame;
+  for (const char* text : {"Mica", "X: show the picture"}) frame.labels.push_back({.text = text, .placement = {}});
+  blank(frame, "X: show the picture");
+  ASSERT_EQ(frame.labels.size(), 1U);
+  EXPECT_EQ(frame.labels[0].text, "X: show the picture");
+  blank(frame);
+  EXPECT_TRUE(frame.labels.empty());
+}
+
 }  // namespace blank_picture_test
 }  // namespace afm::exhibit

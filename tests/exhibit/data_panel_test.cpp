@@ -59,6 +59,13 @@ TEST(DataPanel, SaysWhichWayTheLeverIsBent) {
   pressed.deflection_m = -7e-9;
   EXPECT_EQ(panel_of(Law::Paper, pulled).rows.back().source, "lever bent down by 0.80 nm");
   EXPECT_EQ(panel_of(Law::Paper, pressed).rows.back().source, "lever bent up by 7.00 nm");
+  for (const double unseen_m : {0.0, -0.0, 4e-12, -4e-12}) {
+    scene::Tip free{};
+    free.deflection_m = unseen_m;
+    free.force_n = -unseen_m * 0.1;
+    EXPECT_EQ(panel_of(Law::Paper, free).rows.back().source, "lever not bent") << unseen_m;
+    EXPECT_EQ(panel_of(Law::Paper, free).rows.back().value, "0.000 nN") << unseen_m;
+  }
 }
 
 }  // namespace data_panel_test

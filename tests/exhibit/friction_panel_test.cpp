@@ -83,7 +83,7 @@ TEST(FrictionPanel, SaysWithFrictionOffHowItIsTurnedOn) {
 TEST(FrictionPanel, GrowsAndHasNoFiguresBeforeTheLoopIsClosed) {
   FrictionHistory history;
   Led hand(history);
-  EXPECT_EQ(panel_of(history).stage, "lead the tip there and back while it touches");
+  EXPECT_EQ(panel_of(history).stage, "rub the tip back and forth on the surface");
   hand.land();
   hand.to(kStrokeM);
   const render::ForcePanel panel = panel_of(history);

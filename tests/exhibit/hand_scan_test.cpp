@@ -128,7 +128,8 @@ TEST(HandScan, PaintsWhatTheHandPassesAndLeavesTheRestEmpty) {
       EXPECT_TRUE(std::isnan(at(maps.height_m[0], x_m, -10e-9)));
     }
     const render::ImagePanel panel = image_panel(scan, "Gold", english());
-    EXPECT_THAT(panel.subtitle, testing::HasSubstr(feedback ? "feedback on, 2 % seen" : "feedback off, 2 % seen"));
+    EXPECT_THAT(panel.subtitle,
+                testing::HasSubstr(feedback ? "feedback on, 2 % covered" : "feedback off, 2 % covered"));
     EXPECT_EQ(panel.heights[0].title, feedback ? "Height" : "Deflection");
     const auto empty = std::count_if(panel.heights[0].grid.colors.begin(), panel.heights[0].grid.colors.end(),
                                      [](const auto& color) { return color[3] == 0; });
@@ -281,7 +282,7 @@ TEST(LeadingScan, SaysWhatTheHandCanDo) {
   tip.phase = physics::Phase::Free;
   EXPECT_THAT(said(led), StartsWith("Hold Turn-On"));
   tip.led = 1;
-  EXPECT_THAT(said(led), HasSubstr("go along"));
+  EXPECT_THAT(said(led), HasSubstr("follow the tip"));
   tip.led = 0;
   tip.lead_lost = 1;
   EXPECT_THAT(said(led), HasSubstr("let go of Turn-On, then hold it again"));

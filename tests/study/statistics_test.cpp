@@ -232,6 +232,19 @@ TEST(EffectSize, HasTheIntervalOfTheNoncentralT) {
   EXPECT_NEAR(0.5 * (of_d.low + of_d.high), 0.5, 0.02);
 }
 
+// The hand-written study of two measures, whose correction changed nothing when it was for each measure.
+TEST(Holm, CorrectsTestsThatStandSideBySide) {
+  TestResult first{.name = "a", .p = 0.0204, .effect = {}}, second{.name = "b", .p = 0.169, .effect = {}};
+  TestResult without_p{.name = "c", .effect = {}};
+  correct_by_holm(std::array{&first, &without_p, &second});
+  EXPECT_NEAR(first.holm_p, 0.0408, 1e-12);
+  EXPECT_NEAR(second.holm_p, 0.169, 1e-12);
+  EXPECT_TRUE(std::isnan(without_p.holm_p));
+  TestResult alone{.name = "d", .p = 0.03, .effect = {}};
+  correct_by_holm(std::array{&alone});
+  EXPECT_TRUE(std::isnan(alone.holm_p)) << "nothing stands beside it";
+}
+
 TEST(Holm, RejectsInTheOrderOfP) {
   EXPECT_THAT(holm_adjusted(std::array{0.04, 0.01, 0.03}),
               ElementsAre(::testing::DoubleNear(0.06, 1e-12), ::testing::DoubleNear(0.03, 1e-12),

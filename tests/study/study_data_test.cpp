@@ -88,8 +88,51 @@ TEST(StudyEvents, RefuseWrongColumnsByName) {
   EXPECT_THAT(fault_of("onset\tduration\n"), HasSubstr("x.tsv:1: there is no column \"step\""));
   EXPECT_THAT(fault_of("mood\t" + header), HasSubstr("x.tsv:1: unknown column \"mood\""));
   EXPECT_THAT(fault_of("rt\t" + header), HasSubstr("the column \"rt\" is there twice"));
-  EXPECT_THAT(fault_of(header.substr(0, header.size() - 1) + "\r\n"), HasSubstr("unknown column \"rt"));
+  EXPECT_THAT(fault_of("force\t" + header.substr(0, header.size() - 1) + "\tforce\n"),
+              HasSubstr("\"force\" is there twice"));
   EXPECT_THAT(fault_of(header + "1\t2\n"), HasSubstr("x.tsv:2: 2 fields instead of 12"));
+}
+
+// Excel and LibreOffice write these; a tab-separated text of a spreadsheet may as well be UTF-16, which is named.
+TEST(StudyEvents, AreReadFromASpreadsheetsFile) {
+  const std::string plain = kEventsHeader + identified("mica", "gold", "0") + identified("gold", "gold", "1");
+  std::string windows;
+  for (const char c : plain) windows += c == '\n' ? "\r\n" : std::string(1, c);
+  for (const std::string& bytes : {windows, "\xEF\xBB\xBF" + plain, "\xEF\xBB\xBF" + windows}) {
+    const auto events = parse_events(bytes, "x.tsv");
+    ASSERT_TRUE(events.has_value()) << events.error().message;
+    ASSERT_EQ(events->trials.size(), 2U);
+    EXPECT_EQ(events->trials[0].response, "gold");
+    EXPECT_DOUBLE_EQ(events->trials[0].rt_s.value(), 0.8);
+    EXPECT_EQ(events->cut_line, 0U);
+  }
+  for (const char* mark : {"\xFF\xFE", "\xFE\xFF"}) {
+    EXPECT_THAT(fault_of(mark + plain), HasSubstr("x.tsv:1: the text is UTF-16; save it as UTF-8"));
+  }
+}
+
+TEST(StudyEvents, SayWhetherTheForceWasOnOrThatItIsNotKnown) {
+  std::string header = kEventsHeader, line = identified("mica", "gold", "0");
+  header.insert(header.size() - 1, "\tforce");
+  for (const auto& [said, force] :
+       {std::pair<const char*, std::optional<bool>>{"0", false}, {"1", true}, {"n/a", std::nullopt}}) {
+    std::string with = line;
+    with.insert(with.size() - 1, std::string("\t") + said);
+    const auto events = parse_events(header + with, "x.tsv");
+    ASSERT_TRUE(events.has_value()) << events.error().message;
+    EXPECT_EQ(events->trials.at(0).force, force);
+    EXPECT_EQ(events->trials.at(0).felt_as_set(), force) << "its condition is haptics";
+  }
+  EXPECT_FALSE(parse_events(kEventsHeader + line, "x.tsv")->trials.at(0).force) << "no such column";
+  EXPECT_THAT(fault_of(header + line), HasSubstr("x.tsv:2: 12 fields instead of 13"));
+  line.insert(line.size() - 1, "\t0.5");
+  EXPECT_THAT(fault_of(header + line), HasSubstr("force \"0.5\" is not 0 or 1"));
+  StudyTrial seen;
+  seen.condition = "picture";
+  seen.force = false;
+  EXPECT_EQ(seen.felt_as_set(), true);
+  seen.force = true;
+  EXPECT_EQ(seen.felt_as_set(), false);
 }
 
 TEST(StudyEvents, RefuseEveryValueThatItsColumnDoesNotTake) {

@@ -108,6 +108,74 @@ TEST_F(StudyReport, KeepsPracticeAndUnansweredTrialsApart) {
               HasSubstr("10 counted, 3 of practice (left out), 1 without an answer (left out)"));
 }
 
+// Two people felt all, one nothing; what a fourth one felt is not known.
+TEST_F(StudyReport, LeavesOutAndCountsWhatWasNotFelt) {
+  const auto events = [](unsigned seed, const char* condition) {
+    test::SimulatedEvents made(seed);
+    made.identify(condition, 1.0, 10);
+    return made.text();
+  };
+  writer_.add_bids_person(0, test::with_force(events(1, "haptics"), "1"));
+  writer_.add_bids_person(1, test::with_force(events(2, "picture"), "0"));
+  writer_.add_bids_person(2, test::with_force(events(3, "haptics"), "0"));
+  writer_.add_person(3, events(4, "haptics"));
+  const LessonResults lesson = results().lessons.at(0);
+  EXPECT_EQ(lesson.people, 4U) << "both layouts are one lesson";
+  EXPECT_EQ(lesson.counted, 30U);
+  EXPECT_EQ(lesson.not_felt, 10U);
+  EXPECT_EQ(lesson.force_unknown, 10U);
+  ASSERT_EQ(lesson.identify.size(), 2U);
+  EXPECT_EQ(lesson.identify[0].condition, "haptics");
+  EXPECT_EQ(lesson.identify[0].matrix.trials(), 20U);
+  EXPECT_EQ(lesson.identify[1].matrix.trials(), 10U);
+  const auto all = files();
+  for (const char* name : {"study.md", "study.html"}) {
+    EXPECT_THAT(all.at(name), HasSubstr("10 in which the force was not as the step sets it (left out)"));
+    EXPECT_THAT(all.at(name), HasSubstr("force on the hand: not known for 10 of the counted trials")) << name;
+  }
+  const auto json = Json::parse(all.at("study.json"))["lessons"][0]["trials"];
+  EXPECT_EQ(json["not_felt"], 10);
+  EXPECT_EQ(json["force_unknown"], 10);
+}
+
+TEST_F(StudyReport, PoolsTheNamesOfBothLayouts) {
+  test::SimulatedEvents events(1);
+  events.identify("haptics", 1.0, 4);
+  writer_.add_person(0, events.text(), "finished", "thr-ee");
+  writer_.add_bids_person(1, test::with_force(events.text(), "1"));
+  const StudyResults study = results();
+  ASSERT_EQ(study.lessons.size(), 1U);
+  EXPECT_EQ(study.lessons[0].task, "three");
+}
+
+// Shares right and times to answer are compared side by side: four tests are no two.
+TEST_F(StudyReport, CorrectsForAllTestsThatStandSideBySide) {
+  add_class(8);
+  const auto study = Json::parse(files().at("study.json"));
+  const auto& lesson = study["lessons"][0];
+  const auto& comparisons = lesson["comparisons"];
+  ASSERT_EQ(comparisons.size(), 2U) << "share right and time to answer, haptics against picture";
+  const double shares = comparisons[0]["test"]["p"];
+  EXPECT_TRUE(comparisons[1]["test"]["p"].is_null()) << "all times are the same, so one test is left";
+  EXPECT_TRUE(comparisons[0]["p_holm"].is_null()) << shares;
+  const auto& identify = lesson["identify"];
+  ASSERT_EQ(identify.size(), 2U);
+  const double first = identify[0]["against_chance"]["p"], second = identify[1]["against_chance"]["p"];
+  const double corrected_first = identify[0]["against_chance"]["p_holm"];
+  EXPECT_NEAR(corrected_first,
+              first < second ? std::min(1.0, 2.0 * first) : std::max(first, std::min(1.0, 2.0 * second)), 1e-12);
+  for (const auto& each : lesson["ssq"]) EXPECT_TRUE(each["change"].contains("p_holm")) << each.dump();
+  ASSERT_EQ(study["survey"].size(), 8U);
+  for (const auto& each : study["survey"]) {
+    const auto& test = each["against_paper"];
+    ASSERT_EQ(test.contains("p_holm"), !test["p"].is_null());
+    if (test.contains("p_holm")) {
+      EXPECT_GE(test["p_holm"].get<double>(), test["p"].get<double>());
+    }
+  }
+  EXPECT_THAT(files().at("study.md"), HasSubstr("a lesson's comparisons of conditions, over all of its measures"));
+}
+
 TEST_F(StudyReport, HasTheConfusionMatrixOfTheTrials) {  // rows E16 to E19
   test::SimulatedEvents events(1);
   const std::vector<std::string> names{"mica", "gold", "si3n4"};

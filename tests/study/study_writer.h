@@ -7,12 +7,24 @@
 #include <fstream>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace afm::study::test {
 
 inline constexpr const char* kEventsHeader =
     "onset\tduration\tstep\ttrial_type\tcondition\tpractice\ttrial\tlevel\tstimulus\tresponse\tcorrect\trt\n";
+// With the column of the force; its value follows each line.
+inline std::string with_force(const std::string& events, const std::string& force) {
+  std::string text = kEventsHeader + events;
+  std::string with;
+  bool first = true;
+  for (const char c : text) {
+    if (c == '\n') with += "\t" + (std::exchange(first, false) ? "force" : force);
+    with += c;
+  }
+  return with;
+}
 inline constexpr const char* kPeopleHeader = "participant_id\torder\tage_band\tcomfort\n";
 
 inline std::string facts_json(const std::string& device = "sim") {
@@ -50,6 +62,16 @@ class StudyWriter {
     std::filesystem::create_directories(path);
     write(path + "/task-" + task + "_events.tsv", kEventsHeader + events);
     write(path + "/task-" + task + "_events.json", facts_json());
+    write(folder_ + "/participants.tsv", kPeopleHeader + people_);
+  }
+
+  // The same in the layout of version 0.2.1 on. `events`: a whole table.
+  void add_bids_person(std::size_t person, const std::string& events, const std::string& task = "three") {
+    people_ += code(person) + "\t" + std::to_string(person) + "\t18-24\tfinished\n";
+    const std::string stem = folder_ + "/" + code(person) + "/beh/" + code(person) + "_task-" + task + "_events";
+    std::filesystem::create_directories(folder_ + "/" + code(person) + "/beh");
+    write(stem + ".tsv", events);
+    write(stem + ".json", facts_json());
     write(folder_ + "/participants.tsv", kPeopleHeader + people_);
   }
 

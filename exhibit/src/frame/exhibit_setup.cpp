@@ -12,9 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/log.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/models/user_models.h"
 #include "physics/quantity_text.h"
+#include "scene/display/wall_doubts.h"
 
 namespace afm::exhibit {
 
@@ -116,6 +118,9 @@ core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
   if (!materials) return tl::unexpected(materials.error());
   auto wall = scene::load_wall(files.wall.empty() ? files.assets_dir + "/walls/powerwall.toml" : files.wall);
   if (!wall) return tl::unexpected(wall.error());
+  for (const std::string& note : scene::notes_of(*wall)) {
+    core::log_line(fmt::format("wall file {}: {}", std::filesystem::path(files.wall).filename().string(), note));
+  }
   if (files.wall.empty() && files.aspect) take_aspect(*files.aspect, wall->screens.front());
   const StagePlace place = stage_place(*wall);
   const auto eyes = eyes_before(place.main, wall->viewers.front().sweet_spot, place.ipd_m);

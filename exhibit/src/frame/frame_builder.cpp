@@ -13,6 +13,7 @@
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scenery/journey.h"
 #include "exhibit/scenery/wall_scene.h"
+#include "exhibit/words/guidance.h"
 #include "haptics/scaling.h"
 #include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
@@ -150,7 +151,9 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
     frame.panels.data.content = data_panel((*materials_)[*moment.wall.material], moment.wall.tip, *phrases_);
   } else {
     frame.panels.data.content = {
-        .title = (*phrases_)[Phrase::NoSample], .subtitle = (*phrases_)[Phrase::NoSampleAdvice], .rows = {}};
+        .title = (*phrases_)[Phrase::NoSample],
+        .subtitle = no_sample_advice(*phrases_, moment.by_wand ? Pointer::Wand : Pointer::Mouse),
+        .rows = {}};
   }
   frame.panels.banner.content = banner(moment);
   return frame;

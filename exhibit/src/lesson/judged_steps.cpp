@@ -69,17 +69,21 @@ class IdentifyActivity final : public StepActivity {
     const std::size_t shown = context_.step.materials[shown_[trial_]];
     const bool right = answer == shown_[trial_];
     note_ = count_.practice() ? feedback(context_.phrases, right, title(shown)) : "";
-    context_.keep({.onset_s = began_s_,
-                   .duration_s = now_s - began_s_,
-                   .practice = count_.practice(),
-                   .trial = count_.number(),
-                   .stimulus = name(shown),
-                   .response = name(context_.step.materials[answer]),
-                   .correct = right,
-                   .rt_s = now_s - asked_s_});
+    TrialRow row = trial(now_s);
+    row.response = name(context_.step.materials[answer]);
+    row.correct = right;
+    row.rt_s = now_s - asked_s_;
+    context_.keep(std::move(row));
     count_.next();
     if (!count_.done()) ++trial_;
     reset(now_s);
+  }
+  TrialRow trial(double now_s) const override {
+    return {.onset_s = began_s_,
+            .duration_s = now_s - began_s_,
+            .practice = count_.practice(),
+            .trial = count_.number(),
+            .stimulus = name(context_.step.materials[shown_[trial_]])};
   }
   void reset(double now_s) override {
     felt_ = false;
@@ -140,19 +144,23 @@ class ThresholdActivity final : public StepActivity {
     if (felt_ < 2 || answer > 1) return;
     const bool right = answer == stronger_;
     note_ = count_.practice() ? feedback(context_.phrases, right, answer_text(stronger_)) : "";
-    context_.keep({.onset_s = began_s_,
-                   .duration_s = now_s - began_s_,
-                   .practice = count_.practice(),
-                   .trial = count_.number(),
-                   .level = w_,
-                   .stimulus = word(stronger_),
-                   .response = word(answer),
-                   .correct = right,
-                   .rt_s = now_s - asked_s_});
+    TrialRow row = trial(now_s);
+    row.response = word(answer);
+    row.correct = right;
+    row.rt_s = now_s - asked_s_;
+    context_.keep(std::move(row));
     // practice trials all have the first level
     if (!count_.practice()) staircase_->answer(right);
     count_.next();
     if (!count_.done()) begin(now_s);
+  }
+  TrialRow trial(double now_s) const override {
+    return {.onset_s = began_s_,
+            .duration_s = now_s - began_s_,
+            .practice = count_.practice(),
+            .trial = count_.number(),
+            .level = w_,
+            .stimulus = word(stronger_)};
   }
   void reset(double now_s) override {
     felt_ = 0;

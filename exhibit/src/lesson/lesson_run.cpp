@@ -27,6 +27,12 @@ constexpr std::array kActivities{
     ActivityRow{StepKind::Question, make_question_activity}};
 static_assert(core::has_row_for_each(kActivities, &ActivityRow::kind));
 
+// Reason why a cycle with this force does not count.
+Phrase note_of(HandForce force, HandForce wanted) {
+  if (wanted == HandForce::None) return Phrase::LessonForceWasOn;
+  return force == HandForce::Reduced ? Phrase::LessonForceWasWeak : Phrase::LessonForceWasOff;
+}
+
 }  // namespace
 
 const std::string& LessonText::in(std::string_view language) const {
@@ -72,7 +78,8 @@ void LessonRun::plan(std::size_t order) {
 }
 
 void LessonRun::begin_task(double now_s) {
-  snapped_in_ = false;
+  snapped_in_ = counted_ = false;
+  unfelt_.reset();
   step_began_s_ = now_s;
   if (task_ == tasks_.size()) {
     end_ = LessonEnd::Finished;
@@ -98,6 +105,7 @@ core::Result<void> LessonRun::keep(TrialRow row) {
   row.step = lesson_.steps[task.step].id;
   row.kind = lesson_.steps[task.step].kind;
   row.condition = task.condition;
+  if (study::row_of(row.kind).has_cycles && !row.force) row.force = counted_ && wanted_force() == HandForce::Full;
   return sink_(row);
 }
 
@@ -129,6 +137,9 @@ LessonPrompt LessonRun::prompt(double now_s) const {
   prompt.task = task_;
   prompt.condition = task.condition;
   activity_->describe(prompt);
+  if (unfelt_ && prompt.wants == LessonPrompt::Wants::Cycle) {
+    prompt.words = phrases_[note_of(*unfelt_, wanted_force())] + " " + prompt.words;
+  }
   const bool time_for_hint = !step.hint.empty() && now_s - step_began_s_ >= step.hint_after_s;
   if (time_for_hint) prompt.hint = step.hint.in(phrases_[Phrase::Language]);
   const std::string where = phrases_.text<Phrase::LessonStep>(std::to_string(task_ + 1), std::to_string(tasks_.size()));
@@ -141,10 +152,34 @@ void LessonRun::happened(const scene::TipEvent& event, double now_s) {
   const LessonPrompt wanted = prompt(now_s);
   const auto material = static_cast<std::size_t>(event.material);
   if (wanted.wants != LessonPrompt::Wants::Cycle || (wanted.material && *wanted.material != material)) return;
-  if (event.kind == physics::EventKind::JumpToContact) snapped_in_ = true;
+  if (event.kind == physics::EventKind::JumpToContact) {
+    snapped_in_ = true;
+    if (force_ != wanted_force()) return repeat_trial(now_s);
+  }
   if (event.kind != physics::EventKind::JumpOffContact || !std::exchange(snapped_in_, false)) return;
+  unfelt_.reset();
+  counted_ = true;
   activity_->felt({.material = material, .f_ad_n = std::abs(event.force_before_n)}, now_s);
   follow(now_s);
+}
+
+void LessonRun::force_is(HandForce force, double now_s) {
+  force_ = force;
+  if (end_ || error_ || stage_ != Stage::Steps || !snapped_in_) return;
+  if (force_ != wanted_force()) repeat_trial(now_s);
+}
+
+HandForce LessonRun::wanted_force() const {
+  return tasks_[task_].condition == Condition::Picture ? HandForce::None : HandForce::Full;
+}
+
+void LessonRun::repeat_trial(double now_s) {
+  snapped_in_ = false;
+  unfelt_ = force_;
+  TrialRow row = activity_->trial(now_s);
+  row.force = wanted_force() == HandForce::None;
+  if (auto kept = keep(std::move(row)); !kept && !error_) error_ = kept.error();
+  activity_->reset(now_s);
 }
 
 void LessonRun::watch_time(double now_s) {
@@ -188,6 +223,7 @@ void LessonRun::skip(double now_s) {
 void LessonRun::reset(double now_s) {
   if (end_ || error_ || stage_ != Stage::Steps) return;
   snapped_in_ = false;
+  unfelt_.reset();
   step_began_s_ = now_s;
   activity_->reset(now_s);
 }

@@ -196,6 +196,10 @@ void LiveLesson::lay_sample(servo::ServoClient& servo) {
   if (prompt_.material) servo.choose(static_cast<std::int32_t>(*prompt_.material), lesson_.scale);
 }
 
+void LiveLesson::felt(const scene::TipSample& sample, const servo::ServoClient& servo) {
+  run_.force_is(hand_force(sample.servo_state, servo.tip().safety.thermal_gain), now_s());
+}
+
 void LiveLesson::happened(const scene::TipEvent& event, const servo::ServoClient& servo) {
   if (edit_ != 0 && servo.tip().active.edit_revision != edit_) return;
   run_.happened(event, now_s());

@@ -62,16 +62,21 @@ class CycleActivity final : public StepActivity {
   }
   void felt(const FeltCycle& cycle, double now_s) override {
     if (!free_) {
-      context_.keep({.onset_s = began_s_,
-                     .duration_s = now_s - began_s_,
-                     .practice = count_.practice(),
-                     .trial = count_.number(),
-                     .response = fmt::format("{:.6g}", cycle.f_ad_n)});
+      TrialRow row = trial(now_s);
+      row.response = fmt::format("{:.6g}", cycle.f_ad_n);
+      context_.keep(std::move(row));
       began_s_ = now_s;
     }
     ++cycle_;
     count_.next();
     if (free_ && count_.done()) end_free(now_s);
+  }
+  TrialRow trial(double now_s) const override {
+    TrialRow row{.onset_s = began_s_, .duration_s = now_s - began_s_};
+    if (free_) return row;
+    row.practice = count_.practice();
+    row.trial = count_.number();
+    return row;
   }
   void reset(double now_s) override { began_s_ = now_s; }
   bool done() const override { return done_ || count_.done(); }
@@ -79,7 +84,7 @@ class CycleActivity final : public StepActivity {
  private:
   void end_free(double now_s) {
     if (std::exchange(done_, true)) return;
-    context_.keep({.onset_s = began_s_, .duration_s = now_s - began_s_});
+    context_.keep(trial(now_s));
   }
 
   StepContext context_;

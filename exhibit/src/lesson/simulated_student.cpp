@@ -142,6 +142,7 @@ core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& pr
                                                                 : haptics::Scaling::fit(*tables, device);
   if (!scaling) return tl::unexpected(scaling.error());
   now_s_ += 2.0 + 2.0 * random_.unit();  // lifts and enables the force
+  run.force_is(prompt.condition == Condition::Picture ? HandForce::None : HandForce::Full, now_s_);
   const double high_m = scaling->release_height_m() + kLiftM;
   const double low_m = scaling->hand_height_m(0.0) - kPushM;
   const auto strokes = static_cast<std::int64_t>(std::ceil((high_m - low_m) / (kHandMPerS * kTickS)));

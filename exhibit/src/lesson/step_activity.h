@@ -39,7 +39,8 @@ class StepActivity {
   virtual void go_on(double) {}
   virtual void answer(std::size_t, double) {}
   virtual void felt(const FeltCycle&, double) {}
-  virtual void reset(double now_s) = 0;  // restarts the running trial
+  virtual TrialRow trial(double) const { return {}; }  // the running trial, without its answer
+  virtual void reset(double now_s) = 0;                // restarts the running trial
   virtual bool done() const = 0;
   virtual bool may_pause() const { return true; }   // an interruption would lose nothing of a trial
   virtual bool says_stop() const { return false; }  // the participant should end here

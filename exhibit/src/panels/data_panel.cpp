@@ -69,7 +69,8 @@ std::string law_text(const curves::SampleModel& material, const Phrases& phrases
   const std::string tabor = fmt::format("{:.2g}", material.contact.tabor);
   const std::string regime = phrases.word(std::string(physics::name_of(material.contact.regime)));
   if (law == material.contact.law) return phrases.text<Phrase::LawSuits>(tabor, regime);
-  return phrases.text<Phrase::OtherLawSuits>(tabor, regime, physics::name_of(material.contact.law));
+  return phrases.text<Phrase::OtherLawSuits>(tabor, regime,
+                                             law_word(std::string(physics::name_of(material.contact.law)), phrases));
 }
 
 // Adds the values that the law uses.
@@ -99,6 +100,8 @@ void add_contact_rows(const curves::SampleModel& material, const Phrases& phrase
 
 // An attraction bends the lever down, towards the sample: the deflection is then positive.
 std::string bend_text(double deflection_m, const Phrases& phrases) {
+  constexpr double kUnseenM = 0.005e-9;  // is written as 0.00 nm
+  if (std::abs(deflection_m) < kUnseenM) return phrases[Phrase::LeverStraight];
   const std::string amount = fmt::format("{:.2f} nm", std::abs(deflection_m) * curves::kNmPerM);
   return deflection_m < 0 ? phrases.text<Phrase::LeverBentUp>(amount) : phrases.text<Phrase::LeverBentDown>(amount);
 }
@@ -116,7 +119,8 @@ render::DataPanel data_panel(const curves::SampleModel& material, const scene::T
     panel.subtitle = phrases.text<Phrase::RecordedBy>(entry.note);
   }
   add_contact_rows(material, phrases, panel);
-  panel.rows.push_back({phrases[Phrase::ForceLaw], curves::law_name(material.parameters), law_text(material, phrases)});
+  panel.rows.push_back({phrases[Phrase::ForceLaw], law_word(curves::law_name(material.parameters), phrases),
+                        law_text(material, phrases)});
   if (figures.hysteretic) {
     panel.rows.push_back(
         {phrases[Phrase::SnapInAndPullOff],
@@ -141,7 +145,8 @@ render::DataPanel results_panel(std::span<const CycleResult> results, const Phra
   for (const CycleResult& result : results) {
     const std::string title = phrases.word(result.title);
     if (!result.hysteretic) {
-      panel.rows.push_back({title, phrases[Phrase::NoJumps], phrases.text<Phrase::NoJumpsBecause>(result.law)});
+      panel.rows.push_back(
+          {title, phrases[Phrase::NoJumps], phrases.text<Phrase::NoJumpsBecause>(law_word(result.law, phrases))});
       continue;
     }
     panel.rows.push_back(
@@ -149,7 +154,8 @@ render::DataPanel results_panel(std::span<const CycleResult> results, const Phra
          phrases.number(
              fmt::format("{:.3f} / {:.3f} nN", result.f_attr_n * curves::kNnPerN, result.f_ad_n * curves::kNnPerN)),
          phrases.text<Phrase::ResultHeights>(fmt::format("{:.2f} nm", result.z_jtc_m * curves::kNmPerM),
-                                             fmt::format("{:.2f} nm", result.z_joc_m * curves::kNmPerM), result.law)});
+                                             fmt::format("{:.2f} nm", result.z_joc_m * curves::kNmPerM),
+                                             law_word(result.law, phrases))});
   }
   return panel;
 }

@@ -38,7 +38,8 @@ std::vector<std::string> notes(const curves::LiveParameters& parameters, const P
     lines.push_back(phrases[NoteNoJump]);
   }
   lines.push_back(phrases.text<NoteTabor>(fmt::format("{:.3g}", suited.tabor),
-                                          phrases.word(std::string(name_of(suited.regime))), name_of(suited.law)));
+                                          phrases.word(std::string(name_of(suited.regime))),
+                                          law_word(std::string(name_of(suited.law)), phrases)));
   lines.push_back(std::isfinite(figures.critical_stiffness.si)
                       ? phrases.text<NoteNoHysteresis>(
                             format_quantity(figures.critical_stiffness, physics::kStiffnessUnits, kDigits))
@@ -57,7 +58,10 @@ std::string value_text(const curves::LiveParameters& parameters, curves::LivePar
   using Row = curves::LiveParameters::Row;
   const scene::SharedContact& now = parameters.model().parameters;
   if (row == Row::ReducedModulus && !std::isfinite(now.contact.reduced_modulus.si)) return phrases[Phrase::Rigid];
-  if (row == Row::Law && parameters.automatic_law()) return phrases.text<Phrase::AutomaticLaw>(curves::law_name(now));
+  if (row == Row::Law) {
+    const std::string law = law_word(curves::law_name(now), phrases);
+    return parameters.automatic_law() ? phrases.text<Phrase::AutomaticLaw>(law) : law;
+  }
   return phrases.number(parameters.value(row));
 }
 

@@ -13,6 +13,7 @@
 #include "haptics/sample_surface.h"
 #include "physics/imaging/height_grid.h"
 #include "physics/imaging/morphology.h"
+#include "physics/imaging/rim.h"
 #include "scene/shared/felt_heights.h"
 
 namespace afm::exhibit {
@@ -36,19 +37,15 @@ physics::HeightGrid grid_of(const scene::FeltHeights& heights, const scene::Topo
   return grid;
 }
 
-physics::Scanner::Surface surface_of(std::shared_ptr<const physics::HeightGrid> grid) {
-  return [grid = std::move(grid)](double x_m, double y_m) { return grid->height_at_m(x_m, y_m); };
-}
-
 // The image that a tip of another radius would have measured. Dilating the image of a paraboloid by a second paraboloid
 // gives that of one whose radius is the sum of both. A sharper tip reveals nothing beyond the measurement.
 std::function<physics::Scanner::Surface(double)> traced_again(std::shared_ptr<const physics::HeightGrid> measured,
                                                               double tip_radius_m) {
   return [measured = std::move(measured), tip_radius_m](double radius_m) {
-    if (radius_m <= tip_radius_m) return surface_of(measured);
+    if (radius_m <= tip_radius_m) return physics::level_beyond_rim(measured);
     auto blunter = std::make_shared<physics::HeightGrid>(*measured);
     physics::dilate_by_paraboloid(*blunter, physics::Length(radius_m - tip_radius_m));
-    return surface_of(std::move(blunter));
+    return physics::level_beyond_rim(std::move(blunter));
   };
 }
 
@@ -76,26 +73,32 @@ ScanSubject scan_subject(const WallScene& wall_scene, std::size_t material, cons
   subject.adhesion_n = std::abs(model.figures().force_before_joc.si);
   scene::SharedContact laid;
   wall_scene.lay_surface_on(laid, material);
-  const scene::FeltHeights heights = scene::surface_of(laid, wall_scene.height_fields(), wall_scene.topography());
+  const double scale = scene::surface_scale(laid, model.scaling.release_z_m());
+  scene::FeltHeights heights = scene::surface_of(laid, wall_scene.height_fields(), wall_scene.topography());
   if (heights.columns == 0) {
     subject.side_m = kPlaneSideM;
     subject.drawn_m = [](double, double) { return 0.0; };
     subject.traced = [](double) { return [](double, double) { return 0.0; }; };
     return subject;
   }
-  if (heights.heights == scene::Heights::Traced) subject.shown = laid.topography;
-  auto grid = std::make_shared<const physics::HeightGrid>(grid_of(heights, subject.shown));
+  // a measured sample keeps its own metres whatever the size at which it is shown
+  const bool measured = heights.heights == scene::Heights::Traced;
+  if (!measured) heights = heights.scaled(scale);
+  auto grid = std::make_shared<const physics::HeightGrid>(
+      grid_of(heights, measured ? laid.topography : scene::TopographyScale{}));
+  if (measured) subject.shown = {scale * laid.topography.lateral, scale * laid.topography.vertical};
   subject.side_m = kShareOfSample * grid->column_step_m * (std::min(heights.columns, heights.rows) - 1.0);
-  subject.drawn_m = surface_of(grid);
-  if (heights.heights == scene::Heights::Traced) {
+  subject.drawn_m = physics::level_beyond_rim(grid);
+  if (measured) {
     subject.slope = slope_of(*grid);
     subject.traced = traced_again(std::move(grid), subject.tip_radius_m);
     return subject;
   }
   const auto drawn = std::make_shared<const scene::SharedHeightField>(wall_scene.height_fields()[laid.height_field]);
-  subject.traced = [drawn](double tip_radius_m) {
+  subject.traced = [drawn, scale](double tip_radius_m) {
     constexpr double kAnyCurvature = std::numeric_limits<double>::infinity();
-    const auto felt = std::make_shared<const haptics::SampleSurface>(*drawn, tip_radius_m, kAnyCurvature);
+    const auto felt = std::make_shared<const haptics::SampleSurface>(scene::FeltHeights(*drawn).scaled(scale),
+                                                                     tip_radius_m, kAnyCurvature);
     return [felt](double x_m, double y_m) { return felt->at({x_m, y_m}).height_m; };
   };
   return subject;

@@ -82,4 +82,9 @@ std::string guidance_line(const Phrases& phrases, Hint hint, const scene::TipSta
   return phrases[Phrase::ForceOff] + ": " + reason + ". " + step;
 }
 
+std::string no_sample_advice(const Phrases& phrases, Pointer pointer) {
+  const std::array values{phrases[after(Phrase::MouseChoose, core::index_of(pointer))]};
+  return phrases.filled(Phrase::NoSampleAdvice, values);
+}
+
 }  // namespace afm::exhibit

@@ -29,6 +29,12 @@ struct StudyTrial {
   std::optional<double> value{};  // the response of a cycle (newtons), a drawing (0..1) or a question
   std::optional<bool> right{};    // identify and threshold only, if there is an answer
   std::optional<double> rt_s{};
+  std::optional<bool> force{};  // on from snap-in to pull-off of each of its cycles; empty: unknown, or no cycle
+
+  // Whether the hand felt what the condition sets: the force, or under "picture" none. Empty as above.
+  std::optional<bool> felt_as_set() const {
+    return force ? std::optional(*force == (condition != "picture")) : std::nullopt;
+  }
 };
 
 // A last line without a line end is dropped, because a killed program wrote it.

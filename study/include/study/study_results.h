@@ -75,7 +75,6 @@ struct Measure {
 struct ConditionComparison {
   std::string measure, a, b;
   TestResult test;
-  double holm_p = kNoValue;  // among the comparisons of this measure
 };
 
 // A score of the SSQ, before and after, from those who answered both times.
@@ -97,6 +96,8 @@ struct LessonResults {
   std::string task, title;
   std::vector<std::string> facts;  // "device: sim", one line for each difference
   std::size_t people = 0, simulated = 0, counted = 0, practice = 0, unanswered = 0;
+  std::size_t not_felt = 0;           // left out: the force was off where it belongs on, or on where it belongs off
+  std::size_t force_unknown = 0;      // counted, of a data set that does not say whether the force was on
   std::vector<std::string> left_out;  // incomplete questionnaires
   std::vector<IdentifyResult> identify;
   std::vector<ThresholdResult> thresholds;

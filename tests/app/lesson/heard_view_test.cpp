@@ -218,7 +218,7 @@ TEST_F(HeardView, GoesThroughALessonFromConsentToItsLastAnswerByEarAndHandAlone)
   const std::string said = live->said();
   EXPECT_EQ(said.find("says: The force is on", said.find("says: Mental demand")), std::string::npos)
       << "Turn-On answers, and turns nothing on: " << said;
-  const std::string events = core::read_file(out + "/sub-QXWERT/task-a-lesson_events.tsv").value();
+  const std::string events = core::read_file(out + "/sub-QXWERT/beh/sub-QXWERT_task-alesson_events.tsv").value();
   EXPECT_THAT(events, HasSubstr("\tfeel\tfree\t"));
   EXPECT_THAT(events, HasSubstr("\ttlx-2\t50\t")) << "where the scale begins";
   EXPECT_THAT(events, Not(HasSubstr("\ttlx-1\t50\t"))) << events;
@@ -302,7 +302,8 @@ TEST_F(HeardView, GoesOnWithoutASoundCardAndWhenItIsLost) {
   ASSERT_TRUE(live->says("the results say that there is no sound")) << live->said();
   xdotool("key 1");
   ASSERT_TRUE(live->says("chosen: Mica")) << live->said();
-  EXPECT_THAT(core::read_file(out + "/sub-QXWERT/task-a-lesson_events.json").value(), HasSubstr("\"sound_lost_s\": "));
+  EXPECT_THAT(core::read_file(out + "/sub-QXWERT/beh/sub-QXWERT_task-alesson_events.json").value(),
+              HasSubstr("\"sound_lost_s\": "));
   xdotool("key Escape");
   EXPECT_EQ(live->ends(), 0) << live->said();
   const std::string said = live->said();

@@ -50,7 +50,7 @@ TEST(LessonProgram, WritesAStudyOfTwentySimulatedStudentsWithTheSameBytesForThei
   std::printf("two studies of twenty students: %.1f s\n",
               std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   const auto one = contents(folder.file("one"));
-  EXPECT_EQ(one.size(), 2U + 2U * 20U);
+  EXPECT_EQ(one.size(), 5U + 2U * 20U);
   EXPECT_EQ(one, contents(folder.file("two")));
 }
 

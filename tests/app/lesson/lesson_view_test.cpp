@@ -117,7 +117,7 @@ TEST_F(LessonView, GoesFromConsentThroughTextAndCycleToTheEndAndKeepsItsTrials) 
   ASSERT_TRUE(view.says("The lesson is finished")) << view.said();
   key("Escape");
   EXPECT_EQ(view.ends(), 0) << view.said();
-  const std::string events = core::read_file(out + "/sub-QXWERT/task-a-lesson_events.tsv").value();
+  const std::string events = core::read_file(out + "/sub-QXWERT/beh/sub-QXWERT_task-alesson_events.tsv").value();
   EXPECT_THAT(events, HasSubstr("\thello\ttext\t"));
   EXPECT_THAT(events, HasSubstr("\tfeel\tcycle\tn/a\t0\t1\tn/a\tn/a\t1.39989e-09\t"));
   EXPECT_THAT(events, HasSubstr("\ttlx-1\t95\t")) << "the upper end, and a step less";
@@ -125,6 +125,27 @@ TEST_F(LessonView, GoesFromConsentThroughTextAndCycleToTheEndAndKeepsItsTrials) 
   EXPECT_THAT(events, HasSubstr("\ttlx-6\t50\t"));
   EXPECT_THAT(core::read_file(out + "/participants.tsv").value(), HasSubstr("sub-QXWERT\t0\t18-24\tfinished"));
   EXPECT_TRUE(fs::exists(out + "/sub-QXWERT/task-a-lesson_session/session-mica.afms")) << view.said();
+}
+
+// Stop takes the force from a tip in contact: the lesson says what became of the cycle, and counts the next one.
+TEST_F(LessonView, CountsNoCycleThatLostItsForce) {
+  const std::string file =
+      lesson("[[step]]\nid = \"feel\"\ntype = \"cycle\"\nmaterial = \"mica\"\n" + words("feel"), "fit");
+  const std::string out = folder_.file("study");
+  support::LiveProgram view(command(file, {"--participant", "QXWERT", "--out", out}), display_.name());
+  ASSERT_TRUE(view.says("Do you take part?")) << view.said();
+  key("1");
+  ASSERT_TRUE(view.says("Words of feel")) << view.said();
+  ASSERT_TRUE(view.says("jump to contact")) << view.said();
+  key("Return");
+  ASSERT_TRUE(view.says("That cycle does not count: the force was not on")) << view.said();
+  picture("not-felt");
+  ASSERT_TRUE(view.says("The lesson is finished", std::chrono::minutes(2))) << view.said();
+  key("Escape");
+  EXPECT_EQ(view.ends(), 0) << view.said();
+  const std::string events = core::read_file(out + "/sub-QXWERT/beh/sub-QXWERT_task-alesson_events.tsv").value();
+  EXPECT_THAT(events, HasSubstr("\tfeel\tcycle\tn/a\t0\t1\tn/a\tn/a\tn/a\tn/a\tn/a\t0\n"));
+  EXPECT_THAT(events, HasSubstr("\tfeel\tcycle\tn/a\t0\t1\tn/a\tn/a\t1.39989e-09\tn/a\tn/a\t1\n"));
 }
 
 TEST_F(LessonView, LeavesNothingOfAPersonWhoDoesNotTakePart) {
@@ -172,7 +193,7 @@ TEST_F(LessonView, LaysTheVariantsOfAThresholdAndHidesWhatABlindStepAsksFor) {
   ASSERT_TRUE(view.says("The lesson is finished")) << view.said();
   key("Escape");
   EXPECT_EQ(view.ends(), 0) << view.said();
-  const std::string events = core::read_file(out + "/sub-QXWEAC/task-a-lesson_events.tsv").value();
+  const std::string events = core::read_file(out + "/sub-QXWEAC/beh/sub-QXWEAC_task-alesson_events.tsv").value();
   EXPECT_THAT(events, HasSubstr("\tharder\tthreshold\tn/a\t0\t1\t0.5\tsecond\tsecond\t1\t"));
   EXPECT_THAT(events, HasSubstr("\tblind\tidentify\tn/a\t0\t1\tn/a\tsi3n4\tsi3n4\t1\t"));
 }

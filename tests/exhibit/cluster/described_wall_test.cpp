@@ -45,7 +45,8 @@ constexpr std::array<LeftOut, 5> kNotSent{{{"curves", "grow from the journal"},
                                            {"wall.scan_line", "set by show_scan()"},
                                            {"results", "shown in films, which one machine draws"}}};
 
-constexpr std::array<LeftOut, 7> kNotRecorded{{{"curves", "follow from the session's samples"},
+constexpr std::array<LeftOut, 8> kNotRecorded{{{"curves", "follow from the session's samples"},
+                                               {"by_wand", "drawn without a sample, of which a session has one"},
                                                {"stopped", "follows from TipSample::renderer"},
                                                {"letters", "labels of the keyboard at hand"},
                                                {"scan", "recorded as ScanProgress: scan_progress_of()"},
@@ -53,7 +54,8 @@ constexpr std::array<LeftOut, 7> kNotRecorded{{{"curves", "follow from the sessi
                                                {"wall.scan_line", "set by show_scan()"},
                                                {"results", "shown in films, which are made without a live wall"}}};
 
-constexpr std::array<LeftOut, 8> kNotDrawn{{{"stopped", "drawn in the state Fault alone"},
+constexpr std::array<LeftOut, 9> kNotDrawn{{{"stopped", "drawn in the state Fault alone"},
+                                            {"by_wand", "drawn without a sample alone"},
                                             {"letters", "drawn by the list of keys alone"},
                                             {"wall.tip.tip_height_m", "the lever is drawn by Z and deflection"},
                                             {"wall.tip.sample_deformation_m", "the lever is drawn by Z and deflection"},

@@ -54,15 +54,17 @@ TEST_F(DataSetTest, HasItsTablesAndTheirDescriptions) {
                          .stimulus = "mica",
                          .response = "gold",
                          .correct = false,
-                         .rt_s = 0.5}));
-  EXPECT_EQ(text("sub-ABCDEF/task-test_events.tsv"),
-            "onset\tduration\tstep\ttrial_type\tcondition\tpractice\ttrial\tlevel\tstimulus\tresponse\tcorrect\trt\n"
-            "1.500\t2.000\tblind\tidentify\tboth\t1\t3\t0.25\tmica\tgold\t0\t0.500\n")
+                         .rt_s = 0.5,
+                         .force = true}));
+  EXPECT_EQ(
+      text("sub-ABCDEF/beh/sub-ABCDEF_task-test_events.tsv"),
+      "onset\tduration\tstep\ttrial_type\tcondition\tpractice\ttrial\tlevel\tstimulus\tresponse\tcorrect\trt\tforce\n"
+      "1.500\t2.000\tblind\tidentify\tboth\t1\t3\t0.25\tmica\tgold\t0\t0.500\t1\n")
       << "a line is there as soon as its trial is over";
   EXPECT_EQ(text("participants.tsv"), "participant_id\torder\tage_band\tcomfort\nsub-ABCDEF\t0\tn/a\tn/a\n");
   ASSERT_TRUE(data->finish(LessonEnd::Finished));
   EXPECT_EQ(text("participants.tsv"), "participant_id\torder\tage_band\tcomfort\nsub-ABCDEF\t0\tn/a\tfinished\n");
-  const auto json = nlohmann::json::parse(text("sub-ABCDEF/task-test_events.json"));
+  const auto json = nlohmann::json::parse(text("sub-ABCDEF/beh/sub-ABCDEF_task-test_events.json"));
   EXPECT_EQ(json["onset"]["Units"], "s");
   EXPECT_EQ(json["trial_type"]["Levels"].size(), kStepKinds.size());
   EXPECT_EQ(json["Lesson"]["title"]["de"], "Prüfung");
@@ -76,12 +78,12 @@ TEST_F(DataSetTest, HasItsTablesAndTheirDescriptions) {
 
 TEST_F(DataSetTest, RefusesALessonThatWasDoneAndKeepsItsTrials) {
   ASSERT_TRUE(DataSet::create(lesson_, entry("ABCDEF")));
-  const std::string before = text("sub-ABCDEF/task-test_events.tsv");
+  const std::string before = text("sub-ABCDEF/beh/sub-ABCDEF_task-test_events.tsv");
   const auto again = DataSet::create(lesson_, entry("ABCDEF"));
   ASSERT_FALSE(again.has_value());
   EXPECT_EQ(again.error().category, core::ErrorCategory::WrongUsage);
   EXPECT_THAT(again.error().message, HasSubstr("--withdraw ABCDEF"));
-  EXPECT_EQ(text("sub-ABCDEF/task-test_events.tsv"), before);
+  EXPECT_EQ(text("sub-ABCDEF/beh/sub-ABCDEF_task-test_events.tsv"), before);
   lesson_.id = "other";
   EXPECT_TRUE(DataSet::create(lesson_, entry("ABCDEF"))) << "another lesson is another file";
   EXPECT_EQ(order_of(study(), "ABCDEF").value(), 0U);
@@ -119,7 +121,8 @@ TEST_F(DataSetTest, KeepsTheOrderThatALessonWasPlannedBy) {
 
 TEST_F(DataSetTest, CountsDaysFromTheFirstOneOfTheStudy) {
   const auto day_of = [&](const char* code) {
-    return nlohmann::json::parse(text(std::string("sub-") + code + "/task-test_events.json"))["Lesson"]["started_day"];
+    return nlohmann::json::parse(
+        text(std::string("sub-") + code + "/beh/sub-" + code + "_task-test_events.json"))["Lesson"]["started_day"];
   };
   ASSERT_TRUE(DataSet::create(lesson_, entry("SIMULA")));
   ASSERT_TRUE(DataSet::create(lesson_, entry("AAAAAA", 20'000)));
@@ -139,13 +142,13 @@ TEST_F(DataSetTest, KeepsAnAgeBandThatWasGiven) {
   EXPECT_THAT(text("participants.tsv"), HasSubstr("\t14-17\t")) << "a lesson without one forgets none";
   const auto levels = nlohmann::json::parse(text("participants.json"))["age_band"]["Levels"];
   ASSERT_EQ(levels.size(), study::kAgeBands.size());
-  for (std::size_t i = 0; i < study::kAgeBands.size(); ++i) EXPECT_EQ(levels[i], study::kAgeBands[i].word);
+  for (const study::AgeBandRow& band : study::kAgeBands) EXPECT_EQ(levels[std::string(band.word)], band.meaning);
 }
 
 TEST_F(DataSetTest, NotesThatTheSoundWasLostBesideWhatItSaidBefore) {
   auto data = DataSet::create(lesson_, entry("ABCDEF"));
   ASSERT_TRUE(data);
-  const std::string name = "sub-ABCDEF/task-test_events.json";
+  const std::string name = "sub-ABCDEF/beh/sub-ABCDEF_task-test_events.json";
   auto before = nlohmann::json::parse(text(name));
   ASSERT_TRUE(data->note_sound_lost(12.5));
   before["Lesson"]["sound_lost_s"] = 12.5;
@@ -178,10 +181,73 @@ TEST_F(DataSetTest, WaitsForAnothersLockWithALimit) {
 }
 
 TEST_F(DataSetTest, FollowsNoLinkThatHoldsTheNameOfItsFile) {
-  fs::create_directories(study() + "/sub-ABCDEF");
-  fs::create_symlink(folder_.file("elsewhere"), study() + "/sub-ABCDEF/task-test_events.tsv");
+  fs::create_directories(study() + "/sub-ABCDEF/beh");
+  fs::create_symlink(folder_.file("elsewhere"), study() + "/sub-ABCDEF/beh/sub-ABCDEF_task-test_events.tsv");
   EXPECT_FALSE(DataSet::create(lesson_, entry("ABCDEF")));
   EXPECT_FALSE(fs::exists(folder_.file("elsewhere")));
+}
+
+// The rules of BIDS 1.8.0 that a data set of events breaks easily; bids-validator 1.15 finds no error in it.
+TEST_F(DataSetTest, KeepsTheRulesOfBids) {
+  lesson_.id = "three-materials-2";
+  ASSERT_TRUE(DataSet::create(lesson_, entry("ABCDEF")));
+  const auto description = nlohmann::json::parse(text("dataset_description.json"));
+  EXPECT_EQ(description["BIDSVersion"], "1.8.0");
+  EXPECT_FALSE(description["Name"].get<std::string>().empty());
+  EXPECT_GT(text("README").size(), 150U) << "shorter ones are warned of";
+  EXPECT_EQ(text(".bidsignore"), "*_session/\n");
+  const std::string stem = "sub-ABCDEF/beh/sub-ABCDEF_task-threematerials2_events";
+  EXPECT_THAT(text(stem + ".tsv"), ::testing::StartsWith("onset\tduration\t"));
+  for (const std::string& name : {stem + ".json", std::string("participants.json")}) {
+    const auto json = nlohmann::json::parse(text(name));
+    for (const auto& [column, described] : json.items()) {
+      if (!described.contains("Levels")) continue;
+      ASSERT_TRUE(described["Levels"].is_object()) << column;
+      for (const auto& [level, meaning] : described["Levels"].items()) {
+        EXPECT_FALSE(meaning.get<std::string>().empty()) << column << " " << level;
+      }
+    }
+  }
+}
+
+TEST_F(DataSetTest, LeavesAReadmeOfTheirOwnAlone) {
+  fs::create_directories(study());
+  ASSERT_TRUE(core::write_file(study() + "/README.md", "ours\n"));
+  ASSERT_TRUE(core::write_file(study() + "/dataset_description.json", "{}\n"));
+  ASSERT_TRUE(DataSet::create(lesson_, entry("ABCDEF")));
+  EXPECT_EQ(text("README.md"), "ours\n");
+  EXPECT_EQ(text("dataset_description.json"), "{}\n");
+  EXPECT_FALSE(fs::exists(study() + "/README"));
+}
+
+// A folder that version 0.2.0 has begun.
+TEST_F(DataSetTest, GoesOnWithADataSetOfBefore) {
+  fs::create_directories(study() + "/sub-ABCDEF");
+  lesson_.id = "first-touch";
+  ASSERT_TRUE(core::write_file(study() + "/sub-ABCDEF/task-first-touch_events.tsv", "onset\n"));
+  ASSERT_TRUE(core::write_file(study() + "/participants.tsv",
+                               "participant_id\torder\tage_band\tcomfort\nsub-ABCDEF\t0\tn/a\tfinished\n"));
+  ASSERT_TRUE(core::write_file(study() + "/participants.json",
+                               R"({"comfort": {"Levels": ["finished"]}, "Study": {"first_day": 20000}})"));
+  const auto again = DataSet::create(lesson_, entry("ABCDEF"));
+  ASSERT_FALSE(again);
+  EXPECT_THAT(again.error().message, HasSubstr("sub-ABCDEF/task-first-touch_events.tsv exists"));
+  ASSERT_TRUE(DataSet::create(lesson_, entry("BBBBBB", 20'002)));
+  EXPECT_THAT(text("participants.tsv"), HasSubstr("sub-BBBBBB\t1\t"));
+  const auto json = nlohmann::json::parse(text("participants.json"));
+  EXPECT_TRUE(json["comfort"]["Levels"].is_object());
+  EXPECT_EQ(json["Study"]["first_day"], 20'000);
+}
+
+TEST_F(DataSetTest, ReadsAListThatASpreadsheetHasSaved) {
+  fs::create_directories(study());
+  ASSERT_TRUE(core::write_file(study() + "/participants.tsv",
+                               "\xEF\xBB\xBFparticipant_id\torder\tage_band\tcomfort\r\n"
+                               "sub-AAAAAA\t0\t18-24\tfinished\r\n"));
+  const auto data = DataSet::create(lesson_, entry("ABCDEF"));
+  ASSERT_TRUE(data) << data.error().message;
+  EXPECT_EQ(data->order(), 1U);
+  EXPECT_THAT(text("participants.tsv"), HasSubstr("\nsub-AAAAAA\t0\t18-24\tfinished\nsub-ABCDEF\t1\t"));
 }
 
 TEST(ParticipantCode, IsSixCapitalLetters) {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
+
 #include "render/frame.h"
 
 namespace afm::exhibit {
 
-// Removes everything but the background from the frame: scene, panels and labels.
-void blank(render::FrameState& frame);
+// Removes everything but the background from the frame: scene, panels, and the labels other than `kept`, which says how
+// to get the picture back.
+void blank(render::FrameState& frame, std::string_view kept = {});
 
 }  // namespace afm::exhibit

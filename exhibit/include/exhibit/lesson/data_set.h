@@ -15,7 +15,7 @@
 
 namespace afm::exhibit {
 
-// Where a lesson's results go, and details for task-NAME_events.json.
+// Where a lesson's results go, and details for its JSON.
 struct DataSetEntry {
   std::string folder;  // DIR in the manual
   std::string code;    // six capital letters
@@ -37,10 +37,12 @@ core::Result<std::size_t> order_of(const std::string& folder, const std::string&
 // WrongUsage if this participant has already done the lesson.
 core::Result<void> check_not_done(const Lesson& lesson, const std::string& folder, const std::string& code);
 
-// Files of one participant's lesson in a study's folder, in the BIDS layout (columns: docs/manual.md): participants.tsv
-// and .json, sub-CODE/task-NAME_events.tsv and .json. Whole files are replaced in one step, and a line of events.tsv is
-// written when its trial ends, so a killed program loses at most the running trial. Never overwrites a participant's
-// finished lesson. Several programs may write into one folder. One thread.
+// Files of one participant's lesson in a study's folder, as the Brain Imaging Data Structure 1.8.0 wants them (columns:
+// docs/manual.md): dataset_description.json, README, participants.tsv and .json, and for each participant
+// sub-CODE/beh/sub-CODE_task-NAME_events.tsv and .json, where NAME is the lesson's id without dashes. Whole files are
+// replaced in one step, and a line of events.tsv is written when its trial ends, so a killed program loses at most the
+// running trial. Never overwrites a participant's finished lesson. Several programs may write into one folder. One
+// thread.
 class DataSet {
  public:
   // Creates the files. WrongUsage if this participant has already done the lesson.

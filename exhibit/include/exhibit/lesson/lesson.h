@@ -23,11 +23,12 @@ using study::StepKind;
 enum class Condition { Haptics, Picture, Both, Sound };
 struct ConditionRow {
   Condition condition;
-  std::string_view word;
+  std::string_view word, meaning;
 };
-inline constexpr std::array kConditions{ConditionRow{Condition::Haptics, "haptics"},
-                                        ConditionRow{Condition::Picture, "picture"},
-                                        ConditionRow{Condition::Both, "both"}, ConditionRow{Condition::Sound, "sound"}};
+inline constexpr std::array kConditions{ConditionRow{Condition::Haptics, "haptics", "the force, without the picture"},
+                                        ConditionRow{Condition::Picture, "picture", "the picture, without the force"},
+                                        ConditionRow{Condition::Both, "both", "the force and the picture"},
+                                        ConditionRow{Condition::Sound, "sound", "the force, the picture and tones"}};
 static_assert(core::has_row_for_each(kConditions, &ConditionRow::condition));
 constexpr std::string_view word_of(Condition condition) { return kConditions[core::index_of(condition)].word; }
 

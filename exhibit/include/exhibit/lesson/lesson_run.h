@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "curves/sample_model.h"
+#include "exhibit/lesson/hand_force.h"
 #include "exhibit/lesson/lesson.h"
 #include "exhibit/lesson/lesson_prompt.h"
 #include "exhibit/lesson/lesson_random.h"
@@ -28,8 +29,11 @@ enum class LessonEnd { Finished, Stopped, Withdrew };
 // decrease, so that a simulated participant needs no clock. Reports finished trials to a sink. One thread.
 //
 // Only the servo's events satisfy a criterion: a cycle is a jump to contact and a jump off contact on the requested
-// material. After kMostLessonMinutes the lesson offers a break, even without any input: before the next trial, or while
-// an interruption would not lose part of one. A trial that takes two more minutes restarts after the break.
+// material, with the full force on the hand from the one to the other (under the condition "picture": with none).
+// Otherwise the lesson says why it does not count, keeps the attempt as a trial without an answer, and begins the
+// running trial again, with the same stimuli. After kMostLessonMinutes the lesson offers a break, even without any
+// input: before the next trial, or while an interruption would not lose part of one. A trial that takes two more
+// minutes restarts after the break.
 class LessonRun {
  public:
   struct Setup {
@@ -48,6 +52,10 @@ class LessonRun {
 
   // The prompt at this time.
   LessonPrompt prompt(double now_s) const;
+
+  // Takes the force on the hand, from the time of the call on; None before the first one. Call in the order of the
+  // jumps.
+  void force_is(HandForce force, double now_s);
 
   // Handles a jump of the tip on the prompt's material and variant.
   void happened(const scene::TipEvent& event, double now_s);
@@ -78,6 +86,8 @@ class LessonRun {
   void begin_task(double now_s);
   void follow(double now_s);  // after each event or input
   bool offer_break_where_due(double now_s);
+  HandForce wanted_force() const;
+  void repeat_trial(double now_s);  // since a cycle was not felt
   core::Result<void> keep(TrialRow row);
 
   const Lesson& lesson_;
@@ -95,6 +105,9 @@ class LessonRun {
   double break_answers_from_s_ = 0;
   bool consented_ = false;
   bool snapped_in_ = false;
+  HandForce force_ = HandForce::None;
+  std::optional<HandForce> unfelt_;  // force of the cycle that did not count, until one does
+  bool counted_ = false;             // a cycle of this step counted
   std::optional<LessonEnd> end_;
   std::optional<core::Error> error_;
 };

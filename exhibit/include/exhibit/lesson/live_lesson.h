@@ -81,6 +81,9 @@ class LiveLesson {
   void lay_sample(servo::ServoClient& servo);
   void forget_laid() { laid_.reset(); }  // after a new servo or a restart of the wall
 
+  // Follows the force on the hand: call with every sample of the servo, in order with its jumps.
+  void felt(const scene::TipSample& sample, const servo::ServoClient& servo);
+
   // Handles a jump of the tip on the servo's current sample.
   void happened(const scene::TipEvent& event, const servo::ServoClient& servo);
 

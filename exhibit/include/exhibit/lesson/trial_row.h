@@ -22,6 +22,7 @@ struct TrialRow {
   std::string stimulus{}, response{};
   std::optional<bool> correct{};
   std::optional<double> rt_s{};
+  std::optional<bool> force{};  // on from snap-in to pull-off of each of the trial's cycles; empty: it has no cycle
 };
 
 using TrialSink = std::function<core::Result<void>(const TrialRow&)>;

@@ -32,6 +32,7 @@ struct Moment {
   scene::ServoState servo_state = scene::ServoState::Disarmed;
   bool stopped = false;  // in Fault: a person has stopped the force
   physics::Phase phase = physics::Phase::WaitForLift;
+  bool by_wand = false;     // a wand points, not a mouse
   bool retracting = false;  // after the deepest push of this cycle
   bool realtime = false;
   double slow_motion = 1;  // see scene::ActiveContact
@@ -50,6 +51,7 @@ constexpr void for_each_field(Visit&& visit, Record&... moment) {
   visit("servo_state", moment.servo_state...);
   visit("stopped", moment.stopped...);
   visit("phase", moment.phase...);
+  visit("by_wand", moment.by_wand...);
   visit("retracting", moment.retracting...);
   visit("realtime", moment.realtime...);
   visit("slow_motion", moment.slow_motion...);

@@ -54,4 +54,7 @@ std::string step_text(const Phrases& phrases, Hint hint, const Controls& control
 // One line for the wall: the reason if the force went off without a person's Stop, and the next step.
 std::string guidance_line(const Phrases& phrases, Hint hint, const scene::TipState& tip, const Controls& controls);
 
+// How to choose a sample, for the panel of the sample's data while there is none.
+std::string no_sample_advice(const Phrases& phrases, Pointer pointer);
+
 }  // namespace afm::exhibit

@@ -27,6 +27,9 @@
   PHRASE(LessonSecond, "lesson-second", "", kLine)                          \
   PHRASE(LessonAnswerFirst, "lesson-answer-first", "", kLine)               \
   PHRASE(LessonAnswerSecond, "lesson-answer-second", "", kLine)             \
+  PHRASE(LessonForceWasOff, "lesson-force-was-off", "", kParagraph)         \
+  PHRASE(LessonForceWasWeak, "lesson-force-was-weak", "", kParagraph)       \
+  PHRASE(LessonForceWasOn, "lesson-force-was-on", "", kParagraph)           \
   PHRASE(LessonRight, "lesson-right", "", kLine)                            \
   PHRASE(LessonWrong, "lesson-wrong", "answer", kLine)                      \
   PHRASE(InstructorTitle, "instructor-title", "lesson", kLine)              \

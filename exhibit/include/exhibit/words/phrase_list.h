@@ -112,6 +112,11 @@
   PHRASE(PictureBudget, "picture-budget", "time", kLine)              \
   PHRASE(PictureOverBudget, "picture-over-budget", "time budget", kLine)
 
+// A wall of several machines: its missing parts.
+#define AFM_FOR_EACH_CLUSTER_PHRASE(PHRASE)          \
+  PHRASE(NodeMissing, "node-missing", "node", kLine) \
+  PHRASE(MasterMissing, "master-missing", "", kLine)
+
 // Plots and panels of values, labels in the scene, the depth meter, the test pattern.
 #define AFM_FOR_EACH_PANEL_PHRASE(PHRASE)                                \
   PHRASE(PlotTitle, "plot-title", "", kLine)                             \
@@ -128,7 +133,7 @@
   PHRASE(StageAdhesion, "stage-adhesion", "", kLine)                     \
   PHRASE(StageFree, "stage-free", "", kLine)                             \
   PHRASE(NoSample, "no-sample", "", kLine)                               \
-  PHRASE(NoSampleAdvice, "no-sample-advice", "", kLine)                  \
+  PHRASE(NoSampleAdvice, "no-sample-advice", "choose?", kLine)           \
   PHRASE(TipAndMedium, "tip-and-medium", "tip medium", kLine)            \
   PHRASE(TitleAndMedium, "title-and-medium", "sample medium", kLine)     \
   PHRASE(TipRadius, "tip-radius", "", kLine)                             \
@@ -156,6 +161,7 @@
   PHRASE(ForceOnTip, "force-on-tip", "", kLine)                          \
   PHRASE(LeverBentUp, "lever-bent-up", "deflection", kLine)              \
   PHRASE(LeverBentDown, "lever-bent-down", "deflection", kLine)          \
+  PHRASE(LeverStraight, "lever-straight", "", kLine)                     \
   PHRASE(Results, "results", "", kLine)                                  \
   PHRASE(NoJumps, "no-jumps", "", kLine)                                 \
   PHRASE(NoJumpsBecause, "no-jumps-because", "law", kLine)               \
@@ -248,50 +254,6 @@
   PHRASE(CauseNoise, "scan-cause-noise", "", kLine)                    \
   PHRASE(CauseBlur, "scan-cause-blur", "", kLine)                      \
   PHRASE(CauseBluntTip, "scan-cause-blunt-tip", "", kLine)
-
-// Captions and speech, in the order of HeardEvent; numbers with units, singular and plural, pico to micro; the key Y.
-#define AFM_FOR_EACH_SOUND_PHRASE(PHRASE)                       \
-  PHRASE(HeardSnapIn, "heard-snap-in", kEventPlaces, kLine)     \
-  PHRASE(HeardPullOff, "heard-pull-off", kEventPlaces, kLine)   \
-  PHRASE(HeardSlip, "heard-slip", kEventPlaces, kLine)          \
-  PHRASE(HeardTouch, "heard-touch", kEventPlaces, kLine)        \
-  PHRASE(HeardForceOn, "heard-force-on", kEventPlaces, kLine)   \
-  PHRASE(HeardForceOff, "heard-force-off", kEventPlaces, kLine) \
-  PHRASE(HeardFault, "heard-fault", kEventPlaces, kLine)        \
-  PHRASE(HeardSample, "heard-sample", kEventPlaces, kLine)      \
-  PHRASE(HeardReady, "heard-ready", kEventPlaces, kLine)        \
-  PHRASE(HeardScanLine, "heard-scan-line", kEventPlaces, kLine) \
-  PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)         \
-  PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)       \
-  PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)              \
-  PHRASE(SayTouch, "say-touch", kEventPlaces, kLine)            \
-  PHRASE(SayForceOn, "say-force-on", kEventPlaces, kLine)       \
-  PHRASE(SayForceOff, "say-force-off", kEventPlaces, kLine)     \
-  PHRASE(SayFault, "say-fault", kEventPlaces, kLine)            \
-  PHRASE(SaySample, "say-sample", kEventPlaces, kLine)          \
-  PHRASE(SayReady, "say-ready", kEventPlaces, kLine)            \
-  PHRASE(SayScanLine, "say-scan-line", kEventPlaces, kLine)     \
-  PHRASE(OnePiconewton, "piconewton", "number", kLine)          \
-  PHRASE(Piconewtons, "piconewtons", "number", kLine)           \
-  PHRASE(OneNanonewton, "nanonewton", "number", kLine)          \
-  PHRASE(Nanonewtons, "nanonewtons", "number", kLine)           \
-  PHRASE(OneMicronewton, "micronewton", "number", kLine)        \
-  PHRASE(Micronewtons, "micronewtons", "number", kLine)         \
-  PHRASE(OnePicometre, "picometre", "number", kLine)            \
-  PHRASE(Picometres, "picometres", "number", kLine)             \
-  PHRASE(OneNanometre, "nanometre", "number", kLine)            \
-  PHRASE(Nanometres, "nanometres", "number", kLine)             \
-  PHRASE(OneMicrometre, "micrometre", "number", kLine)          \
-  PHRASE(Micrometres, "micrometres", "number", kLine)           \
-  PHRASE(SayNoForce, "say-no-force", "", kLine)                 \
-  PHRASE(SayPull, "say-pull", "force", kLine)                   \
-  PHRASE(SayPush, "say-push", "force", kLine)                   \
-  PHRASE(SayHeight, "say-height", "height", kLine)              \
-  PHRASE(SayDepth, "say-depth", "height", kLine)                \
-  PHRASE(SoundOff, "sound-off", "", kLine)                      \
-  PHRASE(SoundOn, "sound-on", "", kLine)                        \
-  PHRASE(PictureShown, "picture-shown", "", kLine)              \
-  PHRASE(PictureBlank, "picture-blank", "", kLine)
 
 // List of keys (F1).
 #define AFM_FOR_EACH_KEY_PHRASE(PHRASE)                      \

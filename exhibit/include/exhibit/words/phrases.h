@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "core/result.h"
-#include "exhibit/words/cluster_phrase_list.h"
 #include "exhibit/words/lesson_phrase_list.h"
 #include "exhibit/words/phrase_list.h"
+#include "exhibit/words/sound_phrase_list.h"
 
 namespace afm::exhibit {
 
