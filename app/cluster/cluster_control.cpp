@@ -12,6 +12,7 @@
 #include "app/view/view_parts.h"
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
+#include "exhibit/cluster/living_screens.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scan/scan_panels.h"
 #include "servo/servo_client.h"
@@ -57,7 +58,10 @@ void ClusterControl::add_to_moment(exhibit::Moment& now, ViewFrame& frame) {
 }
 
 void ClusterControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
-  add_warning(missing_text(message_.missing, parts_.stage.wall, parts_.stage.phrases()), picture.panels.banner.content);
+  auto& banner = picture.panels.banner;
+  add_warning(missing_text(message_.missing, parts_.stage.wall, parts_.stage.phrases()), banner.content);
+  banner.placement =
+      exhibit::on_living_screens(banner.placement, parts_.stage.wall, {.nodes = message_.missing, .master = false});
   master_.built(exhibit::digest_of(picture, message_.view));
 }
 

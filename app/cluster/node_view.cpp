@@ -15,6 +15,7 @@
 #include "core/log.h"
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
+#include "exhibit/cluster/living_screens.h"
 #include "exhibit/cluster/wall_history.h"
 #include "exhibit/frame/blank_picture.h"
 #include "exhibit/frame/exhibit_setup.h"
@@ -212,9 +213,13 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   const ViewPanels::Told told = panels_->follow(message.panels);
   add_panels(stage_, *panels_, now, {.pointed = told.pointed, .hand = told.hand, .tip = tip},
              exhibit::caption_of(message), frame);
-  if ((message.moment.flags & cluster::ShownMoment::kBlank) != 0) exhibit::blank(frame);
-  add_warning(missing_text(message.missing, stage_.wall, stage_.phrases()), frame.panels.banner.content);
-  if (master_gone) add_warning(stage_.phrases()[exhibit::Phrase::MasterMissing], frame.panels.banner.content);
+  const bool blank = (message.moment.flags & cluster::ShownMoment::kBlank) != 0;
+  if (blank) exhibit::blank(frame, stage_.phrases()[exhibit::Phrase::PictureBlank]);
+  auto& banner = frame.panels.banner;
+  add_warning(missing_text(message.missing, stage_.wall, stage_.phrases()), banner.content);
+  if (master_gone) add_warning(stage_.phrases()[exhibit::Phrase::MasterMissing], banner.content);
+  banner.placement =
+      exhibit::on_living_screens(banner.placement, stage_.wall, {.nodes = message.missing, .master = master_gone});
   picture_.follow(message.view);
   const std::uint64_t digest = exhibit::digest_of(frame, picture_.told());
   picture_.show(frame, exhibit::Relief::NarrowEyes, clock_.now_ns(), [] {}, [&] { drawn(digest); });

@@ -23,6 +23,7 @@ namespace afm::app {
 LessonControl::LessonControl(ViewParts& parts, exhibit::LiveLesson& lesson) : parts_(parts), lesson_(lesson) {
   parts_.panels.use_for(WallUse::Lesson);
   parts_.choice.set_guide(*this);
+  parts_.servo.hear([this](const scene::TipSample& sample) { lesson_.felt(sample, parts_.servo.link()); });
   parts_.servo.hear_jumps([this](const scene::TipEvent& event) { lesson_.happened(event, parts_.servo.link()); });
 }
 
@@ -106,7 +107,7 @@ void LessonControl::add_to_picture(render::FrameState& picture, const ViewFrame&
     picture.panels.banner.content.scale.clear();
   }
   if (parts_.panels.shown() == "keys") {
-    picture.panels.data.placement = words;
+    picture.panels.keys.placement = parts_.stage.wall_scene.places().keys();
     return;
   }
   const auto targets = lesson_.targets();

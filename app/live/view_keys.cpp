@@ -164,17 +164,23 @@ render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phra
   panel.title = phrases[Phrase::Keys];
   panel.subtitle = phrases[Phrase::KeysHidden];
   Phrase text_above = Phrase::Keys;
-  for (const LiveKey& key : live_keys()) {
+  const auto add = [&](const LiveKey& key) {
     const bool shown = key.press != nullptr || hand == HandSource::Mouse;
-    if (key.text == Phrase::Keys || !shown || !key.acts(use) || (key.staff && unattended)) continue;
+    if (key.text == Phrase::Keys || !shown || !key.acts(use)) return;
     const std::string name = shown_name(key, phrases, letters);
     if (key.text == text_above) {
       panel.rows.back().value += ", " + name;
-      continue;
+      return;
     }
     text_above = key.text;
     // without notes, which would make the rows overlap
     panel.rows.push_back({phrases[key.text], name + (key.mouse ? ", " + phrases[*key.mouse] : ""), ""});
+  };
+  // those of a visitor first
+  for (const bool staff : {false, true}) {
+    for (const LiveKey& key : live_keys()) {
+      if (key.staff == staff && !(staff && unattended)) add(key);
+    }
   }
   return panel;
 }

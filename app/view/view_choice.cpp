@@ -53,6 +53,7 @@ void ViewChoice::number(std::size_t number) {
 }
 
 void ViewChoice::press(const Pointed& pointed, const input::Ray& ray) {
+  if (parts_.panels.close_keys()) return;  // the list covers all targets
   if (guide_ != nullptr) return guide_->press(pointed, ray);
   if (pointed.swatch) choose(*pointed.swatch);
   if (const auto material = parts_.servo.material()) {

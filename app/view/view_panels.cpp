@@ -124,6 +124,7 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
   Pointed pointed{.control = {}, .tab = false, .swatch = {}, .point_m = wall_point_m};
   const render::PanelPlacement panel = wall_scene_.places().parameters();
   const double millimetre_m = wall_scene_.panel_millimetre_m();
+  if (keys_shown_) return pointed;
   if (const auto hit = material && right_ == RightPanel::Parameters && !hidden_
                            ? exhibit::hit_of(ray, panel, millimetre_m)
                            : std::nullopt) {
@@ -131,7 +132,7 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
                                          exhibit::size_mm(panel, millimetre_m), hit->place_mm);
     return pointed;
   }
-  if (use_ == WallUse::Free && right_ != RightPanel::Parameters && material &&
+  if (use_ == WallUse::Free && right_ != RightPanel::Parameters && !hidden_ && material &&
       exhibit::hit_of(ray, wall_scene_.places().parameter_tab(), millimetre_m)) {
     pointed.tab = true;
     return pointed;
@@ -196,7 +197,7 @@ void ViewPanels::change(const render::ControlTarget& target, std::size_t materia
 void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material) {
   const curves::LiveParameters& parameters = edits_.of(material);
   const bool open = right_ == RightPanel::Parameters;
-  if (!open) {
+  if (!open && !covered()) {
     frame.labels.push_back({.text = phrases()[exhibit::Phrase::ChangeParameters],
                             .highlighted = pointed.tab,
                             .placement = wall_scene_.places().parameter_tab()});
@@ -231,6 +232,7 @@ void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, 
 void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece,
                           const std::string& caption) const {
   using exhibit::Note;
+  if (covered()) return;
   if (!caption.empty()) {
     frame.labels.push_back({.text = caption, .highlighted = false, .placement = wall_scene_.places().note()});
     return;
@@ -249,13 +251,14 @@ void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::
   const bool changeable = material && use_ == WallUse::Free;
   if (changeable) add_parameters(frame, pointed, *material);
   render::FramePanels& panels = frame.panels;
-  if (hidden_) {
+  if (covered()) {
     const render::PanelPlacement banner = panels.banner.placement;
     hide(panels);
     panels.banner.placement = banner;
   }
   if (keys_shown_) {
-    show_right(panels, panels.data, key_list_(hand, unattended_, phrases(), use_, letters));
+    panels.keys = {.content = {key_list_(hand, unattended_, phrases(), use_, letters)},
+                   .placement = wall_scene_.places().keys()};
   } else if (changeable && !hidden_) {
     add_right(panels, pointed, *material, material_title, tip);
   }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "app/view/key_list.h"
 #include "app/view/parameter_edits.h"
@@ -41,6 +42,8 @@ class ViewPanels {
     keys_shown_ = !keys_shown_;
     keys_known_ = true;
   }
+  // Returns whether the list of keys was shown.
+  bool close_keys() { return std::exchange(keys_shown_, false); }
   void toggle_parameters() { toggle(RightPanel::Parameters); }
   // Returns whether the panel is now visible.
   bool toggle_friction_loop() { return toggle(RightPanel::FrictionLoop); }
@@ -84,8 +87,8 @@ class ViewPanels {
   };
   Told follow(const cluster::ShownPanels& panels);
 
-  // Adds a short note below the left panel: the caption of the sound; without a caption, how to leave the current view
-  // and, until F1 was used, how to list the keys.
+  // Adds a short note below the left panel, unless the panels are hidden: the caption of the sound; without a caption,
+  // how to leave the current view and, until F1 was used, how to list the keys.
   void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece, const std::string& caption) const;
 
   // Adds the current panels to a frame: the parameters or the tab that opens them, the curve computed from changed
@@ -99,6 +102,8 @@ class ViewPanels {
     right_ = right_ == panel ? RightPanel::Data : panel;
     return right_ == panel;
   }
+  // Nothing but the banner, and perhaps the list of keys, is shown.
+  bool covered() const { return hidden_ || keys_shown_; }
   const exhibit::Phrases& phrases() const;
   render::ControlPanel control_panel(std::size_t material, const std::string& title, exhibit::ChangeState state);
   void change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo);

@@ -36,11 +36,14 @@ figcaption { color: #4a5568; font-size: 0.93em; margin-top: 0.3em; }
 table { border-collapse: collapse; width: 100%; font-size: 0.93em; background: #fff; }
 th, td { border: 1px solid #d5dae1; padding: 0.35em 0.6em; text-align: right; } th { background: #e8ebf0; }
 td:first-child, th:first-child { text-align: left; }
+figure img.one { object-fit: cover; object-position: left; }
+.results { font-size: 1.15em; padding: 0; list-style: none; }
 .note { color: #4a5568; font-size: 0.93em; }
 .wide { overflow-x: auto; } .wide:focus { outline: 2px solid #3b82c4; }
 @media (max-width: 760px) {
   body { padding: 0.8em; } td, th { white-space: nowrap; }
   .wide img, .wide svg { width: auto; min-width: 900px; } .wide img.pair { min-width: 1400px; }
+  .wide img.one, .fits .wide svg { width: 100%; min-width: 0; }
 }
 )";
 
@@ -110,5 +113,13 @@ std::string html_figure(const std::string& html, const std::string& caption) {
 std::string html_picture(const std::string& png, const std::string& caption) {
   return fmt::format("<img class=\"pair\" alt=\"{}\" src=\"data:image/png;base64,{}\">", escaped(caption), base64(png));
 }
+
+std::string html_one_eye(const std::string& png, const std::string& caption, std::uint32_t width,
+                         std::uint32_t height) {
+  return fmt::format("<img class=\"one\" style=\"aspect-ratio: {} / {}\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
+                     width, height, escaped(caption), base64(png));
+}
+
+std::string html_fitting(const std::string& figure) { return "<div class=\"fits\">" + figure + "</div>\n"; }
 
 }  // namespace afm::curves

@@ -70,6 +70,7 @@ core::Result<SampleModel> make_sample_model(const SampleModel& material, const C
   felt->setup = material.setup;
   felt->parameters.height_field = material.parameters.height_field;
   felt->parameters.topography = material.parameters.topography;
+  felt->parameters.surface_release_m = material.parameters.surface_release_m;
   return felt;
 }
 

@@ -48,7 +48,8 @@ TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWal
   expect_large(frame.panels.force.content, frame.panels.force.placement, "the plot");
   expect_large(frame.panels.data.content, frame.panels.data.placement, "the data");
   expect_large(full_banner(phrases, frame.panels.banner.content), frame.panels.banner.placement, "the banner");
-  expect_large(app::key_list(app::HandSource::Mouse, false, phrases), right, "the list of keys");
+  expect_large(render::ListPanel{app::key_list(app::HandSource::Mouse, false, phrases)},
+               stage->wall_scene.places().keys(), "the list of keys");
   expect_large(full_parameters(*stage), right, "the parameters");
   const LiveScan scan = full_scan(*stage);
   expect_large(scan_panel(scan, phrases.word("Silicon nitride"), phrases), right, "the settings of a scan");
@@ -64,6 +65,39 @@ TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWal
     }
   }
   for (const render::Label& label : frame.labels) expect_large(label, label.placement, label.text);
+}
+
+// What a whole class reads has letters nearly as large as the guidance.
+TEST_P(LettersOfThePanels, OfKeysAndOfALessonsWordsAreThoseOfTheGuidance) {
+  constexpr double kShareOfGuidance = 0.7;
+  ExhibitFiles files;
+  files.assets_dir = support::source("assets");
+  files.language = GetParam();
+  const auto stage = load_exhibit(files);
+  ASSERT_TRUE(stage) << stage.error().message;
+  test::Painter painter(640.0, stage->wall_scene.panel_millimetre_m());
+  render::FrameState frame = app::wall_subject(*stage, 64, app::WallMotion::Tip).value().frames.back();
+  render::Banner guidance;
+  guidance.guidance = "Lift the tip";
+  const float guidance_px = painter.paint(guidance, frame.panels.banner.placement).letter_px;
+  const auto share = [&](const auto& panel, const render::PanelPlacement& place) {
+    const auto painted = painter.paint(panel, place);
+    EXPECT_TRUE(painted.inside() && !painted.cut);
+    return static_cast<double>(painted.letter_px / guidance_px);
+  };
+  const Phrases& phrases = stage->phrases();
+  const WallPlaces& places = stage->wall_scene.places();
+  const render::ListPanel keys{app::key_list(app::HandSource::Mouse, false, phrases)};
+  RecordProperty("keys", std::to_string(share(keys, places.keys())));
+  LessonPrompt cycle;
+  cycle.title = phrases[Phrase::AllKeys];
+  cycle.progress = phrases.text<Phrase::LessonStep>("2", "4");
+  cycle.wants = LessonPrompt::Wants::Cycle;
+  cycle.words = "Now turn the force on, and lower the tip slowly. Feel how suddenly the tip is pulled down.";
+  cycle.hint = "Lift the tip, and press Turn-On.";
+  RecordProperty("words", std::to_string(share(lesson_panel(cycle, phrases), places.parameters())));
+  EXPECT_GE(share(keys, places.keys()), kShareOfGuidance);
+  EXPECT_GE(share(lesson_panel(cycle, phrases), places.parameters()), kShareOfGuidance);
 }
 
 INSTANTIATE_TEST_SUITE_P(Languages, LettersOfThePanels, ::testing::Values("en", "de"));

@@ -63,10 +63,20 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   if (glm::length(frame.panels.banner.placement.up_m) * width_px / stage.screen.width_m() > kLeastBannerPx) {
     EXPECT_GE(letter_px, kLeastLetterPx) << where;
   }
+  // beside the screens of a cluster that are dark
+  if (width_px >= 1280) {
+    render::Banner alone = shown;
+    alone.warning = phrases[Phrase::MasterMissing];
+    render::PanelPlacement part = frame.panels.banner.placement;
+    part.right_m *= 1.0 / 3.0;
+    expect_whole(alone, part, "the banner on one of three screens");
+  }
   expect_whole(frame.panels.force.content, frame.panels.force.placement, "the plot");
   expect_whole(frame.panels.data.content, frame.panels.data.placement, "the data");
-  expect_whole(app::key_list(app::HandSource::Mouse, false, phrases), stage.wall_scene.places().parameters(),
-               "the list of keys");
+  for (const auto use : {app::WallUse::Free, app::WallUse::Lesson}) {
+    expect_whole(render::ListPanel{app::key_list(app::HandSource::Mouse, false, phrases, use)},
+                 stage.wall_scene.places().keys(), "the list of keys");
+  }
   expect_whole(full_parameters(stage), stage.wall_scene.places().parameters(), "the parameters");
   for (const auto law : {physics::FrictionLaw::None, physics::FrictionLaw::Lattice}) {
     expect_whole(full_friction_loop(law, phrases), stage.wall_scene.places().parameters(), "the friction loop");

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/scenery/wall_scene.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <string_view>
 #include <utility>
 
+#include "curves/live_parameters.h"
+#include "curves/sample_model.h"
+#include "exhibit/scenery/wall_marks.h"
 #include "physics/contact.h"
+#include "scene/shared/felt_heights.h"
 #include "support/paper_wall.h"
 
 namespace afm::exhibit {
@@ -232,6 +238,120 @@ TEST_F(WallSceneTest, TheStrokeFillsTheSameRoomWithOtherParameters) {
   const glm::dvec3 high = apex({.material = 0, .tip = {.z_m = 70e-9}, .release_z_m = kReleaseM});
   const glm::dvec3 low = apex({.material = 0, .tip = {.z_m = -15e-9}, .release_z_m = kReleaseM});
   EXPECT_NEAR(glm::length(high - low), 0.30 * screen_.height_m(), 0.002);
+}
+
+// The sample of a material as it is drawn, and the ruler beside it.
+class SampleSize : public WallSceneTest {
+ protected:
+  curves::SampleModel laid(const WallScene& scene, std::size_t material, const scene::MaterialEntry& entry) const {
+    curves::SampleModel model = curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value();
+    scene.lay_surface_on(model.parameters, material);
+    return model;
+  }
+
+  static glm::dvec3 size_of(const WallScene& scene, const std::string& node, const render::FrameState& state) {
+    const scene::NodeIndex index = scene.scene().find_node(node).value();
+    const glm::dmat3 axes(state.room_from_node[index]);
+    glm::dvec3 low(1e9), high(-1e9);
+    for (const scene::Primitive& primitive : scene.scene().meshes[*scene.scene().nodes[index].mesh].primitives) {
+      for (const scene::Vertex& vertex : primitive.vertices) {
+        low = glm::min(low, glm::dvec3(vertex.position));
+        high = glm::max(high, glm::dvec3(vertex.position));
+      }
+    }
+    return {(high.x - low.x) * glm::length(axes[0]), (high.y - low.y) * glm::length(axes[1]),
+            (high.z - low.z) * glm::length(axes[2])};
+  }
+
+  // With these parameters, sample and stroke are as large as ever, the ruler is right, and the tip stands on the
+  // surface that is felt.
+  void expect_drawn_alike(const curves::SampleModel& model, std::size_t material, const std::string& what) {
+    const std::string node = "sample-" + materials_.materials[material].name + "/surface";
+    const double release_m = model.scaling.release_z_m();
+    const glm::dvec3 loaded = size_of(scene_, node, frame({.material = material}));
+    const render::FrameState now = frame({.material = material, .release_z_m = release_m});
+    EXPECT_LT(glm::length(size_of(scene_, node, now) / loaded - 1.0), 1e-9) << what;
+    const double per_m = scene_.drawn_scale(material, release_m).sample_m_per_m;
+    EXPECT_NEAR(kStrokeOfZjoc * release_m / per_m, 0.30 * screen_.height_m(), 1e-6) << what;
+
+    const double ruler_m = size_of(scene_, "marks/line", now).z;
+    const ScaleBar bar = scale_bar(per_m * scene_.unit_m(), kRulerLongest);
+    EXPECT_NEAR(ruler_m, bar.length_m / per_m, 0.05 * ruler_m) << what << ", " << bar.text;
+    EXPECT_TRUE(std::any_of(now.labels.begin(), now.labels.end(), [&](const auto& l) { return l.text == bar.text; }));
+
+    const scene::SharedHeightField& field = scene_.height_fields()[scene_.height_field(material)];
+    const auto felt = scene::FeltHeights(field).scaled(scene::surface_scale(model.parameters, release_m));
+    const auto surface = scene_.scene().find_node(node).value();
+    const auto& drawn = scene_.scene().meshes[*scene_.scene().nodes[surface].mesh].primitives.front().vertices;
+    for (std::size_t i = 5; i < drawn.size(); i += 3001) {
+      const double x = (static_cast<double>(i % felt.columns) - 0.5 * (felt.columns - 1)) * felt.spacing_m;
+      const double y = (static_cast<double>(i / felt.columns) - 0.5 * (felt.rows - 1)) * felt.spacing_m;
+      const double z = felt.height_factor * static_cast<double>(felt.height_m[i]);
+      const render::FrameState over =
+          frame({.material = material, .tip = {}, .surface = {{x, y}, z}, .release_z_m = release_m});
+      const glm::dvec3 vertex_m(over.room_from_node[surface] * glm::dvec4(glm::dvec3(drawn[i].position), 1.0));
+      EXPECT_LT(glm::distance(origin_of(over, "probe/apex"), vertex_m), 1e-6) << what << ", vertex " << i;
+    }
+  }
+};
+
+TEST_F(SampleSize, IsTheSameForEveryValueOfEveryParameter) {
+  using Row = curves::LiveParameters::Row;
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const curves::SampleModel loaded = laid(scene_, material, materials_.materials[material]);
+    double least_m = loaded.scaling.release_z_m(), most_m = least_m;
+    for (std::size_t row = 0; row < curves::LiveParameters::kRows; ++row) {
+      for (const int direction : {1, -1}) {
+        curves::LiveParameters now(loaded);
+        // an octave a step, as far as the law and the hand allow, or 50 octaves
+        for (int steps = 4; steps <= 200; steps += 4) {
+          curves::LiveParameters::State state = now.state();
+          state.steps[row] = static_cast<Row>(row) == Row::Law ? steps / 4 : direction * steps;
+          if (!now.restore(state)) break;
+          const double release_m = now.model().scaling.release_z_m();
+          least_m = std::min(least_m, release_m);
+          most_m = std::max(most_m, release_m);
+          expect_drawn_alike(now.model(), material,
+                             fmt::format("{}, row {}, {} steps", materials_.materials[material].name, row, steps));
+        }
+      }
+    }
+    EXPECT_GT(most_m, 30.0 * least_m) << "parameters that matter";
+  }
+}
+
+TEST_F(SampleSize, IsTheSameForTheValuesOfASweepWhileADemoRuns) {
+  const curves::SampleModel gold = laid(scene_, 1, materials_.materials[1]);
+  for (const double stiffness : {0.025, 0.1, 0.4, 1.6}) {
+    curves::ContactSetup changed{materials_.materials[1], {}, {}};
+    changed.material.contact.spring_constant = physics::Stiffness(stiffness);
+    const curves::SampleModel varied = curves::make_sample_model(gold, changed).value();
+    EXPECT_EQ(varied.parameters.surface_release_m, gold.parameters.surface_release_m);
+    expect_drawn_alike(varied, 1, fmt::format("{} N/m", stiffness));
+  }
+}
+
+TEST_F(SampleSize, IsTheSameForEveryMaterialOfTheLibrary) {
+  const scene::MaterialLibrary all = scene::load_materials(assets_ + "/materials.toml").value();
+  const WallScene scene = WallScene::load(assets_, all, stage_, test::english()).value();
+  ASSERT_GT(all.materials.size(), 10U);
+  for (std::size_t i = 0; i < all.materials.size(); ++i) {
+    const curves::SampleModel model = laid(scene, i, all.materials[i]);
+    render::FrameState state;
+    scene.update({.material = i, .release_z_m = model.scaling.release_z_m()}, state);
+    const double strokes =
+        size_of(scene, "sample-" + all.materials[i].name + "/surface", state).x / (0.30 * screen_.height_m());
+    EXPECT_GE(strokes, kNarrowestSample - 1e-6) << all.materials[i].name;
+    EXPECT_LE(strokes, kWidestSample + 1e-6) << all.materials[i].name;
+  }
+}
+
+// Nothing of what is drawn or felt with a material's own parameters has changed for the paper's samples.
+TEST_F(SampleSize, IsItsOwnForThePapersSamples) {
+  for (std::size_t i = 0; i < materials_.materials.size(); ++i) {
+    const curves::SampleModel model = laid(scene_, i, materials_.materials[i]);
+    EXPECT_NEAR(scene::surface_scale(model.parameters, model.scaling.release_z_m()), 1.0, 1e-9);
+  }
 }
 
 TEST_F(WallSceneTest, FitsAWallOfAnySize) {

@@ -194,6 +194,30 @@ TEST(TopographyOfTheMostPoints, TakesAndGivesNoEnergyOnClosedPathsOfOneBranch) {
   }
 }
 
+// The picture fits the stroke: a sample that keeps its place in it has the size of the stroke. Other parameters then
+// change how the hand feels it no more than how it is drawn.
+TEST(TopographyWithOtherParameters, HasTheSizeOfTheStroke) {
+  const afm::scene::Topography measured = afm::test::measured_surface();
+  const auto model = std::make_unique<afm::scene::SharedModel>(afm::test::measured_model(measured));
+  const afm::scene::FeltHeights shown(measured, afm::test::kMeasuredScale);
+  afm::scene::SharedContact own = model->materials[kMica];
+  own.surface_release_m = afm::test::calculated(kMica).z_joc.si;
+  const auto felt = afm::test::model_of(own, shown);
+  for (const double times : {0.25, 4.0}) {
+    afm::scene::SharedContact changed = own;
+    changed.contact.spring_constant.si *= times;
+    const auto other = afm::test::model_of(changed, shown);
+    const double stroke = other->scaling().release_z_m() / felt->scaling().release_z_m();
+    ASSERT_NEAR(stroke, 1.0 / times, 0.1 / times);
+    for (int i = 0; i < 200; ++i) {
+      const glm::dvec2 place_m = shown.spacing_m * shown.columns * glm::dvec2(0.004 * i - 0.4, 0.003 * i - 0.3);
+      const auto here = felt->surface().at(place_m), there = other->surface().at(stroke * place_m);
+      ASSERT_NEAR(there.height_m, stroke * here.height_m, 1e-6 * shown.spacing_m) << times << ", place " << i;
+      ASSERT_NEAR(glm::distance(there.slope, here.slope), 0.0, 1e-6);
+    }
+  }
+}
+
 // ---- the whole servo ----
 
 std::array<double, 16> turned(const glm::dmat4& turn) {

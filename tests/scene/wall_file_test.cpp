@@ -154,6 +154,8 @@ TEST(WallFile, GivesOutputsToNodesWhoseDesktopsMayHaveTheSamePlaces) {
   keep_outputs_of(1, of_node);
   ASSERT_EQ(of_node.outputs.size(), 1U);
   EXPECT_EQ(of_node.outputs[0].name, "right projector");
+  ASSERT_EQ(of_node.outputs_elsewhere.size(), 1U);
+  EXPECT_EQ(of_node.outputs_elsewhere[0].name, "left projector");
   keep_outputs_of(std::nullopt, *wall);
   ASSERT_EQ(wall->outputs.size(), 1U);
   EXPECT_EQ(wall->outputs[0].name, "left projector");

@@ -290,6 +290,15 @@ TEST(SessionFile, CarriesTheSurfaceThatWasFelt) {
   EXPECT_EQ(loaded->surface.value().height_m, surface.height_m);
   EXPECT_EQ(loaded->parameters.height_field, 0U);
 
+  EXPECT_EQ(loaded->parameters.surface_release_m, 0.0) << "as in a session of a TouchAFM without it";
+  session.parameters.surface_release_m = 14e-9 / 3.0;
+  ASSERT_TRUE(save_session(session, folder.file("t.afms")).has_value());
+  EXPECT_EQ(load_session(folder.file("t.afms")).value().parameters.surface_release_m, 14e-9 / 3.0);
+  session.parameters.surface_release_m = -1.0;
+  ASSERT_TRUE(save_session(session, folder.file("t.afms")).has_value());
+  EXPECT_THAT(error_of(folder.file("t.afms")), HasSubstr("release that belongs to its surface"));
+  session.parameters.surface_release_m = 0.0;
+
   surface.height_m[8] = std::nanf("");
   ASSERT_TRUE(save_session(session, folder.file("t.afms")).has_value());
   EXPECT_THAT(error_of(folder.file("t.afms")), HasSubstr("not a grid of heights"));

@@ -199,17 +199,21 @@ core::Result<TopographyModel> load_topography_model(const std::string& file, con
       length_of(scan.height_m), length_of(measured->raw.mean), length_of(measured->raw.sq),
       physics::text_of(measured->levelling).meaning, length_of(measured->levelled.sq), filled, model.exaggeration);
   core::log_line(model.summary);
+  for (const curves::UnreadChannel& each : measured->file.unread)
+    core::log_line(fmt::format("sample {}: its channel {} is left out: {}", file, each.name, each.reason));
+  for (const std::string& remark : measured->file.remarks) core::log_line(fmt::format("sample {}: {}", file, remark));
   return model;
 }
 
 std::string smoothing_note(const curves::SampleModel& material, const scene::Topography& topography) {
   const scene::SharedContact& parameters = material.parameters;
-  const scene::FeltHeights shown(topography, parameters.topography);
+  const double scale = scene::surface_scale(parameters, material.scaling.release_z_m());
+  const auto shown = scene::FeltHeights(topography, parameters.topography).scaled(scale);
   const haptics::SampleSurface felt(
       shown, parameters.contact.tip_radius.si,
       haptics::largest_curvature_per_m(material.scaling, haptics::SimulatedDevice().spec()));
   const haptics::SampleSurface::Change change = felt.change_of(shown);
-  const double measured_per_m = 1.0 / parameters.topography.vertical;
+  const double measured_per_m = 1.0 / (scale * parameters.topography.vertical);
   return fmt::format(
       "the sample is felt on {} smoothed by {} at most and {} rms of its measured heights, so that it is nowhere "
       "too steep or too sharp for a hand",

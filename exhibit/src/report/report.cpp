@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -19,9 +20,11 @@ namespace afm::exhibit {
 namespace {
 
 using curves::html_figure;
+using curves::html_fitting;
 using curves::html_head;
 using curves::html_heading;
 using curves::html_note;
+using curves::html_one_eye;
 using curves::html_picture;
 using curves::html_scrolled;
 using curves::html_table_head;
@@ -176,6 +179,31 @@ std::string run_html(const DemoResult& result, const Phrases& phrases) {
   return "<h1>" + html_text(title) + "</h1>\n" + html_note(html_text(run));
 }
 
+// Head of the page: one picture for everybody who cannot merge a pair, and the forces of each sample.
+std::string results_html(const DemoResult& result, const std::vector<ReportPicture>& pictures, const Phrases& phrases) {
+  using enum Phrase;
+  std::string html;
+  const auto shown = std::find_if(pictures.begin(), pictures.end(), [&](const ReportPicture& picture) {
+    return picture.caption == phrases[CaptionAdhesion];
+  });
+  if (shown != pictures.end() && result.eye_width > 0) {
+    html += html_figure(html_one_eye(shown->png, shown->caption, result.eye_width, result.eye_height), shown->caption);
+  }
+  std::string rows;
+  for (const Measurement& m : result.measurements) {
+    const auto force = [](bool there, double force_n) {
+      return there ? fmt::format("{:.3f}", force_n * 1e9) : std::string(kNone);
+    };
+    const std::string forces = m.hysteretic
+                                   ? phrases.number(fmt::format("{} / {} nN", force(m.snaps_in, m.measured.f_attr_n),
+                                                                force(m.pulls_off, m.measured.f_ad_n)))
+                                   : phrases[NoJumps];
+    rows += fmt::format("<li><b>{}</b>: {}</li>\n", html_text(phrases.word(m.title)), html_text(forces));
+  }
+  if (rows.empty()) return html;
+  return html + html_note(html_text(phrases[SnapInAndPullOff])) + "<ul class=\"results\">\n" + rows + "</ul>\n";
+}
+
 std::string servo_html(const scene::ServoTiming& servo, std::uint64_t lost_samples, const Phrases& phrases) {
   using enum Phrase;
   const std::string policy =
@@ -224,7 +252,8 @@ std::string report_html(const DemoResult& result, const std::vector<ReportPictur
                         const std::string& curves_svg, const Phrases& phrases) {
   using enum Phrase;
   std::string html = html_head(phrases[Language], phrases[ReportTitle]) + run_html(result, phrases);
-  html += html_heading(phrases[ReportCurves]) + html_figure(curves_svg, phrases[ReportCurvesNote]);
+  html += results_html(result, pictures, phrases);
+  html += html_heading(phrases[ReportCurves]) + html_fitting(html_figure(curves_svg, phrases[ReportCurvesNote]));
   html += html_heading(phrases[ReportTable]) + events_table(result, phrases);
   html += html_note(html_text(phrases[ReportTableNote]));
   html += html_heading(phrases[ReportWall]) + html_note(html_text(phrases[ReportWallNote]));

@@ -133,6 +133,12 @@ render::PanelPlacement WallPlaces::parameter_tab() const {
   return tab;
 }
 
+render::PanelPlacement WallPlaces::keys() const {
+  const double bottom = (shape_.arrangement == Arrangement::Below ? kBelowBottom : -kRoomBelow) + kPanelMargin;
+  const double top = wall_top_ - kBannerHeight - 2.0 * kPanelMargin;
+  return in_wall(-half_width_ + kPanelMargin, bottom, 2.0 * (half_width_ - kPanelMargin), top - bottom);
+}
+
 render::PanelPlacement WallPlaces::note() const {
   render::PanelPlacement note = force_placement_;
   const dvec3 right = shape_.unit_m * glm::normalize(note.right_m), up = shape_.unit_m * glm::normalize(note.up_m);

@@ -23,6 +23,12 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
+// The stroke that suits a sample of this width: the material's own, unless the sample would then cover the wall or be
+// a stamp on it.
+double stroke_of_sample(double width_m, double stroke_m) {
+  return std::clamp(stroke_m, width_m / kWidestSample, width_m / kNarrowestSample);
+}
+
 }  // namespace
 
 void WallScene::add_frames(ModelBuilder& build, const UserModels& own) {
@@ -45,6 +51,7 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
   const std::string model = model_of(assets_dir, material);
   const std::string sample = "sample-" + material.name;
   look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
+  look.surface_stroke_m = look.stroke_m;
   if (own.topography) {
     add_topography(build, sample, own, look);
   } else {
@@ -52,7 +59,9 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
                              : build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, sample_frame_);
     const scene::NodeIndex surface = build.node(sample + "/surface");
     look.height_field = build.error() ? scene::kNoHeightField : height_field_of(own.sample ? "own" : model, surface);
-    look.thickness_m = build.error() ? 0.0 : -bounds_below(scene_, surface).low.z;
+    const Bounds slab = build.error() ? Bounds{dvec3(0.0), dvec3(0.0)} : bounds_below(scene_, surface);
+    look.thickness_m = -slab.low.z;
+    if (!own.sample) look.surface_stroke_m = stroke_of_sample(slab.high.x - slab.low.x, look.stroke_m);
   }
   look.ground = journey_.add_ground(build, scene_, model);
   const std::string swatch = "swatch-" + material.name;
@@ -86,7 +95,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   w.instrument_.measure(w.scene_, build);
   double floor_y = w.places_.shelf_y();
   for (const MaterialLook& look : w.looks_) {
-    const double thickness = look.thickness_m * kStrokeHeight / look.stroke_m + w.instrument_.stage_height();
+    const double thickness = look.thickness_m * kStrokeHeight / look.surface_stroke_m + w.instrument_.stage_height();
     floor_y = std::min(floor_y, -std::cos(kSampleTiltRad) * thickness - kLeastPost);
   }
   w.instrument_.set_floor(floor_y);

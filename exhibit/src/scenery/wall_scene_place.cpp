@@ -76,13 +76,15 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, render::B
   return local;
 }
 
-// The sample at its true proportions, with the stage below it.
+// The sample at its true proportions, with the stage below it. Its size does not depend on the tip's parameters: the
+// ruler and the scale line do.
 void WallScene::place_sample(const WallState& state, std::vector<dmat4>& local) const {
   double thickness = 0.0;
   if (state.material) {
     const MaterialLook& look = looks_[*state.material];
-    local[look.sample] = glm::scale(dmat4(1.0), dvec3(layout_per_m(state))) * local[look.sample];
-    thickness = look.thickness_m * layout_per_m(state);
+    const double per_m = kStrokeHeight / look.surface_stroke_m;
+    local[look.sample] = glm::scale(dmat4(1.0), dvec3(per_m)) * local[look.sample];
+    thickness = look.thickness_m * per_m;
   }
   instrument_.place_stage(scene_, thickness, local);
 }

@@ -65,10 +65,18 @@ void Narrator::follow(const scene::TipState& tip, const Step& step) {
   const bool silent = step.hint == Hint::ServoEnded || tip.fault == scene::FaultCode::ServoSilent;
   if (silent && !std::exchange(servo_silent_, silent)) happened(HeardEvent::Fault, tip.material);
   servo_silent_ = silent;
-  if (const std::uint32_t lines = step.scan_lines.value_or(0); std::exchange(scan_lines_, lines) < lines) {
-    happened(HeardEvent::ScanLine, tip.material);
-  }
+  follow_scan(step.scan_lines.value_or(0), tip.material);
   if (std::exchange(guidance_, step.guidance) != step.guidance) say_({step.guidance, SpeechKind::Guidance});
+}
+
+// Lines come up to ten times a second, and the guidance names the scan: only the first explains its sound.
+void Narrator::follow_scan(std::uint32_t lines, std::int32_t material) {
+  const std::uint32_t before = std::exchange(scan_lines_, lines);
+  if (before >= lines) return;
+  const Heard line{.event = HeardEvent::ScanLine, .time_ns = clock_.now_ns(), .material = material};
+  if (!is_told(line.event, telling_)) return;
+  signal_(line);
+  if (before == 0) captions_.add(line.event, caption_of(phrases_, line, title(material)), line.time_ns);
 }
 
 void Narrator::say_state(const scene::TipState& tip) {

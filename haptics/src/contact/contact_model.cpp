@@ -112,7 +112,8 @@ core::Result<std::unique_ptr<ContactModel>> ContactModel::create(
     Model model(std::in_place_type<physics::ApproachRetractModel>, tables);
     if (material.dynamic != 0) model = dynamic_model(material, period_ns);
     const Scalings scalings{*common_scaling, *fit, *compressed, *atoms};
-    SampleSurface surface(drawn, material.contact.tip_radius.si, largest_curvature_per_m(*fit, device));
+    SampleSurface surface(drawn.scaled(scene::surface_scale(material, fit->release_z_m())),
+                          material.contact.tip_radius.si, largest_curvature_per_m(*fit, device));
     std::optional<FeltFriction> friction;
     if (material.friction.law != physics::FrictionLaw::None) friction.emplace(material, tables, device);
     StoredEnergies stored_energies;

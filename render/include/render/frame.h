@@ -140,6 +140,13 @@ struct DataPanel {
   bool operator==(const DataPanel&) const = default;
 };
 
+// A list over the whole composition, in columns: each row has a name and a value.
+struct ListPanel {
+  DataPanel list;
+
+  bool operator==(const ListPanel&) const = default;
+};
+
 enum class StateShape { Circle, Triangle, Square, Diamond, Cross };
 
 // Line above the picture: guidance, the state of the servo as a word and a shape, and the scale.
@@ -279,6 +286,7 @@ struct FramePanels {
   PanelSlot<ForcePanel> loop;   // friction loop, in the place of the data
   PanelSlot<DataPanel> data;
   PanelSlot<ControlPanel> control;  // in the place of the data
+  PanelSlot<ListPanel> keys;        // covers whatever is there, labels too
   PanelSlot<Banner> banner;         // covers whatever is there, labels too
   PanelSlot<CalibrationPanel> calibration;
 };

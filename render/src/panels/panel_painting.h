@@ -11,6 +11,7 @@ inline constexpr float kMargin = 34.0F;  // mm, around texts and plots
 void paint(Canvas& canvas, const ForcePanel& panel);
 void paint(Canvas& canvas, const ImagePanel& panel);
 void paint(Canvas& canvas, const DataPanel& panel);
+void paint(Canvas& canvas, const ListPanel& panel);
 void paint(Canvas& canvas, const Banner& banner);
 void paint(Canvas& canvas, const ControlPanel& panel);
 void paint(Canvas& canvas, const Label& label);
@@ -27,13 +28,16 @@ void paint(Canvas& canvas, const EyeMark& mark);
 // How a panel meets the rest of the picture.
 enum class PanelLayer {
   InScene,     // what stands before it hides it
-  OverAll,     // nothing hides it: whether a force reaches the hand is to be seen, wherever the scene has been moved
+  OverAll,     // nothing hides it: whether a force reaches the hand is to be seen, wherever the scene has been moved;
+               // and a list over the whole wall
   Calibration  // over everything else, and only in the pictures of the eyes
 };
 template <class Content>
 inline constexpr PanelLayer kLayerOf = PanelLayer::InScene;
 template <>
 inline constexpr PanelLayer kLayerOf<Banner> = PanelLayer::OverAll;
+template <>
+inline constexpr PanelLayer kLayerOf<ListPanel> = PanelLayer::OverAll;
 template <>
 inline constexpr PanelLayer kLayerOf<CalibrationPanel> = PanelLayer::Calibration;
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "panels/panel_painting.h"
 
@@ -96,16 +97,17 @@ std::string_view take_line(const Canvas& canvas, std::string_view& words, float 
   return line;
 }
 
-// Calls `draw` for each line of the rows; false if one is too wide.
+// Calls `draw` for each line of the rows, and says whether it begins a row; false if one is too wide.
 template <class Draw>
 bool for_each_line(const Canvas& canvas, const DataPanel& panel, float scale, const Draw& draw) {
   const float width = canvas.size_mm().x - 2.0F * kMargin;
   bool fits = true;
   for (const DataRow& row : panel.rows) {
+    bool begins = true;
     for (std::string_view rest = row.name; !rest.empty();) {
       const std::string_view line = take_line(canvas, rest, width, scale);
       fits = fits && canvas.text_width_mm(TextStyle::Strong, line, scale) <= width;
-      draw(line);
+      draw(line, std::exchange(begins, false));
     }
   }
   return fits;
@@ -113,24 +115,36 @@ bool for_each_line(const Canvas& canvas, const DataPanel& panel, float scale, co
 
 constexpr float kHeader = 150.0F, kBelowRows = 18.0F;  // in a data panel
 constexpr float kMostPitch = 84.0F;
+constexpr float kTextPitch = 62.0F;      // distance of two lines of a text
+constexpr float kParagraphShare = 0.5F;  // gap between two paragraphs, in lines
 
-// Text scale at which the lines of a panel of words fill it, including the header.
+// Scale of the header, which is not larger than above a table.
+float header_scale(float scale) { return std::min(1.0F, scale); }
+
+// Lines of a text, with the gaps between its paragraphs, and whether no line is too wide.
+std::pair<float, bool> lines_of(const Canvas& canvas, const DataPanel& panel, float scale) {
+  float lines = kParagraphShare * static_cast<float>(panel.rows.size() - 1);
+  const bool fits = for_each_line(canvas, panel, scale, [&](std::string_view, bool) { lines += 1.0F; });
+  return {lines, fits};
+}
+
+// Text scale at which a panel of words is full, up to the size of the guidance.
 float text_scale(const Canvas& canvas, const DataPanel& panel) {
   constexpr float kSmaller = 0.99F, kLeast = 0.2F;
-  float scale = 1.0F;
+  float scale = text_height_mm(TextStyle::Guidance) / text_height_mm(TextStyle::Strong);
   for (; scale > kLeast; scale *= kSmaller) {
-    float lines = 0.0F;
-    const bool fits = for_each_line(canvas, panel, scale, [&](std::string_view) { lines += 1.0F; });
-    if (fits && scale * (kHeader + kBelowRows + lines * words_line_mm()) <= canvas.size_mm().y) break;
+    const auto [lines, fits] = lines_of(canvas, panel, scale);
+    const float text = scale * (kBelowRows + lines * words_line_mm());
+    if (fits && header_scale(scale) * kHeader + text <= canvas.size_mm().y) break;
   }
   return scale;
 }
 
 void paint_text(Canvas& canvas, const DataPanel& panel, float top, float room, float scale) {
-  float lines = 0.0F;
-  for_each_line(canvas, panel, scale, [&](std::string_view) { lines += 1.0F; });
-  const float pitch = std::min(kMostPitch * scale, room / lines);
-  for_each_line(canvas, panel, scale, [&](std::string_view line) {
+  const float pitch = std::min(kTextPitch * scale, room / lines_of(canvas, panel, scale).first);
+  bool first = true;
+  for_each_line(canvas, panel, scale, [&](std::string_view line, bool begins) {
+    if (begins && !std::exchange(first, false)) top += kParagraphShare * pitch;
     canvas.text({kMargin, top + 14.0F * scale}, TextStyle::Strong, palette::kInk, line, Align::Left, scale);
     top += pitch;
   });
@@ -180,7 +194,8 @@ void paint(Canvas& canvas, const DataPanel& panel) {
   canvas.panel_background();
   const float width = canvas.size_mm().x - 2.0F * kMargin;
   const bool text = !panel.rows.empty() && std::all_of(panel.rows.begin(), panel.rows.end(), is_words);
-  const float scale = text ? text_scale(canvas, panel) : table_scale(canvas, panel);
+  const float text_size = text ? text_scale(canvas, panel) : 1.0F;
+  const float scale = text ? header_scale(text_size) : table_scale(canvas, panel);
   shrunk_text(canvas, {kMargin, scale * 24.0F}, {TextStyle::Title, palette::kInk}, panel.title, width, scale);
   shrunk_text(canvas, {kMargin, scale * 92.0F}, {TextStyle::Body, palette::kYellow}, panel.subtitle, width, scale);
   const float top = scale * kHeader;
@@ -188,8 +203,8 @@ void paint(Canvas& canvas, const DataPanel& panel) {
   if (panel.rows.empty()) {
     return;
   }
-  const float room = canvas.size_mm().y - top - (text ? scale : 1.0F) * kBelowRows;
-  if (text) return paint_text(canvas, panel, top, room, scale);
+  const float room = canvas.size_mm().y - top - (text ? text_size : 1.0F) * kBelowRows;
+  if (text) return paint_text(canvas, panel, top, room, text_size);
   const float pitch = std::min(kMostPitch, room / static_cast<float>(panel.rows.size()));
   for (std::size_t i = 0; i < panel.rows.size(); ++i) {
     const DataRow& row = panel.rows[i];
@@ -218,19 +233,27 @@ void paint(Canvas& canvas, const Banner& banner) {
   const float second = top + text_height_mm(TextStyle::Guidance) + 16.0F;
   // the lines below shrink to make room for the guidance
   const float lower = std::clamp((canvas.size_mm().y - second) / (text_height_mm(TextStyle::Body) + third), 0.1F, 1.0F);
-  const float width = banner.warning.empty() ? 0.0F : canvas.text_width_mm(TextStyle::Body, banner.warning, lower);
   const bool beside_state = state.to.y > second;  // the enlarged state reaches down to these lines
   const float end_mm = beside_state ? state.from.x - 24.0F : right;
   const float whole = end_mm - kMargin;
-  constexpr Ink kLower{TextStyle::Body, palette::kMuted, 0.0F};
-  shrunk_text(canvas, {kMargin, second}, kLower, std::string_view(banner.scale).substr(0, end),
-              banner.warning.empty() ? whole : whole - width - 70.0F, lower);
-  if (!more.empty()) shrunk_text(canvas, {kMargin, second + lower * third}, kLower, more, whole, lower);
+  // a warning comes before the scales, and is whole on the narrowest banner
+  constexpr float kTriangleMm = 60.0F, kLeastForScales = 0.3F;  // share of the line
+  float warned = 0.0F;
   if (!banner.warning.empty()) {
+    const float full = canvas.text_width_mm(TextStyle::Body, banner.warning, lower);
+    const float fit = std::min(1.0F, std::max(1.0F, whole - kTriangleMm) / full);
+    const float width = fit * full, sink = 0.5F * lower * (1.0F - fit) * text_height_mm(TextStyle::Body);
     paint_shape(canvas, StateShape::Triangle, {end_mm - width - 30.0F, second + 21.0F * lower}, 17.0F * lower,
                 palette::kOrange);
-    canvas.text({end_mm, second}, TextStyle::Body, palette::kOrange, banner.warning, Align::Right, lower);
+    canvas.text({end_mm, second + sink}, TextStyle::Body, palette::kOrange, banner.warning, Align::Right, fit * lower);
+    warned = width + 70.0F;
   }
+  constexpr Ink kLower{TextStyle::Body, palette::kMuted, 0.0F};
+  if (whole - warned > kLeastForScales * whole) {
+    shrunk_text(canvas, {kMargin, second}, kLower, std::string_view(banner.scale).substr(0, end), whole - warned,
+                lower);
+  }
+  if (!more.empty()) shrunk_text(canvas, {kMargin, second + lower * third}, kLower, more, whole, lower);
 }
 
 void paint(Canvas& canvas, const Label& label) {

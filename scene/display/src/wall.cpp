@@ -113,8 +113,16 @@ glm::dvec3 eye_position(const HeadPose& head, Eye eye, double ipd_m, const glm::
   return head.position_m + head.room_from_head * (eye_from_tracker_m + glm::dvec3(side * ipd_m, 0.0, 0.0));
 }
 
+bool overlap(const PixelRect& a, const PixelRect& b) {
+  const glm::ivec2 a_end = a.offset_px + glm::ivec2(a.size_px), b_end = b.offset_px + glm::ivec2(b.size_px);
+  return a.offset_px.x < b_end.x && b.offset_px.x < a_end.x && a.offset_px.y < b_end.y && b.offset_px.y < a_end.y;
+}
+
 void keep_outputs_of(std::optional<std::size_t> node, Wall& wall) {
-  std::erase_if(wall.outputs, [&](const Output& output) { return output.node != node; });
+  const auto others = std::stable_partition(wall.outputs.begin(), wall.outputs.end(),
+                                            [&](const Output& output) { return output.node == node; });
+  wall.outputs_elsewhere.insert(wall.outputs_elsewhere.end(), others, wall.outputs.end());
+  wall.outputs.erase(others, wall.outputs.end());
 }
 
 double floor_height_m(const Wall& wall) {

@@ -97,6 +97,12 @@ bool is_valid(const SharedTopography& size) {
 
 }  // namespace
 
+double surface_scale(const SharedContact& material, double release_z_m) {
+  constexpr double kRounding = 1e-9;  // relative; with unchanged parameters the heights are the same
+  const double scale = material.surface_release_m > 0.0 ? release_z_m / material.surface_release_m : 1.0;
+  return std::abs(scale - 1.0) < kRounding ? 1.0 : scale;
+}
+
 FeltHeights surface_of(const SharedContact& material, std::span<const SharedHeightField> fields,
                        const Topography& topography) {
   if (material.height_field == kTopography && topography.columns > 0) return {topography, material.topography};
@@ -159,6 +165,9 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
   }
   if (!positive(material.topography.lateral) || !positive(material.topography.vertical)) {
     return model_refused("the scale of its topography is not a valid one");
+  }
+  if (material.surface_release_m != 0.0 && !positive(material.surface_release_m)) {
+    return model_refused("the release that belongs to its surface is not a valid height");
   }
   if (!core::is_enumerator(material.friction.law) || !core::is_enumerator(material.friction.lattice)) {
     return model_refused("its friction is unknown");

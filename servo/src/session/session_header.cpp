@@ -61,6 +61,7 @@ nlohmann::json json_of(const scene::SharedContact& m) {
   if (m.height_field == scene::kTopography) {
     json["topography"] = {{"lateral", m.topography.lateral}, {"vertical", m.topography.vertical}};
   }
+  if (m.surface_release_m != 0.0) json["surface_release_m"] = m.surface_release_m;
   if (m.dynamic != 0) {
     json["dynamics"] = {{"resonance_Hz", m.lever.resonance.si},
                         {"quality_factor", m.lever.quality_factor},
@@ -88,6 +89,7 @@ scene::SharedContact parameters_of(const nlohmann::json& json, const std::string
     m.topography = {.lateral = topography->at("lateral").get<double>(),
                     .vertical = topography->at("vertical").get<double>()};
   }
+  m.surface_release_m = json.value("surface_release_m", 0.0);
   if (const auto dynamics = json.find("dynamics"); dynamics != json.end()) {
     m.dynamic = 1;
     m.lever = {.resonance = physics::Frequency(dynamics->at("resonance_Hz").get<double>()),

@@ -82,6 +82,13 @@ TEST(LiveKeys, AreListedByTheLabelsOfAKeyboardThatLacksTheirLetters) {
   }
 }
 
+TEST(LiveKeys, ListThoseOfVisitorsFirst) {
+  const auto visitors = key_list(HandSource::Mouse, true, test::english()).rows;
+  const auto all = key_list(HandSource::Mouse, false, test::english()).rows;
+  ASSERT_GT(all.size(), visitors.size());
+  for (std::size_t i = 0; i < visitors.size(); ++i) EXPECT_EQ(all[i], visitors[i]) << all[i].name;
+}
+
 TEST(LiveKeys, OfAnUnattendedWindowAreThoseOfVisitors) {
   std::string list;
   for (const render::DataRow& row : key_list(HandSource::Mouse, true, test::english()).rows) list += row.name + "\n";

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -40,6 +43,28 @@ class PanelsOfTheView : public ::testing::Test {
     }
     panels_.emplace(stage_->wall_scene, models_, key_list);
     panels_->set_friction(&friction_);
+  }
+
+  // A frame with a sample under the tip, and with all panels.
+  render::FrameState frame(const std::string& caption) {
+    const exhibit::FrameBuilder frames(stage_->wall_scene, models_, stage_->eyes);
+    exhibit::Moment moment;
+    moment.wall.material = 0;
+    scene::TipState tip;
+    tip.material = 0;
+    render::FrameState frame = frames.build(moment);
+    add_panels(*stage_, *panels_, moment, {.pointed = {}, .hand = HandSource::Mouse, .tip = tip}, caption, frame);
+    return frame;
+  }
+  bool shows(const render::FrameState& frame, const std::string& text) const {
+    return std::any_of(frame.labels.begin(), frame.labels.end(),
+                       [&](const render::Label& label) { return label.text.find(text) != std::string::npos; });
+  }
+  // The ray of a viewer who points at the middle of a panel.
+  Pointed pointed_at(const render::PanelPlacement& place) {
+    const glm::dvec3 middle_m = place.lower_left_m + 0.5 * (place.right_m + place.up_m);
+    const glm::dvec3 eye_m = stage_->wall.viewers.front().sweet_spot.position_m;
+    return panels_->pointed_at({.origin_m = eye_m, .direction = glm::normalize(middle_m - eye_m)}, middle_m, 0);
   }
 
   // With one field of what is sent set.
@@ -83,6 +108,46 @@ TEST_F(PanelsOfTheView, ComeBackByTheWordOfASession) {
   }
 }
 
+TEST_F(PanelsOfTheView, AreHiddenWithTheirButtonsAndTheNote) {
+  const exhibit::Phrases& phrases = stage_->phrases();
+  const std::string tab = phrases[exhibit::Phrase::ChangeParameters], note = phrases[exhibit::Phrase::AllKeys];
+  for (const std::string& caption : {std::string(), std::string("Snap-in")}) {
+    panels_->show("samples");
+    EXPECT_TRUE(shows(frame(caption), tab));
+    EXPECT_TRUE(shows(frame(caption), caption.empty() ? note : caption));
+    EXPECT_TRUE(pointed_at(stage_->wall_scene.places().parameter_tab()).tab);
+    panels_->toggle_all();
+    const render::FrameState hidden = frame(caption);
+    EXPECT_FALSE(shows(hidden, tab));
+    EXPECT_FALSE(shows(hidden, caption.empty() ? note : caption));
+    EXPECT_EQ(hidden.labels.size(), stage_->materials.materials.size() + 1)
+        << "the swatches' names, the ruler's number";
+    EXPECT_EQ(hidden.panels.force.placement, render::kNoPlacement);
+    EXPECT_NE(hidden.panels.banner.placement, render::kNoPlacement) << "whether a force is on is always to be seen";
+    EXPECT_FALSE(pointed_at(stage_->wall_scene.places().parameter_tab()).tab) << "nobody clicks what is hidden";
+  }
+}
+
+TEST_F(PanelsOfTheView, MakeRoomForTheListOfKeys) {
+  panels_->toggle_keys();
+  const render::FrameState listed = frame("");
+  EXPECT_GT(listed.panels.keys.content.list.rows.size(), 20U);
+  EXPECT_EQ(listed.panels.keys.placement, stage_->wall_scene.places().keys());
+  for (const auto& placement :
+       {listed.panels.force.placement, listed.panels.data.placement, listed.panels.control.placement}) {
+    EXPECT_EQ(placement, render::kNoPlacement);
+  }
+  EXPECT_NE(listed.panels.banner.placement, render::kNoPlacement);
+  for (const input::Target& swatch : stage_->wall_scene.swatch_targets()) {
+    const glm::dvec3 eye_m = stage_->wall.viewers.front().sweet_spot.position_m;
+    EXPECT_FALSE(
+        panels_->pointed_at({.origin_m = eye_m, .direction = glm::normalize(swatch.center_m - eye_m)}, {}, 0).swatch);
+  }
+  EXPECT_TRUE(panels_->close_keys());
+  EXPECT_FALSE(panels_->close_keys());
+  EXPECT_EQ(frame("").panels.keys.placement, render::kNoPlacement);
+}
+
 // A slot that is never filled or placed is listed here.
 TEST_F(PanelsOfTheView, FillEverySlotOfAFrameSomewhere) {
   const exhibit::FrameBuilder frames(stage_->wall_scene, models_, stage_->eyes);
@@ -113,6 +178,8 @@ TEST_F(PanelsOfTheView, FillEverySlotOfAFrameSomewhere) {
   render::FrameState calibration;
   exhibit::show_calibration(stage_->screen, scene::StereoMode::Mono, 0.063, stage_->phrases(), calibration);
   look(calibration);
+  panels_->toggle_keys();
+  look(frame(""));
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_TRUE(seen[i]) << "slot " << i << " of render::FramePanels";
 }
 

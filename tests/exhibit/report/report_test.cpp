@@ -64,5 +64,37 @@ TEST(Report, LetsWhatIsWideBeMovedInItsOwnBox) {
   EXPECT_EQ(count(html, "<div class=\"wide\" tabindex=\"0\"><table"), 2U);
 }
 
+// A plot of a phone's width can be read in one piece; a pair of pictures cannot.
+TEST(Report, FitsThePlotsIntoANarrowBrowser) {
+  const std::string html = report();
+  EXPECT_THAT(html, HasSubstr("<div class=\"fits\"><figure><div class=\"wide\" tabindex=\"0\"><svg>"));
+  const std::size_t narrow = html.find("@media (max-width: 760px)");
+  ASSERT_NE(narrow, std::string::npos);
+  EXPECT_GT(html.find(".fits .wide svg { width: 100%; min-width: 0; }"), html.find(".wide svg { width: auto"))
+      << "the later rule of two with the same weight counts";
+}
+
+TEST(Report, BeginsWithAPictureForOneEyeAndTheForces) {
+  Measurement gold;
+  gold.title = "Gold";
+  gold.measured = {.f_attr_n = 0.4071e-9, .f_ad_n = 9.9997e-9, .z_jtc_m = 5e-9, .z_joc_m = 100e-9};
+  Measurement stiff;
+  stiff.title = "Mica";
+  stiff.hysteretic = false;
+  DemoResult result;
+  result.measurements = {gold, stiff};
+  result.eye_width = 960;
+  result.eye_height = 720;
+  const std::string html =
+      report_html(result, {{.caption = "choosing", .png = "A"}, {test::english()[Phrase::CaptionAdhesion], "B"}},
+                  "<svg></svg>", test::english());
+  const std::string head = html.substr(0, html.find("<svg"));
+  EXPECT_THAT(head, HasSubstr("<b>Gold</b>: 0.407 / 10.000 nN"));
+  EXPECT_THAT(head, HasSubstr("<b>Mica</b>: " + test::english()[Phrase::NoJumps]));
+  EXPECT_THAT(head, HasSubstr("aspect-ratio: 960 / 720"));
+  EXPECT_THAT(head, HasSubstr("base64,Qg==")) << "that of the adhesion";
+  EXPECT_EQ(count(html, "<div class=\"wide\""), count(html, "<table") + count(html, "<img") + count(html, "<svg"));
+}
+
 }  // namespace report_test
 }  // namespace afm::exhibit

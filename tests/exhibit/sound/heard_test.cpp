@@ -307,5 +307,23 @@ TEST_F(NarratorTest, TellsOfEachLineOfAnImage) {
   EXPECT_THAT(signals_, ElementsAre(HeardEvent::ScanLine, HeardEvent::ScanLine));
 }
 
+// Ten lines a second would keep the caption on the wall for the whole image, and key Y would begin with it.
+TEST_F(NarratorTest, CaptionsTheFirstLineOfAnImageAlone) {
+  std::size_t captions = 0;
+  std::string shown;
+  for (std::uint32_t line = 0; line < 130; ++line) {
+    narrator_.follow(tip_, {.hint = Hint::ChooseSample, .guidance = "", .scan_lines = line});
+    clock_.now += 100 * kMs;
+    const std::string now = narrator_.caption();
+    if (now != shown && !now.empty()) ++captions;
+    shown = now;
+  }
+  EXPECT_EQ(signals_.size(), 129U) << "each is heard";
+  EXPECT_EQ(captions, 1U);
+  EXPECT_EQ(shown, "") << "the note below the panel is free again";
+  narrator_.say_state(tip_);
+  EXPECT_THAT(spoken().back(), Not(HasSubstr("line"))) << "the state comes first";
+}
+
 }  // namespace heard_test
 }  // namespace afm::exhibit

@@ -16,6 +16,8 @@ inline constexpr double kReferenceWallWidthM = 3.048, kReferenceWallHeightM = 2.
 // Drawn height of the current material's stroke, and the tip's length. The lifted lever, which moves forward along the
 // tilted sample's normal, then remains visible below the banner.
 inline constexpr double kStrokeHeight = 0.30 * kReferenceWallHeightM;
+// Width of the drawn sample in strokes; 1.70 to 1.71 for the paper's three.
+inline constexpr double kNarrowestSample = 1.6, kWidestSample = 1.8;
 inline constexpr double kTipDrawnLength = 0.14;
 inline constexpr double kSampleTiltRad = 0.26;    // towards the viewer, to make terraces visible
 inline constexpr double kLeverAzimuthRad = 0.42;  // direction of the lever: from behind, a little from the left

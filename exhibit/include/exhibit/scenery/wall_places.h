@@ -35,6 +35,9 @@ class WallPlaces {
   render::PanelPlacement parameters() const;
   render::PanelPlacement parameter_tab() const;
 
+  // Placement of the list of keys: over everything below the banner.
+  render::PanelPlacement keys() const;
+
   // Placement of a short note below the left panel.
   render::PanelPlacement note() const;
 

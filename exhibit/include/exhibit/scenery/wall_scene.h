@@ -63,10 +63,12 @@ class WallScene {
   const scene::Topography& topography() const { return topography_; }
   scene::TopographyScale topography_scale(std::size_t material) const { return looks_[material].topography; }
 
-  // Stores in a material's parameters the surface with which it is felt.
+  // Stores in a material's parameters the surface with which it is felt, and the size of that surface: whatever the
+  // stroke, the sample is drawn at the same size, and the hand feels it there.
   void lay_surface_on(scene::SharedContact& parameters, std::size_t material) const {
     parameters.height_field = looks_[material].height_field;
     parameters.topography = looks_[material].topography;
+    parameters.surface_release_m = looks_[material].surface_stroke_m / kStrokeOfZjoc;
   }
 
   // The contact point; in the wall's plane until something has been moved.
@@ -105,8 +107,9 @@ class WallScene {
     scene::NodeIndex swatch;
     scene::NodeIndex label;    // place of the name on the swatch
     double stroke_m;           // from the deepest push to the highest lift
+    double surface_stroke_m;   // stroke at which the surface has its own size
     double full_deflection_m;  // deflection at pull-off
-    double thickness_m;        // thickness of the slab
+    double thickness_m;        // thickness of the slab, at the surface's own size
     std::uint32_t height_field;
     scene::TopographyScale topography;
   };

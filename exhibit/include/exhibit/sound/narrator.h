@@ -55,6 +55,7 @@ class Narrator final : public servo::TipAudience {
  private:
   void tell(const Heard& heard);
   void happened(HeardEvent event, std::int32_t material);
+  void follow_scan(std::uint32_t lines, std::int32_t material);
   std::string title(std::int32_t material) const;
 
   const Phrases& phrases_;

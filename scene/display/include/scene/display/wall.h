@@ -106,6 +106,8 @@ struct PixelRect {
   glm::uvec2 size_px{0};
 };
 
+bool overlap(const PixelRect& a, const PixelRect& b);
+
 // Output that shows a screen's picture.
 struct Output {
   std::string name;
@@ -138,6 +140,8 @@ struct Wall {
   std::vector<WallNode> nodes{};  // may be empty
   std::vector<Output> outputs;    // may be empty
   std::vector<Viewer> viewers;
+  std::vector<Output> outputs_elsewhere{};  // those of other machines, after keep_outputs_of()
+  std::vector<std::string> unused{};        // what the file says and the program does not use, a line for each element
 };
 
 // Blending of a picture of that screen by projectors without known properties; null if nothing overlaps it.
@@ -147,7 +151,7 @@ std::shared_ptr<const Blend> usual_blend(const Wall& wall, std::size_t screen);
 // spot if the room's origin is higher.
 double floor_height_m(const Wall& wall);
 
-// Keeps only the outputs of a node, or those of the machine with the hand.
+// Keeps only the outputs of a node, or those of the machine with the hand; all others become outputs_elsewhere.
 void keep_outputs_of(std::optional<std::size_t> node, Wall& wall);
 
 // Reason why no head can be at this position in front of the wall, such as "0.85 m below the floor"; empty if it is

@@ -51,7 +51,19 @@ struct FeltHeights {
         height_factor(scale.vertical),
         height_m(topography.height_m),
         heights(Heights::Traced) {}
+
+  // The same surface at another size, in the same proportions.
+  FeltHeights scaled(double scale) const {
+    FeltHeights larger = *this;
+    larger.spacing_m *= scale;
+    larger.height_factor *= scale;
+    return larger;
+  }
 };
+
+// Size of a contact's surface, relative to its own, for a tip that is released at this Z. The picture fits the stroke,
+// so a sample that keeps its place in the picture, and in the hand, has the size of the stroke.
+double surface_scale(const SharedContact& material, double release_z_m);
 
 // Surface of a material that is valid together with these; a plane if it has none.
 FeltHeights surface_of(const SharedContact& material, std::span<const SharedHeightField> fields,

@@ -66,6 +66,7 @@ struct SharedContact {
   std::uint32_t height_field = kNoHeightField;  // index into SharedModel::height_fields, or kTopography; none: a plane
   physics::LeverDynamics lever{};
   TopographyScale topography{};  // kTopography only
+  double surface_release_m = 0;  // Z of the release at which the surface has its own size (surface_scale); 0: at any
   physics::FrictionParameters friction{};
 };
 
