@@ -75,14 +75,14 @@ Source source_of_pixel(ivec2 pixel, ivec2 picture) {
   }
 }
 
-int layer_of(int eye) { return eye == kRight && compose.drawn.z == 0.0 ? 1 : 0; }
+int layer_of(int eye) { return eye == kRight && compose.eyes.x == 0 ? 1 : 0; }
 
 // True if the pixel shows its own position in the picture: neither mesh nor keystone moves it.
 bool unmoved() { return (kVariant & AFM_FEATURE_WARPED) == 0u && compose.mode.z == 0; }
 
 // True if a pixel of the picture equals one of the eye's image.
 bool unscaled(Source source) {
-  return unmoved() && source.region == textureSize(eyes, 0).xy && compose.drawn.xy == vec2(1.0);
+  return unmoved() && source.region == textureSize(eyes, 0).xy;
 }
 
 // Content of an output's pixel: a position in the eyes' pictures, from 0,0 to 1,1, or nothing.
@@ -119,17 +119,15 @@ vec3 linear_from_srgb(vec3 c) {
 // Pixel whose centre a warped position hits, within the resolution of a device's filter; negative if there is none.
 ivec2 met_by_warp(Place place) {
   const float kFilterSteps = 512.0;  // half a step of an 8-bit filter
-  vec2 at = place.uv * compose.drawn.xy * vec2(textureSize(eyes, 0).xy) - 0.5;
+  vec2 at = place.uv * vec2(textureSize(eyes, 0).xy) - 0.5;
   vec2 nearest = round(at);
   bool met = (kVariant & AFM_FEATURE_WARPED) != 0u && all(lessThan(abs(at - nearest), vec2(1.0 / kFilterSteps)));
   return met ? ivec2(nearest) : ivec2(-1);
 }
 
-// Linear light: bilinear within the drawn part of the image.
+// Linear light, bilinear.
 vec3 filtered_light(int eye, Place place) {
-  vec2 uv = place.uv * compose.drawn.xy;
-  uv = min(uv, compose.drawn.xy - (0.5 + compose.drawn.w) / vec2(textureSize(eyes, 0).xy));
-  return textureLod(linear_eyes, vec3(uv, layer_of(eye)), 0.0).rgb;
+  return textureLod(linear_eyes, vec3(place.uv, layer_of(eye)), 0.0).rgb;
 }
 
 // Linear light; unfiltered if nothing is scaled.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/demo/demo_figures.h"
+#include "app/demo/demo_size.h"
 #include "app/demo/demonstration.h"
 #include "app/demo/report_pictures.h"
 #include "app/options/command.h"
@@ -29,6 +30,7 @@
 #include "exhibit/report/curves_plot.h"
 #include "exhibit/report/report.h"
 #include "exhibit/sound/session_sound.h"
+#include "haptics/realtime.h"
 #include "haptics/scaling.h"
 #include "haptics/simulated_device.h"
 #include "render/context.h"
@@ -49,9 +51,9 @@ constexpr QuantityRange<physics::Velocity> kHandSpeeds{physics::Velocity(0.005),
 struct DemoOptions {
   std::string out;
   exhibit::ExhibitFiles files;
-  std::uint32_t eye_width = 960;
+  std::uint32_t eye_width = 0;  // 0: as large as fits
   input::HandPath hand;
-  double frame_budget_ms = 0;
+  std::optional<double> frame_budget_ms;
   servo::ServoChoice servo;
   curves::ModelName model{.text = "paper"};
   scene::ScaleMode scale = scene::ScaleMode::Fit;
@@ -123,7 +125,6 @@ core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optiona
                                  const DemoOptions& options) {
   DemoPlan plan;
   plan.scale = options.scale;
-  plan.frame_budget_ms = options.frame_budget_ms;
   if (measured) {
     plan.curves.push_back(measured->curve);
     plan.recorded = measured->features;
@@ -257,31 +258,31 @@ core::Result<void> check_measurements(const exhibit::DemoResult& result) {
 core::Result<void> run_demo(const DemoOptions& options, const std::string& program) {
   const core::MonotonicClock clock;
   const std::int64_t start_ns = clock.now_ns();
-
   const auto curve = load_measured(options);
   if (!curve) return tl::unexpected(curve.error());
   exhibit::ExhibitFiles files = options.files;
   if (*curve) files.added.push_back((*curve)->entry);
   auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
-  const auto plan = plan_demo(*stage, *curve, options);
+  auto plan = plan_demo(*stage, *curve, options);
   if (!plan) return tl::unexpected(plan.error());
   auto out = core::OutputFolder::open(options.out);
   if (!out) return tl::unexpected(out.error());
+  haptics::favour_drawing();
   auto context = render::Context::open();
   if (!context) return tl::unexpected(context.error());
-  render::RendererOptions renderer_options = stage->renderer_options(options.eye_width);
-  renderer_options.time_passes = options.frame_budget_ms > 0;
-  auto renderer = render::Renderer::create(*context, stage->wall_scene.scene(), renderer_options);
-  if (!renderer) return tl::unexpected(renderer.error());
-
+  auto drawn =
+      create_demo_renderer(*context, *stage, plan->materials, options.eye_width, options.frame_budget_ms, clock);
+  if (!drawn) return tl::unexpected(drawn.error());
+  plan->frame_budget_ms = drawn->frame_budget_ms;
   exhibit::DemoResult result;
   result.vulkan_device = context->device_name();
   result.haptic_device = "simulated hand";
-  result.eye_width = renderer_options.eye_width;
-  result.eye_height = renderer_options.eye_height;
+  result.eye_width = drawn->options.eye_width;
+  result.eye_height = drawn->options.eye_height;
   result.hand_speed_m_per_s = options.hand.speed_m_per_s;
-  say(fmt::format("drawing 2 x {} x {} pixels on {}", result.eye_width, result.eye_height, result.vulkan_device));
+  say(fmt::format("drawing 2 x {} x {} pixels on {}{}", result.eye_width, result.eye_height, result.vulkan_device,
+                  drawn->size_reason));
 
   std::vector<exhibit::ReportPicture> pictures;
   {
@@ -292,11 +293,11 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
     auto servo = servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), options.servo, program,
                                            stage->wall_scene.topography());
     if (!servo) return tl::unexpected(servo.error());
-    ReportPictures live_pictures(*context, *renderer, *out);
-    Demonstration live(*stage, *plan, *renderer, **servo, clock, on_scale(options.scale, options.hand),
+    ReportPictures live_pictures(*context, drawn->renderer, *out);
+    Demonstration live(*stage, *plan, drawn->renderer, **servo, clock, on_scale(options.scale, options.hand),
                        [&] { live_pictures.add("choosing.png", stage->phrases()[exhibit::Phrase::CaptionChoosing]); });
     if (auto ran = live.run(result, say); !ran) return ran;
-    renderer->wait();
+    drawn->renderer.wait();
     auto written = live_pictures.finish();
     if (!written) return tl::unexpected(written.error());
     pictures = std::move(*written);
@@ -304,11 +305,10 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
 
   if (auto measured = measure_all(*plan, result); !measured) return measured;
   say("drawing the figures");
-  if (auto drawn = draw_figures(*context, *stage, *plan, result, *out, pictures); !drawn) return drawn;
+  if (auto figures = draw_figures(*context, *stage, *plan, result, *out, pictures); !figures) return figures;
   result.seconds = static_cast<double>(clock.now_ns() - start_ns) * 1e-9;
   if (auto written = write_results(result, pictures, stage->phrases(), options, *out); !written) return written;
   if (auto accurate = check_measurements(result); !accurate) return accurate;
-
   std::printf("open %s/report.html\n", options.out.c_str());
   return {};
 }
@@ -381,9 +381,9 @@ void add_demo_command(OptionList& program, const CommandContext& context) {
   add_stage_options(command, options->files, context);
   command
       .add_option("--eye-width", options->eye_width,
-                  "width of each eye image in pixels during the run; the height follows from the wall")
+                  "width of each eye image in pixels during the run; the height follows from the wall; default: 960, "
+                  "or what keeps a frame within --frame-budget")
       .within(64, 8192)
-      .show_default()
       .type_name("PIXELS");
   add_frame_budget(command, options->frame_budget_ms);
   quantity_option(

@@ -74,21 +74,45 @@ Finding graphics(const MachineFacts& facts) {
           all.empty() ? facts.graphics_refusal : fmt::format("{}: {}", all.front().name, all.front().reason), fix};
 }
 
+// Matters only where the processor draws.
+Finding drawing(const MachineFacts& facts) {
+  constexpr const char* kCheck = "drawing priority";
+  if (!facts.drawing_refused) {
+    return {kCheck, Verdict::Good, fmt::format("nice {} granted to the drawing", haptics::kDrawingNice), {}};
+  }
+  const std::string refused = fmt::format("nice {} refused to the drawing", haptics::kDrawingNice);
+  const auto gpu = [](const render::DeviceDescription& d) { return d.usable && d.kind != "CPU"; };
+  if (std::any_of(facts.graphics.begin(), facts.graphics.end(), gpu)) {
+    return {kCheck, Verdict::Good, refused + ", which a GPU does not need", {}};
+  }
+  return {kCheck, Verdict::Limited, refused + ": beside busy programs the picture slows down",
+          haptics::limit_fix("nice", std::to_string(haptics::kDrawingNice).c_str())};
+}
+
 Finding display(const MachineFacts& facts) {
-  if (!facts.display.empty()) return {"display", Verdict::Good, facts.display, {}};
-  return {"display", Verdict::Missing, "none: demo and render work, but view cannot open a window",
-          "log in to a desktop, or run: export DISPLAY=:0"};
+  constexpr const char* kLogIn = "log in to a desktop, or run: export DISPLAY=:0";
+  if (facts.display.empty()) {
+    return {"display", Verdict::Missing, "none: demo and render work, but view cannot open a window", kLogIn};
+  }
+  if (!facts.display_refusal.empty()) {
+    return {"display", Verdict::Missing, fmt::format("{}: {}", facts.display, facts.display_refusal), kLogIn};
+  }
+  return {"display", Verdict::Good, facts.display, {}};
 }
 
 Finding saver(const MachineFacts& facts) {
-  if (facts.display.empty()) return {"screen saver", Verdict::Good, "no display to blank", {}};
+  if (facts.display.empty() || !facts.display_refusal.empty()) {
+    return {"screen saver", Verdict::Good, "no display to blank", {}};
+  }
   if (facts.saver_stays_off) return {"screen saver", Verdict::Good, facts.saver, {}};
   return {"screen saver", Verdict::Limited, facts.saver, "xset s off -dpms"};
 }
 
 Finding headset(const MachineFacts& facts) {
-  if (facts.headset_manifest.empty()) return {"headset", Verdict::Good, "no OpenXR runtime is installed", {}};
+  if (facts.headset_manifest.empty()) return {"headset", Verdict::Good, "none needed: no OpenXR runtime found", {}};
   if (!facts.headset.empty()) return {"headset", Verdict::Good, facts.headset, {}};
+  if (!facts.headset_manifest_exists)
+    return {"headset", Verdict::Limited, facts.headset_refusal, "unset XR_RUNTIME_JSON"};
   return {"headset", Verdict::Limited, facts.headset_refusal,
           fmt::format("connect the headset, and start the runtime of {}", facts.headset_manifest)};
 }
@@ -151,6 +175,7 @@ std::vector<Finding> diagnose(const MachineFacts& facts) {
           wake_up(facts),
           servo_program(facts),
           graphics(facts),
+          drawing(facts),
           display(facts),
           saver(facts),
           headset(facts),

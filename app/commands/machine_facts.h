@@ -24,14 +24,17 @@ struct MachineFacts {
   std::optional<std::uint64_t> locked_memory_limit_bytes;  // empty: unlimited
   bool pages_can_be_locked = false;
   SchedulingLatency jitter;
+  bool drawing_refused = false;  // a larger share of the processors for drawing, as haptics::favour_drawing() requests
   std::vector<render::DeviceDescription> graphics;
   std::string graphics_refusal;  // reason why there are none
   std::string display;           // name; empty: none
+  std::string display_refusal;   // reason why it has no window for view; empty: it has
   std::string saver;             // ways to keep the screen saver off while a window is open
   bool saver_stays_off = false;
   std::string headset_manifest;  // file of the OpenXR runtime; empty: none is installed
-  std::string headset;           // description by the runtime; empty: it does not answer
-  std::string headset_refusal;   // reason if it does not answer
+  bool headset_manifest_exists = true;
+  std::string headset;          // description by the runtime; empty: it does not answer
+  std::string headset_refusal;  // reason if it does not answer
   std::vector<DeviceNode> render_nodes;
   std::vector<DeviceNode> hid_nodes;
   std::vector<DeviceNode> serial_nodes;

@@ -40,7 +40,7 @@ struct DemoPlan {
   std::vector<std::vector<curves::SampleModel>> variations;  // one list per material
   std::vector<scene::SharedMeasuredCurve> curves;            // curves of measured materials
   std::optional<physics::CurveFeatures> recorded;            // analysis of the measured material
-  double frame_budget_ms = 0;                                // see --frame-budget
+  double frame_budget_ms = 0;                                // 0: none
   scene::ScaleMode scale = scene::ScaleMode::Fit;
 };
 

@@ -11,11 +11,28 @@
 
 #include "app/display/instructor_window.h"
 #include "app/display/view_headset.h"
+#include "app/options/dynamic_resolution.h"
 #include "core/log.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "haptics/realtime.h"
 #include "render/monitor.h"
 
 namespace afm::app {
+
+namespace {
+
+void log_start(const render::RendererOptions& drawing, double budget_ms, const std::string& device,
+               const render::SaverInhibition& awake) {
+  const std::string coarser =
+      budget_ms > 0 ? fmt::format(", fewer while a frame takes more than {:g} ms (--frame-budget)", budget_ms) : "";
+  core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}{}; F1 shows the keys", drawing.eye_width,
+                             drawing.eye_height, device, coarser));
+  if (awake.works()) return;
+  core::log_line(fmt::format("the screen saver may blank the wall: X's: {}; org.freedesktop.ScreenSaver: {}",
+                             awake.x_server().said, awake.session().said));
+}
+
+}  // namespace
 
 ViewDisplay::ViewDisplay() = default;
 
@@ -35,7 +52,6 @@ render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const 
     drawing.panel_texels_per_m = 2.0 * eye_px.x / narrowest_m;
     drawing.panel_millimetre_m = stage.wall_scene.panel_millimetre_m();
   }
-  drawing.time_passes = options.frame_budget_ms > 0;
   return drawing;
 }
 
@@ -82,6 +98,8 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
     if (!window) return tl::unexpected(window.error());
     display->instructor_window_ = std::move(*window);
   }
+  // before the driver starts its threads
+  haptics::favour_drawing();
   auto context = render::Context::open(options.validate ? render::Validation::On : render::Validation::Off,
                                        render::Presentation::Window, runtime);
   if (!context) return tl::unexpected(context.error());
@@ -89,6 +107,9 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
   render::RendererOptions drawing =
       runtime != nullptr ? drawing_in_headset(stage, runtime->eye_px()) : display->drawing(stage, options);
   const bool mixes_light = runtime != nullptr && options.contrast == render::PanelContrast::Normal;
+  const double budget_ms =
+      runtime != nullptr ? 0.0 : frame_budget_ms(options.frame_budget_ms, options.eye_width > 0, *display->context_);
+  drawing.time_passes = budget_ms > 0;
   drawing.panel_contrast = mixes_light ? render::PanelContrast::Opaque : options.contrast;
   auto renderer = render::Renderer::create(*display->context_, stage.wall_scene.scene(), drawing);
   if (!renderer) return tl::unexpected(renderer.error());
@@ -109,7 +130,7 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
                                             .eye_px = {drawing.eye_width, drawing.eye_height},
                                             .fixed_eye_size = options.eye_width > 0,
                                             .comfort_rad = glm::radians(options.comfort_deg),
-                                            .frame_budget_ms = options.frame_budget_ms,
+                                            .frame_budget_ms = budget_ms,
                                             .saved_folder = options.saved_folder,
                                             .headset = display->headset_.get()});
   if (display->instructor_window_) {
@@ -118,12 +139,7 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
     if (!instructor) return tl::unexpected(instructor.error());
     display->instructor_ = std::move(*instructor);
   }
-  core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}; F1 shows the keys", drawing.eye_width,
-                             drawing.eye_height, display->context_->device_name()));
-  if (!display->awake_.works()) {
-    core::log_line(fmt::format("the screen saver may blank the wall: X's: {}; org.freedesktop.ScreenSaver: {}",
-                               display->awake_.x_server().said, display->awake_.session().said));
-  }
+  log_start(drawing, budget_ms, display->context_->device_name(), display->awake_);
   return display;
 }
 

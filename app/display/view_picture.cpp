@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "cluster/frame_message.h"
 #include "core/log.h"
@@ -257,7 +258,9 @@ void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::i
       const scene::StereoMode mode = other_mode_.value_or(outputs_[share.windows.front()].mode);
       exhibit::show_calibration(share.screen, mode, settings_.ipd_m, stage_.phrases(), frame);
     }
+    if (budget_ && !std::exchange(rehearsed_, true)) budget_->rehearse(renderer_, frame);
     renderer_.render(frame);
+    while_waiting();
     if (&share == &shares_.front()) {
       measure_depth(relief, now_ns);
       save_newest();
@@ -275,7 +278,7 @@ void ViewPicture::show(render::FrameState& frame, exhibit::Relief relief, std::i
 }
 
 std::optional<render::DataRow> ViewPicture::quality_row() const {
-  return budget_ ? std::optional(budget_->row(stage_.phrases())) : std::nullopt;
+  return budget_ && budget_->reduced() ? std::optional(budget_->row(stage_.phrases())) : std::nullopt;
 }
 
 }  // namespace afm::app

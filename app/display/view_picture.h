@@ -101,7 +101,7 @@ class ViewPicture {
   // Newest measurement; empty text before the first one, and while both eyes see the same.
   const exhibit::DepthReport& depth() const { return depth_; }
 
-  // Current resolution under the frame budget; empty without a budget.
+  // Current resolution under the frame budget; empty while nothing is reduced.
   std::optional<render::DataRow> quality_row() const;
 
   // Draws and shows a frame with its depth meter in all windows; the meter advises `relief`. Calls `while_waiting`
@@ -147,6 +147,7 @@ class ViewPicture {
   double drawn_ipd_m_;  // eye distance of the drawing: the viewer's, or less for comfort
   exhibit::ComfortClamp comfort_;
   std::optional<DynamicResolution> budget_;
+  bool rehearsed_ = false;  // the least quality has been drawn
   render::ScreenshotQueue saver_;
   std::size_t to_save_ = 0;       // pending requests
   std::size_t saved_number_ = 0;  // number of the newest file

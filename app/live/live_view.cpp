@@ -143,6 +143,7 @@ exhibit::Moment LiveView::moment(ViewFrame& frame) {
   now.curves = cycles.curves();
   now.wall.hovered = frame.pointed.swatch;
   now.wall.wand = parts_.pointer.drawn(frame.pointed, frame.now_ns);
+  now.by_wand = parts_.pointer.kind() == exhibit::Pointer::Wand;
   now.guidance = parts_.controls.guidance(parts_.stage.phrases());
   if (parts_.panels.shown() == "keys") now.letters = parts_.windows.at(0).letters();
   now.wall.cue = parts_.servo.cues().at(servo.tip().time_ns);
@@ -161,10 +162,12 @@ void LiveView::draw(const ViewInput& input, ViewFrame& frame) {
   parts_.choice.follow_edits();
   parts_.turn.hint = next_hint(frame.now_ns);
   for (ViewControl* control : parts_.controls) control->update(frame);
+  beat();
   frame.pointed = parts_.pointer.now(input.window, input.cursor_px);
   frame.caption = parts_.sound.narrator().caption();
   const exhibit::Moment now = moment(frame);
   render::FrameState picture = frames_->build(now);
+  beat();
   parts_.servo.link().place(exhibit::shared_transforms(picture.room_from_node));
   record_.keep(now);
   log_guidance();
@@ -180,6 +183,8 @@ void LiveView::draw(const ViewInput& input, ViewFrame& frame) {
 }
 
 void LiveView::log_guidance() {
+  const servo::ServoClient& servo = parts_.servo.link();
+  if (servo.tip().material < 0 && servo.chosen() >= 0) return;  // the chosen sample is on its way
   const std::string line = parts_.controls.guidance(parts_.stage.english);
   if (std::exchange(logged_guidance_, line) != line) core::log_line(line);
 }

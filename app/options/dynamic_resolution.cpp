@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <system_error>
 
 #include "app/options/command_line.h"
 #include "core/check.h"
@@ -20,6 +22,12 @@ constexpr std::size_t kJudgedFrames = 5;
 constexpr double kRoom = 0.85;  // share of the budget that a finer frame may be predicted to use
 constexpr int kPatienceFrames = 30;
 constexpr int kMostPatienceFrames = 1920;
+constexpr double kLeastBudget_ms = 1.0, kMostBudget_ms = 1000.0;
+
+// On two cores, 16 frames per second with everything moving, where a jump can still be followed. The force is lost only
+// after 250 ms.
+constexpr double kProcessorBudget_ms = 60.0;
+
 constexpr double kFourSamplesCost = 2.8;  // largest cost relative to one sample, from the measurements in the design
 
 }  // namespace
@@ -37,6 +45,19 @@ bool DynamicResolution::go(std::size_t step) {
   recent_ms_.clear();
   steady_frames_ = 0;
   return true;
+}
+
+// The next step, or the first whose resolution could fit: a frame's time never shrinks faster than its number of
+// pixels. Goes to fewer samples only from the least resolution, and back from an attempt to the step before it.
+std::size_t DynamicResolution::coarser_step() const {
+  const auto pixels = [this](std::size_t step) { return steps_[step].scale * steps_[step].scale; };
+  std::size_t coarser = step_ + 1;
+  if (trying_) return coarser;
+  while (coarser + 1 < steps_.size() && steps_[coarser + 1].samples == steps_[step_].samples &&
+         typical_ms_ * pixels(coarser) / pixels(step_) > budget_ms_) {
+    ++coarser;
+  }
+  return coarser;
 }
 
 // Upper bound of the next finer step's time: a frame's time never grows faster than its number of pixels.
@@ -60,10 +81,13 @@ bool DynamicResolution::add(double frame_ms) {
     steady_frames_ = 0;
     if (step_ + 1 == steps_.size()) return false;
     if (trying_) patience_frames_ = std::min(2 * patience_frames_, kMostPatienceFrames);
-    return go(step_ + 1);
+    return go(coarser_step());
   }
   ++steady_frames_;
-  if (trying_ && steady_frames_ == patience_frames_) patience_frames_ = kPatienceFrames;  // the step has held
+  if (trying_ && steady_frames_ == patience_frames_) {  // the step has held
+    patience_frames_ = kPatienceFrames;
+    trying_ = false;
+  }
   if (step_ == 0 || steady_frames_ < patience_frames_ || finer_cost() > kRoom * budget_ms_) return false;
   return go(step_ - 1);
 }
@@ -73,6 +97,12 @@ std::string DynamicResolution::text() const {
                                  quality().samples, quality().samples == 1 ? "" : "s");
   if (over_budget()) text += fmt::format(", and still {:.0f} ms", typical_ms_);
   return text;
+}
+
+void DynamicResolution::rehearse(render::Renderer& renderer, const render::FrameState& frame) const {
+  renderer.set_quality(steps_.back());
+  renderer.render(frame);
+  renderer.set_quality(quality());
 }
 
 void DynamicResolution::follow(render::Renderer& renderer) {
@@ -92,13 +122,32 @@ render::DataRow DynamicResolution::row(const exhibit::Phrases& phrases) const {
                     : phrases.text<PictureBudget>(budget)};
 }
 
-void add_frame_budget(OptionList& command, double& budget_ms) {
+void add_frame_budget(OptionList& command, std::optional<double>& budget_ms) {
   command
-      .add_option("--frame-budget", budget_ms,
-                  "time budget for drawing a frame; slower frames are drawn with fewer pixels, down to "
-                  "half in each direction, then with one sample per pixel; default: no limit")
-      .within(1.0, 1000.0)
-      .type_name("MS");
+      .add_parsed_option(
+          "--frame-budget",
+          [&budget_ms](const std::string& text) -> core::Result<void> {
+            double ms = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ms);
+            const bool number = error == std::errc() && end == text.data() + text.size();
+            if (text != "none" && !(number && ms >= kLeastBudget_ms && ms <= kMostBudget_ms)) {
+              return core::failure(
+                  core::ErrorCategory::WrongUsage,
+                  fmt::format("\"{}\" is no budget for a frame; write {:g} to {:g} milliseconds, or none", text,
+                              kLeastBudget_ms, kMostBudget_ms));
+            }
+            budget_ms = text == "none" ? 0.0 : ms;
+            return {};
+          },
+          fmt::format("time budget for drawing a frame, or none; slower frames get fewer pixels, down to half in each "
+                      "direction, then one sample per pixel; panels keep all pixels; default: {:g} where the processor "
+                      "draws, none on a GPU or with --eye-width",
+                      kProcessorBudget_ms))
+      .type_name("MS|none");
+}
+
+double frame_budget_ms(std::optional<double> given_ms, bool fixed_size, const render::Context& context) {
+  return given_ms.value_or(fixed_size || !context.draws_on_processor() ? 0.0 : kProcessorBudget_ms);
 }
 
 }  // namespace afm::app

@@ -76,6 +76,16 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
        }},
       {"graphics", Verdict::Missing, "Vulkan driver", [](MachineFacts& m) { m.graphics.clear(); }},
       {"display", Verdict::Missing, "DISPLAY=:0", [](MachineFacts& m) { m.display.clear(); }},
+      {"display", Verdict::Missing, "DISPLAY=:0",
+       [](MachineFacts& m) {
+         m.display_refusal = "cannot open it";
+         m.saver_stays_off = false;  // nothing to keep off
+       }},
+      {"headset", Verdict::Limited, "unset XR_RUNTIME_JSON",
+       [](MachineFacts& m) {
+         m.headset_manifest = "/nonexistent.json";
+         m.headset_manifest_exists = false;
+       }},
       {"screen saver", Verdict::Limited, "xset s off -dpms", [](MachineFacts& m) { m.saver_stays_off = false; }},
       {"headset", Verdict::Limited, "start the runtime of /etc/xdg/openxr/1/active_runtime.json",
        [](MachineFacts& m) { m.headset_manifest = "/etc/xdg/openxr/1/active_runtime.json"; }},
@@ -96,6 +106,15 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
     EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const Finding& any) { return any.verdict != Verdict::Good; }), 1)
         << c.check;
   }
+}
+
+TEST(Diagnosis, WantsAShareForDrawingOnlyWhereTheProcessorDraws) {
+  MachineFacts facts = good_machine();
+  facts.drawing_refused = true;
+  EXPECT_EQ(finding(facts, "drawing priority").verdict, Verdict::Good);
+  facts.graphics[0].kind = "CPU";
+  EXPECT_EQ(finding(facts, "drawing priority").verdict, Verdict::Limited);
+  EXPECT_THAT(finding(facts, "drawing priority").fix, HasSubstr("- nice -10\" | sudo tee"));
 }
 
 TEST(Diagnosis, TakesNoDeviceForNoLackOfRights) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/options/dynamic_resolution.h"
+#include "app/demo/demo_size.h"
 
 #include <gmock/gmock.h>
 
@@ -65,6 +66,18 @@ TEST(FrameBudgetTest, GivesUpResolutionDownToHalfBeforeSamples) {
   EXPECT_THAT(budget.text(), testing::HasSubstr("and still 1000 ms"));
 }
 
+// Each step waits for five frames: where a frame takes 240 ms, five steps would take six seconds.
+TEST(FrameBudgetTest, PassesEveryResolutionThatCannotFit) {
+  DynamicResolution budget(kBudget_ms, 4);
+  const Cost slow{.pixels_ms = 240.0, .four_samples = 1.0};
+  EXPECT_EQ(run(budget, slow, 5), 1);
+  EXPECT_EQ(budget.quality(), (render::FrameQuality{.scale = 0.5, .samples = 4}));
+  // never past one that fits
+  DynamicResolution near(kBudget_ms, 4);
+  EXPECT_EQ(run(near, {.fixed_ms = 0.0, .pixels_ms = 70.0, .four_samples = 1.0}, 5), 1);
+  EXPECT_EQ(near.quality().scale, 0.71);
+}
+
 TEST(FrameBudgetTest, OfOneSampleHasNoneToGiveUp) {
   DynamicResolution budget(kBudget_ms, 1);
   run(budget, {.pixels_ms = 1000.0}, 500);
@@ -99,6 +112,14 @@ TEST(FrameBudgetTest, SaysWhatItChose) {
   EXPECT_EQ(budget.text(), "100 % of the pixels each way, 4 samples");
   run(budget, {.pixels_ms = 1000.0}, 100);
   EXPECT_THAT(budget.text(), testing::StartsWith("50 % of the pixels each way, 1 sample,"));
+}
+
+TEST(DemoSize, KeepsAFrameWithinTheBudget) {
+  EXPECT_EQ(fitting_eye_width(60.0, 60.0), kUsualEyeWidth);
+  EXPECT_EQ(fitting_eye_width(1.0, 60.0), kUsualEyeWidth);
+  EXPECT_EQ(fitting_eye_width(240.0, 60.0), kUsualEyeWidth / 2);
+  EXPECT_EQ(fitting_eye_width(250.0, 60.0), 464U);
+  EXPECT_EQ(fitting_eye_width(60'000.0, 60.0), kLeastEyeWidth);
 }
 
 }  // namespace dynamic_resolution_test

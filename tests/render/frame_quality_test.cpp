@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
+#include <tuple>
+#include <utility>
 
 #include "support/pictures.h"
 #include "support/vulkan_fixture.h"
@@ -14,22 +17,84 @@ class QualityOfFrames : public VulkanTest {
     return {renderer.read_eye(scene::Eye::Left), renderer.read_eye(scene::Eye::Right)};
   }
 
+  render::FrameState without_panels() const {
+    render::FrameState bare = frame_;
+    bare.panels = {};
+    bare.labels.clear();
+    return bare;
+  }
+
   TestScene test_ = make_test_scene();
   render::FrameState frame_ = full_frame(test_);
 };
 
+// Each pixel of the half is within the four that it is enlarged to, which are blended with their neighbours.
 TEST_F(QualityOfFrames, HalfTheResolutionIsThePictureOfAnEyeHalfAsLarge) {
+  const render::FrameState frame = without_panels();
   auto half = small();
   half.eye_width /= 2;
   half.eye_height /= 2;
   auto renderer = make_renderer(test_.scene, small());
   renderer.set_quality({.scale = 0.5, .samples = 4});
-  const auto scaled = eyes_of(renderer, frame_);
-  const auto smaller = draw(test_.scene, frame_, half);
-  EXPECT_EQ(scaled.left.width, half.eye_width);
-  EXPECT_EQ(scaled.left.height, half.eye_height);
-  EXPECT_EQ(scaled.left.rgba, smaller.left.rgba);
-  EXPECT_EQ(scaled.right.rgba, smaller.right.rgba);
+  const auto scaled = eyes_of(renderer, frame);
+  const auto smaller = draw(test_.scene, frame, half);
+  for (const auto& [large, little] : {std::pair(&scaled.left, &smaller.left), {&scaled.right, &smaller.right}}) {
+    ASSERT_EQ(large->width, small().eye_width);
+    ASSERT_EQ(large->height, small().eye_height);
+    for (std::uint32_t y = 1; y + 1 < little->height; ++y) {
+      for (std::uint32_t x = 1; x + 1 < little->width; ++x) {
+        // of four pixels at a quarter from the middle, the mean weighs the middle 9/16, an edge 3/32, a corner 1/64
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          const auto at = [&](std::uint32_t i, std::uint32_t j) { return rgb_at(*little, i, j).at(channel); };
+          const double blended =
+              9.0 / 16.0 * at(x, y) + 3.0 / 32.0 * (at(x - 1, y) + at(x + 1, y) + at(x, y - 1) + at(x, y + 1)) +
+              1.0 / 64.0 * (at(x - 1, y - 1) + at(x + 1, y - 1) + at(x - 1, y + 1) + at(x + 1, y + 1));
+          double mean = 0;
+          for (const auto& [i, j] : {std::pair(0U, 0U), {1U, 0U}, {0U, 1U}, {1U, 1U}}) {
+            mean += rgb_at(*large, 2 * x + i, 2 * y + j).at(channel) / 4.0;
+          }
+          ASSERT_NEAR(mean, blended, 1.5) << x << ", " << y;
+        }
+      }
+    }
+  }
+}
+
+// Texts on an opaque plate are the same to the byte, whatever the room behind them is drawn with.
+TEST_F(QualityOfFrames, PanelsKeepAllTheirPixels) {
+  for (const auto mode : {render::PassMode::Multiview, render::PassMode::TwoPasses}) {
+    for (const std::uint32_t samples : {1U, 4U}) {
+      auto options = small(1, mode);
+      options.panel_contrast = render::PanelContrast::High;
+      auto renderer = make_renderer(test_.scene, options);
+      const auto whole = eyes_of(renderer, frame_);
+      const auto bare = eyes_of(renderer, without_panels());
+      options.samples = samples;
+      auto reducing = make_renderer(test_.scene, options);
+      reducing.set_quality({.scale = 0.5, .samples = samples});
+      const auto reduced = eyes_of(reducing, frame_);
+      const auto reduced_bare = eyes_of(reducing, without_panels());
+      // a sharp pixel lies on a panel, and so do its neighbours, where no edge of panel or room is near
+      std::size_t text = 0, differing = 0, room = 0;
+      for (const auto& [sharp, none, other, other_none] :
+           {std::tuple(&whole.left, &bare.left, &reduced.left, &reduced_bare.left),
+            std::tuple(&whole.right, &bare.right, &reduced.right, &reduced_bare.right)}) {
+        for (std::uint32_t y = 0; y < sharp->height; ++y) {
+          for (std::uint32_t x = 0; x < sharp->width; ++x) {
+            const Pixel p = pixel(*sharp, x, y);
+            if (std::min({p.r, p.g, p.b}) > 200 && rgb_at(*sharp, x, y) != rgb_at(*none, x, y)) {
+              ++text;
+              differing += rgb_at(*sharp, x, y) != rgb_at(*other, x, y) ? 1U : 0U;
+            }
+            room += rgb_at(*none, x, y) != rgb_at(*other_none, x, y) ? 1U : 0U;
+          }
+        }
+      }
+      EXPECT_GT(text, 300U);
+      EXPECT_LE(differing, text / 50);  // at the edge of what stands before a panel
+      EXPECT_GT(room, 300U);            // the room is coarser
+    }
+  }
 }
 
 TEST_F(QualityOfFrames, FewerSamplesAreThoseOfARendererMadeForFewer) {

@@ -27,6 +27,14 @@ struct RealtimeGrant {
 // stack. Refusals are noted; none is fatal.
 RealtimeGrant enter_realtime(int priority, PageLock lock);
 
+// Nice value requested for the thread that draws.
+inline constexpr int kDrawingNice = -10;
+
+// Requests kDrawingNice for the calling thread and all threads that it starts later, such as those of a driver that
+// draws on the processor. On a busy machine it otherwise gets an equal share, and a slow picture can cost the force.
+// Not real-time: other programs still run. Returns whether it was granted; harmless if not.
+bool favour_drawing();
+
 // Line of /etc/security/limits.d that raises a limit for the current user.
 std::string limit_fix(const char* item, const char* value);
 

@@ -64,6 +64,8 @@ RealtimeGrant enter_realtime(int priority, PageLock lock) {
   return grant;
 }
 
+bool favour_drawing() { return ::setpriority(PRIO_PROCESS, 0, kDrawingNice) == 0; }
+
 void sleep_until(std::int64_t deadline_ns) noexcept {
   const timespec deadline{.tv_sec = deadline_ns / 1'000'000'000, .tv_nsec = deadline_ns % 1'000'000'000};
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {

@@ -45,6 +45,9 @@ class Context {
 
   const std::string& device_name() const;
 
+  // True if there is no GPU: the processor draws (lavapipe).
+  bool draws_on_processor() const;
+
   // True if the device has multiview, which draws both eyes in one pass.
   bool draws_both_eyes_at_once() const;
 

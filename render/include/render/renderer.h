@@ -43,9 +43,10 @@ struct RendererOptions {
   bool time_passes = false;  // needed by pass_times()
 };
 
-// Resolution and samples of a frame, independent of its contents and layout.
+// Resolution and samples of the room in a frame, independent of its contents and layout. Panels always have all pixels
+// of the eye images, so that their text stays legible.
 struct FrameQuality {
-  double scale = 1.0;         // fraction of the eye images' width and height, (0, 1]; scaled back up when shown
+  double scale = 1.0;         // fraction of the eye images' width and height, (0, 1]; enlarged again below the panels
   std::uint32_t samples = 4;  // 1 or 4, at most RendererOptions::samples
 
   bool operator==(const FrameQuality&) const = default;
@@ -84,8 +85,7 @@ class Renderer {
   // device does not finish that frame within two minutes.
   void wait_until_ready(const std::function<void()>& while_waiting);
 
-  // Reads the newest frame, after waiting for it; at least one frame must have been rendered. Returns only the drawn
-  // part of an eye: less than `eye_width` with a scale below 1.
+  // Reads the newest frame, after waiting for it; at least one frame must have been rendered.
   Image read_eye(scene::Eye eye);
   // For a mode with one picture; at most as large as the device's images.
   Image read_composed(const Composition& composition, const ReadArea& area = {});

@@ -74,21 +74,15 @@ EyeArrangement arrangement_of(scene::StereoMode mode, std::uint32_t layer) {
   return layer == 0 ? EyeArrangement::Left : EyeArrangement::Right;
 }
 
-// Margin that keeps undrawn pixels of an image out of the result, even with the weight of a rounded coordinate.
-constexpr float kOffUndrawn = 1.0F / 1024.0F;
-
 ComposeBlock compose_block(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place,
                            std::uint32_t layer) {
   const auto mode = composition.mode;
   const bool swapped = composition.order == scene::EyeOrder::Swapped && mode != scene::StereoMode::Mono;
   const bool keystone = composition.picture_from_output != glm::dmat3(1.0);
-  const vk::Extent2D whole = eyes.extent(), drawn = eyes.drawing().extent;
   ComposeBlock block{
       .mode = {static_cast<int>(arrangement_of(mode, layer)), swapped, keystone,
                static_cast<int>(anaglyph_index(mode))},
-      .drawn = {static_cast<float>(drawn.width) / static_cast<float>(whole.width),
-                static_cast<float>(drawn.height) / static_cast<float>(whole.height), eyes.same_eyes() ? 1.0F : 0.0F,
-                drawn == whole ? 0.0F : kOffUndrawn},
+      .eyes = {eyes.same_eyes() ? 1 : 0, 0, 0, 0},
       .place = {place.area.offset.x, place.area.offset.y, place.area.extent.width, place.area.extent.height},
       .screen = {place.screen_px.x, place.screen_px.y, 0, 0},
       .picture_from_output = {}};
@@ -107,7 +101,7 @@ bool is_exact(const EyeTargets& eyes, const Composition& composition, const Comp
   const vk::Extent2D whole = eyes.extent();
   const glm::uvec2 seen = scene::eye_size(composition.mode, {place.area.extent.width, place.area.extent.height});
   return !scene::traits_of(composition.mode).squeezed && composition.picture_from_output == glm::dmat3(1.0) &&
-         !composition.warp && eyes.drawing().extent == whole && seen == glm::uvec2(whole.width, whole.height);
+         !composition.warp && seen == glm::uvec2(whole.width, whole.height);
 }
 
 // Pipeline variant for such a picture.
@@ -242,7 +236,7 @@ PixelArea Composer::changed_in(const ComposeInto& into, const Drawn& drawn) cons
     changed.add_everything();
     return changed;
   }
-  const PixelArea in_eyes = changes_.since(shown->eye_changes, eyes_.drawing().extent);
+  const PixelArea in_eyes = changes_.since(shown->eye_changes, eyes_.extent());
   const bool simple =
       composition.picture_from_output == glm::dmat3(1.0) && !scene::frame_packing(composition.mode).has_value();
   if (in_eyes.everything() || (!simple && !in_eyes.empty())) {
@@ -254,9 +248,9 @@ PixelArea Composer::changed_in(const ComposeInto& into, const Drawn& drawn) cons
   for (const PixelBox& box : in_eyes.boxes()) {
     for (std::size_t i = 0; i < eyes.count; ++i) {
       if (composition.warp) {
-        correction.add_moved(box, eyes_.drawing().extent, eyes.boxes[i].low, tiles);
+        correction.add_moved(box, eyes_.extent(), eyes.boxes[i].low, tiles);
       } else {
-        tiles.add(scaled_into(eyes.boxes[i], box, eyes_.drawing().extent));
+        tiles.add(scaled_into(eyes.boxes[i], box, eyes_.extent()));
       }
     }
   }
@@ -325,7 +319,7 @@ void Composer::copy_parts(const vk::raii::CommandBuffer& command, const Composit
   if (changed.everything()) {
     copy(command, composition, into, PixelBox::whole(eyes_.extent()));
   } else {
-    const PixelArea in_eyes = changes_.since((*into.shown)->eye_changes, eyes_.drawing().extent);
+    const PixelArea in_eyes = changes_.since((*into.shown)->eye_changes, eyes_.extent());
     for (const PixelBox& box : in_eyes.boxes()) copy(command, composition, into, box);
   }
   eyes_.end_copies(command);

@@ -136,9 +136,9 @@ void Correction::find_tiles(const std::vector<glm::vec4>& map) {
   }
 }
 
-void Correction::add_moved(const PixelBox& box, vk::Extent2D drawn, const glm::ivec2& at, PixelTiles& tiles) const {
+void Correction::add_moved(const PixelBox& box, vk::Extent2D eye, const glm::ivec2& at, PixelTiles& tiles) const {
   constexpr int kFilterPx = 2;  // reach of the filter, including rounding
-  const glm::dvec2 size(drawn.width, drawn.height);
+  const glm::dvec2 size(eye.width, eye.height);
   for (const Tile& tile : tiles_) {
     const PixelBox shown{glm::ivec2(glm::floor(glm::dvec2(tile.low) * size)) - kFilterPx,
                          glm::ivec2(glm::ceil(glm::dvec2(tile.high) * size)) + kFilterPx};

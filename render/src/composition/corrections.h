@@ -29,9 +29,9 @@ class Correction {
 
   vk::DescriptorSet set() const { return *set_; }
 
-  // Adds every tile of the map with a pixel that shows a part of `box`. `box` lies in an eye's image of which `drawn`
-  // is drawn; `at` is the map's first pixel.
-  void add_moved(const PixelBox& box, vk::Extent2D drawn, const glm::ivec2& at, PixelTiles& tiles) const;
+  // Adds every tile of the map with a pixel that shows a part of `box`. `box` lies in an eye's image of that size;
+  // `at` is the map's first pixel.
+  void add_moved(const PixelBox& box, vk::Extent2D eye, const glm::ivec2& at, PixelTiles& tiles) const;
 
  private:
   // Square of the map, and the part of the picture that its pixels show.

@@ -23,6 +23,10 @@ core::Result<Context> Context::open(Validation validation, Presentation presenta
 
 const std::string& Context::device_name() const { return device_->name(); }
 
+bool Context::draws_on_processor() const {
+  return device_->physical().getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+}
+
 bool Context::draws_both_eyes_at_once() const { return device_->multiview(); }
 
 std::uint32_t Context::largest_picture_px() const {

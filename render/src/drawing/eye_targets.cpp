@@ -2,10 +2,12 @@
 #include "drawing/eye_targets.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "device/barriers.h"
 #include "device/pipelines.h"
+#include "drawing/pixel_tiles.h"
 
 namespace afm::render {
 namespace {
@@ -89,17 +91,25 @@ void EyeTargets::begin_frame(const EyePassConfig& drawing) {
     second_color_ = create_target("second eye", kEyeFormat, 1);
     second_depth_ = create_target("second eye's depth", kDepthFormat, 1);
   }
+  if (reduced() && reduced_color_.single.empty()) {
+    reduced_color_ = create_target("reduced eyes", kEyeFormat, 2);
+    enlarged_depth_ = create_target("enlarged depth", kDepthFormat, 2);
+  }
+}
+
+LayerRange EyeTargets::layers_of(std::size_t pass) const {
+  return drawing_.pass_count == 1 ? LayerRange{} : LayerRange{static_cast<std::uint32_t>(pass), 1};
 }
 
 EyeTargets::Filled EyeTargets::filled(std::size_t pass) const {
   const auto layer = static_cast<std::uint32_t>(pass);
   if (drawing_.pass_count == 1) {
-    return {.color = color_, .depth = depth_, .layer = 0, .layers = {}};
+    return {.color = drawn_color(), .depth = depth_, .layer = 0, .layers = layers_of(pass)};
   }
   if (copies(pass)) {
     return {.color = second_color_, .depth = second_depth_, .layer = 0, .layers = {}};
   }
-  return {.color = color_, .depth = depth_, .layer = layer, .layers = {layer, 1}};
+  return {.color = drawn_color(), .depth = depth_, .layer = layer, .layers = layers_of(pass)};
 }
 
 void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass,
@@ -170,8 +180,51 @@ void EyeTargets::copy_second(const vk::raii::CommandBuffer& command, const Pixel
     record_barriers(command, {image_barrier(*from.image.image, aspect, kCopiedFrom, kEyesRead),
                               image_barrier(*to.image.image, aspect, kCopiedTo, kEyesRead, second)});
   };
-  copy(second_color_, color_, kColorAspect);
+  copy(second_color_, drawn_color(), kColorAspect);
   copy(second_depth_, depth_, kDepthAspect);
+}
+
+void EyeTargets::begin_enlarged(const vk::raii::CommandBuffer& command, std::size_t pass,
+                                const std::optional<PixelBox>& box) const {
+  const bool both = drawing_.pass == EyePass::Both;
+  const LayerRange layers = layers_of(pass);
+  record_barriers(
+      command,
+      {image_barrier(*color_.image.image, kColorAspect, box ? kEyesRead : kEyesRead.discarded(), kColorDrawn, layers),
+       image_barrier(*enlarged_depth_.image.image, kDepthAspect, kDepthTested.discarded(), kDepthTested, layers)});
+  const vk::RenderingAttachmentInfo color{.imageView = both ? *color_.both : *color_.single[pass],
+                                          .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
+                                          .loadOp = box ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eDontCare,
+                                          .storeOp = vk::AttachmentStoreOp::eStore};
+  const vk::RenderingAttachmentInfo depth{.imageView = both ? *enlarged_depth_.both : *enlarged_depth_.single[pass],
+                                          .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
+                                          .loadOp = vk::AttachmentLoadOp::eDontCare,
+                                          .storeOp = vk::AttachmentStoreOp::eDontCare};
+  command.beginRendering({.renderArea = box.value_or(PixelBox::whole(extent_)).rect(),
+                          .layerCount = 1,
+                          .viewMask = both ? kBothEyes : 0U,
+                          .colorAttachmentCount = 1,
+                          .pColorAttachments = &color,
+                          .pDepthAttachment = &depth});
+}
+
+void EyeTargets::end_enlarged(const vk::raii::CommandBuffer& command, std::size_t pass) const {
+  command.endRendering();
+  record_barriers(command, {image_barrier(*color_.image.image, kColorAspect, kColorDrawn, kEyesRead, layers_of(pass))});
+}
+
+// The enlargement blends neighbours.
+PixelArea EyeTargets::enlarged(const PixelArea& drawn) const {
+  if (!reduced() || drawn.everything()) return drawn;
+  const glm::dvec2 scale(static_cast<double>(extent_.width) / drawing_.extent.width,
+                         static_cast<double>(extent_.height) / drawing_.extent.height);
+  PixelTiles tiles(extent_);
+  for (const PixelBox& box : drawn.boxes()) {
+    const glm::ivec2 low(glm::floor(scale * glm::dvec2(box.low - 1)));
+    const glm::ivec2 high(glm::ceil(scale * glm::dvec2(box.high + 1)));
+    tiles.add(PixelBox{low, high}.within(PixelBox::whole(extent_)));
+  }
+  return tiles.area();
 }
 
 void EyeTargets::begin_copies(const vk::raii::CommandBuffer& command) const {

@@ -24,7 +24,7 @@ struct EyePassConfig {
   EyePass pass = EyePass::Both;
   std::size_t pass_count = 1;  // 2 single passes, or 1 if both eyes see the same
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
-  vk::Extent2D extent{};  // drawn part, from the upper left corner
+  vk::Extent2D extent{};  // size of the drawn room: the eye image's, or less
 
   bool operator==(const EyePassConfig&) const = default;
 };
@@ -33,6 +33,8 @@ struct EyePassConfig {
 // samples are created at first use. All of them keep their contents, so that a part can be redrawn. Mesa 22.3's
 // lavapipe neither draws into layer 1 of a multisampled image as a base layer, nor resolves into one. Single passes
 // therefore have attachments of one layer each, and the second pass resolves into separate images, which are copied.
+// A room drawn with fewer pixels has images of its own, of which it fills the upper left part, and is enlarged into the
+// eyes' images before the panels are drawn.
 class EyeTargets {
  public:
   EyeTargets(const Device& device, const RendererOptions& options);
@@ -52,7 +54,23 @@ class EyeTargets {
   void begin(const vk::raii::CommandBuffer& command, std::size_t pass, const std::optional<PixelBox>& box) const;
   void end(const vk::raii::CommandBuffer& command, std::size_t pass, const std::optional<PixelBox>& box) const;
 
+  // The same for the eye images' own pixels, where the room is enlarged into them. Nothing of the box is kept. Its
+  // depth is that of the pass, which the enlargement fills.
+  void begin_enlarged(const vk::raii::CommandBuffer& command, std::size_t pass,
+                      const std::optional<PixelBox>& box) const;
+  void end_enlarged(const vk::raii::CommandBuffer& command, std::size_t pass) const;
+
   const EyePassConfig& drawing() const { return drawing_; }
+
+  // True if the room is drawn with fewer pixels than the eye images have.
+  bool reduced() const { return drawing_.extent != extent_; }
+
+  // Area of the eye images that depends on an area of the drawn room.
+  PixelArea enlarged(const PixelArea& drawn) const;
+
+  // Colour and depth of the reduced room, sampled in eShaderReadOnlyOptimal.
+  vk::ImageView room() const { return *reduced_color_.both; }
+  vk::ImageView room_depth() const { return *depth_.both; }
 
   // True if both eyes see the same, which is stored in the left eye's images.
   bool same_eyes() const { return drawing_.pass == EyePass::Single && drawing_.pass_count == 1; }
@@ -61,7 +79,6 @@ class EyeTargets {
     vk::Image image;
     std::uint32_t layer = 0;
   };
-  // Image of an eye; only drawing().extent of it is drawn.
   EyeImage eye(scene::Eye eye) const;
 
   // Copies a box of an eye's colour into an image in eTransferDstOptimal that shows the eye's first pixel at `place`.
@@ -71,7 +88,7 @@ class EyeTargets {
             std::uint32_t layer, vk::Offset2D place) const;
   void end_copies(const vk::raii::CommandBuffer& command) const;
 
-  // Copies an eye's depth, as in depth(), into an image in eTransferDstOptimal.
+  // Copies an eye's depth of drawing().extent, as in depth(), into an image in eTransferDstOptimal.
   void copy_depth(const vk::raii::CommandBuffer& command, scene::Eye eye, vk::Image to, std::uint32_t layer) const;
 
   // Colour of both layers, the left eye's first: as stored, and in kEyeLinearFormat. If both eyes see the same, only
@@ -79,7 +96,7 @@ class EyeTargets {
   vk::ImageView both_eyes() const { return *color_.both; }
   vk::ImageView both_eyes_linear() const { return *color_.linear; }
 
-  // Reversed infinite depth of each pixel's first sample, 0 where nothing was drawn. View of this eye only, in
+  // Reversed infinite depth of each drawn pixel's first sample, 0 where nothing was drawn. View of this eye only, in
   // kDepthFormat, sampled in eShaderReadOnlyOptimal.
   vk::ImageView depth(scene::Eye eye) const { return *depth_.single[layer(eye)]; }
 
@@ -101,6 +118,8 @@ class EyeTargets {
     LayerRange layers;
   };
   Filled filled(std::size_t pass) const;
+  const Target& drawn_color() const { return reduced() ? reduced_color_ : color_; }
+  LayerRange layers_of(std::size_t pass) const;
   bool copies(std::size_t pass) const { return resolves() && pass == 1; }
   void copy_second(const vk::raii::CommandBuffer& command, const PixelBox& box) const;
   Target create_target(const char* name, vk::Format format, std::uint32_t layers) const;
@@ -118,6 +137,8 @@ class EyeTargets {
   Target depth_;
   Target second_color_;  // resolve target of the second single pass
   Target second_depth_;
+  Target reduced_color_;                      // room with fewer pixels; its depth is in depth_
+  Target enlarged_depth_;                     // depth of the room in the eye images' pixels
   std::array<Multisampled, 3> multisampled_;  // with two layers, then with one for each single pass
   EyePassConfig drawing_;
 };

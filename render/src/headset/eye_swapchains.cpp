@@ -182,7 +182,7 @@ void EyeSwapchains::record(const vk::raii::CommandBuffer& command, const EyeTarg
     eyes.begin_copies(command);
     for (const scene::Eye eye : scene::kEyes) {
       const Place to = color_.place(eye);
-      eyes.copy(command, eye, PixelBox::whole(eyes.drawing().extent), to.image, to.layer, {0, 0});
+      eyes.copy(command, eye, PixelBox::whole(eyes.extent()), to.image, to.layer, {0, 0});
     }
     eyes.end_copies(command);
   }
@@ -196,7 +196,7 @@ void EyeSwapchains::record(const vk::raii::CommandBuffer& command, const EyeTarg
 // Blits and then copies. A blit changes the byte order between formats without sRGB, and a copy keeps the bytes: the
 // runtime's image ends up with our values.
 void EyeSwapchains::record_reordered(const vk::raii::CommandBuffer& command, const EyeTargets& eyes) const {
-  const vk::Extent2D extent = eyes.drawing().extent;
+  const vk::Extent2D extent = eyes.extent();
   const std::array<vk::Offset3D, 2> corners{
       {{0, 0, 0}, {static_cast<std::int32_t>(extent.width), static_cast<std::int32_t>(extent.height), 1}}};
   for (const scene::Eye eye : scene::kEyes) {

@@ -272,7 +272,7 @@ void HeadsetSession::end_frame(Picture picture) {
                 .next = depths[i] ? &*depths[i] : nullptr,
                 .pose = views_[i].pose,
                 .fov = views_[i].fov,
-                .subImage = pictures_.sub_image(eye, eyes_.drawing().extent)};
+                .subImage = pictures_.sub_image(eye, eyes_.extent())};
   }
   const XrSpace floor = floor_.at(frame_->predictedDisplayTime);
   const XrCompositionLayerProjection eyes{.type = XR_TYPE_COMPOSITION_LAYER_PROJECTION,

@@ -79,6 +79,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       shadow_set_layout(create_frame_set_layout(device, ShadowMapUse::Drawn)),
       scene_pass(device, *frame_set_layout, *shadow_set_layout, materials, geometry.variants()),
       panels(device, std::move(fonts), *frame_set_layout, options),
+      enlarger(device),
       composer(device, eyes, eye_changes),
       timeline(create_timeline(device)) {
   for (std::size_t i = 0; i < kFramesInFlight; ++i) {
@@ -145,46 +146,6 @@ void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
   command.end();
 }
 
-// Draws all of the eyes, or the part within the slot's area.
-void Renderer::Parts::record_eyes(const vk::raii::CommandBuffer& command, std::size_t slot_index) {
-  const FrameSlot& slot = slots[slot_index];
-  const EyePassConfig& drawing = eyes.drawing();
-  const std::optional<PixelBox> around =
-      slot.area.everything() ? std::nullopt : std::optional<PixelBox>(slot.area.around());
-  for (std::size_t pass = 0; pass < drawing.pass_count; ++pass) {
-    const auto record = [&](const std::optional<PixelBox>& box) {
-      scene_pass.record_eyes(command, drawing,
-                             {geometry, materials, slot.draws, slot.set(pass), slot.draw_stride(), &now, box});
-      panels.record_rectangles(command, drawing, slot.set(pass));
-    };
-    eyes.begin(command, pass, around);
-    if (slot.area.everything()) record({});
-    for (const PixelBox& box : slot.area.boxes()) {
-      command.setScissor(0, box.rect());
-      record(box);
-    }
-    eyes.end(command, pass, around);
-  }
-}
-
-void Renderer::Parts::record_drawing(std::size_t slot) {
-  const auto& command = slots[slot].drawing();
-  command.begin({});
-  mark(command, slot, GpuTimer::Mark::EyesBegin);
-  record_eyes(command, slot);
-  mark(command, slot, GpuTimer::Mark::EyesEnd);
-  command.end();
-}
-
-void Renderer::Parts::record_patching(std::size_t slot) {
-  const auto& command = slots[slot].patching();
-  command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-  mark(command, slot, GpuTimer::Mark::EyesBegin);
-  record_eyes(command, slot);
-  mark(command, slot, GpuTimer::Mark::EyesEnd);
-  command.end();
-}
-
 void Renderer::Parts::submit(std::size_t slot_index) {
   FrameSlot& slot = slots[slot_index];
   slot.finished_at = ++frames;
@@ -244,7 +205,7 @@ void Renderer::Parts::render(const FrameState& frame) {
   submit(slot_index);
   std::swap(drawn, now);
   if (!slot.area.empty()) {
-    eye_changes.add(slot.area);
+    eye_changes.add(eyes.enlarged(slot.area));
   }
   eyes_drawn = true;
   near_m = frame.eyes[0].projection[3][2];
@@ -296,7 +257,7 @@ Image Renderer::read_eye(scene::Eye eye) {
   AFM_CHECK(parts_->eyes_drawn);
   const auto image = parts_->eyes.eye(eye);
   return rethrow_as_device_failure(parts_->device, "reading a picture back", [&] {
-    return read_back(parts_->device, image.image, image.layer, parts_->eyes.drawing().extent);
+    return read_back(parts_->device, image.image, image.layer, parts_->eyes.extent());
   });
 }
 
@@ -344,6 +305,7 @@ core::Result<void> Renderer::resize(std::uint32_t eye_width, std::uint32_t eye_h
   everything.add_everything();
   parts_->eye_changes.add(everything);
   parts_->composer.eyes_changed();
+  parts_->enlarger.eyes_changed();
   parts_->eyes_drawn = false;
   return {};
 }

@@ -6,6 +6,7 @@
 
 #include "composition/composer.h"
 #include "device/gpu_timer.h"
+#include "drawing/enlarger.h"
 #include "drawing/eye_targets.h"
 #include "drawing/scene_geometry.h"
 #include "panels/panels.h"
@@ -31,6 +32,7 @@ struct Renderer::Parts {
   void record_painting(std::size_t slot);
   void record_shadow(std::size_t slot, ShadowStep step);
   void record_eyes(const vk::raii::CommandBuffer& command, std::size_t slot);
+  void record_enlarged(const vk::raii::CommandBuffer& command, std::size_t slot);
   void record_drawing(std::size_t slot);
   void record_patching(std::size_t slot);
   void submit(std::size_t slot);
@@ -48,6 +50,7 @@ struct Renderer::Parts {
   vk::raii::DescriptorSetLayout frame_set_layout, shadow_set_layout;
   ScenePass scene_pass;
   Panels panels;
+  Enlarger enlarger;
   Composer composer;
   DrawListBuilder lister;
   Damage damage;
