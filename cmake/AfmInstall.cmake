@@ -55,7 +55,7 @@ set(libexec libexec/touchafm)
 install(TARGETS touchafm touchafm-bench touchafm-guard touchafm-hdf5 touchafm-servo DESTINATION ${libexec})
 file(CREATE_LINK ../${libexec}/touchafm ${reference}/touchafm SYMBOLIC)
 install(FILES ${reference}/touchafm DESTINATION bin)
-install(DIRECTORY ${assets}/guidance ${assets}/lessons ${assets}/models ${assets}/walls ${assets}/wands DESTINATION share/touchafm
+install(DIRECTORY ${assets}/guidance ${assets}/lessons ${assets}/models ${assets}/particles ${assets}/walls ${assets}/wands DESTINATION share/touchafm
         PATTERN *.rules EXCLUDE)
 install(FILES ${assets}/materials.toml ${assets}/probes.toml DESTINATION share/touchafm)
 install(FILES ${assets}/wands/70-touchafm-wands.rules DESTINATION lib/udev/rules.d)
@@ -72,7 +72,7 @@ install(FILES ${CMAKE_SOURCE_DIR}/cmake/debian/copyright ${reference}/changelog.
         ${docs}/manual.md ${docs}/physics.md ${docs}/curves.md ${docs}/gltf.md ${docs}/host-tuning.md ${docs}/glossary.md
         ${docs}/adding-a-material.md ${docs}/adding-a-wand.md DESTINATION ${documents})
 install(DIRECTORY ${docs}/pictures DESTINATION ${documents} PATTERN *.webp EXCLUDE) # the animation is the README's
-foreach(example guidance materials.toml probes.toml walls wands)
+foreach(example guidance materials.toml particles probes.toml walls wands)
   file(MAKE_DIRECTORY ${reference}/examples)
   file(CREATE_LINK ../../../touchafm/${example} ${reference}/examples/${example} SYMBOLIC)
   install(FILES ${reference}/examples/${example} DESTINATION ${documents}/examples)

@@ -29,6 +29,7 @@ struct CommandContext {
   COMMAND(scan)                       \
   COMMAND(analyse)                    \
   COMMAND(material)                   \
+  COMMAND(particles)                  \
   COMMAND(paper)                      \
   COMMAND(study)                      \
   COMMAND(render)                     \

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/options/command.h"
+#include "app/options/quantity_option.h"
+#include "app/options/standard_output.h"
+#include "physics/manipulation/push_figures.h"
+#include "physics/manipulation/pushed_particles.h"
+#include "physics/quantity_text.h"
+#include "scene/samples/particle_set.h"
+
+namespace afm::app {
+namespace {
+
+using physics::Force;
+using physics::format_quantity;
+using physics::Frequency;
+using physics::kEnergyUnits;
+using physics::kForceUnits;
+using physics::kLengthUnits;
+using physics::Length;
+using physics::LeverBase;
+using physics::ParticleLaw;
+using physics::ParticleSpecies;
+using physics::PushTick;
+using physics::Sideways;
+using physics::Stiffness;
+
+constexpr Frequency kSlowestTicks{10.0}, kFastestTicks{1e5};
+constexpr double kMostTicks = 2e7;  // some minutes
+constexpr std::size_t kMostChanges = 10'000;
+constexpr double kRounding = 1e-12;            // share of the energy given that the certificate may lack
+constexpr physics::Time kSteeringDelay{0.25};  // delay of a hand that steers by eye
+constexpr Length kAtomicDistance{0.3e-9};      // z0 of Tabor's parameter
+constexpr physics::Temperature kRoomTemperature{298.15};
+
+struct ParticlesOptions {
+  std::string file;
+  Frequency rate{1000.0};
+  int samples = 100;
+  bool json = false;
+};
+
+// One tick that is printed.
+struct TickSample {
+  double time_s = 0.0;
+  PushTick tick;
+};
+
+struct Played {
+  double seconds = 0.0;
+  std::size_t ticks = 0, lagging = 0;
+  double least_margin_j = 0.0;  // least certificate of all ticks
+  bool more_changes = false;
+  std::vector<TickSample> samples;   // evenly in time, with the last
+  std::vector<TickSample> changes;   // ticks in which state or particle changes
+  std::vector<TickSample> ends;      // end of each move
+  std::vector<Sideways<Length>> at;  // places of the particles at the end
+};
+
+std::size_t ticks_of(const LeverBase& from, const scene::HandMove& move, Frequency rate) {
+  const double way = std::hypot((move.to.position.x - from.position.x).si, (move.to.position.y - from.position.y).si,
+                                (move.to.z - from.z).si);
+  return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(way / move.speed.si * rate.si)));
+}
+
+LeverBase on_the_way(const LeverBase& a, const LeverBase& b, double share) {
+  return {a.position + (b.position - a.position) * share, a.z + (b.z - a.z) * share};
+}
+
+double margin_j(const PushTick& tick) { return (tick.given - tick.lost - tick.stored).si; }
+
+Played play(const scene::ParticleSet& set, const ParticlesOptions& options, std::size_t all_ticks) {
+  physics::PushedParticles particles(set.setup, set.particles, set.start);
+  Played played;
+  const double period_s = 1.0 / options.rate.si;
+  const auto sample_count = static_cast<std::size_t>(options.samples);
+  TickSample now{0.0, particles.last()};
+  played.samples.push_back(now);
+  played.least_margin_j = margin_j(now.tick);
+  LeverBase from = set.start;
+  for (const scene::HandMove& move : set.moves) {
+    const std::size_t ticks = ticks_of(from, move, options.rate);
+    for (std::size_t i = 1; i <= ticks; ++i) {
+      const PushTick before = now.tick;
+      const double share = static_cast<double>(i) / static_cast<double>(ticks);
+      now.tick = particles.move_to(i == ticks ? move.to : on_the_way(from, move.to, share), physics::Time(period_s));
+      now.time_s = static_cast<double>(++played.ticks) * period_s;
+      if (now.tick.lagging) ++played.lagging;
+      played.least_margin_j = std::min(played.least_margin_j, margin_j(now.tick));
+      if (now.tick.state != before.state || now.tick.particle != before.particle) {
+        played.more_changes = played.changes.size() == kMostChanges;
+        if (!played.more_changes) played.changes.push_back(now);
+      }
+      // the sample of this tick: the k-th of N is the tick k/(N - 1) of the way
+      if (played.ticks * (sample_count - 1) >= played.samples.size() * all_ticks) played.samples.push_back(now);
+    }
+    played.ends.push_back(now);
+    from = move.to;
+  }
+  played.seconds = now.time_s;
+  for (std::size_t i = 0; i < particles.size(); ++i) played.at.push_back(particles.position(i));
+  return played;
+}
+
+// What a user has to know of a species before a push.
+struct SpeciesFigures {
+  physics::PushBalance rest, moving;
+  Force adhesion, gentle, gentle_without_friction, most_push, area_law, amontons_law;
+  Stiffness softest, sideways;
+  Length rho;
+  double tabor = 0.0, kt_per_nm = 0.0, spinning = 0.0;
+};
+
+SpeciesFigures figures_of(const scene::ParticleSet& set, const ParticleSpecies& species) {
+  const physics::PushSetup& setup = set.setup;
+  const Length radius = species.contact.tip_radius;
+  const double sine = std::sin(setup.tip.half_angle_rad), cosine = std::cos(setup.tip.half_angle_rad);
+  const physics::TipGrip grip{setup.tip_friction, 1.5 * std::numbers::pi * species.tip_adhesion *
+                                                      physics::effective_radius(setup.tip, radius, true)};
+  SpeciesFigures f;
+  f.rest = physics::push_balance(species, grip, sine, cosine);
+  f.moving = physics::push_balance(species, grip, sine, cosine, species.kinetic_ratio);
+  f.adhesion = physics::pull_off_force(species);
+  f.gentle = physics::gentle_load(species, setup.tip, setup.tip_friction);
+  f.gentle_without_friction = physics::gentle_load(species, setup.tip, 0.0);
+  f.most_push = physics::largest_push(setup.tip, radius, setup.springs.normal, Force(0.0));
+  f.area_law = physics::sliding_threshold(species, ParticleLaw::ContactArea, Force(0.0));
+  f.amontons_law = physics::sliding_threshold(species, ParticleLaw::Amontons, Force(0.0));
+  f.softest = physics::softest_lever(species, setup.tip);
+  f.sideways = physics::stiffness_sideways(setup.springs, sine, cosine);
+  f.rho = physics::side_contact(setup.tip, radius, Length(0.0)).distance;
+  f.tabor = physics::tabor_parameter(species, kAtomicDistance);
+  f.kt_per_nm = f.rest.lateral * Length(1e-9) / physics::thermal_energy(kRoomTemperature);
+  f.spinning = physics::spinning_share(species, Force(0.0));
+  return f;
+}
+
+nlohmann::json json_of(std::span<const scene::SourcedValue> sources) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const scene::SourcedValue& s : sources) {
+    list.push_back({{"key", s.key}, {"value", s.value}, {"source", s.source}, {"estimated", s.estimated}});
+  }
+  return list;
+}
+
+nlohmann::json json_of(const SpeciesFigures& f) {
+  return {{"push_mode", physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word},
+          {"adhesion_N", f.adhesion.si},
+          {"threshold_at_rest_N", f.rest.lateral.si},
+          {"threshold_moving_N", f.moving.lateral.si},
+          {"normal_at_rest_N", f.rest.normal.si},
+          {"lift_at_rest_N", f.rest.lift.si},
+          {"unloaded_threshold_by_area_N", f.area_law.si},
+          {"unloaded_threshold_by_amontons_N", f.amontons_law.si},
+          {"gentle_load_N", f.gentle.si},
+          {"gentle_load_without_tip_friction_N", f.gentle_without_friction.si},
+          {"softest_lever_N_per_m", f.softest.si},
+          {"largest_push_N", f.most_push.si},
+          {"stiffness_sideways_N_per_m", f.sideways.si},
+          {"distance_of_axes_m", f.rho.si},
+          {"largest_offset_for_3_distances_m", (physics::largest_offset(3.0) * f.rho).si},
+          {"fastest_steering_m_per_s", physics::fastest_steering(f.rho, kSteeringDelay).si},
+          {"tabor_parameter", f.tabor},
+          {"spinning_moment_share", f.spinning},
+          {"kT_per_nm", f.kt_per_nm}};
+}
+
+nlohmann::json json_of(const TickSample& sample) {
+  const PushTick& t = sample.tick;
+  return {{"time_s", sample.time_s},
+          {"base_m", {t.base.position.x.si, t.base.position.y.si, t.base.z.si}},
+          {"apex_m", {t.apex.position.x.si, t.apex.position.y.si, t.apex.z.si}},
+          {"lateral_N", {t.lateral.x.si, t.lateral.y.si}},
+          {"lift_N", t.lift.si},
+          {"particle", t.particle == physics::kNoParticle ? nlohmann::json() : nlohmann::json(t.particle)},
+          {"state", physics::kPushStates.at(static_cast<std::size_t>(t.state)).word},
+          {"normal_N", t.normal.si},
+          {"threshold_N", t.threshold.si},
+          {"given_J", t.given.si},
+          {"work_J", t.work.si},
+          {"lost_J", t.lost.si},
+          {"stored_J", t.stored.si},
+          {"certificate_J", margin_j(t)},
+          {"yields", t.yields}};
+}
+
+std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions& options, const Played& played) {
+  nlohmann::json species = nlohmann::json::array(), particles = nlohmann::json::array();
+  for (std::size_t i = 0; i < set.species.size(); ++i) {
+    const ParticleSpecies& s = set.setup.species[i];
+    species.push_back({{"name", set.species[i].name},
+                       {"law", physics::text_of(s.law).word},
+                       {"radius_m", s.contact.tip_radius.si},
+                       {"figures", json_of(figures_of(set, s))},
+                       {"sources", json_of(set.species[i].sources)}});
+  }
+  for (std::size_t i = 0; i < set.particles.size(); ++i) {
+    const physics::PlacedParticle& p = set.particles[i];
+    particles.push_back({{"species", set.species[p.species].name},
+                         {"start_m", {p.position.x.si, p.position.y.si}},
+                         {"end_m", {played.at[i].x.si, played.at[i].y.si}},
+                         {"pinned", p.pinned}});
+  }
+  const auto list = [](const std::vector<TickSample>& samples) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const TickSample& sample : samples) all.push_back(json_of(sample));
+    return all;
+  };
+  const nlohmann::json whole{{"title", set.title},
+                             {"medium", set.medium},
+                             {"note", set.note},
+                             {"rate_Hz", options.rate.si},
+                             {"seconds", played.seconds},
+                             {"ticks", played.ticks},
+                             {"lagging_ticks", played.lagging},
+                             {"exhausted_ticks", played.ends.back().tick.exhausted},
+                             {"least_certificate_J", played.least_margin_j},
+                             {"sources", json_of(set.sources)},
+                             {"species", species},
+                             {"particles", particles},
+                             {"states", list(played.samples)},
+                             {"changes", list(played.changes)},
+                             {"all_changes", !played.more_changes},
+                             {"moves", list(played.ends)}};
+  return whole.dump() + "\n";
+}
+
+std::string force_text(Force force) {
+  return std::isfinite(force.si) ? format_quantity(force, kForceUnits, 4) : "none: it jams";
+}
+
+std::string figures_text(const scene::ParticleSet& set, std::size_t index) {
+  const ParticleSpecies& species = set.setup.species[index];
+  const SpeciesFigures f = figures_of(set, species);
+  const std::string gentle = f.gentle.si > 0.0 ? format_quantity(f.gentle, kForceUnits, 4)
+                                               : fmt::format(
+                                                     "none: the tip's friction locks it on the flank; without "
+                                                     "friction {}",
+                                                     format_quantity(f.gentle_without_friction, kForceUnits, 4));
+  std::string text = fmt::format(
+      "{}, law {} ({})\n"
+      "  adhesion             {}\n"
+      "  gives sideways at    {}, then {}: {}\n"
+      "  unloaded, by law     area {}, amontons {}\n"
+      "  gentle load          {}\n"
+      "  softest lever        {}; this one pushes up to {}\n"
+      "  aim                  {} beside the middle for a push of 3 x {}\n"
+      "  steering hand        up to {} on the sample\n"
+      "  unit of pushing      {:.3g} kT per nm at room temperature\n",
+      set.species[index].name, physics::text_of(species.law).word, physics::text_of(species.law).formula,
+      format_quantity(f.adhesion, kForceUnits, 4), force_text(f.rest.lateral), force_text(f.moving.lateral),
+      physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word, format_quantity(f.area_law, kForceUnits, 4),
+      format_quantity(f.amontons_law, kForceUnits, 4), gentle, format_quantity(f.softest, physics::kStiffnessUnits, 4),
+      force_text(f.most_push), format_quantity(physics::largest_offset(3.0) * f.rho, kLengthUnits, 4),
+      format_quantity(f.rho, kLengthUnits, 4),
+      format_quantity(physics::fastest_steering(f.rho, kSteeringDelay), physics::kVelocityUnits, 4), f.kt_per_nm);
+  const auto estimated = std::count_if(set.species[index].sources.begin(), set.species[index].sources.end(),
+                                       [](const scene::SourcedValue& s) { return s.estimated; });
+  text += fmt::format("  sources              {} of {} values are estimated; --json lists each\n", estimated,
+                      set.species[index].sources.size());
+  return text;
+}
+
+std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions& options, const Played& played) {
+  std::string text = fmt::format("{}, in {}: {} particles, {:g} s at {:g} Hz\n", set.title, set.medium,
+                                 set.particles.size(), played.seconds, options.rate.si);
+  for (std::size_t i = 0; i < set.species.size(); ++i) text += figures_text(set, i);
+  text += "\nmove       state     particle   force on the lever sideways   friction and slips\n";
+  for (std::size_t i = 0; i < played.ends.size(); ++i) {
+    const PushTick& t = played.ends[i].tick;
+    text += fmt::format(
+        "{:<10} {:<9} {:<10} {:<29} {}\n", i + 1, physics::kPushStates.at(static_cast<std::size_t>(t.state)).word,
+        t.particle == physics::kNoParticle ? "-" : fmt::format("{}", t.particle),
+        format_quantity(magnitude(t.lateral), kForceUnits, 4), format_quantity(t.lost, kEnergyUnits, 4));
+  }
+  text += "\nparticle   moved by     to\n";
+  for (std::size_t i = 0; i < played.at.size(); ++i) {
+    const Length way = magnitude(played.at[i] - set.particles[i].position);
+    if (!(way.si > 0.0)) continue;
+    text += fmt::format("{:<10} {:<12} {}, {}\n", i, format_quantity(way, kLengthUnits, 4),
+                        format_quantity(played.at[i].x, kLengthUnits), format_quantity(played.at[i].y, kLengthUnits));
+  }
+  const PushTick& last = played.ends.back().tick;
+  // below what rounding leaves of sums, nothing is stored
+  const physics::Energy stored = last.stored.si > kRounding * last.given.si ? last.stored : physics::Energy(0.0);
+  text += fmt::format("\nenergy: {} of work by the hand, {} lost, {} stored; slips: {}\n",
+                      format_quantity(last.work, kEnergyUnits, 4), format_quantity(last.lost, kEnergyUnits, 4),
+                      format_quantity(stored, kEnergyUnits, 4), last.yields);
+  const physics::Energy rest = last.work - last.lost - stored;
+  if (rest.si > 0.01 * last.work.si) {
+    text += fmt::format("{} more was lost in jumps of the tip among several particles\n",
+                        format_quantity(rest, kEnergyUnits, 4));
+  }
+  if (played.lagging > 0) text += fmt::format("{} ticks lagged behind the hand: it was too fast\n", played.lagging);
+  if (last.exhausted > 0) text += fmt::format("{} ticks ran out of steps\n", last.exhausted);
+  return text;
+}
+
+// A path, or the name of a set of assets/particles.
+core::Result<std::string> path_of(const std::string& file, const std::string& assets_dir) {
+  if (file.find_first_of("/.") != std::string::npos) return file;
+  const std::string folder = assets_dir + "/particles";
+  std::vector<std::string> known;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());
+  }
+  if (std::find(known.begin(), known.end(), file) != known.end()) return fmt::format("{}/{}.toml", folder, file);
+  if (std::filesystem::exists(file)) return file;
+  std::sort(known.begin(), known.end());
+  return core::wrong_usage(fmt::format("unknown set of particles \"{}\"; choose {}, or give the path of a file", file,
+                                       fmt::join(known, ", ")));
+}
+
+core::Result<void> run_particles(const ParticlesOptions& options, const std::string& assets_dir) {
+  const auto path = path_of(options.file, assets_dir);
+  if (!path) return tl::unexpected(path.error());
+  const auto set = scene::load_particle_set(*path);
+  if (!set) return tl::unexpected(set.error());
+  double ticks = 0.0;
+  LeverBase from = set->start;
+  for (const scene::HandMove& move : set->moves) {
+    ticks += static_cast<double>(ticks_of(from, move, options.rate));
+    from = move.to;
+  }
+  if (ticks > kMostTicks) {
+    return core::wrong_usage(
+        fmt::format("the moves of {} take {:.0f} s, which are {:.3g} ticks at {:g} Hz, more than {:.3g}: lower --rate, "
+                    "or raise the "
+                    "speeds",
+                    *path, ticks / options.rate.si, ticks, options.rate.si, kMostTicks));
+  }
+  const Played played = play(*set, options, static_cast<std::size_t>(ticks));
+  auto written =
+      write_stdout(options.json ? particles_json(*set, options, played) : particles_text(*set, options, played));
+  if (!written) return written;
+  if (played.least_margin_j >= -kRounding * std::abs(played.ends.back().tick.given.si)) return {};
+  return core::failure(core::ErrorCategory::Failed,
+                       fmt::format("the hand gained {:.3g} J from {}: a defect of TouchAFM, please report it",
+                                   -played.least_margin_j, *path));
+}
+
+}  // namespace
+
+void add_particles_command(OptionList& program, const CommandContext& context) {
+  OptionList command = program.add_command(
+      "particles", "push particles on a sample with a scripted tip, without a window, and print forces and places");
+  const auto options = std::make_shared<ParticlesOptions>();
+  command
+      .add_option(
+          "file", options->file,
+          "particle file (TOML) with particles, tip, lever and the moves of the hand; or the name of a built-in set, "
+          "such as gold-row")
+      .required()
+      .type_name("FILE");
+  quantity_option(
+      command, "--rate", [options](Frequency rate) { options->rate = rate; }, physics::kFrequencyUnits,
+      "ticks per second, as of the servo", std::optional(QuantityRange<Frequency>{kSlowestTicks, kFastestTicks}))
+      .show_default("1kHz");
+  command.add_option("--samples", options->samples, "number of states that --json prints, evenly over the time")
+      .type_name("NUMBER")
+      .within(2, 1'000'000)
+      .show_default();
+  command.add_flag("--json", options->json,
+                   "print figures, sources, states, events and final places as JSON, with the unit in each key");
+  command.footer(
+      "example: touchafm particles gold-row\n"
+      "         touchafm particles my-set.toml --json --rate 4kHz --samples 1000\n"
+      "The exit code is 1 if the hand gained energy, which never happens.");
+  command.when_chosen([options, &context] { return run_particles(*options, context.assets_dir); });
+}
+
+}  // namespace afm::app

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "physics/adhesive_contact.h"
+#include "physics/rows_of_enum.h"
+#include "physics/units.h"
+
+// Force at which a sphere on the sample gives, and whether it then slides or rolls (docs/physics.md, "Particles").
+// The contact of sphere and sample is that of JKR. Any thread; nothing allocates unless it throws.
+namespace afm::physics {
+
+// The laws disagree by a factor of 2 to 20 for particles below 100 nm, so every user chooses one by name.
+enum class ParticleLaw : std::uint32_t {
+  ContactArea = 0,  // tau pi a(P)^2
+  Amontons = 1,     // mu (P + F_ad)
+  Both = 2,         // mu P + tau pi a(P)^2
+  Measured = 3,     // a threshold that was measured, at any load
+};
+
+struct ParticleLawText {
+  ParticleLaw law;
+  std::string_view word;     // in particle files
+  std::string_view formula;  // text for people
+};
+
+inline constexpr std::array kParticleLaws{
+    ParticleLawText{ParticleLaw::ContactArea, "area", "shear strength x contact area"},
+    ParticleLawText{ParticleLaw::Amontons, "amontons", "coefficient x (load + adhesion)"},
+    ParticleLawText{ParticleLaw::Both, "both", "coefficient x load + shear strength x contact area"},
+    ParticleLawText{ParticleLaw::Measured, "measured", "measured threshold"}};
+static_assert(has_row_for_each(kParticleLaws, &ParticleLawText::law));
+
+constexpr const ParticleLawText& text_of(ParticleLaw law) { return kParticleLaws.at(static_cast<std::size_t>(law)); }
+
+// One kind of sphere on one sample. A parameter that the law does not use may be zero.
+struct ParticleSpecies {
+  AdhesiveContact contact;  // its tip_radius is that of the sphere, R_p
+  ParticleLaw law = ParticleLaw::ContactArea;
+  Pressure shear_strength;     // tau
+  double coefficient = 0.0;    // mu
+  Force measured_threshold;    // f_s of ParticleLaw::Measured
+  double kinetic_ratio = 0.5;  // r_k = f_k/f_s, above 0 and at most 1
+  Time ageing;                 // t_a; 0: a resting sphere has f_s at once
+  Length rolling_distance;     // xi; 0: the sphere slides and never rolls
+  SurfaceEnergy tip_adhesion;  // W_t, between sphere and tip
+};
+
+// Throws UnphysicalValue with the name of the member unless every value is within its range, and the law has the
+// parameters that it needs.
+void validate(const ParticleSpecies& species);
+
+// Pull-off of sphere and sample, F_ad = 3/2 pi W R.
+Force pull_off_force(const ParticleSpecies& species) noexcept;
+
+// Place of the contact between the limits of JKR, above 5, and DMT, below 0.1 (physics/adhesion_map.h).
+double tabor_parameter(const ParticleSpecies& species, Length atomic_distance);
+
+// f_s at the load P >= 0 by a law; P excludes adhesion.
+Force sliding_threshold(const ParticleSpecies& species, ParticleLaw law, Force load);
+inline Force sliding_threshold(const ParticleSpecies& species, Force load) {
+  return sliding_threshold(species, species.law, load);
+}
+
+// M(P) = xi sqrt(8 pi W E* a^3), 6 pi W R xi at P = 0 (Dominik & Tielens 1995; M5).
+Torque rolling_moment(const ParticleSpecies& species, Force load);
+
+// Moment that spins the sphere about the vertical, 2/3 f a, over f R: a few percent, so that a sphere spins under a tip
+// beside its centre and is pushed as if without friction there.
+double spinning_share(const ParticleSpecies& species, Force load);
+
+enum class PushMode : std::uint32_t { Slides = 0, Rolls = 1, Jams = 2 };
+
+struct PushModeText {
+  PushMode mode;
+  std::string_view word;
+};
+inline constexpr std::array kPushModes{PushModeText{PushMode::Slides, "slides"}, PushModeText{PushMode::Rolls, "rolls"},
+                                       PushModeText{PushMode::Jams, "jams"}};
+static_assert(has_row_for_each(kPushModes, &PushModeText::mode));
+
+// Friction between tip and sphere: holds up to mu_t (N + F_t).
+struct TipGrip {
+  double coefficient = 0.0;  // mu_t
+  Force adhesion;            // F_t = 3/2 pi W_t R_eff
+};
+
+// Forces at which a sphere gives to a tip whose normal points down by phi. All magnitudes.
+struct PushBalance {
+  PushMode mode = PushMode::Slides;
+  Force normal;    // N
+  Force friction;  // T, at the tip, upwards on the tip's side of the sphere
+  Force lateral;   // force on the lever, against the push: N cos(phi) - T sin(phi)
+  Force lift;      // force on the lever, upwards: N sin(phi) + T cos(phi), which is also the load P
+};
+
+// Balance of forces and moments (M6):
+//
+//   slides:  N cos - T sin = f_s(P),  T = max(0, f_s - M/R_p)  if T <= mu_t (N + F_t)
+//   rolls:   T = mu_t (N + F_t),      N cos - T sin = M/R_p + T  otherwise
+//
+// Jams, with infinite forces, where no force is enough. `share` multiplies f_s and M: the kinetic ratio of a sphere
+// that moves, 1 of one at rest.
+PushBalance push_balance(const ParticleSpecies& species, const TipGrip& grip, double sine, double cosine,
+                         double share = 1.0);
+
+// The largest mu_t at which any sphere rolls: cos/(1 + sin) = tan(pi/4 - phi/2) (M7).
+double largest_rolling_friction(double half_angle_rad) noexcept;
+
+}  // namespace afm::physics

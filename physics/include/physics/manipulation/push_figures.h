@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "physics/manipulation/particle_friction.h"
+#include "physics/manipulation/tip_contact.h"
+#include "physics/units.h"
+
+// What a user has to know before a push: how gently to look, how stiff a lever to take, how well to aim. Any thread;
+// never in a tick.
+namespace afm::physics {
+
+// Springs along the contact normal, in series (M8).
+struct PushSprings {
+  Stiffness lateral;  // k_l, of the lever
+  Stiffness normal;   // k_c, of the lever
+  Stiffness contact;  // k_n, of tip and sphere
+};
+
+// 1/k_eff = 1/k_n + cos^2/k_l + sin^2/k_c, N = k_eff times the overlap.
+Stiffness stiffness_along_normal(const PushSprings& springs, double sine, double cosine) noexcept;
+
+// k_eff cos^2, felt sideways.
+Stiffness stiffness_sideways(const PushSprings& springs, double sine, double cosine) noexcept;
+
+// F_0 cot(theta - atan(mu_t)) = f_s(F_0) (M9): with feedback on, a scan above this load pushes the sphere instead of
+// climbing it. 0 if mu_t >= tan(theta), where no load is gentle.
+Force gentle_load(const ParticleSpecies& species, const SphereCone& tip, double tip_friction);
+
+// Feedback off, apex set on the sample without load, no friction at the tip: the smallest k_c with which the tip pushes
+// the sphere before it rides over it, max over h of k_c h cot(phi(h)) - f_s(k_c h) = 0 (M10).
+Stiffness softest_lever(const ParticleSpecies& species, const SphereCone& tip);
+
+// The largest lateral force on a sphere before the tip rides over: (F_0 + k_c h_c) cot(theta) (M11), at the end of the
+// flank. `preload` is F_0 on the sample.
+Force largest_push(const SphereCone& tip, Length sphere_radius, Stiffness normal_spring, Force preload) noexcept;
+
+// The largest offset of the centre from the tip's path, over rho, with which a push of `travel` does not lose the
+// sphere: sin(alpha_0) = 1/cosh(travel/rho) (M12).
+double largest_offset(double travel_over_rho) noexcept;
+
+// Travel over rho until a sphere at the offset is lost, alpha = 90 degrees: -ln tan(alpha_0/2) (M13).
+double travel_until_lost(double offset_over_rho) noexcept;
+
+// The fastest hand that steers with the delay T can balance a sphere: rho/T (M14).
+Velocity fastest_steering(Length rho, Time delay) noexcept;
+
+// What the slip of a sphere at rest costs on the way to f_s: travel of the base, jump of the sphere, energy lost (M15).
+struct FirstSlip {
+  Length travel;
+  Length jump;
+  Energy lost;
+};
+FirstSlip first_slip(Force static_threshold, Force kinetic_threshold, Stiffness sideways) noexcept;
+
+}  // namespace afm::physics

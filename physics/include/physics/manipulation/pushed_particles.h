@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "physics/friction/sideways.h"
+#include "physics/manipulation/particle_friction.h"
+#include "physics/manipulation/push_figures.h"
+#include "physics/manipulation/tip_contact.h"
+#include "physics/rows_of_enum.h"
+#include "physics/units.h"
+
+// Spheres on a flat sample, pushed by the tip of a lever: quasi-static, without mass or velocity (docs/physics.md,
+// "Particles"; docs/decisions/0019).
+namespace afm::physics {
+
+struct PushSetup {
+  SphereCone tip;
+  PushSprings springs;
+  double tip_friction = 0.0;  // mu_t
+  std::vector<ParticleSpecies> species;
+};
+
+struct PlacedParticle {
+  std::size_t species = 0;
+  Sideways<Length> position;  // centre
+  bool pinned = false;        // never moves
+};
+
+inline constexpr std::size_t kMostParticles = 2048;
+
+// Throws UnphysicalValue with the field tip_radius, half_angle, lateral_spring, normal_spring, contact_stiffness,
+// tip_friction, radius, or a member of ParticleSpecies. Radii must be at least half the tip's, and within a factor of
+// two of one another: the tick counts on few neighbours.
+void validate(const PushSetup& setup);
+
+// Throws std::invalid_argument for more than kMostParticles, for an unknown species and for two that overlap, and as
+// above.
+void validate(const PushSetup& setup, const std::vector<PlacedParticle>& particles);
+
+// Distance of the centres of two spheres on the sample that touch, 2 sqrt(R_a R_b).
+Length touching_distance(Length radius_a, Length radius_b) noexcept;
+
+// Position of the apex on an unbent lever. z = 0 is the sample; below it, the lever presses.
+struct LeverBase {
+  Sideways<Length> position;
+  Length z;
+};
+
+enum class PushState : std::uint32_t {
+  Free = 0,   // no sphere is touched
+  Holds = 1,  // a sphere is touched, and stays
+  Slides = 2,
+  Rolls = 3,
+  Several = 4,  // more than one sphere moves or could move
+};
+
+struct PushStateText {
+  PushState state;
+  std::string_view word;
+};
+inline constexpr std::array kPushStates{
+    PushStateText{PushState::Free, "free"}, PushStateText{PushState::Holds, "holds"},
+    PushStateText{PushState::Slides, "slides"}, PushStateText{PushState::Rolls, "rolls"},
+    PushStateText{PushState::Several, "several"}};
+static_assert(has_row_for_each(kPushStates, &PushStateText::state));
+
+inline constexpr std::size_t kNoParticle = static_cast<std::size_t>(-1);
+
+// After a tick. The certificate: given + stored at the start >= lost + stored, at every tick.
+struct PushTick {
+  LeverBase base;                      // reached place; behind the asked one while `lagging`
+  LeverBase apex;                      // apex on the bent lever
+  Sideways<Force> lateral;             // force on the lever
+  Force lift;                          // force on the lever, upwards, by spheres and sample
+  std::size_t particle = kNoParticle;  // the one with the largest normal force
+  PushState state = PushState::Free;
+  Force normal;              // N of that particle
+  Force threshold;           // lateral force at which it gives or goes on
+  Energy given;              // energy from the hand since the start, at a frozen tip in each sub-step: an upper bound
+  Energy work;               // work of the hand since the start, by the force at both ends of each sub-step
+  Energy lost;               // loss by friction and by slips of lone spheres since the start
+  Energy stored;             // energy in lever and contacts
+  std::uint64_t yields = 0;  // spheres that gave, since the start
+  std::uint64_t exhausted = 0;  // ticks that ran out of steps, since the start
+  bool lagging = false;
+};
+
+// The constructor allocates; a tick does not, nor locks, throws or waits. One thread. The result depends on the path of
+// the base and, by ageing, on the time between ticks; never on a clock.
+//
+// Each tick descends in E + R: E is the energy of lever and contacts, R the friction of the step. A step that raises
+// the sum is never taken, so that no path of the base gains energy, however few steps the budget allows.
+class PushedParticles {
+ public:
+  // Throws as validate() does.
+  PushedParticles(const PushSetup& setup, const std::vector<PlacedParticle>& particles, const LeverBase& start);
+  PushedParticles(const PushedParticles&) = delete;
+  PushedParticles& operator=(const PushedParticles&) = delete;
+  PushedParticles(PushedParticles&& other) noexcept;
+  ~PushedParticles();
+
+  // Moves the base on a straight line. A base that is not finite is ignored.
+  const PushTick& move_to(const LeverBase& base, Time elapsed) noexcept;
+
+  const PushTick& last() const noexcept;
+  std::size_t size() const noexcept;
+  Sideways<Length> position(std::size_t particle) const noexcept;
+  std::size_t species(std::size_t particle) const noexcept;
+
+ private:
+  class Ticker;
+  std::unique_ptr<Ticker> ticker_;
+};
+
+}  // namespace afm::physics

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "push_ticker.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace afm::physics {
+namespace {
+
+constexpr int kMostSubSteps = 8;              // a tick
+constexpr int kStepsOfASubStep = 48;          // steps of a heap's descent
+constexpr int kHeapSplit = 3;                 // sub-steps of a heap in one of a lone sphere
+constexpr double kSubStepShare = 1.0 / 20.0;  // share of the smallest distance of tip and sphere
+constexpr double kReachShare = 0.25;  // share of the smallest radius: the furthest that a part moves in a sub-step
+
+double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
+
+}  // namespace
+
+PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<PlacedParticle>& particles,
+                                const LeverBase& start)
+    : setup_(setup), heap_(setup.springs) {
+  validate(setup, particles);
+  double smallest_m = HUGE_VAL, reach_m = 0.0, touching_m = 0.0;
+  for (const ParticleSpecies& species : setup_.species) {
+    contacts_.emplace_back(species, setup_.tip, setup_.springs, setup_.tip_friction);
+    smallest_m = std::min(smallest_m, species.contact.tip_radius.si);
+    reach_m = std::max(reach_m, contacts_.back().profile().reach_m());
+    touching_m = std::max(touching_m, 2.0 * species.contact.tip_radius.si);
+  }
+  reach_m_ = kReachShare * smallest_m;
+  sub_step_m_ = kSubStepShare * (smallest_m + setup_.tip.radius.si) * std::cos(setup_.tip.half_angle_rad);
+  for (const PlacedParticle& particle : particles) {
+    x_.push_back(particle.position.x.si);
+    y_.push_back(particle.position.y.si);
+    species_.push_back(particle.species);
+    pinned_.push_back(particle.pinned);
+  }
+  moved_at_s_.assign(x_.size(), -HUGE_VAL);
+  pressed_.assign(x_.size(), {});
+  grid_ = std::make_unique<ParticleGrid>(x_, y_, std::max(reach_m, touching_m) + 3.0 * reach_m_);
+  base_ = {start.position.x.si, start.position.y.si, start.z.si};
+  apex_ = {base_.x, base_.y, std::max(0.0, base_.height)};
+  tick_.stored = tick_.given = Energy(stored_everywhere());
+  sub_step(base_);
+  publish();
+}
+
+const PushTick& PushedParticles::Ticker::tick(const LeverBase& asked, double elapsed_s) noexcept {
+  const Apex to{asked.position.x.si, asked.position.y.si, asked.z.si};
+  if (!std::isfinite(to.x) || !std::isfinite(to.y) || !std::isfinite(to.height)) return tick_;
+  tick_end_s_ = time_s_ + (elapsed_s >= 0.0 ? elapsed_s : 0.0);
+  exhausted_ = false;
+  moved_count_ = 0;
+  advance(to);
+  time_s_ = tick_end_s_;
+  if (exhausted_) ++tick_.exhausted;
+  publish();
+  return tick_;
+}
+
+// Sub-steps of a tick; a base that is too fast lags behind the asked one.
+void PushedParticles::Ticker::advance(const Apex& to) noexcept {
+  const double dx = to.x - base_.x, dy = to.y - base_.y, dz = to.height - base_.height;
+  const double way_m = std::sqrt(dx * dx + dy * dy + dz * dz);
+  const double needed = std::ceil(way_m / sub_step_m_);
+  tick_.lagging = needed > kMostSubSteps;
+  const int steps = tick_.lagging ? kMostSubSteps : std::max(1, static_cast<int>(needed));
+  const double share = tick_.lagging ? sub_step_m_ / way_m : 1.0 / steps;
+  const Apex from = base_;
+  for (int i = 1; i <= steps; ++i) {
+    const double at = i * share;
+    sub_step(i == steps && !tick_.lagging ? to : Apex{from.x + at * dx, from.y + at * dy, from.height + at * dz});
+  }
+}
+
+// The spheres that the apex may touch within its reach. False: there are too many.
+bool PushedParticles::Ticker::find_near() noexcept {
+  near_count_ = 0;
+  bool fits = true;
+  const double x = apex_.x, y = apex_.y, lowest_m = apex_.height - reach_m_;
+  grid_->near(x, y, [&](std::size_t i) {
+    const double diameter_m = 2.0 * setup_.species[species_[i]].contact.tip_radius.si;
+    const double most_m = contacts_[species_[i]].profile().reach_m() + reach_m_;
+    if (lowest_m > diameter_m || length_of(x_[i] - x, y_[i] - y) > most_m) return;
+    if (near_count_ < near_.size()) {
+      near_[near_count_++] = i;
+    } else {
+      fits = false;
+    }
+  });
+  std::sort(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(near_count_));
+  return fits;
+}
+
+void PushedParticles::Ticker::sub_step(const Apex& to) noexcept {
+  // a base that rests moves nothing: thresholds only grow
+  if (settled_ && to.x == base_.x && to.y == base_.y && to.height == base_.height) return;
+  if (!find_near()) {  // the base waits
+    exhausted_ = true;
+    return;
+  }
+  settled_ = true;
+  const bool in_closed_form = near_count_ == 0 ? free_step(to) : near_count_ == 1 && lone_step(to, near_[0]);
+  if (!in_closed_form) {
+    const Apex from = base_;
+    for (int i = 1; i < kHeapSplit; ++i) {
+      const double at = static_cast<double>(i) / kHeapSplit;
+      heap_step(
+          {from.x + at * (to.x - from.x), from.y + at * (to.y - from.y), from.height + at * (to.height - from.height)});
+    }
+    heap_step(to);
+  }
+  press();
+}
+
+double PushedParticles::Ticker::lever_j(const Apex& base, const Apex& apex) const noexcept {
+  const double x = apex.x - base.x, y = apex.y - base.y, z = apex.height - base.height;
+  return 0.5 * (setup_.springs.lateral.si * (x * x + y * y) + setup_.springs.normal.si * z * z);
+}
+
+// Work on the base by the mean of the forces on the lever before and after.
+double PushedParticles::Ticker::work_j(const Apex& base0, const Apex& apex0, const Apex& base1,
+                                       const Apex& apex1) const noexcept {
+  const double x = 0.5 * ((base0.x - apex0.x) + (base1.x - apex1.x)) * (base1.x - base0.x);
+  const double y = 0.5 * ((base0.y - apex0.y) + (base1.y - apex1.y)) * (base1.y - base0.y);
+  const double z =
+      0.5 * ((base0.height - apex0.height) + (base1.height - apex1.height)) * (base1.height - base0.height);
+  return setup_.springs.lateral.si * (x + y) + setup_.springs.normal.si * z;
+}
+
+double PushedParticles::Ticker::tip_contact_j(std::size_t i, const Flat& at, const Apex& apex) const noexcept {
+  const double away_m = length_of(at.x - apex.x, at.y - apex.y);
+  const double depth_m = contacts_[species_[i]].profile().overlap(away_m, apex.height).depth_m;
+  return depth_m > 0.0 ? 0.5 * setup_.springs.contact.si * depth_m * depth_m : 0.0;
+}
+
+double PushedParticles::Ticker::touching_m(std::size_t i, std::size_t j) const noexcept {
+  return touching_distance(setup_.species[species_[i]].contact.tip_radius,
+                           setup_.species[species_[j]].contact.tip_radius)
+      .si;
+}
+
+double PushedParticles::Ticker::stored_everywhere() const noexcept {
+  double energy_j = lever_j(base_, apex_);
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    energy_j += tip_contact_j(i, {x_[i], y_[i]}, apex_);
+    grid_->near(x_[i], y_[i], [&](std::size_t j) {
+      const double depth_m = touching_m(i, j) - length_of(x_[i] - x_[j], y_[i] - y_[j]);
+      if (j < i && depth_m > 0.0) energy_j += 0.5 * setup_.springs.contact.si * depth_m * depth_m;
+    });
+  }
+  return energy_j;
+}
+
+bool PushedParticles::Ticker::within_reach(const Apex& apex) const noexcept {
+  const double x = apex.x - apex_.x, y = apex.y - apex_.y, z = apex.height - apex_.height;
+  return x * x + y * y + z * z <= reach_m_ * reach_m_;
+}
+
+// No sphere near: the apex comes to rest at the base, or on the sample below it. False if that is too far.
+bool PushedParticles::Ticker::free_step(const Apex& to) noexcept {
+  const auto rests = [](const Apex& base) { return Apex{base.x, base.y, std::max(0.0, base.height)}; };
+  if (!within_reach(rests(to))) return false;
+  const double was_j = lever_j(base_, apex_), rested_j = lever_j(base_, rests(base_)), now_j = lever_j(to, rests(to));
+  tick_.given = tick_.given + Energy(now_j - rested_j);
+  tick_.work = tick_.work + Energy(now_j - rested_j);
+  tick_.stored = tick_.stored + Energy(now_j - was_j);
+  base_ = to;
+  apex_ = rests(to);
+  return true;
+}
+
+double PushedParticles::Ticker::rest_threshold(std::size_t i, double rest_n, double moving_n) const noexcept {
+  const double ageing_s = setup_.species[species_[i]].ageing.si;
+  if (!(ageing_s > 0.0)) return rest_n;
+  const double rest_s = time_s_ - moved_at_s_[i];
+  return rest_s > 0.0 ? moving_n + (rest_n - moving_n) * -std::expm1(-rest_s / ageing_s) : moving_n;
+}
+
+bool PushedParticles::Ticker::is_alone(std::size_t i) const noexcept {
+  bool alone = !pinned_[i];
+  grid_->near(x_[i], y_[i], [&](std::size_t j) {
+    if (j != i && length_of(x_[i] - x_[j], y_[i] - y_[j]) < touching_m(i, j) + 2.0 * reach_m_) alone = false;
+  });
+  return alone;
+}
+
+// Whether a base at its new height goes past a sphere without touching it.
+bool PushedParticles::Ticker::passes(std::size_t i, const Apex& to) const noexcept {
+  const Leaning touch = contacts_[species_[i]].under(0.0, to.height);
+  if (!touch.holds) return true;
+  const double dx = to.x - base_.x, dy = to.y - base_.y, x = x_[i] - base_.x, y = y_[i] - base_.y;
+  const double way2 = dx * dx + dy * dy;
+  const double nearest = way2 > 0.0 ? std::clamp((x * dx + y * dy) / way2, 0.0, 1.0) : 0.0;
+  return length_of(x - nearest * dx, y - nearest * dy) >= touch.base_m;
+}
+
+// One sphere without neighbours, in closed form: the base rises or sinks first, then goes along. False if what happens
+// is not known in closed form, goes too far for one sub-step, or would raise stored energy plus friction.
+bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept {
+  if (!is_alone(i)) return false;
+  LoneContact& contact = contacts_[species_[i]];
+  const Flat was{x_[i], y_[i]};
+  const double away_m = length_of(was.x - base_.x, was.y - base_.y);
+  const double before_n = contact.force_at(away_m, base_.height), sunk_n = contact.force_at(away_m, to.height);
+  if (before_n < 0.0 || sunk_n < 0.0) return false;
+  if (before_n == 0.0 && sunk_n == 0.0 && passes(i, to)) return free_step(to);
+  const double sunk_j = contact.under(sunk_n, to.height).energy_j - contact.under(before_n, base_.height).energy_j;
+
+  const LoneThresholds thresholds = contact.thresholds(to.height);
+  const double holds_n = rest_threshold(i, thresholds.rest_n, thresholds.moving_n);
+  const bool at_once = !(setup_.species[species_[i]].ageing.si > 0.0);
+  const LonePath path =
+      push_alone(contact, thresholds, holds_n, at_once, was, {base_.x, base_.y}, {to.x, to.y}, to.height);
+  const double moved_m = length_of(path.particle.x - was.x, path.particle.y - was.y);
+  if (!path.possible || moved_m > reach_m_) return false;
+
+  const double x = path.particle.x - to.x, y = path.particle.y - to.y, end_m = length_of(x, y);
+  const double lateral_n = contact.force_at(end_m, to.height);
+  if (lateral_n < 0.0 || (lateral_n > 0.0 && !(end_m > 0.0))) return false;
+  Apex apex{to.x, to.y, std::max(0.0, to.height)};
+  if (lateral_n > 0.0) {
+    const double lag = lateral_n / (setup_.springs.lateral.si * end_m);
+    apex = {to.x - lag * x, to.y - lag * y, contact.under(lateral_n, to.height).apex_m};
+  }
+  if (!within_reach(apex)) return false;
+  const double old_j = lever_j(base_, apex_) + tip_contact_j(i, was, apex_);
+  const double frozen_j = lever_j(to, apex_) + tip_contact_j(i, was, apex_);
+  const double now_j = lever_j(to, apex) + tip_contact_j(i, path.particle, apex);
+  // a lever that bends while the sphere stays may also keep its energy
+  const bool taken = path.moved ? may_be_taken(now_j + thresholds.moving_n * moved_m - frozen_j) : now_j <= frozen_j;
+  if (!taken) return false;
+
+  tick_.given = tick_.given + Energy(sunk_j + path.given_j);
+  tick_.work = tick_.work + Energy(sunk_j + path.given_j);
+  tick_.lost = tick_.lost + Energy(path.lost_j);
+  tick_.stored = tick_.stored + Energy(now_j - old_j);
+  tick_.yields += path.yields;
+  base_ = to;
+  apex_ = apex;
+  if (path.moved) place(i, path.particle);
+  return true;
+}
+
+bool PushedParticles::Ticker::add_sphere(std::size_t i) noexcept {
+  const LoneContact& contact = contacts_[species_[i]];
+  const Pressed& pressed = pressed_[i];
+  const LoneThresholds thresholds = contact.under_load(pressed.normal_n, pressed.sine, pressed.cosine);
+  return heap_.add(HeapDescent::Sphere{.particle = i,
+                                       .profile = &contact.profile(),
+                                       .start = {x_[i], y_[i]},
+                                       .at = {x_[i], y_[i]},
+                                       .rest_n = rest_threshold(i, thresholds.rest_n, thresholds.moving_n),
+                                       .moving_n = thresholds.moving_n,
+                                       .pinned = pinned_[i]});
+}
+
+// The neighbours of a sphere of the descent, as spheres of it too while there is room.
+bool PushedParticles::Ticker::gather_pairs_of(std::size_t first) noexcept {
+  const std::size_t i = heap_.sphere(first).particle;
+  bool fits = true;
+  grid_->near(x_[i], y_[i], [&](std::size_t j) {
+    const double touching = touching_m(i, j);
+    if (j == i || length_of(x_[i] - x_[j], y_[i] - y_[j]) > touching + 2.0 * reach_m_) return;
+    std::size_t second = 0;
+    while (second < heap_.size() && heap_.sphere(second).particle != j) ++second;
+    if (second == heap_.size() && !add_sphere(j)) second = HeapDescent::kMostActive;
+    if (second < first) return;  // known from the other side
+    fits = heap_.add(HeapDescent::Pair{first, second, {x_[j], y_[j]}, touching}) && fits;
+  });
+  return fits;
+}
+
+bool PushedParticles::Ticker::gather(const Apex& to) noexcept {
+  heap_.begin(to, apex_, reach_m_);
+  if (!find_near()) return false;
+  bool fits = true;
+  for (std::size_t n = 0; n < near_count_; ++n) fits = add_sphere(near_[n]) && fits;
+  for (std::size_t n = 0; n < heap_.size(); ++n) fits = gather_pairs_of(n) && fits;
+  return fits;
+}
+
+void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
+  if (!gather(to)) {  // the base waits
+    exhausted_ = true;
+    settled_ = false;
+    return;
+  }
+  const double loaded_j = lever_j(to, apex_) - lever_j(base_, apex_), frozen_j = heap_.stored();
+  const bool at_rest = heap_.descend(kStepsOfASubStep);
+  if (!at_rest) exhausted_ = true;
+  const Apex& now = heap_.apex();
+  settled_ = at_rest && heap_.friction() == 0.0 && now.x == apex_.x && now.y == apex_.y && now.height == apex_.height;
+  tick_.given = tick_.given + Energy(loaded_j);
+  tick_.work = tick_.work + Energy(work_j(base_, apex_, to, heap_.apex()));
+  tick_.lost = tick_.lost + Energy(heap_.friction());
+  tick_.stored = tick_.stored + Energy(loaded_j + heap_.stored() - frozen_j);
+  base_ = to;
+  apex_ = heap_.apex();
+  for (std::size_t n = 0; n < heap_.size(); ++n) {
+    const HeapDescent::Sphere& sphere = heap_.sphere(n);
+    if (!sphere.moved()) continue;
+    if (sphere.rest_n > sphere.moving_n) ++tick_.yields;
+    place(sphere.particle, sphere.at);
+  }
+}
+
+void PushedParticles::Ticker::place(std::size_t i, const Flat& at) noexcept {
+  x_[i] = at.x;
+  y_[i] = at.y;
+  moved_at_s_[i] = tick_end_s_;
+  grid_->move(i, at.x, at.y);
+  if (moved_count_ == 0 || last_moved_ != i) ++moved_count_;
+  last_moved_ = i;
+}
+
+// What the tip presses: the load of the next sub-step's friction.
+void PushedParticles::Ticker::press() noexcept {
+  for (std::size_t n = 0; n < touched_count_; ++n) pressed_[touched_[n]] = {};
+  touched_count_ = 0;
+  for (std::size_t n = 0; n < near_count_; ++n) {
+    const std::size_t i = near_[n];
+    const Overlap overlap =
+        contacts_[species_[i]].profile().overlap(length_of(x_[i] - apex_.x, y_[i] - apex_.y), apex_.height);
+    if (!(overlap.depth_m > 0.0)) continue;
+    pressed_[i] = {setup_.springs.contact.si * overlap.depth_m, overlap.sine, overlap.cosine};
+    touched_[touched_count_++] = i;
+  }
+}
+
+void PushedParticles::Ticker::publish() noexcept {
+  const auto place_of = [](const Apex& at) { return LeverBase{{Length(at.x), Length(at.y)}, Length(at.height)}; };
+  tick_.base = place_of(base_);
+  tick_.apex = place_of(apex_);
+  tick_.lateral = {setup_.springs.lateral * Length(apex_.x - base_.x),
+                   setup_.springs.lateral * Length(apex_.y - base_.y)};
+  tick_.lift = setup_.springs.normal * Length(apex_.height - base_.height);
+  tick_.particle = kNoParticle;
+  tick_.state = PushState::Free;
+  tick_.normal = tick_.threshold = Force(0.0);
+  for (std::size_t n = 0; n < touched_count_; ++n) {
+    if (pressed_[touched_[n]].normal_n <= tick_.normal.si) continue;
+    tick_.particle = touched_[n];
+    tick_.normal = Force(pressed_[touched_[n]].normal_n);
+  }
+  if (tick_.particle == kNoParticle) return;
+  const std::size_t i = tick_.particle;
+  LoneContact& contact = contacts_[species_[i]];
+  const Pressed& pressed = pressed_[i];
+  const bool moves = moved_at_s_[i] >= time_s_ && moved_count_ > 0;
+  LoneThresholds thresholds = contact.under_load(pressed.normal_n, pressed.sine, pressed.cosine);
+  if (touched_count_ > 1 || moved_count_ > 1) {
+    tick_.state = PushState::Several;
+  } else {
+    if (is_alone(i)) thresholds = contact.thresholds(base_.height);
+    tick_.state = !moves ? PushState::Holds : thresholds.mode == PushMode::Rolls ? PushState::Rolls : PushState::Slides;
+  }
+  tick_.threshold = Force(rest_threshold(i, thresholds.rest_n, thresholds.moving_n));
+}
+
+}  // namespace afm::physics

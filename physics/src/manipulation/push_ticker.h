@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "heap_descent.h"
+#include "lone_push.h"
+#include "particle_grid.h"
+#include "physics/manipulation/pushed_particles.h"
+
+namespace afm::physics {
+
+// A tick of PushedParticles. The constructor allocates, nothing else does.
+class PushedParticles::Ticker {
+ public:
+  Ticker(const PushSetup& setup, const std::vector<PlacedParticle>& particles, const LeverBase& start);
+
+  const PushTick& tick(const LeverBase& asked, double elapsed_s) noexcept;
+  const PushTick& last() const noexcept { return tick_; }
+  std::size_t size() const noexcept { return x_.size(); }
+  Flat position(std::size_t i) const { return {x_.at(i), y_.at(i)}; }
+  std::size_t species(std::size_t i) const { return species_.at(i); }
+
+ private:
+  struct Pressed {
+    double normal_n = 0.0, sine = 0.0, cosine = 1.0;
+  };
+
+  void advance(const Apex& to) noexcept;
+  void sub_step(const Apex& to) noexcept;
+  bool find_near() noexcept;
+  bool within_reach(const Apex& apex) const noexcept;
+  bool free_step(const Apex& to) noexcept;
+  bool passes(std::size_t i, const Apex& to) const noexcept;
+  bool lone_step(const Apex& to, std::size_t i) noexcept;
+  void heap_step(const Apex& to) noexcept;
+  bool gather(const Apex& to) noexcept;
+  bool gather_pairs_of(std::size_t place) noexcept;
+  bool is_alone(std::size_t i) const noexcept;
+  bool add_sphere(std::size_t i) noexcept;
+  double lever_j(const Apex& base, const Apex& apex) const noexcept;
+  double work_j(const Apex& base0, const Apex& apex0, const Apex& base1, const Apex& apex1) const noexcept;
+  double tip_contact_j(std::size_t i, const Flat& at, const Apex& apex) const noexcept;
+  double stored_everywhere() const noexcept;
+  double touching_m(std::size_t i, std::size_t j) const noexcept;
+  double rest_threshold(std::size_t i, double rest_n, double moving_n) const noexcept;
+  void place(std::size_t i, const Flat& at) noexcept;
+  void press() noexcept;
+  void publish() noexcept;
+
+  PushSetup setup_;
+  std::vector<LoneContact> contacts_;  // contact of each species
+  std::vector<double> x_, y_;
+  std::vector<double> moved_at_s_;  // end of the tick in which it moved last
+  std::vector<std::size_t> species_;
+  std::vector<bool> pinned_;
+  std::vector<Pressed> pressed_;  // load by the tip after the last sub-step
+  std::unique_ptr<ParticleGrid> grid_;
+  HeapDescent heap_;
+  Apex base_, apex_;
+  double reach_m_ = 0.0, sub_step_m_ = 0.0;
+  double time_s_ = 0.0, tick_end_s_ = 0.0;
+  std::array<std::size_t, HeapDescent::kMostActive> near_{}, touched_{};  // spheres near the tip
+  std::size_t near_count_ = 0, touched_count_ = 0;
+  std::size_t moved_count_ = 0;  // number in this tick
+  std::size_t last_moved_ = kNoParticle;
+  bool exhausted_ = false;
+  bool settled_ = false;  // a base that rests changes nothing
+  PushTick tick_;
+};
+
+}  // namespace afm::physics

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/manipulation/pushed_particles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "physics/quantity_text.h"
+#include "push_ticker.h"
+#include "require_range.h"
+
+namespace afm::physics {
+namespace {
+
+constexpr double kOverlapAllowed = 1e-6;  // share of the touching distance, at the start
+
+}  // namespace
+
+Length touching_distance(Length radius_a, Length radius_b) noexcept { return 2.0 * sqrt(radius_a * radius_b); }
+
+void validate(const PushSetup& setup) {
+  require_range("tip_radius", setup.tip.radius, Length(1e-10), Length(1e-5), kLengthUnits);
+  require_range("half_angle", setup.tip.half_angle_rad, 0.0, 1.3, kPlainNumber);
+  for (const auto& [field, spring] :
+       {std::pair{"lateral_spring", setup.springs.lateral}, std::pair{"normal_spring", setup.springs.normal},
+        std::pair{"contact_stiffness", setup.springs.contact}}) {
+    require_range(field, spring, Stiffness(1e-4), Stiffness(1e6), kStiffnessUnits);
+  }
+  require_range("tip_friction", setup.tip_friction, 0.0, 10.0, kPlainNumber);
+  if (setup.species.empty()) throw UnphysicalValue("species", "there is no species of particles");
+  Length smallest{HUGE_VAL}, largest{};
+  for (const ParticleSpecies& species : setup.species) {
+    validate(species);
+    smallest = std::min(smallest, species.contact.tip_radius);
+    largest = std::max(largest, species.contact.tip_radius);
+  }
+  require_range("radius", smallest, std::max(setup.tip.radius, largest) / 2.0, Length(1e-5), kLengthUnits);
+}
+
+void validate(const PushSetup& setup, const std::vector<PlacedParticle>& particles) {
+  validate(setup);
+  if (particles.size() > kMostParticles) {
+    throw std::invalid_argument(std::to_string(particles.size()) + " particles are more than " +
+                                std::to_string(kMostParticles));
+  }
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const PlacedParticle& a = particles[i];
+    if (a.species >= setup.species.size()) {
+      throw std::invalid_argument("particle " + std::to_string(i) + " is of an unknown species");
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      const PlacedParticle& b = particles[j];
+      const double touching_m =
+          touching_distance(setup.species[a.species].contact.tip_radius, setup.species[b.species].contact.tip_radius)
+              .si;
+      const double apart_m = magnitude(a.position - b.position).si;
+      if (!(apart_m >= touching_m * (1.0 - kOverlapAllowed))) {
+        throw std::invalid_argument("particles " + std::to_string(j) + " and " + std::to_string(i) +
+                                    " overlap: their centres are " + format_quantity(Length(apart_m), kLengthUnits) +
+                                    " apart and touch at " + format_quantity(Length(touching_m), kLengthUnits));
+      }
+    }
+  }
+}
+
+PushedParticles::PushedParticles(const PushSetup& setup, const std::vector<PlacedParticle>& particles,
+                                 const LeverBase& start)
+    : ticker_(std::make_unique<Ticker>(setup, particles, start)) {}
+
+PushedParticles::PushedParticles(PushedParticles&& other) noexcept = default;
+PushedParticles::~PushedParticles() = default;
+
+const PushTick& PushedParticles::move_to(const LeverBase& base, Time elapsed) noexcept {
+  return ticker_->tick(base, elapsed.si);
+}
+
+const PushTick& PushedParticles::last() const noexcept { return ticker_->last(); }
+std::size_t PushedParticles::size() const noexcept { return ticker_->size(); }
+
+Sideways<Length> PushedParticles::position(std::size_t particle) const noexcept {
+  const Flat at = ticker_->position(particle);
+  return {Length(at.x), Length(at.y)};
+}
+
+std::size_t PushedParticles::species(std::size_t particle) const noexcept { return ticker_->species(particle); }
+
+}  // namespace afm::physics

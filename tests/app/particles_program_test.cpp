@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// `touchafm particles` as people run it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/whole_file.h"
+#include "support/places.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+
+namespace afm::app {
+namespace particles_program_test {
+
+using support::ProgramResult;
+using testing::HasSubstr;
+
+ProgramResult particles(const std::string& arguments) {
+  return support::run_program(support::touchafm() + " particles " + arguments);
+}
+
+void expect_refusal(const ProgramResult& result, int exit_code, const std::string& part) {
+  EXPECT_EQ(result.exit_code, exit_code) << result.err;
+  EXPECT_THAT(result.err, HasSubstr(part));
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_EQ(result.out, "");
+}
+
+TEST(ParticlesCommand, PushesTheGoldOfTheBuiltInSet) {
+  const ProgramResult result = particles("gold-row --json --samples 50");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["states"].size(), 50U);
+  EXPECT_EQ(json["moves"].size(), 7U);
+  const auto& particles = json["particles"];
+  ASSERT_EQ(particles.size(), 5U);
+  // the first is pushed to the right as far as the tip goes, and two more later; the others stay
+  EXPECT_NEAR(particles[0]["end_m"][0].get<double>(), 40e-9 + 40.2e-9, 1e-9);
+  EXPECT_GT(particles[1]["end_m"][0].get<double>(), 290e-9);
+  EXPECT_NEAR(particles[2]["end_m"][0].get<double>(), 330e-9 + 0.974 * 20e-9, 2e-9);
+  EXPECT_EQ(particles[3]["end_m"], particles[3]["start_m"]);
+  EXPECT_EQ(particles[4]["end_m"], particles[4]["start_m"]);
+  // at the end of the second move the sphere slides at half of its threshold at rest
+  const auto& pushed = json["moves"][1];
+  EXPECT_EQ(pushed["state"], "slides");
+  const double lateral = std::hypot(pushed["lateral_N"][0].get<double>(), pushed["lateral_N"][1].get<double>());
+  const auto& figures = json["species"][0]["figures"];
+  EXPECT_NEAR(lateral, figures["threshold_moving_N"].get<double>(), 1e-6 * lateral);
+  EXPECT_LT(pushed["lateral_N"][0].get<double>(), 0.0);
+  EXPECT_GE(json["least_certificate_J"].get<double>(), -1e-12 * json["moves"].back()["given_J"].get<double>());
+  // what the hand has spent is lost, since nothing is stored any more; among several spheres to the order of a sub-step
+  const auto& last = json["moves"].back();
+  EXPECT_NEAR(last["work_J"].get<double>(), last["lost_J"].get<double>(), 0.02 * last["lost_J"].get<double>());
+  EXPECT_EQ(last["state"], "free");
+  EXPECT_EQ(json["species"][0]["sources"].size(), 12U);
+}
+
+TEST(ParticlesCommand, EndsAtTheSamePlacesAtEveryRate) {
+  double places[3][2] = {};
+  const char* rates[] = {"500Hz", "1kHz", "4kHz"};
+  for (int i = 0; i < 3; ++i) {
+    const ProgramResult result = particles(std::string("latex-letter --json --rate ") + rates[i]);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto end = nlohmann::json::parse(result.out)["particles"][0]["end_m"];
+    for (int axis = 0; axis < 2; ++axis) places[i][axis] = end[static_cast<std::size_t>(axis)].get<double>();
+  }
+  for (int i = 0; i < 2; ++i) {  // 1e-4 of the distance of the axes
+    EXPECT_NEAR(places[i][0], places[2][0], 8e-12) << rates[i];
+    EXPECT_NEAR(places[i][1], places[2][1], 8e-12) << rates[i];
+  }
+}
+
+TEST(ParticlesCommand, PrintsWhatAUserMustKnow) {
+  const ProgramResult result = particles("gold-row");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* part : {"gives sideways at", "gentle load", "softest lever", "amontons", "estimated", "slides"}) {
+    EXPECT_THAT(result.out, HasSubstr(part));
+  }
+}
+
+TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
+  expect_refusal(particles(""), 2, "file");
+  expect_refusal(particles("silver-row"), 2, "unknown set of particles \"silver-row\"; choose gold-row, latex-letter");
+  expect_refusal(particles("/no/such.toml"), 3, "/no/such.toml");
+  expect_refusal(particles("gold-row --rate 4"), 2, "kHz");
+  expect_refusal(particles("gold-row --rate 1MHz"), 2, "100kHz");
+  expect_refusal(particles("gold-row --samples 1"), 2, "2");
+  const support::ScratchFolder folder;
+  std::string text = *core::read_file(support::source("assets/particles/gold-row.toml"));
+  const std::string speed = "speed = \"0.1 um/s\"";
+  text.replace(text.find(speed), speed.size(), "speed = \"0.0001 um/s\"");
+  text.replace(text.find(speed), speed.size(), "speed = \"0.0001 um/s\"");
+  expect_refusal(particles(folder.write("slow.toml", text) + " --rate 100kHz"), 2, "lower --rate, or raise the speeds");
+}
+
+}  // namespace particles_program_test
+}  // namespace afm::app

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// Closed forms of the table of cases for pushed particles; the rows of paths and heaps are in
+// pushed_particles_test.cpp.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "physics/adhesion_map.h"
+#include "physics/elasticity.h"
+#include "physics/jkr.h"
+#include "physics/manipulation/particle_friction.h"
+#include "physics/manipulation/push_figures.h"
+#include "physics/manipulation/tip_contact.h"
+#include "pushing.h"
+
+namespace afm::physics {
+namespace push_cases_test {
+
+using namespace literals;
+using std::numbers::pi;
+using test::degrees;
+using test::expect_relative;
+using test::flank_tip;
+using test::gold;
+using test::latex;
+
+constexpr double kClosed = 1e-6;  // tolerance of the table, relative
+
+double power_of_radius(ParticleSpecies species, Force load) {
+  const double radius = species.contact.tip_radius.si;
+  const auto threshold = [&](double factor) {
+    species.contact.tip_radius = Length(radius * factor);
+    return sliding_threshold(species, load).si;
+  };
+  return std::log(threshold(1.0001) / threshold(0.9999)) / std::log(1.0001 / 0.9999);
+}
+
+TEST(PushCases, N01TheContactOfGoldOnMica) {
+  const ParticleSpecies species = gold();
+  expect_relative(species.contact.reduced_modulus.si, 38710783890.0, kClosed);
+  expect_relative(jkr_contact_radius(species.contact, Force(0.0)).si, 2.836635145e-09, kClosed);
+  expect_relative(pull_off_force(species).si, 1.178097245e-08, kClosed);
+}
+
+TEST(PushCases, N02TaborsParameterOfGoldAndLatex) {
+  const double expected[] = {0.1352043822, 0.1835005784, 0.2912890112, 0.9807858201, 1.677120161};
+  const double radii[] = {10e-9, 25e-9, 100e-9, 50e-9, 250e-9};
+  for (int i = 0; i < 5; ++i) {
+    ParticleSpecies species = i < 3 ? gold() : latex();
+    species.contact.tip_radius = Length(radii[i]);
+    expect_relative(tabor_parameter(species, 0.3_nm), expected[i], kClosed);
+  }
+}
+
+TEST(PushCases, N05TheExponentOfTheRadius) {
+  EXPECT_NEAR(power_of_radius(gold(), Force(0.0)), 1.333333333, 1e-4);
+  ParticleSpecies hertz = gold();
+  hertz.contact.work_of_adhesion = SurfaceEnergy(1e-12);
+  EXPECT_NEAR(power_of_radius(hertz, 100_nN), 0.6666666667, 1e-4);
+  ParticleSpecies large = latex();
+  large.contact.tip_radius = 100_nm;
+  EXPECT_NEAR(power_of_radius(large, 100_nN), 1.015492573, 1e-4);
+}
+
+TEST(PushCases, N07TheThresholdOfGoldAndItsRolling) {
+  expect_relative(sliding_threshold(gold(), Force(0.0)).si, 2.527882197e-10, kClosed);
+  const ParticleSpecies species = gold();
+  expect_relative((rolling_moment(species, Force(0.0)) / species.contact.tip_radius).si, 5.654866776e-10, kClosed);
+}
+
+TEST(PushCases, N09AndN11WhereFlankAndCapTouch) {
+  const SideContact flank = side_contact(flank_tip(10_nm), 25_nm, Length(0.0));
+  expect_relative(flank.distance.si, 4.02539042e-08, kClosed);
+  expect_relative(degrees(std::asin(flank.sine)), 15.0, kClosed);
+  EXPECT_TRUE(flank.on_flank);
+  const SideContact cap = side_contact(flank_tip(10_nm), 25_nm, 30_nm);
+  expect_relative(cap.distance.si, 3.16227766e-08, kClosed);
+  expect_relative(degrees(std::asin(cap.sine)), 25.37693353, kClosed);
+  EXPECT_FALSE(cap.on_flank);
+}
+
+TEST(PushCases, N13TheCrestOfTheFlank) {
+  const Length crest = crest_height(flank_tip(10_nm), 25_nm);
+  expect_relative(crest.si, 2.405866658e-08, 1e-9);
+  expect_relative(side_contact(flank_tip(10_nm), 25_nm, crest).distance.si, 3.380740392e-08, 1e-9);
+}
+
+TEST(PushCases, N15TheWidthOfAnImage) {
+  const SphereCone tip = flank_tip(10_nm);
+  expect_relative(side_contact(tip, 25_nm, Length(0.0)).distance / 25_nm, 1.610156168, kClosed);
+  expect_relative(side_contact(tip, 25_nm, 25_nm).distance / 25_nm, 1.341640786, kClosed);
+}
+
+TEST(PushCases, N16AndN17SlideWithoutFrictionAtTheTip) {
+  const double sine = std::sin(pi / 12.0), cosine = std::cos(pi / 12.0);
+  ParticleSpecies amontons = gold();
+  amontons.law = ParticleLaw::Amontons;
+  amontons.coefficient = 0.3;
+  amontons.rolling_distance = Length(0.0);
+  const PushBalance by_load = push_balance(amontons, {}, sine, cosine);
+  EXPECT_EQ(by_load.mode, PushMode::Slides);
+  expect_relative(by_load.normal.si, 3.978803178e-09, kClosed);
+  expect_relative(by_load.lateral.si, 3.843228747e-09, kClosed);
+  expect_relative(by_load.lift.si, 1.029790039e-09, kClosed);
+  ParticleSpecies area = latex();
+  area.rolling_distance = Length(0.0);
+  const PushBalance by_area = push_balance(area, {}, sine, cosine);
+  expect_relative(by_area.normal.si, 3.408954384e-09, kClosed);
+  expect_relative(by_area.lateral.si, 3.29279708e-09, kClosed);
+  expect_relative(by_area.lift.si, 8.823023185e-10, kClosed);
+}
+
+TEST(PushCases, N19TheLargestFrictionThatLetsASphereRoll) {
+  const double expected[] = {1.0, 0.8390996312, 0.767326988, 0.6370702608};
+  const double angles[] = {0.0, 10.0, 15.0, 25.0};
+  for (int i = 0; i < 4; ++i) expect_relative(largest_rolling_friction(angles[i] * pi / 180.0), expected[i], 1e-9);
+}
+
+TEST(PushCases, N20GoldSlides) {
+  ParticleSpecies species = gold();
+  species.tip_adhesion = SurfaceEnergy(0.05);
+  const Length radius = effective_radius(flank_tip(10_nm), 25_nm, true);
+  const TipGrip grip{0.3, 1.5 * pi * species.tip_adhesion * radius};
+  const PushBalance balance = push_balance(species, grip, std::sin(pi / 12.0), std::cos(pi / 12.0));
+  EXPECT_EQ(balance.mode, PushMode::Slides);
+  expect_relative(balance.normal.si, 2.622075397e-10, kClosed);
+  expect_relative(balance.lateral.si, 2.532730344e-10, kClosed);
+}
+
+TEST(PushCases, N23TheMomentOfSpinning) {
+  expect_relative(spinning_share(latex(), Force(0.0)), 0.1236589584, kClosed);
+  expect_relative(spinning_share(gold(), Force(0.0)), 0.07564360386, kClosed);
+}
+
+TEST(PushCases, N24AndN25TheGentleLoad) {
+  expect_relative(gentle_load(gold(), flank_tip(10_nm), 0.0).si, 6.786430504e-11, kClosed);
+  expect_relative(gentle_load(latex(), flank_tip(10_nm), 0.0).si, 8.823023185e-10, kClosed);
+  expect_relative(gentle_load(latex(), flank_tip(10_nm), 0.1).si, 5.353868295e-10, kClosed);
+  EXPECT_EQ(gentle_load(latex(), flank_tip(10_nm), 0.2679491924 * (1.0 + 1e-9)), Force(0.0));
+  EXPECT_GT(gentle_load(latex(), flank_tip(10_nm), 0.2679491924 * (1.0 - 1e-6)), Force(0.0));
+}
+
+TEST(PushCases, N26TheSoftestLeverThatPushes) {
+  expect_relative(softest_lever(gold(), flank_tip(10_nm)).si, 0.002820784137, 1e-5);
+  expect_relative(softest_lever(latex(), flank_tip(20_nm)).si, 0.01833647587, 1e-5);
+}
+
+TEST(PushCases, N27TheSpringsInSeries) {
+  const PushSprings springs{10_N_per_m, 1_N_per_m, 100_N_per_m};
+  const double sine = std::sin(pi / 12.0), cosine = std::cos(pi / 12.0);
+  expect_relative(stiffness_along_normal(springs, sine, cosine).si, 5.8723848, 1e-9);
+  expect_relative(stiffness_sideways(springs, sine, cosine).si, 5.479009608, 1e-9);
+}
+
+TEST(PushCases, N28TheFirstSlip) {
+  const FirstSlip slip = first_slip(3_nN, 1.5_nN, Stiffness(5.479009608));
+  expect_relative(slip.travel.si, 5.475442123e-10, kClosed);
+  expect_relative(slip.jump.si, 2.737721061e-10, kClosed);
+  expect_relative(slip.lost.si, 6.159872388e-19, kClosed);
+}
+
+TEST(PushCases, N32AndN33Aim) {
+  const double offsets[] = {0.2, 0.05, 0.01, 0.001};
+  const double travels[] = {2.29243167, 3.688253867, 5.298292366, 7.60090221};
+  for (int i = 0; i < 4; ++i) expect_relative(travel_until_lost(offsets[i]), travels[i], kClosed);
+  const double pushes[] = {3.0, 5.0, 10.0};
+  const double aims[] = {0.09932792742, 0.01347528222, 9.079985934e-05};
+  for (int i = 0; i < 3; ++i) expect_relative(largest_offset(pushes[i]), aims[i], 1e-9);
+}
+
+TEST(PushCases, N39TheFastestHandThatSteers) {
+  // on a scale of 1e5, as the hand feels it
+  expect_relative(1e5 * fastest_steering(40_nm, Time(0.25)).si, 0.016, 1e-9);
+  expect_relative(1e5 * fastest_steering(40_nm, Time(0.15)).si, 0.02666666667, 1e-9);
+}
+
+TEST(PushCases, N55TheRadiusOfTheFlankAndItsPull) {
+  const Length radius = effective_radius(flank_tip(10_nm), 25_nm, true);
+  expect_relative(radius.si, 15.813449e-9, kClosed);
+  expect_relative(1.5 * pi * 0.05 * radius.si * std::cos(pi / 12.0), 3.598997214e-09, kClosed);
+}
+
+TEST(PushCases, N82TheLargestPush) {
+  const double stiffness[] = {0.1, 1.0, 40.0};
+  const double alone[] = {8.978816603e-09, 8.978816603e-08, 3.591526641e-06};
+  const double pressed[] = {1.644291822e-08, 9.725226765e-08, 3.598990743e-06};
+  for (int i = 0; i < 3; ++i) {
+    expect_relative(largest_push(flank_tip(10_nm), 25_nm, Stiffness(stiffness[i]), Force(0.0)).si, alone[i], kClosed);
+    expect_relative(largest_push(flank_tip(10_nm), 25_nm, Stiffness(stiffness[i]), 2_nN).si, pressed[i], kClosed);
+  }
+}
+
+TEST(PushCases, N84TheWorkOfANanometre) {
+  const double kt = thermal_energy(Temperature(298.15)).si;
+  expect_relative(sliding_threshold(gold(), Force(0.0)).si * 1e-9 / kt, 61.40994875, kClosed);
+  ParticleSpecies slides = latex();
+  slides.rolling_distance = Length(0.0);
+  const PushBalance balance = push_balance(slides, {}, std::sin(pi / 12.0), std::cos(pi / 12.0));
+  expect_relative(balance.lateral.si * 1e-9 / kt, 799.9205825, kClosed);
+}
+
+TEST(PushCases, RollingNeverHappensAboveItsLargestFriction) {
+  ParticleSpecies species = latex();
+  species.rolling_distance = 0.3_nm;
+  const double angle = pi / 12.0;
+  const PushBalance below = push_balance(species, {0.1, Force(0.0)}, std::sin(angle), std::cos(angle));
+  EXPECT_EQ(below.mode, PushMode::Rolls);
+  // forces and moments of a rolling sphere balance: M = R (friction on the sample - T)
+  const Torque moment = rolling_moment(species, below.lift);
+  EXPECT_NEAR((below.lateral - below.friction).si, (moment / species.contact.tip_radius).si, 1e-21);
+  const double most = largest_rolling_friction(angle);
+  EXPECT_EQ(push_balance(species, {most * 1.01, Force(0.0)}, std::sin(angle), std::cos(angle)).mode, PushMode::Slides);
+}
+
+}  // namespace push_cases_test
+}  // namespace afm::physics

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/samples/particle_set.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/whole_file.h"
+#include "support/places.h"
+#include "support/scratch_folder.h"
+
+namespace afm::scene {
+namespace particle_set_test {
+
+using testing::HasSubstr;
+
+const std::string kFolder = support::source("assets/particles");
+
+TEST(ParticleSet, EveryShippedSetLoadsWithASourceForEachNumber) {
+  int sets = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+    const auto set = load_particle_set(entry.path().string());
+    ASSERT_TRUE(set) << set.error().message;
+    ++sets;
+    EXPECT_FALSE(set->particles.empty());
+    EXPECT_FALSE(set->moves.empty());
+    EXPECT_EQ(set->sources.size(), 6U);
+    for (const SpeciesEntry& species : set->species) {
+      EXPECT_EQ(species.sources.size(), 12U) << species.name;
+      for (const SourcedValue& value : species.sources) EXPECT_FALSE(value.source.empty()) << value.key;
+    }
+  }
+  EXPECT_EQ(sets, 2);
+}
+
+TEST(ParticleSet, GoldRowHasTheNumbersOfTheCases) {
+  const auto set = load_particle_set(kFolder + "/gold-row.toml");
+  ASSERT_TRUE(set) << set.error().message;
+  ASSERT_EQ(set->setup.species.size(), 1U);
+  const physics::ParticleSpecies& gold = set->setup.species.front();
+  EXPECT_NEAR(gold.contact.reduced_modulus.si, 38710783890.0, 38710.0);
+  EXPECT_NEAR(physics::sliding_threshold(gold, physics::Force(0.0)).si, 2.527882197e-10, 1e-16);
+  EXPECT_EQ(set->particles.size(), 5U);
+  EXPECT_NEAR(set->setup.tip.half_angle_rad, 0.2617993878, 1e-10);
+  EXPECT_NEAR(set->moves.at(1).speed.si, 1e-7, 1e-20);
+}
+
+std::string shipped() {
+  const auto text = core::read_file(kFolder + "/gold-row.toml");
+  EXPECT_TRUE(text);
+  return *text;
+}
+
+std::string refusal(const std::string& text) {
+  const support::ScratchFolder folder;
+  const auto set = load_particle_set(folder.write("set.toml", text));
+  if (set) return "accepted";
+  EXPECT_EQ(set.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_EQ(set.error().message.find('\n'), std::string::npos);
+  return set.error().message;
+}
+
+std::string changed(const std::string& from, const std::string& to) {
+  std::string text = shipped();
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {
+  EXPECT_EQ(refusal(shipped()), "accepted");
+  EXPECT_THAT(refusal(changed("\"25 nm\"", "\"25 N\"")), HasSubstr("species.radius: cannot read"));
+  EXPECT_THAT(refusal(changed("\"25 nm\"", "\"25\"")), HasSubstr("um, nm, pm"));
+  EXPECT_THAT(refusal(changed("\"25 nm\"", "\"-25 nm\"")), HasSubstr("species.radius: radius -25 nm is not within"));
+  EXPECT_THAT(refusal(changed("\"10 MPa\"", "\"0 Pa\"")), HasSubstr("species.shear_strength"));
+  EXPECT_THAT(refusal(changed("\"79 GPa\"", "\"79 Pa\"")), HasSubstr("species."));
+  EXPECT_THAT(refusal(changed("\"10 nm\"", "\"80 nm\"")), HasSubstr("at least half the tip's"));
+  EXPECT_THAT(refusal(changed("value = 15", "value = 95")), HasSubstr("tip.half_angle_deg"));
+  EXPECT_THAT(refusal(changed("\"1 N/m\"", "\"1 mJ/m2\"")), HasSubstr("lever.normal_spring"));
+  EXPECT_THAT(refusal(changed("law = \"area\"", "law = \"hope\"")),
+              HasSubstr("hope is unknown; known are area, amontons"));
+  EXPECT_THAT(refusal(changed("law = \"area\"", "law = \"measured\"")), HasSubstr("species.measured_threshold"));
+  EXPECT_THAT(refusal(changed("x = \"180 nm\"\ny = \"-20 nm\"", "x = \"10 nm\"\ny = \"0 nm\"")),
+              HasSubstr("particles 0 and 1 overlap"));
+  EXPECT_THAT(refusal(changed("x = \"180 nm\"", "x = \"180 mm\"")), HasSubstr("particle.x: 180 mm is not within"));
+  EXPECT_THAT(refusal(changed("x = \"180 nm\"", "species = \"silver\"\nx = \"180 nm\"")),
+              HasSubstr("silver is unknown; known are gold"));
+  EXPECT_THAT(refusal(changed("x = \"180 nm\"", "colour = 1\nx = \"180 nm\"")), HasSubstr("unknown key"));
+  EXPECT_THAT(refusal(changed("speed = \"0.2 um/s\"", "speed = \"0 um/s\"")), HasSubstr("move.speed: 0"));
+  EXPECT_THAT(refusal(changed("source = \"polycrystalline gold, bulk\", ", "")), HasSubstr("source"));
+  EXPECT_THAT(refusal(""), HasSubstr("title: is missing"));
+}
+
+}  // namespace particle_set_test
+}  // namespace afm::scene
