@@ -39,6 +39,11 @@
 // Half the width of the soft edge in the reflection of a surface of that roughness, radians.
 #define AFM_LOBE_BORDER(roughness) (0.04 + 0.9 * (roughness) * (roughness) + 0.25 * (roughness))
 
+// points: metres in the room, and pixels
+#define AFM_POINT_SIZE 0.006
+#define AFM_SMALLEST_POINT 2
+#define AFM_LARGEST_POINT 16
+
 // texels each way
 #define AFM_SHADOW_MAP_SIZE 2048
 
@@ -48,6 +53,7 @@
 #define AFM_BINDING_ANAGLYPH 2
 #define AFM_BINDING_LINEAR 3
 #define AFM_BINDING_DEPTH_RANGE 2
+#define AFM_BINDING_ROOM_DEPTH 1
 
 // set 1 of the compose pass: corrections for an output's projector
 #define AFM_BINDING_WARP 0
@@ -68,7 +74,8 @@ struct FrameBlock {
   vec4 screen[3];         // xyz: direction from between the eyes to the upper left corner of the eye images, and the
                           // vectors from there to the upper right and to the lower left corner
   vec4 fog_axis;          // distance beyond the fog's origin, in its units: dot(axis, (place, 1))
-  vec4 punctual_count;    // x: number of the lights below
+  vec4 punctual_count;  // x: number of the lights below; y: largest point of the device in pixels; z: guard band of the
+                        // view
   vec4 punctual_position[AFM_MOST_LIGHTS];   // xyz; w: 1 / range, 0 without end
   vec4 punctual_direction[AFM_MOST_LIGHTS];  // xyz: unit, along the rays; w: 0 directional, 1 all others
   vec4 punctual_intensity[AFM_MOST_LIGHTS];  // rgb
@@ -98,11 +105,16 @@ struct CanvasBlock {
   vec4 scale;  // xy
 };
 
+// push constants of the pass that enlarges a room drawn with fewer pixels
+struct EnlargeBlock {
+  vec4 drawn;   // xy: drawn pixels per pixel of an eye's image, zw: size of the drawn part in pixels
+  ivec4 layer;  // x: layer of the eye, for a pass of one eye
+};
+
 // push constants of the compose pass; sizes and positions in pixels
 struct ComposeBlock {
   ivec4 mode;    // x: scene::EyeArrangement, y: 1 swaps the eyes, z: 1 for a keystone, w: index of the anaglyph
-  vec4 drawn;    // xy: drawn share of the eye images, from their upper left corner; z: 1: the right eye sees the left
-                 // image; w: pixels between the last pixel's centre and the end of blending
+  ivec4 eyes;    // x: 1: the right eye sees the left image
   ivec4 place;   // xy: first pixel of the picture in the target, zw: its size
   ivec4 screen;  // xy: screen position of the target's first pixel; z: lines of a packed eye, w: lines between
   vec4 picture_from_output[3];  // xyz: columns of the keystone; w of the first: 1 shows the lines of the warp mesh

@@ -22,13 +22,13 @@ namespace afm::support {
 // An X server of this test's own, without a screen, a window manager or other clients. Throws if Xvfb is missing.
 class VirtualDisplay {
  public:
-  VirtualDisplay(int width, int height) {
+  VirtualDisplay(int width, int height, int depth = 24) {
     int ends[2];
     if (::pipe(ends) != 0) throw std::runtime_error("no pipe for Xvfb");
     pid_ = ::fork();
     if (pid_ == 0) {
       const std::string display_fd = std::to_string(ends[1]);
-      const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x24";
+      const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x" + std::to_string(depth);
       ::execlp("Xvfb", "Xvfb", "-displayfd", display_fd.c_str(), "-screen", "0", screen.c_str(), "-fbdir",
                folder_.path().c_str(), "-nolisten", "tcp", "-noreset", nullptr);
       ::_exit(127);
