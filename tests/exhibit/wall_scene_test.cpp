@@ -263,7 +263,7 @@ class SampleSize : public WallSceneTest {
             (high.z - low.z) * glm::length(axes[2])};
   }
 
-  // With these parameters, sample and stroke are as large as ever, the ruler is right, and the tip stands on the
+  // With these parameters, sample and stroke keep their size, the ruler is right, and the tip is on the
   // surface that is felt.
   void expect_drawn_alike(const curves::SampleModel& model, std::size_t material, const std::string& what) {
     const std::string node = "sample-" + materials_.materials[material].name + "/surface";

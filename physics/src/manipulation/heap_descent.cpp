@@ -7,7 +7,7 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kTinyGain = 1e-14;  // share of E + R, below which a round has come to rest
+constexpr double kTinyGain = 1e-14;  // smallest gain of a round that counts, as a share of E + R
 constexpr int kMostHalvings = 8;
 constexpr double kRestRounding = 1e-12;  // share by which a force must exceed a threshold
 

@@ -47,7 +47,7 @@ struct WindowOptions {
   bool full_screen = false;
   bool hidden = false;
   std::string monitor{};                       // monitor to fill, named as in list_monitors(); empty: any
-  std::optional<glm::ivec2> monitor_corner{};  // tells it from others of that name; in desktop units
+  std::optional<glm::ivec2> monitor_corner{};  // distinguishes monitors of one name; in desktop units
   std::optional<scene::PixelRect> rect{};      // rectangle of the desktop, without a frame, instead of width and height
 };
 

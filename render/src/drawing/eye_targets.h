@@ -33,8 +33,8 @@ struct EyePassConfig {
 // samples are created at first use. All of them keep their contents, so that a part can be redrawn. Mesa 22.3's
 // lavapipe neither draws into layer 1 of a multisampled image as a base layer, nor resolves into one. Single passes
 // therefore have attachments of one layer each, and the second pass resolves into separate images, which are copied.
-// A room drawn with fewer pixels has images of its own, of which it fills the upper left part, and is enlarged into the
-// eyes' images before the panels are drawn.
+// A room drawn with fewer pixels goes into the upper left part of separate images, which are enlarged into the eyes'
+// images before the panels are drawn.
 class EyeTargets {
  public:
   EyeTargets(const Device& device, const RendererOptions& options);

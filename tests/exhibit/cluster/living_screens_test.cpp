@@ -70,7 +70,7 @@ TEST(BannerOfACluster, LeavesTheScreenThatIsMissing) {
   EXPECT_LT(middle.right_m, 1.0);
 }
 
-// The panels stand in the middle of a wide wall; beside them there is room for a banner of the same size.
+// The panels are in the middle of a wide wall, which leaves room on each side for a banner of the same size.
 TEST(BannerOfACluster, KeepsItsSizeWhereTheLivingScreensHaveTheRoom) {
   render::PanelPlacement short_banner = kBanner;
   short_banner.lower_left_m.x = -1.5;

@@ -45,7 +45,7 @@ struct Overlap {
   double cosine = 1.0;
 };
 
-// SphereCone for a tick: tells flank from cap without a sine. One sphere radius.
+// SphereCone for a tick: distinguishes flank and cap without a sine. One sphere radius.
 class TipProfile {
  public:
   TipProfile(const SphereCone& tip, Length sphere_radius) noexcept;
