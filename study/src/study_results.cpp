@@ -107,6 +107,7 @@ bool has_answer(const StudyTrial& trial) {
 template <class Row>
 void correct_side_by_side(std::vector<Row>& rows, TestResult Row::* test) {
   std::vector<TestResult*> tests;
+  tests.reserve(rows.size());
   for (Row& row : rows) tests.push_back(&(row.*test));
   correct_by_holm(tests);
 }
