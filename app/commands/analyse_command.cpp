@@ -10,6 +10,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <system_error>
 #include <vector>
 
 #include "app/commands/analyse_image.h"
@@ -17,6 +18,7 @@
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
+#include "core/file_kind.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
@@ -84,9 +86,10 @@ const FileKindRow* row_of(const std::string& file) {
 
 core::Result<FileKind> kind_of(const std::string& file) {
   if (const FileKindRow* row = row_of(file)) return row->kind;
-  const auto beginning = core::read_beginning(file, curves::kUnreadKindBytes);
+  const auto beginning = core::read_beginning(file, core::kFileKindBytes);
   if (!beginning) return tl::unexpected(beginning.error());
-  const std::string_view kind = curves::unread_kind_of(*beginning);
+  std::error_code unknown;
+  const std::string kind = curves::unread_kind_of(*beginning, std::filesystem::file_size(file, unknown));
   return core::failure(core::ErrorCategory::BadInputFile,
                        fmt::format("cannot analyse {}: it is {}; known are {}", file,
                                    kind.empty() ? "of no known kind" : kind, known_files()));

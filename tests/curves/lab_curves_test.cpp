@@ -65,10 +65,10 @@ TEST(LabFiles, AreRefusedByTheirTrueKind) {
   EXPECT_THAT(curve_refusal("qnm-log.spm"), HasSubstr("it is an image, not a curve"));
   EXPECT_THAT(image_refusal("bom.tab"), HasSubstr("it is a curve, not an image"));
   const std::pair<std::string, std::string> kinds[]{
-      {"version https://git-lfs.github.com/spec/v1\n", "a pointer of Git LFS"},
-      {"\x1f\x8b\x08 packed", "packed by gzip"},
-      {"<!DOCTYPE html><html>", "a web page"},
-      {"\xff\xfe#", "text in UTF-16"},
+      {"version https://git-lfs.github.com/spec/v1\n", "a Git LFS pointer"},
+      {"\x1f\x8b\x08 packed", "a gzip file; unpack it first"},
+      {"<!DOCTYPE html><html>", "an HTML page"},
+      {"\xff\xfe#", "a text in UTF-16; save it in UTF-8"},
       {"%PDF-1.7", "a PDF document"}};
   for (const auto& [bytes, kind] : kinds) {
     for (const auto& message : {parse_curve(bytes, "a.x").error().message, parse_image(bytes, "a.x").error().message}) {

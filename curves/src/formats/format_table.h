@@ -58,7 +58,7 @@ struct FormatTable {
 
   // What a file of no known format is, as far as its beginning shows.
   std::string refusal_of(std::string_view bytes) const {
-    std::string_view true_kind = unread_kind_of(bytes.substr(0, kUnreadKindBytes));
+    std::string true_kind = unread_kind_of(bytes, bytes.size());
     if (true_kind.empty()) true_kind = other_kind_of(bytes);
     if (true_kind.empty()) return fmt::format("it is no {} of a known kind; known are {}", kind, files);
     return fmt::format("it is {}; known are {}", true_kind, files);

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/file_kind.h"
 #include "core/log.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
@@ -21,6 +22,7 @@
 #include "curves/unread_kinds.h"
 #include "exhibit/models/model_builder.h"
 #include "models/noted_model.h"
+#include "scene/gltf/not_gltf.h"
 #include "scene/graph/pose.h"
 
 namespace afm::exhibit {
@@ -151,11 +153,17 @@ bool is_no_model(const std::string& path) {
 
 // A file that is neither a model nor an image, as far as its beginning shows.
 std::string described_other(const std::string& file) {
-  const auto beginning = core::read_beginning(file, curves::kUnreadKindBytes);
-  std::string_view kind = beginning ? curves::unread_kind_of(*beginning) : std::string_view();
+  constexpr std::string_view kNeither = "it is neither a glTF model nor an image that can be read";
+  const auto beginning = core::read_beginning(file, core::kFileKindBytes);
+  if (!beginning) return std::string(kNeither);
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+  if (const auto model = core::file_kind(*beginning, size); model && model->role == core::FileRole::Model)
+    return scene::not_gltf(*model);
+  std::string kind = curves::unread_kind_of(*beginning, size);
   if (kind.empty() && curves::is_curve_file(file)) kind = "a curve, which has no surface";
-  if (kind.empty()) return "it is neither a glTF model nor an image that can be read";
-  return fmt::format("it is {}; it is neither a glTF model nor an image that can be read", kind);
+  if (kind.empty()) return std::string(kNeither);
+  return fmt::format("it is {}; {}", kind, kNeither);
 }
 
 tl::unexpected<core::Error> unusable_sample(const std::string& file, const std::string& why) {

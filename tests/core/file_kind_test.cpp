@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/file_kind.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+namespace afm::core {
+namespace file_kind_test {
+
+std::string name_of(std::string_view bytes) {
+  const auto kind = file_kind(bytes, bytes.size());
+  return kind ? std::string(kind->name) : "";
+}
+
+TEST(FileKinds, AreToldByTheirBeginning) {
+  EXPECT_EQ(name_of("\x1F\x8B\x08"), "a gzip file");
+  EXPECT_EQ(name_of("WSxM file copyright"), "a file of WSxM");
+  EXPECT_EQ(name_of(std::string(257, '\0') + "ustar"), "a tar archive");
+  EXPECT_EQ(name_of("\xEF\xBB\xBF\n <!doctype HTML>"), "an HTML page, probably in place of a download");
+  EXPECT_EQ(name_of("# two\n# lines\nv 0 0 0\n"), "an OBJ file");
+  for (const char* other : {"", "x", "height force\n0 1\n", "{\"asset\": {}}", "glTF\x02", "#", "####\n\n"})
+    EXPECT_EQ(name_of(other), "") << other;
+}
+
+// Its header is any text: the number of triangles must fill the file, of which only the beginning is read.
+TEST(FileKinds, ABinaryStlIsToldByItsSize) {
+  std::string header(84, 'x');
+  header.replace(80, 4, std::string("\x02\x01\0\0", 4));
+  EXPECT_EQ(file_kind(header, 84 + 50 * 258)->name, "an STL file");
+  EXPECT_FALSE(file_kind(header, 84 + 50 * 258 + 1));
+  EXPECT_FALSE(file_kind(header.substr(0, 83), 84 + 50 * 258));
+}
+
+TEST(FileKinds, HaveARemedyWhoeverReadsThem) {
+  EXPECT_EQ(remedy_of(file_kind("Rar!\x1A\x07", 6)->role), "unpack it first");
+  EXPECT_EQ(remedy_of(file_kind("%PDF-1.7", 8)->role), "");
+}
+
+}  // namespace file_kind_test
+}  // namespace afm::core
