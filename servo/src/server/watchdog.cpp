@@ -57,7 +57,7 @@ void ask_for_memory() {
 }
 
 // Asks the user's systemd for a scope, so that a command or a lack of memory that ends the servo's scope leaves this
-// process alone. Does not wait: without systemd there is none.
+// process alone. Does not wait: without systemd there is none, and a busy session answers after seconds.
 void ask_for_scope() {
   const char* folder = ::secure_getenv("XDG_RUNTIME_DIR");
   std::error_code error;
@@ -66,7 +66,7 @@ void ask_for_scope() {
   std::array<std::string, 16> words{"busctl",
                                     "--user",
                                     "--quiet",
-                                    "--timeout=2",
+                                    "--timeout=30",
                                     "call",
                                     "org.freedesktop.systemd1",
                                     "/org/freedesktop/systemd1",
