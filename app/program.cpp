@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "app/options/menu_notice.h"
 #include "app/options/standard_output.h"
 #include "core/exit_code.h"
 #include "core/run_main.h"
@@ -73,6 +74,7 @@ int run_program(int count, char** arguments, const char* commit) {
   if (!answer->empty()) {
     std::fputs(answer->c_str(), stdout);
   } else if (const auto done = command_line.run(); !done) {
+    tell_the_desktop(done.error().message);
     return fail(core::exit_code(done.error().category), done.error().message);
   }
   if (const auto written = flush_stdout(); !written)

@@ -43,7 +43,7 @@ set(libraries_curves fmt nlohmann tl hdf5 unzip)
 set(libraries_study fmt nlohmann tl boost)
 set(libraries_cluster fmt tl dds)
 set(libraries_exhibit glm fmt nlohmann tl toml\\+\\+ SDL2)
-set(libraries_app glm fmt CLI nlohmann tl benchmark)
+set(libraries_app glm fmt CLI nlohmann tl benchmark systemd)
 set(known_libraries "openxr|glm|fmt|toml\\+\\+|draco|meshoptimizer|turbojpeg|nlohmann|tl|vulkan|GLFW|imgui|png|CLI|hidapi|SDL2|gtest|gmock|benchmark|hdf5|unzip|boost|pugixml|tiny_gltf|dds|systemd|xcb")
 
 set(scanned 0)
