@@ -19,16 +19,18 @@ find_program(AFM_UMOCKDEV_WRAPPER umockdev-wrapper REQUIRED)
 pkg_check_modules(UMOCKDEV REQUIRED IMPORTED_TARGET umockdev-1.0)
 set(AFM_WITH_PRETENDED_DEVICES ${CMAKE_SOURCE_DIR}/tests/input/with_pseudo_terminals.sh ${AFM_UMOCKDEV_WRAPPER})
 
-# afm_test(NAME folder.subject SOURCES ... LIBRARIES ... LABELS ... [NEEDS target ...] [TIMEOUT seconds] [OPTIMISED] [SERIAL]
+# afm_test(NAME folder.subject SOURCES ... LIBRARIES ... LABELS ... [NEEDS target ...] [TIMEOUT seconds] [OPTIMISED] [SERIAL] [DRAWS]
 #          [CASES | SUITES] [DEEP filter] [ONLY_DEEP filter] [PRETENDED_DEVICES])
 # One program, test_folder_subject, of sources that are compiled together: the names in them must differ. It is one case of CTest,
-# folder.subject. With CASES every TEST in it is one, folder.Suite.Case, and with SUITES every suite, folder.Suite. Two cases run side by
-# side; nothing runs beside one that is SERIAL, as everything of labels realtime and hand is. The tests that `filter` names draw more in a
-# second case, NAME.deep of label deep (tests/support/deep.h). Those that ONLY_DEEP names, a filter too but a suite with SUITES, are
-# left out of the usual run and have the label deep beside their own. NEEDS names the programs that the test starts. PRETENDED_DEVICES runs it
+# folder.subject. With CASES every TEST in it is one, folder.Suite.Case, and with SUITES every suite, folder.Suite. Three cases run side by
+# side, two in deep checks and under AddressSanitizer; nothing runs beside one that is SERIAL, as everything of label realtime is. Those of label hand wait more than they compute:
+# scripts/run-tests runs them after all others, three at a time; one that DRAWS takes the place of two, and one that measures a speed
+# is SERIAL.
+# The tests that `filter` names draw more in a second case, NAME.deep of label deep (tests/support/deep.h). Those that ONLY_DEEP names,
+# a filter too but a suite with SUITES, are left out of the usual run and have the label deep beside their own. NEEDS names the programs that the test starts. PRETENDED_DEVICES runs it
 # under umockdev.
 function(afm_test)
-  cmake_parse_arguments(T "OPTIMISED;SERIAL;CASES;SUITES;PRETENDED_DEVICES" "NAME;TIMEOUT;DEEP;ONLY_DEEP" "SOURCES;LIBRARIES;LABELS;NEEDS" ${ARGN})
+  cmake_parse_arguments(T "OPTIMISED;SERIAL;DRAWS;CASES;SUITES;PRETENDED_DEVICES" "NAME;TIMEOUT;DEEP;ONLY_DEEP" "SOURCES;LIBRARIES;LABELS;NEEDS" ${ARGN})
   if(T_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "afm_test(${T_NAME}): unknown: ${T_UNPARSED_ARGUMENTS}")
   endif()
@@ -38,9 +40,16 @@ function(afm_test)
     set(T_TIMEOUT 120)
   endif()
   set(serial ${T_SERIAL})  # by option or label
+  set(deep_serial ${T_SERIAL})  # the same for its cases of label deep
   if(T_LABELS MATCHES "^(realtime|hand)$")
     list(APPEND T_LIBRARIES afm_awake_processors)
+    set(deep_serial TRUE)
+  endif()
+  if(T_LABELS STREQUAL realtime)
     set(serial TRUE)
+  endif()
+  if(T_NEEDS MATCHES touchafm)
+    list(APPEND T_LIBRARIES afm_own_runtime_folder)
   endif()
   list(TRANSFORM T_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   add_executable(${target} ${T_SOURCES})
@@ -80,14 +89,17 @@ function(afm_test)
   if(deep)
     list(JOIN deep ":" deep)
     add_test(NAME ${T_NAME}.deep COMMAND ${wrapper} $<TARGET_FILE:${target}> --gtest_filter=${deep})
-    set_tests_properties(${T_NAME}.deep PROPERTIES LABELS deep TIMEOUT 900 RUN_SERIAL ${serial} ENVIRONMENT AFM_DEEP=1)
+    set_tests_properties(${T_NAME}.deep PROPERTIES LABELS deep TIMEOUT 900 RUN_SERIAL ${deep_serial} ENVIRONMENT AFM_DEEP=1)
   endif()
   set(properties LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${serial})
+  if(T_DRAWS)
+    list(APPEND properties PROCESSORS 2)
+  endif()
   if(T_CASES)
     set(discovery NO_PRETTY_VALUES TEST_PREFIX "${folder}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)
     if(T_ONLY_DEEP)
       gtest_discover_tests(${target} ${discovery} TEST_LIST ${target}_deep TEST_FILTER "${T_ONLY_DEEP}"
-                           PROPERTIES LABELS "deep\;${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${serial})
+                           PROPERTIES LABELS "deep\;${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${deep_serial})
       list(APPEND discovery TEST_FILTER "-${T_ONLY_DEEP}")
     endif()
     gtest_discover_tests(${target} ${discovery} PROPERTIES ${properties})

@@ -134,7 +134,8 @@ TEST_F(InstalledProgram, HasADesktopEntryWhoseIconAndProgramExist) {
   const ProgramResult check = run_program("desktop-file-validate " + entry);
   EXPECT_EQ(check.exit_code, 0) << check.err;
   EXPECT_EQ(check.out, "");
-  EXPECT_THAT(read(entry), AllOf(HasSubstr("\nExec=env TOUCHAFM_FROM_MENU=1 touchafm view\n"), HasSubstr("\nIcon=touchafm\n")));
+  EXPECT_THAT(read(entry),
+              AllOf(HasSubstr("\nExec=env TOUCHAFM_FROM_MENU=1 touchafm view\n"), HasSubstr("\nIcon=touchafm\n")));
   EXPECT_TRUE(fs::exists(prefix() + "/share/icons/hicolor/scalable/apps/touchafm.svg"));
   EXPECT_TRUE(fs::exists(prefix() + "/lib/udev/rules.d/70-touchafm-wands.rules"));
 }

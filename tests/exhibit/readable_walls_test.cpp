@@ -131,7 +131,7 @@ TEST_P(ReadableWalls, CutNoWordAndShowTheStateOnPicturesOfEverySizeInEveryLangua
     const render::FrameState frame = app::wall_subject(*stage, 64, app::WallMotion::Tip).value().frames.back();
     const std::string name = own.empty() ? language : "pseudo";
     for (const std::uint32_t width_px : kWidthsPx) {
-      if (!support::deep() && width_px != kWidthsPx.front() && width_px != kWidthsPx.back()) continue;
+      if (!support::deep() && width_px != kWidthsPx.front()) continue;  // the smallest has the least room
       expect_readable(*stage, frame, width_px, fmt::format("{} at {} pixels, {}", GetParam(), width_px, name));
     }
     stage->wall_scene.set_text_size(kLargestText);

@@ -172,7 +172,8 @@ TEST_F(Blended, PairAddsUpToThePictureOfOneProjector) {
   for (const auto& [overlap_px, keys] :
        {std::pair(64U, ""), std::pair(64U, "blend_right = \"0.2 m\"\n"), std::pair(20U, "")}) {
     for (const std::optional<double> gamma : {std::optional<double>(), {1.8}, {2.2}, {2.6}}) {
-      if (!support::deep() && gamma && gamma != 2.2) continue;
+      const bool usual = !gamma || (gamma == 2.2 && overlap_px == 64 && std::string_view(keys).empty());
+      if (!support::deep() && !usual) continue;
       set_up(overlap_px, keys, gamma ? fmt::format("gamma = {}\n", *gamma) : "");
       for (Part& part : parts_) {
         if (!part.renderer) render(part, test.scene, frame);

@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 
+#include "support/deep.h"
 #include "support/pictures.h"
 #include "support/vulkan_fixture.h"
 
@@ -204,6 +205,7 @@ class Redraw : public VulkanTest {
 
 TEST_F(Redraw, OfWhatChangedGivesTheBytesOfRedrawingEverything) {
   for (const unsigned seed : kSeeds) {
+    if (!support::deep() && seed != kSeeds.front()) continue;
     expect_same(of_many_tiles(4, render::PassMode::Automatic), seed);
     if (HasFatalFailure()) return;
   }
