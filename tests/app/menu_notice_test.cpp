@@ -15,7 +15,8 @@
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
 
-// A failure that a menu's entry would hide is shown by the desktop, which this test plays on a bus of its own.
+// A program that was started from a menu reports its failure as a notification. The test provides the bus and the
+// notification service.
 namespace afm::app {
 namespace menu_notice_test {
 
@@ -41,7 +42,7 @@ class MenuNotice : public ::testing::Test {
 
   std::string address() const { return "unix:path=" + folder_.file("bus"); }
 
-  // Plays the desktop that shows notifications.
+  // Provides the notification service of a desktop.
   void become_the_desktop() {
     ASSERT_TRUE(daemon_->within(std::chrono::seconds(20), [&] {
       if (sd_bus_new(&bus_) < 0) return false;

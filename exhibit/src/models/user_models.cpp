@@ -151,19 +151,20 @@ bool is_no_model(const std::string& path) {
   return file && (!(file >> first) || (first != '{' && first != 'g'));
 }
 
-// A file that is neither a model nor an image, as far as its beginning shows.
-std::string described_other(const std::string& file) {
-  constexpr std::string_view kNeither = "it is neither a glTF model nor an image that can be read";
+// Why a file is neither a model nor an image, as far as its beginning shows, and what to do.
+std::string refusal_of_other(const std::string& file) {
+  const std::string neither =
+      fmt::format("it is neither a glTF model nor an image that can be read ({}); export it in one of these formats",
+                  curves::kImageFiles);
   const auto beginning = core::read_beginning(file, core::kFileKindBytes);
-  if (!beginning) return std::string(kNeither);
+  if (!beginning) return neither;
   std::error_code unknown;
   const std::uintmax_t size = std::filesystem::file_size(file, unknown);
   if (const auto model = core::file_kind(*beginning, size); model && model->role == core::FileRole::Model)
     return scene::not_gltf(*model);
   std::string kind = curves::unread_kind_of(*beginning, size);
   if (kind.empty() && curves::is_curve_file(file)) kind = "a curve, which has no surface";
-  if (kind.empty()) return std::string(kNeither);
-  return fmt::format("it is {}; {}", kind, kNeither);
+  return kind.empty() ? neither : fmt::format("it is {}; {}", kind, neither);
 }
 
 tl::unexpected<core::Error> unusable_sample(const std::string& file, const std::string& why) {
@@ -195,8 +196,7 @@ core::Result<UserModels> load_own_models(const std::string& probe_file, const st
     if (!topography) return tl::unexpected(topography.error());
     own.topography = std::move(*topography);
   } else if (is_no_model(sample_file)) {
-    return unusable_sample(sample_file, fmt::format("{} ({}); export it in one of these formats",
-                                                    described_other(sample_file), curves::kImageFiles));
+    return unusable_sample(sample_file, refusal_of_other(sample_file));
   } else if (!sample_file.empty()) {
     auto sample = load_sample(sample_file);
     if (!sample) return tl::unexpected(sample.error());

@@ -158,7 +158,7 @@ bool PushedParticles::Ticker::within_reach(const Apex& apex) const noexcept {
   return x * x + y * y + z * z <= reach_m_ * reach_m_;
 }
 
-// No sphere near: the apex comes to rest at the base, or on the sample below it. False if that is too far.
+// With no sphere nearby, the apex rests at the base or on the sample below it. Returns false if that is too far away.
 bool PushedParticles::Ticker::free_step(const Apex& to) noexcept {
   const auto rests = [](const Apex& base) { return Apex{base.x, base.y, std::max(0.0, base.height)}; };
   if (!within_reach(rests(to))) return false;
