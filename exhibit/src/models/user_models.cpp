@@ -153,7 +153,7 @@ bool is_no_model(const std::string& path) {
 
 // Why a file is neither a model nor an image, as far as its beginning shows, and what to do.
 std::string refusal_of_other(const std::string& file) {
-  const std::string neither =
+  std::string neither =
       fmt::format("it is neither a glTF model nor an image that can be read ({}); export it in one of these formats",
                   curves::kImageFiles);
   const auto beginning = core::read_beginning(file, core::kFileKindBytes);
