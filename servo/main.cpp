@@ -18,6 +18,7 @@
 #include "core/file_descriptor.h"
 #include "core/log.h"
 #include "core/run_main.h"
+#include "haptics/edit_thread.h"
 #include "haptics/realtime.h"
 #include "haptics/servo_loop.h"
 #include "scene/shared/shared_segment.h"

@@ -22,6 +22,7 @@
 #include "core/version.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "render/context.h"
+#include "render/renderer.h"
 
 namespace afm::app {
 

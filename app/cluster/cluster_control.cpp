@@ -15,6 +15,7 @@
 #include "exhibit/cluster/living_screens.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scan/scan_panels.h"
+#include "scene/samples/particle_set.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
@@ -49,9 +50,13 @@ void ClusterControl::add_to_moment(exhibit::Moment& now, ViewFrame& frame) {
   message_.panels = parts_.panels.told(frame.pointed, parts_.hand.source());
   message_.view = parts_.picture.told();
   share_scan();
+  if (now.wall.particles != nullptr) {
+    master_.follow_particles(*now.wall.particles, parts_.stage.particles->particles.size());
+  }
   master_.send(message_, parts_.panels.edits(), parts_.servo.cycles(), parts_.servo.friction());
   exhibit::Moment shared = exhibit::moment_of(message_);
   shared.curves = now.curves;
+  shared.wall.particles = now.wall.particles;
   if (parts_.turn.scan.scan != nullptr) exhibit::show_scan(*parts_.turn.scan.scan, shared);
   now = std::move(shared);
   frame.caption = exhibit::caption_of(message_);

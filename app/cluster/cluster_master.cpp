@@ -13,6 +13,7 @@
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/state/cycle_history.h"
+#include "exhibit/state/particles_now.h"
 #include "exhibit/words/phrases.h"
 
 namespace afm::app {
@@ -97,6 +98,21 @@ void ClusterMaster::follow_scan(const exhibit::LiveScan* scan, std::size_t mater
   }
 }
 
+void ClusterMaster::follow_particles(const exhibit::ParticlesNow& now, std::size_t count) {
+  const std::size_t known = pages_.size();
+  pages_.resize(std::max(known, now.pages.size()));
+  for (std::size_t i = 0; i < std::min(count, now.pages.size() * scene::kPosesPerPage); ++i) {
+    const std::size_t page = i / scene::kPosesPerPage;
+    scene::ParticlePose& sent = pages_[page].poses[i % scene::kPosesPerPage];
+    const scene::ParticlePose& pose = now.pages[page].poses[i % scene::kPosesPerPage];
+    if (page < known && sent == pose) continue;
+    sent = pose;
+    link_->record(cluster::JournalRecord(cluster::PoseRecord{.particle = static_cast<std::uint32_t>(i), .pose = pose}));
+  }
+  push_ = now.push;
+  link_->record(cluster::JournalRecord(push_));
+}
+
 void ClusterMaster::send(cluster::FrameMessage& frame, ParameterEdits& edits, const exhibit::CycleHistory& cycles,
                          const exhibit::FrictionHistory& friction) {
   record_edits(edits);
@@ -109,7 +125,7 @@ void ClusterMaster::send(cluster::FrameMessage& frame, ParameterEdits& edits, co
     for (const auto& edit : edits_) {
       if (edit) newest.push_back(*edit);
     }
-    const auto history = exhibit::save_history(link_->recorded(), cycles, friction, newest, scan_);
+    const auto history = exhibit::save_history(link_->recorded(), cycles, friction, newest, scan_, pages_, push_);
     if (history.size() <= cluster::kMostDocumentBytes) link_->send_history(history);
   }
   link_->send(++number_, frame);

@@ -18,6 +18,7 @@ class CycleHistory;
 class FrictionHistory;
 class LiveScan;
 class Phrases;
+struct ParticlesNow;
 }  // namespace afm::exhibit
 namespace afm::render {
 struct Banner;
@@ -47,6 +48,9 @@ class ClusterMaster {
   // Follows the visible scan, null if none; `begun` is the number of scans started. Call before a frame applies the
   // hand's motion, and again before the frame is sent.
   void follow_scan(const exhibit::LiveScan* scan, std::size_t material, std::uint64_t begun);
+
+  // Sends the poses that have changed, and the push. Call before the frame that shows them is sent; `count` particles.
+  void follow_particles(const exhibit::ParticlesNow& now, std::size_t count);
 
   // Sends the next frame, and the history to a node that asks for it.
   void send(cluster::FrameMessage& frame, ParameterEdits& edits, const exhibit::CycleHistory& cycles,
@@ -94,6 +98,8 @@ class ClusterMaster {
   std::vector<std::optional<cluster::EditRecord>> edits_;  // newest recorded edit of each material
   std::vector<cluster::ScanRecord> scan_;                  // newest recorded state of the scan
   std::uint64_t scan_begun_ = 0;
+  std::vector<scene::ParticlePage> pages_;  // as recorded
+  scene::TipPush push_;
   std::uint64_t number_ = 0;
   std::uint64_t waited_frames_ = 0;
   std::int64_t longest_wait_ns_ = 0;

@@ -13,6 +13,8 @@
 #include "core/whole_file.h"
 #include "exhibit/cluster/wall_model.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "render/renderer.h"
+#include "scene/samples/particle_files.h"
 
 namespace afm::app {
 
@@ -49,6 +51,9 @@ core::Result<exhibit::WallModel> wall_model(const exhibit::ExhibitFiles& files, 
   model.files = files;
   for (std::string* own : {&model.files.probe, &model.files.sample}) {
     if (!own->empty()) *own = std::filesystem::absolute(*own).string();
+  }
+  if (std::string& own = model.files.particles; scene::is_particle_path(own)) {
+    own = std::filesystem::absolute(own).string();
   }
   model.friction = choice.friction;
   model.picture = choice.picture;

@@ -206,6 +206,9 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   panels_->edits().take_felt(tip, felt_);
   exhibit::Moment now = exhibit::moment_of(message);
   now.curves = history_->cycles.curves();
+  const exhibit::ParticlesNow particles{
+      .set = stage_.particles.get(), .pages = history_->pages, .push = history_->push};
+  if (stage_.particles) now.wall.particles = &particles;
   follow_scan(message.moment);
   if (scan_) exhibit::show_scan(*scan_, now);
   panels_->set_scan(scan_ ? &*scan_ : nullptr);

@@ -56,7 +56,7 @@ struct DemoOptions {
   std::optional<double> frame_budget_ms;
   servo::ServoChoice servo;
   curves::ModelName model{.text = "paper"};
-  scene::ScaleMode scale = scene::ScaleMode::Fit;
+  std::optional<scene::ScaleMode> scale;
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   std::string probe;     // replaces the materials' lever and tip; empty: does not
   std::string measured;  // additional curve file to feel; empty: none
@@ -124,7 +124,7 @@ core::Result<std::vector<curves::SampleModel>> variations_of(const curves::Sampl
 core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optional<curves::MeasuredMaterial>& measured,
                                  const DemoOptions& options) {
   DemoPlan plan;
-  plan.scale = options.scale;
+  plan.scale = options.scale.value_or(plan.scale);
   if (measured) {
     plan.curves.push_back(measured->curve);
     plan.recorded = measured->features;
@@ -294,7 +294,7 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
                                            stage->wall_scene.topography());
     if (!servo) return tl::unexpected(servo.error());
     ReportPictures live_pictures(*context, drawn->renderer, *out);
-    Demonstration live(*stage, *plan, drawn->renderer, **servo, clock, on_scale(options.scale, options.hand),
+    Demonstration live(*stage, *plan, drawn->renderer, **servo, clock, on_scale(plan->scale, options.hand),
                        [&] { live_pictures.add("choosing.png", stage->phrases()[exhibit::Phrase::CaptionChoosing]); });
     if (auto ran = live.run(result, say); !ran) return ran;
     drawn->renderer.wait();

@@ -138,7 +138,7 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
   if (!known) return tl::unexpected(of_lesson_file(options, known.error()));
   ViewOptions view = options.view;
   view.files.shown = lesson->materials;
-  view.settings.scale = lesson->scale;
+  view.scale = lesson->scale;
   ViewLesson guided{.lesson = std::move(*lesson), .study = std::nullopt};
   if (options.participant.empty()) return run_view(view, program, &guided);
 

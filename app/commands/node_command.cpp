@@ -27,6 +27,7 @@
 #include "exhibit/cluster/wall_model.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "render/device_failure.h"
+#include "render/renderer.h"
 
 namespace afm::app {
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -19,6 +17,7 @@
 #include "physics/manipulation/push_figures.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/quantity_text.h"
+#include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
 
 namespace afm::app {
@@ -309,24 +308,8 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
   return text;
 }
 
-// A path, or the name of a set of assets/particles.
-core::Result<std::string> path_of(const std::string& file, const std::string& assets_dir) {
-  if (file.find_first_of("/.") != std::string::npos) return file;
-  const std::string folder = assets_dir + "/particles";
-  std::vector<std::string> known;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());
-  }
-  if (std::find(known.begin(), known.end(), file) != known.end()) return fmt::format("{}/{}.toml", folder, file);
-  if (std::filesystem::exists(file)) return file;
-  std::sort(known.begin(), known.end());
-  return core::wrong_usage(fmt::format("unknown set of particles \"{}\"; choose {}, or give the path of a file", file,
-                                       fmt::join(known, ", ")));
-}
-
 core::Result<void> run_particles(const ParticlesOptions& options, const std::string& assets_dir) {
-  const auto path = path_of(options.file, assets_dir);
+  const auto path = scene::particle_file(options.file, assets_dir);
   if (!path) return tl::unexpected(path.error());
   const auto set = scene::load_particle_set(*path);
   if (!set) return tl::unexpected(set.error());

@@ -22,10 +22,15 @@
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/recorded_wall.h"
 #include "exhibit/frame/wall_drawing.h"
+#include "exhibit/frame/wall_pictures.h"
 #include "exhibit/models/model_view.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
+#include "exhibit/state/particles_now.h"
 #include "render/context.h"
+#include "render/renderer.h"
+#include "scene/samples/particle_set.h"
+#include "servo/replay.h"
 #include "servo/session_file.h"
 
 namespace afm::app {
@@ -47,7 +52,7 @@ struct RenderOptions {
 };
 
 // The wall as far as the session records it: the paper's three materials together, any other material by itself.
-exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::ExhibitFiles files) {
+core::Result<exhibit::ExhibitFiles> files_for(const servo::RecordedSession& session, exhibit::ExhibitFiles files) {
   const auto& paper = scene::kPaperMaterials;
   if (!session.wall.empty() && files.shown.empty()) files.shown = session.shown;
   const bool shown_anyway = !files.materials.empty() || !files.shown.empty() ||
@@ -62,6 +67,12 @@ exhibit::ExhibitFiles files_for(const servo::RecordedSession& session, exhibit::
   } else if (!shown_anyway) {
     files.shown = {session.material};
   }
+  if (!session.particles) return files;
+  if (!files.sample.empty()) {
+    return core::wrong_usage("--sample: the session's particles rest on a level sample of their own; leave it out");
+  }
+  files.recorded_particles =
+      std::make_shared<const scene::ParticleSet>(scene::recorded_set(session.particles->set, files.assets_dir));
   return files;
 }
 
@@ -161,10 +172,11 @@ void look_as(const servo::WallFrame& frame, scene::Wall& wall, exhibit::PictureO
 
 // Draws the frame as it was on the live wall.
 core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::SampleModel>& models,
-                              const servo::RecordedSession& session, std::int64_t time_ns,
-                              const RenderOptions& options) {
+                              const servo::RecordedSession& session, const exhibit::ParticlesNow* particles,
+                              std::int64_t time_ns, const RenderOptions& options) {
   exhibit::RecordedMoment then = exhibit::moment_on_wall(session, stage.materials.names(), time_ns);
   then.moment.curves = then.curves;
+  then.moment.wall.particles = particles;
   if (options.analogy) then.moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
   exhibit::PictureOptions picture = options.picture;
   look_as(*then.frame, stage.wall, picture);
@@ -193,12 +205,24 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
   return draw(stage, models, then.moment, picture, options.out, add_panels);
 }
 
+// The session's particles as they lay at that time; no pages if it has none.
+core::Result<servo::ReplayedParticles> particles_at(const servo::RecordedSession& session, std::int64_t time_ns,
+                                                    const RenderOptions& options) {
+  if (!session.particles) return servo::ReplayedParticles{};
+  auto then = servo::replay_particles(session, time_ns);
+  if (then) return then;
+  return core::failure(then.error().category,
+                       fmt::format("session file {}: {}", options.session, then.error().message));
+}
+
 core::Result<void> run_render(const RenderOptions& options) {
   if (options.journey_orders) return run_journey(options);
   auto session = servo::load_session(options.session);
   if (!session) return tl::unexpected(session.error());
   if (!session->complete) core::log_line(servo::cut_text(*session, options.session));
-  exhibit::ExhibitFiles files = files_for(*session, options.files);
+  auto drawn_files = files_for(*session, options.files);
+  if (!drawn_files) return tl::unexpected(drawn_files.error());
+  exhibit::ExhibitFiles& files = *drawn_files;
   const auto seen = scene::parse_stereo_mode(session->wall.empty() ? "" : session->wall.front().stereo);
   files.aspect = aspect_of(options.picture, seen.value_or(scene::StereoMode::SideBySide));
   auto stage = exhibit::load_exhibit(files);
@@ -236,10 +260,16 @@ core::Result<void> run_render(const RenderOptions& options) {
 
   const auto material = static_cast<std::size_t>(found - materials.begin());
   const std::int64_t time_ns = session->samples.front().time_ns + static_cast<std::int64_t>(options.at_s * 1e9);
-  if (!session->wall.empty()) return draw_frame(*stage, models, *session, time_ns, options);
+  const auto replayed = particles_at(*session, time_ns, options);
+  if (!replayed) return tl::unexpected(replayed.error());
+  const exhibit::ParticlesNow particles{
+      .set = stage->particles.get(), .pages = replayed->pages, .push = replayed->push};
+  const exhibit::ParticlesNow* shown = session->particles ? &particles : nullptr;
+  if (!session->wall.empty()) return draw_frame(*stage, models, *session, shown, time_ns, options);
   std::vector<exhibit::CycleCurve> curves(materials.size());
   curves[material] = exhibit::curve_until(*session, time_ns);
   exhibit::Moment moment = exhibit::moment_of(*session, material, time_ns, curves);
+  moment.wall.particles = shown;
   moment.guidance = stage->phrases().text<exhibit::Phrase::ReplayedMoment>(stage->phrases().word(found->title),
                                                                            fmt::format("{:.2f} s", options.at_s));
   if (options.analogy) moment.wall.centerpiece = exhibit::Centerpiece::Analogy;

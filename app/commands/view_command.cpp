@@ -37,6 +37,8 @@
 #include "exhibit/models/topography_model.h"
 #include "render/context.h"
 #include "render/monitor.h"
+#include "render/renderer.h"
+#include "scene/samples/particle_set.h"
 #include "servo/haptic_choice.h"
 #include "servo/keep_running.h"
 #include "servo/servo_client.h"
@@ -198,7 +200,7 @@ void add_exhibition_options(OptionList& command, ViewOptions& options) {
       .within(5.0, 3600.0)
       .show_default()
       .type_name("SECONDS");
-  add_scale_option(command, options.settings.scale);
+  add_scale_option(command, options.scale);
   add_friction_option(command, options.friction);
 }
 
@@ -224,6 +226,12 @@ servo::ServoChoice servo_of(const ViewOptions& options) {
   servo.settings.spin_ns = 1000 * options.spin_us;
   if (servo.mode == servo::ServoMode::Thread) servo.settings.linger_s = 0;  // a thread ends with this program
   return servo;
+}
+
+// A person who asks for particles wants to push them: one sample is under the tip from the start, on their scale.
+void set_start(const ViewOptions& options, bool particles, ViewSettings& settings) {
+  settings.scale = options.scale.value_or(particles ? scene::ScaleMode::Particles : scene::ScaleMode::Fit);
+  if (particles && !settings.first_material) settings.first_material = 0;
 }
 
 // Null without --headset.
@@ -271,13 +279,14 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   const auto wand_choice = parse_wand_choice(options.wand);
   if (!wand_choice) return tl::unexpected(wand_choice.error());
   settings.head_script = wand_choice->head_script;
+  set_start(options, stage->particles != nullptr, settings);
   if (auto set = set_people(options, *stage, settings); !set) return set;
   auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
   if (!wand) return tl::unexpected(wand.error());
-  const auto model =
-      exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
-                            stage->wall_scene.height_fields(), {}, stage->wall_scene.topography().size());
+  auto model = exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
+                                     stage->wall_scene.height_fields(), {}, stage->wall_scene.topography().size());
   if (!model) return tl::unexpected(model.error());
+  if (stage->particles) model->particles = scene::shared_particles(*stage->particles);
 
   const auto cluster = other_machines(options, program, *stage, clock);
   if (!cluster) return tl::unexpected(cluster.error());
@@ -336,6 +345,7 @@ void add_view_command(OptionList& program, const CommandContext& context) {
   auto options = std::make_shared<ViewOptions>();
   add_stage_options(command, options->files, context);
   add_own_model_options(command, options->files);
+  add_particles_option(command, options->files);
   command
       .add_option("--material", options->files.shown,
                   "material to show; repeatable, up to nine; default: the paper's mica, gold and silicon nitride")

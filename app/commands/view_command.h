@@ -31,7 +31,8 @@ struct ViewLesson;
 struct ViewOptions {
   exhibit::ExhibitFiles files;
   DisplayOptions display;
-  ViewSettings settings;
+  ViewSettings settings;                  // without the scale
+  std::optional<scene::ScaleMode> scale;  // empty: particles where there are any, otherwise fit
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   double frame_rate = 0;  // 0: the display's
   bool speech = false;

@@ -43,6 +43,11 @@ core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& devi
                          fmt::format("the session {} was recorded on {}, which is not on the wall: add --material {}",
                                      choice->replay_file, session->material, session->material));
   }
+  if (session->particles && stage.particles == nullptr) {
+    return core::wrong_usage(
+        fmt::format("the session {} was recorded with particles: add --particles with the set of the recording",
+                    choice->replay_file));
+  }
   settings.scale = session->samples.front().scale_mode;
   settings.first_material = static_cast<std::size_t>(found - materials.begin());
   return {};

@@ -23,6 +23,7 @@
 #include "exhibit/frame/calibration.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/wall_drawing.h"
+#include "exhibit/frame/wall_pictures.h"
 #include "exhibit/scenery/stage_place.h"
 #include "exhibit/scenery/wall_layout.h"
 #include "scene/display/disparity.h"

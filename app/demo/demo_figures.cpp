@@ -9,7 +9,12 @@
 #include "core/check.h"
 #include "exhibit/frame/film_strip.h"
 #include "exhibit/frame/frame_builder.h"
+#include "exhibit/report/measurement.h"
+#include "exhibit/report/report.h"
 #include "exhibit/scenery/journey.h"
+#include "exhibit/words/phrases.h"
+#include "render/renderer.h"
+#include "servo/session_file.h"
 
 namespace afm::app {
 

@@ -5,17 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "core/result.h"
 #include "curves/sample_model.h"
-#include "exhibit/report/measurement.h"
-#include "exhibit/report/report.h"
 #include "exhibit/state/moment.h"
-#include "exhibit/words/phrases.h"
-#include "render/renderer.h"
-#include "servo/session_file.h"
 
 namespace afm::exhibit {
 class FrameBuilder;
+struct Measurement;
+class Phrases;
+struct Variation;
+}  // namespace afm::exhibit
+namespace afm::render {
+class Renderer;
+}
+namespace afm::servo {
+struct RecordedSession;
 }
 
 namespace afm::app {

@@ -12,6 +12,7 @@
 #include "core/percentiles.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
+#include "render/renderer.h"
 
 namespace afm::app {
 

@@ -17,6 +17,8 @@
 #include "exhibit/panels/servo_rows.h"
 #include "exhibit/report/report.h"
 #include "exhibit/words/guidance.h"
+#include "exhibit/words/phrases.h"
+#include "render/renderer.h"
 #include "servo/frame_heartbeat.h"
 #include "servo/servo_client.h"
 #include "servo/session_recorder.h"
@@ -119,7 +121,7 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, e
     for (; events_logged < events.size() && events[events_logged].material == static_cast<std::int32_t>(material);
          ++events_logged) {
       const scene::TipEvent& e = events[events_logged];
-      if (e.kind == physics::EventKind::Slip) continue;
+      if (!physics::is_jump(e.kind)) continue;
       const bool in = e.kind == physics::EventKind::JumpToContact;
       progress(fmt::format("  {:<17} Z = {:8.4f} nm   pull {:8.5f} nN", in ? "jump to contact" : "jump off contact",
                            e.z_m * 1e9, -(in ? e.force_after_n : e.force_before_n) * 1e9));

@@ -14,7 +14,6 @@
 #include "input/selection.h"
 #include "input/simulated_person.h"
 #include "physics/curve_analysis.h"
-#include "render/renderer.h"
 
 namespace afm::exhibit {
 struct DemoResult;
@@ -25,6 +24,9 @@ class Phrases;
 struct Stage;
 class WallScene;
 }  // namespace afm::exhibit
+namespace afm::render {
+class Renderer;
+}
 namespace afm::servo {
 struct RecordedSession;
 class ServoClient;

@@ -4,11 +4,14 @@
 #include <utility>
 
 #include "core/whole_file.h"
+#include "exhibit/report/report.h"
 
 namespace afm::app {
 
 ReportPictures::ReportPictures(render::Context& context, render::Renderer& renderer, const core::OutputFolder& out)
     : saver_(context, renderer), out_(out) {}
+
+ReportPictures::~ReportPictures() = default;
 
 void ReportPictures::keep_errors(std::vector<render::SavedPicture> saved) {
   for (render::SavedPicture& picture : saved) {

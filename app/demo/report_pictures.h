@@ -6,8 +6,11 @@
 
 #include "core/output_folder.h"
 #include "core/result.h"
-#include "exhibit/report/report.h"
 #include "render/screenshot_queue.h"
+
+namespace afm::exhibit {
+struct ReportPicture;
+}
 
 namespace afm::app {
 
@@ -17,6 +20,7 @@ class ReportPictures {
  public:
   // All must outlive it.
   ReportPictures(render::Context& context, render::Renderer& renderer, const core::OutputFolder& out);
+  ~ReportPictures();
 
   // Saves the renderer's newest frame, side by side. Waits only if ScreenshotQueue::kMostPictures are pending.
   void add(const std::string& file, const std::string& caption);

@@ -16,6 +16,7 @@
 #include "exhibit/frame/exhibit_setup.h"
 #include "haptics/realtime.h"
 #include "render/monitor.h"
+#include "render/renderer.h"
 
 namespace afm::app {
 

@@ -15,6 +15,7 @@
 #include "exhibit/frame/calibration.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/recorded_wall.h"
+#include "exhibit/frame/wall_pictures.h"
 
 namespace afm::app {
 

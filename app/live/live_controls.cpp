@@ -9,6 +9,7 @@
 #include "app/lesson/lesson_control.h"
 #include "app/live/journey_control.h"
 #include "app/live/kept_control.h"
+#include "app/live/particles_control.h"
 #include "app/live/place_control.h"
 #include "app/live/scan_control.h"
 #include "app/live/sight_control.h"
@@ -17,6 +18,8 @@
 #include "app/live/visitor_control.h"
 #include "app/view/view_controls.h"
 #include "app/view/view_parts.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "scene/samples/particle_set.h"
 
 namespace afm::app {
 
@@ -49,6 +52,7 @@ LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const
   owners_.place = &add<PlaceControl>(settings.head_script, worn ? Eyes::OfHeadset : Eyes::Followed);
   owners_.journey = &add<JourneyControl>(worn ? Motion::Steps : Motion::Glide);
   if (features.lesson != nullptr) owners_.lesson = &add<LessonControl>(*features.lesson);
+  if (parts.stage.particles) add<ParticlesControl>(*parts.stage.particles);
   owners_.scan = &add<ScanControl>();
   owners_.sound = &add<SoundControl>();
   if (features.cluster != nullptr) add<ClusterControl>(*features.cluster);

@@ -23,6 +23,7 @@
 #include "core/log.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
+#include "exhibit/frame/wall_pictures.h"
 #include "exhibit/models/shared_model.h"
 #include "exhibit/panels/servo_rows.h"
 #include "render/device_failure.h"

@@ -11,6 +11,9 @@
 #include "app/options/command_line.h"
 #include "core/check.h"
 #include "core/log.h"
+#include "exhibit/words/phrases.h"
+#include "render/context.h"
+#include "render/renderer.h"
 
 namespace afm::app {
 

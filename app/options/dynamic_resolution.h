@@ -6,10 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "exhibit/words/phrases.h"
-#include "render/context.h"
 #include "render/frame.h"
-#include "render/renderer.h"
+
+namespace afm::exhibit {
+class Phrases;
+}
+namespace afm::render {
+class Context;
+class Renderer;
+}  // namespace afm::render
 
 namespace afm::app {
 

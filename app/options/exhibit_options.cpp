@@ -48,15 +48,24 @@ void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files) {
   add_channel_options(command, files.sample_channel, files.sample_levelling);
 }
 
-void add_scale_option(OptionList& command, scene::ScaleMode& mode) {
+void add_particles_option(OptionList& command, exhibit::ExhibitFiles& files) {
+  command
+      .add_option(
+          "--particles", files.particles,
+          "particles on a level sample, to push with the tip: a particle file (TOML), or the name of a built-in "
+          "set, such as gold-row; the scale is then particles unless --scale chooses another")
+      .type_name("FILE");
+}
+
+void add_scale_option(OptionList& command, std::optional<scene::ScaleMode>& mode) {
   std::string meanings;
-  for (const scene::ScaleModeText& row : scene::kScaleModes) {
+  for (const scene::ScaleModeText& row : scene::kScalesOfSamples) {
     meanings += fmt::format("{}{} ({})", meanings.empty() ? "" : ", ", row.word, row.meaning);
   }
-  enum_option(command, "--scale", mode, "a scale of the hand", scene::kScaleModes, &scene::ScaleModeText::word,
+  enum_option(command, "--scale", mode, "a scale of the hand", scene::kScalesOfSamples, &scene::ScaleModeText::word,
               &scene::ScaleModeText::mode,
               fmt::format("scaling of nm and nN to mm and N in the hand: {}; default: {}", meanings,
-                          scene::text_of(mode).word));
+                          scene::text_of(scene::ScaleMode::Fit).word));
 }
 
 void add_friction_option(OptionList& command, physics::FrictionLaw& friction) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/options/command.h"
@@ -18,8 +19,11 @@ void add_stereo_options(OptionList& command, exhibit::PictureOptions& options, c
 void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files);
 void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files);
 
+// Adds --particles.
+void add_particles_option(OptionList& command, exhibit::ExhibitFiles& files);
+
 // Adds --scale.
-void add_scale_option(OptionList& command, scene::ScaleMode& mode);
+void add_scale_option(OptionList& command, std::optional<scene::ScaleMode>& mode);
 
 // Adds --friction.
 void add_friction_option(OptionList& command, physics::FrictionLaw& friction);

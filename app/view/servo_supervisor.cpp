@@ -96,7 +96,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         recorder_->add(event);
         audience_.heard(event);
         cues_.add(event);
-        if (event.kind == physics::EventKind::Slip) return;  // occurs many times a second
+        if (!physics::is_jump(event.kind)) return;  // the others occur many times a second
         core::log_line(text_of(event));
         for (const auto& hears : hears_jumps_) hears(event);
       });

@@ -205,10 +205,10 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
   if (open || parameters.changed()) exhibit::add_prediction(parameters, phrases(), frame.panels.force.content);
 }
 
-// Replaces the panel with the sample's data.
+// Replaces the panel with the sample's data, or that of the particles.
 template <class Content>
 void ViewPanels::show_right(render::FramePanels& panels, render::PanelSlot<Content>& slot, Content content) const {
-  panels.data.placement = render::kNoPlacement;
+  panels.data.placement = panels.particles.placement = render::kNoPlacement;
   slot = {.content = std::move(content), .placement = wall_scene_.places().parameters()};
 }
 

@@ -8,6 +8,7 @@
 #include "app/view/view_panels.h"
 #include "app/view/view_wand.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/wall_pictures.h"
 #include "exhibit/scenery/wall_layout.h"
 
 namespace afm::app {

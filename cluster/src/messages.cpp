@@ -38,11 +38,12 @@ bool sound(const Block& block) {
   return all;
 }
 
-// Limit for material numbers in a block: the largest possible model.
+// Limit for the numbers of materials and particles in a block: the largest possible model.
 const scene::SharedModel& most_materials() {
   static const std::unique_ptr<const scene::SharedModel> model = [] {
     auto most = std::make_unique<scene::SharedModel>();
     most->material_count = scene::kMaxMaterials;
+    most->particles.count = scene::kMaxParticles;
     return most;
   }();
   return *model;
@@ -68,6 +69,12 @@ bool is_valid(const EditRecord& edit) {
 bool is_valid(const ScanRecord& scan) {
   return sound(scan) && scan.material < scene::kMaxMaterials && scan.has_hand <= 1 && scan.paints <= 1 &&
          scan.feedback <= 1;
+}
+
+bool is_valid(const PoseRecord& record) {
+  double square = 0;
+  for (const double part : record.pose.orientation) square += part * part;
+  return sound(record) && record.particle < scene::kMaxParticles && std::abs(square - 1.0) < kUnitTolerance;
 }
 
 bool is_valid(const ReadyMessage& ready) {
@@ -132,6 +139,10 @@ bool JournalRecord::valid() const {
     case JournalKind::ScanBegin:
     case JournalKind::ScanChange:
       return is_valid(scan());
+    case JournalKind::Pose:
+      return is_valid(pose());
+    case JournalKind::Push:
+      return scene::is_valid(push(), most_materials());
     case JournalKind::Forget:
     case JournalKind::ScanEnd:
       break;

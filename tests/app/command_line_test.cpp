@@ -180,7 +180,8 @@ TEST(CommandLine, RefusesAFrictionThatTheLawDoesNotHave) {
 TEST(CommandLine, ExplainsEveryScaleMode) {
   for (const char* command : {"demo", "view"}) {
     const std::string help = touchafm(std::string(command) + " --help").out;
-    for (const scene::ScaleModeText& scale : scene::kScaleModes) EXPECT_THAT(help, HasSubstr(scale.word)) << command;
+    for (const scene::ScaleModeText& scale : scene::kScalesOfSamples)
+      EXPECT_THAT(help, HasSubstr(scale.word)) << command;
   }
   expect_refusal(touchafm("demo --out x --scale logarithmic"), 2, "compressed");
 }

@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "exhibit/words/phrases.h"
+#include "render/context.h"
+#include "render/renderer.h"
+
 namespace afm::app {
 namespace dynamic_resolution_test {
 

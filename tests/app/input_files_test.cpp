@@ -49,6 +49,7 @@ const std::vector<Input> kInputs{
     {"view", "--probe", "--probe @", ".glb"},
     {"view", "--sample", "--sample @", ".glb"},
     {"view", "--sample", "--sample @", ".spm"},
+    {"view", "--particles", "--particles @"},
     {"view", "--wand-file", "--wand-file @"},
     {"view", "--head", "--head sim:@", ".csv"},
     {"view", "--haptics", "--haptics replay:@", ".afms"},

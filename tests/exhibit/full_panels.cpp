@@ -7,10 +7,12 @@
 #include "exhibit/friction/friction_panel.h"
 #include "exhibit/lesson/questionnaire.h"
 #include "exhibit/panels/parameter_panel.h"
+#include "exhibit/panels/particles_panel.h"
 #include "exhibit/panels/servo_rows.h"
 #include "exhibit/scan/scan_subject.h"
 #include "exhibit/words/guidance.h"
 #include "scene/shared/shared_blocks.h"
+#include "support/particles.h"
 
 namespace afm::exhibit {
 
@@ -68,6 +70,23 @@ render::ForcePanel full_friction_loop(physics::FrictionLaw law, const Phrases& p
     history.add(sample);
   }
   return friction_panel(history, law, phrases);
+}
+
+std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
+  std::vector<render::DataPanel> panels;
+  for (const char* name : {"gold-row", "latex-letter"}) {
+    scene::ParticleSet set = test::particle_set(name);
+    for (const physics::PushState state : core::kEnumerators<physics::PushState>) {
+      scene::TipPush push = test::push_of(set, set.particles.size() - 1, state);
+      push.softened_sideways = 123.4;
+      for (const physics::ParticleLawText& law : physics::kParticleLaws) {
+        set.setup.species.front().law = law.law;
+        panels.push_back(particles_panel({.set = &set, .push = push}, phrases));
+      }
+    }
+    panels.push_back(particles_panel({.set = &set}, phrases));
+  }
+  return panels;
 }
 
 std::vector<LessonPrompt> full_prompts(const Phrases& phrases) {

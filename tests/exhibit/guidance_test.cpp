@@ -48,6 +48,13 @@ TEST(Guidance, LeadsThroughTheProcedureByWhatHasHappened) {
   EXPECT_EQ(next_step(tip(State::Running, Phase::Free, 0.060), {.ascending = true, .let_go = true}), Hint::LetGo);
   EXPECT_EQ(next_step(tip(State::Running, Phase::Free, 0.060), {.let_go = true}), Hint::MoveDown);
   EXPECT_EQ(next_step(tip(State::Fading, Phase::Attached, 0.0), {}), Hint::GoingOff);
+
+  scene::TipState pushing = tip(State::Running, Phase::Free, 0.040);
+  pushing.active.scale_mode = scene::ScaleMode::Particles;
+  EXPECT_EQ(next_step(pushing, {}), Hint::GoBeside);
+  EXPECT_EQ(next_step(pushing, {.ascending = true, .let_go = true}), Hint::GoBeside) << "no cycle ends here";
+  pushing.phase = Phase::Attached;
+  EXPECT_EQ(next_step(pushing, {.pressed = true}), Hint::PushAside);
 }
 
 TEST(Guidance, AsksToPressBeforeItAsksToMoveUpHoweverTheHandTrembles) {
@@ -86,7 +93,7 @@ TEST(Guidance, NamesTheControlsInEveryLanguageThatWeShip) {
       }
       const bool has_control = hint == Hint::Lift || hint == Hint::TurnOn || hint == Hint::TurnOnAndHold ||
                                hint == Hint::MoveDown || hint == Hint::Pressed || hint == Hint::MoveUp ||
-                               hint == Hint::PressToGoOn;
+                               hint == Hint::GoBeside || hint == Hint::PushAside || hint == Hint::PressToGoOn;
       EXPECT_EQ(texts.size(), has_control ? core::kEnumerators<HandControls>.size() : 1) << file.path();
     }
   }

@@ -81,6 +81,9 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   for (const auto law : {physics::FrictionLaw::None, physics::FrictionLaw::Lattice}) {
     expect_whole(full_friction_loop(law, phrases), stage.wall_scene.places().parameters(), "the friction loop");
   }
+  for (const render::DataPanel& particles : full_particles(phrases)) {
+    expect_whole(particles, frame.panels.data.placement, "the particles");
+  }
   for (const LessonPrompt& prompt : full_prompts(phrases)) {
     const auto targets = lesson_targets(prompt, std::nullopt, phrases);
     const LessonPlaces places = lesson_places(stage.wall_scene.places().parameters(), targets.size());

@@ -26,6 +26,7 @@
 #include "exhibit/panels/servo_rows.h"
 #include "exhibit/report/report.h"
 #include "exhibit/words/guidance.h"
+#include "full_panels.h"
 #include "scene/shared/shared_blocks.h"
 #include "support/phrases.h"
 #include "support/places.h"
@@ -185,6 +186,7 @@ TEST_F(TranslatedWall, HasNoEnglishWordOnItsPanels) {
   curves::LiveParameters refused(models_.front());
   while (refused.refusal().empty()) refused.step(curves::LiveParameters::Row::TipRadius, 1);
   check(parameter_panel(refused, "", ChangeState::Applied, phrases()));
+  for (const render::DataPanel& particles : full_particles(phrases())) check(particles);
   scene::TipState tip;
   tip.active.scale.hand_m_per_m = tip.active.scale.hand_n_per_n = 1.0;
   tip.safety.motor_heat = 0.9;

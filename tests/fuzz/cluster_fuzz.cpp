@@ -31,7 +31,8 @@ bool take(std::span<const std::byte> datagram) {
     for (std::uint32_t i = 0; i < message->count; ++i) {
       if (is_applicable(message->records[i])) history.apply(message->records[i]);
     }
-    const auto document = save_history(history.journal, history.cycles, history.friction, history.edits, history.scan);
+    const auto document = save_history(history.journal, history.cycles, history.friction, history.edits, history.scan,
+                                       history.pages, history.push);
     if (!load_history(document, 3)) std::abort();
   }
   if constexpr (std::is_same_v<Message, DocumentPiece>) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <thread>
 
+#include "haptics/edit_thread.h"
 #include "servo_bench.h"
 
 namespace material_edit_test {

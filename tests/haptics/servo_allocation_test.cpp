@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "servo_bench.h"
+#include "support/gold_particles.h"
 #include "support/measured_curve_of.h"
 #include "support/measured_surface.h"
 #include "support/no_alloc.h"
@@ -119,6 +120,40 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsInAScanThatLeadsTheHandOrThatTh
     EXPECT_GT(active, 1000);
     EXPECT_GT(bench.hand_force_n(), 0.05);
   }
+}
+
+TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItPushesAParticle) {
+  using afm::physics::PushState;
+  afm::scene::SharedModel model = afm::test::paper_model();
+  model.particles = afm::test::particles_at({{-80e-9, 0.0}, {80e-9, 100e-9}});
+  ServoBench bench(model);
+  bench.arm(afm::test::kMica, afm::scene::ScaleMode::Particles);
+  const auto send = [&](double x_m, double height_m, double seconds) {
+    bench.renderer.store(
+        afm::scene::HandScript{.target_m = {x_m, height_m, 0.0}, .duration_s = seconds, .revision = ++bench.script});
+  };
+  send(-0.030, 0.030, 0.4);
+  bench.run(0.5);
+  send(-0.030, 0.001, 0.4);
+  bench.run(0.5);
+  send(0.010, 0.001, 2.0);
+  int held = 0, slid = 0;
+  for (int tick = 0; tick < 2600; ++tick) {
+    if (tick == 2200) send(0.010, 0.060, 0.3);
+    bench.renderer.store(afm::scene::RendererHeartbeat{});
+    bench.now_ns += bench.loop->period_ns();
+    {
+      const NoAllocation no_allocation;
+      const NoLock no_lock;
+      bench.loop->tick(bench.now_ns, 0);
+    }
+    const PushState state = bench.renderer.tip_push()->state;
+    if (state == PushState::Holds) ++held;
+    if (state == PushState::Slides) ++slid;
+  }
+  EXPECT_EQ(bench.state().fault, afm::scene::FaultCode::None);
+  EXPECT_GT(held, 10);
+  EXPECT_GT(slid, 100);
 }
 
 TEST_P(ServoTickOf, NeitherAllocatesNorLocksNorThrowsOverACycle) {

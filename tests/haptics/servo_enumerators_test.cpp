@@ -10,6 +10,7 @@
 #include "core/enumerators.h"
 #include "physics/friction/friction.h"
 #include "servo_bench.h"
+#include "support/gold_particles.h"
 #include "support/measured_curve_of.h"
 
 // A tick with every enumerator that reaches it from material, friction, scale, scan and renderer: each is felt, or
@@ -33,7 +34,7 @@ physics::FrictionParameters friction_of(FrictionLaw law, LatticeKind kind) {
 }
 
 scene::SharedModel model_of(Law law, const physics::FrictionParameters& friction) {
-  scene::SharedModel model = test::paper_model();
+  scene::SharedModel model = test::model_with_particles();
   scene::SharedContact& mica = model.materials[test::kMica];
   mica.law = law;
   mica.contact.reduced_modulus.si = 51.5e9;

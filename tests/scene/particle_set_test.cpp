@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "core/whole_file.h"
@@ -67,6 +68,26 @@ std::string changed(const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
+}
+
+TEST(ParticleSet, OfARecordingHasTheWordsOfTheSetOfTheAssets) {
+  const auto set = load_particle_set(kFolder + "/latex-letter.toml");
+  ASSERT_TRUE(set) << set.error().message;
+  const auto recorded = std::make_unique<SharedParticles>(shared_particles(*set));
+  const ParticleSet known = recorded_set(*recorded, support::source("assets"));
+  EXPECT_EQ(known.title, set->title);
+  EXPECT_EQ(known.particles.size(), set->particles.size());
+  EXPECT_FALSE(known.sources.empty());
+
+  recorded->species[0].kinetic_ratio *= 0.5;  // one of a user's file
+  const ParticleSet unknown = recorded_set(*recorded, support::source("assets"));
+  EXPECT_EQ(unknown.title, "Recorded particles");
+  EXPECT_TRUE(unknown.sources.empty());
+  ASSERT_EQ(unknown.species.size(), set->species.size());
+  EXPECT_EQ(unknown.species[0].name, set->species[0].name);
+  EXPECT_EQ(unknown.setup.species[0].kinetic_ratio, recorded->species[0].kinetic_ratio);
+  ASSERT_EQ(unknown.particles.size(), set->particles.size());
+  EXPECT_EQ(unknown.particles[1].position.x.si, recorded->particles[1].x_m);
 }
 
 TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "scene/shared/shared_segment.h"
+#include "support/gold_particles.h"
 #include "support/paper_model.h"
 
 namespace shared_blocks_test {
@@ -76,10 +77,69 @@ TEST(SharedBlocks, OfEveryFaultAndEveryScaleModePass) {
     servo.store(TipState{.fault = fault.code});
     EXPECT_TRUE(renderer.tip_state()) << fault.reason;
   }
-  for (const ScaleModeText& scale : kScaleModes) {
+  for (const ScaleModeText& scale : kScalesOfSamples) {
     renderer.store(Selection{.material = 0, .scale_mode = scale.mode});
     EXPECT_TRUE(servo.new_selection()) << scale.word;
   }
+  renderer.store(Selection{.material = 0, .scale_mode = ScaleMode::Particles});
+  EXPECT_FALSE(servo.new_selection()) << "there are none";
+  auto with_particles = SharedSegment::create(afm::test::model_with_particles(), 0);
+  ASSERT_TRUE(with_particles) << with_particles.error().message;
+  with_particles->renderer_side().store(Selection{.material = 0, .scale_mode = ScaleMode::Particles});
+  EXPECT_TRUE(with_particles->servo_side().new_selection());
+}
+
+TEST(SharedParticles, CrossInPagesOfWhichOnlyNewOnesAreSeen) {
+  auto segment = SharedSegment::create(afm::test::model_with_particles(), 0);
+  ASSERT_TRUE(segment) << segment.error().message;
+  RendererSide renderer = segment->renderer_side();
+  ServoSide servo = segment->servo_side();
+  EXPECT_FALSE(renderer.new_particle_page(0) || renderer.tip_push() || servo.last_particle_page(0));
+  ParticlePage page;
+  page.poses[3].x_m = 5e-9;
+  servo.store(page, 1);
+  EXPECT_EQ(renderer.new_particle_page(1), page);
+  EXPECT_FALSE(renderer.new_particle_page(1));
+  EXPECT_FALSE(renderer.new_particle_page(0));
+  EXPECT_EQ(servo.last_particle_page(1), page) << "for a successor";
+  page.poses[3].orientation[2] = kNan;
+  servo.store(page, 1);
+  EXPECT_FALSE(renderer.new_particle_page(1) || servo.last_particle_page(1));
+  EXPECT_EQ(renderer.refused_blocks(), 1U);
+
+  servo.store(TipPush{.tick = 4, .hand_n_per_n = 2e10, .particle = 2});
+  EXPECT_EQ(renderer.tip_push()->tick, 4U);
+  servo.store(TipPush{.particle = 3});
+  EXPECT_FALSE(renderer.tip_push()) << "there are three";
+  servo.store(TipPush{.base_m = {kNan, 0.0, 0.0}});
+  EXPECT_FALSE(renderer.tip_push());
+  servo.push(TipSample{.push = {.particle = 3}});
+  EXPECT_FALSE(renderer.pop_sample());
+}
+
+TEST(SharedParticles, AreRefusedWithAReason) {
+  const auto refused = [](auto&& spoil) {
+    SharedParticles particles = afm::test::model_with_particles().particles;
+    spoil(particles);
+    const auto valid = validate(particles);
+    return valid ? std::string("accepted") : valid.error().message;
+  };
+  EXPECT_EQ(refused([](SharedParticles&) {}), "accepted");
+  EXPECT_EQ(refused([](SharedParticles& p) { p = {}; }), "accepted");
+  EXPECT_EQ(refused([](SharedParticles& p) { p.count = 2049; }),
+            "the shared scene has 2049 particles of 1 species: the limits are 2048 particles and 1 to 8 species");
+  EXPECT_EQ(refused([](SharedParticles& p) { p.particles[1].x_m = kNan; }),
+            "the place of a particle in the shared scene is invalid");
+  EXPECT_EQ(
+      refused([](SharedParticles& p) { p.particles[1].x_m = -79e-9; }),
+      "the particles of the shared scene: particles 0 and 1 overlap: their centres are 1 nm apart and touch at 50 "
+      "nm");
+  EXPECT_EQ(refused([](SharedParticles& p) { p.particles[1].species = 1; }),
+            "the particles of the shared scene: particle 1 is of an unknown species");
+  EXPECT_EQ(refused([](SharedParticles& p) { p.species[0].law = static_cast<afm::physics::ParticleLaw>(9); }),
+            "the name or the law of particle species 0 is invalid");
+  EXPECT_EQ(refused([](SharedParticles& p) { p.pusher.threshold_on_hand_n = 0.0; }),
+            "the size or the threshold of the particles in a hand is impossible");
 }
 
 // One after the other, each number of a block made NaN; returns how many it has.
@@ -110,7 +170,8 @@ int expect_every_number_is_checked(const SharedModel& model) {
 TEST(SharedBlocks, AreRefusedForAnyNumberThatIsNotFinite) {
   const SharedModel model = paper_model();
   EXPECT_EQ(expect_every_number_is_checked<TipState>(model), 5 + 3 + 3 + 6 + 4 + 6);
-  EXPECT_EQ(expect_every_number_is_checked<TipSample>(model), 5 + 3 + 2 + 9 + 1 + 2 + 4);
+  EXPECT_EQ(expect_every_number_is_checked<TipSample>(model), 5 + 3 + 2 + 9 + 1 + 2 + 4 + 4);
+  EXPECT_EQ(expect_every_number_is_checked<TipPush>(model), 3 + 3 + 2 + 4 + 4 + 4);
   EXPECT_EQ(expect_every_number_is_checked<TipEvent>(model), 3);
 }
 
@@ -129,6 +190,8 @@ TEST(SharedBlocks, SayYesOrNoByOneOrZeroAlone) {
     EXPECT_EQ(is_valid(RendererHeartbeat{.unseen = answer}), good) << answer;
     EXPECT_EQ(is_valid(TipSample{.device_healthy = answer}, model), good) << answer;
     EXPECT_EQ(is_valid(TipSample{.changing = answer}, model), good) << answer;
+    EXPECT_EQ(is_valid(TipPush{.met = answer}, model), good) << answer;
+    EXPECT_EQ(is_valid(TipPush{.lagging = answer}, model), good) << answer;
     device.has_own_hand = answer;
     EXPECT_EQ(is_valid(device), good) << answer;
   }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <glm/vec2.hpp>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -61,9 +62,18 @@ class Recording {
   explicit Recording(const scene::SharedModel& model = test::paper_model())
       : segment_(std::move(*scene::SharedSegment::create(model, 0))),
         renderer_(segment_.renderer_side()),
+        pages_(scene::pages_of(model.particles.count)),
         loop_(std::move(*haptics::ServoLoop::create(segment_, device, {.rate_hz = 1000.0}))) {}
 
-  void choose(int material) { renderer_.store(scene::Selection{.material = material, .revision = ++selection_}); }
+  void choose(int material, scene::ScaleMode mode = scene::ScaleMode::Fit) {
+    renderer_.store(scene::Selection{.material = material, .revision = ++selection_, .scale_mode = mode});
+  }
+
+  // The scripted hand goes to a place on the sample, at a height above the contact point.
+  void go(const glm::dvec2& place_m, double height_m, double seconds) {
+    renderer_.store(
+        scene::HandScript{.target_m = {place_m.x, height_m, -place_m.y}, .duration_s = seconds, .revision = ++script_});
+  }
 
   // The wall takes the force away; the material stays.
   void release(int material) {
@@ -90,6 +100,9 @@ class Recording {
       }
       now_ns += 1'000'000 + 37'000 * (tick_ % 11) - (tick_ % 7) * 51'000;
       loop_->tick(now_ns, 0);
+      for (std::uint32_t page = 0; page < pages_.size(); ++page) {
+        if (const auto newer = renderer_.new_particle_page(page)) pages_[page] = *newer;
+      }
       while (const auto sample = renderer_.pop_sample()) record(*sample);
       while (const auto event = renderer_.pop_event()) sessions.back().events.push_back(*event);
     }
@@ -126,6 +139,7 @@ class Recording {
   }
 
   scene::TipState state() { return *renderer_.tip_state(); }
+  const std::vector<scene::ParticlePage>& pages() const { return pages_; }
 
   FaultyDevice device;
   std::vector<RecordedSession> sessions;
@@ -144,12 +158,14 @@ class Recording {
       session.device = *renderer_.device();
       session.rate_hz = 1000.0;
       session.room_from_sample = segment_.model().nodes[1].parent_from_node;
+      if (!pages_.empty()) session.particles = {.set = segment_.model().particles, .pages = pages_};
     }
     sessions.back().samples.push_back(sample);
   }
 
   scene::SharedSegment segment_;
   scene::RendererSide renderer_;
+  std::vector<scene::ParticlePage> pages_;  // newest
   std::unique_ptr<haptics::ServoLoop> loop_;
   std::uint32_t selection_ = 0;
   std::uint32_t script_ = 0;

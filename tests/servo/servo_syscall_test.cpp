@@ -15,7 +15,9 @@
 #include <cstddef>
 #include <memory>
 
+#include "core/clock.h"
 #include "haptics/realtime.h"
+#include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
 #include "live_renderer.h"
 

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/clock.h"
+#include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
 #include "live_renderer.h"
 

@@ -21,7 +21,7 @@ namespace afm::cluster {
 inline constexpr std::size_t kMostDatagramBytes = 1300;
 
 // Increase whenever the meaning of a message changes.
-inline constexpr std::uint32_t kClusterVersion = 2;
+inline constexpr std::uint32_t kClusterVersion = 3;
 
 // Header of every message. Each master draws a random `session` when it starts.
 struct ClusterHeader {
@@ -142,8 +142,25 @@ constexpr void for_each_field(Visit&& visit, Record&... scan) {
 }
 static_assert(scene::all_fields_described<ScanRecord>());
 
+// Pose of a particle that has changed.
+struct PoseRecord {
+  std::uint32_t particle = 0;
+  std::uint32_t padding = 0;
+  scene::ParticlePose pose{};
+
+  bool operator==(const PoseRecord&) const = default;
+};
+
+template <class Visit, scene::RecordOf<PoseRecord>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... record) {
+  visit("particle", record.particle...);
+  visit("padding", record.padding...);
+  visit("pose", record.pose...);
+}
+static_assert(scene::all_fields_described<PoseRecord>());
+
 // Records that every node must receive completely and in order: each sample and jump of the tip, each edit, each change
-// of a scan.
+// of a scan, each particle that has moved, and the push of a frame.
 enum class JournalKind : std::uint32_t {
   Sample = 0,
   Event = 1,
@@ -151,7 +168,9 @@ enum class JournalKind : std::uint32_t {
   Forget = 3,
   ScanBegin = 4,
   ScanChange = 5,
-  ScanEnd = 6
+  ScanEnd = 6,
+  Pose = 7,
+  Push = 8
 };
 
 class JournalRecord {
@@ -160,7 +179,9 @@ class JournalRecord {
   explicit JournalRecord(const scene::TipSample& sample) : kind_(JournalKind::Sample) { set(sample); }
   explicit JournalRecord(const scene::TipEvent& event) : kind_(JournalKind::Event) { set(event); }
   explicit JournalRecord(const EditRecord& edit) : kind_(JournalKind::Edit) { set(edit); }
-  JournalRecord(JournalKind kind, const ScanRecord& scan) : kind_(kind) { set(scan); }  // last three kinds
+  JournalRecord(JournalKind kind, const ScanRecord& scan) : kind_(kind) { set(scan); }  // kinds of a scan
+  explicit JournalRecord(const PoseRecord& pose) : kind_(JournalKind::Pose) { set(pose); }
+  explicit JournalRecord(const scene::TipPush& push) : kind_(JournalKind::Push) { set(push); }
 
   JournalKind kind() const { return kind_; }
   // Valid only for records of that kind.
@@ -168,13 +189,17 @@ class JournalRecord {
   scene::TipEvent event() const { return get<scene::TipEvent>(); }
   EditRecord edit() const { return get<EditRecord>(); }
   ScanRecord scan() const { return get<ScanRecord>(); }
+  PoseRecord pose() const { return get<PoseRecord>(); }
+  scene::TipPush push() const { return get<scene::TipPush>(); }
 
-  // True if enumerators are known, numbers finite, and materials below scene::kMaxMaterials.
+  // True if enumerators are known, numbers finite, materials below scene::kMaxMaterials, and particles below
+  // scene::kMaxParticles.
   bool valid() const;
 
  private:
   template <class Body>
   void set(const Body& body) {
+    static_assert(sizeof(Body) <= sizeof(body_));
     const auto bytes = std::as_bytes(std::span(&body, 1));
     for (std::size_t i = 0; i < bytes.size(); ++i) body_[i] = bytes[i];
   }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/members.h"
+#include "scene/shared/shared_segment.h"
 
 namespace afm::exhibit {
 
@@ -63,7 +64,7 @@ class HistoryReader {
     values.resize(count);
     read(std::as_writable_bytes(std::span(values)));
     if constexpr (sizeof(Value) % sizeof(double) == 0 && !std::is_same_v<Value, cluster::EditRecord> &&
-                  !std::is_same_v<Value, cluster::ScanRecord>)
+                  !std::is_same_v<Value, cluster::ScanRecord> && !std::is_same_v<Value, scene::ParticlePage>)
       check_doubles(values);
   }
 
@@ -125,6 +126,15 @@ void WallHistory::apply(const cluster::JournalRecord& record) {
     case cluster::JournalKind::ScanEnd:
       scan.clear();
       return;
+    case cluster::JournalKind::Pose: {
+      const cluster::PoseRecord moved = record.pose();
+      if (pages.size() < scene::pages_of(moved.particle + 1)) pages.resize(scene::pages_of(moved.particle + 1));
+      pages[scene::page_of(moved.particle)].poses[moved.particle % scene::kPosesPerPage] = moved.pose;
+      return;
+    }
+    case cluster::JournalKind::Push:
+      push = record.push();
+      return;
     case cluster::JournalKind::Forget:
       cycles = CycleHistory(cycles.curves().size());
       friction = {};
@@ -178,7 +188,8 @@ void add_change(const cluster::ScanRecord& change, std::vector<cluster::ScanReco
 
 std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& cycles, const FrictionHistory& friction,
                                     std::span<const cluster::EditRecord> edits,
-                                    std::span<const cluster::ScanRecord> scan) {
+                                    std::span<const cluster::ScanRecord> scan,
+                                    std::span<const scene::ParticlePage> pages, const scene::TipPush& push) {
   HistoryWriter writer;
   writer(journal);
   writer(static_cast<std::uint64_t>(cycles.curves().size()));
@@ -186,6 +197,8 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
   FrictionHistory::visit_state(friction, writer);
   writer(std::vector<cluster::EditRecord>(edits.begin(), edits.end()));
   writer(std::vector<cluster::ScanRecord>(scan.begin(), scan.end()));
+  writer(std::vector<scene::ParticlePage>(pages.begin(), pages.end()));
+  writer(push);
   return writer.take();
 }
 
@@ -200,6 +213,8 @@ std::optional<WallHistory> load_history(std::span<const std::byte> document, std
   FrictionHistory::visit_state(history.friction, reader);
   reader(history.edits);
   reader(history.scan);
+  reader(history.pages);
+  reader(history.push);
   const auto is_edit = [&](const cluster::EditRecord& edit) {
     return edit.material < materials && cluster::JournalRecord(edit).valid();
   };
@@ -209,7 +224,11 @@ std::optional<WallHistory> load_history(std::span<const std::byte> document, std
   };
   const bool valid = reader.whole() && history.cycles.sound() && history.friction.sound() &&
                      std::all_of(history.edits.begin(), history.edits.end(), is_edit) &&
-                     std::all_of(history.scan.begin(), history.scan.end(), is_scan);
+                     std::all_of(history.scan.begin(), history.scan.end(), is_scan) &&
+                     history.pages.size() <= scene::kParticlePages &&
+                     std::all_of(history.pages.begin(), history.pages.end(),
+                                 [](const scene::ParticlePage& page) { return scene::is_valid(page); }) &&
+                     cluster::JournalRecord(history.push).valid();
   return valid ? std::optional(std::move(history)) : std::nullopt;
 }
 

@@ -13,6 +13,8 @@
 #include "core/enumerators.h"
 #include "core/fnv1a.h"
 #include "core/whole_file.h"
+#include "render/renderer.h"
+#include "scene/samples/particle_files.h"
 
 namespace afm::exhibit {
 
@@ -56,6 +58,7 @@ WallModel model_of(const json& root) {
   root.at("language").get_to(model.files.language);
   model.files.probe = checked_name(root.at("probe"));
   model.files.sample = checked_name(root.at("sample"));
+  model.files.particles = checked_name(root.at("particles"));
   root.at("sample_channel").get_to(model.files.sample_channel);
   model.files.sample_levelling = enumerator_of<physics::Levelling>(root.at("sample_levelling"));
   root.at("shown").get_to(model.files.shown);
@@ -109,6 +112,7 @@ std::vector<std::byte> document_of(const WallModel& model) {
                   {"language", model.files.language},
                   {"probe", model.files.probe},
                   {"sample", model.files.sample},
+                  {"particles", model.files.particles},
                   {"sample_channel", model.files.sample_channel},
                   {"sample_levelling", static_cast<std::uint32_t>(model.files.sample_levelling)},
                   {"shown", model.files.shown},
@@ -135,7 +139,9 @@ core::Result<WallModel> read_wall_model(std::span<const std::byte> document) {
 core::Result<ExhibitFiles> unpack(const WallModel& model, const std::string& assets_dir, const std::string& folder) {
   ExhibitFiles files = model.files;
   files.assets_dir = assets_dir;
-  for (const auto& [file, what] : {std::pair(files.probe, "probe"), std::pair(files.sample, "sample")}) {
+  const std::string particles = scene::is_particle_path(files.particles) ? files.particles : "";
+  for (const auto& [file, what] :
+       {std::pair(files.probe, "probe"), std::pair(files.sample, "sample"), std::pair(particles, "particle file")}) {
     if (auto here = own_file_is_here(file, what); !here) return tl::unexpected(here.error());
   }
   const std::filesystem::path beside = std::filesystem::path(folder) / "wall";

@@ -14,9 +14,13 @@
 
 #include "core/log.h"
 #include "exhibit/frame/frame_builder.h"
+#include "exhibit/frame/wall_pictures.h"
 #include "exhibit/models/user_models.h"
 #include "physics/quantity_text.h"
+#include "render/renderer.h"
 #include "scene/display/wall_doubts.h"
+#include "scene/samples/particle_files.h"
+#include "scene/samples/particle_set.h"
 
 namespace afm::exhibit {
 
@@ -75,6 +79,20 @@ core::Result<scene::MaterialLibrary> shown_materials(const ExhibitFiles& files) 
   return shown;
 }
 
+// Null if no particles are wanted.
+core::Result<std::shared_ptr<const scene::ParticleSet>> load_particles(const ExhibitFiles& files) {
+  if (files.particles.empty() && files.recorded_particles == nullptr) return nullptr;
+  if (!files.sample.empty()) {
+    return core::wrong_usage("particles rest on a level sample of their own: leave --sample out");
+  }
+  if (files.recorded_particles != nullptr) return files.recorded_particles;
+  const auto path = scene::particle_file(files.particles, files.assets_dir);
+  if (!path) return tl::unexpected(path.error());
+  auto set = scene::load_particle_set(*path);
+  if (!set) return tl::unexpected(set.error());
+  return std::make_shared<const scene::ParticleSet>(std::move(*set));
+}
+
 // Fits the screen to the ratio at the same height. Nearly the same ratio keeps the screen unchanged.
 void take_aspect(double aspect, scene::Screen& screen) {
   constexpr double kSame = 0.01;
@@ -125,14 +143,16 @@ core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
   const StagePlace place = stage_place(*wall);
   const auto eyes = eyes_before(place.main, wall->viewers.front().sweet_spot, place.ipd_m);
   if (!eyes) return tl::unexpected(eyes.error());
-  const auto own =
-      load_own_models(files.probe, files.sample, {{.channel = files.sample_channel}, files.sample_levelling});
+  auto particles = load_particles(files);
+  if (!particles) return tl::unexpected(particles.error());
+  auto own = load_own_models(files.probe, files.sample, {{.channel = files.sample_channel}, files.sample_levelling});
   if (!own) return tl::unexpected(own.error());
+  own->particles = *particles;
   auto wall_scene = WallScene::load(files.assets_dir, *materials, place, phrases->wall, *own);
   if (!wall_scene) return tl::unexpected(wall_scene.error());
   wall_scene->set_text_size(files.text_size);
-  return Stage{std::move(*materials),  std::move(*wall),           place.main, *eyes,
-               std::move(*wall_scene), std::move(phrases->english)};
+  return Stage{std::move(*materials),       std::move(*wall), place.main, *eyes, std::move(*wall_scene),
+               std::move(phrases->english), *particles};
 }
 
 bool is_model_file(const std::string& name) {

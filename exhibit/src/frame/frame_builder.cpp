@@ -10,6 +10,7 @@
 #include "core/enumerators.h"
 #include "curves/plot_units.h"
 #include "exhibit/panels/data_panel.h"
+#include "exhibit/panels/particles_panel.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scenery/journey.h"
 #include "exhibit/scenery/wall_scene.h"
@@ -154,6 +155,9 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
         .title = (*phrases_)[Phrase::NoSample],
         .subtitle = no_sample_advice(*phrases_, moment.by_wand ? Pointer::Wand : Pointer::Mouse),
         .rows = {}};
+  }
+  if (moment.wall.particles != nullptr) {
+    frame.panels.particles.content = particles_panel(*moment.wall.particles, *phrases_);
   }
   frame.panels.banner.content = banner(moment);
   return frame;

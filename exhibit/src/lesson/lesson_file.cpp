@@ -73,9 +73,9 @@ struct ScaleWord {
 };
 // Every scale but that of atoms, on which no hand compares two materials.
 constexpr auto kLessonScales = [] {
-  std::array<ScaleWord, scene::kScaleModes.size() - 1> rows{};
+  std::array<ScaleWord, scene::kScalesOfSamples.size() - 1> rows{};
   std::size_t count = 0;
-  for (const scene::ScaleModeText& row : scene::kScaleModes) {
+  for (const scene::ScaleModeText& row : scene::kScalesOfSamples) {
     if (row.mode != scene::ScaleMode::Atoms) rows.at(count++) = {row.mode, row.word};
   }
   return rows;

@@ -184,7 +184,7 @@ void WallPlaces::place_panels(const WallState& state, render::FrameState& frame)
   if (state.centerpiece == Centerpiece::Journey) return;
   const bool plot = state.centerpiece == Centerpiece::Plot;
   (state.scan && !plot ? panels.image.placement : panels.force.placement) = plot ? finale() : force_placement_;
-  panels.data.placement = data_placement_;
+  (state.particles != nullptr && !plot ? panels.particles.placement : panels.data.placement) = data_placement_;
 }
 
 }  // namespace afm::exhibit

@@ -11,10 +11,12 @@
 #include "core/check.h"
 #include "exhibit/models/drawn_surface.h"
 #include "exhibit/models/model_builder.h"
+#include "exhibit/models/particle_models.h"
 #include "exhibit/models/user_models.h"
 #include "models/height_bar.h"
 #include "physics/contact.h"
 #include "scene/graph/height_field.h"
+#include "scene/samples/particle_set.h"
 
 namespace afm::exhibit {
 
@@ -42,6 +44,7 @@ void WallScene::add_frames(ModelBuilder& build, const UserModels& own) {
   marks_ = WallMarks(build, scene_, layout_, sample_frame_);
   analogy_ = Analogy(build, scene_, sample_frame_);
   journey_ = Journey(build, scene_, layout_);
+  if (own.particles) particles_.emplace(*own.particles, build, scene_, sample_frame_);
 }
 
 void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir, const scene::MaterialEntry& material,
@@ -50,10 +53,15 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
   MaterialLook look{};
   const std::string model = model_of(assets_dir, material);
   const std::string sample = "sample-" + material.name;
-  look.stroke_m = events.z_joc.si * kStrokeOfZjoc;
+  look.stroke_m = own.particles ? StageParticles::stroke_m(*own.particles) : events.z_joc.si * kStrokeOfZjoc;
   look.surface_stroke_m = look.stroke_m;
   if (own.topography) {
     add_topography(build, sample, own, look);
+  } else if (own.particles) {
+    // the plane on which the servo pushes them
+    look.sample = build.part(particle_ground(kNarrowestSample * look.stroke_m), sample, sample_frame_);
+    look.height_field = scene::kNoHeightField;
+    look.thickness_m = build.error() ? 0.0 : -bounds_below(scene_, look.sample).low.z;
   } else {
     look.sample = own.sample ? build.part(sample_as(*own.sample, material), sample, sample_frame_)
                              : build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, sample_frame_);
@@ -141,6 +149,7 @@ std::uint32_t WallScene::height_field_of(const std::string& model, scene::NodeIn
 }
 
 double WallScene::parameter_factor(std::size_t material, double release_z_m) const {
+  if (particles_) return 1.0;  // their size sets the scale, whatever the tip's parameters
   return release_z_m > 0.0 ? release_z_m * kStrokeOfZjoc / looks_[material].stroke_m : 1.0;
 }
 
@@ -183,6 +192,9 @@ glm::dvec3 WallScene::sample_right() const {
 }
 
 glm::dvec3 WallScene::below_tip(const WallState& state) const {
+  if (const auto apex_m = StageParticles::apex_m(state.particles); particles_ && apex_m) {
+    return layout_per_m(state) * dvec3(apex_m->x, apex_m->y, 0.0);
+  }
   const auto& [x, y] = state.surface.xy_m;
   return layout_per_m(state) * dvec3(x, y, state.surface.height_m);
 }

@@ -56,6 +56,10 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, render::B
                                                              : 1.0};
   instrument_.place_probe(scene_, setting, marks_, local, bend);
   place_sample(state, local);
+  if (particles_) {
+    const double height = setting.layout_per_m * (state.tip.z_m - state.tip.deflection_m);
+    particles_->place(state.particles, setting.layout_per_m, setting.below_tip + dvec3(0.0, 0.0, height), local);
+  }
   instrument_.place_optics(scene_, setting, local);
   if (state.navigation != dmat4(1.0)) {
     const dmat4 navigated = glm::inverse(places_.room_from_layout()) * state.navigation * places_.room_from_layout();
@@ -125,6 +129,11 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
   if (topography_mesh_ && (state.centerpiece != Instrument || !state.material)) hide({height_bar_});
   if (state.centerpiece != Instrument || !state.material) hide(marks_.lever_nodes());
   if (ruler_m_per_unit(state) == 0.0) hide(marks_.ruler_nodes());
+  if (particles_) {
+    const bool shown = state.centerpiece == Instrument && state.material;
+    if (!shown) hide({particles_->spheres(), particles_->tip()});
+    if (!shown || !particles_->shows_ring(state.particles)) hide({particles_->ring()});
+  }
   if (state.centerpiece != Instrument || !state.scan_line) hide({marks_.scan_line_node()});
   if (!state.wand || state.centerpiece == Journey) hide({wand_, ray_});
   return hidden;
@@ -134,6 +143,8 @@ void WallScene::update(const WallState& state, render::FrameState& frame) const 
   render::BeamBend bend;
   frame.room_from_node = compose(scene_, local_transforms(state, bend));
   frame.bends = {bend};
+  frame.copies.clear();
+  if (particles_) particles_->add_copies(state.particles, layout_per_m(state), frame);
 
   const std::vector<scene::NodeIndex> hidden = hidden_roots(state);
   frame.visible.assign(scene_.nodes.size(), 1);

@@ -12,7 +12,8 @@ namespace {
 using enum HeardEvent;
 
 // Notes of the equal temperament, rounded to a hertz: a glide down for closing, up for opening; two notes up for a
-// possible start, down for an end; a rough low note, three times, for a failure; a click for a repeated event.
+// possible start, down for an end; a rough low note, three times, for a failure; a click for a repeated event. Of
+// particles: a soft knock for a touch, two for a ride over, a click for a first slip, a long fall for a loss.
 constexpr std::array kRows{
     HeardEventRow{
         SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},
@@ -57,6 +58,26 @@ constexpr std::array kRows{
                   Phrase::SayScanLine,
                   Spoken::OnRequest,
                   {{SignalNote{0, 0.016, 1568, 1568, 0.10, 0}}}},
+    HeardEventRow{ParticleTouched,
+                  Phrase::HeardParticleTouched,
+                  Phrase::SayParticleTouched,
+                  Spoken::OnRequest,
+                  {{SignalNote{0, 0.040, 392, 330, 0.24, 0.6}}}},
+    HeardEventRow{ParticleGave,
+                  Phrase::HeardParticleGave,
+                  Phrase::SayParticleGave,
+                  Spoken::OnRequest,
+                  {{SignalNote{0, 0.016, 1760, 1319, 0.20, 0}}}},
+    HeardEventRow{ParticleLost,
+                  Phrase::HeardParticleLost,
+                  Phrase::SayParticleLost,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.220, 880, 330, 0.26, 0}}}},
+    HeardEventRow{ParticleRiddenOver,
+                  Phrase::HeardParticleRiddenOver,
+                  Phrase::SayParticleRiddenOver,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.040, 392, 330, 0.26, 0.6}, SignalNote{0.110, 0.040, 392, 330, 0.26, 0.6}}}},
 };
 static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
 static_assert([] {

@@ -62,7 +62,8 @@ void Synthesizer::set_tone(std::int64_t at, const Tone& tone) noexcept {
 }
 
 void Synthesizer::play(std::int64_t at, HeardEvent event, double side) noexcept {
-  const std::size_t most = event == HeardEvent::Slip ? kVoicesOfSlips : kVoices;
+  const bool often = event == HeardEvent::Slip || event == HeardEvent::ParticleGave;
+  const std::size_t most = often ? kVoicesOfSlips : kVoices;
   for (std::size_t i = 0; i < most; ++i) {
     if (voices_[i].busy) continue;
     voices_[i] = {std::max(at, position_), event, pan(channels_ == Channels::Mono ? 0.0 : side), {}, true};

@@ -19,6 +19,22 @@ Heard heard_of(const scene::TipEvent& event) {
     case physics::EventKind::Slip:
       heard.force_n = event.force_before_n;
       break;
+    case physics::EventKind::ParticleTouched:
+      heard.event = HeardEvent::ParticleTouched;
+      heard.force_n = event.force_after_n;
+      break;
+    case physics::EventKind::ParticleGave:
+      heard.event = HeardEvent::ParticleGave;
+      heard.force_n = event.force_before_n;
+      break;
+    case physics::EventKind::ParticleLost:
+      heard.event = HeardEvent::ParticleLost;
+      heard.force_n = event.force_before_n;
+      break;
+    case physics::EventKind::ParticleRiddenOver:
+      heard.event = HeardEvent::ParticleRiddenOver;
+      heard.force_n = event.force_before_n;
+      break;
   }
   return heard;
 }

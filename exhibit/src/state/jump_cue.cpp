@@ -14,7 +14,7 @@ constexpr glm::vec3 kInColor(0.25F, 1.1F, 2.0F), kOffColor(2.2F, 0.75F, 0.05F);
 }  // namespace
 
 void JumpCues::add(const scene::TipEvent& event) {
-  if (event.kind == physics::EventKind::Slip) return;
+  if (!physics::is_jump(event.kind)) return;
   if (next_ && next_->since_ns <= event.time_ns) shown_ = std::exchange(next_, std::nullopt);
   if (!shown_ || event.time_ns - shown_->since_ns >= kLeastNs) {
     shown_ = {event.kind, event.time_ns};

@@ -32,6 +32,11 @@ bool is_lifted(const scene::TipState& tip) {
                                                   haptics::SafetyGovernor::kArmingMarginM;
 }
 
+// Steps with force where the tip pushes particles.
+Hint step_among_particles(const scene::TipState& tip) {
+  return tip.phase == physics::Phase::Attached ? Hint::PushAside : Hint::GoBeside;
+}
+
 // Uses the steps done instead of the hand's direction, which reverses with every tremor.
 Hint step_with_force(const scene::TipState& tip, const StepsDone& done) {
   if (tip.phase == physics::Phase::Attached) {
@@ -43,6 +48,8 @@ Hint step_with_force(const scene::TipState& tip, const StepsDone& done) {
 
 }  // namespace
 
+bool pushes_particles(const scene::TipState& tip) { return tip.active.scale_mode == scene::ScaleMode::Particles; }
+
 Hint next_step(const scene::TipState& tip, const StepsDone& done) {
   if (tip.material < 0) return Hint::ChooseSample;
   switch (tip.servo_state) {
@@ -53,8 +60,8 @@ Hint next_step(const scene::TipState& tip, const StepsDone& done) {
     case scene::ServoState::Fault:
       return Hint::PressToGoOn;
     case scene::ServoState::Running:
-      if (tip.phase != physics::Phase::WaitForLift) return step_with_force(tip, done);
-      break;
+      if (tip.phase == physics::Phase::WaitForLift) break;
+      return pushes_particles(tip) ? step_among_particles(tip) : step_with_force(tip, done);
     case scene::ServoState::Disarmed:
       if (is_lifted(tip)) return tip.dead_man != 0 ? Hint::TurnOnAndHold : Hint::TurnOn;
       break;

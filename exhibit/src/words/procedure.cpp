@@ -12,7 +12,7 @@ bool concerns_safety(Hint hint) {
 
 bool needs_force(Hint hint) {
   return hint == Hint::MoveDown || hint == Hint::PressOn || hint == Hint::Pressed || hint == Hint::MoveUp ||
-         hint == Hint::LetGo;
+         hint == Hint::LetGo || hint == Hint::GoBeside || hint == Hint::PushAside;
 }
 
 }  // namespace
@@ -20,7 +20,8 @@ bool needs_force(Hint hint) {
 void Procedure::follow_cycles(const scene::TipState& tip, int cycles) {
   const bool running = tip.servo_state == scene::ServoState::Running;
   if (!running || tip.material != material_) let_go_ = reward_due_ = false;
-  if (running && tip.material == material_ && cycles > cycles_) let_go_ = reward_due_ = true;
+  const bool may_end = running && tip.material == material_ && !pushes_particles(tip);
+  if (may_end && cycles > cycles_) let_go_ = reward_due_ = true;
   cycles_ = cycles;
 }
 

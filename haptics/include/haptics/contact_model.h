@@ -15,6 +15,7 @@
 #include "haptics/device.h"
 #include "haptics/energy_tank.h"
 #include "haptics/felt_friction.h"
+#include "haptics/particle_push.h"
 #include "haptics/passivity_observer.h"
 #include "haptics/potential_energy.h"
 #include "haptics/sample_surface.h"
@@ -26,6 +27,8 @@
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::haptics {
+
+class FeltParticles;
 
 // Largest curvature that a surface of this material may have on this device, as limited by create(): where a surface
 // bends, a force on it acts as a lateral stiffness. `fit` is the scale of Fit.
@@ -51,6 +54,7 @@ struct Touch {
   double z_m = 0;  // above the surface below the tip
   glm::dvec2 tip_xy_m{0.0};
   FeltFriction::Step friction;
+  ParticlePush push;
   double surface_height_m = 0;
   glm::dvec3 normal{0.0, 0.0, 1.0};  // unit normal of the surface below the tip
   glm::dvec3 hand_force_n{0.0};      // force on the hand
@@ -64,6 +68,10 @@ struct Touch {
 // on a branch of the law, and the jumps have the law's forces wherever they happen. Laterally, a metre of the hand
 // corresponds to as many metres of the nanoworld as along z, or to fewer on the scale Atoms, on which slopes are
 // flatter by the same factor. Friction (haptics/felt_friction.h) is added to that and dissipates energy.
+//
+// On the scale Particles the tip also pushes the particles on the sample (haptics/felt_particles.h). Their force is
+// added only where one is touched; without force, under a scan's feedback, and until the tip has been lifted, there is
+// none.
 //
 // Under a scan's feedback (ScanFeedback) the sample feels level: the loop, z' = gain (h - z), removes the heights
 // before the hand feels them. Only the residual deflection, the part not yet followed, is felt, up to kMostResidualM of
@@ -94,8 +102,12 @@ class ContactModel {
   physics::Phase phase() const noexcept;
   double slow_motion() const noexcept { return slow_motion_; }  // as in scene::ActiveContact
 
-  // Call only without force: the hand would feel the step. Fit before the first call.
-  void use(scene::ScaleMode mode) noexcept { mode_ = mode; }
+  // Call only without force: the hand would feel the step. Fit before the first call. `particles` are those on the
+  // sample, null for none; they must outlive the use. Particles needs the scale that create() was given.
+  void use(scene::ScaleMode mode, FeltParticles* particles = nullptr) noexcept {
+    mode_ = mode;
+    particles_ = mode == scene::ScaleMode::Particles ? particles : nullptr;
+  }
   const Scaling& scaling() const noexcept { return scalings_[static_cast<std::size_t>(mode_)]; }
   const SampleSurface& surface() const noexcept { return surface_; }
 
@@ -121,6 +133,7 @@ class ContactModel {
   physics::TipResponse step_law(physics::Length z) noexcept;
   bool may_change_level(double hand_z_m, double height_m, const ScanFeedback& feedback) const noexcept;
   void follow_surface(double hand_z_m, double height_m, const ScanFeedback& feedback, Touch& touch) noexcept;
+  void meet_particles(const glm::dvec2& slope, const ScanFeedback& feedback, Touch& touch) noexcept;
   double attached_j(double z_m) const noexcept;
   double stiffness_n_per_m() const noexcept;
 
@@ -136,9 +149,10 @@ class ContactModel {
   scene::ScaleMode mode_ = scene::ScaleMode::Fit;
   double slow_motion_;
   bool level_ = false;
-  double loop_m_ = 0;      // height followed by the feedback
-  double residual_m_ = 0;  // felt part of the remaining height
-  EnergyTank tank_;        // pays for the feedback's motion
+  double loop_m_ = 0;                   // height followed by the feedback
+  double residual_m_ = 0;               // felt part of the remaining height
+  EnergyTank tank_;                     // pays for the feedback's motion
+  FeltParticles* particles_ = nullptr;  // those that the tip pushes, null: none
   std::uint32_t edit_revision_;
 };
 

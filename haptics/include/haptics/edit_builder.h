@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -50,16 +49,6 @@ class EditBuilder {
   std::int64_t period_ns_;
   ModelSwap& exchange_;
   std::atomic<std::uint32_t> refused_{0};
-};
-
-// Thread that builds during its lifetime. It inherits the scheduling of its creator, so create it before that thread
-// becomes real-time.
-class EditThread {
- public:
-  explicit EditThread(EditBuilder& builder);
-
- private:
-  std::jthread thread_;
 };
 
 }  // namespace afm::haptics

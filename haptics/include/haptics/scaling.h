@@ -6,15 +6,18 @@
 
 #include "core/result.h"
 #include "haptics/device.h"
+#include "haptics/particle_scale.h"
 #include "physics/law_tables.h"
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::haptics {
 
-// One scale of length and one of force, on which several materials are felt side by side.
+// One scale of length and one of force, on which several materials are felt side by side; and that of the particles on
+// them.
 struct CommonScale {
   double hand_m_per_m = 0;
   double hand_n_per_n = 0;
+  ParticleScale particles{};
 };
 
 // Scales from nanometres and nanonewtons to a hand. Heights are those of the hand above the device's contact point,
@@ -34,6 +37,8 @@ struct CommonScale {
 // - Common: one scale for all materials, so that they can be compared. The longest stroke fills the workspace between
 //   20 mm of push and 20 mm of recoil; Z = 0 is lower than in the other two. The strongest pull of all materials
 //   becomes the largest force allowed on the device. On an Omni, for the paper's materials: 0.8 mm/nm and 0.20 N/nN.
+// - Particles: the lengths of ParticleScale, along and upwards. The sample's force is as strong as the device allows
+//   beside that of the particles, which has its own scale.
 // - Atoms: Fit along the normal, with a lateral scale so large that a lattice step is kAtomM wide in the hand.
 //   Laterally, a metre of the hand is then fewer metres of the nanoworld than along z, and a surface is flatter by the
 //   same factor.
@@ -69,6 +74,11 @@ class Scaling {
   // computed. Faint forces stay faint.
   static core::Result<Scaling> common(const physics::LawTables& tables, const DeviceSpec& device,
                                       const CommonScale& scale);
+
+  // Scale of a material on which particles are pushed; `scale` has particles. Fails if the device is too small for its
+  // pull at that scale.
+  static core::Result<Scaling> particles(const physics::LawTables& tables, const DeviceSpec& device,
+                                         const ParticleScale& scale);
 
   // Common scale of all these materials; at least one. Takes a millisecond for each.
   static core::Result<CommonScale> common_scale(std::span<const std::shared_ptr<const physics::LawTables>> materials,

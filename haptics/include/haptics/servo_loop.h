@@ -8,20 +8,25 @@
 #include <memory>
 #include <vector>
 
-#include "core/clock.h"
 #include "core/result.h"
 #include "haptics/device.h"
 #include "haptics/edit_builder.h"
 #include "haptics/model_swap.h"
 #include "haptics/position_check.h"
-#include "haptics/realtime.h"
 #include "haptics/safety.h"
 #include "haptics/sample_axes.h"
 #include "haptics/scan_guide.h"
 #include "haptics/servo_settings.h"
 #include "scene/shared/shared_segment.h"
 
+namespace afm::core {
+class MonotonicClock;
+}
+
 namespace afm::haptics {
+
+class FeltParticles;
+struct RealtimeGrant;
 
 enum class ServoExit { RendererLeft, RendererDied, Stopped };
 
@@ -37,6 +42,8 @@ class ServoLoop {
   // device that cannot render them, and on settings out of range. The segment and the device must outlive the loop.
   static core::Result<std::unique_ptr<ServoLoop>> create(scene::SharedSegment& segment, HapticDevice& device,
                                                          const ServoSettings& settings);
+
+  ~ServoLoop();
 
   // Runs one period. `now_ns` increases from tick to tick; `wake_us` is the lateness of the tick and is only recorded.
   void tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
@@ -86,6 +93,8 @@ class ServoLoop {
   struct Hand {
     glm::dvec3 position_m;
     glm::dvec3 from_contact_m{0.0};
+    bool turn_on = false;
+    bool healthy = true;  // false: the device failed, and this is the last known place
   };
 
   void read_shared_blocks(std::int64_t now_ns) noexcept;
@@ -96,6 +105,7 @@ class ServoLoop {
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
   void publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
   void publish_events(std::int64_t now_ns) noexcept;
+  void publish_particles() noexcept;
   bool finished() const noexcept;
 
   scene::ServoSide shared_;
@@ -104,6 +114,7 @@ class ServoLoop {
   ServoSettings settings_;
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
+  std::unique_ptr<FeltParticles> particles_;  // null: none
   ModelSwap exchange_;
   EditBuilder edits_;
   SafetyGovernor governor_;
@@ -117,8 +128,6 @@ class ServoLoop {
   bool sample_moved_ = false;  // in this tick
   PositionCheck position_check_;
   Hand hand_;
-  bool turn_on_ = false;
-  bool device_healthy_ = true;
   bool changing_ = false;  // force removed for a change of material, scale or parameters
   RendererLink renderer_ = RendererLink::Absent;
   Touch touch_;  // in this tick

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "haptics/felt_particles.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::haptics {
@@ -105,13 +106,16 @@ core::Result<std::unique_ptr<ContactModel>> ContactModel::create(
   const auto fit = Scaling::fit(*tables, device);
   const auto compressed = Scaling::compressed(*tables, device);
   const auto atoms = Scaling::atoms(*tables, device, material.friction.period.si);
-  for (const auto* scaling : {&common_scaling, &fit, &compressed, &atoms}) {
+  // without particles nothing is felt on their scale
+  const bool has_particles = common.particles.hand_m_per_m > 0.0;
+  const auto particles = has_particles ? Scaling::particles(*tables, device, common.particles) : fit;
+  for (const auto* scaling : {&common_scaling, &fit, &compressed, &atoms, &particles}) {
     if (!*scaling) return refusal(material, scaling->error().category, scaling->error().message);
   }
   try {
     Model model(std::in_place_type<physics::ApproachRetractModel>, tables);
     if (material.dynamic != 0) model = dynamic_model(material, period_ns);
-    const Scalings scalings{*common_scaling, *fit, *compressed, *atoms};
+    const Scalings scalings{*common_scaling, *fit, *compressed, *atoms, *particles};
     SampleSurface surface(drawn.scaled(scene::surface_scale(material, fit->release_z_m())),
                           material.contact.tip_radius.si, largest_curvature_per_m(*fit, device));
     std::optional<FeltFriction> friction;
@@ -164,7 +168,17 @@ Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback)
     touch.friction = friction_->step(touch.tip_xy_m, load_z_m, below, touch.response, scale);
     touch.hand_force_n += touch.friction.hand_force_n;
   }
+  if (particles_ != nullptr) meet_particles(below.slope, feedback, touch);
   return touch;
+}
+
+void ContactModel::meet_particles(const glm::dvec2& slope, const ScanFeedback& feedback, Touch& touch) noexcept {
+  if (feedback.without_force || level_ || phase() == physics::Phase::WaitForLift) return particles_->lift();
+  touch.push = particles_->step(touch.tip_xy_m, touch.z_m, feedback.elapsed_s);
+  if (!touch.push.touches) return;
+  const glm::dvec3& push_n = touch.push.push_n;
+  const glm::dvec3 gradient(-slope * scaling().flattening(), 1.0);
+  touch.hand_force_n += particles_->scale().hand_n_per_n * (glm::dvec3(push_n.x, push_n.y, 0.0) + push_n.z * gradient);
 }
 
 // True if the change is not felt, because the tip is off the sample before and after.
@@ -225,6 +239,7 @@ physics::TipResponse ContactModel::step_law(physics::Length z) noexcept {
 void ContactModel::wait_for_lift() noexcept {
   std::visit([](auto& model) { model.wait_for_lift(); }, model_);
   if (friction_) friction_->lift();
+  if (particles_ != nullptr) particles_->lift();
 }
 
 physics::Phase ContactModel::phase() const noexcept {
@@ -241,6 +256,10 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
   if (friction_) {
     law.stored_j += friction_->stored_j(scaling());
     law.given_j = touch.friction.given_j;
+  }
+  if (touch.push.near) {
+    law.stored_j += particles_->stored_j();
+    law.stiffness_n_per_m += particles_->stiffness_n_per_m();
   }
   if (level_) law.given_j += touch.level_given_j;
   if (law.is_dynamic) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/log.h"
+#include "haptics/edit_thread.h"
 
 namespace afm::haptics {
 

@@ -23,6 +23,9 @@ constexpr double kBendShareOfPull = 0.1;
 constexpr double kLargestBend = 30.0;       // multiple of the strongest pull
 constexpr double kFaintAtReleaseN = 0.045;  // on the hand; the governor arms below 0.05 N
 
+// Margin of the release above particles and pull.
+constexpr double kOverParticlesM = 0.002;
+
 // Motion of a hand at 50 mm/s in a tick: the slope of a curve over shorter distances is not felt.
 constexpr double kHandStepM = 50e-6;
 
@@ -229,6 +232,33 @@ core::Result<Scaling> Scaling::common(const physics::LawTables& tables, const De
   scaling.release_m_ = scaling.hand_height_m(extent.reach_m);
   for (double excess = excess_of_stiffness(scaling, tables, device); excess > 1.0 + kRounding;
        excess = excess_of_stiffness(scaling, tables, device)) {
+    scaling.hand_n_per_n_ *= std::min(0.95, 1.0 / excess);
+  }
+  return scaling;
+}
+
+core::Result<Scaling> Scaling::particles(const physics::LawTables& tables, const DeviceSpec& device,
+                                         const ParticleScale& scale) {
+  if (auto enough = check_force(device); !enough) return tl::unexpected(enough.error());
+  const Extent extent = extent_of(tables);
+  if (auto some = check_extent(extent); !some) return tl::unexpected(some.error());
+  Scaling scaling;
+  scaling.mode_ = scene::ScaleMode::Particles;
+  scaling.cap_n_ = force_cap_n(device);
+  scaling.hand_m_per_m_ = scaling.lateral_m_per_m_ = scale.hand_m_per_m;
+  scaling.hand_n_per_n_ = scaling.cap_n_ / extent.strong_n;
+  scaling.release_m_ = scaling.hand_height_m(std::max(extent.reach_m, scale.clear_z_m)) + kOverParticlesM;
+  const double highest_m = device.workspace_max_m.y - device.contact_point_m.y - kRecoilM;
+  if (!(scaling.release_m_ <= highest_m)) {
+    return refusal(fmt::format(
+        "on the scale of the particles the tip is free {:.0f} mm above the sample, and the {} reaches {:.0f} "
+        "mm; use a stiffer lever, or larger particles",
+        1e3 * scaling.release_m_, device.name, 1e3 * highest_m));
+  }
+  const double most_n_per_m = std::min(kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
+  const double law_share = 1.0 - particle_stiffness_n_per_m(device) / most_n_per_m;
+  for (double excess = excess_of_stiffness(scaling, tables, device) / law_share; excess > 1.0 + kRounding;
+       excess = excess_of_stiffness(scaling, tables, device) / law_share) {
     scaling.hand_n_per_n_ *= std::min(0.95, 1.0 / excess);
   }
   return scaling;

@@ -10,6 +10,10 @@
 #include <span>
 #include <utility>
 
+#include "core/clock.h"
+#include "haptics/felt_particles.h"
+#include "haptics/realtime.h"
+
 namespace afm::haptics {
 
 namespace {
@@ -24,9 +28,39 @@ void count(std::array<std::uint32_t, scene::kHistogramBins>& bins, std::uint32_t
   largest = std::max(largest, us);
 }
 
-std::array<double, 3> array_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
 std::int64_t period_of(const ServoSettings& settings) { return std::llround(1e9 / settings.rate_hz); }
+
+// Scales that all materials of a scene share.
+core::Result<CommonScale> scales_of(const scene::SharedModel& model,
+                                    std::span<const std::shared_ptr<const physics::LawTables>> tables,
+                                    const DeviceSpec& device) {
+  auto common = Scaling::common_scale(tables, device);
+  if (!common) return common;
+  if (model.common_hand_m_per_m > 0) {
+    common->hand_m_per_m = model.common_hand_m_per_m;
+    common->hand_n_per_n = model.common_hand_n_per_n;
+  }
+  const auto particles = particle_scale(model.particles, device);
+  if (!particles) return tl::unexpected(particles.error());
+  common->particles = *particles;
+  return common;
+}
+
+// The particles of a scene, where a predecessor left them; null: none.
+std::unique_ptr<FeltParticles> particles_of(scene::SharedSegment& segment, const scene::SharedParticles& particles,
+                                            const ParticleScale& scale) {
+  if (particles.count == 0) return nullptr;
+  auto felt = std::make_unique<FeltParticles>(particles, scale);
+  const scene::ServoSide side = segment.servo_side();
+  std::vector<scene::ParticlePage> pages;
+  while (pages.size() < felt->pages().size()) {
+    const auto page = side.last_particle_page(static_cast<std::uint32_t>(pages.size()));
+    if (!page) return felt;
+    pages.push_back(*page);
+  }
+  felt->resume(pages);
+  return felt;
+}
 
 std::uint32_t microseconds(std::int64_t ns) {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(ns / 1000, 0, UINT32_MAX));
@@ -76,9 +110,8 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
     if (!felt) return tl::unexpected(felt.error());
     tables.push_back(std::move(*felt));
   }
-  auto common = Scaling::common_scale(tables, spec);
+  const auto common = scales_of(shared, tables, spec);
   if (!common) return tl::unexpected(common.error());
-  if (shared.common_hand_m_per_m > 0) common = CommonScale{shared.common_hand_m_per_m, shared.common_hand_n_per_n};
   std::vector<std::unique_ptr<ContactModel>> models;
   for (std::uint32_t i = 0; i < shared.material_count; ++i) {
     const auto fields = std::span(shared.height_fields).first(shared.height_field_count);
@@ -92,6 +125,8 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
       new ServoLoop(segment, shared, std::move(topography), device, settings, std::move(models), *common));
 }
 
+ServoLoop::~ServoLoop() = default;
+
 ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, scene::Topography topography,
                      HapticDevice& device, const ServoSettings& settings,
                      std::vector<std::unique_ptr<ContactModel>> models, const CommonScale& common)
@@ -101,6 +136,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       settings_(settings),
       period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
+      particles_(particles_of(segment, model.particles, common.particles)),
       exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
              {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count},
@@ -110,6 +146,9 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       position_check_(spec_.measures),
       hand_{.position_m = spec_.contact_point_m} {
   shared_.store(shared(spec_));
+  for (std::uint32_t i = 0; particles_ && i < particles_->pages().size(); ++i) {
+    shared_.store(particles_->pages()[i], i);
+  }
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
   const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
   std::array<double, 16> room_from_sample{};
@@ -133,15 +172,15 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   const DeviceSample hand = position_check_.checked(device_.read(now_ns), elapsed_ns, {x_n, y_n, z_n});
 
   // a failed device, or an implausible position, leaves the last known one in use; the governor handles it below
-  device_healthy_ = hand.healthy && is_within_reach(hand.position_m);
-  if (device_healthy_) {
+  hand_.healthy = hand.healthy && is_within_reach(hand.position_m);
+  if (hand_.healthy) {
     hand_.position_m = hand.position_m;
     hand_.from_contact_m = hand.position_m - spec_.contact_point_m;
   } else if (model_ != nullptr) {
     model_->wait_for_lift();
   }
-  if (hand.turn_on && !turn_on_) ++state_.presses;
-  turn_on_ = hand.turn_on;
+  if (hand.turn_on && !hand_.turn_on) ++state_.presses;
+  hand_.turn_on = hand.turn_on;
 
   const Wanted wanted = meet_sample(elapsed_ns);
   bool pulled_off = false;
@@ -168,7 +207,8 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   device_.write(output.command);
   if (output.dropped && model_ != nullptr) model_->wait_for_lift();
 
-  state_.hand.force_n = array_of(output.command.force_n());
+  const glm::dvec3& force_n = output.command.force_n();
+  state_.hand.force_n = {force_n.x, force_n.y, force_n.z};
   state_.acknowledged.hand_script = hand.finished_script;
   publish_events(now_ns);
   publish(now_ns, wake_us);
@@ -185,7 +225,7 @@ ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
   const ScanGuide::Pull pull = guide_.step({.hand_m = hand_.from_contact_m,
                                             .target = guide_target(),
                                             .force_on = governor_.state() == scene::ServoState::Running,
-                                            .turn_on = turn_on_ && device_healthy_,
+                                            .turn_on = hand_.turn_on && hand_.healthy,
                                             .elapsed_s = elapsed_s});
   if (pull.leads) model_->wait_for_lift();
   touch_ = model_->step(sample_.in_sample(hand_.from_contact_m),
@@ -265,7 +305,8 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
   model_->wait_for_lift();
   governor_.forget_motion();
   guide_.reset();
-  model_->use(mode);
+  if (particles_) particles_->lift();
+  model_->use(mode, particles_.get());
   const Scaling& scaling = model_->scaling();
   governor_.set_release_height(scaling.release_height_m());
   state_.material = static_cast<std::int32_t>(material);
@@ -283,86 +324,6 @@ RendererLink ServoLoop::renderer_link(std::int64_t now_ns) const noexcept {
   if (heard_.heartbeat->stop != 0) return RendererLink::Stopped;
   if (now_ns - heard_.seen_ns > SafetyGovernor::kHangNs) return RendererLink::Hung;
   return heard_.heartbeat->unseen != 0 ? RendererLink::Unseen : RendererLink::Alive;
-}
-
-void ServoLoop::publish_events(std::int64_t now_ns) noexcept {
-  const physics::TipResponse& response = touch_.response;
-  for (std::uint32_t i = 0; i < response.event_count; ++i) {
-    const physics::ModelEvent& event = response.events[i];
-    const double since_previous_ns = event.fraction * static_cast<double>(now_ns - previous_ns_);
-    shared_.push(scene::TipEvent{.kind = event.kind,
-                                 .material = state_.material,
-                                 .time_ns = previous_ns_ + std::llround(since_previous_ns),
-                                 .z_m = event.z.si,
-                                 .force_before_n = event.force_before.si,
-                                 .force_after_n = event.force_after.si});
-  }
-  for (const physics::LatticeSlip& slip : touch_.friction.events.slipped()) {
-    shared_.push(scene::TipEvent{
-        .kind = physics::EventKind::Slip,
-        .material = state_.material,
-        .time_ns = previous_ns_ + std::llround(slip.fraction * static_cast<double>(now_ns - previous_ns_)),
-        .z_m = touch_.z_m,
-        .force_before_n = physics::magnitude(slip.force_before).si,
-        .force_after_n = physics::magnitude(slip.force_after).si});
-  }
-}
-
-void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
-  const physics::TipResponse& response = touch_.response;
-  ++state_.tick;
-  state_.time_ns = now_ns;
-  state_.tip = {.z_m = touch_.z_m,
-                .force_n = response.force.si,
-                .height_m = response.tip_height.si,
-                .deflection_m = response.cantilever_deflection.si,
-                .sample_deformation_m = response.sample_deformation.si};
-  state_.surface = {.xy_m = {touch_.tip_xy_m.x, touch_.tip_xy_m.y}, .height_m = touch_.surface_height_m};
-  state_.normal = array_of(sample_.in_device(touch_.normal));
-  state_.hand.position_m = array_of(hand_.position_m);
-  state_.safety = {.force_cap_n = governor_.force_cap_n(),
-                   .slew_limit_n_per_s = governor_.slew_limit_n_per_s(),
-                   .motor_heat = governor_.motors().heat(),
-                   .thermal_gain = governor_.motors().gain(),
-                   .excess_energy_j = governor_.observer().excess_j(),
-                   .observer_damping_n_s_per_m = governor_.observer_damping_n_s_per_m()};
-  state_.phase = response.phase;
-  state_.servo_state = governor_.state();
-  state_.fault = governor_.fault();
-  state_.dead_man = governor_.dead_man() ? 1 : 0;
-  state_.led = guide_.leads() ? 1 : 0;
-  state_.lead_lost = guide_.lost() ? 1 : 0;
-  state_.level = model_ != nullptr && model_->is_level() ? 1 : 0;
-  state_.acknowledged.refused_edit = edits_.refused();
-  state_.garbage_blocks = shared_.refused_blocks() + refused_transforms_;
-  shared_.store(state_);
-
-  // without a material there is no curve to draw
-  if (model_ == nullptr) return;
-  const glm::dvec3& normal = sample_.normal();
-  const auto& [x, y, z] = state_.hand.force_n;
-  shared_.push(scene::TipSample{.time_ns = now_ns,
-                                .tick = state_.tick,
-                                .tip = state_.tip,
-                                .hand_height_m = glm::dot(hand_.from_contact_m, normal),
-                                .hand_force_n = glm::dot(glm::dvec3(x, y, z), normal),
-                                .servo_state = state_.servo_state,
-                                .phase = state_.phase,
-                                .material = state_.material,
-                                .wake_us = wake_us,
-                                .edit_revision = state_.active.edit_revision,
-                                .turn_on = turn_on_ ? 1U : 0U,
-                                .renderer = renderer_,
-                                .scale_mode = state_.active.scale_mode,
-                                .hand_from_contact_m = array_of(hand_.from_contact_m),
-                                .sample_normal = array_of(normal),
-                                .sample_x = array_of(sample_.x()),
-                                .surface = state_.surface,
-                                .motor_heat = state_.safety.motor_heat,
-                                .device_healthy = device_healthy_ ? 1U : 0U,
-                                .changing = changing_ ? 1U : 0U,
-                                .lateral_force_n = {touch_.friction.lateral.x.si, touch_.friction.lateral.y.si},
-                                .scan = scan_});
 }
 
 bool ServoLoop::finished() const noexcept {

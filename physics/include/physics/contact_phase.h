@@ -10,13 +10,40 @@ namespace afm::physics {
 enum class Phase : std::uint32_t { WaitForLift = 0, Free = 1, Attached = 2 };
 
 // A jump from one branch of the law to the other, or sideways from one well of a lattice to the next
-// (physics/friction/lattice_tip.h). Session files contain the numbers.
-enum class EventKind : std::uint32_t { JumpToContact = 1, JumpOffContact = 2, Slip = 3 };
+// (physics/friction/lattice_tip.h); or what a tip does to a particle on the sample (physics/manipulation). Session
+// files contain the numbers.
+enum class EventKind : std::uint32_t {
+  JumpToContact = 1,
+  JumpOffContact = 2,
+  Slip = 3,
+  ParticleTouched = 4,
+  ParticleGave = 5,        // a particle at rest began to move
+  ParticleLost = 6,        // the tip went past a particle that it had pushed
+  ParticleRiddenOver = 7,  // the tip climbed over a particle, because its lever is too soft
+};
 
 // Name in reports and replays.
 constexpr const char* name_of(EventKind kind) {
-  if (kind == EventKind::Slip) return "slip";
-  return kind == EventKind::JumpToContact ? "jump-to-contact" : "jump-off-contact";
+  switch (kind) {
+    case EventKind::JumpToContact:
+      return "jump-to-contact";
+    case EventKind::JumpOffContact:
+      return "jump-off-contact";
+    case EventKind::Slip:
+      return "slip";
+    case EventKind::ParticleTouched:
+      return "particle-touched";
+    case EventKind::ParticleGave:
+      return "particle-gave";
+    case EventKind::ParticleLost:
+      return "particle-lost";
+    case EventKind::ParticleRiddenOver:
+      return "particle-ridden-over";
+  }
+  return "unknown";
 }
+
+// The forces of all others are lateral.
+constexpr bool is_jump(EventKind kind) { return kind == EventKind::JumpToContact || kind == EventKind::JumpOffContact; }
 
 }  // namespace afm::physics

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace afm::physics {
 namespace {
@@ -44,11 +45,15 @@ std::size_t ParticleGrid::cell_of(double value_m, double origin_m, std::size_t c
 }
 
 void ParticleGrid::link(std::size_t particle, std::size_t cell) noexcept {
+  // by falling number, so that a search does not depend on the way that the particles came
+  const auto number = static_cast<std::int32_t>(particle);
+  std::int32_t before = -1, after = first_[cell];
+  while (after > number) before = std::exchange(after, next_[static_cast<std::size_t>(after)]);
   cell_[particle] = cell;
-  previous_[particle] = -1;
-  next_[particle] = first_[cell];
-  if (first_[cell] >= 0) previous_[static_cast<std::size_t>(first_[cell])] = static_cast<std::int32_t>(particle);
-  first_[cell] = static_cast<std::int32_t>(particle);
+  previous_[particle] = before;
+  next_[particle] = after;
+  (before >= 0 ? next_[static_cast<std::size_t>(before)] : first_[cell]) = number;
+  if (after >= 0) previous_[static_cast<std::size_t>(after)] = number;
 }
 
 }  // namespace afm::physics

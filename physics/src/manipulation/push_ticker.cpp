@@ -37,6 +37,9 @@ PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<Placed
     pinned_.push_back(particle.pinned);
   }
   moved_at_s_.assign(x_.size(), -HUGE_VAL);
+  moved_.reserve(x_.size());
+  moves_.assign(x_.size(), false);
+  clear_m_ = clear_height(setup_).si;
   pressed_.assign(x_.size(), {});
   grid_ = std::make_unique<ParticleGrid>(x_, y_, std::max(reach_m, touching_m) + 3.0 * reach_m_);
   base_ = {start.position.x.si, start.position.y.si, start.z.si};
@@ -51,7 +54,8 @@ const PushTick& PushedParticles::Ticker::tick(const LeverBase& asked, double ela
   if (!std::isfinite(to.x) || !std::isfinite(to.y) || !std::isfinite(to.height)) return tick_;
   tick_end_s_ = time_s_ + (elapsed_s >= 0.0 ? elapsed_s : 0.0);
   exhausted_ = false;
-  moved_count_ = 0;
+  for (const std::uint32_t i : moved_) moves_[i] = false;
+  moved_.clear();
   advance(to);
   time_s_ = tick_end_s_;
   if (exhausted_) ++tick_.exhausted;
@@ -236,7 +240,8 @@ bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept 
   tick_.work = tick_.work + Energy(sunk_j + path.given_j);
   tick_.lost = tick_.lost + Energy(path.lost_j);
   tick_.stored = tick_.stored + Energy(now_j - old_j);
-  tick_.yields += path.yields;
+  if (path.yields > 0) gave(holds_n, thresholds.moving_n);
+  tick_.yields += path.yields - std::min<std::uint64_t>(path.yields, 1);
   base_ = to;
   apex_ = apex;
   if (path.moved) place(i, path.particle);
@@ -301,7 +306,7 @@ void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
   for (std::size_t n = 0; n < heap_.size(); ++n) {
     const HeapDescent::Sphere& sphere = heap_.sphere(n);
     if (!sphere.moved()) continue;
-    if (sphere.rest_n > sphere.moving_n) ++tick_.yields;
+    if (sphere.rest_n > sphere.moving_n) gave(sphere.rest_n, sphere.moving_n);
     place(sphere.particle, sphere.at);
   }
 }
@@ -311,8 +316,36 @@ void PushedParticles::Ticker::place(std::size_t i, const Flat& at) noexcept {
   y_[i] = at.y;
   moved_at_s_[i] = tick_end_s_;
   grid_->move(i, at.x, at.y);
-  if (moved_count_ == 0 || last_moved_ != i) ++moved_count_;
-  last_moved_ = i;
+  if (moves_[i]) return;
+  moves_[i] = true;
+  moved_.push_back(static_cast<std::uint32_t>(i));  // within its reserve
+}
+
+void PushedParticles::Ticker::gave(double at_n, double goes_on_n) noexcept {
+  ++tick_.yields;
+  tick_.gave_at = Force(at_n);
+  tick_.goes_on_at = Force(goes_on_n);
+}
+
+void PushedParticles::Ticker::put(std::size_t i, const Flat& at) noexcept {
+  x_[i] = at.x;
+  y_[i] = at.y;
+  grid_->move(i, at.x, at.y);
+}
+
+void PushedParticles::Ticker::hold_over(const LeverBase& base) noexcept {
+  base_ = {base.position.x.si, base.position.y.si, std::max(clear_m_, base.z.si)};
+  apex_ = base_;
+  for (const std::uint32_t i : moved_) moves_[i] = false;
+  moved_.clear();
+  near_count_ = 0;
+  press();
+  std::fill(moved_at_s_.begin(), moved_at_s_.end(), -HUGE_VAL);
+  time_s_ = tick_end_s_ = 0.0;
+  settled_ = false;
+  tick_.given = tick_.work = tick_.lost = tick_.stored = Energy();
+  tick_.lagging = false;
+  publish();
 }
 
 // What the tip presses: the load of the next sub-step's friction.
@@ -336,6 +369,7 @@ void PushedParticles::Ticker::publish() noexcept {
   tick_.lateral = {setup_.springs.lateral * Length(apex_.x - base_.x),
                    setup_.springs.lateral * Length(apex_.y - base_.y)};
   tick_.lift = setup_.springs.normal * Length(apex_.height - base_.height);
+  tick_.near = !find_near() || near_count_ > 0;
   tick_.particle = kNoParticle;
   tick_.state = PushState::Free;
   tick_.normal = tick_.threshold = Force(0.0);
@@ -348,9 +382,9 @@ void PushedParticles::Ticker::publish() noexcept {
   const std::size_t i = tick_.particle;
   LoneContact& contact = contacts_[species_[i]];
   const Pressed& pressed = pressed_[i];
-  const bool moves = moved_at_s_[i] >= time_s_ && moved_count_ > 0;
+  const bool moves = moved_at_s_[i] >= time_s_ && !moved_.empty();
   LoneThresholds thresholds = contact.under_load(pressed.normal_n, pressed.sine, pressed.cosine);
-  if (touched_count_ > 1 || moved_count_ > 1) {
+  if (touched_count_ > 1 || moved_.size() > 1) {
     tick_.state = PushState::Several;
   } else {
     if (is_alone(i)) thresholds = contact.thresholds(base_.height);

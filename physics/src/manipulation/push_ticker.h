@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "heap_descent.h"
@@ -20,6 +22,9 @@ class PushedParticles::Ticker {
   Ticker(const PushSetup& setup, const std::vector<PlacedParticle>& particles, const LeverBase& start);
 
   const PushTick& tick(const LeverBase& asked, double elapsed_s) noexcept;
+  void hold_over(const LeverBase& base) noexcept;
+  void put(std::size_t i, const Flat& at) noexcept;
+  std::span<const std::uint32_t> moved() const noexcept { return moved_; }
   const PushTick& last() const noexcept { return tick_; }
   std::size_t size() const noexcept { return x_.size(); }
   Flat position(std::size_t i) const { return {x_.at(i), y_.at(i)}; }
@@ -49,6 +54,7 @@ class PushedParticles::Ticker {
   double touching_m(std::size_t i, std::size_t j) const noexcept;
   double rest_threshold(std::size_t i, double rest_n, double moving_n) const noexcept;
   void place(std::size_t i, const Flat& at) noexcept;
+  void gave(double at_n, double goes_on_n) noexcept;
   void press() noexcept;
   void publish() noexcept;
 
@@ -62,12 +68,12 @@ class PushedParticles::Ticker {
   std::unique_ptr<ParticleGrid> grid_;
   HeapDescent heap_;
   Apex base_, apex_;
-  double reach_m_ = 0.0, sub_step_m_ = 0.0;
+  double reach_m_ = 0.0, sub_step_m_ = 0.0, clear_m_ = 0.0;
   double time_s_ = 0.0, tick_end_s_ = 0.0;
   std::array<std::size_t, HeapDescent::kMostActive> near_{}, touched_{};  // spheres near the tip
   std::size_t near_count_ = 0, touched_count_ = 0;
-  std::size_t moved_count_ = 0;  // number in this tick
-  std::size_t last_moved_ = kNoParticle;
+  std::vector<std::uint32_t> moved_;  // in this tick
+  std::vector<bool> moves_;           // part of moved_
   bool exhausted_ = false;
   bool settled_ = false;  // a base that rests changes nothing
   PushTick tick_;

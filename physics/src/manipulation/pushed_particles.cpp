@@ -14,9 +14,16 @@
 namespace afm::physics {
 namespace {
 
+constexpr double kClearShare = 1.02;      // share of the largest diameter
 constexpr double kOverlapAllowed = 1e-6;  // share of the touching distance, at the start
 
 }  // namespace
+
+Length clear_height(const PushSetup& setup) noexcept {
+  Length radius;
+  for (const ParticleSpecies& species : setup.species) radius = std::max(radius, species.contact.tip_radius);
+  return kClearShare * 2.0 * radius;
+}
 
 Length touching_distance(Length radius_a, Length radius_b) noexcept { return 2.0 * sqrt(radius_a * radius_b); }
 
@@ -75,6 +82,24 @@ PushedParticles::~PushedParticles() = default;
 const PushTick& PushedParticles::move_to(const LeverBase& base, Time elapsed) noexcept {
   return ticker_->tick(base, elapsed.si);
 }
+
+void PushedParticles::hold_over(const LeverBase& base) noexcept { ticker_->hold_over(base); }
+
+void PushedParticles::put(const std::vector<Sideways<Length>>& places, const LeverBase& base) {
+  if (places.size() != size()) {
+    throw std::invalid_argument(std::to_string(places.size()) + " places are given for " + std::to_string(size()) +
+                                " particles");
+  }
+  for (const Sideways<Length>& place : places) {
+    if (!std::isfinite(place.x.si) || !std::isfinite(place.y.si)) {
+      throw std::invalid_argument("the place of a particle is not finite");
+    }
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) ticker_->put(i, {places[i].x.si, places[i].y.si});
+  ticker_->hold_over(base);
+}
+
+std::span<const std::uint32_t> PushedParticles::moved() const noexcept { return ticker_->moved(); }
 
 const PushTick& PushedParticles::last() const noexcept { return ticker_->last(); }
 std::size_t PushedParticles::size() const noexcept { return ticker_->size(); }

@@ -28,6 +28,23 @@ struct BeamBend {
   float end_deflection = 0.0F;
 };
 
+// Copy of a node's mesh: scaled, turned and moved in the node's frame. Shaders read it as it is.
+struct MeshCopy {
+  glm::vec3 place{0.0F};  // place of the mesh's origin, in the node's units
+  float scale = 1.0F;
+  glm::vec4 turn{0.0F, 0.0F, 0.0F, 1.0F};  // unit quaternion, w last
+  glm::vec4 tint{1.0F};                    // rgb: linear, multiplies the base colour; a: unused
+
+  bool operator==(const MeshCopy&) const = default;
+};
+
+// Copies shown in place of the mesh of a node, at most scene::Node::most_copies. A node with room for copies and
+// without this entry shows nothing.
+struct MeshCopies {
+  scene::NodeIndex node = 0;
+  std::vector<MeshCopy> copies;
+};
+
 // One key light with a shadow; the rest is the procedural environment.
 struct KeyLight {
   glm::vec3 direction_to_light{0.3F, 0.8F, 0.5F};  // room frame, any length
@@ -285,6 +302,7 @@ struct FramePanels {
   PanelSlot<ImagePanel> image;  // in the place of the force
   PanelSlot<ForcePanel> loop;   // friction loop, in the place of the data
   PanelSlot<DataPanel> data;
+  PanelSlot<DataPanel> particles;   // in the place of the data
   PanelSlot<ControlPanel> control;  // in the place of the data
   PanelSlot<ListPanel> keys;        // covers whatever is there, labels too
   PanelSlot<Banner> banner;         // covers whatever is there, labels too
@@ -303,6 +321,7 @@ struct FrameState {
   std::vector<std::uint8_t> visible;          // one per scene node, 0 hides the node's own mesh
   std::vector<scene::NodeIndex> highlighted;  // pointed at or selected by the wand; glow with their children
   std::vector<BeamBend> bends;
+  std::vector<MeshCopies> copies;  // at most one entry per node
   KeyLight key_light;
   ContactMark contact;
   Fog fog;
@@ -310,6 +329,15 @@ struct FrameState {
   FramePanels panels;
   std::vector<Label> labels;
   std::size_t panels_apart = 0;  // largest number of panels left out of the eyes' pictures (Headset::show())
+};
+
+// Resolution and samples of the room in a frame, independent of its contents and layout. Panels always have all pixels
+// of the eye images, so that their text stays legible.
+struct FrameQuality {
+  double scale = 1.0;         // fraction of the eye images' width and height, (0, 1]; enlarged again below the panels
+  std::uint32_t samples = 4;  // 1 or 4, at most RendererOptions::samples
+
+  bool operator==(const FrameQuality&) const = default;
 };
 
 // Image in host memory: 8-bit sRGB RGBA, rows from top to bottom.

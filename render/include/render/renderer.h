@@ -43,15 +43,6 @@ struct RendererOptions {
   bool time_passes = false;  // needed by pass_times()
 };
 
-// Resolution and samples of the room in a frame, independent of its contents and layout. Panels always have all pixels
-// of the eye images, so that their text stays legible.
-struct FrameQuality {
-  double scale = 1.0;         // fraction of the eye images' width and height, (0, 1]; enlarged again below the panels
-  std::uint32_t samples = 4;  // 1 or 4, at most RendererOptions::samples
-
-  bool operator==(const FrameQuality&) const = default;
-};
-
 // Device times of the parts of a frame; 0 for parts it did not need.
 struct PassTimes {
   double panels_ms = 0;  // repainting changed panels

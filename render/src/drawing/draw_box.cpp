@@ -5,6 +5,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
+
+#include "drawing/frame_blocks.h"
 
 namespace afm::render {
 
@@ -21,6 +24,31 @@ DrawBox bent_box(const DrawBox& box, const glm::vec4& bend) {
 }
 
 DrawBox bent_box(const Draw& draw, const glm::vec4& bend) { return bent_box(box_of(draw), bend); }
+
+DrawBox box_of(const Draw& draw, const MeshCopy& copy) {
+  return {glm::dvec3(copy.place),
+          glm::dvec3(std::abs(static_cast<double>(copy.scale)) * static_cast<double>(draw.reach))};
+}
+
+std::span<const MeshCopy> copies_of(const FrameState& frame, scene::NodeIndex node) {
+  for (const MeshCopies& each : frame.copies) {
+    if (each.node == node) return each.copies;
+  }
+  return {};
+}
+
+DrawBox shown_box(const FrameState& frame, const Draw& draw) {
+  if (draw.most_copies == 0) return bent_box(draw, bend_of(frame, draw.node));
+  const std::span<const MeshCopy> copies = copies_of(frame, draw.node);
+  if (copies.empty()) return {glm::dvec3(0.0), glm::dvec3(0.0)};
+  glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+  for (const MeshCopy& copy : copies) {
+    const DrawBox box = box_of(draw, copy);
+    low = glm::min(low, box.center - box.half_size);
+    high = glm::max(high, box.center + box.half_size);
+  }
+  return {0.5 * (low + high), 0.5 * (high - low)};
+}
 
 std::pair<double, double> range(const glm::dvec4& form, const DrawBox& box) {
   const glm::dvec3 slope(form);

@@ -9,7 +9,6 @@
 #include <glm/vec3.hpp>
 
 #include "drawing/draw_box.h"
-#include "drawing/frame_blocks.h"
 
 namespace afm::render {
 namespace {
@@ -90,6 +89,7 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
   list.shadow.clear();
   list.mirrored.assign(draws.size(), 0);
   list.shading.assign(draws.size(), Shading::ByFragment);
+  list.copies.assign(draws.size(), 1);
   list.clipped = false;
   list.hazy = frame.fog.fade > 0.0F || frame.fog.end_m > frame.fog.begin_m;
   opaque_.clear();
@@ -99,12 +99,16 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
     if (!frame.visible.empty() && frame.visible[draw.node] == 0) {
       continue;
     }
+    if (draw.most_copies > 0) {
+      list.copies[i] = static_cast<std::uint32_t>(copies_of(frame, draw.node).size());
+      if (list.copies[i] == 0) continue;
+    }
     if (draw.casts_shadow) {
       list.shadow.push_back(i);
     }
     const auto& room_from_node = frame.room_from_node[draw.node];
     list.mirrored[i] = glm::determinant(glm::dmat3(room_from_node)) < 0.0 ? 1 : 0;
-    const DrawBox box = bent_box(draw, bend_of(frame, draw.node));
+    const DrawBox box = shown_box(frame, draw);
     bool seen = false;
     for (const auto& eye : frame.eyes) {
       const Sight its = sight(eye, room_from_node, box, static_cast<double>(guard_band));
@@ -112,8 +116,11 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
       list.clipped = list.clipped || (its.seen && its.clipped);
     }
     if (seen) {
-      if (!list.hazy) list.shading[i] = shading(draw, frame.eyes[0], room_from_node, pixels_high);
-      const double distance = glm::distance(viewer, glm::dvec3(room_from_node * glm::dvec4(box.center, 1.0)));
+      const bool copied = draw.most_copies > 0;
+      if (!list.hazy && !copied) list.shading[i] = shading(draw, frame.eyes[0], room_from_node, pixels_high);
+      // copies that move among themselves keep their place in the order
+      const glm::dvec3 middle = copied ? glm::dvec3(0.0) : box.center;
+      const double distance = glm::distance(viewer, glm::dvec3(room_from_node * glm::dvec4(middle, 1.0)));
       (draw.blended ? blended_ : opaque_).emplace_back(distance, i);
     }
   }

@@ -24,6 +24,7 @@ struct DrawList {
   std::vector<std::uint32_t> blended;  // in view, from far to near
   std::vector<std::uint8_t> mirrored;  // indexed by draw; 1 if the node mirrors its mesh
   std::vector<Shading> shading;        // indexed by draw; ByFragment for draws out of view
+  std::vector<std::uint32_t> copies;   // indexed by draw; 1 for a draw without room for copies
   bool hazy = false;                   // fog is visible
   bool clipped = false;                // an eye's near plane or guard band cuts through a draw
 

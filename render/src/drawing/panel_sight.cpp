@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "drawing/draw_box.h"
-#include "drawing/frame_blocks.h"
 
 namespace afm::render {
 namespace {
@@ -114,7 +113,7 @@ bool PanelSight::may_be_hidden(const PanelPlacement& panel) const {
 // Share of the panel that the outline of the draw's box covers, an upper limit.
 double PanelSight::hidden_share(const Draw& draw, const scene::EyeView& eye, const PanelPlacement& panel) const {
   if (!reaches_between(draw, eye, panel)) return 0.0;
-  const DrawBox box = bent_box(draw, bend_of(frame_, draw.node));
+  const DrawBox box = shown_box(frame_, draw);
   const glm::dvec3 front = front_of(panel);
   const glm::dvec3 across = panel.right_m / glm::dot(panel.right_m, panel.right_m);
   const glm::dvec3 upwards = panel.up_m / glm::dot(panel.up_m, panel.up_m);
@@ -137,7 +136,7 @@ double PanelSight::hidden_share(const Draw& draw, const scene::EyeView& eye, con
 bool PanelSight::reaches_between(const Draw& draw, const scene::EyeView& eye, const PanelPlacement& panel) const {
   const glm::dmat4& room_from_node = frame_.room_from_node[draw.node];
   const glm::dmat4 rows = glm::transpose(room_from_node);
-  const DrawBox box = bent_box(draw, bend_of(frame_, draw.node));
+  const DrawBox box = shown_box(frame_, draw);
   const std::array corners = corners_of(panel);
   const auto beyond = [&](const glm::dvec4& face) { return range(rows * face, box).first > 0.0; };
   if (beyond(plane(-front_of(panel), panel.lower_left_m + kBehindM * front_of(panel)))) return false;

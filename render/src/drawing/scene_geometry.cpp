@@ -8,7 +8,9 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "core/check.h"
 #include "drawing/mesh_order.h"
+#include "render/frame.h"
 
 namespace afm::render {
 namespace {
@@ -36,6 +38,7 @@ void measure_box(const scene::Primitive& primitive, Draw& draw) {
   for (const auto& vertex : primitive.vertices) {
     low = glm::min(low, vertex.position);
     high = glm::max(high, vertex.position);
+    draw.reach = std::max(draw.reach, glm::length(vertex.position));
   }
   draw.center = 0.5F * (low + high);
   draw.half_size = 0.5F * (high - low);
@@ -153,12 +156,18 @@ SceneGeometry::SceneGeometry(const Device& device, const scene::Scene& scene) {
   for (scene::NodeIndex index = 0; index < scene.nodes.size(); ++index) {
     const auto& node = scene.nodes[index];
     parents_.push_back(node.parent);
+    most_copies_.push_back(node.most_copies);
     if (node.mesh) {
       for (Draw draw : packed.draws_of_mesh.at(*node.mesh)) {
         draw.node = index;
+        draw.most_copies = node.most_copies;
+        draw.first_copy = copy_count_;
+        // copies are drawn by a pipeline for plain, opaque materials
+        AFM_CHECK(draw.most_copies == 0 || (!draw.variant && !draw.blended && !draw.unlit));
         draws_.push_back(draw);
       }
     }
+    copy_count_ += node.most_copies;
   }
   std::stable_sort(draws_.begin(), draws_.end(), [](const Draw& a, const Draw& b) { return a.blended < b.blended; });
   vertices_ = upload_buffer(device, "scene vertices", std::as_bytes(std::span(packed.vertices)),
@@ -190,6 +199,25 @@ const std::array<vk::VertexInputAttributeDescription, 3>& SceneGeometry::attribu
       {{.location = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(scene::Vertex, position)},
        {.location = 1, .format = vk::Format::eR32G32B32Sfloat, .offset = offsetof(scene::Vertex, normal)},
        {.location = 2, .format = vk::Format::eR32G32B32A32Sfloat, .offset = offsetof(scene::Vertex, color)}}};
+  return kAttributes;
+}
+
+const std::array<vk::VertexInputBindingDescription, 2>& SceneGeometry::copy_bindings() {
+  static const std::array<vk::VertexInputBindingDescription, 2> kBindings{
+      {bindings()[0],
+       {.binding = kCopyBinding, .stride = sizeof(MeshCopy), .inputRate = vk::VertexInputRate::eInstance}}};
+  return kBindings;
+}
+
+const std::array<vk::VertexInputAttributeDescription, 6>& SceneGeometry::copy_attributes() {
+  static_assert(offsetof(MeshCopy, scale) == 12 && sizeof(MeshCopy) == 48);  // place and scale are one vector
+  const auto of_copy = [](std::uint32_t location, std::uint32_t offset) {
+    return vk::VertexInputAttributeDescription{
+        .location = location, .binding = kCopyBinding, .format = vk::Format::eR32G32B32A32Sfloat, .offset = offset};
+  };
+  static const std::array<vk::VertexInputAttributeDescription, 6> kAttributes{
+      {attributes()[0], attributes()[1], attributes()[2], of_copy(3, offsetof(MeshCopy, place)),
+       of_copy(4, offsetof(MeshCopy, turn)), of_copy(5, offsetof(MeshCopy, tint))}};
   return kAttributes;
 }
 

@@ -28,10 +28,13 @@ struct Draw {
   std::uint32_t material = 0;
   glm::vec3 center{0.0F};  // centre of the primitive's box, in the node's frame
   glm::vec3 half_size{0.0F};
-  float usual_edge = 0.0F;    // in the node's frame; the longest edge of nine triangles in ten is at most this
-  float longest_edge = 0.0F;  // 0: no triangles
-  float largest_turn = 0.0F;  // radians, between the normals at two corners of a triangle
-  DrawBlock block{};          // includes the material's constants
+  float reach = 0.0F;             // largest distance of a vertex from the mesh's origin
+  std::uint32_t most_copies = 0;  // 0: the mesh itself is drawn
+  std::uint32_t first_copy = 0;   // place in the buffer of all copies
+  float usual_edge = 0.0F;        // in the node's frame; the longest edge of nine triangles in ten is at most this
+  float longest_edge = 0.0F;      // 0: no triangles
+  float largest_turn = 0.0F;      // radians, between the normals at two corners of a triangle
+  DrawBlock block{};              // includes the material's constants
 };
 
 // Vertex data read only by a ShaderVariant.
@@ -39,6 +42,9 @@ struct LookVertex {
   glm::vec4 tangent{0.0F};
   glm::vec4 coordinates{0.0F};
 };
+
+// Vertex buffer of the copies: render::MeshCopy, one per instance.
+inline constexpr std::uint32_t kCopyBinding = 2;
 
 // All meshes of a scene in one vertex and one index buffer, and its draws: opaque ones first, then blended ones.
 class SceneGeometry {
@@ -50,10 +56,16 @@ class SceneGeometry {
 
   const std::vector<ShaderVariant>& variants() const { return variants_; }
 
+  // Largest number of copies of a node's mesh, and of all nodes together.
+  std::uint32_t most_copies(scene::NodeIndex node) const { return most_copies_[node]; }
+  std::uint32_t copy_count() const { return copy_count_; }
+
   void bind(const vk::raii::CommandBuffer& command) const;
 
   static const std::array<vk::VertexInputBindingDescription, 1>& bindings();
   static const std::array<vk::VertexInputAttributeDescription, 3>& attributes();
+  static const std::array<vk::VertexInputBindingDescription, 2>& copy_bindings();  // the second: kCopyBinding
+  static const std::array<vk::VertexInputAttributeDescription, 6>& copy_attributes();
   static const std::array<vk::VertexInputBindingDescription, 2>& variant_bindings();
   static const std::array<vk::VertexInputAttributeDescription, 5>& variant_attributes();
 
@@ -61,6 +73,8 @@ class SceneGeometry {
   std::vector<Draw> draws_;
   std::vector<std::optional<scene::NodeIndex>> parents_;
   std::vector<ShaderVariant> variants_;
+  std::vector<std::uint32_t> most_copies_;  // indexed by node
+  std::uint32_t copy_count_ = 0;
   Buffer vertices_;
   Buffer variant_vertices_;  // first vertex with a look
   Buffer indices_;

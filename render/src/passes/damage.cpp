@@ -16,13 +16,8 @@
 namespace afm::render {
 namespace {
 
-// Flags of a draw in a DrawnFrame.
-constexpr std::uint8_t kDrawn = 1, kCasts = 2, kMirrored = 4, kPerVertex = 8, kLightPerVertex = 16;
-
 constexpr std::size_t kMostChanged = 64;  // draws; beyond this, redrawing everything costs about as much
 constexpr double kMostOfPicture = 0.75;   // same limit as a share: each rectangle processes the vertices again
-constexpr int kMarginPx = 2;              // the device computes in float
-constexpr double kFarPx = 1e6;
 constexpr double kFarDepth =
     1e3;                   // in depth ranges of the shadow map; edges that leave a slab later are parallel to it
 constexpr int kParts = 8;  // parts with bounds of their own: a long object at an angle fills little of its box
@@ -34,20 +29,6 @@ constexpr double kShadowTexels = 8.0;
 // Beyond these radii the mark at the contact is invisible: the shade 1 - 0.72 * exp2(-2 r * r) is 1 in 32 bits
 // (shaders/contact.glsl), and a ring's light, exp2(-(3.5 * 2)^2), is lost in that of any surface.
 constexpr double kShadeReach = 3.6, kRingReach = 2.0;
-
-// Equal bytes draw the same; equal numbers with different bytes (0 and -0) only cost a redraw.
-template <class Block>
-bool same_bytes(const Block& a, const Block& b) {
-  const auto bytes = [](const Block& block) { return std::as_bytes(std::span(&block, 1)).data(); };
-  return std::memcmp(bytes(a), bytes(b), sizeof(Block)) == 0;
-}
-
-// Matrix of a draw as the shaders use it, from its first three rows. A zero matrix collapses a hidden draw to a point.
-glm::dmat4 placing(const DrawBlock& block) {
-  glm::dmat4 m(block.room_from_node);
-  for (glm::length_t column = 0; column < 4; ++column) m[column][3] = column == 3 ? 1.0 : 0.0;
-  return m;
-}
 
 // Longest edge of a draw's triangles in the room, with the beam's bend.
 double longest_edge_m(const Draw& draw, const DrawBlock& block) {
@@ -77,121 +58,36 @@ void for_each_part(const Draw& draw, const DrawBlock& block, const Take& take) {
 
 }  // namespace
 
-// ---- a frame ----
-
-PixelBox DrawnFrame::seen(std::span<const glm::dvec3> hull_m) const {
-  const PixelBox whole = PixelBox::whole(drawing_.extent);
-  const glm::dvec2 size(whole.high);
-  PixelBox box;
-  for (std::size_t eye = 0; eye < clip_from_room_.size(); ++eye) {
-    glm::dvec2 least(kFarPx), largest(-kFarPx);
-    for (const glm::dvec3& place : hull_m) {
-      const glm::dvec4 clip = clip_from_room_[eye] * glm::dvec4(place, 1.0);
-      if (!(clip.w > near_m_[eye])) return whole;
-      const glm::dvec2 pixel = (0.5 * glm::dvec2(clip) / clip.w + 0.5) * size;
-      least = glm::min(least, pixel);
-      largest = glm::max(largest, pixel);
-    }
-    const glm::ivec2 from(glm::floor(glm::clamp(least, -kFarPx, kFarPx)));
-    const glm::ivec2 to(glm::ceil(glm::clamp(largest, -kFarPx, kFarPx)));
-    box = box.with({from - kMarginPx, to + kMarginPx});
-  }
-  return box.within(whole);
-}
-
-PixelBox DrawnFrame::seen(const glm::dmat4& room_from_box, const glm::dvec3& low, const glm::dvec3& high) const {
-  std::array<glm::dvec3, 8> corners_m;
-  for (std::size_t i = 0; i < corners_m.size(); ++i) {
-    const glm::dvec4 corner((i & 1U) != 0 ? high.x : low.x, (i & 2U) != 0 ? high.y : low.y,
-                            (i & 4U) != 0 ? high.z : low.z, 1.0);
-    corners_m[i] = glm::dvec3(room_from_box * corner);
-  }
-  return seen(corners_m);
-}
-
-PixelBox DrawnFrame::seen(const PanelState& panel, const PanelPart& part) const {
-  if (!panel.shown) return {};
-  const PanelPlacement& place = panel.placement;
-  const glm::dmat4 room_from_panel(glm::dvec4(place.right_m, 0.0), glm::dvec4(place.up_m, 0.0), glm::dvec4(0.0),
-                                   glm::dvec4(place.lower_left_m, 1.0));
-  return seen(room_from_panel, glm::dvec3(part.low, 0.0), glm::dvec3(part.high, 0.0));
-}
-
-void DrawnFrame::take(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list,
-                      const EyePassConfig& drawing, float guard_band, const Panels& panels, const DrawnFrame& before) {
-  const auto& draws = geometry.draws();
-  known_ = true;
-  drawing_ = drawing;
-  hazy_ = list.hazy;
-  rest_ = make_frame_block(frame, 0, {drawing.extent.width, drawing.extent.height}, guard_band);
-  contact_ = std::exchange(rest_.contact, glm::vec4(0.0F));
-  contact_ring_ = std::exchange(rest_.contact_ring, glm::vec4(0.0F));
-  for (std::size_t eye = 0; eye < frame.eyes.size(); ++eye) {
-    clip_from_room_[eye] = frame.eyes[eye].projection * frame.eyes[eye].view;
-    near_m_[eye] = frame.eyes[eye].projection[3][2];
-  }
-
-  mark_highlighted(frame, geometry, glowing_);
-  blocks_.resize(draws.size());
-  write_draw_blocks(frame, geometry, glowing_, std::as_writable_bytes(std::span(blocks_)).data(), sizeof(DrawBlock));
-  order_.assign(list.opaque.begin(), list.opaque.end());
-  order_.insert(order_.end(), list.blended.begin(), list.blended.end());
-  how_.assign(draws.size(), 0);
-  for (const std::uint32_t i : order_) how_[i] |= kDrawn;
-  for (const std::uint32_t i : list.shadow) how_[i] |= kCasts;
-  for (std::uint32_t i = 0; i < draws.size(); ++i) {
-    if (list.mirrored[i] != 0) how_[i] |= kMirrored;
-    if (list.shading[i] == Shading::ByVertex) how_[i] |= kPerVertex;
-    if (list.shading[i] == Shading::LightByVertex) how_[i] |= kLightPerVertex;
-  }
-
-  bounds_.assign(draws.size(), {});
-  const bool same_eyes = same_for_all(before);
-  for (const std::uint32_t i : order_) {
-    if (same_eyes && same(before, i)) {
-      bounds_[i] = before.bounds_[i];
-    } else {
-      const DrawBox box = bent_box(draws[i], blocks_[i].bend);
-      bounds_[i] = seen(placing(blocks_[i]), box.center - box.half_size, box.center + box.half_size);
-      const auto& variant = draws[i].variant;
-      if (variant && geometry.variants()[*variant].topology == scene::Topology::Points && !bounds_[i].empty()) {
-        constexpr int kHalfPointPx = AFM_LARGEST_POINT / 2;
-        bounds_[i] = PixelBox{bounds_[i].low - kHalfPointPx, bounds_[i].high + kHalfPointPx}.within(
-            PixelBox::whole(drawing.extent));
-      }
-    }
-  }
-  panels.list(panels_);
-}
-
-bool DrawnFrame::same_for_all(const DrawnFrame& other) const {
-  return known_ && other.known_ && drawing_ == other.drawing_ && hazy_ == other.hazy_ &&
-         blocks_.size() == other.blocks_.size() && same_bytes(rest_, other.rest_);
-}
-
-bool DrawnFrame::same(const DrawnFrame& other, std::uint32_t draw) const {
-  return how_[draw] == other.how_[draw] && same_bytes(blocks_[draw], other.blocks_[draw]);
-}
-
-bool DrawnFrame::casts_same_shadow(const DrawnFrame& other, std::uint32_t draw) const {
-  constexpr std::uint8_t kMatters = kCasts | kMirrored;
-  return (how_[draw] & kMatters) == (other.how_[draw] & kMatters) &&
-         same_bytes(blocks_[draw].room_from_node, other.blocks_[draw].room_from_node) &&
-         same_bytes(blocks_[draw].bend, other.blocks_[draw].bend);
-}
-
 // ---- what differs ----
 
 // Returns false if there are too many.
-bool Damage::find_changed(const DrawnFrame& before, const DrawnFrame& now) {
+bool Damage::find_changed(const DrawnFrame& before, const DrawnFrame& now, const SceneGeometry& geometry) {
   changed_.assign(now.blocks_.size(), 0);
   changes_.clear();
+  copy_changes_.clear();
   for (std::uint32_t i = 0; i < now.blocks_.size(); ++i) {
-    const bool counts = ((before.how_[i] | now.how_[i]) & (kDrawn | kCasts)) != 0;
-    if (!counts || now.same(before, i)) continue;
-    changed_[i] = 1;
-    changes_.push_back(i);
-    if (changes_.size() > kMostChanged) return false;
+    const bool counts = ((before.how_[i] | now.how_[i]) & (DrawnFrame::kDrawn | DrawnFrame::kCasts)) != 0;
+    if (!counts) continue;
+    if (const Draw& draw = geometry.draws()[i]; draw.most_copies > 0) {
+      if (!find_changed_copies(before, now, i, draw)) return false;
+    } else if (!now.same(before, i)) {
+      changed_[i] = 1;
+      changes_.push_back(i);
+    }
+    if (changes_.size() + copy_changes_.size() > kMostChanged) return false;
+  }
+  return true;
+}
+
+// Returns false if all copies have changed, or too many: their node moves, or their number changes.
+bool Damage::find_changed_copies(const DrawnFrame& before, const DrawnFrame& now, std::uint32_t draw,
+                                 const Draw& shown) {
+  const std::span<const MeshCopy> were = before.copies_of(shown), are = now.copies_of(shown);
+  if (!now.same(before, draw) || were.size() != are.size()) return false;
+  for (std::uint32_t copy = 0; copy < are.size(); ++copy) {
+    if (were[copy] == are[copy]) continue;
+    copy_changes_.push_back({draw, copy});
+    if (copy_changes_.size() > kMostChanged) return false;
   }
   return true;
 }
@@ -212,75 +108,103 @@ bool Damage::same_order(const DrawnFrame& before, const DrawnFrame& now) const {
 void Damage::add_draw(const DrawnFrame& of, std::uint32_t draw, const SceneGeometry& geometry, PixelTiles& tiles) {
   if (of.bounds_[draw].empty()) return;
   const DrawBlock& block = of.blocks_[draw];
-  const glm::dmat4 room_from_node = placing(block);
+  const glm::dmat4 room_from_node = of.room_from_node(draw);
   for_each_part(geometry.draws()[draw], block, [&](const DrawBox& part) {
     tiles.add(
         of.seen(room_from_node, part.center - part.half_size, part.center + part.half_size).within(of.bounds_[draw]));
   });
 }
 
+// A copy that has changed, at its old and its new place, with its shadow.
+void Damage::add_copy(const CopyChange& change, const DrawnFrame& before, const DrawnFrame& now,
+                      const SceneGeometry& geometry, PixelTiles& tiles) const {
+  const Draw& draw = geometry.draws()[change.draw];
+  const MeshCopy &was = before.copies_of(draw)[change.copy], &is = now.copies_of(draw)[change.copy];
+  const bool same_shadow = was.place == is.place && was.scale == is.scale && was.turn == is.turn;
+  for (const DrawnFrame* of : {&before, &now}) {
+    const DrawBox box = box_of(draw, of->copies_of(draw)[change.copy]);
+    tiles.add(of->seen(of->room_from_node(change.draw), box.center - box.half_size, box.center + box.half_size)
+                  .within(of->bounds_[change.draw]));
+    if (!same_shadow && of->is(change.draw, DrawnFrame::kCasts)) {
+      add_column(*of, change.draw, box, now, geometry, tiles);
+    }
+  }
+}
+
 // Adds the area of unchanged draws within the volume. Draws shaded per vertex spread a change along their triangles.
 void Damage::add_reached(const Volume& volume, const DrawnFrame& now, const SceneGeometry& geometry,
                          PixelTiles& tiles) const {
-  const glm::dmat4 room_from_box = glm::inverse(volume.box_from_room);
   for (const std::uint32_t i : now.order_) {
     if (changed_[i] != 0) continue;
     const DrawBlock& block = now.blocks_[i];
     const Draw& draw = geometry.draws()[i];
-    const DrawBox box = bent_box(draw, block.bend);
-    const glm::dmat4 box_from_node = volume.box_from_room * placing(block);
-    const glm::dmat4 rows = glm::transpose(box_from_node);
-    const glm::dvec3 edge = now.is(i, kPerVertex) ? longest_edge_m(draw, block) * volume.per_m : glm::dvec3(0.0);
-    glm::dvec3 low, high;
-    for (glm::length_t axis = 0; axis < 3; ++axis) {
-      const auto [least, largest] = range(rows[axis], box);
-      low[axis] = std::max(least, volume.low[axis] - edge[axis]);
-      high[axis] = std::min(largest, volume.high[axis] + edge[axis]);
-    }
-    if (low.x > high.x || low.y > high.y || low.z > high.z) continue;
-    PixelBox seen = now.seen(room_from_box, low, high).within(now.bounds_[i]);
-
-    // the points where the column's four edges enter and leave the slab between two sides of the box bound flat objects
-    // tightly
-    const glm::dmat4 node_from_box = glm::inverse(box_from_node);
-    for (glm::length_t axis = 0; axis < 3 && !seen.empty(); ++axis) {
-      std::array<glm::dvec3, 8> ends_m;
-      bool crosses = true;
-      for (std::size_t edge_of = 0; edge_of < 4; ++edge_of) {
-        const glm::dvec2 at((edge_of & 1U) != 0 ? high.x : low.x, (edge_of & 2U) != 0 ? high.y : low.y);
-        const double from = (node_from_box * glm::dvec4(at, 0.0, 1.0))[axis], slope = node_from_box[2][axis];
-        for (const std::size_t side : {0U, 1U}) {
-          const double plane = box.center[axis] + (side == 0 ? -1.0 : 1.0) * box.half_size[axis];
-          const double depth = (plane - from) / slope;
-          crosses = crosses && std::abs(depth) < kFarDepth;
-          ends_m[2 * edge_of + side] = glm::dvec3(room_from_box * glm::dvec4(at, crosses ? depth : 0.0, 1.0));
-        }
-      }
-      if (crosses) seen = seen.within(now.seen(ends_m));
-    }
-    tiles.add(seen);
+    const glm::dvec3 edge =
+        now.is(i, DrawnFrame::kPerVertex) ? longest_edge_m(draw, block) * volume.per_m : glm::dvec3(0.0);
+    if (draw.most_copies == 0) add_reached_box(volume, now, i, bent_box(draw, block.bend), edge, tiles);
+    for (const MeshCopy& copy : now.copies_of(draw)) add_reached_box(volume, now, i, box_of(draw, copy), edge, tiles);
   }
 }
 
-// Adds the areas in the draw's shadow: the columns behind its parts along the light, in the shadow map's clip space.
+// `box` is what a draw shows, or a part of it.
+void Damage::add_reached_box(const Volume& volume, const DrawnFrame& now, std::uint32_t draw, const DrawBox& box,
+                             const glm::dvec3& edge, PixelTiles& tiles) {
+  const glm::dmat4 box_from_node = volume.box_from_room * now.room_from_node(draw);
+  const glm::dmat4 rows = glm::transpose(box_from_node);
+  glm::dvec3 low, high;
+  for (glm::length_t axis = 0; axis < 3; ++axis) {
+    const auto [least, largest] = range(rows[axis], box);
+    low[axis] = std::max(least, volume.low[axis] - edge[axis]);
+    high[axis] = std::min(largest, volume.high[axis] + edge[axis]);
+  }
+  if (low.x > high.x || low.y > high.y || low.z > high.z) return;
+  const glm::dmat4 room_from_box = glm::inverse(volume.box_from_room);
+  PixelBox seen = now.seen(room_from_box, low, high).within(now.bounds_[draw]);
+
+  // the points where the column's four edges enter and leave the slab between two sides of the box bound flat objects
+  // tightly
+  const glm::dmat4 node_from_box = glm::inverse(box_from_node);
+  for (glm::length_t axis = 0; axis < 3 && !seen.empty(); ++axis) {
+    std::array<glm::dvec3, 8> ends_m;
+    bool crosses = true;
+    for (std::size_t edge_of = 0; edge_of < 4; ++edge_of) {
+      const glm::dvec2 at((edge_of & 1U) != 0 ? high.x : low.x, (edge_of & 2U) != 0 ? high.y : low.y);
+      const double from = (node_from_box * glm::dvec4(at, 0.0, 1.0))[axis], slope = node_from_box[2][axis];
+      for (const std::size_t side : {0U, 1U}) {
+        const double plane = box.center[axis] + (side == 0 ? -1.0 : 1.0) * box.half_size[axis];
+        const double depth = (plane - from) / slope;
+        crosses = crosses && std::abs(depth) < kFarDepth;
+        ends_m[2 * edge_of + side] = glm::dvec3(room_from_box * glm::dvec4(at, crosses ? depth : 0.0, 1.0));
+      }
+    }
+    if (crosses) seen = seen.within(now.seen(ends_m));
+  }
+  tiles.add(seen);
+}
+
+// Adds the areas in the draw's shadow.
 void Damage::add_shadow(const DrawnFrame& of, std::uint32_t draw, const DrawnFrame& now, const SceneGeometry& geometry,
                         PixelTiles& tiles) const {
-  if (!of.is(draw, kCasts)) return;
+  if (!of.is(draw, DrawnFrame::kCasts)) return;
+  for_each_part(geometry.draws()[draw], of.blocks_[draw],
+                [&](const DrawBox& part) { add_column(of, draw, part, now, geometry, tiles); });
+}
+
+// The column behind a part of a draw along the light, in the shadow map's clip space.
+void Damage::add_column(const DrawnFrame& of, std::uint32_t draw, const DrawBox& part, const DrawnFrame& now,
+                        const SceneGeometry& geometry, PixelTiles& tiles) const {
   const glm::dmat4 map_from_room(of.rest_.shadow_from_room);
   const glm::dmat4 directions = glm::transpose(map_from_room);
-  const glm::dmat4 rows = glm::transpose(map_from_room * placing(of.blocks_[draw]));
+  const glm::dmat4 rows = glm::transpose(map_from_room * of.room_from_node(draw));
   constexpr double kTexel = 1.0 / kShadowMapSize;  // in depth the same length as 2 * kTexel across
   const glm::dvec3 reach = kShadowTexels * kTexel * glm::dvec3(2.0, 2.0, 1.0);
-  for_each_part(geometry.draws()[draw], of.blocks_[draw], [&](const DrawBox& part) {
-    Volume column{.box_from_room = map_from_room};
-    for (glm::length_t axis = 0; axis < 3; ++axis) {
-      const auto [least, largest] = range(rows[axis], part);
-      column.low[axis] = least - reach[axis];
-      column.high[axis] = axis == 2 ? std::numeric_limits<double>::max() : largest + reach[axis];
-      column.per_m[axis] = glm::length(glm::dvec3(directions[axis]));
-    }
-    add_reached(column, now, geometry, tiles);
-  });
+  Volume column{.box_from_room = map_from_room};
+  for (glm::length_t axis = 0; axis < 3; ++axis) {
+    const auto [least, largest] = range(rows[axis], part);
+    column.low[axis] = least - reach[axis];
+    column.high[axis] = axis == 2 ? std::numeric_limits<double>::max() : largest + reach[axis];
+    column.per_m[axis] = glm::length(glm::dvec3(directions[axis]));
+  }
+  add_reached(column, now, geometry, tiles);
 }
 
 void Damage::add_contact(const DrawnFrame& of, const DrawnFrame& now, const SceneGeometry& geometry,
@@ -312,7 +236,7 @@ void Damage::add_panels(const DrawnFrame& before, const DrawnFrame& now, PixelTi
 
 PixelArea Damage::between(const DrawnFrame& before, const DrawnFrame& now, const SceneGeometry& geometry) {
   PixelArea area;
-  if (!now.same_for_all(before) || !find_changed(before, now) || !same_order(before, now)) {
+  if (!now.same_for_all(before) || !find_changed(before, now, geometry) || !same_order(before, now)) {
     area.add_everything();
     return area;
   }
@@ -324,6 +248,7 @@ PixelArea Damage::between(const DrawnFrame& before, const DrawnFrame& now, const
     add_shadow(before, draw, now, geometry, tiles);
     add_shadow(now, draw, now, geometry, tiles);
   }
+  for (const CopyChange& change : copy_changes_) add_copy(change, before, now, geometry, tiles);
   if (before.contact_ != now.contact_ || before.contact_ring_ != now.contact_ring_) {
     add_contact(before, now, geometry, tiles);
     add_contact(now, now, geometry, tiles);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "device/shader_interface.h"
+#include "drawing/draw_box.h"
 #include "drawing/draw_list.h"
 #include "drawing/eye_targets.h"
 #include "drawing/pixel_area.h"
@@ -33,13 +34,22 @@ class DrawnFrame {
   // Blocks of the geometry's draws, one each.
   std::span<const DrawBlock> blocks() const { return blocks_; }
 
+  // SceneGeometry::copy_count() copies, those of a node from Draw::first_copy on. Those that are not shown are all 0.
+  std::span<const MeshCopy> copies() const { return copies_; }
+
   // Pixels of an eye's image in which either eye may see the draw; empty if it is not drawn.
   const PixelBox& bounds(std::uint32_t draw) const { return bounds_[draw]; }
 
  private:
   friend class Damage;
+  // flags of how_
+  static constexpr std::uint8_t kDrawn = 1, kCasts = 2, kMirrored = 4, kPerVertex = 8, kLightPerVertex = 16;
+
+  glm::dmat4 room_from_node(std::uint32_t draw) const;  // as the shaders use it
   bool same_for_all(const DrawnFrame& other) const;
   bool same(const DrawnFrame& other, std::uint32_t draw) const;
+  bool same_copies(const DrawnFrame& other, const Draw& draw) const;
+  std::span<const MeshCopy> copies_of(const Draw& draw) const;
   bool casts_same_shadow(const DrawnFrame& other, std::uint32_t draw) const;
   bool is(std::uint32_t draw, std::uint8_t what) const { return (how_[draw] & what) != 0; }
   PixelBox seen(std::span<const glm::dvec3> hull_m) const;  // bounds of points in the room
@@ -53,16 +63,18 @@ class DrawnFrame {
   bool hazy_ = false;
   std::array<glm::dmat4, 2> clip_from_room_{};
   std::array<double, 2> near_m_{};
-  std::vector<DrawBlock> blocks_;     // indexed by draw
-  std::vector<std::uint8_t> how_;     // kDrawn and the other flags, indexed by draw
-  std::vector<PixelBox> bounds_;      // indexed by draw
-  std::vector<std::uint32_t> order_;  // drawing order
+  std::vector<DrawBlock> blocks_;  // indexed by draw
+  std::vector<std::uint8_t> how_;  // kDrawn and the other flags, indexed by draw
+  std::vector<MeshCopy> copies_;
+  std::vector<std::uint32_t> copy_counts_;  // indexed by node
+  std::vector<PixelBox> bounds_;            // indexed by draw
+  std::vector<std::uint32_t> order_;        // drawing order
   std::vector<PanelState> panels_;
   std::vector<std::uint8_t> glowing_;
 };
 
-// Part of the eyes' images in which a frame differs from the last one. A changed draw counts at its old and its new
-// position, with its shadow on all unchanged draws: the column behind it along the light. If a change affects
+// Part of the eyes' images in which a frame differs from the last one. A changed draw or copy counts at its old and its
+// new position, with its shadow on all unchanged draws: the column behind it along the light. If a change affects
 // everything (eyes, light, resolution, fog), or many draws change, the part is everything. Never too small; keeps its
 // memory.
 class Damage {
@@ -76,17 +88,29 @@ class Damage {
     glm::dvec3 low{0.0}, high{0.0};
     glm::dvec3 per_m{1.0};  // at most this many units along each axis per metre of the room
   };
-  bool find_changed(const DrawnFrame& before, const DrawnFrame& now);
+  struct CopyChange {
+    std::uint32_t draw = 0;
+    std::uint32_t copy = 0;  // index in the draw
+  };
+  bool find_changed(const DrawnFrame& before, const DrawnFrame& now, const SceneGeometry& geometry);
+  bool find_changed_copies(const DrawnFrame& before, const DrawnFrame& now, std::uint32_t draw, const Draw& shown);
   bool same_order(const DrawnFrame& before, const DrawnFrame& now) const;
   static void add_draw(const DrawnFrame& of, std::uint32_t draw, const SceneGeometry& geometry, PixelTiles& tiles);
+  void add_copy(const CopyChange& change, const DrawnFrame& before, const DrawnFrame& now,
+                const SceneGeometry& geometry, PixelTiles& tiles) const;
+  static void add_reached_box(const Volume& volume, const DrawnFrame& now, std::uint32_t draw, const DrawBox& box,
+                              const glm::dvec3& edge, PixelTiles& tiles);
   void add_reached(const Volume& volume, const DrawnFrame& now, const SceneGeometry& geometry, PixelTiles& tiles) const;
   void add_shadow(const DrawnFrame& of, std::uint32_t draw, const DrawnFrame& now, const SceneGeometry& geometry,
                   PixelTiles& tiles) const;
+  void add_column(const DrawnFrame& of, std::uint32_t draw, const DrawBox& part, const DrawnFrame& now,
+                  const SceneGeometry& geometry, PixelTiles& tiles) const;
   void add_contact(const DrawnFrame& of, const DrawnFrame& now, const SceneGeometry& geometry, PixelTiles& tiles) const;
   static void add_panels(const DrawnFrame& before, const DrawnFrame& now, PixelTiles& tiles);
 
-  std::vector<std::uint8_t> changed_;   // indexed by draw
-  std::vector<std::uint32_t> changes_;  // changed draws
+  std::vector<std::uint8_t> changed_;     // indexed by draw
+  std::vector<std::uint32_t> changes_;    // changed draws
+  std::vector<CopyChange> copy_changes_;  // changed copies of draws that have not changed otherwise
 };
 
 // Newest changes of the eyes' images, so that pictures made from an earlier state can follow them.

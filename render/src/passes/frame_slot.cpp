@@ -76,13 +76,13 @@ vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, Shad
 }
 
 FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::DescriptorSetLayout shadow_layout,
-                     const ShadowMap& shadow_map, std::size_t draw_count)
+                     const ShadowMap& shadow_map, const SceneGeometry& geometry)
     : pool_(*device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                .queueFamilyIndex = device.queue_family()}),
       commands_(*device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 4}),
       draw_stride_(aligned_stride(device, sizeof(DrawBlock))),
       largest_point_px_(device.largest_point_px()),
-      draw_blocks_(create_host_buffer(device, "draws", std::max<std::size_t>(draw_count, 1) * draw_stride_,
+      draw_blocks_(create_host_buffer(device, "draws", std::max<std::size_t>(geometry.draws().size(), 1) * draw_stride_,
                                       vk::BufferUsageFlagBits::eUniformBuffer)),
       descriptor_pool_(create_frame_pool(device, kMostPasses + 1)) {
   const auto allocate = [&](vk::DescriptorSetLayout of) {
@@ -96,6 +96,12 @@ FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::D
     sets_.push_back(allocate(layout));
     write_uniforms(device, *sets_.back(), uniforms_.back(), draw_blocks_);
     write_shadow_map(device, *sets_.back(), shadow_map);
+  }
+  if (geometry.copy_count() > 0) {
+    copies_ = create_host_buffer(device, "copies", geometry.copy_count() * sizeof(MeshCopy),
+                                 vk::BufferUsageFlagBits::eVertexBuffer);
+    written_copies_.resize(geometry.copy_count());
+    std::memcpy(copies_.mapped, written_copies_.data(), copies_.size);
   }
   shadow_set_ = allocate(shadow_layout);
   write_uniforms(device, *shadow_set_, uniforms_.front(), draw_blocks_);
@@ -112,8 +118,8 @@ bool FrameSlot::Recorded::take(const DrawList& new_draws, const EyePassConfig& n
   return true;
 }
 
-void FrameSlot::write(const FrameState& frame, std::span<const DrawBlock> blocks, const EyePassConfig& drawing,
-                      float guard_band) {
+void FrameSlot::write(const FrameState& frame, std::span<const DrawBlock> blocks, std::span<const MeshCopy> copies,
+                      const EyePassConfig& drawing, float guard_band) {
   const glm::vec2 size(static_cast<float>(drawing.extent.width), static_cast<float>(drawing.extent.height));
   for (std::size_t pass = 0; pass < uniforms_.size(); ++pass) {
     FrameBlock block = make_frame_block(frame, pass, size, guard_band);
@@ -123,6 +129,12 @@ void FrameSlot::write(const FrameState& frame, std::span<const DrawBlock> blocks
   }
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     std::memcpy(draw_blocks_.mapped + i * draw_stride_, &blocks[i], sizeof(DrawBlock));
+  }
+  // compared with a copy in memory: the buffer itself may be slow to read
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    if (copies[i] == written_copies_[i]) continue;
+    written_copies_[i] = copies[i];
+    std::memcpy(copies_.mapped + i * sizeof(MeshCopy), &copies[i], sizeof(MeshCopy));
   }
 }
 

@@ -24,11 +24,12 @@ class FrameSlot {
  public:
   // `layout` is used to read the shadow map, `shadow_layout` to draw it.
   FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::DescriptorSetLayout shadow_layout,
-            const ShadowMap& shadow_map, std::size_t draw_count);
+            const ShadowMap& shadow_map, const SceneGeometry& geometry);
 
-  // Writes everything that the frame's shaders read; `blocks` has one entry per draw.
-  void write(const FrameState& frame, std::span<const DrawBlock> blocks, const EyePassConfig& drawing,
-             float guard_band);
+  // Writes everything that the frame's shaders read; `blocks` has one entry per draw, `copies` one for each of
+  // SceneGeometry::copy_count(). Of the copies, only those that differ from the slot's last frame are written.
+  void write(const FrameState& frame, std::span<const DrawBlock> blocks, std::span<const MeshCopy> copies,
+             const EyePassConfig& drawing, float guard_band);
 
   // Descriptor set of a pass, which starts with the left eye's view or with the right eye's.
   vk::DescriptorSet set(std::size_t pass) const { return *sets_[pass]; }
@@ -38,6 +39,9 @@ class FrameSlot {
 
   // Distance in bytes between the blocks of two draws; dynamic offsets of binding AFM_BINDING_DRAW are multiples of it.
   std::uint32_t draw_stride() const { return draw_stride_; }
+
+  // Vertex buffer of all copies; null if the scene has no room for any.
+  vk::Buffer copies() const { return *copies_.buffer; }
 
   // Draws of the frame; stored here only to keep their memory.
   DrawList draws;
@@ -76,6 +80,8 @@ class FrameSlot {
   std::uint32_t draw_stride_;
   float largest_point_px_;
   Buffer draw_blocks_;
+  Buffer copies_;
+  std::vector<MeshCopy> written_copies_;
   vk::raii::DescriptorPool descriptor_pool_{nullptr};
   std::vector<vk::raii::DescriptorSet> sets_;
   vk::raii::DescriptorSet shadow_set_{nullptr};

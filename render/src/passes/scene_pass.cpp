@@ -5,6 +5,8 @@
 
 #include "device/pipelines.h"
 #include "shaders/background_frag.h"
+#include "shaders/copies_vert.h"
+#include "shaders/copies_vert_one_view.h"
 #include "shaders/fullscreen_vert.h"
 #include "shaders/material_frag.h"
 #include "shaders/material_frag_one_view.h"
@@ -17,6 +19,7 @@
 #include "shaders/scene_frag_one_view.h"
 #include "shaders/scene_vert.h"
 #include "shaders/scene_vert_one_view.h"
+#include "shaders/shadow_copies_vert.h"
 #include "shaders/shadow_vert.h"
 #include "shaders/smooth_frag.h"
 #include "shaders/smooth_vert.h"
@@ -27,6 +30,7 @@ namespace {
 
 constexpr EyeCode kSceneVertex{shaders::scene_vert, shaders::scene_vert_one_view};
 constexpr EyeCode kSceneFragment{shaders::scene_frag, shaders::scene_frag_one_view};
+constexpr EyeCode kCopiesVertex{shaders::copies_vert, shaders::copies_vert_one_view};
 constexpr EyeCode kFineVertex{shaders::per_vertex_vert, shaders::per_vertex_vert_one_view};
 constexpr EyeCode kFineFragment{shaders::per_vertex_frag, shaders::per_vertex_frag};
 constexpr EyeCode kSmoothVertex{shaders::smooth_vert, shaders::smooth_vert_one_view};
@@ -50,6 +54,15 @@ EyePipeline plain_pipeline(const Device& device, vk::PipelineLayout layout, Blen
   PipelineRequest request = scene_request(layout, blending);
   request.variant = variant;
   return {device, request, kSceneVertex, kSceneFragment};
+}
+
+EyePipeline copies_pipeline(const Device& device, vk::PipelineLayout layout, std::uint32_t variant) {
+  PipelineRequest request = scene_request(layout, Blending::Opaque);
+  request.name = "copies";
+  request.bindings = SceneGeometry::copy_bindings();
+  request.attributes = SceneGeometry::copy_attributes();
+  request.variant = variant;
+  return {device, request, kCopiesVertex, kSceneFragment};
 }
 
 // Area of the background: only where the depth is still cleared, or everywhere, which also clears the depth.
@@ -91,15 +104,26 @@ vk::raii::PipelineLayout create_variant_layout(const Device& device, vk::Descrip
   return create_pipeline_layout(device, {.sets = sets});
 }
 
-vk::raii::Pipeline create_shadow_pipeline(const Device& device, vk::PipelineLayout layout) {
-  return create_pipeline(device, {.name = "shadow",
-                                  .vertex_code = shaders::shadow_vert,
-                                  .layout = layout,
-                                  .bindings = SceneGeometry::bindings(),
-                                  .attributes = {SceneGeometry::attributes().data(), 1},
-                                  .depth_format = kDepthFormat,
-                                  .depth = DepthUse::TestAndWrite,
-                                  .depth_compare = vk::CompareOp::eLessOrEqual});
+PipelineRequest shadow_request(vk::PipelineLayout layout) {
+  return {.name = "shadow",
+          .vertex_code = shaders::shadow_vert,
+          .layout = layout,
+          .bindings = SceneGeometry::bindings(),
+          .attributes = {SceneGeometry::attributes().data(), 1},
+          .depth_format = kDepthFormat,
+          .depth = DepthUse::TestAndWrite,
+          .depth_compare = vk::CompareOp::eLessOrEqual};
+}
+
+vk::raii::Pipeline create_shadow_of_copies(const Device& device, vk::PipelineLayout layout) {
+  const auto& of_copies = SceneGeometry::copy_attributes();
+  const std::array attributes{of_copies[0], of_copies[3], of_copies[4]};
+  PipelineRequest request = shadow_request(layout);
+  request.name = "shadow of copies";
+  request.vertex_code = shaders::shadow_copies_vert;
+  request.bindings = SceneGeometry::copy_bindings();
+  request.attributes = attributes;
+  return create_pipeline(device, request);
 }
 
 }  // namespace
@@ -110,9 +134,11 @@ ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_lay
     : layout_(create_pipeline_layout(device, {.sets = {&frame_set_layout, 1}})),
       shadow_layout_(create_pipeline_layout(device, {.sets = {&shadow_set_layout, 1}})),
       variant_layout_(create_variant_layout(device, frame_set_layout, materials.layout())),
-      shadow_(create_shadow_pipeline(device, *shadow_layout_)),
+      shadow_(create_pipeline(device, shadow_request(*shadow_layout_))),
       opaque_{plain_pipelines(device, *layout_, Blending::Opaque, 0),
               plain_pipelines(device, *layout_, Blending::Opaque, AFM_FEATURE_FOG)},
+      shadow_copies_(create_shadow_of_copies(device, *shadow_layout_)),
+      copies_{copies_pipeline(device, *layout_, 0), copies_pipeline(device, *layout_, AFM_FEATURE_FOG)},
       fine_(device, scene_request(*layout_, Blending::Opaque), kFineVertex, kFineFragment),
       background_(device, background_request(*layout_, Background::Behind), kBackgroundVertex, kBackgroundFragment),
       erasing_background_(device, background_request(*layout_, Background::Erasing), kBackgroundVertex,
@@ -140,7 +166,18 @@ void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLa
   command.setFrontFace(input.draws.mirrored[i] != 0 ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
 }
 
-EyePipeline& ScenePass::plain_one(const Draw& draw, Shading shading, PlainPipelines& plain) {
+void ScenePass::draw_one(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t i) {
+  const Draw& draw = input.geometry.draws()[i];
+  command.drawIndexed(draw.index_count, input.draws.copies[i], draw.first_index, draw.first_vertex, draw.first_copy);
+}
+
+void ScenePass::bind_buffers(const vk::raii::CommandBuffer& command, const Input& input) {
+  input.geometry.bind(command);
+  if (input.copies) command.bindVertexBuffers(kCopyBinding, input.copies, vk::DeviceSize{0});
+}
+
+EyePipeline& ScenePass::plain_one(const Draw& draw, Shading shading, bool hazy, PlainPipelines& plain) {
+  if (draw.most_copies > 0) return copies_[hazy ? 1 : 0];
   if (shading == Shading::ByVertex) return fine_;
   if (shading == Shading::LightByVertex) return plain.smooth;
   if (draw.unlit) return plain.unlit;
@@ -153,7 +190,8 @@ void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const Eye
   for (const std::uint32_t i : draws) {
     if (input.box && input.frame->bounds(i).within(*input.box).empty()) continue;
     const Draw& draw = input.geometry.draws()[i];
-    EyePipeline& pipeline = draw.variant ? variants_[*draw.variant] : plain_one(draw, input.draws.shading[i], plain);
+    EyePipeline& pipeline =
+        draw.variant ? variants_[*draw.variant] : plain_one(draw, input.draws.shading[i], input.draws.hazy, plain);
     if (&pipeline != bound) {
       command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
       bound = &pipeline;
@@ -163,18 +201,20 @@ void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const Eye
       command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *variant_layout_, 1,
                                  input.materials.set(draw.material), nullptr);
     }
-    command.drawIndexed(draw.index_count, 1, draw.first_index, draw.first_vertex, 0);
+    draw_one(command, input, i);
   }
 }
 
 void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
                               std::span<const std::uint32_t> draws) const {
-  command.bindPipeline(vk::PipelineBindPoint::eGraphics, *shadow_);
-  input.geometry.bind(command);
+  bind_buffers(command, input);
+  const vk::raii::Pipeline* bound = nullptr;
   for (const std::uint32_t i : draws) {
-    const Draw& draw = input.geometry.draws()[i];
+    const vk::raii::Pipeline& pipeline = input.geometry.draws()[i].most_copies > 0 ? shadow_copies_ : shadow_;
+    if (&pipeline != bound) command.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
+    bound = &pipeline;
     set_state(command, *shadow_layout_, input, i);
-    command.drawIndexed(draw.index_count, 1, draw.first_index, draw.first_vertex, 0);
+    draw_one(command, input, i);
   }
 }
 
@@ -187,7 +227,7 @@ void ScenePass::record_background(const vk::raii::CommandBuffer& command, const 
 }
 
 void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input) {
-  input.geometry.bind(command);
+  bind_buffers(command, input);
   const std::size_t fog = input.draws.hazy ? 1 : 0;
   if (input.box) record_background(command, drawing, input, erasing_background_);
   record_in_eyes(command, drawing, input, input.draws.opaque, opaque_[fog]);

@@ -27,6 +27,7 @@ class ScenePass {
     std::uint32_t draw_stride = 0;      // as FrameSlot::draw_stride()
     const DrawnFrame* frame = nullptr;  // if `box` is set, used to skip draws outside it
     std::optional<PixelBox> box{};      // scissor, over an earlier picture
+    vk::Buffer copies{};                // as FrameSlot::copies()
   };
   // Draws `draws` of the input's geometry; the input's set is FrameSlot::shadow_set().
   void record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
@@ -42,7 +43,9 @@ class ScenePass {
                                         std::uint32_t variant);
   static void set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
                         std::uint32_t draw);
-  EyePipeline& plain_one(const Draw& draw, Shading shading, PlainPipelines& plain);
+  static void draw_one(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t draw);
+  static void bind_buffers(const vk::raii::CommandBuffer& command, const Input& input);
+  EyePipeline& plain_one(const Draw& draw, Shading shading, bool hazy, PlainPipelines& plain);
   void record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
                          EyePipeline& pipeline) const;
   void record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
@@ -53,9 +56,11 @@ class ScenePass {
   vk::raii::PipelineLayout variant_layout_;
   vk::raii::Pipeline shadow_;
   std::array<PlainPipelines, 2> opaque_;  // without and with haze
-  EyePipeline fine_;                      // shaded per vertex, without haze
-  EyePipeline background_;                // drawn where nothing else is
-  EyePipeline erasing_background_;        // overwrites the old contents
+  vk::raii::Pipeline shadow_copies_;
+  std::array<EyePipeline, 2> copies_;  // without and with haze
+  EyePipeline fine_;                   // shaded per vertex, without haze
+  EyePipeline background_;             // drawn where nothing else is
+  EyePipeline erasing_background_;     // overwrites the old contents
   std::array<PlainPipelines, 2> blended_;
   std::vector<EyePipeline> variants_;  // in the order of SceneGeometry::variants()
 };

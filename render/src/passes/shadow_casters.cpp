@@ -16,12 +16,24 @@ constexpr vk::Rect2D kWholeMap{.extent = {kShadowMapSize, kShadowMapSize}};
 
 }  // namespace
 
+// True if the copies stand as in the frame before; their tint casts no shadow.
+bool ShadowCasters::follow_copies(std::size_t caster, std::span<const MeshCopy> copies) {
+  std::vector<MeshCopy>& known = copies_[caster];
+  const bool same =
+      std::equal(copies.begin(), copies.end(), known.begin(), known.end(), [](const MeshCopy& a, const MeshCopy& b) {
+        return a.place == b.place && a.scale == b.scale && a.turn == b.turn;
+      });
+  if (!same) known.assign(copies.begin(), copies.end());
+  return same;
+}
+
 // True if the set of draws or the light has changed: there is then nothing to compare with.
 bool ShadowCasters::follow(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list) {
   const glm::mat4 map_from_room = shadow_from_room(frame.key_light);
   bool others = map_from_room != map_from_room_ || list.shadow.size() != casters_.size();
   map_from_room_ = map_from_room;
   casters_.resize(list.shadow.size());
+  copies_.resize(list.shadow.size());
   frames_at_rest_.resize(list.shadow.size());
   for (std::size_t i = 0; i < casters_.size(); ++i) {
     const std::uint32_t draw = list.shadow[i];
@@ -31,14 +43,15 @@ bool ShadowCasters::follow(const FrameState& frame, const SceneGeometry& geometr
                         .room_from_node = glm::mat4(frame.room_from_node[node]),
                         .bend = bend_of(frame, node)};
     others = others || caster.draw != casters_[i].draw;
-    frames_at_rest_[i] = caster == casters_[i] ? std::min(frames_at_rest_[i] + 1, kSettled) : 0;
+    const bool same_copies = follow_copies(i, copies_of(frame, node));
+    frames_at_rest_[i] = caster == casters_[i] && same_copies ? std::min(frames_at_rest_[i] + 1, kSettled) : 0;
     casters_[i] = caster;
   }
   return others;
 }
 
 // True if a separate static map saves at least half of the triangles.
-bool ShadowCasters::separate(const SceneGeometry& geometry) {
+bool ShadowCasters::separate(const SceneGeometry& geometry, const DrawList& list) {
   dynamic_before_.swap(dynamic_);
   dynamic_.clear();
   static_.clear();
@@ -47,7 +60,7 @@ bool ShadowCasters::separate(const SceneGeometry& geometry) {
     const std::uint32_t draw = casters_[i].draw;
     const bool rests = frames_at_rest_[i] == kSettled;
     (rests ? static_ : dynamic_).push_back(draw);
-    (rests ? static_indices : dynamic_indices) += geometry.draws()[draw].index_count;
+    (rests ? static_indices : dynamic_indices) += std::size_t{list.copies[draw]} * geometry.draws()[draw].index_count;
   }
   return dynamic_indices <= static_indices;
 }
@@ -58,7 +71,7 @@ vk::Rect2D ShadowCasters::drawn_by_dynamic(const FrameState& frame, const SceneG
   glm::dvec2 low(kSize), high(0.0);
   for (const std::uint32_t i : dynamic_) {
     const Draw& draw = geometry.draws()[i];
-    const DrawBox box = bent_box(draw, bend_of(frame, draw.node));
+    const DrawBox box = shown_box(frame, draw);
     const glm::dmat4 rows = glm::transpose(glm::dmat4(map_from_room_) * frame.room_from_node[draw.node]);
     for (glm::length_t axis = 0; axis < 2; ++axis) {
       const auto [least, largest] = range(rows[axis], box);
@@ -82,7 +95,7 @@ ShadowStep ShadowCasters::update(const FrameState& frame, const SceneGeometry& g
   if (std::find(frames_at_rest_.begin(), frames_at_rest_.end(), 0) == frames_at_rest_.end()) {
     return ShadowStep::Nothing;
   }
-  if (!separate(geometry)) {
+  if (!separate(geometry, list)) {
     static_drawn_ = false;
     return ShadowStep::Everything;
   }

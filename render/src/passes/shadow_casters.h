@@ -43,13 +43,15 @@ class ShadowCasters {
     bool operator==(const Caster&) const = default;
   };
 
+  bool follow_copies(std::size_t caster, std::span<const MeshCopy> copies);
   bool follow(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list);
-  bool separate(const SceneGeometry& geometry);
+  bool separate(const SceneGeometry& geometry, const DrawList& list);
   vk::Rect2D drawn_by_dynamic(const FrameState& frame, const SceneGeometry& geometry) const;
 
   glm::mat4 map_from_room_{0.0F};
   std::vector<Caster> casters_;
-  std::vector<int> frames_at_rest_;  // indexed by caster, up to the count that makes it static
+  std::vector<std::vector<MeshCopy>> copies_;  // indexed by caster
+  std::vector<int> frames_at_rest_;            // indexed by caster, up to the count that makes it static
   std::vector<std::uint32_t> static_, dynamic_, dynamic_before_;
   bool static_drawn_ = false;  // the static map shows static_
   vk::Rect2D dirty_, drawn_;

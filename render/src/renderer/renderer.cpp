@@ -83,7 +83,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       composer(device, eyes, eye_changes),
       timeline(create_timeline(device)) {
   for (std::size_t i = 0; i < kFramesInFlight; ++i) {
-    slots.emplace_back(device, *frame_set_layout, *shadow_set_layout, shadow_map, geometry.draws().size());
+    slots.emplace_back(device, *frame_set_layout, *shadow_set_layout, shadow_map, geometry);
     if (options.time_passes && TimestampQueries::works_on(device)) {
       clocks.emplace_back(device);
     }
@@ -126,7 +126,8 @@ void Renderer::Parts::record_painting(std::size_t slot) {
 void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
   FrameSlot& slot = slots[slot_index];
   const auto& command = slot.shadow();
-  const ScenePass::Input input{geometry, materials, slot.draws, slot.shadow_set(), slot.draw_stride()};
+  const ScenePass::Input input{geometry,           materials, slot.draws, slot.shadow_set(),
+                               slot.draw_stride(), nullptr,   {},         slot.copies()};
   command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   mark(command, slot_index, GpuTimer::Mark::ShadowBegin);
   if (step == ShadowStep::Everything) {
@@ -186,7 +187,7 @@ void Renderer::Parts::render(const FrameState& frame) {
   if (rested) {
     return;
   }
-  slot.write(frame, now.blocks(), eyes.drawing(), eyes.guard_band());
+  slot.write(frame, now.blocks(), now.copies(), eyes.drawing(), eyes.guard_band());
   if (slot.painted) {
     record_painting(slot_index);
   }
@@ -250,6 +251,9 @@ core::Result<Renderer> Renderer::create(Context& context, const scene::Scene& sc
 void Renderer::render(const FrameState& frame) {
   AFM_CHECK(frame.room_from_node.size() == parts_->node_count);
   AFM_CHECK(frame.visible.empty() || frame.visible.size() == parts_->node_count);
+  for (const MeshCopies& each : frame.copies) {
+    AFM_CHECK(each.node < parts_->node_count && each.copies.size() <= parts_->geometry.most_copies(each.node));
+  }
   rethrow_as_device_failure(parts_->device, "drawing a frame", [&] { parts_->render(frame); });
 }
 

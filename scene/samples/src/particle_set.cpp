@@ -9,10 +9,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/check.h"
 #include "physics/contact_parameters.h"
 #include "physics/elasticity.h"
 #include "scene/config/toml_file.h"
 #include "scene/config/toml_table.h"
+#include "scene/samples/particle_files.h"
 #include "sourced_values.h"
 
 namespace afm::scene {
@@ -20,7 +22,6 @@ namespace {
 
 using physics::Length;
 
-constexpr std::size_t kMostSpecies = 8;
 constexpr std::size_t kMostMoves = 1000;
 constexpr Length kWidestPlace{1e-4}, kHighestPlace{1e-5};
 constexpr physics::Velocity kSlowestHand{1e-11}, kFastestHand{1e-4};
@@ -146,6 +147,19 @@ HandMove read_move(const TomlTable& table) {
   return move;
 }
 
+// Middle of the smallest rectangle along x and y that has all the centres.
+physics::Sideways<Length> middle_of(const std::vector<physics::PlacedParticle>& particles) {
+  if (particles.empty()) return {};
+  const auto middle = [&](auto coordinate) {
+    const auto [least, most] =
+        std::minmax_element(particles.begin(), particles.end(),
+                            [&](const auto& a, const auto& b) { return coordinate(a) < coordinate(b); });
+    return 0.5 * (coordinate(*least) + coordinate(*most));
+  };
+  return {middle([](const physics::PlacedParticle& p) { return p.position.x; }),
+          middle([](const physics::PlacedParticle& p) { return p.position.y; })};
+}
+
 ParticleSet read_set(const toml::table& root) {
   const TomlTable top(root);
   top.allow_only({"title", "medium", "note", "tip", "lever", "species", "particle", "start", "move"});
@@ -162,7 +176,7 @@ ParticleSet read_set(const toml::table& root) {
   for (SourcedValue& source : set.sources) source.key = "tip_" + source.key;
   for (SourcedValue& source : lever_values.take_sources()) set.sources.push_back(std::move(source));
 
-  for (const TomlTable& table : top.tables("species", kMostSpecies)) {
+  for (const TomlTable& table : top.tables("species", kMaxSpecies)) {
     SpeciesEntry entry;
     set.setup.species.push_back(read_species(table, entry));
     const auto same = [&](const SpeciesEntry& s) { return s.name == entry.name; };
@@ -189,6 +203,58 @@ ParticleSet read_set(const toml::table& root) {
 }
 
 }  // namespace
+
+SharedParticles shared_particles(const ParticleSet& set) {
+  AFM_CHECK(set.species.size() <= kMaxSpecies && set.setup.species.size() == set.species.size() &&
+            set.particles.size() <= kMaxParticles);
+  SharedParticles shared;
+  shared.pusher.tip_radius_m = set.setup.tip.radius.si;
+  shared.pusher.half_angle_rad = set.setup.tip.half_angle_rad;
+  shared.pusher.tip_friction = set.setup.tip_friction;
+  shared.pusher.lateral_spring_n_per_m = set.setup.springs.lateral.si;
+  shared.pusher.normal_spring_n_per_m = set.setup.springs.normal.si;
+  shared.pusher.contact_stiffness_n_per_m = set.setup.springs.contact.si;
+  for (const physics::ParticleSpecies& species : set.setup.species) {
+    shared.species.at(shared.species_count) = {.name = to_name(set.species[shared.species_count].name),
+                                               .radius_m = species.contact.tip_radius.si,
+                                               .reduced_modulus_pa = species.contact.reduced_modulus.si,
+                                               .work_of_adhesion_j_per_m2 = species.contact.work_of_adhesion.si,
+                                               .shear_strength_pa = species.shear_strength.si,
+                                               .coefficient = species.coefficient,
+                                               .measured_threshold_n = species.measured_threshold.si,
+                                               .kinetic_ratio = species.kinetic_ratio,
+                                               .ageing_s = species.ageing.si,
+                                               .rolling_distance_m = species.rolling_distance.si,
+                                               .tip_adhesion_j_per_m2 = species.tip_adhesion.si,
+                                               .law = species.law};
+    ++shared.species_count;
+  }
+  const physics::Sideways<Length> middle = middle_of(set.particles);
+  for (const physics::PlacedParticle& particle : set.particles) {
+    shared.particles.at(shared.count++) = {.x_m = (particle.position - middle).x.si,
+                                           .y_m = (particle.position - middle).y.si,
+                                           .species = static_cast<std::uint32_t>(particle.species),
+                                           .pinned = particle.pinned ? 1U : 0U};
+  }
+  return shared;
+}
+
+ParticleSet recorded_set(const SharedParticles& recorded, const std::string& assets_dir) {
+  for (const std::string& name : particle_sets(assets_dir)) {
+    const auto path = particle_file(name, assets_dir);
+    auto set = path ? load_particle_set(*path) : tl::unexpected(path.error());
+    if (set && *std::make_unique<const SharedParticles>(shared_particles(*set)) == recorded) return std::move(*set);
+  }
+  ParticleSet set;
+  set.title = "Recorded particles";
+  set.medium = "air";
+  set.setup = push_setup(recorded);
+  set.particles = start_places(recorded);
+  for (std::uint32_t i = 0; i < recorded.species_count; ++i) {
+    set.species.push_back({.name = recorded.species[i].name.data(), .sources = {}});
+  }
+  return set;
+}
 
 core::Result<ParticleSet> load_particle_set(const std::string& path) {
   return read_toml("particle file", path, read_set);

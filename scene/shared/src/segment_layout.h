@@ -14,11 +14,11 @@ namespace afm::scene {
 inline constexpr std::uint64_t kSegmentMagic = 0x314D46414D464154;  // "TAFMAFM1" in memory
 
 // Sizes of the blocks in this build, in the order of SegmentLayout: two builds that differ reject each other.
-using BlockSizes = std::array<std::uint32_t, 12>;
-inline constexpr BlockSizes kBlockSizes{sizeof(SharedModel),  sizeof(SceneTransforms), sizeof(Selection),
-                                        sizeof(MaterialEdit), sizeof(HandScript),      sizeof(RendererHeartbeat),
-                                        sizeof(TipState),     sizeof(TipSample),       sizeof(TipEvent),
-                                        sizeof(ServoTiming),  sizeof(SharedDevice),    sizeof(ScanLead)};
+using BlockSizes = std::array<std::uint32_t, 14>;
+inline constexpr BlockSizes kBlockSizes{
+    sizeof(SharedModel),       sizeof(SceneTransforms), sizeof(Selection), sizeof(MaterialEdit), sizeof(HandScript),
+    sizeof(RendererHeartbeat), sizeof(TipState),        sizeof(TipSample), sizeof(TipEvent),     sizeof(ServoTiming),
+    sizeof(SharedDevice),      sizeof(ScanLead),        sizeof(TipPush),   sizeof(ParticlePage)};
 
 struct SegmentHeader {
   std::uint64_t magic = kSegmentMagic;
@@ -46,6 +46,8 @@ struct SegmentLayout {
   alignas(4096) core::LatestValue<TipState> tip_state;
   core::LatestValue<ServoTiming> timing;
   core::LatestValue<SharedDevice> device;
+  core::LatestValue<TipPush> tip_push;
+  std::array<core::LatestValue<ParticlePage>, kParticlePages> particle_pages;
   core::SpscRing<TipSample, kSampleRingCapacity> samples;
   core::SpscRing<TipEvent, kEventRingCapacity> events;
 };

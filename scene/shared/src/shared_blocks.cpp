@@ -63,6 +63,11 @@ bool within(std::int32_t material, const SharedModel& model) {
   return material >= -1 && material < static_cast<std::int32_t>(std::min(model.material_count, kMaxMaterials));
 }
 
+bool has_particle(std::int32_t particle, const SharedModel& model) {
+  return particle >= kNoParticle &&
+         particle < static_cast<std::int32_t>(std::min(model.particles.count, kMaxParticles));
+}
+
 auto model_refused(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
 
 bool rising_and_sane(std::span<const physics::MeasuredPoint> branch) {
@@ -233,6 +238,7 @@ core::Result<void> validate(const SharedModel& model) {
     if (!is_valid(model.height_fields[i])) return model_refused(fmt::format("surface {} is not a grid of heights", i));
   }
   if (!is_valid(model.topography)) return model_refused("its topography is not a grid of heights");
+  if (auto valid = validate(model.particles); !valid) return valid;
   for (std::uint32_t i = 0; i < model.material_count; ++i) {
     if (auto valid = validate(model.materials[i], model.curve_count, model.height_field_count, model.topography);
         !valid) {
@@ -249,7 +255,9 @@ bool is_valid(const SceneTransforms& transforms, const SharedModel& model) {
 }
 
 bool is_valid(const Selection& selection, const SharedModel& model) {
-  return within(selection.material, model) && core::is_enumerator(selection.scale_mode) && selection.release <= 1;
+  const bool has_scale = selection.scale_mode != ScaleMode::Particles || model.particles.count > 0;
+  return within(selection.material, model) && core::is_enumerator(selection.scale_mode) && has_scale &&
+         selection.release <= 1;
 }
 
 bool is_valid(const HandScript& script) {
@@ -277,12 +285,25 @@ bool is_valid(const TipState& state, const SharedModel& model) {
 }
 
 bool is_valid(const TipSample& sample, const SharedModel& model) {
-  return is_field_valid(sample) && sample.device_healthy <= 1 && sample.changing <= 1 && is_valid(sample.scan) &&
-         within(sample.material, model);
+  return is_field_valid(sample) && has_particle(sample.push.particle, model) && sample.device_healthy <= 1 &&
+         sample.changing <= 1 && is_valid(sample.scan) && within(sample.material, model);
 }
 
 bool is_valid(const TipEvent& event, const SharedModel& model) {
   return is_field_valid(event) && within(event.material, model);
+}
+
+bool is_valid(const ParticlePage& page) {
+  return std::all_of(page.poses.begin(), page.poses.end(),
+                     [](const ParticlePose& pose) { return is_field_valid(pose); });
+}
+
+bool is_valid(const TipPush& push, const SharedModel& model) {
+  // a scale of force is larger than any length or force
+  TipPush lengths_and_forces = push;
+  lengths_and_forces.hand_n_per_n = 0;
+  return std::isfinite(push.hand_n_per_n) && push.met <= 1 && push.lagging <= 1 && is_field_valid(lengths_and_forces) &&
+         has_particle(push.particle, model);
 }
 
 glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node) {

@@ -190,6 +190,19 @@ std::optional<SharedDevice> RendererSide::device() noexcept {
   return device;
 }
 
+std::optional<TipPush> RendererSide::tip_push() noexcept {
+  auto push = layout_->tip_push.load();
+  check(push, refused_, layout_->model);
+  return push;
+}
+
+std::optional<ParticlePage> RendererSide::new_particle_page(std::uint32_t page) noexcept {
+  AFM_CHECK(page < kParticlePages);
+  auto poses = layout_->particle_pages[page].try_load_newer(seen_pages_[page]);
+  check(poses, refused_);
+  return poses;
+}
+
 std::optional<TipSample> RendererSide::pop_sample() noexcept {
   return next(layout_->samples, refused_, layout_->model);
 }
@@ -234,6 +247,18 @@ std::optional<RendererHeartbeat> ServoSide::new_heartbeat() noexcept {
 void ServoSide::store(const TipState& state) noexcept { layout_->tip_state.store(state); }
 void ServoSide::store(const ServoTiming& timing) noexcept { layout_->timing.store(timing); }
 void ServoSide::store(const SharedDevice& device) noexcept { layout_->device.store(device); }
+void ServoSide::store(const TipPush& push) noexcept { layout_->tip_push.store(push); }
+void ServoSide::store(const ParticlePage& page, std::uint32_t number) noexcept {
+  AFM_CHECK(number < kParticlePages);
+  layout_->particle_pages[number].store(page);
+}
+
+std::optional<ParticlePage> ServoSide::last_particle_page(std::uint32_t number) const noexcept {
+  AFM_CHECK(number < kParticlePages);
+  auto page = layout_->particle_pages[number].try_load();
+  return page && is_valid(*page) ? page : std::nullopt;
+}
+
 void ServoSide::push(const TipSample& sample) noexcept { layout_->samples.push(sample); }
 void ServoSide::push(const TipEvent& event) noexcept { layout_->events.push(event); }
 

@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "core/file_descriptor.h"
-#include "haptics/servo_loop.h"
 #include "servo/release_link.h"
 #include "servo/servo_handover.h"
+
+namespace afm::haptics {
+class ServoLoop;
+}
 
 namespace afm::servo {
 

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
+#include "scene/shared/particle_blocks.h"
 #include "servo/session_file.h"
 
 namespace afm::servo {
@@ -44,5 +47,15 @@ struct ReplayRange {
 // compares every number bit for bit. Needs no clock, and takes about a thousandth of the session's time. Fails if a
 // servo rejects the session's materials or settings.
 core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& range = {});
+
+// Particles after a tick. A session has their poses at its start alone: all others follow from its hand.
+struct ReplayedParticles {
+  std::vector<scene::ParticlePage> pages;
+  scene::TipPush push;
+};
+
+// Replays a session with particles up to its last tick at or before `time_ns`, and at least its first. Fails as
+// replay() does, and if the replay has other places than the session had.
+core::Result<ReplayedParticles> replay_particles(const RecordedSession& session, std::int64_t time_ns);
 
 }  // namespace afm::servo

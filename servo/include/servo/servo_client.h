@@ -58,6 +58,12 @@ class ServoClient {
   void set_picture(Picture picture) { picture_ = picture; }
 
   const scene::TipState& tip() const { return tip_; }
+
+  // Newest push, and the newest pages of particles, from 0 to pages_of(model().particles.count) - 1; as of the last
+  // poll(). changed_pages() are those that this poll() replaced. Without particles there are no pages.
+  const scene::TipPush& push() const { return push_; }
+  std::span<const scene::ParticlePage> particle_pages() const { return pages_; }
+  std::span<const std::uint32_t> changed_pages() const { return changed_pages_; }
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
   const haptics::ServoSettings& settings() const { return settings_; }
   const scene::SharedDevice& device() const { return device_; }  // the servo's device, once poll() has run
@@ -103,6 +109,7 @@ class ServoClient {
 
   void go_on();
   void take_state(std::int64_t now_ns);
+  void take_particles();
 
   haptics::ServoSettings settings_;
   core::MonotonicClock clock_;  // clock of a device in a thread of this process
@@ -114,6 +121,9 @@ class ServoClient {
   std::array<double, 16> room_from_sample_{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   scene::SharedDevice device_;
   scene::TipState tip_;
+  scene::TipPush push_;
+  std::vector<scene::ParticlePage> pages_;
+  std::vector<std::uint32_t> changed_pages_;
   std::optional<Heard> heard_;     // time at which its tick last changed
   std::uint32_t script_base_ = 0;  // newest script of the predecessor
   std::uint32_t leads_ = 0;

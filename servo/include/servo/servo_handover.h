@@ -10,7 +10,10 @@
 
 #include "core/file_descriptor.h"
 #include "core/result.h"
-#include "haptics/servo_loop.h"
+
+namespace afm::haptics {
+struct ServoSettings;
+}
 
 // Handover of a servo whose renderer died to a new renderer, without opening and calibrating the device again. They
 // meet at a Unix socket in a private folder of the user ($XDG_RUNTIME_DIR/touchafm), and each trusts only processes of

@@ -12,12 +12,18 @@
 #include "core/file_descriptor.h"
 #include "core/interruption.h"
 #include "core/result.h"
-#include "haptics/servo_loop.h"
+#include "haptics/device.h"
+#include "haptics/edit_thread.h"
+#include "haptics/servo_settings.h"
 #include "scene/shared/shared_segment.h"
 #include "servo/running_servo.h"
 #include "servo/servo_handover.h"
 
 // Starts a servo, monitors it and ends it.
+namespace afm::haptics {
+class ServoLoop;
+}  // namespace afm::haptics
+
 namespace afm::servo {
 
 class RendererGuard;

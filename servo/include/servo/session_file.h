@@ -15,6 +15,12 @@
 
 namespace afm::servo {
 
+// Particles on a sample, and their poses when the session began. The tip was off them.
+struct RecordedParticles {
+  scene::SharedParticles set;
+  std::vector<scene::ParticlePage> pages;  // pages_of(set.count)
+};
+
 // Recording of one material, with everything that its forces depend on: every tick's sample and every event of the
 // servo. The first sample follows a state without force or relevant motion (haptics::ServoLoop), so that a replay gives
 // the same forces bit for bit.
@@ -24,6 +30,7 @@ struct RecordedSession {
   std::optional<scene::SharedMeasuredCurve> curve;  // Law::Measured only
   std::optional<scene::SharedHeightField> surface;  // none: a topography, or a plane
   scene::Topography topography;                     // without columns: none
+  std::optional<RecordedParticles> particles;
   std::array<double, 16> room_from_sample{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // as in SceneTransforms
   scene::SharedDevice device;
   double rate_hz = 0;

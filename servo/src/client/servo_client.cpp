@@ -88,6 +88,7 @@ void ServoClient::stop(std::int64_t now_ns) {
 core::Result<ServoClient::Update> ServoClient::poll(std::int64_t now_ns) {
   beat(now_ns);
   take_state(now_ns);
+  take_particles();
 
   Update update;
   while (const auto sample = listener_ ? listener_->pop_sample() : side_.pop_sample())
@@ -117,6 +118,19 @@ void ServoClient::take_state(std::int64_t now_ns) {
   } else if (heard_ && ++heard_->polls >= kSilentPolls && now_ns - heard_->time_ns > kSilentNs) {
     tip_.servo_state = scene::ServoState::Fault;
     tip_.fault = scene::FaultCode::ServoSilent;
+  }
+}
+
+void ServoClient::take_particles() {
+  changed_pages_.clear();
+  pages_.resize(scene::pages_of(segment_.model().particles.count));
+  if (pages_.empty()) return;
+  push_ = side_.tip_push().value_or(push_);
+  for (std::uint32_t i = 0; i < pages_.size(); ++i) {
+    const auto page = side_.new_particle_page(i);
+    if (!page) continue;
+    pages_[i] = *page;
+    changed_pages_.push_back(i);
   }
 }
 

@@ -17,6 +17,8 @@
 #include "core/clock.h"
 #include "core/log.h"
 #include "core/system_error.h"
+#include "haptics/realtime.h"
+#include "haptics/servo_loop.h"
 #include "renderer_guard.h"
 
 namespace afm::servo {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/log.h"
+#include "haptics/servo_settings.h"
 
 namespace afm::servo {
 

@@ -15,6 +15,7 @@
 #include "core/clock.h"
 #include "core/log.h"
 #include "haptics/realtime.h"
+#include "haptics/servo_loop.h"
 #include "servo/watchdog.h"
 
 namespace afm::servo {

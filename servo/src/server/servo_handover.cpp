@@ -18,6 +18,7 @@
 #include "core/fnv1a.h"
 #include "core/system_error.h"
 #include "descriptor_letter.h"
+#include "haptics/servo_loop.h"
 #include "private_folder.h"
 #include "trusted_peer.h"
 

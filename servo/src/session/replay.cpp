@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo/replay.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -11,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/check.h"
 #include "haptics/safety.h"
 #include "haptics/sample_axes.h"
 #include "haptics/servo_loop.h"
@@ -95,6 +98,7 @@ class Player {
     auto segment = scene::SharedSegment::create(*model_of(session), 0, session.topography);
     if (!segment) return tl::unexpected(segment.error());
     std::unique_ptr<Player> player(new Player(session, std::move(*segment)));
+    player->lay_particles();
     auto loop = haptics::ServoLoop::create(player->segment_, player->hand_,
                                            {.rate_hz = session.rate_hz, .dead_man = session.dead_man});
     if (!loop) return core::failure(core::ErrorCategory::BadInputFile, loop.error().message);
@@ -125,6 +129,16 @@ class Player {
     const auto given = renderer_.pop_sample();
     if (given) sample_ = *given;
     return given.has_value();
+  }
+
+  // As of the newest tick.
+  ReplayedParticles particles() {
+    ReplayedParticles particles;
+    particles.push = renderer_.tip_push().value_or(particles.push);
+    for (std::uint32_t i = 0; i < scene::pages_of(session_.particles->set.count); ++i) {
+      particles.pages.push_back(renderer_.new_particle_page(i).value_or(session_.particles->pages[i]));
+    }
+    return particles;
   }
 
   const TipSample& sample() const { return sample_; }
@@ -166,6 +180,13 @@ class Player {
       next_frame_ = i + 1;
       return place(session_.wall[i].room_from_sample);
     }
+  }
+
+  // As if a servo before this one had left them there.
+  void lay_particles() {
+    if (!session_.particles) return;
+    scene::ServoSide side = segment_.servo_side();
+    for (std::uint32_t i = 0; i < session_.particles->pages.size(); ++i) side.store(session_.particles->pages[i], i);
   }
 
   void place(const std::array<double, 16>& room_from_sample) {
@@ -244,6 +265,24 @@ core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& r
     }
   }
   return result;
+}
+
+core::Result<ReplayedParticles> replay_particles(const RecordedSession& session, std::int64_t time_ns) {
+  AFM_CHECK(session.particles.has_value());
+  const auto player = Player::create(session);
+  if (!player) return tl::unexpected(player.error());
+  const auto later = std::find_if(session.samples.begin(), session.samples.end(),
+                                  [&](const TipSample& sample) { return sample.time_ns > time_ns; });
+  const auto ticks = std::max<std::size_t>(1, static_cast<std::size_t>(later - session.samples.begin()));
+  for (std::size_t i = 0; i < ticks; ++i) (*player)->play(i);
+  const TipSample& recorded = session.samples[ticks - 1];
+  if ((*player)->sample().push.digest != recorded.push.digest) {
+    return core::failure(core::ErrorCategory::BadInputFile,
+                         fmt::format("the session's particles cannot be placed at {:.3f} s: this program's replay has "
+                                     "moved them elsewhere by then (touchafm replay names the first difference)",
+                                     session.seconds_since_start(recorded.time_ns)));
+  }
+  return (*player)->particles();
 }
 
 }  // namespace afm::servo

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "scene/shared/shared_segment.h"
 #include "session_header.h"
 #include "session_records.h"
 
@@ -26,15 +27,45 @@ std::string text_of(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // text of a file may not be UTF-8
 }
 
+std::string bytes_of(const RecordedParticles& particles) {
+  const scene::SharedParticles& set = particles.set;
+  std::string bytes;
+  put(bytes, set.pusher);
+  put_all(bytes, std::span(set.species).first(set.species_count));
+  put_all(bytes, std::span(set.particles).first(set.count));
+  put_all(bytes, std::span(particles.pages));
+  return bytes;
+}
+
 }  // namespace
 
-SessionEncoder::SessionEncoder() {
-  std::string start(kSessionMagic);
-  put(start, kSessionVersion);
-  add(start);
+bool read_particles(std::string_view payload, RecordedParticles& particles) {
+  std::vector<scene::SharedSpecies> species;
+  std::vector<scene::SharedParticle> places;
+  scene::SharedParticles& set = particles.set;
+  if (!take(payload, set.pusher) || !take_all(payload, species) || !take_all(payload, places) ||
+      !take_all(payload, particles.pages) || !payload.empty() || species.size() > set.species.size() ||
+      places.size() > set.particles.size() || places.empty()) {
+    return false;
+  }
+  set.species_count = static_cast<std::uint32_t>(species.size());
+  set.count = static_cast<std::uint32_t>(places.size());
+  std::copy(species.begin(), species.end(), set.species.begin());
+  std::copy(places.begin(), places.end(), set.particles.begin());
+  return particles.pages.size() == scene::pages_of(set.count) &&
+         std::all_of(particles.pages.begin(), particles.pages.end(),
+                     [](const scene::ParticlePage& page) { return scene::is_valid(page); });
+}
+
+std::size_t sample_bytes_of(const RecordedSession& session) {
+  return session.particles ? sizeof(scene::TipSample) : kSampleBytesWithoutPush;
 }
 
 void SessionEncoder::head(const RecordedSession& session) {
+  std::string start(kSessionMagic);
+  put(start, session.particles ? kVersionWithParticles : kSessionVersion);
+  add(start);
+  sample_bytes_ = sample_bytes_of(session);
   chunk(kHeadChunk, text_of(header_of(session)));
   if (session.surface) {
     std::string surface;
@@ -47,6 +78,7 @@ void SessionEncoder::head(const RecordedSession& session) {
     put_all(topography, std::span(session.topography.height_m));
     chunk(kTopographyChunk, topography);
   }
+  if (session.particles) chunk(kParticlesChunk, bytes_of(*session.particles));
 }
 
 void SessionEncoder::part(const RecordedSession& session) {
@@ -70,7 +102,7 @@ void SessionEncoder::part(const RecordedSession& session) {
 void SessionEncoder::part(std::span<const scene::TipSample> samples, std::span<const scene::TipEvent> events,
                           std::span<const WallFrame> frames) {
   std::string payload;
-  put_all(payload, samples);
+  put_samples(payload, samples, sample_bytes_);
   put_all(payload, events);
   payload += text_of(json_of(frames, last_frame_));
   chunk(kPartChunk, payload);

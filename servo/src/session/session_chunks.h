@@ -10,27 +10,28 @@
 #include "core/fnv1a.h"
 #include "servo/session_file.h"
 
-// Session file of version 6: "AFMS", the version, then chunks. A chunk consists of a name of four letters and the size
-// of its payload in 32 bits, the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a of
-// all bytes from the beginning of the file up to it, so that no chunk can be altered, left out or exchanged. A file
-// that ends inside a chunk was cut; all chunks before it are intact.
+// Session file of version 6, or 7 with particles: "AFMS", the version, then chunks. A chunk consists of a name of four
+// letters and the size of its payload in 32 bits, the checksum of these, the payload, and its checksum. A checksum is
+// the 64-bit FNV-1a of all bytes from the beginning of the file up to it, so that no chunk can be altered, left out or
+// exchanged. A file that ends inside a chunk was cut; all chunks before it are intact.
 namespace afm::servo {
 
 inline constexpr std::string_view kSessionMagic = "AFMS";
 inline constexpr std::uint32_t kSessionVersion = 6;
+inline constexpr std::uint32_t kVersionWithParticles = 7;  // samples end with the push, and a chunk has the particles
 
 inline constexpr std::string_view kHeadChunk = "HEAD";        // header_of() as JSON
 inline constexpr std::string_view kSurfaceChunk = "SURF";     // one SharedHeightField, if the sample has one
 inline constexpr std::string_view kTopographyChunk = "TOPO";  // size, spacing and heights, if it has a topography
+inline constexpr std::string_view kParticlesChunk = "PRTC";   // RecordedParticles, if there are any
 inline constexpr std::string_view kPartChunk = "PART";  // samples and events up to one moment, and frames of the wall
 inline constexpr std::string_view kEndChunk = "DONE";   // end of the file, without a payload
 
 // Encodes a session, chunk by chunk.
 class SessionEncoder {
  public:
-  SessionEncoder();
-
-  void head(const RecordedSession& session);  // first chunk, followed by the surface
+  // Beginning of the file and first chunk, followed by surface and particles.
+  void head(const RecordedSession& session);
   void part(const RecordedSession& session);  // data since the last part, one chunk per second
   void end();
 
@@ -47,7 +48,14 @@ class SessionEncoder {
   std::string bytes_;
   core::Fnv1a sum_;
   nlohmann::json last_frame_;
+  std::size_t sample_bytes_ = 0;
 };
+
+// Reads a kParticlesChunk; false if it is damaged. The set itself is checked with its scene.
+bool read_particles(std::string_view payload, RecordedParticles& particles);
+
+// Size of a sample in a file of this session.
+std::size_t sample_bytes_of(const RecordedSession& session);
 
 // Reads chunks one after the other.
 class SessionDecoder {

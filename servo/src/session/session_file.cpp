@@ -72,8 +72,8 @@ std::string read_records(std::string_view file, RecordedSession& session) {
     return wrong;
   body.remove_prefix(header_size);
   std::vector<SharedHeightField> surface;
-  if (!take_samples_of_010(body, session.samples) || !take_all(body, session.events) || !take_all(body, surface) ||
-      surface.size() > 1 || !body.empty()) {
+  if (!take_samples(body, session.samples, kSampleBytesOf010) || !take_all(body, session.events) ||
+      !take_all(body, surface) || surface.size() > 1 || !body.empty()) {
     return "its records do not fill the file";
   }
   if (!surface.empty()) session.surface = surface.front();
@@ -92,15 +92,16 @@ bool read_topography(std::string_view payload, scene::Topography& topography) {
 
 // Reads a part; returns an error message, or nothing.
 std::string read_part(std::string_view payload, RecordedSession& session, nlohmann::json& last_frame) {
-  if (!take_all(payload, session.samples) || !take_all(payload, session.events)) return "a part of it is damaged";
+  if (!take_samples(payload, session.samples, sample_bytes_of(session)) || !take_all(payload, session.events))
+    return "a part of it is damaged";
   for (WallFrame& frame : frames_of(nlohmann::json::parse(payload), last_frame)) {
     session.wall.push_back(std::move(frame));
   }
   return {};
 }
 
-// Reads version 6; returns an error message, or nothing.
-std::string read_chunks(std::string_view file, RecordedSession& session) {
+// Reads version 6 or 7; returns an error message, or nothing.
+std::string read_chunks(std::string_view file, bool with_particles, RecordedSession& session) {
   SessionDecoder decoder(file);
   nlohmann::json last_frame;
   for (bool first = true;; first = false) {
@@ -113,14 +114,18 @@ std::string read_chunks(std::string_view file, RecordedSession& session) {
     if (first != (decoder.name() == kHeadChunk)) return "its parts are out of order";
     std::string_view payload = decoder.payload();
     if (first) {
-      if (std::string wrong = read_header(payload, sizeof(TipSample), session); !wrong.empty()) return wrong;
+      const std::size_t sample_bytes = with_particles ? sizeof(TipSample) : kSampleBytesWithoutPush;
+      if (std::string wrong = read_header(payload, sample_bytes, session); !wrong.empty()) return wrong;
     } else if (decoder.name() == kSurfaceChunk) {
       if (payload.size() != sizeof(SharedHeightField) || !take(payload, session.surface.emplace())) {
         return "the size of its surface differs from this program's";
       }
     } else if (decoder.name() == kTopographyChunk) {
       if (!read_topography(payload, session.topography)) return "its topography is damaged";
+    } else if (with_particles && decoder.name() == kParticlesChunk) {
+      if (!read_particles(payload, session.particles.emplace())) return "its particles are damaged";
     } else if (decoder.name() == kPartChunk) {
+      if (with_particles != session.particles.has_value()) return "its parts are out of order";
       if (std::string wrong = read_part(payload, session, last_frame); !wrong.empty()) return wrong;
     } else if (decoder.name() == kEndChunk) {
       session.complete = true;
@@ -203,6 +208,7 @@ std::unique_ptr<scene::SharedModel> model_of(const RecordedSession& session) {
     model->common_hand_n_per_n = session.hand_n_per_n;
   }
   model->topography = session.topography.size();
+  if (session.particles) model->particles = session.particles->set;
   if (session.surface) {
     model->height_field_count = 1;
     model->height_fields[0] = *session.surface;
@@ -238,13 +244,14 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  if (version != kVersionOf010 && version != kSessionVersion) {
-    return bad(fmt::format("its version is {}; this program reads versions {} and {}", version, kVersionOf010,
-                           kSessionVersion));
+  if (version != kVersionOf010 && version != kSessionVersion && version != kVersionWithParticles) {
+    return bad(fmt::format("its version is {}; this program reads versions {}, {} and {}", version, kVersionOf010,
+                           kSessionVersion, kVersionWithParticles));
   }
   RecordedSession session;
   try {
-    const std::string wrong = version == kVersionOf010 ? read_records(*file, session) : read_chunks(*file, session);
+    const std::string wrong = version == kVersionOf010 ? read_records(*file, session)
+                                                       : read_chunks(*file, version == kVersionWithParticles, session);
     if (!wrong.empty()) return bad(wrong);
   } catch (const nlohmann::json::exception& error) {
     return bad(fmt::format("its header is damaged ({})", error.what()));

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "session_chunks.h"
+
 namespace afm::servo {
 
 namespace {
@@ -163,7 +165,7 @@ nlohmann::json header_of(const RecordedSession& session) {
                         {"room_from_sample", session.room_from_sample},
                         {"device", json_of(session.device)},
                         {"dead_man", session.dead_man},
-                        {"sample_bytes", sizeof(scene::TipSample)},
+                        {"sample_bytes", sample_bytes_of(session)},
                         {"event_bytes", sizeof(scene::TipEvent)},
                         {"surface_bytes", surface_bytes_of(session)}};
   if (const auto& curve = session.curve) {

@@ -10,6 +10,12 @@ namespace {
 using scene::ServoState;
 using scene::TipSample;
 
+// True if the poses that touchafm has are those of this sample, and a session can begin with them.
+bool has_poses_of(const TipSample& sample, const ServoClient& servo) {
+  const std::uint32_t count = servo.model().particles.count;
+  return count == 0 || scene::digest_of(servo.particle_pages(), count) == sample.push.digest;
+}
+
 bool same_contact(const TipSample& a, const TipSample& b) {
   return a.material == b.material && a.edit_revision == b.edit_revision && a.scale_mode == b.scale_mode;
 }
@@ -43,6 +49,7 @@ bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
     return servo.parameters(static_cast<std::size_t>(sample.material), sample.edit_revision).dynamic != 0;
   };
   if (begins && !fresh && !can_begin_with(sample, servo.tip(), is_dynamic())) return false;
+  if (begins && !has_poses_of(sample, servo)) return false;
   if (begins) begin(sample, servo);
   if (!scale_known_) take_scale(sample, servo.tip());
   session_.samples.push_back(sample);
@@ -87,6 +94,10 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo) {
     session_.topography = servo.topography();
   } else if (session_.parameters.height_field != scene::kNoHeightField) {
     session_.surface = model.height_fields[std::exchange(session_.parameters.height_field, 0)];
+  }
+  if (model.particles.count > 0) {
+    const auto pages = servo.particle_pages();
+    session_.particles = RecordedParticles{.set = model.particles, .pages = {pages.begin(), pages.end()}};
   }
   session_.room_from_sample = servo.room_from_sample();
   session_.device = servo.device();

@@ -18,10 +18,12 @@ namespace afm::servo {
 
 static_assert(std::endian::native == std::endian::little, "session records are little-endian");
 
-// Record sizes of versions 3 and 6, in bytes. A sample of version 6 ends with the lateral force and the scan, which
-// 0.1.0 did not have.
+// Record sizes of versions 3 and 6, in bytes; each is the beginning of the next. Version 6 added the lateral force and
+// the scan, version 7 the push.
 inline constexpr std::size_t kSampleBytesOf010 = 216;
-static_assert(sizeof(scene::TipSample) == 288 && offsetof(scene::TipSample, scan) == 232 &&
+inline constexpr std::size_t kSampleBytesWithoutPush = 288;
+static_assert(sizeof(scene::TipSample) == 336 && offsetof(scene::TipSample, push) == kSampleBytesWithoutPush &&
+              offsetof(scene::TipSample, scan) == 232 &&
               offsetof(scene::TipSample, lateral_force_n) == kSampleBytesOf010 &&
               offsetof(scene::TipSample, tip) == 16 && offsetof(scene::TipSample, hand_height_m) == 56 &&
               offsetof(scene::TipSample, servo_state) == 72 && offsetof(scene::TipSample, hand_from_contact_m) == 104 &&
@@ -63,15 +65,20 @@ bool take_all(std::string_view& bytes, std::vector<T>& values) {
                      [&](T& value) { return take(bytes, value); });
 }
 
-// Same for samples of version 3, without lateral force: it stays 0.
-inline bool take_samples_of_010(std::string_view& bytes, std::vector<scene::TipSample>& samples) {
+// The same for samples of which a version keeps the beginning, `size` bytes: the rest has its defaults.
+inline void put_samples(std::string& bytes, std::span<const scene::TipSample> samples, std::size_t size) {
+  put(bytes, std::uint64_t{samples.size()});
+  for (const scene::TipSample& sample : samples) bytes.append(reinterpret_cast<const char*>(&sample), size);
+}
+
+inline bool take_samples(std::string_view& bytes, std::vector<scene::TipSample>& samples, std::size_t size) {
   std::uint64_t count = 0;
-  if (!take(bytes, count) || count > bytes.size() / kSampleBytesOf010) return false;
+  if (!take(bytes, count) || count > bytes.size() / size) return false;
   samples.reserve(samples.size() + count);
   for (std::uint64_t i = 0; i < count; ++i) {
     scene::TipSample& sample = samples.emplace_back();
-    std::copy_n(bytes.begin(), kSampleBytesOf010, reinterpret_cast<char*>(&sample));
-    bytes.remove_prefix(kSampleBytesOf010);
+    std::copy_n(bytes.begin(), size, reinterpret_cast<char*>(&sample));
+    bytes.remove_prefix(size);
   }
   return true;
 }

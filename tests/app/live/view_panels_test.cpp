@@ -25,6 +25,7 @@
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
+#include "support/particles.h"
 #include "support/places.h"
 
 namespace afm::app {
@@ -128,6 +129,26 @@ TEST_F(PanelsOfTheView, AreHiddenWithTheirButtonsAndTheNote) {
   }
 }
 
+TEST_F(PanelsOfTheView, ShowThePushInThePlaceOfTheData) {
+  const scene::ParticleSet set = test::particle_set("gold-row");
+  const exhibit::ParticlesNow particles{.set = &set};
+  const exhibit::FrameBuilder frames(stage_->wall_scene, models_, stage_->eyes);
+  exhibit::Moment moment;
+  moment.wall.material = 0;
+  const render::PanelPlacement place = frames.build(moment).panels.data.placement;
+  moment.wall.particles = &particles;
+  scene::TipState tip;
+  tip.material = 0;
+  for (const bool parameters : {false, true}) {
+    if (parameters) panels_->toggle_parameters();
+    render::FrameState shown = frames.build(moment);
+    add_panels(*stage_, *panels_, moment, {.pointed = {}, .hand = HandSource::Mouse, .tip = tip}, "", shown);
+    EXPECT_EQ(shown.panels.particles.placement, parameters ? render::kNoPlacement : place);
+    EXPECT_EQ(shown.panels.data.placement, render::kNoPlacement);
+    EXPECT_EQ(shown.panels.particles.content.title, "Five gold spheres on mica");
+  }
+}
+
 TEST_F(PanelsOfTheView, MakeRoomForTheListOfKeys) {
   panels_->toggle_keys();
   const render::FrameState listed = frame("");
@@ -162,11 +183,14 @@ TEST_F(PanelsOfTheView, FillEverySlotOfAFrameSomewhere) {
         },
         frame.panels);
   };
+  const scene::ParticleSet set = test::particle_set("gold-row");
+  const exhibit::ParticlesNow particles{.set = &set};
   for (const bool scanning : {false, true}) {
     for (const RightPanel right : core::kEnumerators<RightPanel>) {
       exhibit::Moment moment;
       moment.wall.material = 0;
       if (scanning) exhibit::show_scan(scan, moment);
+      if (scanning) moment.wall.particles = &particles;
       scene::TipState tip;
       tip.material = 0;
       render::FrameState frame = frames.build(moment);

@@ -58,6 +58,7 @@ inline std::string text_of(const glm::dmat4& m) {
   return text_of(m[0]) + text_of(m[1]) + text_of(m[2]) + text_of(m[3]);
 }
 inline std::string text_of(const LiveScan* scan) { return scan == nullptr ? "none" : "a scan"; }
+inline std::string text_of(const ParticlesNow* particles) { return particles == nullptr ? "none" : "particles"; }
 inline std::string text_of(const render::DataRow& row) { return row.name + "|" + row.value + "|" + row.source; }
 inline std::string text_of(const CycleResult& result) { return result.title; }
 inline std::string text_of(const CycleCurve& curve) { return text_of(curve.points().size()); }
@@ -134,6 +135,7 @@ inline void change(std::vector<render::DataRow>& rows) { rows.back().value += "!
 inline void change(std::vector<CycleResult>& results) { results.push_back({.title = "Mica", .law = "dmt"}); }
 inline void change(std::span<const CycleCurve>& curves) { curves = curves.first(0); }
 inline void change(const LiveScan*& scan) { scan = nullptr; }
+inline void change(const ParticlesNow*& particles) { particles = nullptr; }
 
 template <class Record>
 Record changed(Record record, const std::string& part) {

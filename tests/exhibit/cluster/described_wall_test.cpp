@@ -21,6 +21,7 @@
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/recorded_wall.h"
 #include "exhibit/scan/scan_subject.h"
+#include "support/particles.h"
 #include "support/places.h"
 
 namespace afm::exhibit {
@@ -39,19 +40,21 @@ constexpr std::array<LeftOut, 5> kOfTheDevice{{{"wall.wand.time_ns", "moves noth
                                                {"wall.wand.push", "a navigation follows from it"},
                                                {"wall.wand.turn", "a navigation follows from it"}}};
 
-constexpr std::array<LeftOut, 5> kNotSent{{{"curves", "grow from the journal"},
+constexpr std::array<LeftOut, 6> kNotSent{{{"curves", "grow from the journal"},
                                            {"scan", "follows from the journal and ShownMoment::scan_frame"},
                                            {"wall.scan", "set by show_scan()"},
                                            {"wall.scan_line", "set by show_scan()"},
+                                           {"wall.particles", "follow from the journal"},
                                            {"results", "shown in films, which one machine draws"}}};
 
-constexpr std::array<LeftOut, 8> kNotRecorded{{{"curves", "follow from the session's samples"},
+constexpr std::array<LeftOut, 9> kNotRecorded{{{"curves", "follow from the session's samples"},
                                                {"by_wand", "drawn without a sample, of which a session has one"},
                                                {"stopped", "follows from TipSample::renderer"},
                                                {"letters", "labels of the keyboard at hand"},
                                                {"scan", "recorded as ScanProgress: scan_progress_of()"},
                                                {"wall.scan", "set by show_scan()"},
                                                {"wall.scan_line", "set by show_scan()"},
+                                               {"wall.particles", "follow from a replay of the session's ticks"},
                                                {"results", "shown in films, which are made without a live wall"}}};
 
 constexpr std::array<LeftOut, 9> kNotDrawn{{{"stopped", "drawn in the state Fault alone"},
@@ -111,6 +114,7 @@ class DescribedWall : public ::testing::Test {
       curves_.push_back(CycleCurve::from({{20.0, 0.0}, {2.0, -0.5}, {-1.0, 0.5}, {10.0, -1.0}}));
     }
     scan_.emplace(scan_subject(stage_->wall_scene, 0, felt_.front()));
+    particles_.set = &set_;
   }
 
   // No field is as in a new moment.
@@ -133,6 +137,7 @@ class DescribedWall : public ::testing::Test {
     wall.cue = {.kind = physics::EventKind::JumpToContact, .age_s = 0.125};
     wall.scan = true;
     wall.scan_line = {glm::dvec3(-1e-8, 0.0, 1e-9), glm::dvec3(1e-8, 0.0, 1e-9)};
+    wall.particles = &particles_;
     moment.servo_state = scene::ServoState::Running;
     moment.phase = physics::Phase::Free;
     moment.realtime = true;
@@ -195,6 +200,8 @@ class DescribedWall : public ::testing::Test {
   std::vector<curves::SampleModel> felt_;
   std::vector<CycleCurve> curves_;
   std::optional<LiveScan> scan_;
+  scene::ParticleSet set_ = test::particle_set("gold-row");
+  ParticlesNow particles_;
 };
 
 TEST_F(DescribedWall, ComesBackFromAMessage) {

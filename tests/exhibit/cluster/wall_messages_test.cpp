@@ -96,6 +96,11 @@ TEST(FrameMessageTest, IsRefusedWithAnyNumberThatIsNotValid) {
   EXPECT_TRUE(refused([](FrameMessage& m) { m.texts.bytes.back() = 'x'; }));
 }
 
+std::vector<std::byte> saved(const WallHistory& history) {
+  return save_history(history.journal, history.cycles, history.friction, history.edits, history.scan, history.pages,
+                      history.push);
+}
+
 TEST(WallHistoryTest, IsTheSameForANodeThatComesLate) {
   WallHistory here(3);
   std::mt19937 random(3);
@@ -114,11 +119,11 @@ TEST(WallHistoryTest, IsTheSameForANodeThatComesLate) {
   };
   here.apply(JournalRecord(EditRecord{.material = 1, .revision = 4}));
   for (int i = 0; i < 900; ++i) here.apply(JournalRecord(sample_at(i)));
-  const auto document = save_history(here.journal, here.cycles, here.friction, here.edits, here.scan);
+  const auto document = saved(here);
   auto there = load_history(document, 3);
   ASSERT_TRUE(there);
   EXPECT_EQ(there->journal, 901U);
-  EXPECT_EQ(save_history(there->journal, there->cycles, there->friction, there->edits, there->scan), document);
+  EXPECT_EQ(saved(*there), document);
   for (int i = 900; i < 1500; ++i) {
     const JournalRecord record(sample_at(i));
     here.apply(record);
@@ -130,8 +135,36 @@ TEST(WallHistoryTest, IsTheSameForANodeThatComesLate) {
   }
   EXPECT_EQ(here.friction.contact().size(), there->friction.contact().size());
   EXPECT_EQ(there->edits, here.edits);
-  EXPECT_EQ(save_history(here.journal, here.cycles, here.friction, here.edits, here.scan),
-            save_history(there->journal, there->cycles, there->friction, there->edits, there->scan));
+  EXPECT_EQ(saved(here), saved(*there));
+}
+
+TEST(WallHistoryTest, HasTheNewestPoseOfEveryParticleAndThePush) {
+  WallHistory here(1);
+  cluster::PoseRecord moved{.particle = 37, .pose = {.x_m = 1e-8, .y_m = -2e-8, .orientation = {0.5, 0.5, 0.5, -0.5}}};
+  here.apply(JournalRecord(moved));
+  moved.pose.x_m = 3e-8;
+  here.apply(JournalRecord(moved));
+  here.apply(JournalRecord(scene::TipPush{.normal_n = 1e-9, .hand_n_per_n = 4e9, .particle = 37, .met = 1}));
+  ASSERT_EQ(here.pages.size(), 3U);
+  EXPECT_EQ(here.pages[2].poses[5], moved.pose);
+  EXPECT_EQ(here.pages[2].poses[4], scene::ParticlePose{});
+  const auto there = load_history(saved(here), 1);
+  ASSERT_TRUE(there);
+  EXPECT_EQ(there->pages, here.pages);
+  EXPECT_EQ(there->push.particle, 37);
+  EXPECT_EQ(there->push.hand_n_per_n, 4e9);
+  const auto refused = [&](auto&& spoil) {
+    cluster::PoseRecord record = moved;
+    spoil(record);
+    return !JournalRecord(record).valid();
+  };
+  EXPECT_FALSE(refused([](cluster::PoseRecord&) {}));
+  EXPECT_TRUE(refused([](cluster::PoseRecord& r) { r.particle = scene::kMaxParticles; }));
+  EXPECT_TRUE(refused([](cluster::PoseRecord& r) { r.pose.x_m = std::nan(""); }));
+  EXPECT_TRUE(refused([](cluster::PoseRecord& r) { r.pose.orientation = {0, 0, 0, 0}; }));
+  EXPECT_TRUE(refused([](cluster::PoseRecord& r) { r.pose.moved = static_cast<physics::PushState>(99); }));
+  EXPECT_FALSE(JournalRecord(scene::TipPush{.particle = -2}).valid());
+  EXPECT_FALSE(JournalRecord(scene::TipPush{.given_j = std::nan("")}).valid());
 }
 
 TEST(WallHistoryTest, OfAnotherWallOrCutAnywhereIsRefused) {
@@ -141,7 +174,7 @@ TEST(WallHistoryTest, OfAnotherWallOrCutAnywhereIsRefused) {
   sample.servo_state = scene::ServoState::Running;
   sample.phase = physics::Phase::Attached;
   history.apply(JournalRecord(sample));
-  const auto document = save_history(history.journal, history.cycles, history.friction, history.edits, history.scan);
+  const auto document = saved(history);
   EXPECT_TRUE(load_history(document, 2));
   EXPECT_FALSE(load_history(document, 3));
   for (std::size_t length = 0; length < document.size(); ++length) {

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "core/result.h"
-#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/exhibit_files.h"
+#include "exhibit/frame/wall_pictures.h"
 #include "physics/friction/friction.h"
 #include "render/renderer.h"
 

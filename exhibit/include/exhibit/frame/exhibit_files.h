@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,10 @@
 
 #include "physics/imaging/levelling.h"
 #include "scene/samples/material_library.h"
+
+namespace afm::scene {
+struct ParticleSet;
+}
 
 namespace afm::exhibit {
 
@@ -44,6 +49,8 @@ struct ExhibitFiles {
   std::string sample;              // the same for all materials, or an instrument's image
   std::string sample_channel;      // channel of that image; empty: its height
   physics::Levelling sample_levelling = physics::Levelling::Plane;
+  std::string particles;  // set of assets/particles, or a user's file, on a level sample; empty: none
+  std::shared_ptr<const scene::ParticleSet> recorded_particles;  // those of a session instead; null: none
   std::vector<std::string> shown;           // names; empty: all of the user's file, or the paper's three
   std::vector<scene::MaterialEntry> added;  // shown after the others
 };

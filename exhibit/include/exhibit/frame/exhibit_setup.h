@@ -3,18 +3,24 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/result.h"
 #include "exhibit/frame/exhibit_files.h"
-#include "exhibit/frame/wall_pictures.h"
 #include "exhibit/scenery/wall_scene.h"
 #include "exhibit/words/phrases.h"
-#include "render/renderer.h"
 #include "scene/display/wall.h"
 #include "scene/samples/material_library.h"
+
+namespace afm::render {
+struct RendererOptions;
+}
+
+namespace afm::scene {
+struct ParticleSet;
+}
 
 namespace afm::exhibit {
 
@@ -31,7 +37,8 @@ struct Stage {
   scene::Screen screen;  // screen with the scene: StagePlace::main
   std::array<scene::EyeView, 2> eyes;
   WallScene wall_scene;
-  Phrases english;  // language of the log, for staff and bug reports
+  Phrases english;                                      // language of the log, for staff and bug reports
+  std::shared_ptr<const scene::ParticleSet> particles;  // null: none
 
   const Phrases& phrases() const { return wall_scene.phrases(); }
 

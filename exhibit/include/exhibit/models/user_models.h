@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,10 @@
 #include "scene/graph/scene.h"
 #include "scene/samples/material_library.h"
 
+namespace afm::scene {
+struct ParticleSet;
+}
+
 namespace afm::exhibit {
 
 // Models that replace those of the assets (docs/gltf.md, "Roles"), at rest. Each part becomes one node, so that the
@@ -18,6 +23,7 @@ struct UserModels {
   std::optional<scene::Scene> probe;          // nodes "cantilever" > "tip" > "apex", as in the assets' probe.glb
   std::optional<scene::Scene> sample;         // node "surface", as in the assets' sample-*.glb
   std::optional<TopographyModel> topography;  // an instrument's topography instead of a sample
+  std::shared_ptr<const scene::ParticleSet> particles;  // on a level sample instead of one; may be null
 };
 
 // An empty name means no model. The first bytes of the sample's file decide whether it is an image. The error names the

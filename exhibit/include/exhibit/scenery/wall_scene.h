@@ -13,6 +13,7 @@
 #include "exhibit/scenery/analogy.h"
 #include "exhibit/scenery/instrument.h"
 #include "exhibit/scenery/journey.h"
+#include "exhibit/scenery/stage_particles.h"
 #include "exhibit/scenery/wall_marks.h"
 #include "exhibit/scenery/wall_places.h"
 #include "exhibit/state/wall_state.h"
@@ -153,6 +154,7 @@ class WallScene {
   WallMarks marks_;
   Journey journey_;
   Analogy analogy_;
+  std::optional<StageParticles> particles_;
 };
 
 }  // namespace afm::exhibit

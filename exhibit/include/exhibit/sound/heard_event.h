@@ -19,7 +19,11 @@ enum class HeardEvent {
   Fault,         // disabled after a failure
   SampleChosen,  // the sample is under the tip
   TurnOnReady,   // the tip is high enough for Turn-On
-  ScanLine       // a line of a scan is complete
+  ScanLine,      // a line of a scan is complete
+  ParticleTouched,
+  ParticleGave,
+  ParticleLost,
+  ParticleRiddenOver
 };
 
 // One note of a signal: a sine that glides between two pitches, with a smooth envelope.

@@ -14,7 +14,7 @@ namespace afm::exhibit {
 struct Heard {
   HeardEvent event = HeardEvent::SnapIn;
   std::int64_t time_ns = 0;  // CLOCK_MONOTONIC, interpolated if the servo interpolates
-  double force_n = 0;        // on the tip, positive away from the sample; for a slip, its size; 0: none
+  double force_n = 0;        // on the tip, positive away from the sample; of a slip or a particle, its size; 0: none
   std::int32_t material = -1;
 };
 

@@ -13,6 +13,8 @@
 
 namespace afm::exhibit {
 
+struct ParticlesNow;
+
 // Content of the wall's centre: the instrument; the plot, in the finale; Millet's analogy; or the instrument at a
 // single true scale.
 enum class Centerpiece { Instrument, Plot, Analogy, Journey };
@@ -34,6 +36,7 @@ struct WallState {
   bool scan = false;  // a scan is running: its panel replaces the curve
   // the scan line, from left to right, at the height of the highest place below it; sample's frame, metres
   std::optional<std::array<glm::dvec3, 2>> scan_line{};
+  const ParticlesNow* particles = nullptr;  // replaces the sample's data by its panel; may be null
 };
 
 template <class Visit, scene::RecordOf<WallState>... Record>
@@ -51,6 +54,7 @@ constexpr void for_each_field(Visit&& visit, Record&... wall) {
   visit("cue", wall.cue...);
   visit("scan", wall.scan...);
   visit("scan_line", wall.scan_line...);
+  visit("particles", wall.particles...);
 }
 static_assert(scene::all_fields_described<WallState>());
 

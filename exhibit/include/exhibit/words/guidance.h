@@ -23,6 +23,8 @@ enum class Hint {
   Pressed,
   MoveUp,
   LetGo,
+  GoBeside,
+  PushAside,
   PressToGoOn,
   ServoEnded
 };
@@ -40,6 +42,9 @@ struct CycleProgress {
   bool pressed = false;
   int cycles = 0;  // number on the sample under the tip
 };
+
+// Whether the hand has the scale on which the tip pushes particles: a cycle of approach and retract is no aim there.
+bool pushes_particles(const scene::TipState& tip);
 
 // Next step of the procedure, derived from the tip's real events.
 Hint next_step(const scene::TipState& tip, const StepsDone& done);

@@ -16,6 +16,8 @@
   PHRASE(Pressed, "pressed", kControlPlaces, kLine)                \
   PHRASE(MoveUp, "move-up", kControlPlaces, kLine)                 \
   PHRASE(LetGo, "let-go", kControlPlaces, kLine)                   \
+  PHRASE(GoBeside, "go-beside", kControlPlaces, kLine)             \
+  PHRASE(PushAside, "push-aside", kControlPlaces, kLine)           \
   PHRASE(PressToGoOn, "press-to-go-on", kControlPlaces, kLine)     \
   PHRASE(ServoEnded, "servo-ended", kControlPlaces, kLine)         \
   PHRASE(ForceOff, "force-off", "", kLine)                         \
@@ -99,6 +101,7 @@
   PHRASE(ScaleFit, "scale-fit", "", kLine)                            \
   PHRASE(ScaleCompressed, "scale-compressed", "", kLine)              \
   PHRASE(ScaleAtoms, "scale-atoms", "", kLine)                        \
+  PHRASE(ScaleParticles, "scale-particles", "", kLine)                \
   PHRASE(ForceLimit, "force-limit", "", kLine)                        \
   PHRASE(WhileTurnOnHeld, "while-turn-on-held", "device", kLine)      \
   PHRASE(Servo, "servo", "", kLine)                                   \
@@ -204,6 +207,37 @@
   PHRASE(FrictionHalfWidth, "friction-half-width", "", kLine) \
   PHRASE(FrictionOffset, "friction-offset", "", kLine)        \
   PHRASE(FrictionSlope, "friction-slope", "", kLine)
+
+// Particles. States in the order of physics::PushState, laws in that of physics::ParticleLaw.
+#define AFM_FOR_EACH_PARTICLE_PHRASE(PHRASE)                               \
+  PHRASE(ParticlesIn, "particles-in", "medium", kLine)                     \
+  PHRASE(PushStateName, "push-state", "", kLine)                           \
+  PHRASE(PushFree, "push-free", "", kLine)                                 \
+  PHRASE(PushHolds, "push-holds", "", kLine)                               \
+  PHRASE(PushSlides, "push-slides", "", kLine)                             \
+  PHRASE(PushRolls, "push-rolls", "", kLine)                               \
+  PHRASE(PushSeveral, "push-several", "", kLine)                           \
+  PHRASE(PushedParticle, "pushed-particle", "number count species", kLine) \
+  PHRASE(PushedNone, "pushed-none", "", kLine)                             \
+  PHRASE(PushNormal, "push-normal", "", kLine)                             \
+  PHRASE(PushNormalOn, "push-normal-on", "", kLine)                        \
+  PHRASE(PushLateral, "push-lateral", "", kLine)                           \
+  PHRASE(PushLateralOn, "push-lateral-on", "", kLine)                      \
+  PHRASE(PushThreshold, "push-threshold", "", kLine)                       \
+  PHRASE(PushOtherLaw, "push-other-law", "", kLine)                        \
+  PHRASE(PushLaw, "push-law", "formula", kLine)                            \
+  PHRASE(PushLawUnused, "push-law-unused", "formula", kLine)               \
+  PHRASE(PushLawArea, "push-law-area", "", kLine)                          \
+  PHRASE(PushLawAmontons, "push-law-amontons", "", kLine)                  \
+  PHRASE(PushLawBoth, "push-law-both", "", kLine)                          \
+  PHRASE(PushLawMeasured, "push-law-measured", "", kLine)                  \
+  PHRASE(ParticleRadius, "particle-radius", "", kLine)                     \
+  PHRASE(ParticleShearStrength, "particle-shear-strength", "", kLine)      \
+  PHRASE(ParticleCoefficient, "particle-coefficient", "", kLine)           \
+  PHRASE(LeverSideways, "lever-sideways", "", kLine)                       \
+  PHRASE(LeverSoftened, "lever-softened", "", kLine)                       \
+  PHRASE(TimesSofter, "times-softer", "factor", kLine)                     \
+  PHRASE(LeverSoftenedWhy, "lever-softened-why", "", kLine)
 
 // Scan images and settings; artefacts, in the order of physics::ScanArtefact, whose names are the ends of the keys.
 #define AFM_FOR_EACH_SCAN_PHRASE(PHRASE)                               \
@@ -355,6 +389,7 @@
   AFM_FOR_EACH_CLUSTER_PHRASE(PHRASE)            \
   AFM_FOR_EACH_PANEL_PHRASE(PHRASE)              \
   AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)           \
+  AFM_FOR_EACH_PARTICLE_PHRASE(PHRASE)           \
   AFM_FOR_EACH_SCAN_PHRASE(PHRASE)               \
   AFM_FOR_EACH_KEY_PHRASE(PHRASE)                \
   AFM_FOR_EACH_SOUND_PHRASE(PHRASE)              \

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <string_view>
+#include <span>
 #include <vector>
 
 #include "physics/friction/sideways.h"
 #include "physics/manipulation/particle_friction.h"
 #include "physics/manipulation/push_figures.h"
+#include "physics/manipulation/push_state.h"
 #include "physics/manipulation/tip_contact.h"
-#include "physics/rows_of_enum.h"
 #include "physics/units.h"
 
 // Spheres on a flat sample, pushed by the tip of a lever: quasi-static, without mass or velocity (docs/physics.md,
@@ -32,8 +31,6 @@ struct PlacedParticle {
   bool pinned = false;        // never moves
 };
 
-inline constexpr std::size_t kMostParticles = 2048;
-
 // Throws UnphysicalValue with the field tip_radius, half_angle, lateral_spring, normal_spring, contact_stiffness,
 // tip_friction, radius, or a member of ParticleSpecies. Radii must be at least half the tip's, and within a factor of
 // two of one another: the tick counts on few neighbours.
@@ -43,6 +40,9 @@ void validate(const PushSetup& setup);
 // above.
 void validate(const PushSetup& setup, const std::vector<PlacedParticle>& particles);
 
+// Height of an apex that touches no sphere.
+Length clear_height(const PushSetup& setup) noexcept;
+
 // Distance of the centres of two spheres on the sample that touch, 2 sqrt(R_a R_b).
 Length touching_distance(Length radius_a, Length radius_b) noexcept;
 
@@ -51,24 +51,6 @@ struct LeverBase {
   Sideways<Length> position;
   Length z;
 };
-
-enum class PushState : std::uint32_t {
-  Free = 0,   // no sphere is touched
-  Holds = 1,  // a sphere is touched, and stays
-  Slides = 2,
-  Rolls = 3,
-  Several = 4,  // more than one sphere moves or could move
-};
-
-struct PushStateText {
-  PushState state;
-  std::string_view word;
-};
-inline constexpr std::array kPushStates{
-    PushStateText{PushState::Free, "free"}, PushStateText{PushState::Holds, "holds"},
-    PushStateText{PushState::Slides, "slides"}, PushStateText{PushState::Rolls, "rolls"},
-    PushStateText{PushState::Several, "several"}};
-static_assert(has_row_for_each(kPushStates, &PushStateText::state));
 
 inline constexpr std::size_t kNoParticle = static_cast<std::size_t>(-1);
 
@@ -80,15 +62,19 @@ struct PushTick {
   Force lift;                          // force on the lever, upwards, by spheres and sample
   std::size_t particle = kNoParticle;  // the one with the largest normal force
   PushState state = PushState::Free;
-  Force normal;              // N of that particle
-  Force threshold;           // lateral force at which it gives or goes on
-  Energy given;              // energy from the hand since the start, at a frozen tip in each sub-step: an upper bound
-  Energy work;               // work of the hand since the start, by the force at both ends of each sub-step
-  Energy lost;               // loss by friction and by slips of lone spheres since the start
-  Energy stored;             // energy in lever and contacts
-  std::uint64_t yields = 0;  // spheres that gave, since the start
+  Force normal;      // N of that particle
+  Force threshold;   // lateral force at which it gives or goes on
+  Force gave_at;     // force that the sphere bore that gave last
+  Force goes_on_at;  // force that moves that sphere since
+  Energy given;      // energy from the hand since the start, or since hold_over(), at a frozen tip in each sub-step: an
+                     // upper bound
+  Energy work;       // work of the hand since the start, by the force at both ends of each sub-step
+  Energy lost;       // loss by friction and by slips of lone spheres since the start
+  Energy stored;     // energy in lever and contacts
+  std::uint64_t yields = 0;     // spheres that gave, since the start
   std::uint64_t exhausted = 0;  // ticks that ran out of steps, since the start
   bool lagging = false;
+  bool near = false;  // spheres are within reach of the apex
 };
 
 // The constructor allocates; a tick does not, nor locks, throws or waits. One thread. The result depends on the path of
@@ -107,6 +93,18 @@ class PushedParticles {
 
   // Moves the base on a straight line. A base that is not finite is ignored.
   const PushTick& move_to(const LeverBase& base, Time elapsed) noexcept;
+
+  // Takes the tip off all spheres and holds it over the place, so high that it touches none: base.z is at least
+  // clear_height(setup). Every sphere has then rested for ever, and given, work, lost and stored begin at zero. What
+  // follows depends on the positions of the spheres alone.
+  void hold_over(const LeverBase& base) noexcept;
+
+  // Puts every sphere at a place, for a tip held over them; spheres that touch may overlap a little. Then calls
+  // hold_over(). Throws std::invalid_argument unless there is a finite place for each.
+  void put(const std::vector<Sideways<Length>>& places, const LeverBase& base);
+
+  // Spheres that the last tick moved, each once.
+  std::span<const std::uint32_t> moved() const noexcept;
 
   const PushTick& last() const noexcept;
   std::size_t size() const noexcept;

@@ -107,8 +107,9 @@ struct Node {
   std::optional<std::uint32_t> skin{};
   std::optional<std::uint32_t> camera{};
   std::optional<std::uint32_t> light{};
-  std::vector<float> weights{};  // morph target weights that replace the mesh's own
-  std::string role{};            // role in TouchAFM (docs/gltf.md): "tip", "base", "surface" or "mark"
+  std::vector<float> weights{};   // morph target weights that replace the mesh's own
+  std::uint32_t most_copies = 0;  // largest number of copies of the mesh that a frame shows in its place; 0: none
+  std::string role{};             // role in TouchAFM (docs/gltf.md): "tip", "base", "surface" or "mark"
 };
 
 // The scene graph: filled by the loader, constant from then on, and shared by all code that draws or feels. Moving

@@ -8,6 +8,7 @@
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/units.h"
 #include "scene/samples/sourced_value.h"
+#include "scene/shared/particle_blocks.h"
 
 namespace afm::scene {
 
@@ -39,5 +40,13 @@ struct ParticleSet {
 // Reads a particle file (TOML, assets/particles; docs/manual.md lists its keys). The error names file, line, key and
 // reason.
 core::Result<ParticleSet> load_particle_set(const std::string& path);
+
+// The same set for a shared scene: its middle is the origin of the sample, where a hand is in the middle of its device.
+// A set that was loaded has no more species and particles than that can hold.
+SharedParticles shared_particles(const ParticleSet& set);
+
+// The set of a recording, a valid one: that of the assets with the same particles, if there is one; otherwise without
+// words and sources.
+ParticleSet recorded_set(const SharedParticles& recorded, const std::string& assets_dir);
 
 }  // namespace afm::scene

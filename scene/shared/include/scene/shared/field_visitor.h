@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <type_traits>
@@ -54,7 +55,8 @@ constexpr bool all_fields_described() {
   if constexpr (std::is_trivially_copyable_v<Record>) {
     const Record record{};
     std::size_t bytes = 0;
-    for_each_field([&](const char*, const auto& value) { bytes += sizeof(value); }, record);
+    // in an array of one, since the bare size of a pointer is taken for a slip
+    for_each_field([&]<class Value>(const char*, const Value&) { bytes += sizeof(std::array<Value, 1>); }, record);
     if (bytes == sizeof(Record)) return true;
   }
   std::size_t count = 0;

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
 
 #include "physics/contact_parameters.h"
 #include "physics/contact_phase.h"
@@ -12,6 +11,8 @@
 #include "physics/law_tables.h"
 #include "physics/lever_dynamics.h"
 #include "scene/shared/fault_codes.h"
+#include "scene/shared/name.h"
+#include "scene/shared/particle_blocks.h"
 #include "scene/shared/scale_modes.h"
 
 // Blocks of the shared scene: trivially copyable, without pointers, in SI units, each with exactly one writer, the
@@ -25,16 +26,10 @@ inline constexpr std::uint32_t kMaxMeasuredPoints = 512;  // per branch
 inline constexpr std::uint32_t kMaxHeightFields = 8;
 inline constexpr std::uint32_t kMaxHeightFieldSide = 129;  // vertices
 inline constexpr std::uint32_t kMaxTopographySide = 1024;  // points
-inline constexpr std::uint32_t kNameLength = 48;
 inline constexpr std::uint32_t kNoParent = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kNoMeasuredCurve = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kNoHeightField = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kTopography = 0xFFFFFFFEU;  // instead of a height field: the segment's topography
-
-using Name = std::array<char, kNameLength>;  // zero-terminated UTF-8
-
-// Cuts a longer text, since a name is only for display.
-Name to_name(std::string_view text);
 
 // ---- constant after the segment is created (written by touchafm before the servo starts) ----
 
@@ -107,6 +102,7 @@ struct SharedModel {
   double common_hand_m_per_m = 0;
   double common_hand_n_per_n = 0;
   SharedTopography topography{};
+  SharedParticles particles{};
   std::array<SharedNode, kMaxNodes> nodes{};
   std::array<SharedContact, kMaxMaterials> materials{};
   std::array<SharedMeasuredCurve, kMaxMeasuredCurves> curves{};

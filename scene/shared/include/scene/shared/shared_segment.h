@@ -18,7 +18,7 @@
 namespace afm::scene {
 
 // Increase whenever the meaning of a block changes; changes of a block's size are detected automatically.
-inline constexpr std::uint32_t kSegmentVersion = 8;
+inline constexpr std::uint32_t kSegmentVersion = 9;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;
@@ -34,6 +34,10 @@ core::Result<void> validate(const SharedModel& model);
 core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count, std::uint32_t height_field_count,
                             const SharedTopography& topography = {});
 
+// Checks that physics::validate() accepts the particles, that there are at most kMaxParticles, and that their size and
+// threshold in a hand are positive. Takes some 10 ms for the most particles.
+core::Result<void> validate(const SharedParticles& particles);
+
 physics::LawOptions law_options(const SharedContact& material);
 
 // True if a block is valid: indices within counts, enumerators known, numbers finite.
@@ -46,6 +50,8 @@ bool is_valid(const SharedDevice& device);
 bool is_valid(const TipState& state, const SharedModel& model);
 bool is_valid(const TipSample& sample, const SharedModel& model);
 bool is_valid(const TipEvent& event, const SharedModel& model);
+bool is_valid(const ParticlePage& page);
+bool is_valid(const TipPush& push, const SharedModel& model);
 
 // Reason why a force law cannot be felt with this friction, or nothing. The paper's law is felt as in the paper.
 std::string why_no_friction(physics::FrictionLaw friction, physics::Law law, physics::Pressure reduced_modulus);
@@ -77,6 +83,12 @@ class RendererSide {
 
   std::optional<SharedDevice> device() noexcept;  // empty until a servo has started
 
+  // Empty without particles, and before the servo's first tick.
+  std::optional<TipPush> tip_push() noexcept;
+
+  // Page of poses if it is newer than the one returned last by this side. `page` < kParticlePages.
+  std::optional<ParticlePage> new_particle_page(std::uint32_t page) noexcept;
+
   // Next one in order, or empty.
   std::optional<TipSample> pop_sample() noexcept;
   std::optional<TipEvent> pop_event() noexcept;
@@ -89,6 +101,7 @@ class RendererSide {
   explicit RendererSide(SegmentLayout& layout) : layout_(&layout) {}
 
   SegmentLayout* layout_;
+  std::array<std::uint64_t, kParticlePages> seen_pages_{};
   std::uint64_t refused_ = 0;
 };
 
@@ -105,8 +118,14 @@ class ServoSide {
   void store(const TipState& state) noexcept;
   void store(const ServoTiming& timing) noexcept;
   void store(const SharedDevice& device) noexcept;
+  void store(const TipPush& push) noexcept;
+  void store(const ParticlePage& page, std::uint32_t number) noexcept;  // number < kParticlePages
   void push(const TipSample& sample) noexcept;  // counted as lost if the renderer is 16 s behind
   void push(const TipEvent& event) noexcept;
+
+  // Page last stored by this side, for a servo that replaces one that ended and goes on with its poses; empty if it is
+  // not valid. `number` < kParticlePages.
+  std::optional<ParticlePage> last_particle_page(std::uint32_t number) const noexcept;
 
   std::uint32_t refused_blocks() const noexcept { return refused_; }
 

@@ -216,6 +216,7 @@ struct TipSample {
   std::uint32_t changing = 0;               // 1: force removed for a selection or an edit
   std::array<double, 2> lateral_force_n{};  // friction of the sample on the lever, along the sample's x and y
   ScanLead scan{};                          // in effect in this tick; default: none
+  PushSample push{};                        // by particles; default: none
 };
 
 // Results of the tick: a replay must reproduce them bit for bit.
@@ -229,6 +230,7 @@ constexpr void for_each_result(Visit&& visit, Record&... sample) {
   visit("surface", sample.surface...);
   visit("lateral_x_N", sample.lateral_force_n[0]...);
   visit("lateral_y_N", sample.lateral_force_n[1]...);
+  visit("push", sample.push...);
 }
 
 // Inputs of the tick: a replay begins with them.

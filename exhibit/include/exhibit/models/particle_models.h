@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/graph/scene.h"
+
+namespace afm::exhibit {
+
+// Smooth, level sample that particles rest on: node "surface" with a mesh in metres, a square with this side around the
+// origin and its upper face at z = 0.
+scene::Scene particle_ground(double side_m);
+
+// Particle of radius 1 around the origin, with bands that show how it lies: node "sphere".
+scene::Scene particle_sphere();
+
+// Ring around a particle of radius 1 that rests on z = 0: node "ring".
+scene::Scene particle_ring();
+
+// Tip of true shape: a cone that ends in a ball of radius 1, with its apex at the origin, z up to `height`: node "tip".
+scene::Scene particle_tip(double half_angle_rad, double height);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "exhibit/state/particles_now.h"
+#include "exhibit/words/phrases.h"
+#include "render/frame.h"
+
+namespace afm::exhibit {
+
+// State of the push in words, its forces, the force at which the touched particle gives by the law of its species and,
+// in brackets, by the other law, and the numbers of the file with their sources. Without a touched particle, those of
+// the first one's species.
+render::DataPanel particles_panel(const ParticlesNow& now, const Phrases& phrases);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/models/particle_models.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "exhibit/models/height_colours.h"
+#include "models/linear_colour.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+constexpr int kSphereRings = 14, kSphereSectors = 28;
+constexpr int kRingSectors = 48, kRingSides = 8;
+constexpr int kTipSectors = 40, kTipCapRings = 8, kTipFlankRings = 4;
+constexpr double kRingRadius = 1.3, kRingThickness = 0.09;  // in radii of the particle
+constexpr double kBandWidth = 0.42;                         // half width of the dark band, sine of the latitude
+constexpr double kCapLatitude = 0.86;                       // sine of the latitude of the cap's edge
+constexpr Srgb kPlain{255, 255, 255}, kBand{92, 62, 40}, kCap{150, 205, 235};
+// Share of the side, as that of the assets' samples: a thinner one would lift the table before the panels.
+constexpr double kGroundThickness = 0.18;
+
+// A grid of vertices on a closed surface: rows from one end to the other, columns around. `at` returns place and
+// normal.
+struct Point {
+  glm::dvec3 place, normal;
+  glm::vec4 color{1.0F};
+};
+scene::Primitive rolled(int rows, int columns, const std::function<Point(double row, double column)>& at) {
+  scene::Primitive surface;
+  for (int row = 0; row <= rows; ++row) {
+    for (int column = 0; column <= columns; ++column) {
+      const Point point = at(static_cast<double>(row) / rows, static_cast<double>(column) / columns);
+      surface.vertices.push_back({glm::vec3(point.place), glm::vec3(point.normal), point.color});
+    }
+  }
+  const auto width = static_cast<std::uint32_t>(columns) + 1;
+  for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(rows); ++row) {
+    for (std::uint32_t column = 0; column < static_cast<std::uint32_t>(columns); ++column) {
+      const std::uint32_t first = row * width + column, above = first + width;
+      surface.indices.insert(surface.indices.end(), {first, first + 1, above, above, first + 1, above + 1});
+    }
+  }
+  return surface;
+}
+
+glm::dvec3 around(double column, double radius, double z) {
+  const double angle = 2.0 * std::numbers::pi * column;
+  return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+scene::Scene one_mesh(const char* name, scene::PbrMaterial material, scene::Primitive primitive) {
+  scene::Scene scene;
+  scene.materials.push_back(std::move(material));
+  scene.meshes.push_back({name, {std::move(primitive)}});
+  scene.nodes.push_back({name, std::nullopt, 0U, glm::dmat4(1.0)});
+  return scene;
+}
+
+// Bands that no rotation but that about their axis leaves as they are, and a cap at one end of the axis, so that this
+// rotation alone is unseen.
+glm::vec4 color_at(double sine_of_latitude) {
+  if (sine_of_latitude > kCapLatitude) return linear_colour(kCap);
+  return linear_colour(std::abs(sine_of_latitude) < 0.5 * kBandWidth ? kBand : kPlain);
+}
+
+}  // namespace
+
+scene::Scene particle_ground(double side_m) {
+  const double half = 0.5 * side_m, depth = kGroundThickness * side_m;
+  scene::Primitive slab;
+  const auto face = [&](const glm::dvec3& normal, const glm::dvec3& right, const glm::dvec3& up) {
+    const auto first = static_cast<std::uint32_t>(slab.vertices.size());
+    for (const glm::dvec2 corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
+      const glm::dvec3 place = normal + corner.x * right + corner.y * up;
+      slab.vertices.push_back(
+          {glm::vec3(place * glm::dvec3(half, half, 0.5 * depth) - glm::dvec3(0, 0, 0.5 * depth)), glm::vec3(normal)});
+    }
+    slab.indices.insert(slab.indices.end(), {first, first + 1, first + 2, first + 2, first + 1, first + 3});
+  };
+  face({0, 0, 1}, {1, 0, 0}, {0, 1, 0});
+  face({1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+  face({-1, 0, 0}, {0, -1, 0}, {0, 0, 1});
+  face({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});
+  face({0, -1, 0}, {1, 0, 0}, {0, 0, 1});
+  return one_mesh("surface",
+                  {.name = "ground", .base_color = {0.30F, 0.34F, 0.37F, 1.0F}, .metallic = 0.0F, .roughness = 0.55F},
+                  std::move(slab));
+}
+
+scene::Scene particle_sphere() {
+  // rows are closer where the colour changes, because a vertex has one colour
+  const auto latitude_of = [](double row) { return std::numbers::pi * (row - 0.5); };
+  scene::Primitive sphere = rolled(kSphereRings, kSphereSectors, [&](double row, double column) {
+    const double latitude = latitude_of(row);
+    const glm::dvec3 place = around(column, std::cos(latitude), std::sin(latitude));
+    return Point{place, place, color_at(std::sin(latitude))};
+  });
+  return one_mesh("sphere", {.name = "particle", .metallic = 0.0F, .roughness = 0.4F}, std::move(sphere));
+}
+
+scene::Scene particle_ring() {
+  scene::Primitive ring = rolled(kRingSides, kRingSectors, [](double row, double column) {
+    const double angle = 2.0 * std::numbers::pi * row;
+    const glm::dvec3 outwards = around(column, std::cos(angle), std::sin(angle));
+    return Point{around(column, kRingRadius, kRingThickness) + kRingThickness * outwards, outwards};
+  });
+  return one_mesh("ring",
+                  {.name = "ring of the touched particle",
+                   .base_color = {1.0F, 0.85F, 0.15F, 1.0F},
+                   .emissive = {0.35F, 0.28F, 0.03F},
+                   .metallic = 0.0F,
+                   .roughness = 0.5F},
+                  std::move(ring));
+}
+
+scene::Scene particle_tip(double half_angle_rad, double height) {
+  // the ball passes into the cone where its normal points down by the half angle
+  const double sine = std::sin(half_angle_rad), cosine = std::cos(half_angle_rad);
+  const double joint_z = 1.0 - sine, joint_radius = cosine;
+  const int flank_end = kTipCapRings + kTipFlankRings, rows = flank_end + 2;  // the last two close the top
+  const double flank = std::max(height - joint_z, 0.0);
+  scene::Primitive tip = rolled(rows, kTipSectors, [&](double row, double column) {
+    const double at = row * rows;
+    if (at <= kTipCapRings) {
+      const double down = (0.5 * std::numbers::pi - half_angle_rad) * (1.0 - at / kTipCapRings) + half_angle_rad;
+      const glm::dvec3 normal = around(column, std::cos(down), -std::sin(down));
+      return Point{normal + glm::dvec3(0, 0, 1), normal};
+    }
+    if (at > flank_end) {
+      const double radius = at < rows ? joint_radius + flank * sine / cosine : 0.0;
+      return Point{around(column, radius, joint_z + flank), glm::dvec3(0, 0, 1)};
+    }
+    const double up = (at - kTipCapRings) / kTipFlankRings * flank;
+    return Point{around(column, joint_radius + up * sine / cosine, joint_z + up), around(column, cosine, -sine)};
+  });
+  return one_mesh(
+      "tip",
+      {.name = "tip of true size", .base_color = {0.55F, 0.58F, 0.63F, 1.0F}, .metallic = 0.0F, .roughness = 0.45F},
+      std::move(tip));
+}
+
+}  // namespace afm::exhibit

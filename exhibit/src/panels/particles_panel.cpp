@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/panels/particles_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/enumerators.h"
+#include "curves/plot_units.h"
+#include "panels/panel_conventions.h"
+#include "physics/quantity_text.h"
+#include "scene/samples/particle_set.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+using physics::Force;
+using physics::format_quantity;
+using physics::ParticleLaw;
+using physics::ParticleSpecies;
+using physics::PushState;
+
+constexpr double kSoftened = 1.05;  // beyond this the panel says that the lever is felt softer
+
+static_assert(after(Phrase::PushFree, core::index_of(PushState::Several)) == Phrase::PushSeveral);
+static_assert(after(Phrase::PushLawArea, core::index_of(ParticleLaw::Measured)) == Phrase::PushLawMeasured);
+
+const std::string& formula_of(ParticleLaw law, const Phrases& phrases) {
+  return phrases[after(Phrase::PushLawArea, core::index_of(law))];
+}
+
+// In nN, whatever the size: forces next to each other are compared.
+std::string force_text(Force force, const Phrases& phrases) {
+  return phrases.number(fmt::format("{:.{}g} nN", force.si * curves::kNnPerN, kDigits));
+}
+
+// With the exponent of a square raised.
+template <class Quantity, class Units>
+std::string quantity_text(Quantity value, const Units& units, const Phrases& phrases) {
+  std::string text = phrases.number(format_quantity(value, units, kDigits));
+  if (text.ends_with("m2")) text.replace(text.size() - 1, 1, "\u00b2");
+  return text;
+}
+
+std::string factor_text(double factor) {
+  return factor < 10.0 ? fmt::format("{:.2g}", factor) : fmt::format("{:.0f}", factor);
+}
+
+std::string source_text(std::span<const scene::SourcedValue> sources, std::string_view key, const Phrases& phrases) {
+  const scene::SourcedValue* sourced = scene::find_source(sources, key);
+  if (sourced == nullptr) return "";
+  const std::array source{phrases.word(sourced->source)};
+  return sourced->estimated ? phrases.filled(Phrase::Estimated, source) : source.front();
+}
+
+class ParticleRows {
+ public:
+  ParticleRows(const ParticlesNow& now, const Phrases& phrases)
+      : now_(now), phrases_(phrases), touched_(touched(now, now.set->particles.size())) {}
+
+  std::vector<render::DataRow> take() {
+    add_push();
+    add_thresholds();
+    add_numbers();
+    return std::move(rows_);
+  }
+
+ private:
+  std::size_t species_index() const { return now_.set->particles[touched_.value_or(0)].species; }
+  const ParticleSpecies& species() const { return now_.set->setup.species[species_index()]; }
+
+  void add(Phrase name, std::string value, std::string source) {
+    rows_.push_back({phrases_[name], std::move(value), std::move(source)});
+  }
+
+  void add_push() {
+    const scene::TipPush& push = now_.push;
+    const PushState state = touched_ ? push.state : PushState::Free;
+    add(Phrase::PushStateName, phrases_[after(Phrase::PushFree, core::index_of(state))],
+        touched_ ? phrases_.text<Phrase::PushedParticle>(fmt::format("{}", *touched_ + 1),
+                                                         fmt::format("{}", now_.set->particles.size()),
+                                                         phrases_.word(now_.set->species[species_index()].name))
+                 : phrases_[Phrase::PushedNone]);
+    add(Phrase::PushNormal, force_text(Force(touched_ ? push.normal_n : 0.0), phrases_),
+        phrases_[Phrase::PushNormalOn]);
+    const double lateral_n = touched_ ? std::hypot(push.lateral_n[0], push.lateral_n[1]) : 0.0;
+    add(Phrase::PushLateral, force_text(Force(lateral_n), phrases_), phrases_[Phrase::PushLateralOn]);
+  }
+
+  // Unloaded and at rest, as the other law's figure, until a touched particle has its own.
+  void add_thresholds() {
+    const ParticleSpecies& kind = species();
+    const bool known = touched_ && now_.push.threshold_n > 0.0;
+    const Force threshold =
+        known ? Force(now_.push.threshold_n) : physics::sliding_threshold(kind, kind.law, Force(0.0));
+    add(Phrase::PushThreshold, force_text(threshold, phrases_),
+        phrases_.text<Phrase::PushLaw>(formula_of(kind.law, phrases_)));
+    const ParticleLaw other = scene::other_law(kind.law);
+    const Force other_threshold = physics::sliding_threshold(kind, other, Force(0.0));
+    if (!(other_threshold.si > 0.0)) return;  // the file lacks its parameters
+    add(Phrase::PushOtherLaw, "(" + force_text(other_threshold, phrases_) + ")",
+        phrases_.text<Phrase::PushLawUnused>(formula_of(other, phrases_)));
+  }
+
+  template <class Quantity, class Units>
+  void add_number(Phrase name, Quantity value, const Units& units, std::string_view key) {
+    if (!(value.si > 0.0)) return;
+    add(name, quantity_text(value, units, phrases_),
+        source_text(now_.set->species[species_index()].sources, key, phrases_));
+  }
+
+  void add_numbers() {
+    const ParticleSpecies& kind = species();
+    add_number(Phrase::ParticleRadius, kind.contact.tip_radius, physics::kLengthUnits, "radius");
+    add_number(Phrase::WorkOfAdhesion, kind.contact.work_of_adhesion, physics::kSurfaceEnergyUnits, "work_of_adhesion");
+    add_number(Phrase::ParticleShearStrength, kind.shear_strength, physics::kPressureUnits, "shear_strength");
+    if (kind.coefficient > 0.0) {
+      add(Phrase::ParticleCoefficient, phrases_.number(fmt::format("{:.3g}", kind.coefficient)),
+          source_text(now_.set->species[species_index()].sources, "coefficient", phrases_));
+    }
+    const std::string lever =
+        phrases_.number(format_quantity(now_.set->setup.springs.lateral, physics::kStiffnessUnits, kDigits));
+    add(Phrase::LeverSideways, lever, source_text(now_.set->sources, "lateral_spring", phrases_));
+    if (const double softened = now_.push.softened_sideways; softened > kSoftened) {
+      add(Phrase::LeverSoftened, phrases_.text<Phrase::TimesSofter>(factor_text(softened)),
+          phrases_[Phrase::LeverSoftenedWhy]);
+    }
+  }
+
+  const ParticlesNow& now_;
+  const Phrases& phrases_;
+  std::optional<std::size_t> touched_;
+  std::vector<render::DataRow> rows_;
+};
+
+}  // namespace
+
+render::DataPanel particles_panel(const ParticlesNow& now, const Phrases& phrases) {
+  return {.title = phrases.word(now.set->title),
+          .subtitle = phrases.text<Phrase::ParticlesIn>(phrases.word(now.set->medium)),
+          .rows = ParticleRows(now, phrases).take()};
+}
+
+}  // namespace afm::exhibit

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/scenery/stage_particles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <memory>
+
+#include "exhibit/models/model_builder.h"
+#include "exhibit/models/particle_models.h"
+#include "exhibit/scenery/wall_layout.h"
+#include "scene/samples/particle_set.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+using glm::dmat4;
+using glm::dvec3;
+
+constexpr double kDrawnReach = 0.52;     // layout units from the middle of the sample to the outermost particle's edge
+constexpr double kDrawnDiameter = 0.13;  // most of a median particle
+constexpr glm::vec3 kTouched{1.35F, 1.3F, 1.1F};
+
+// Linear colours of the species, apart in lightness too.
+constexpr std::array<glm::vec3, 8> kSpeciesColors{{{0.83F, 0.56F, 0.15F},
+                                                   {0.80F, 0.84F, 0.88F},
+                                                   {0.30F, 0.55F, 0.40F},
+                                                   {0.62F, 0.30F, 0.30F},
+                                                   {0.35F, 0.45F, 0.75F},
+                                                   {0.88F, 0.75F, 0.55F},
+                                                   {0.45F, 0.30F, 0.55F},
+                                                   {0.25F, 0.25F, 0.28F}}};
+
+// Places, as the servo has them, and radii of the particles.
+struct Placed {
+  std::size_t species = 0;
+  double radius_m = 0, x_m = 0, y_m = 0;
+};
+std::vector<Placed> placed(const scene::ParticleSet& set) {
+  const auto shared = std::make_unique<const scene::SharedParticles>(scene::shared_particles(set));
+  std::vector<Placed> all;
+  for (std::uint32_t i = 0; i < shared->count; ++i) {
+    const scene::SharedParticle& particle = shared->particles[i];
+    all.push_back({particle.species, shared->species[particle.species].radius_m, particle.x_m, particle.y_m});
+  }
+  return all;
+}
+
+double median_radius_m(const std::vector<Placed>& particles) {
+  std::vector<double> radii;
+  radii.reserve(particles.size());
+  for (const Placed& particle : particles) radii.push_back(particle.radius_m);
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
+}
+
+}  // namespace
+
+double StageParticles::stroke_m(const scene::ParticleSet& set) {
+  const std::vector<Placed> particles = placed(set);
+  double reach_m = 0.0;
+  for (const auto& [species, radius_m, x_m, y_m] : particles) {
+    reach_m = std::max({reach_m, std::abs(x_m) + radius_m, std::abs(y_m) + radius_m});
+  }
+  const double layout_per_m = std::min(kDrawnReach / reach_m, kDrawnDiameter / (2.0 * median_radius_m(particles)));
+  return kStrokeHeight / layout_per_m;
+}
+
+StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& build, scene::Scene& scene,
+                               scene::NodeIndex sample)
+    : tip_radius_m_(set.setup.tip.radius.si) {
+  const std::vector<Placed> particles = placed(set);
+  for (const auto& [species, radius_m, x_m, y_m] : particles) {
+    particles_.push_back(
+        {.radius_m = radius_m, .start_m = {x_m, y_m}, .color = kSpeciesColors.at(species % kSpeciesColors.size())});
+  }
+  build.part(particle_sphere(), "particles", sample);
+  build.part(particle_ring(), "touched-particle", sample);
+  // up to the drawn lever
+  const double drawn_radius = tip_radius_m_ * kStrokeHeight / stroke_m(set);
+  build.part(particle_tip(set.setup.tip.half_angle_rad, kTipDrawnLength / drawn_radius), "true-tip", sample);
+  spheres_ = build.node("particles/sphere");
+  ring_ = build.node("touched-particle/ring");
+  tip_ = build.node("true-tip/tip");
+  if (!build.error()) scene.nodes[spheres_].most_copies = static_cast<std::uint32_t>(particles_.size());
+}
+
+std::optional<dvec3> StageParticles::apex_m(const ParticlesNow* now) {
+  if (now == nullptr || now->push.met == 0) return std::nullopt;
+  const auto& [x, y, z] = now->push.apex_m;
+  return dvec3(x, y, z);
+}
+
+void StageParticles::place(const ParticlesNow* now, double layout_per_m, const dvec3& apex,
+                           std::vector<dmat4>& local) const {
+  local[tip_] = glm::scale(glm::translate(dmat4(1.0), apex), dvec3(layout_per_m * tip_radius_m_));
+  if (now == nullptr) return;
+  const auto particle = touched(*now, particles_.size());
+  if (!particle) return;
+  const auto pose = pose_of(*now, *particle);
+  const auto& [start_x, start_y] = particles_[*particle].start_m;
+  const dvec3 foot = layout_per_m * dvec3(pose ? pose->x_m : start_x, pose ? pose->y_m : start_y, 0.0);
+  local[ring_] = glm::scale(glm::translate(dmat4(1.0), foot), dvec3(layout_per_m * particles_[*particle].radius_m));
+}
+
+void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, render::FrameState& frame) const {
+  render::MeshCopies all{.node = spheres_, .copies = {}};
+  all.copies.reserve(particles_.size());
+  const auto pushed = now == nullptr ? std::nullopt : touched(*now, particles_.size());
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const Particle& particle = particles_[i];
+    const auto pose = now == nullptr ? std::nullopt : pose_of(*now, i);
+    const auto& [start_x, start_y] = particle.start_m;
+    render::MeshCopy copy;
+    copy.place =
+        glm::vec3(layout_per_m * dvec3(pose ? pose->x_m : start_x, pose ? pose->y_m : start_y, particle.radius_m));
+    copy.scale = static_cast<float>(layout_per_m * particle.radius_m);
+    if (pose) {
+      const auto& [w, x, y, z] = pose->orientation;
+      copy.turn = glm::vec4(glm::dvec4(x, y, z, w));
+    }
+    copy.tint = glm::vec4(pushed == i ? kTouched * particle.color : particle.color, 1.0F);
+    all.copies.push_back(copy);
+  }
+  frame.copies.push_back(std::move(all));
+}
+
+}  // namespace afm::exhibit

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "core/result.h"
+#include "haptics/device.h"
+#include "haptics/particle_push.h"
+#include "haptics/particle_scale.h"
+#include "physics/manipulation/pushed_particles.h"
+#include "scene/shared/particle_blocks.h"
+
+namespace afm::haptics {
+
+// Particles on the sample, as felt by the hand and as published: the one owner of their places.
+//
+// - Forces on the lever are those of physics/manipulation, with the lever as soft as a hand can bear (ParticleScale).
+//   The sample under the tip is felt by the contact model's own law; of the physics' upward force only the particles'
+//   part is felt: the force is the gradient of the stored energy less that of a lever on the bare sample.
+// - The tip is among the particles, over them, or waits. It waits from a lift() until it has been over all of them, so
+//   that no force comes without a motion of the hand. What was felt before ends there: after it, forces depend on the
+//   places of the particles and on the hand alone, so that a session can begin there.
+// - Not touching, the tip gets no force at all, and nothing is added to any other.
+//
+// The constructor and resume() allocate; everything else may be called in a tick of the servo, by its thread.
+class FeltParticles {
+ public:
+  static constexpr double kFeltN = 0.05;  // on the hand: a weaker touch is no event
+
+  // `particles` is valid (scene::validate) and has particles, `scale` is its particle_scale().
+  FeltParticles(const scene::SharedParticles& particles, const ParticleScale& scale);
+
+  // Goes on with the poses of these pages, of the same particles; a wait for a lift begins. Throws
+  // std::invalid_argument unless the pages are those of so many particles, and finite.
+  void resume(std::span<const scene::ParticlePage> pages);
+
+  // Moves the tip: `tip_xy_m` in the sample's frame, `z_m` that of the unbent lever above the sample, in metres of the
+  // nanoworld.
+  ParticlePush step(const glm::dvec2& tip_xy_m, double z_m, double elapsed_s) noexcept;
+
+  // Takes the tip off the particles, wherever it is.
+  void lift() noexcept;
+
+  const ParticleScale& scale() const noexcept { return scale_; }
+  double stored_j() const noexcept { return stored_j_; }                    // on the hand; 0 without a touch
+  double stiffness_n_per_m() const noexcept { return stiffness_n_per_m_; }  // on the hand, upper limit
+
+  // State after the newest step, without time and tick.
+  scene::TipPush push() const noexcept;
+  scene::PushSample sample() const noexcept;
+
+  std::span<const scene::ParticlePage> pages() const noexcept { return pages_; }
+  std::span<const std::uint32_t> changed_pages() const noexcept { return changed_; }  // by the newest step
+
+ private:
+  enum class Tip { Waits, Over, Among };
+
+  // Contact with the particle that is pushed hardest.
+  struct Meeting {
+    std::size_t particle = physics::kNoParticle;
+    bool felt = false;       // strong enough for events
+    bool from_side = false;  // began on the flank
+    bool pushed = false;     // the particle has moved
+    bool ridden = false;
+    double lateral_n = 0;     // in the newest tick
+    double largest_n = 0;     // lateral, so far
+    glm::dvec2 towards{0.0};  // from the lever's base to the particle
+  };
+
+  void move_poses(const physics::PushTick& tick) noexcept;
+  void account(const physics::PushTick& tick) noexcept;
+  void note_events(const physics::PushTick& tick, std::uint64_t yields_before, const glm::dvec2& moved_m,
+                   ParticlePush& step) noexcept;
+  void begin_meeting(const physics::PushTick& tick) noexcept;
+  void end_meeting(const physics::PushTick& tick, const glm::dvec2& moved_m, ParticlePush& step) noexcept;
+  scene::ParticlePose& pose(std::size_t particle) noexcept;
+
+  ParticleScale scale_;
+  physics::PushSetup setup_;  // with the springs that are felt
+  physics::PushedParticles particles_;
+  std::vector<double> crest_m_;            // highest point of each species
+  std::vector<double> other_threshold_n_;  // threshold of each species, by other_law()
+  std::vector<scene::ParticlePage> pages_;
+  std::vector<std::uint32_t> changed_;
+  std::uint64_t digest_ = 0;
+  double stiffness_n_per_m_;
+  Tip tip_ = Tip::Waits;
+  glm::dvec3 over_m_{0.0};  // place over the particles where the tip was last
+  glm::dvec3 last_m_{0.0};  // newest place of the lever's base
+  Meeting meeting_;
+  glm::dvec3 push_n_{0.0};  // newest ParticlePush::push_n
+  double sample_j_ = 0;     // energy of the lever on the bare sample, and of particles that press each other
+  double stored_j_ = 0;
+  std::uint64_t accounts_ = 0;
+};
+
+}  // namespace afm::haptics

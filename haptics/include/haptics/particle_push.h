@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "physics/contact_phase.h"
+
+namespace afm::haptics {
+
+// Meeting of the tip with particles in one tick of FeltParticles. Forces on the lever, in the sample's frame.
+struct ParticlePush {
+  struct Event {
+    physics::EventKind kind = physics::EventKind::ParticleTouched;
+    double force_before_n = 0;  // lateral, on the lever
+    double force_after_n = 0;
+  };
+
+  bool near = false;     // a particle is within reach
+  bool touches = false;  // a particle is touched; otherwise the forces are zero
+  glm::dvec3 push_n{0.0};
+  std::array<Event, 3> events{};
+  std::size_t event_count = 0;
+
+  std::span<const Event> happened() const noexcept { return std::span(events).first(event_count); }
+};
+
+}  // namespace afm::haptics

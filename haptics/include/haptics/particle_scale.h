@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/result.h"
+#include "haptics/device.h"
+#include "scene/shared/particle_blocks.h"
+
+namespace afm::physics {
+struct PushSetup;
+}
+
+namespace afm::haptics {
+
+// Scale on which a hand pushes particles, the same along the sample and upwards.
+//
+// The median particle has SharedPusher::diameter_in_hand_m, or less, so that all of them lie within kFieldShare of the
+// workspace. A hand bears kMaxStiffnessNPerM of a lever: a stiffer one is drawn softer, and the figures say how many
+// times. The particle gives at threshold_on_hand_n, or less, so that the lever bends by at most kMostBend of the
+// distance of tip and particle before it gives: a force F at the distance r pushes a tip aside like a spring of -F/r,
+// and bent further, lever and grip, each of some 200 N/m, let it run round the particle.
+struct ParticleScale {
+  static constexpr double kMaxStiffnessNPerM = 200.0;
+  static constexpr double kFieldShare = 0.6;
+  static constexpr double kMostBend = 1.0 / 3.0;
+
+  double hand_m_per_m = 0;  // 0: there are no particles
+  double hand_n_per_n = 0;  // force on the hand by that of a push
+  double clear_z_m = 0;     // a tip at this height or above touches no particle
+  double softened_sideways = 1;
+  double softened_upwards = 1;
+};
+
+// Stiffness of the lever in a hand at this device, at most; the sample's law has the rest of what it can render.
+double particle_stiffness_n_per_m(const DeviceSpec& device);
+
+// Scale for these particles, valid ones (scene::validate), on a device; without particles, the default. Fails if no
+// force moves the median particle, or if the force on the hand would be too faint.
+core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particles, const DeviceSpec& device);
+
+// The physics of these particles with the springs that are felt on that scale.
+physics::PushSetup felt_setup(const scene::SharedParticles& particles, const ParticleScale& scale);
+
+}  // namespace afm::haptics

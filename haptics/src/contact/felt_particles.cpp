@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/felt_particles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <stdexcept>
+
+#include "physics/manipulation/particle_friction.h"
+#include "physics/manipulation/tip_contact.h"
+
+namespace afm::haptics {
+
+namespace {
+
+using physics::EventKind;
+using physics::Length;
+
+// A tip whose axis is within this share of a particle's radius of its centre has climbed onto it.
+constexpr double kOnTopShare = 0.5;
+// A base that leaves a particle by more than this against the direction to it goes back; otherwise it goes past.
+constexpr double kBackwards = -0.5;
+
+physics::LeverBase base_at(const glm::dvec3& at_m) { return {{Length(at_m.x), Length(at_m.y)}, Length(at_m.z)}; }
+
+glm::dvec2 flat(const physics::Sideways<Length>& place) { return {place.x.si, place.y.si}; }
+
+// Orientation after rolling by a way much shorter than the radius.
+std::array<double, 4> rolled(const std::array<double, 4>& orientation, const glm::dvec2& way_m, double radius_m) {
+  // the tangent of half the angle, about z x way
+  const double half = 0.5 * glm::length(way_m) / radius_m, tangent = 1.0 + half * half / 3.0;
+  const double x = -0.5 * tangent * way_m.y / radius_m, y = 0.5 * tangent * way_m.x / radius_m;
+  const auto& [w0, x0, y0, z0] = orientation;
+  const double w1 = w0 - x * x0 - y * y0, x1 = x0 + x * w0 + y * z0, y1 = y0 + y * w0 - x * z0,
+               z1 = z0 + x * y0 - y * x0;
+  const double length = std::sqrt(w1 * w1 + x1 * x1 + y1 * y1 + z1 * z1);
+  return {w1 / length, x1 / length, y1 / length, z1 / length};
+}
+
+}  // namespace
+
+FeltParticles::FeltParticles(const scene::SharedParticles& particles, const ParticleScale& scale)
+    : scale_(scale),
+      setup_(felt_setup(particles, scale)),
+      particles_(setup_, scene::start_places(particles), base_at({0.0, 0.0, scale.clear_z_m})),
+      pages_(scene::pages_of(particles.count)),
+      stiffness_n_per_m_(std::max(setup_.springs.lateral, setup_.springs.normal).si * scale.hand_n_per_n /
+                         scale.hand_m_per_m) {
+  const double sine = std::sin(setup_.tip.half_angle_rad), cosine = std::cos(setup_.tip.half_angle_rad);
+  for (physics::ParticleSpecies species : setup_.species) {
+    const Length radius = species.contact.tip_radius;
+    crest_m_.push_back(physics::crest_height(setup_.tip, radius).si);
+    const physics::TipGrip grip{setup_.tip_friction, 1.5 * std::numbers::pi * species.tip_adhesion *
+                                                         physics::effective_radius(setup_.tip, radius, true)};
+    species.law = scene::other_law(species.law);
+    const double other_n = physics::push_balance(species, grip, sine, cosine).lateral.si;
+    const bool known =
+        species.law == physics::ParticleLaw::Amontons ? species.coefficient > 0.0 : species.shear_strength.si > 0.0;
+    other_threshold_n_.push_back(known && std::isfinite(other_n) ? other_n : 0.0);
+  }
+  changed_.reserve(pages_.size());
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    pose(i) = {.x_m = particles_.position(i).x.si, .y_m = particles_.position(i).y.si};
+  }
+  digest_ = scene::digest_of(pages_, particles_.size());
+}
+
+void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
+  if (pages.size() != pages_.size()) throw std::invalid_argument("the pages are those of other particles");
+  std::vector<physics::Sideways<Length>> places;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const scene::ParticlePose& there = pages[i / scene::kPosesPerPage].poses[i % scene::kPosesPerPage];
+    places.push_back({Length(there.x_m), Length(there.y_m)});
+  }
+  particles_.put(places, base_at({0.0, 0.0, scale_.clear_z_m}));
+  std::copy(pages.begin(), pages.end(), pages_.begin());
+  digest_ = scene::digest_of(pages_, particles_.size());
+  lift();
+}
+
+scene::ParticlePose& FeltParticles::pose(std::size_t particle) noexcept {
+  return pages_[particle / scene::kPosesPerPage].poses[particle % scene::kPosesPerPage];
+}
+
+void FeltParticles::lift() noexcept {
+  tip_ = Tip::Waits;
+  meeting_ = {};
+  push_n_ = glm::dvec3(0.0);
+  stored_j_ = 0.0;
+  changed_.clear();
+}
+
+ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double elapsed_s) noexcept {
+  ParticlePush step;
+  changed_.clear();
+  const glm::dvec3 at_m(tip_xy_m, z_m);
+  const bool over = z_m >= scale_.clear_z_m;
+  if (over) {
+    if (tip_ == Tip::Among) lift();
+    tip_ = Tip::Over;
+    over_m_ = at_m;
+  }
+  if (tip_ == Tip::Waits || over) return step;
+  if (tip_ == Tip::Over) {
+    particles_.hold_over(base_at(over_m_));
+    tip_ = Tip::Among;
+    last_m_ = over_m_;
+    sample_j_ = 0.0;
+    ++accounts_;
+  }
+
+  const std::uint64_t yields_before = particles_.last().yields;
+  const physics::PushTick& tick = particles_.move_to(base_at(at_m), physics::Time(elapsed_s));
+  step.near = tick.near;
+  move_poses(tick);
+  account(tick);
+  const glm::dvec3 base_m(flat(tick.base.position), tick.base.z.si);
+  note_events(tick, yields_before, glm::dvec2(base_m - last_m_), step);
+  last_m_ = base_m;
+  step.touches = tick.particle != physics::kNoParticle;
+  step.push_n = push_n_;
+  return step;
+}
+
+void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
+  for (const std::uint32_t i : particles_.moved()) {
+    scene::ParticlePose& moved = pose(i);
+    digest_ -= scene::place_mark(i, moved);
+    const glm::dvec2 to_m = flat(particles_.position(i)), way_m = to_m - glm::dvec2(moved.x_m, moved.y_m);
+    moved.x_m = to_m.x;
+    moved.y_m = to_m.y;
+    moved.moved = tick.state == physics::PushState::Slides || tick.state == physics::PushState::Rolls
+                      ? tick.state
+                      : physics::PushState::Several;
+    if (moved.moved == physics::PushState::Rolls) {
+      const double radius_m = setup_.species[particles_.species(i)].contact.tip_radius.si;
+      moved.orientation = rolled(moved.orientation, way_m, radius_m);
+    }
+    digest_ += scene::place_mark(i, moved);
+    const std::uint32_t page = scene::page_of(i);
+    if (std::find(changed_.begin(), changed_.end(), page) == changed_.end()) changed_.push_back(page);
+  }
+}
+
+// Force and energy of the particles alone: without what a lever that presses on the bare sample would have.
+void FeltParticles::account(const physics::PushTick& tick) noexcept {
+  const double pressed_m = std::min(0.0, tick.base.z.si), normal_n_per_m = setup_.springs.normal.si;
+  const double alone_j = 0.5 * normal_n_per_m * pressed_m * pressed_m;
+  if (tick.particle == physics::kNoParticle) {
+    sample_j_ = tick.stored.si - alone_j;
+    push_n_ = glm::dvec3(0.0);
+    stored_j_ = 0.0;
+    return;
+  }
+  push_n_ = {tick.lateral.x.si, tick.lateral.y.si, tick.lift.si + normal_n_per_m * pressed_m};
+  stored_j_ = scale_.hand_n_per_n * scale_.hand_m_per_m * (tick.stored.si - alone_j - sample_j_);
+}
+
+void FeltParticles::note_events(const physics::PushTick& tick, std::uint64_t yields_before, const glm::dvec2& moved_m,
+                                ParticlePush& step) noexcept {
+  const auto add = [&](EventKind kind, double before_n, double after_n) {
+    step.events[step.event_count++] = {kind, before_n, after_n};
+  };
+  if (meeting_.particle != physics::kNoParticle && tick.particle != meeting_.particle) {
+    end_meeting(tick, moved_m, step);
+  }
+  if (tick.particle != physics::kNoParticle && meeting_.particle == physics::kNoParticle) begin_meeting(tick);
+  if (tick.particle != physics::kNoParticle) {
+    const double lateral_n = physics::magnitude(tick.lateral).si;
+    const std::size_t species = particles_.species(tick.particle);
+    if (!meeting_.felt && tick.normal.si * scale_.hand_n_per_n >= kFeltN) {
+      meeting_.felt = true;
+      add(EventKind::ParticleTouched, 0.0, lateral_n);
+    }
+    const glm::dvec2 centre_m = flat(particles_.position(tick.particle));
+    const double radius_m = setup_.species[species].contact.tip_radius.si;
+    const bool on_top = glm::distance(centre_m, flat(tick.apex.position)) < kOnTopShare * radius_m;
+    if (meeting_.felt && meeting_.from_side && !meeting_.ridden && on_top && tick.base.z.si < crest_m_[species]) {
+      meeting_.ridden = true;
+      add(EventKind::ParticleRiddenOver, meeting_.largest_n, lateral_n);
+    }
+    meeting_.lateral_n = lateral_n;
+    meeting_.largest_n = std::max(meeting_.largest_n, lateral_n);
+    const glm::dvec2 towards_m = centre_m - flat(tick.base.position);
+    const double away_m = glm::length(towards_m);
+    meeting_.towards = away_m > 0.0 ? towards_m / away_m : glm::dvec2(0.0);
+    const auto moved = particles_.moved();
+    meeting_.pushed = meeting_.pushed || std::find(moved.begin(), moved.end(), tick.particle) != moved.end();
+  }
+  if (tick.yields > yields_before) add(EventKind::ParticleGave, tick.gave_at.si, tick.goes_on_at.si);
+}
+
+void FeltParticles::begin_meeting(const physics::PushTick& tick) noexcept {
+  meeting_ = {.particle = tick.particle};
+  meeting_.from_side = tick.apex.z.si <= crest_m_[particles_.species(tick.particle)];
+}
+
+// The tip has left its particle: a hand that lifts it or goes back means to; one that goes on has lost it.
+void FeltParticles::end_meeting(const physics::PushTick& tick, const glm::dvec2& moved_m, ParticlePush& step) noexcept {
+  const Meeting left = meeting_;
+  meeting_ = {};
+  const bool low = tick.base.z.si < crest_m_[particles_.species(left.particle)];
+  const bool alone = tick.particle == physics::kNoParticle;
+  const bool forward = glm::dot(moved_m, left.towards) > kBackwards * glm::length(moved_m);
+  if (!left.felt || !left.pushed || left.ridden || !low || !alone || !forward) return;
+  step.events[step.event_count++] = {EventKind::ParticleLost, left.lateral_n, 0.0};
+}
+
+scene::TipPush FeltParticles::push() const noexcept {
+  const physics::PushTick& tick = particles_.last();
+  const bool among = tip_ == Tip::Among;
+  scene::TipPush push{.digest = digest_,
+                      .given_j = tick.given.si,
+                      .work_j = tick.work.si,
+                      .lost_j = tick.lost.si,
+                      .stored_j = tick.stored.si,
+                      .hand_m_per_m = scale_.hand_m_per_m,
+                      .hand_n_per_n = scale_.hand_n_per_n,
+                      .softened_sideways = scale_.softened_sideways,
+                      .softened_upwards = scale_.softened_upwards,
+                      .yields = tick.yields,
+                      .exhausted = tick.exhausted,
+                      .accounts = accounts_,
+                      .met = tip_ == Tip::Waits ? 0U : 1U};
+  if (!among) return push;
+  push.base_m = {tick.base.position.x.si, tick.base.position.y.si, tick.base.z.si};
+  push.apex_m = {tick.apex.position.x.si, tick.apex.position.y.si, tick.apex.z.si};
+  push.lateral_n = {push_n_.x, push_n_.y};
+  push.lift_n = push_n_.z;
+  push.lagging = tick.lagging ? 1 : 0;
+  if (tick.particle == physics::kNoParticle) return push;
+  push.normal_n = tick.normal.si;
+  push.threshold_n = tick.threshold.si;
+  push.other_threshold_n = other_threshold_n_[particles_.species(tick.particle)];
+  push.particle = static_cast<std::int32_t>(tick.particle);
+  push.state = tick.state;
+  return push;
+}
+
+scene::PushSample FeltParticles::sample() const noexcept {
+  scene::PushSample sample{.digest = digest_};
+  const physics::PushTick& tick = particles_.last();
+  if (tip_ != Tip::Among || tick.particle == physics::kNoParticle) return sample;
+  sample.lateral_n = {push_n_.x, push_n_.y};
+  sample.lift_n = push_n_.z;
+  sample.normal_n = tick.normal.si;
+  sample.particle = static_cast<std::int32_t>(tick.particle);
+  sample.state = tick.state;
+  return sample;
+}
+
+}  // namespace afm::haptics

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/particle_scale.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "haptics/scaling.h"
+#include "physics/manipulation/particle_friction.h"
+#include "physics/manipulation/pushed_particles.h"
+#include "physics/manipulation/tip_contact.h"
+
+namespace afm::haptics {
+
+namespace {
+
+// Softest contact of tip and particle relative to the lever that is felt: stiffer ones indent by less than a
+// hundredth of what the lever bends, and only make the descent of several particles slower.
+constexpr double kContactOverLever = 100.0;
+
+// Species of the particle of median radius.
+std::size_t median_species(const scene::SharedParticles& particles) {
+  std::vector<std::uint32_t> species;
+  species.reserve(particles.count);
+  for (std::uint32_t i = 0; i < particles.count; ++i) species.push_back(particles.particles[i].species);
+  const auto middle = species.begin() + static_cast<std::ptrdiff_t>(species.size() / 2);
+  std::nth_element(species.begin(), middle, species.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return particles.species[a].radius_m < particles.species[b].radius_m;
+  });
+  return *middle;
+}
+
+// Metres of hand per metre at which a way of particles fills its share of the workspace's.
+double field_m_per_m(double way_m, double least_m, double most_m, double contact_m) {
+  // from the contact point, as a recording has it
+  const double room_m = (most_m - contact_m) - (least_m - contact_m);
+  return way_m > 0.0 ? ParticleScale::kFieldShare * room_m / way_m : HUGE_VAL;
+}
+
+double hand_m_per_m(const scene::SharedParticles& particles, double diameter_m, const DeviceSpec& device) {
+  double left_m = HUGE_VAL, right_m = -HUGE_VAL, front_m = HUGE_VAL, back_m = -HUGE_VAL;
+  for (std::uint32_t i = 0; i < particles.count; ++i) {
+    const scene::SharedParticle& particle = particles.particles[i];
+    left_m = std::min(left_m, particle.x_m);
+    right_m = std::max(right_m, particle.x_m);
+    front_m = std::min(front_m, particle.y_m);
+    back_m = std::max(back_m, particle.y_m);
+  }
+  // on a table, the sample's y is the device's -z
+  return std::min(
+      {particles.pusher.diameter_in_hand_m / diameter_m,
+       field_m_per_m(right_m - left_m, device.workspace_min_m.x, device.workspace_max_m.x, device.contact_point_m.x),
+       field_m_per_m(back_m - front_m, device.workspace_min_m.z, device.workspace_max_m.z, device.contact_point_m.z)});
+}
+
+}  // namespace
+
+double particle_stiffness_n_per_m(const DeviceSpec& device) {
+  return std::min(ParticleScale::kMaxStiffnessNPerM, 0.5 * device.max_stiffness_n_per_m);
+}
+
+core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particles, const DeviceSpec& device) {
+  ParticleScale scale;
+  if (particles.count == 0) return scale;
+  const physics::PushSetup setup = scene::push_setup(particles);
+  const std::size_t median = median_species(particles);
+  const physics::ParticleSpecies& species = setup.species[median];
+  const physics::Length radius = species.contact.tip_radius;
+
+  const physics::TipGrip grip{setup.tip_friction, 1.5 * std::numbers::pi * species.tip_adhesion *
+                                                      physics::effective_radius(setup.tip, radius, true)};
+  const double sine = std::sin(setup.tip.half_angle_rad), cosine = std::cos(setup.tip.half_angle_rad);
+  const double threshold_n = physics::push_balance(species, grip, sine, cosine).lateral.si;
+  if (!(std::isfinite(threshold_n) && threshold_n > 0.0)) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("cannot push the particles \"{}\": they jam under this tip; choose less friction "
+                                     "or a steeper tip",
+                                     particles.species[median].name.data()));
+  }
+  scale.hand_m_per_m = hand_m_per_m(particles, 2.0 * radius.si, device);
+  const double distance_m = physics::side_contact(setup.tip, radius, physics::Length(0.0)).distance.si;
+  const double most_n = particle_stiffness_n_per_m(device) * ParticleScale::kMostBend * distance_m * scale.hand_m_per_m;
+  const double felt_n = std::min({particles.pusher.threshold_on_hand_n, most_n, force_cap_n(device)});
+  if (!(felt_n >= Scaling::kFaintestPullN)) {
+    return core::failure(
+        core::ErrorCategory::Failed,
+        fmt::format("cannot push the particles \"{}\" with the {}: they would be {:.2g} mm wide in the hand and give "
+                    "at {:.2g} N, too little to feel; put them closer together",
+                    particles.species[median].name.data(), device.name, 2e3 * radius.si * scale.hand_m_per_m, felt_n));
+  }
+  scale.hand_n_per_n = felt_n / threshold_n;
+  const double most_n_per_m = particle_stiffness_n_per_m(device) * scale.hand_m_per_m / scale.hand_n_per_n;
+  scale.softened_sideways = std::max(1.0, setup.springs.lateral.si / most_n_per_m);
+  scale.softened_upwards = std::max(1.0, setup.springs.normal.si / most_n_per_m);
+  scale.clear_z_m = physics::clear_height(setup).si;
+  try {
+    physics::validate(felt_setup(particles, scale));
+  } catch (const std::invalid_argument& error) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("cannot push the particles \"{}\" with a lever as soft as a hand can bear: {}",
+                                     particles.species[median].name.data(), error.what()));
+  }
+  return scale;
+}
+
+physics::PushSetup felt_setup(const scene::SharedParticles& particles, const ParticleScale& scale) {
+  physics::PushSetup setup = scene::push_setup(particles);
+  physics::PushSprings& springs = setup.springs;
+  springs.lateral = springs.lateral / scale.softened_sideways;
+  springs.normal = springs.normal / scale.softened_upwards;
+  springs.contact = std::min(springs.contact, kContactOverLever * std::max(springs.lateral, springs.normal));
+  return setup;
+}
+
+}  // namespace afm::haptics

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/manipulation/particle_law.h"
+#include "physics/manipulation/push_state.h"
+#include "scene/shared/field_visitor.h"
+#include "scene/shared/name.h"
+
+// Blocks of the spheres that a tip pushes over the sample (docs/physics.md, "Particles"). Places are in the sample's
+// frame, in metres of the nanoworld; the spheres rest on its plane z = 0.
+namespace afm::physics {
+struct PlacedParticle;
+struct PushSetup;
+}  // namespace afm::physics
+
+namespace afm::scene {
+
+inline constexpr std::uint32_t kMaxParticles = 2048;
+inline constexpr std::uint32_t kMaxSpecies = 8;
+inline constexpr std::uint32_t kPosesPerPage = 16;
+inline constexpr std::uint32_t kParticlePages = kMaxParticles / kPosesPerPage;
+static_assert(kMaxParticles == physics::kMostParticles);
+
+// Page of a particle, and the pages of so many.
+constexpr std::uint32_t page_of(std::uint32_t particle) { return particle / kPosesPerPage; }
+constexpr std::uint32_t pages_of(std::uint32_t particle_count) {
+  return (particle_count + kPosesPerPage - 1) / kPosesPerPage;
+}
+
+// ---- constant after the segment is created (written by touchafm, part of SharedModel) ----
+
+// physics::ParticleSpecies in plain numbers, SI.
+struct SharedSpecies {
+  Name name{};
+  double radius_m = 0;
+  double reduced_modulus_pa = 0;
+  double work_of_adhesion_j_per_m2 = 0;
+  double shear_strength_pa = 0;
+  double coefficient = 0;
+  double measured_threshold_n = 0;
+  double kinetic_ratio = 0;
+  double ageing_s = 0;
+  double rolling_distance_m = 0;
+  double tip_adhesion_j_per_m2 = 0;
+  physics::ParticleLaw law = physics::ParticleLaw::ContactArea;
+  std::uint32_t padding = 0;
+
+  bool operator==(const SharedSpecies&) const = default;
+};
+
+template <class Visit, RecordOf<SharedSpecies>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... species) {
+  visit("name", species.name...);
+  visit("radius_m", species.radius_m...);
+  visit("reduced_modulus_Pa", species.reduced_modulus_pa...);
+  visit("work_of_adhesion_J_per_m2", species.work_of_adhesion_j_per_m2...);
+  visit("shear_strength_Pa", species.shear_strength_pa...);
+  visit("coefficient", species.coefficient...);
+  visit("measured_threshold_N", species.measured_threshold_n...);
+  visit("kinetic_ratio", species.kinetic_ratio...);
+  visit("ageing_s", species.ageing_s...);
+  visit("rolling_distance_m", species.rolling_distance_m...);
+  visit("tip_adhesion_J_per_m2", species.tip_adhesion_j_per_m2...);
+  visit("law", species.law...);
+  visit("padding", species.padding...);
+}
+static_assert(all_fields_described<SharedSpecies>());
+
+// Tip and lever that push, and the size of it all in a hand.
+struct SharedPusher {
+  double tip_radius_m = 0;
+  double half_angle_rad = 0;
+  double tip_friction = 0;               // mu_t
+  double lateral_spring_n_per_m = 0;     // k_l
+  double normal_spring_n_per_m = 0;      // k_c
+  double contact_stiffness_n_per_m = 0;  // k_n
+  double diameter_in_hand_m = 0.010;     // median particle; less if the particles would not fit into the workspace
+  double threshold_on_hand_n = 1.0;      // force on the hand at which the median particle gives
+
+  bool operator==(const SharedPusher&) const = default;
+};
+
+template <class Visit, RecordOf<SharedPusher>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... pusher) {
+  visit("tip_radius_m", pusher.tip_radius_m...);
+  visit("half_angle_rad", pusher.half_angle_rad...);
+  visit("tip_friction", pusher.tip_friction...);
+  visit("lateral_spring_N_per_m", pusher.lateral_spring_n_per_m...);
+  visit("normal_spring_N_per_m", pusher.normal_spring_n_per_m...);
+  visit("contact_stiffness_N_per_m", pusher.contact_stiffness_n_per_m...);
+  visit("diameter_in_hand_m", pusher.diameter_in_hand_m...);
+  visit("threshold_on_hand_N", pusher.threshold_on_hand_n...);
+}
+static_assert(all_fields_described<SharedPusher>());
+
+// Particle before the first push.
+struct SharedParticle {
+  double x_m = 0;  // centre
+  double y_m = 0;
+  std::uint32_t species = 0;  // index into SharedParticles::species
+  std::uint32_t pinned = 0;   // 1: never moves
+
+  bool operator==(const SharedParticle&) const = default;
+};
+
+template <class Visit, RecordOf<SharedParticle>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... particle) {
+  visit("x_m", particle.x_m...);
+  visit("y_m", particle.y_m...);
+  visit("species", particle.species...);
+  visit("pinned", particle.pinned...);
+}
+static_assert(all_fields_described<SharedParticle>());
+
+struct SharedParticles {
+  std::uint32_t count = 0;  // 0: there are none, and all else is ignored
+  std::uint32_t species_count = 0;
+  SharedPusher pusher{};
+  std::array<SharedSpecies, kMaxSpecies> species{};
+  std::array<SharedParticle, kMaxParticles> particles{};
+
+  bool operator==(const SharedParticles&) const = default;
+};
+
+// The same for the physics; `particles` is valid (validate in scene/shared/shared_segment.h).
+physics::PushSetup push_setup(const SharedParticles& particles);
+std::vector<physics::PlacedParticle> start_places(const SharedParticles& particles);
+
+// ---- written by touchafm-servo ----
+
+struct ParticlePose {
+  double x_m = 0;  // centre
+  double y_m = 0;
+  std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: sample's frame from sphere
+  physics::PushState moved = physics::PushState::Free;    // latest motion: Slides, Rolls or Several; Free: none yet
+  std::uint32_t yields = 0;                               // number of times that it gave
+
+  bool operator==(const ParticlePose&) const = default;
+};
+
+template <class Visit, RecordOf<ParticlePose>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... pose) {
+  visit("x_m", pose.x_m...);
+  visit("y_m", pose.y_m...);
+  visit("orientation_wxyz", pose.orientation...);
+  visit("moved", pose.moved...);
+  visit("yields", pose.yields...);
+}
+static_assert(all_fields_described<ParticlePose>());
+
+// Poses of the particles from kPosesPerPage times its number on; default poses beyond the last particle. The servo
+// stores a page when it starts and whenever one of its poses has changed.
+struct ParticlePage {
+  std::array<ParticlePose, kPosesPerPage> poses{};
+
+  bool operator==(const ParticlePage&) const = default;
+};
+
+// Mark of a particle at its place; the digest of a set is the sum of the marks of all its particles, modulo 2^64, so
+// that a change of one place changes one mark. Bit for bit: -0.0 differs from 0.0.
+std::uint64_t place_mark(std::size_t particle, const ParticlePose& pose) noexcept;
+
+// Digest of the first `count` particles of these pages, which has as many or more.
+std::uint64_t digest_of(std::span<const ParticlePage> pages, std::size_t count) noexcept;
+
+inline constexpr std::int32_t kNoParticle = -1;
+
+// Push in the newest tick. The certificate: given_j plus the energy stored at the start is at least lost_j + stored_j.
+// An account begins whenever the tip is taken off the particles (`accounts`), and only then.
+struct TipPush {
+  std::int64_t time_ns = 0;  // as in TipState
+  std::uint64_t tick = 0;
+  std::uint64_t digest = 0;           // digest_of() all particles
+  std::array<double, 3> base_m{};     // apex on the unbent lever
+  std::array<double, 3> apex_m{};     // apex on the bent lever
+  std::array<double, 2> lateral_n{};  // force on the lever, along the sample's x and y
+  double lift_n = 0;                  // force on the lever by the particles, upwards
+  double normal_n = 0;                // N of `particle`
+  double threshold_n = 0;             // lateral force at which `particle` gives, or goes on
+  double other_threshold_n = 0;       // threshold at rest, without load, by the law of other_law(); 0: unknown
+  double given_j = 0;                 // by the hand, upper bound
+  double work_j = 0;                  // by the hand
+  double lost_j = 0;                  // friction and slips
+  double stored_j = 0;                // in lever and contacts
+  double hand_m_per_m = 0;            // scale of the particles: metres of hand per metre, along and upwards
+  double hand_n_per_n = 0;            // newtons on the hand per newton of a push
+  double softened_sideways = 1;       // the lever is felt this many times softer than it is, so that a hand can bear it
+  double softened_upwards = 1;
+  std::uint64_t yields = 0;     // particles that gave, since the servo's start
+  std::uint64_t exhausted = 0;  // ticks that ran out of steps, since the servo's start
+  std::uint64_t accounts = 0;
+  std::int32_t particle = kNoParticle;  // the one with the largest normal force
+  physics::PushState state = physics::PushState::Free;
+  std::uint32_t met = 0;      // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
+  std::uint32_t lagging = 0;  // 1: the hand was so fast that base_m is behind it
+};
+
+template <class Visit, RecordOf<TipPush>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... push) {
+  visit("time_ns", push.time_ns...);
+  visit("tick", push.tick...);
+  visit("digest", push.digest...);
+  visit("base_m", push.base_m...);
+  visit("apex_m", push.apex_m...);
+  visit("lateral_N", push.lateral_n...);
+  visit("lift_N", push.lift_n...);
+  visit("normal_N", push.normal_n...);
+  visit("threshold_N", push.threshold_n...);
+  visit("other_threshold_N", push.other_threshold_n...);
+  visit("given_J", push.given_j...);
+  visit("work_J", push.work_j...);
+  visit("lost_J", push.lost_j...);
+  visit("stored_J", push.stored_j...);
+  visit("hand_m_per_m", push.hand_m_per_m...);
+  visit("hand_N_per_N", push.hand_n_per_n...);
+  visit("softened_sideways", push.softened_sideways...);
+  visit("softened_upwards", push.softened_upwards...);
+  visit("yields", push.yields...);
+  visit("exhausted", push.exhausted...);
+  visit("accounts", push.accounts...);
+  visit("particle", push.particle...);
+  visit("state", push.state...);
+  visit("met", push.met...);
+  visit("lagging", push.lagging...);
+}
+static_assert(all_fields_described<TipPush>());
+
+// Law whose figure is shown beside that of a species, because the laws disagree.
+constexpr physics::ParticleLaw other_law(physics::ParticleLaw law) {
+  return law == physics::ParticleLaw::ContactArea ? physics::ParticleLaw::Amontons : physics::ParticleLaw::ContactArea;
+}
+
+// Part of a push that is recorded in every tick.
+struct PushSample {
+  std::uint64_t digest = 0;           // as in TipPush; 0: no particles
+  std::array<double, 2> lateral_n{};  // as in TipPush, and below
+  double lift_n = 0;
+  double normal_n = 0;
+  std::int32_t particle = kNoParticle;
+  physics::PushState state = physics::PushState::Free;
+};
+
+template <class Visit, RecordOf<PushSample>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... push) {
+  visit("particle_digest", push.digest...);
+  visit("push_x_N", push.lateral_n[0]...);
+  visit("push_y_N", push.lateral_n[1]...);
+  visit("push_lift_N", push.lift_n...);
+  visit("push_normal_N", push.normal_n...);
+  visit("pushed_particle", push.particle...);
+  visit("push_state", push.state...);
+}
+static_assert(all_fields_described<PushSample>());
+
+}  // namespace afm::scene

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/shared/particle_blocks.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/enumerators.h"
+#include "physics/manipulation/pushed_particles.h"
+#include "scene/shared/shared_segment.h"
+
+namespace afm::scene {
+
+namespace {
+
+// Largest and smallest size of a particle and of its threshold in a hand.
+constexpr double kSmallestInHandM = 1e-4, kLargestInHandM = 1.0;
+constexpr double kFaintestOnHandN = 0.01, kStrongestOnHandN = 10.0;
+
+physics::ParticleSpecies species_of(const SharedSpecies& shared) {
+  return {.contact = {.tip_radius = physics::Length(shared.radius_m),
+                      .reduced_modulus = physics::Pressure(shared.reduced_modulus_pa),
+                      .work_of_adhesion = physics::SurfaceEnergy(shared.work_of_adhesion_j_per_m2)},
+          .law = shared.law,
+          .shear_strength = physics::Pressure(shared.shear_strength_pa),
+          .coefficient = shared.coefficient,
+          .measured_threshold = physics::Force(shared.measured_threshold_n),
+          .kinetic_ratio = shared.kinetic_ratio,
+          .ageing = physics::Time(shared.ageing_s),
+          .rolling_distance = physics::Length(shared.rolling_distance_m),
+          .tip_adhesion = physics::SurfaceEnergy(shared.tip_adhesion_j_per_m2)};
+}
+
+// splitmix64 (Steele, Lea & Flood 2014).
+std::uint64_t mixed(std::uint64_t word) {
+  word += 0x9E3779B97F4A7C15ULL;
+  word = (word ^ (word >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  word = (word ^ (word >> 27U)) * 0x94D049BB133111EBULL;
+  return word ^ (word >> 31U);
+}
+
+auto particles_refused(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
+
+}  // namespace
+
+physics::PushSetup push_setup(const SharedParticles& particles) {
+  const SharedPusher& pusher = particles.pusher;
+  physics::PushSetup setup;
+  setup.tip = {.radius = physics::Length(pusher.tip_radius_m), .half_angle_rad = pusher.half_angle_rad};
+  setup.springs = {.lateral = physics::Stiffness(pusher.lateral_spring_n_per_m),
+                   .normal = physics::Stiffness(pusher.normal_spring_n_per_m),
+                   .contact = physics::Stiffness(pusher.contact_stiffness_n_per_m)};
+  setup.tip_friction = pusher.tip_friction;
+  const auto end = particles.species.begin() + std::min(particles.species_count, kMaxSpecies);
+  std::transform(particles.species.begin(), end, std::back_inserter(setup.species), species_of);
+  return setup;
+}
+
+std::vector<physics::PlacedParticle> start_places(const SharedParticles& particles) {
+  std::vector<physics::PlacedParticle> places;
+  const auto end = particles.particles.begin() + std::min(particles.count, kMaxParticles);
+  std::transform(particles.particles.begin(), end, std::back_inserter(places), [](const SharedParticle& particle) {
+    return physics::PlacedParticle{.species = particle.species,
+                                   .position = {physics::Length(particle.x_m), physics::Length(particle.y_m)},
+                                   .pinned = particle.pinned != 0};
+  });
+  return places;
+}
+
+std::uint64_t place_mark(std::size_t particle, const ParticlePose& pose) noexcept {
+  const std::uint64_t x = std::bit_cast<std::uint64_t>(pose.x_m), y = std::bit_cast<std::uint64_t>(pose.y_m);
+  return mixed(particle + mixed(x + mixed(y)));
+}
+
+std::uint64_t digest_of(std::span<const ParticlePage> pages, std::size_t count) noexcept {
+  std::uint64_t digest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    digest += place_mark(i, pages[i / kPosesPerPage].poses[i % kPosesPerPage]);
+  }
+  return digest;
+}
+
+core::Result<void> validate(const SharedParticles& particles) {
+  if (particles.count == 0) return {};
+  if (particles.count > kMaxParticles || particles.species_count == 0 || particles.species_count > kMaxSpecies) {
+    return particles_refused(
+        fmt::format("the shared scene has {} particles of {} species: the limits are {} particles and 1 to {} species",
+                    particles.count, particles.species_count, kMaxParticles, kMaxSpecies));
+  }
+  for (std::uint32_t i = 0; i < particles.species_count; ++i) {
+    const SharedSpecies& species = particles.species[i];
+    if (species.name.back() != '\0' || !core::is_enumerator(species.law)) {
+      return particles_refused(fmt::format("the name or the law of particle species {} is invalid", i));
+    }
+  }
+  const SharedPusher& pusher = particles.pusher;
+  if (!(pusher.diameter_in_hand_m >= kSmallestInHandM && pusher.diameter_in_hand_m <= kLargestInHandM &&
+        pusher.threshold_on_hand_n >= kFaintestOnHandN && pusher.threshold_on_hand_n <= kStrongestOnHandN)) {
+    return particles_refused("the size or the threshold of the particles in a hand is impossible");
+  }
+  const auto is_finite = [](const SharedParticle& p) {
+    return std::isfinite(p.x_m) && std::isfinite(p.y_m) && p.pinned <= 1;
+  };
+  if (!std::all_of(particles.particles.begin(), particles.particles.begin() + particles.count, is_finite)) {
+    return particles_refused("the place of a particle in the shared scene is invalid");
+  }
+  try {
+    physics::validate(push_setup(particles), start_places(particles));
+  } catch (const std::invalid_argument& error) {
+    return particles_refused(fmt::format("the particles of the shared scene: {}", error.what()));
+  }
+  return {};
+}
+
+}  // namespace afm::scene

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// As scene.vert, for the copies of a mesh.
+#version 460
+#extension GL_EXT_multiview : require
+#extension GL_GOOGLE_include_directive : require
+#include "interface.glsl.h"
+#include "lighting.glsl"
+#include "view.glsl"
+
+layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
+layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 color;
+layout(location = 5) in vec4 copy_tint;
+
+layout(location = 0) out vec3 room_position;
+layout(location = 1) centroid out vec3 room_normal;
+layout(location = 2) out vec4 vertex_color;
+layout(location = 3) out vec3 shadow_place;
+layout(location = 4) flat out vec4 lobe;  // border, spread
+
+#include "copy.glsl"
+#include "shadow_place.glsl"
+
+void main() {
+  room_position = (draw.room_from_node * vec4(copy_position(position), 1.0)).xyz;
+  vec3 in_node = turned(normal);
+  room_normal = draw.normal_column[0].xyz * in_node.x + draw.normal_column[1].xyz * in_node.y +
+                draw.normal_column[2].xyz * in_node.z;
+  vertex_color = color * draw.base_color * vec4(copy_tint.rgb, 1.0);
+  shadow_place = place_in_shadow_map(room_position, normalize(room_normal));
+  Lobe its = lobe_of(draw.surface.y);
+  lobe = vec4(its.border, its.spread);
+  gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+#include "curves/sample_model.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "render/renderer.h"
+#include "support/particles.h"
+#include "support/pictures.h"
+#include "support/vulkan_fixture.h"
+
+// Gold spheres on the paper's wall, as a person sees them.
+namespace afm::exhibit {
+namespace particle_pictures_test {
+
+class ParticlePictures : public test::VulkanTest {
+ protected:
+  void SetUp() override {
+    ExhibitFiles files;
+    files.assets_dir = support::source("assets");
+    files.particles = "gold-row";
+    auto stage = load_exhibit(files);
+    ASSERT_TRUE(stage) << stage.error().message;
+    stage_.emplace(std::move(*stage));
+    for (const scene::MaterialEntry& entry : stage_->materials.materials) {
+      felt_.push_back(curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value());
+    }
+    pages_ = test::start_pages(*stage_->particles);
+  }
+
+  render::FrameState frame(const scene::TipPush& push) const {
+    const ParticlesNow now{.set = &*stage_->particles, .pages = pages_, .push = push};
+    Moment moment;
+    moment.wall.material = 0;
+    moment.wall.particles = &now;
+    moment.servo_state = scene::ServoState::Running;
+    moment.realtime = true;
+    return FrameBuilder(stage_->wall_scene, felt_, stage_->eyes).build(moment);
+  }
+
+  std::optional<Stage> stage_;
+  std::vector<curves::SampleModel> felt_;
+  std::vector<scene::ParticlePage> pages_;
+};
+
+TEST_F(ParticlePictures, ShowWhichSphereIsTouchedAndHowItLies) {
+  const scene::TipPush push = test::push_of(*stage_->particles, 1, physics::PushState::Slides);
+  const auto options = stage_->renderer_options(1280);
+  auto renderer = make_renderer(stage_->wall_scene.scene(), options);
+  const auto eye = [&](const render::FrameState& shown) {
+    renderer.render(shown);
+    return renderer.read_eye(scene::Eye::Left);
+  };
+  const render::Image touched = eye(frame(push));
+  scene::TipPush other = push;
+  other.particle = 2;
+  EXPECT_GT(test::difference(eye(frame(other)), touched, 24).share_beyond, 2e-4) << "another one is touched";
+  const glm::dquat turn = glm::angleAxis(1.0, glm::dvec3(0.0, 1.0, 0.0));
+  pages_[0].poses[1].orientation = {turn.w, turn.x, turn.y, turn.z};
+  EXPECT_GT(test::difference(eye(frame(push)), touched, 24).share_beyond, 5e-5) << "it has rolled";
+}
+
+TEST_F(ParticlePictures, AreRedrawnWhereASphereMovesAndAsIfAllWere) {
+  auto options = stage_->renderer_options(960);
+  auto changes = make_renderer(stage_->wall_scene.scene(), options);
+  options.redraw = render::Redraw::Everything;
+  auto everything = make_renderer(stage_->wall_scene.scene(), options);
+  scene::TipPush push = test::push_of(*stage_->particles, 0, physics::PushState::Slides);
+  double redrawn = 0.0;
+  constexpr int kFrames = 8;
+  for (int i = 0; i < kFrames; ++i) {
+    pages_[0].poses[0].x_m += 4e-9;
+    const glm::dquat turn = glm::angleAxis(0.2 * i, glm::dvec3(0.0, 1.0, 0.0));
+    pages_[0].poses[0].orientation = {turn.w, turn.x, turn.y, turn.z};
+    push.apex_m[0] += 4e-9;
+    if (i == 5) push.met = 0;
+    const render::FrameState shown = frame(push);
+    changes.render(shown);
+    everything.render(shown);
+    if (i > 0) redrawn += changes.redrawn_share() / (kFrames - 1);
+    for (const scene::Eye eye : scene::kEyes) {
+      ASSERT_EQ(test::where_differ(changes.read_eye(eye), everything.read_eye(eye)), "") << "frame " << i;
+    }
+  }
+  EXPECT_LT(redrawn, 0.7);
+}
+
+}  // namespace particle_pictures_test
+}  // namespace afm::exhibit

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/panels/particles_panel.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/enumerators.h"
+#include "support/particles.h"
+#include "support/phrases.h"
+
+// The panel of the particles, of five gold spheres on mica.
+namespace afm::exhibit {
+namespace particles_panel_test {
+
+using physics::PushState;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class ParticlesPanel : public ::testing::Test {
+ protected:
+  render::DataPanel panel(const scene::TipPush& push, const Phrases& phrases = test::english()) const {
+    return particles_panel({.set = &set_, .pages = pages_, .push = push}, phrases);
+  }
+  render::DataRow row(const render::DataPanel& panel, Phrase name, const Phrases& phrases = test::english()) const {
+    const auto found = std::find_if(panel.rows.begin(), panel.rows.end(),
+                                    [&](const render::DataRow& candidate) { return candidate.name == phrases[name]; });
+    return found == panel.rows.end() ? render::DataRow{} : *found;
+  }
+
+  scene::ParticleSet set_ = test::particle_set("gold-row");
+  std::vector<scene::ParticlePage> pages_ = test::start_pages(set_);
+};
+
+TEST_F(ParticlesPanel, NamesStateParticleAndForcesOfAPush) {
+  const render::DataPanel shown = panel(test::push_of(set_, 2, PushState::Slides));
+  EXPECT_EQ(shown.title, "Five gold spheres on mica");
+  EXPECT_EQ(shown.subtitle, "Particles in air");
+  EXPECT_EQ(row(shown, Phrase::PushStateName), (render::DataRow{"State", "slides", "particle 3 of 5: gold"}));
+  EXPECT_EQ(row(shown, Phrase::PushNormal).value, "0.31 nN");
+  EXPECT_EQ(row(shown, Phrase::PushLateral).value, "0.25 nN");
+  EXPECT_EQ(row(shown, Phrase::PushThreshold),
+            (render::DataRow{"Gives at", "0.25 nN", "by shear strength \u00d7 contact area"}));
+}
+
+TEST_F(ParticlesPanel, HasAWordForEveryState) {
+  std::vector<std::string> words;
+  for (const PushState state : core::kEnumerators<PushState>) {
+    words.push_back(row(panel(test::push_of(set_, 0, state)), Phrase::PushStateName).value);
+  }
+  EXPECT_EQ(words, (std::vector<std::string>{"free", "holds", "slides", "rolls", "several move"}));
+}
+
+// In brackets, and said to be unused: told apart without colour.
+TEST_F(ParticlesPanel, ShowsTheOtherLawsFigureInBrackets) {
+  const auto other = row(panel(test::push_of(set_, 0, PushState::Holds)), Phrase::PushOtherLaw);
+  EXPECT_EQ(other.name, "(by another law)");
+  EXPECT_EQ(other.value, "(3.53 nN)") << "0.3 of 11.8 nN";
+  EXPECT_EQ(other.source, "not used: coefficient \u00d7 (load + adhesion)");
+  set_.setup.species.front().law = physics::ParticleLaw::Amontons;
+  const render::DataPanel by_load = panel(test::push_of(set_, 0, PushState::Holds));
+  EXPECT_THAT(row(by_load, Phrase::PushThreshold).source, HasSubstr("coefficient"));
+  EXPECT_THAT(row(by_load, Phrase::PushOtherLaw).source, HasSubstr("shear strength"));
+  set_.setup.species.front().shear_strength = physics::Pressure(0.0);
+  EXPECT_EQ(row(panel({}), Phrase::PushOtherLaw).name, "") << "the file lacks its parameters";
+}
+
+TEST_F(ParticlesPanel, IsFreeWithTheFiguresAtRestWhileNothingIsTouched) {
+  scene::TipPush lifted = test::push_of(set_, 0, PushState::Slides);
+  lifted.met = 0;
+  for (const scene::TipPush& push : {scene::TipPush{}, lifted}) {
+    const render::DataPanel shown = panel(push);
+    EXPECT_EQ(row(shown, Phrase::PushStateName), (render::DataRow{"State", "free", "the tip touches no particle"}));
+    EXPECT_EQ(row(shown, Phrase::PushNormal).value, "0 nN");
+    EXPECT_EQ(row(shown, Phrase::PushLateral).value, "0 nN");
+    EXPECT_NE(row(shown, Phrase::PushThreshold).value, "0 nN");
+  }
+}
+
+TEST_F(ParticlesPanel, SaysWhatIsEstimatedOfEveryNumberOfTheFile) {
+  const render::DataPanel shown = panel({});
+  for (const Phrase name : {Phrase::ParticleRadius, Phrase::WorkOfAdhesion, Phrase::ParticleShearStrength,
+                            Phrase::ParticleCoefficient, Phrase::LeverSideways}) {
+    EXPECT_THAT(row(shown, name).source, StartsWith("estimated: ")) << test::english()[name];
+  }
+  EXPECT_EQ(row(shown, Phrase::ParticleRadius).value, "25 nm");
+  EXPECT_EQ(row(shown, Phrase::WorkOfAdhesion).value, "100 mJ/m\u00b2");
+  for (scene::SourcedValue& source : set_.species.front().sources) source.estimated = false;
+  EXPECT_EQ(row(panel({}), Phrase::ParticleRadius).source, "colloidal gold of 50 nm, nominal");
+}
+
+TEST_F(ParticlesPanel, SaysHowMuchSofterTheLeverIsInTheHand) {
+  scene::TipPush push = test::push_of(set_, 0, PushState::Holds);
+  EXPECT_EQ(row(panel(push), Phrase::LeverSoftened).name, "") << "as it is";
+  push.softened_sideways = 25.0;
+  push.softened_upwards = 3.0;
+  EXPECT_EQ(row(panel(push), Phrase::LeverSoftened).value, "25 times softer");
+  push.softened_sideways = 1234.5;
+  EXPECT_EQ(row(panel(push), Phrase::LeverSoftened).value, "1234 times softer");
+}
+
+TEST_F(ParticlesPanel, SpeaksGerman) {
+  const Phrases german = Phrases::load(test::kPhraseFolder + "de.toml").value();
+  const render::DataPanel shown = panel(test::push_of(set_, 2, PushState::Rolls), german);
+  EXPECT_EQ(shown.title, "F\u00fcnf Goldkugeln auf Glimmer");
+  EXPECT_EQ(row(shown, Phrase::PushStateName, german).value, "rollt");
+  EXPECT_EQ(row(shown, Phrase::PushOtherLaw, german).value, "(3,53 nN)");
+}
+
+}  // namespace particles_panel_test
+}  // namespace afm::exhibit

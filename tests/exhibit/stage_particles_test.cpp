@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/scenery/stage_particles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "exhibit/models/user_models.h"
+#include "exhibit/scenery/wall_layout.h"
+#include "exhibit/scenery/wall_scene.h"
+#include "scene/samples/particle_set.h"
+#include "support/paper_wall.h"
+#include "support/particles.h"
+
+// Particles on the wall, where the servo has them.
+namespace afm::exhibit {
+namespace stage_particles_test {
+
+class ParticlesOfAWall : public test::PaperWall {
+ protected:
+  WallScene wall_of(const scene::ParticleSet& set) const {
+    UserModels own;
+    own.particles = std::make_shared<const scene::ParticleSet>(set);
+    return WallScene::load(assets_, materials_, stage_place(wall_), test::english(), own).value();
+  }
+  static render::FrameState frame(const WallScene& wall, const ParticlesNow* now) {
+    render::FrameState frame;
+    wall.update({.material = 0, .particles = now}, frame);
+    return frame;
+  }
+  // Centre of a drawn particle in the sample's frame, in metres of the nanoworld.
+  static glm::dvec3 centre_m(const WallScene& wall, const render::FrameState& frame, std::size_t particle) {
+    const render::MeshCopies& spheres = frame.copies.front();
+    const glm::dvec3 room(frame.room_from_node[spheres.node] * glm::dvec4(spheres.copies[particle].place, 1.0));
+    const glm::dmat4 sample_from_room = glm::inverse(frame.room_from_node[wall.sample_node()]);
+    return glm::dvec3(sample_from_room * glm::dvec4(room, 1.0)) * wall.unit_m() * wall.drawn_scale(0).sample_m_per_m;
+  }
+  static bool shown(const WallScene& wall, const render::FrameState& frame, const char* name) {
+    return frame.visible[wall.scene().find_node(name).value()] != 0;
+  }
+
+  scene::ParticleSet set_ = test::particle_set("gold-row");
+};
+
+TEST_F(ParticlesOfAWall, LieAtTheirStartWithTheSizeOfTheScaleLine) {
+  for (const char* name : {"gold-row", "latex-letter"}) {
+    const scene::ParticleSet set = test::particle_set(name);
+    const WallScene wall = wall_of(set);
+    const render::FrameState drawn = frame(wall, nullptr);
+    ASSERT_EQ(drawn.copies.size(), 1U);
+    ASSERT_EQ(drawn.copies.front().copies.size(), set.particles.size());
+    EXPECT_EQ(wall.scene().nodes[drawn.copies.front().node].most_copies, set.particles.size());
+    const std::vector<scene::ParticlePage> pages = test::start_pages(set);
+    // all of them on the drawn sample
+    const double half_m = 0.5 * kNarrowestSample * kStrokeHeight * wall.unit_m() * wall.drawn_scale(0).sample_m_per_m;
+    for (std::size_t i = 0; i < set.particles.size(); ++i) {
+      const double radius_m = set.setup.species[set.particles[i].species].contact.tip_radius.si;
+      const scene::ParticlePose pose = pages[i / scene::kPosesPerPage].poses[i % scene::kPosesPerPage];
+      const glm::dvec3 there(pose.x_m, pose.y_m, radius_m);
+      EXPECT_LT(std::max(std::abs(there.x), std::abs(there.y)) + radius_m, half_m) << name;
+      EXPECT_LT(glm::distance(centre_m(wall, drawn, i), there), 1e-3 * radius_m) << name << " " << i;
+      const double drawn_radius_m = static_cast<double>(drawn.copies.front().copies[i].scale) * wall.unit_m() *
+                                    wall.drawn_scale(0).sample_m_per_m;
+      EXPECT_NEAR(drawn_radius_m, radius_m, 1e-5 * radius_m);
+    }
+    // whatever the parameters of the material
+    EXPECT_EQ(wall.drawn_scale(0, 40e-9).sample_m_per_m, wall.drawn_scale(0).sample_m_per_m);
+    EXPECT_EQ(wall.drawn_scale(1).sample_m_per_m, wall.drawn_scale(0).sample_m_per_m);
+  }
+}
+
+TEST_F(ParticlesOfAWall, FollowThePosesOfTheServo) {
+  const WallScene wall = wall_of(set_);
+  std::vector<scene::ParticlePage> pages = test::start_pages(set_);
+  pages[0].poses[1].x_m = 77e-9;
+  pages[0].poses[1].y_m = -33e-9;
+  pages[0].poses[1].orientation = {0.5, 0.5, -0.5, 0.5};
+  const ParticlesNow now{.set = &set_, .pages = pages};
+  const render::FrameState moved = frame(wall, &now), before = frame(wall, nullptr);
+  EXPECT_LT(glm::distance(centre_m(wall, moved, 1), glm::dvec3(77e-9, -33e-9, 25e-9)), 0.1e-9);
+  EXPECT_EQ(moved.copies[0].copies[1].turn, glm::vec4(0.5F, -0.5F, 0.5F, 0.5F)) << "w comes last";
+  for (const std::size_t other : {0U, 2U, 3U, 4U}) {
+    EXPECT_EQ(moved.copies[0].copies[other], before.copies[0].copies[other]) << other;
+  }
+}
+
+TEST_F(ParticlesOfAWall, MarkTheTouchedOneWithARingAroundIt) {
+  const WallScene wall = wall_of(set_);
+  const std::vector<scene::ParticlePage> pages = test::start_pages(set_);
+  ParticlesNow now{.set = &set_, .pages = pages};
+  EXPECT_FALSE(shown(wall, frame(wall, &now), "touched-particle/ring"));
+  now.push = test::push_of(set_, 3, physics::PushState::Holds);
+  const render::FrameState touching = frame(wall, &now);
+  EXPECT_TRUE(shown(wall, touching, "touched-particle/ring"));
+  const scene::NodeIndex ring = wall.scene().find_node("touched-particle/ring").value();
+  const render::MeshCopies& spheres = touching.copies.front();
+  const glm::dvec3 foot(touching.room_from_node[spheres.node] *
+                        glm::dvec4(glm::vec2(spheres.copies[3].place), 0.0, 1.0));
+  EXPECT_LT(glm::distance(glm::dvec3(touching.room_from_node[ring][3]), foot), 1e-6);
+  EXPECT_NE(spheres.copies[3].tint, spheres.copies[2].tint);
+}
+
+TEST_F(ParticlesOfAWall, PutTheDrawnTipWhereTheBentLeverHasIt) {
+  const WallScene wall = wall_of(set_);
+  ParticlesNow now{.set = &set_};
+  now.push = test::push_of(set_, 0, physics::PushState::Slides);
+  const render::FrameState drawn = frame(wall, &now);
+  const glm::dvec3 apex(drawn.room_from_node[wall.scene().find_node("probe/apex").value()][3]);
+  const glm::dvec3 in_sample =
+      glm::dvec3(glm::inverse(drawn.room_from_node[wall.sample_node()]) * glm::dvec4(apex, 1.0)) * wall.unit_m() *
+      wall.drawn_scale(0).sample_m_per_m;
+  EXPECT_NEAR(in_sample.x, now.push.apex_m[0], 0.1e-9);
+  EXPECT_NEAR(in_sample.y, now.push.apex_m[1], 0.1e-9);
+}
+
+TEST_F(ParticlesOfAWall, AreHiddenWithTheInstrument) {
+  const WallScene wall = wall_of(set_);
+  render::FrameState empty, journey;
+  wall.update({}, empty);
+  wall.update({.material = 0, .centerpiece = Centerpiece::Journey, .journey_orders = 4.0}, journey);
+  EXPECT_FALSE(shown(wall, empty, "particles/sphere"));
+  EXPECT_FALSE(shown(wall, journey, "particles/sphere"));
+  EXPECT_TRUE(shown(wall, frame(wall, nullptr), "particles/sphere"));
+  EXPECT_TRUE(wall.scene().find_node("particles/sphere"));
+  EXPECT_FALSE(scene_.scene().find_node("particles/sphere")) << "without particles";
+}
+
+}  // namespace stage_particles_test
+}  // namespace afm::exhibit

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// The servo among particles: a simulated hand that pushes them, and what it publishes.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "servo_bench.h"
+#include "support/gold_particles.h"
+
+namespace afm {
+namespace servo_particles_test {
+
+using physics::EventKind;
+using scene::ScaleMode;
+using test::ServoBench;
+
+// One particle on the way of the hand, another beside it.
+scene::SharedModel two_particles() {
+  scene::SharedModel model = test::paper_model();
+  model.particles = test::particles_at({{-80e-9, 0.0}, {80e-9, 100e-9}});
+  return model;
+}
+
+class PushingBench : public ServoBench {
+ public:
+  explicit PushingBench(double rate_hz = 1000.0) : ServoBench(two_particles(), rate_hz) {}
+
+  // To a place on the sample, at a height above the contact point.
+  void send(double x_m, double y_m, double height_m, double seconds) {
+    renderer.store(scene::HandScript{.target_m = {x_m, height_m, -y_m}, .duration_s = seconds, .revision = ++script});
+  }
+  void go(double x_m, double y_m, double height_m, double seconds) {
+    send(x_m, y_m, height_m, seconds);
+    while (state().acknowledged.hand_script != script) tick();
+  }
+
+  // Lifts, goes before the row, puts the tip down.
+  void put_down() {
+    arm(test::kMica, ScaleMode::Particles);
+    go(-0.030, 0.0, 0.030, 0.4);
+    go(-0.030, 0.0, 0.001, 0.4);
+  }
+
+  scene::ParticlePose pose(std::uint32_t particle) {
+    if (const auto newer = renderer.new_particle_page(0)) page = *newer;
+    return page.poses[particle];
+  }
+
+  double sideways_n() {
+    const auto force = state().hand.force_n;
+    return std::hypot(force[0], force[2]);
+  }
+
+  std::size_t count(EventKind kind) const {
+    return static_cast<std::size_t>(
+        std::count_if(events.begin(), events.end(), [&](const scene::TipEvent& e) { return e.kind == kind; }));
+  }
+
+  scene::ParticlePage page;
+};
+
+TEST(ServoAmongParticles, PublishesWhatTheHandFeels) {
+  for (const double rate_hz : {500.0, 1000.0, 4000.0}) {
+    PushingBench bench(rate_hz);
+    bench.put_down();
+    const double start_m = bench.pose(0).x_m;
+    double most_n = 0.0;
+    bench.send(-0.012, 0.0, 0.001, 1.0);
+    while (bench.state().acknowledged.hand_script != bench.script) {
+      bench.tick();
+      most_n = std::max(most_n, bench.sideways_n());
+      const auto push = bench.renderer.tip_push();
+      ASSERT_TRUE(push);
+      ASSERT_EQ(push->tick, bench.state().tick);
+      ASSERT_EQ(push->digest, bench.samples.back().push.digest);
+    }
+    EXPECT_EQ(bench.state().fault, scene::FaultCode::None);
+    EXPECT_GT(bench.pose(0).x_m, start_m + 5e-9) << rate_hz;
+    EXPECT_NE(bench.pose(0).moved, physics::PushState::Free);
+    EXPECT_GE(bench.pose(0).yields, 0U);
+    EXPECT_GT(most_n, 0.45);
+    EXPECT_LT(most_n, 0.60);
+    EXPECT_GE(bench.count(EventKind::ParticleTouched), 1U);
+    EXPECT_GE(bench.count(EventKind::ParticleGave), 1U);
+    EXPECT_EQ(bench.state().active.scale_mode, ScaleMode::Particles);
+    EXPECT_EQ(bench.renderer.refused_blocks(), 0U);
+  }
+}
+
+TEST(ServoAmongParticles, FeelsAndMovesNothingWithoutForce) {
+  PushingBench bench;
+  bench.choose(test::kMica, ScaleMode::Particles);
+  bench.run(0.2);
+  bench.go(-0.030, 0.0, 0.001, 0.4);
+  bench.go(0.030, 0.0, 0.001, 0.5);
+  EXPECT_EQ(bench.renderer.tip_push()->met, 0U);
+  EXPECT_EQ(bench.pose(0).x_m, -80e-9);
+  EXPECT_EQ(bench.hand_force_n(), 0.0);
+}
+
+// A hand with a grip of 200 N/m that aims 0.4 mm beside the middle pushes the particle by most of its width.
+TEST(ServoAmongParticles, AHandThatIsALittleOffTheLinePushes) {
+  PushingBench bench;
+  bench.put_down();
+  bench.go(-0.030, 0.0004, 0.001, 0.3);
+  bench.go(0.010, 0.0004, 0.001, 4.0);
+  EXPECT_GT(bench.pose(0).x_m, -80e-9 + 35e-9);
+  EXPECT_EQ(bench.state().fault, scene::FaultCode::None);
+}
+
+TEST(ServoAmongParticles, ASuccessorGoesOnWithThePoses) {
+  PushingBench bench;
+  bench.put_down();
+  bench.go(-0.010, 0.0, 0.001, 1.0);
+  const scene::ParticlePose there = bench.pose(0);
+  const std::uint64_t digest = bench.renderer.tip_push()->digest;
+  haptics::SimulatedDevice hand;
+  const auto successor = haptics::ServoLoop::create(bench.segment, hand, {.rate_hz = 1000.0});
+  ASSERT_TRUE(successor) << successor.error().message;
+  EXPECT_EQ(bench.pose(0), there);
+  (*successor)->tick(bench.now_ns += 1'000'000, 0);
+  EXPECT_EQ(bench.renderer.tip_push()->digest, digest);
+}
+
+TEST(ServoAmongParticles, AnEditAndAnotherScaleLeaveThemWhereTheyAre) {
+  PushingBench bench;
+  bench.put_down();
+  bench.go(-0.010, 0.0, 0.001, 1.0);
+  bench.go(-0.010, 0.0, 0.050, 0.5);
+  const scene::ParticlePose there = bench.pose(0);
+  scene::SharedContact harder = bench.segment.model().materials[test::kMica];
+  harder.contact.spring_constant = physics::Stiffness(0.2);
+  bench.edit(test::kMica, harder);
+  bench.run(1.0);
+  ASSERT_EQ(bench.state().active.edit_revision, 1U);
+  bench.choose(test::kMica, ScaleMode::Fit);
+  bench.run(0.5);
+  bench.arm(test::kMica, ScaleMode::Particles);
+  EXPECT_EQ(bench.pose(0), there);
+  bench.go(-0.030, 0.0, 0.030, 0.4);
+  bench.go(-0.030, 0.0, 0.001, 0.4);
+  bench.go(0.0, 0.0, 0.001, 1.5);
+  EXPECT_GT(bench.pose(0).x_m, there.x_m + 5e-9);
+}
+
+}  // namespace servo_particles_test
+}  // namespace afm

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sessions with particles: recorded, stored, and replayed bit for bit.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "core/whole_file.h"
+#include "servo/recorded_servo.h"
+#include "servo/replay.h"
+#include "servo/session_file.h"
+#include "support/gold_particles.h"
+#include "support/scratch_folder.h"
+
+namespace afm::servo {
+namespace replay_particles_test {
+
+using physics::EventKind;
+using scene::ScaleMode;
+using testing::HasSubstr;
+
+// Lifts, goes before the row of particles, and pushes along it.
+void push_through(Recording& recording, double beside_m = 0.0) {
+  recording.arm();
+  recording.go({-0.028, beside_m}, 0.03, 0.3);
+  recording.run(500);
+  recording.go({-0.028, beside_m}, 0.001, 0.3);
+  recording.run(500);
+  recording.go({0.020, beside_m}, 0.001, 1.5);
+  recording.run(1800);
+  recording.go({0.020, beside_m}, 0.05, 0.3);
+  recording.run(600);
+}
+
+std::size_t count(const RecordedSession& session, EventKind kind) {
+  return static_cast<std::size_t>(std::count_if(session.events.begin(), session.events.end(),
+                                                [&](const scene::TipEvent& event) { return event.kind == kind; }));
+}
+
+TEST(ReplayOfParticles, GivesEveryBitAgainWhereverTheyLayBefore) {
+  Recording recording(test::model_with_particles());
+  recording.choose(test::kMica, ScaleMode::Particles);
+  push_through(recording);
+  recording.choose(test::kGold, ScaleMode::Particles);  // another session, with the particles where they are
+  push_through(recording, 0.002);
+  ASSERT_EQ(recording.sessions.size(), 2U);
+  for (const RecordedSession& session : recording.sessions) {
+    EXPECT_GE(count(session, EventKind::ParticleTouched), 1U);
+    EXPECT_EQ(scene::digest_of(session.particles->pages, session.particles->set.count),
+              session.samples.front().push.digest);
+    expect_same(session);
+  }
+  const RecordedSession& first = recording.sessions.front();
+  EXPECT_GE(count(first, EventKind::ParticleGave), 1U);
+  EXPECT_NE(first.samples.front().push.digest, first.samples.back().push.digest);
+  EXPECT_EQ(recording.sessions[0].samples.back().push.digest, recording.sessions[1].samples.front().push.digest);
+}
+
+TEST(ReplayOfParticles, NoticesAPoseThatIsOther) {
+  Recording recording(test::model_with_particles());
+  recording.choose(test::kMica, ScaleMode::Particles);
+  push_through(recording);
+  RecordedSession session = recording.sessions.front();
+  session.particles->pages[0].poses[2].x_m *= 1.0 + 1e-15;
+  const auto other = replay(session);
+  ASSERT_TRUE(other) << other.error().message;
+  ASSERT_TRUE(other->first);
+  EXPECT_EQ(other->first->index, 0U);
+  EXPECT_EQ(other->first->quantity, "particle_digest");
+}
+
+TEST(ReplayOfParticles, IsThatOfTheFile) {
+  Recording recording(test::model_with_particles());
+  recording.choose(test::kMica, ScaleMode::Particles);
+  push_through(recording);
+  RecordedSession& session = recording.sessions.front();
+  session.hand_m_per_m = recording.state().active.scale.hand_m_per_m;
+  session.hand_n_per_n = recording.state().active.scale.hand_n_per_n;
+  const support::ScratchFolder folder;
+  const std::string path = folder.file("pushed.afms");
+  ASSERT_TRUE(save_session(session, path));
+  EXPECT_EQ(core::read_beginning(path, 5).value(), "AFMS\x07");
+  const auto loaded = load_session(path);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_TRUE(loaded->particles);
+  EXPECT_EQ(loaded->particles->pages, session.particles->pages);
+  EXPECT_EQ(loaded->particles->set.count, 3U);
+  expect_same(*loaded);
+
+  // without particles, the version of before
+  session.particles.reset();
+  ASSERT_TRUE(save_session(session, path));
+  EXPECT_EQ(core::read_beginning(path, 5).value(), "AFMS\x06");
+  EXPECT_EQ(load_session(path)->samples.back().push.digest, 0U);
+}
+
+TEST(ReplayOfParticles, PlacesThemAsTheyLayAtAnyTime) {
+  Recording recording(test::model_with_particles());
+  recording.choose(test::kMica, ScaleMode::Particles);
+  push_through(recording);
+  RecordedSession& session = recording.sessions.front();
+  const auto begun = replay_particles(session, session.samples.front().time_ns);
+  ASSERT_TRUE(begun) << begun.error().message;
+  EXPECT_EQ(begun->pages, session.particles->pages);
+  for (std::size_t i = 100; i < session.samples.size(); i += 311) {
+    const auto then = replay_particles(session, session.samples[i].time_ns);
+    ASSERT_TRUE(then) << then.error().message;
+    EXPECT_EQ(scene::digest_of(then->pages, session.particles->set.count), session.samples[i].push.digest);
+    EXPECT_EQ(then->push.normal_n, session.samples[i].push.normal_n);
+  }
+  const auto ended = replay_particles(session, session.samples.back().time_ns);
+  ASSERT_TRUE(ended) << ended.error().message;
+  EXPECT_EQ(ended->pages, recording.pages());
+
+  session.particles->pages[0].poses[2].x_m *= 1.0 + 1e-15;
+  const auto elsewhere = replay_particles(session, session.samples.back().time_ns);
+  ASSERT_FALSE(elsewhere);
+  EXPECT_THAT(elsewhere.error().message, HasSubstr("cannot be placed at"));
+}
+
+TEST(ReplayOfParticles, RefusesAFileWhoseParticlesCannotBe) {
+  Recording recording(test::model_with_particles());
+  recording.choose(test::kMica, ScaleMode::Particles);
+  recording.run(50);
+  const support::ScratchFolder folder;
+  const std::string path = folder.file("bad.afms");
+  RecordedSession session = recording.sessions.front();
+  session.hand_m_per_m = session.hand_n_per_n = 1.0;
+  session.particles->set.particles[1].x_m = session.particles->set.particles[0].x_m + 1e-9;
+  ASSERT_TRUE(save_session(session, path));
+  const auto overlap = load_session(path);
+  ASSERT_FALSE(overlap);
+  EXPECT_THAT(overlap.error().message, HasSubstr("particles 0 and 1 overlap"));
+  session = recording.sessions.front();
+  session.hand_m_per_m = session.hand_n_per_n = 1.0;
+  session.particles->pages.clear();
+  ASSERT_TRUE(save_session(session, path));
+  const auto no_pages = load_session(path);
+  ASSERT_FALSE(no_pages);
+  EXPECT_THAT(no_pages.error().message, HasSubstr("its particles are damaged"));
+}
+
+}  // namespace replay_particles_test
+}  // namespace afm::servo
