@@ -21,7 +21,6 @@
 namespace afm::app {
 
 LessonControl::LessonControl(ViewParts& parts, exhibit::LiveLesson& lesson) : parts_(parts), lesson_(lesson) {
-  parts_.panels.use_for(WallUse::Lesson);
   parts_.choice.set_guide(*this);
   parts_.servo.hear([this](const scene::TipSample& sample) { lesson_.felt(sample, parts_.servo.link()); });
   parts_.servo.hear_jumps([this](const scene::TipEvent& event) { lesson_.happened(event, parts_.servo.link()); });

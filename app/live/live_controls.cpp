@@ -17,6 +17,7 @@
 #include "app/live/view_settings.h"
 #include "app/live/visitor_control.h"
 #include "app/view/view_controls.h"
+#include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "scene/samples/particle_set.h"
@@ -32,13 +33,20 @@ Control& LiveControls::add(Arguments&&... arguments) {
   return added;
 }
 
+namespace {
+
+WallUse use_of(const ViewParts& parts, const LiveFeatures& features) {
+  if (features.lesson != nullptr) return WallUse::Lesson;
+  return parts.stage.particles ? WallUse::Particles : WallUse::Free;
+}
+
+}  // namespace
+
 // In the order of ViewControl's calls: a lesson hides the scan's panels, the sound follows both, and the other machines
 // receive the result.
 LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const LiveFeatures& features)
-    : parts_(parts),
-      use_(features.lesson == nullptr ? WallUse::Free : WallUse::Lesson),
-      unattended_(settings.unattended),
-      owners_{.parts = parts} {
+    : parts_(parts), use_(use_of(parts, features)), unattended_(settings.unattended), owners_{.parts = parts} {
+  parts.panels.use_for(use_);
   const bool worn = features.headset != nullptr;
   if (settings.kept) add<KeptControl>(*settings.kept);
   if (worn) add<HeadsetControl>(*features.headset);
@@ -52,7 +60,7 @@ LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const
   owners_.place = &add<PlaceControl>(settings.head_script, worn ? Eyes::OfHeadset : Eyes::Followed);
   owners_.journey = &add<JourneyControl>(worn ? Motion::Steps : Motion::Glide);
   if (features.lesson != nullptr) owners_.lesson = &add<LessonControl>(*features.lesson);
-  if (parts.stage.particles) add<ParticlesControl>(*parts.stage.particles);
+  if (parts.stage.particles) owners_.particles = &add<ParticlesControl>(*parts.stage.particles);
   owners_.scan = &add<ScanControl>();
   owners_.sound = &add<SoundControl>();
   if (features.cluster != nullptr) add<ClusterControl>(*features.cluster);

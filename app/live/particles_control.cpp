@@ -1,12 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live/particles_control.h"
 
+#include <array>
+#include <utility>
+
 #include "app/view/servo_supervisor.h"
+#include "app/view/view_choice.h"
 #include "app/view/view_parts.h"
+#include "core/clock.h"
+#include "core/log.h"
 #include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
+
+void ParticlesControl::take_back() {
+  if (!parts_.servo.running()) return;
+  if (parts_.servo.link().push().strokes == 0) return core::log_line("take back: no push has moved a particle");
+  give(Order::TakeBack);
+}
+
+void ParticlesControl::restart(Restart what) {
+  order_ = Order::None;
+  if (what != Restart::Servo && parts_.servo.running()) give(Order::PutBack);
+}
+
+void ParticlesControl::give(Order order) {
+  order_ = order;
+  parts_.choice.take_force_away(parts_.clock.now_ns());
+}
+
+void ParticlesControl::update(const ViewFrame& frame) {
+  if (order_ == Order::None || !parts_.servo.running()) return;
+  servo::ServoClient& servo = parts_.servo.link();
+  const scene::TipState& tip = servo.tip();
+  if (scene::is_armed(tip.servo_state) || tip.hand.force_n != std::array<double, 3>{}) return;
+  if (std::exchange(order_, Order::None) == Order::TakeBack) {
+    core::log_line("taking the last push back");
+    servo.take_back_push(frame.now_ns);
+  } else {
+    core::log_line("putting all particles back");
+    servo.put_particles_back(frame.now_ns);
+  }
+}
 
 void ParticlesControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
   const servo::ServoClient& servo = parts_.servo.link();

@@ -8,17 +8,28 @@ namespace afm::app {
 
 struct ViewParts;
 
-// Shows the particles where the servo has moved them.
+// Shows the particles where the servo has moved them, and has it take pushes back.
 class ParticlesControl final : public ViewControl {
  public:
   // `set` must outlive the object.
   ParticlesControl(ViewParts& parts, const scene::ParticleSet& set) : parts_(parts), now_{.set = &set} {}
 
+  // Takes the newest push back, after the force has been taken from the hand.
+  void take_back();
+
+  void update(const ViewFrame& frame) override;
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
+  void restart(Restart what) override;
 
  private:
+  enum class Order { None, TakeBack, PutBack };
+
+  // The servo carries it out without force alone, so the order waits until there is none.
+  void give(Order order);
+
   ViewParts& parts_;
   exhibit::ParticlesNow now_;
+  Order order_ = Order::None;
 };
 
 }  // namespace afm::app

@@ -8,6 +8,7 @@
 #include "app/display/view_windows.h"
 #include "app/lesson/lesson_control.h"
 #include "app/live/journey_control.h"
+#include "app/live/particles_control.h"
 #include "app/live/place_control.h"
 #include "app/live/scan_control.h"
 #include "app/live/sound_control.h"
@@ -72,6 +73,9 @@ constexpr std::array kRows{
     LiveKey{Key::R, "R", Phrase::KeyStartAgain,
             [](KeyOwners& owners, std::size_t) { owners.parts.controls.begin_again(); }},
     LiveKey{Key::H, "H", Phrase::KeyHome, [](KeyOwners& owners, std::size_t) { owners.place->bring_home(); }},
+    LiveKey{Key::Backspace, "Backspace", Phrase::KeyTakeBack,
+            [](KeyOwners& owners, std::size_t) { owners.particles->take_back(); }}
+        .with_particles(),
     LiveKey{Key::Left, "Left", Phrase::KeyHeadAcross,
             [](KeyOwners& owners, std::size_t) { owners.place->move_head(-kHeadStepM, 0.0, 0.0); }}
         .for_staff(),

@@ -16,6 +16,7 @@ namespace afm::app {
 
 class JourneyControl;
 class LessonControl;
+class ParticlesControl;
 class PlaceControl;
 class ScanControl;
 class SoundControl;
@@ -29,6 +30,7 @@ struct KeyOwners {
   LessonControl* lesson = nullptr;  // used by rows of lessons; null without a lesson
   ScanControl* scan = nullptr;
   SoundControl* sound = nullptr;
+  ParticlesControl* particles = nullptr;  // used by rows of particles; null without particles
 };
 
 // A key of the live window, or a run of consecutive keys with the same action and a number each.
@@ -42,6 +44,7 @@ struct LiveKey {
   bool staff = false;                                    // ignored in an unattended window
   bool not_in_lessons = false;  // ignored in lessons, because it would change or reveal the answer
   bool lessons_only = false;
+  bool particles_only = false;
 
   // The same row, for staff only.
   constexpr LiveKey for_staff() const {
@@ -61,7 +64,17 @@ struct LiveKey {
     row.lessons_only = true;
     return row;
   }
-  constexpr bool acts(WallUse use) const { return use == WallUse::Lesson ? !not_in_lessons : !lessons_only; }
+
+  // The same row, with particles only.
+  constexpr LiveKey with_particles() const {
+    LiveKey row = *this;
+    row.particles_only = true;
+    return row;
+  }
+  constexpr bool acts(WallUse use) const {
+    if (particles_only) return use == WallUse::Particles;
+    return use == WallUse::Lesson ? !not_in_lessons : !lessons_only;
+  }
 
   bool holds(render::Key other) const { return other >= key && other <= last; }
 };

@@ -13,7 +13,7 @@ struct DataPanel;
 namespace afm::app {
 
 enum class HandSource { Mouse, Simulated, Device };
-enum class WallUse { Free, Lesson };
+enum class WallUse { Free, Particles, Lesson };
 
 // Makes the list of keys on the wall. An unattended wall omits staff keys. `letters`: as render::Window::letters().
 using KeyList = render::DataPanel (*)(HandSource hand, bool unattended, const exhibit::Phrases& phrases, WallUse use,

@@ -109,8 +109,7 @@ void ServoSupervisor::log_state() {
   const scene::ServoState before = std::exchange(logged_state_, tip.servo_state);
   if (logged_state_ == before) return;
   if (logged_state_ == scene::ServoState::Running) core::log_line("force on");
-  const bool off = logged_state_ == scene::ServoState::Disarmed || logged_state_ == scene::ServoState::Fault;
-  if (!off || before == scene::ServoState::Fault) return;  // the fault has been logged
+  if (scene::is_armed(logged_state_) || before == scene::ServoState::Fault) return;  // the fault has been logged
   if (tip.fault == scene::FaultCode::ServoSilent) return core::log_line(scene::reason(tip.fault));  // even then
   const bool fault = tip.fault != scene::FaultCode::None;
   core::log_line(fault ? std::string("force off: ") + scene::reason(tip.fault) : "force off");

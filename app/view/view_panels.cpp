@@ -132,7 +132,7 @@ Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_poi
                                          exhibit::size_mm(panel, millimetre_m), hit->place_mm);
     return pointed;
   }
-  if (use_ == WallUse::Free && right_ != RightPanel::Parameters && !hidden_ && material &&
+  if (use_ != WallUse::Lesson && right_ != RightPanel::Parameters && !hidden_ && material &&
       exhibit::hit_of(ray, wall_scene_.places().parameter_tab(), millimetre_m)) {
     pointed.tab = true;
     return pointed;
@@ -248,7 +248,7 @@ void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece center
 void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
                         const std::string& material_title, const scene::TipState& tip, HandSource hand,
                         std::string_view letters) {
-  const bool changeable = material && use_ == WallUse::Free;
+  const bool changeable = material && use_ != WallUse::Lesson;
   if (changeable) add_parameters(frame, pointed, *material);
   render::FramePanels& panels = frame.panels;
   if (covered()) {

@@ -54,6 +54,12 @@ TEST_F(ParticlesPanel, HasAWordForEveryState) {
   EXPECT_EQ(words, (std::vector<std::string>{"free", "holds", "slides", "rolls", "several move"}));
 }
 
+TEST_F(ParticlesPanel, SaysHowManyPushesCanBeTakenBack) {
+  scene::TipPush push = test::push_of(set_, 0, PushState::Free);
+  push.strokes = 3;
+  EXPECT_EQ(panel(push).subtitle, "Particles in air; pushes to take back: 3");
+}
+
 // In brackets, and said to be unused: told apart without colour.
 TEST_F(ParticlesPanel, ShowsTheOtherLawsFigureInBrackets) {
   const auto other = row(panel(test::push_of(set_, 0, PushState::Holds)), Phrase::PushOtherLaw);

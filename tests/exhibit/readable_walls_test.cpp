@@ -73,7 +73,7 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   }
   expect_whole(frame.panels.force.content, frame.panels.force.placement, "the plot");
   expect_whole(frame.panels.data.content, frame.panels.data.placement, "the data");
-  for (const auto use : {app::WallUse::Free, app::WallUse::Lesson}) {
+  for (const auto use : {app::WallUse::Free, app::WallUse::Particles, app::WallUse::Lesson}) {
     expect_whole(render::ListPanel{app::key_list(app::HandSource::Mouse, false, phrases, use)},
                  stage.wall_scene.places().keys(), "the list of keys");
   }

@@ -89,6 +89,40 @@ TEST_F(ParticlesOfAWall, FollowThePosesOfTheServo) {
   }
 }
 
+TEST_F(ParticlesOfAWall, HaveAFootprintWhereTheyLayAndDotsFromThere) {
+  const WallScene wall = wall_of(set_);
+  std::vector<scene::ParticlePage> pages = test::start_pages(set_);
+  const ParticlesNow at_start{.set = &set_, .pages = pages};
+  EXPECT_EQ(frame(wall, &at_start).copies.size(), 1U) << "none has moved";
+  const glm::dvec2 start_m(pages[0].poses[2].x_m, pages[0].poses[2].y_m), way_m(60e-9, -25e-9);
+  pages[0].poses[1].x_m += 4e-9;  // less than its width shows
+  pages[0].poses[2].x_m += way_m.x;
+  pages[0].poses[2].y_m += way_m.y;
+  const ParticlesNow now{.set = &set_, .pages = pages};
+  const render::FrameState moved = frame(wall, &now);
+  ASSERT_EQ(moved.copies.size(), 3U);
+  const render::MeshCopies& footprints = moved.copies[1];
+  const render::MeshCopies& dots = moved.copies[2];
+  EXPECT_EQ(footprints.node, wall.scene().find_node("footprints/footprint"));
+  EXPECT_EQ(dots.node, wall.scene().find_node("ways/dot"));
+  ASSERT_EQ(footprints.copies.size(), 1U);
+  const double scale = wall.unit_m() * wall.drawn_scale(0).sample_m_per_m;
+  const glm::dvec2 foot_m = scale * glm::dvec2(footprints.copies[0].place);
+  EXPECT_LT(glm::distance(foot_m, start_m), 0.1e-9);
+  // 65 nm, five gaps of about half a radius
+  EXPECT_EQ(dots.copies.size(), 4U);
+  double last_m = 0.0;
+  for (const render::MeshCopy& dot : dots.copies) {
+    const glm::dvec2 from_start_m = scale * glm::dvec2(dot.place) - start_m;
+    EXPECT_GT(glm::length(from_start_m), last_m);
+    EXPECT_NEAR(from_start_m.x * way_m.y, from_start_m.y * way_m.x, 1e-18);
+    last_m = glm::length(from_start_m);
+  }
+  EXPECT_LT(last_m, glm::length(way_m));
+  pages[0].poses[2].x_m += 1.0;  // as far as a damaged session may have it
+  EXPECT_LE(frame(wall, &now).copies[2].copies.size(), wall.scene().nodes[dots.node].most_copies);
+}
+
 TEST_F(ParticlesOfAWall, MarkTheTouchedOneWithARingAroundIt) {
   const WallScene wall = wall_of(set_);
   const std::vector<scene::ParticlePage> pages = test::start_pages(set_);
@@ -125,6 +159,8 @@ TEST_F(ParticlesOfAWall, AreHiddenWithTheInstrument) {
   wall.update({.material = 0, .centerpiece = Centerpiece::Journey, .journey_orders = 4.0}, journey);
   EXPECT_FALSE(shown(wall, empty, "particles/sphere"));
   EXPECT_FALSE(shown(wall, journey, "particles/sphere"));
+  EXPECT_FALSE(shown(wall, journey, "footprints/footprint"));
+  EXPECT_FALSE(shown(wall, journey, "ways/dot"));
   EXPECT_TRUE(shown(wall, frame(wall, nullptr), "particles/sphere"));
   EXPECT_TRUE(wall.scene().find_node("particles/sphere"));
   EXPECT_FALSE(scene_.scene().find_node("particles/sphere")) << "without particles";

@@ -53,7 +53,11 @@ class ServoBench {
   // One tick `late_ns` after its time.
   void tick(std::int64_t late_ns = 0) {
     if (heartbeats) {
-      renderer.store(scene::RendererHeartbeat{.time_ns = now_ns, .frame = ++frame, .unseen = unseen ? 1U : 0U});
+      renderer.store(scene::RendererHeartbeat{.time_ns = now_ns,
+                                              .frame = ++frame,
+                                              .unseen = unseen ? 1U : 0U,
+                                              .take_back = taken_back,
+                                              .put_back = put_back});
     }
     now_ns += loop->period_ns() + late_ns;
     loop->tick(now_ns, static_cast<std::uint32_t>(late_ns / 1000));
@@ -129,6 +133,8 @@ class ServoBench {
   std::int64_t now_ns = 1'000'000'000;
   bool heartbeats = true;
   bool unseen = false;
+  std::uint32_t taken_back = 0;  // orders to take a push back, and to put all particles back
+  std::uint32_t put_back = 0;
   std::uint64_t frame = 0;
   std::uint32_t selection = 0;
   std::uint32_t edits = 0;

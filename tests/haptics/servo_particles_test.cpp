@@ -58,6 +58,25 @@ class PushingBench : public ServoBench {
         std::count_if(events.begin(), events.end(), [&](const scene::TipEvent& e) { return e.kind == kind; }));
   }
 
+  // Takes the force away and lifts; the sample stays.
+  void release() {
+    renderer.store(scene::Selection{
+        .material = test::kMica, .revision = ++selection, .scale_mode = ScaleMode::Particles, .release = 1});
+    run(0.3);
+  }
+
+  // One push to a place on the row, and the hand lifted.
+  void push_to(double x_m) {
+    put_down();
+    go(x_m, 0.0, 0.001, 1.0);
+    go(x_m, 0.0, 0.050, 0.5);
+  }
+
+  void order(std::uint32_t& orders) {
+    ++orders;
+    tick();
+  }
+
   scene::ParticlePage page;
 };
 
@@ -79,7 +98,6 @@ TEST(ServoAmongParticles, PublishesWhatTheHandFeels) {
     EXPECT_EQ(bench.state().fault, scene::FaultCode::None);
     EXPECT_GT(bench.pose(0).x_m, start_m + 5e-9) << rate_hz;
     EXPECT_NE(bench.pose(0).moved, physics::PushState::Free);
-    EXPECT_GE(bench.pose(0).yields, 0U);
     EXPECT_GT(most_n, 0.45);
     EXPECT_LT(most_n, 0.60);
     EXPECT_GE(bench.count(EventKind::ParticleTouched), 1U);
@@ -143,6 +161,82 @@ TEST(ServoAmongParticles, AnEditAndAnotherScaleLeaveThemWhereTheyAre) {
   bench.go(-0.030, 0.0, 0.001, 0.4);
   bench.go(0.0, 0.0, 0.001, 1.5);
   EXPECT_GT(bench.pose(0).x_m, there.x_m + 5e-9);
+}
+
+TEST(ServoAmongParticles, TakesPushAfterPushBackBitForBit) {
+  PushingBench bench;
+  const scene::ParticlePose start = bench.pose(0);
+  bench.tick();
+  const std::uint64_t at_start = bench.renderer.tip_push()->digest;
+  bench.push_to(-0.012);
+  const scene::ParticlePose once = bench.pose(0);
+  const std::uint64_t after_one = bench.renderer.tip_push()->digest;
+  bench.release();
+  bench.push_to(-0.004);
+  ASSERT_NE(bench.pose(0), once);
+  EXPECT_EQ(bench.renderer.tip_push()->strokes, 2U);
+  bench.release();
+  bench.order(bench.taken_back);
+  EXPECT_EQ(bench.pose(0), once);
+  EXPECT_EQ(bench.renderer.tip_push()->digest, after_one);
+  EXPECT_EQ(bench.count(EventKind::PushTakenBack), 1U);
+  bench.order(bench.taken_back);
+  EXPECT_EQ(bench.pose(0), start);
+  EXPECT_EQ(bench.renderer.tip_push()->strokes, 0U);
+  EXPECT_EQ(bench.renderer.tip_push()->digest, at_start);
+  bench.order(bench.taken_back);
+  EXPECT_EQ(bench.count(EventKind::PushTakenBack), 2U) << "there is none";
+
+  // what follows is what follows from these places
+  bench.push_to(-0.012);
+  EXPECT_GT(bench.pose(0).x_m, start.x_m + 5e-9);
+  EXPECT_EQ(bench.state().fault, scene::FaultCode::None);
+}
+
+TEST(ServoAmongParticles, TakesNoPushBackWhileThereIsAForce) {
+  PushingBench bench;
+  bench.push_to(-0.012);
+  const scene::ParticlePose there = bench.pose(0);
+  ASSERT_EQ(bench.state().servo_state, scene::ServoState::Running);
+  bench.order(bench.taken_back);
+  bench.order(bench.put_back);
+  bench.run(0.1);
+  bench.release();
+  bench.run(0.5);
+  EXPECT_EQ(bench.pose(0), there) << "an order that came too early is dropped";
+  EXPECT_EQ(bench.count(EventKind::PushTakenBack) + bench.count(EventKind::ParticlesPutBack), 0U);
+}
+
+TEST(ServoAmongParticles, PutsAllBackAndTakesThatBackToo) {
+  PushingBench bench;
+  const scene::ParticlePose start = bench.pose(0);
+  bench.push_to(-0.012);
+  bench.release();
+  bench.push_to(-0.004);
+  const scene::ParticlePose there = bench.pose(0);
+  bench.release();
+  bench.order(bench.put_back);
+  EXPECT_EQ(bench.pose(0), start);
+  bench.order(bench.put_back);
+  EXPECT_EQ(bench.count(EventKind::ParticlesPutBack), 1U) << "nothing had moved since";
+  bench.order(bench.taken_back);
+  EXPECT_EQ(bench.pose(0), there);
+}
+
+// Its predecessor's orders are none of its own.
+TEST(ServoAmongParticles, AnotherRendererTakesNothingBackByBeginning) {
+  PushingBench bench;
+  bench.push_to(-0.012);
+  bench.release();
+  bench.push_to(-0.004);
+  bench.release();
+  bench.order(bench.taken_back);
+  const scene::ParticlePose there = bench.pose(0);
+  bench.taken_back = 0;
+  bench.tick();
+  EXPECT_EQ(bench.pose(0), there);
+  bench.order(bench.taken_back);
+  EXPECT_NE(bench.pose(0), there);
 }
 
 }  // namespace servo_particles_test

@@ -190,11 +190,13 @@ TEST(SharedBlocks, SayYesOrNoByOneOrZeroAlone) {
     EXPECT_EQ(is_valid(RendererHeartbeat{.unseen = answer}), good) << answer;
     EXPECT_EQ(is_valid(TipSample{.device_healthy = answer}, model), good) << answer;
     EXPECT_EQ(is_valid(TipSample{.changing = answer}, model), good) << answer;
-    EXPECT_EQ(is_valid(TipPush{.met = answer}, model), good) << answer;
-    EXPECT_EQ(is_valid(TipPush{.lagging = answer}, model), good) << answer;
+    EXPECT_EQ(is_valid(TipPush{.met = static_cast<std::uint16_t>(answer)}, model), good) << answer;
+    EXPECT_EQ(is_valid(TipPush{.lagging = static_cast<std::uint16_t>(answer)}, model), good) << answer;
     device.has_own_hand = answer;
     EXPECT_EQ(is_valid(device), good) << answer;
   }
+  EXPECT_TRUE(is_valid(TipPush{.strokes = kMostStrokes}, model));
+  EXPECT_FALSE(is_valid(TipPush{.strokes = kMostStrokes + 1}, model));
 }
 
 TEST(SharedContact, WhoseHeightFieldIsNotThereLiesOnAPlane) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -76,8 +77,8 @@ class Recording {
   }
 
   // The wall takes the force away; the material stays.
-  void release(int material) {
-    renderer_.store(scene::Selection{.material = material, .revision = ++selection_, .release = 1});
+  void release(int material, scene::ScaleMode mode = scene::ScaleMode::Fit) {
+    renderer_.store(scene::Selection{.material = material, .revision = ++selection_, .scale_mode = mode, .release = 1});
   }
 
   void aim(double height_m, double seconds, bool pressed = false, double sideways_m = 0.003) {
@@ -90,8 +91,11 @@ class Recording {
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i, ++tick_) {
       if (heartbeats && tick_ % 16 == 0)
-        renderer_.store(
-            scene::RendererHeartbeat{.frame = ++frame_, .stop = stop ? 1U : 0U, .unseen = unseen ? 1U : 0U});
+        renderer_.store(scene::RendererHeartbeat{.frame = ++frame_,
+                                                 .stop = stop ? 1U : 0U,
+                                                 .unseen = unseen ? 1U : 0U,
+                                                 .take_back = taken_back,
+                                                 .put_back = put_back});
       if (scan && tick_ % 16 == 0) {
         scene::ScanLead lead = scan();
         lead.time_ns = now_ns;
@@ -146,6 +150,8 @@ class Recording {
   bool heartbeats = true;
   bool stop = false;
   bool unseen = false;
+  std::uint32_t taken_back = 0;  // orders to take a push back, and to put all particles back
+  std::uint32_t put_back = 0;
   std::function<scene::ScanLead()> scan;  // scan of each frame; empty: none
   std::int64_t now_ns = 7'000'000'000;
 

@@ -57,6 +57,33 @@ TEST(ReplayOfParticles, GivesEveryBitAgainWhereverTheyLayBefore) {
   EXPECT_EQ(recording.sessions[0].samples.back().push.digest, recording.sessions[1].samples.front().push.digest);
 }
 
+// Pushes, two of them taken back, all put back, and that taken back, too; with force in between.
+TEST(ReplayOfParticles, TakesPushesBackAsTheHandHadThemTakenBack) {
+  Recording recording(test::model_with_particles());
+  recording.choose(test::kMica, ScaleMode::Particles);
+  const auto order = [&](std::uint32_t& orders) {
+    recording.release(test::kMica, ScaleMode::Particles);
+    recording.run(500);
+    ++orders;
+    recording.run(100);
+  };
+  push_through(recording);
+  order(recording.taken_back);
+  push_through(recording);
+  order(recording.put_back);
+  order(recording.taken_back);
+  push_through(recording, 0.001);
+  order(recording.taken_back);
+  ASSERT_EQ(recording.sessions.size(), 1U);
+  const RecordedSession& session = recording.sessions.front();
+  EXPECT_EQ(count(session, EventKind::PushTakenBack), 3U);
+  EXPECT_EQ(count(session, EventKind::ParticlesPutBack), 1U);
+  expect_same(session);
+  const auto ended = replay_particles(session, session.samples.back().time_ns);
+  ASSERT_TRUE(ended) << ended.error().message;
+  EXPECT_EQ(ended->pages, recording.pages());
+}
+
 TEST(ReplayOfParticles, NoticesAPoseThatIsOther) {
   Recording recording(test::model_with_particles());
   recording.choose(test::kMica, ScaleMode::Particles);

@@ -21,8 +21,10 @@ constexpr int kSphereRings = 14, kSphereSectors = 28;
 constexpr int kRingSectors = 48, kRingSides = 8;
 constexpr int kTipSectors = 40, kTipCapRings = 8, kTipFlankRings = 4;
 constexpr double kRingRadius = 1.3, kRingThickness = 0.09;  // in radii of the particle
-constexpr double kBandWidth = 0.42;                         // half width of the dark band, sine of the latitude
-constexpr double kCapLatitude = 0.86;                       // sine of the latitude of the cap's edge
+constexpr double kFootprintRadius = 0.7, kFootprintThickness = 0.05, kDotRadius = 0.13;
+constexpr int kDotRings = 6, kDotSectors = 10;
+constexpr double kBandWidth = 0.42;    // half width of the dark band, sine of the latitude
+constexpr double kCapLatitude = 0.86;  // sine of the latitude of the cap's edge
 constexpr Srgb kPlain{255, 255, 255}, kBand{92, 62, 40}, kCap{150, 205, 235};
 // Share of the side, as that of the assets' samples: a thinner one would lift the table before the panels.
 constexpr double kGroundThickness = 0.18;
@@ -71,6 +73,29 @@ glm::vec4 color_at(double sine_of_latitude) {
   return linear_colour(std::abs(sine_of_latitude) < 0.5 * kBandWidth ? kBand : kPlain);
 }
 
+// `color` is that of a sine of the latitude.
+scene::Primitive ball(int rows, int columns, double radius, glm::vec4 (*color)(double)) {
+  return rolled(rows, columns, [&](double row, double column) {
+    const double latitude = std::numbers::pi * (row - 0.5);
+    const glm::dvec3 normal = around(column, std::cos(latitude), std::sin(latitude));
+    return Point{radius * normal, normal, color(std::sin(latitude))};
+  });
+}
+
+// Ring about the z axis, its middle at the height `z`.
+scene::Primitive ring(double radius, double thickness, double z) {
+  return rolled(kRingSides, kRingSectors, [&](double row, double column) {
+    const double angle = 2.0 * std::numbers::pi * row;
+    const glm::dvec3 outwards = around(column, std::cos(angle), std::sin(angle));
+    return Point{around(column, radius, z) + thickness * outwards, outwards};
+  });
+}
+
+scene::PbrMaterial mark_on_sample() {
+  return {
+      .name = "where a particle was", .base_color = {0.85F, 0.88F, 0.90F, 1.0F}, .metallic = 0.0F, .roughness = 0.8F};
+}
+
 }  // namespace
 
 scene::Scene particle_ground(double side_m) {
@@ -96,29 +121,28 @@ scene::Scene particle_ground(double side_m) {
 }
 
 scene::Scene particle_sphere() {
-  // rows are closer where the colour changes, because a vertex has one colour
-  const auto latitude_of = [](double row) { return std::numbers::pi * (row - 0.5); };
-  scene::Primitive sphere = rolled(kSphereRings, kSphereSectors, [&](double row, double column) {
-    const double latitude = latitude_of(row);
-    const glm::dvec3 place = around(column, std::cos(latitude), std::sin(latitude));
-    return Point{place, place, color_at(std::sin(latitude))};
-  });
-  return one_mesh("sphere", {.name = "particle", .metallic = 0.0F, .roughness = 0.4F}, std::move(sphere));
+  return one_mesh("sphere", {.name = "particle", .metallic = 0.0F, .roughness = 0.4F},
+                  ball(kSphereRings, kSphereSectors, 1.0, color_at));
 }
 
 scene::Scene particle_ring() {
-  scene::Primitive ring = rolled(kRingSides, kRingSectors, [](double row, double column) {
-    const double angle = 2.0 * std::numbers::pi * row;
-    const glm::dvec3 outwards = around(column, std::cos(angle), std::sin(angle));
-    return Point{around(column, kRingRadius, kRingThickness) + kRingThickness * outwards, outwards};
-  });
   return one_mesh("ring",
                   {.name = "ring of the touched particle",
                    .base_color = {1.0F, 0.85F, 0.15F, 1.0F},
                    .emissive = {0.35F, 0.28F, 0.03F},
                    .metallic = 0.0F,
                    .roughness = 0.5F},
-                  std::move(ring));
+                  ring(kRingRadius, kRingThickness, kRingThickness));
+}
+
+// Half of it lies in the sample.
+scene::Scene particle_footprint() {
+  return one_mesh("footprint", mark_on_sample(), ring(kFootprintRadius, kFootprintThickness, 0.0));
+}
+
+scene::Scene particle_dot() {
+  return one_mesh("dot", mark_on_sample(),
+                  ball(kDotRings, kDotSectors, kDotRadius, [](double) { return glm::vec4(1.0F); }));
 }
 
 scene::Scene particle_tip(double half_angle_rad, double height) {

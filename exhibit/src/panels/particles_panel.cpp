@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -145,8 +146,11 @@ class ParticleRows {
 }  // namespace
 
 render::DataPanel particles_panel(const ParticlesNow& now, const Phrases& phrases) {
+  const std::string& medium = phrases.word(now.set->medium);
+  const std::uint32_t strokes = now.push.strokes;
   return {.title = phrases.word(now.set->title),
-          .subtitle = phrases.text<Phrase::ParticlesIn>(phrases.word(now.set->medium)),
+          .subtitle = strokes > 0 ? phrases.text<Phrase::ParticlesTakeBack>(medium, fmt::format("{}", strokes))
+                                  : phrases.text<Phrase::ParticlesIn>(medium),
           .rows = ParticleRows(now, phrases).take()};
 }
 

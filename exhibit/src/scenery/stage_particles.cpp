@@ -3,8 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/vec2.hpp>
 #include <memory>
+#include <utility>
 
 #include "exhibit/models/model_builder.h"
 #include "exhibit/models/particle_models.h"
@@ -21,6 +26,10 @@ using glm::dvec3;
 constexpr double kDrawnReach = 0.52;     // layout units from the middle of the sample to the outermost particle's edge
 constexpr double kDrawnDiameter = 0.13;  // most of a median particle
 constexpr glm::vec3 kTouched{1.35F, 1.3F, 1.1F};
+
+constexpr double kShortestWay = 0.2;  // shortest way with a footprint, in radii
+constexpr double kDotSpacing = 0.45;  // in radii
+constexpr std::uint32_t kMostDots = 64, kMostDotsInAll = 8192;
 
 // Linear colours of the species, apart in lightness too.
 constexpr std::array<glm::vec3, 8> kSpeciesColors{{{0.83F, 0.56F, 0.15F},
@@ -77,14 +86,22 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
         {.radius_m = radius_m, .start_m = {x_m, y_m}, .color = kSpeciesColors.at(species % kSpeciesColors.size())});
   }
   build.part(particle_sphere(), "particles", sample);
+  build.part(particle_footprint(), "footprints", sample);
+  build.part(particle_dot(), "ways", sample);
   build.part(particle_ring(), "touched-particle", sample);
   // up to the drawn lever
   const double drawn_radius = tip_radius_m_ * kStrokeHeight / stroke_m(set);
   build.part(particle_tip(set.setup.tip.half_angle_rad, kTipDrawnLength / drawn_radius), "true-tip", sample);
   spheres_ = build.node("particles/sphere");
+  footprints_ = build.node("footprints/footprint");
+  dots_ = build.node("ways/dot");
   ring_ = build.node("touched-particle/ring");
   tip_ = build.node("true-tip/tip");
-  if (!build.error()) scene.nodes[spheres_].most_copies = static_cast<std::uint32_t>(particles_.size());
+  const auto count = static_cast<std::uint32_t>(particles_.size());
+  most_dots_ = std::clamp(kMostDotsInAll / count, 1U, kMostDots);
+  if (build.error()) return;
+  scene.nodes[spheres_].most_copies = scene.nodes[footprints_].most_copies = count;
+  scene.nodes[dots_].most_copies = most_dots_ * count;
 }
 
 std::optional<dvec3> StageParticles::apex_m(const ParticlesNow* now) {
@@ -125,6 +142,32 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
     all.copies.push_back(copy);
   }
   frame.copies.push_back(std::move(all));
+  if (now != nullptr) add_marks(*now, layout_per_m, frame);
+}
+
+// From where each particle lay at the start to where it lies: known on every machine without its path.
+void StageParticles::add_marks(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const {
+  render::MeshCopies footprints{.node = footprints_, .copies = {}}, dots{.node = dots_, .copies = {}};
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const double radius_m = particles_[i].radius_m;
+    const glm::dvec2 start_m(particles_[i].start_m[0], particles_[i].start_m[1]);
+    const auto pose = pose_of(now, i);
+    const glm::dvec2 way_m = pose ? glm::dvec2(pose->x_m, pose->y_m) - start_m : glm::dvec2(0.0);
+    const double length_m = glm::length(way_m);
+    if (!(length_m > kShortestWay * radius_m)) continue;
+    const auto add = [&](render::MeshCopies& marks, double share) {
+      render::MeshCopy mark;
+      mark.place = glm::vec3(layout_per_m * dvec3(start_m + share * way_m, 0.0));
+      mark.scale = static_cast<float>(layout_per_m * radius_m);
+      marks.copies.push_back(mark);
+    };
+    add(footprints, 0.0);
+    const double gaps = std::clamp(length_m / (kDotSpacing * radius_m), 1.0, most_dots_ + 1.0);
+    for (double dot = 1.0; dot < std::floor(gaps); dot += 1.0) add(dots, dot / std::floor(gaps));
+  }
+  for (render::MeshCopies* marks : {&footprints, &dots}) {
+    if (!marks->copies.empty()) frame.copies.push_back(std::move(*marks));
+  }
 }
 
 }  // namespace afm::exhibit

@@ -131,7 +131,7 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
   if (ruler_m_per_unit(state) == 0.0) hide(marks_.ruler_nodes());
   if (particles_) {
     const bool shown = state.centerpiece == Instrument && state.material;
-    if (!shown) hide({particles_->spheres(), particles_->tip()});
+    if (!shown) hide(particles_->nodes());
     if (!shown || !particles_->shows_ring(state.particles)) hide({particles_->ring()});
   }
   if (state.centerpiece != Instrument || !state.scan_line) hide({marks_.scan_line_node()});

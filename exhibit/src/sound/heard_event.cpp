@@ -13,7 +13,8 @@ using enum HeardEvent;
 
 // Notes of the equal temperament, rounded to a hertz: a glide down for closing, up for opening; two notes up for a
 // possible start, down for an end; a rough low note, three times, for a failure; a click for a repeated event. Of
-// particles: a soft knock for a touch, two for a ride over, a click for a first slip, a long fall for a loss.
+// particles: a soft knock for a touch, two for a ride over, a click for a first slip, a long fall for a loss, which a
+// rise takes back.
 constexpr std::array kRows{
     HeardEventRow{
         SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},
@@ -78,6 +79,16 @@ constexpr std::array kRows{
                   Phrase::SayParticleRiddenOver,
                   Spoken::AtOnce,
                   {{SignalNote{0, 0.040, 392, 330, 0.26, 0.6}, SignalNote{0.110, 0.040, 392, 330, 0.26, 0.6}}}},
+    HeardEventRow{PushTakenBack,
+                  Phrase::HeardPushTakenBack,
+                  Phrase::SayPushTakenBack,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.160, 330, 880, 0.22, 0}}}},
+    HeardEventRow{ParticlesPutBack,
+                  Phrase::HeardParticlesPutBack,
+                  Phrase::SayParticlesPutBack,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.160, 330, 880, 0.22, 0}, SignalNote{0.180, 0.160, 330, 880, 0.22, 0}}}},
 };
 static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
 static_assert([] {

@@ -35,6 +35,12 @@ Heard heard_of(const scene::TipEvent& event) {
       heard.event = HeardEvent::ParticleRiddenOver;
       heard.force_n = event.force_before_n;
       break;
+    case physics::EventKind::PushTakenBack:
+      heard.event = HeardEvent::PushTakenBack;
+      break;
+    case physics::EventKind::ParticlesPutBack:
+      heard.event = HeardEvent::ParticlesPutBack;
+      break;
   }
   return heard;
 }

@@ -12,6 +12,7 @@
 #include "haptics/device.h"
 #include "haptics/particle_push.h"
 #include "haptics/particle_scale.h"
+#include "haptics/stroke_history.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "scene/shared/particle_blocks.h"
 
@@ -46,6 +47,15 @@ class FeltParticles {
   // Takes the tip off the particles, wherever it is.
   void lift() noexcept;
 
+  // Puts the particles back where they lay before the newest stroke that moved any; a wait for a lift begins. Call
+  // without force alone. False if the tip is among the particles, or if there is no such stroke since the constructor
+  // or resume().
+  bool take_back() noexcept;
+
+  // The same for all strokes: puts every particle where it lay in the constructor. This is a stroke, too, which can be
+  // taken back. False if the tip is among the particles, or if none has moved.
+  bool put_back() noexcept;
+
   const ParticleScale& scale() const noexcept { return scale_; }
   double stored_j() const noexcept { return stored_j_; }                    // on the hand; 0 without a touch
   double stiffness_n_per_m() const noexcept { return stiffness_n_per_m_; }  // on the hand, upper limit
@@ -73,6 +83,8 @@ class FeltParticles {
   };
 
   void move_poses(const physics::PushTick& tick) noexcept;
+  void put(std::uint32_t particle, const scene::ParticlePose& there) noexcept;
+  void change(std::uint32_t particle, const scene::ParticlePose& now) noexcept;
   void account(const physics::PushTick& tick) noexcept;
   void note_events(const physics::PushTick& tick, std::uint64_t yields_before, const glm::dvec2& moved_m,
                    ParticlePush& step) noexcept;
@@ -86,7 +98,9 @@ class FeltParticles {
   std::vector<double> crest_m_;            // highest point of each species
   std::vector<double> other_threshold_n_;  // threshold of each species, by other_law()
   std::vector<scene::ParticlePage> pages_;
+  std::vector<scene::ParticlePage> start_;  // pages of the constructor
   std::vector<std::uint32_t> changed_;
+  StrokeHistory strokes_;
   std::uint64_t digest_ = 0;
   double stiffness_n_per_m_;
   Tip tip_ = Tip::Waits;

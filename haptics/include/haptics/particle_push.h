@@ -24,6 +24,7 @@ struct ParticlePush {
   std::array<Event, 3> events{};
   std::size_t event_count = 0;
 
+  void add(const Event& event) noexcept { events[event_count++] = event; }
   std::span<const Event> happened() const noexcept { return std::span(events).first(event_count); }
 };
 

@@ -34,7 +34,7 @@ struct SafetyState {
   scene::FaultCode fault = scene::FaultCode::None;  // last fade or fault, until the next arming
   std::int64_t fade_ns = 0;                         // from full force to none, while Fading
 
-  bool armed() const noexcept { return state != scene::ServoState::Disarmed && state != scene::ServoState::Fault; }
+  bool armed() const noexcept { return scene::is_armed(state); }
 };
 
 inline constexpr std::int64_t kQuickFadeNs = 20'000'000;

@@ -89,6 +89,8 @@ class ServoLoop {
     std::optional<scene::RendererHeartbeat> heartbeat;
     std::int64_t seen_ns = 0;
     bool leaving = false;
+    bool take_back = false;  // a push, ordered in this tick
+    bool put_back = false;   // all particles, ordered in this tick
   };
   struct Hand {
     glm::dvec3 position_m;
@@ -103,6 +105,7 @@ class ServoLoop {
   void change_model() noexcept;
   void select_material(std::size_t material, scene::ScaleMode mode) noexcept;
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
+  void put_particles() noexcept;
   void publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
   void publish_events(std::int64_t now_ns) noexcept;
   void publish_particles() noexcept;

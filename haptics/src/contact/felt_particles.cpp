@@ -45,6 +45,7 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
       setup_(felt_setup(particles, scale)),
       particles_(setup_, scene::start_places(particles), base_at({0.0, 0.0, scale.clear_z_m})),
       pages_(scene::pages_of(particles.count)),
+      strokes_(particles.count),
       stiffness_n_per_m_(std::max(setup_.springs.lateral, setup_.springs.normal).si * scale.hand_n_per_n /
                          scale.hand_m_per_m) {
   const double sine = std::sin(setup_.tip.half_angle_rad), cosine = std::cos(setup_.tip.half_angle_rad);
@@ -64,6 +65,7 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
     pose(i) = {.x_m = particles_.position(i).x.si, .y_m = particles_.position(i).y.si};
   }
   digest_ = scene::digest_of(pages_, particles_.size());
+  start_ = pages_;
 }
 
 void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
@@ -76,6 +78,7 @@ void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
   particles_.put(places, base_at({0.0, 0.0, scale_.clear_z_m}));
   std::copy(pages.begin(), pages.end(), pages_.begin());
   digest_ = scene::digest_of(pages_, particles_.size());
+  strokes_ = StrokeHistory(particles_.size());
   lift();
 }
 
@@ -89,6 +92,40 @@ void FeltParticles::lift() noexcept {
   push_n_ = glm::dvec3(0.0);
   stored_j_ = 0.0;
   changed_.clear();
+}
+
+bool FeltParticles::take_back() noexcept {
+  if (tip_ == Tip::Among) return false;
+  lift();
+  return strokes_.take_back(
+      [this](std::uint32_t particle, const scene::ParticlePose& before) { put(particle, before); });
+}
+
+bool FeltParticles::put_back() noexcept {
+  if (tip_ == Tip::Among) return false;
+  lift();
+  strokes_.begin();
+  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    const scene::ParticlePose& start = start_[scene::page_of(i)].poses[i % scene::kPosesPerPage];
+    if (pose(i) == start) continue;
+    strokes_.keep(i, pose(i));
+    put(i, start);
+  }
+  return !changed_.empty();
+}
+
+// hold_over() follows before the tip meets a particle again.
+void FeltParticles::put(std::uint32_t particle, const scene::ParticlePose& there) noexcept {
+  particles_.put(particle, {Length(there.x_m), Length(there.y_m)});
+  change(particle, there);
+}
+
+void FeltParticles::change(std::uint32_t particle, const scene::ParticlePose& now) noexcept {
+  scene::ParticlePose& before = pose(particle);
+  digest_ += scene::place_mark(particle, now) - scene::place_mark(particle, before);
+  before = now;
+  const std::uint32_t page = scene::page_of(particle);
+  if (std::find(changed_.begin(), changed_.end(), page) == changed_.end()) changed_.push_back(page);
 }
 
 ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double elapsed_s) noexcept {
@@ -108,6 +145,7 @@ ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double 
     last_m_ = over_m_;
     sample_j_ = 0.0;
     ++accounts_;
+    strokes_.begin();
   }
 
   const std::uint64_t yields_before = particles_.last().yields;
@@ -125,8 +163,8 @@ ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double 
 
 void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
   for (const std::uint32_t i : particles_.moved()) {
-    scene::ParticlePose& moved = pose(i);
-    digest_ -= scene::place_mark(i, moved);
+    scene::ParticlePose moved = pose(i);
+    strokes_.keep(i, moved);
     const glm::dvec2 to_m = flat(particles_.position(i)), way_m = to_m - glm::dvec2(moved.x_m, moved.y_m);
     moved.x_m = to_m.x;
     moved.y_m = to_m.y;
@@ -137,9 +175,7 @@ void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
       const double radius_m = setup_.species[particles_.species(i)].contact.tip_radius.si;
       moved.orientation = rolled(moved.orientation, way_m, radius_m);
     }
-    digest_ += scene::place_mark(i, moved);
-    const std::uint32_t page = scene::page_of(i);
-    if (std::find(changed_.begin(), changed_.end(), page) == changed_.end()) changed_.push_back(page);
+    change(i, moved);
   }
 }
 
@@ -159,9 +195,6 @@ void FeltParticles::account(const physics::PushTick& tick) noexcept {
 
 void FeltParticles::note_events(const physics::PushTick& tick, std::uint64_t yields_before, const glm::dvec2& moved_m,
                                 ParticlePush& step) noexcept {
-  const auto add = [&](EventKind kind, double before_n, double after_n) {
-    step.events[step.event_count++] = {kind, before_n, after_n};
-  };
   if (meeting_.particle != physics::kNoParticle && tick.particle != meeting_.particle) {
     end_meeting(tick, moved_m, step);
   }
@@ -171,14 +204,14 @@ void FeltParticles::note_events(const physics::PushTick& tick, std::uint64_t yie
     const std::size_t species = particles_.species(tick.particle);
     if (!meeting_.felt && tick.normal.si * scale_.hand_n_per_n >= kFeltN) {
       meeting_.felt = true;
-      add(EventKind::ParticleTouched, 0.0, lateral_n);
+      step.add({EventKind::ParticleTouched, 0.0, lateral_n});
     }
     const glm::dvec2 centre_m = flat(particles_.position(tick.particle));
     const double radius_m = setup_.species[species].contact.tip_radius.si;
     const bool on_top = glm::distance(centre_m, flat(tick.apex.position)) < kOnTopShare * radius_m;
     if (meeting_.felt && meeting_.from_side && !meeting_.ridden && on_top && tick.base.z.si < crest_m_[species]) {
       meeting_.ridden = true;
-      add(EventKind::ParticleRiddenOver, meeting_.largest_n, lateral_n);
+      step.add({EventKind::ParticleRiddenOver, meeting_.largest_n, lateral_n});
     }
     meeting_.lateral_n = lateral_n;
     meeting_.largest_n = std::max(meeting_.largest_n, lateral_n);
@@ -188,7 +221,7 @@ void FeltParticles::note_events(const physics::PushTick& tick, std::uint64_t yie
     const auto moved = particles_.moved();
     meeting_.pushed = meeting_.pushed || std::find(moved.begin(), moved.end(), tick.particle) != moved.end();
   }
-  if (tick.yields > yields_before) add(EventKind::ParticleGave, tick.gave_at.si, tick.goes_on_at.si);
+  if (tick.yields > yields_before) step.add({EventKind::ParticleGave, tick.gave_at.si, tick.goes_on_at.si});
 }
 
 void FeltParticles::begin_meeting(const physics::PushTick& tick) noexcept {
@@ -204,7 +237,7 @@ void FeltParticles::end_meeting(const physics::PushTick& tick, const glm::dvec2&
   const bool alone = tick.particle == physics::kNoParticle;
   const bool forward = glm::dot(moved_m, left.towards) > kBackwards * glm::length(moved_m);
   if (!left.felt || !left.pushed || left.ridden || !low || !alone || !forward) return;
-  step.events[step.event_count++] = {EventKind::ParticleLost, left.lateral_n, 0.0};
+  step.add({EventKind::ParticleLost, left.lateral_n, 0.0});
 }
 
 scene::TipPush FeltParticles::push() const noexcept {
@@ -222,7 +255,8 @@ scene::TipPush FeltParticles::push() const noexcept {
                       .yields = tick.yields,
                       .exhausted = tick.exhausted,
                       .accounts = accounts_,
-                      .met = tip_ == Tip::Waits ? 0U : 1U};
+                      .met = static_cast<std::uint16_t>(tip_ == Tip::Waits ? 0 : 1),
+                      .strokes = static_cast<std::uint32_t>(strokes_.size())};
   if (!among) return push;
   push.base_m = {tick.base.position.x.si, tick.base.position.y.si, tick.base.z.si};
   push.apex_m = {tick.apex.position.x.si, tick.apex.position.y.si, tick.apex.z.si};

@@ -183,6 +183,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   hand_.turn_on = hand.turn_on;
 
   const Wanted wanted = meet_sample(elapsed_ns);
+  put_particles();
   bool pulled_off = false;
   for (std::uint32_t i = 0; i < touch_.response.event_count; ++i) {
     pulled_off = pulled_off || touch_.response.events[i].kind == physics::EventKind::JumpOffContact;
@@ -243,6 +244,16 @@ ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
   return wanted;
 }
 
+// Without force alone, so that no particle jumps at a tip that is felt; an order that comes too early is dropped.
+void ServoLoop::put_particles() noexcept {
+  if (!particles_ || model_ == nullptr || !governor_.released()) return;
+  if (heard_.put_back && particles_->put_back()) {
+    touch_.push.add({.kind = physics::EventKind::ParticlesPutBack});
+  } else if (heard_.take_back && particles_->take_back()) {
+    touch_.push.add({.kind = physics::EventKind::PushTakenBack});
+  }
+}
+
 // Position of the scan's tip for the hand. A hand that feels the sample is not pulled off it.
 std::optional<ScanGuide::Target> ServoLoop::guide_target() const noexcept {
   const glm::dvec2 apex_m(scan_.apex_xy_m[0], scan_.apex_xy_m[1]);
@@ -254,10 +265,14 @@ std::optional<ScanGuide::Target> ServoLoop::guide_target() const noexcept {
 }
 
 void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
+  heard_.take_back = heard_.put_back = false;
   if (const auto heartbeat = shared_.new_heartbeat()) {
     // the time of arrival counts, not the time in the heartbeat
     heard_.seen_ns = now_ns;
     heard_.leaving = heard_.leaving || heartbeat->leaving != 0;
+    // a renderer that replaces another counts from zero
+    heard_.take_back = heard_.heartbeat && heartbeat->take_back > heard_.heartbeat->take_back;
+    heard_.put_back = heard_.heartbeat && heartbeat->put_back > heard_.heartbeat->put_back;
     heard_.heartbeat = heartbeat;
   }
   if (const auto transforms = shared_.new_transforms()) {

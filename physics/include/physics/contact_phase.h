@@ -20,6 +20,8 @@ enum class EventKind : std::uint32_t {
   ParticleGave = 5,        // a particle at rest began to move
   ParticleLost = 6,        // the tip went past a particle that it had pushed
   ParticleRiddenOver = 7,  // the tip climbed over a particle, because its lever is too soft
+  PushTakenBack = 8,       // the particles are where they were before the newest push
+  ParticlesPutBack = 9,    // all particles are where they were at the start
 };
 
 // Name in reports and replays.
@@ -39,11 +41,15 @@ constexpr const char* name_of(EventKind kind) {
       return "particle-lost";
     case EventKind::ParticleRiddenOver:
       return "particle-ridden-over";
+    case EventKind::PushTakenBack:
+      return "push-taken-back";
+    case EventKind::ParticlesPutBack:
+      return "particles-put-back";
   }
   return "unknown";
 }
 
-// The forces of all others are lateral.
+// The forces of all others are lateral; those of particles that are put somewhere are 0.
 constexpr bool is_jump(EventKind kind) { return kind == EventKind::JumpToContact || kind == EventKind::JumpOffContact; }
 
 }  // namespace afm::physics

@@ -95,8 +95,12 @@ void PushedParticles::put(const std::vector<Sideways<Length>>& places, const Lev
       throw std::invalid_argument("the place of a particle is not finite");
     }
   }
-  for (std::size_t i = 0; i < places.size(); ++i) ticker_->put(i, {places[i].x.si, places[i].y.si});
+  for (std::size_t i = 0; i < places.size(); ++i) put(i, places[i]);
   ticker_->hold_over(base);
+}
+
+void PushedParticles::put(std::size_t particle, const Sideways<Length>& place) noexcept {
+  ticker_->put(particle, {place.x.si, place.y.si});
 }
 
 std::span<const std::uint32_t> PushedParticles::moved() const noexcept { return ticker_->moved(); }

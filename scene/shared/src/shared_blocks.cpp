@@ -302,8 +302,8 @@ bool is_valid(const TipPush& push, const SharedModel& model) {
   // a scale of force is larger than any length or force
   TipPush lengths_and_forces = push;
   lengths_and_forces.hand_n_per_n = 0;
-  return std::isfinite(push.hand_n_per_n) && push.met <= 1 && push.lagging <= 1 && is_field_valid(lengths_and_forces) &&
-         has_particle(push.particle, model);
+  return std::isfinite(push.hand_n_per_n) && push.met <= 1 && push.lagging <= 1 && push.strokes <= kMostStrokes &&
+         is_field_valid(lengths_and_forces) && has_particle(push.particle, model);
 }
 
 glm::dmat4 rest_room_from_node(const SharedModel& model, std::uint32_t node) {

@@ -52,6 +52,11 @@ class ServoClient {
   // least 250 ms.
   void stop(std::int64_t now_ns);
 
+  // Takes the newest push of particles back (TipPush::strokes), or puts all particles back where they were at the
+  // start. Only without force: an order that arrives too early is dropped.
+  void take_back_push(std::int64_t now_ns);
+  void put_particles_back(std::int64_t now_ns);
+
   // Visibility of the picture, sent with every following heartbeat. While nobody sees it, as when a headset is lost,
   // the servo applies no force; when it is seen again, the hand must lift and press Turn-On, as after the start.
   enum class Picture { Seen, Unseen };
@@ -128,6 +133,8 @@ class ServoClient {
   std::uint32_t script_base_ = 0;  // newest script of the predecessor
   std::uint32_t leads_ = 0;
   std::uint64_t beats_ = 0;
+  std::uint32_t taken_back_ = 0;
+  std::uint32_t put_back_ = 0;
   std::optional<std::int64_t> stopped_ns_;  // time of the last stop()
   Picture picture_ = Picture::Seen;         // as last set by set_picture()
   std::unique_ptr<TipListener> listener_;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -18,8 +20,9 @@ namespace afm::servo {
 bool can_begin_with(const scene::TipSample& sample, const scene::TipState& tip, bool dynamic);
 
 // Records the servo's output as sessions; a new one begins whenever a change of material, parameters or scale has taken
-// effect. A session begins without force and with the tip off the sample, contains every tick from there, and ends at a
-// gap or at kLongestTicks, so that any shorter part of it can be replayed. One thread.
+// effect, and when a push is taken back that was made before the session began. A session begins without force and with
+// the tip off the sample, contains every tick from there, and ends at a gap or at kLongestTicks, so that any shorter
+// part of it can be replayed. One thread.
 class SessionRecorder {
  public:
   static constexpr std::size_t kLongestTicks = 1'800'000;  // 30 minutes at 1 kHz, about 400 MB
@@ -49,13 +52,16 @@ class SessionRecorder {
 
  private:
   bool goes_on_with(const scene::TipSample& sample) const;
+  void note_places(const scene::PushSample& push);
   void begin(const scene::TipSample& sample, const ServoClient& servo);
   void take_scale(const scene::TipSample& sample, const scene::TipState& tip);
 
   RecordedSession session_;
   std::optional<RecordedSession> finished_;
   std::optional<scene::TipSample> previous_;
-  std::size_t ticks_ = 0;  // ticks in the current session
+  std::optional<scene::TipEvent> taken_back_;  // event whose sample is still to come
+  std::unordered_set<std::uint64_t> places_;   // digests of the particles between the pushes of the current session
+  std::size_t ticks_ = 0;                      // ticks in the current session
   bool scale_known_ = false;
 };
 

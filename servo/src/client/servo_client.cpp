@@ -77,7 +77,19 @@ void ServoClient::beat(std::int64_t now_ns) {
                                        .frame = beats_++,
                                        .leaving = 0,
                                        .stop = stop ? 1U : 0U,
-                                       .unseen = picture_ == Picture::Unseen ? 1U : 0U});
+                                       .unseen = picture_ == Picture::Unseen ? 1U : 0U,
+                                       .take_back = taken_back_,
+                                       .put_back = put_back_});
+}
+
+void ServoClient::take_back_push(std::int64_t now_ns) {
+  ++taken_back_;
+  beat(now_ns);
+}
+
+void ServoClient::put_particles_back(std::int64_t now_ns) {
+  ++put_back_;
+  beat(now_ns);
 }
 
 void ServoClient::stop(std::int64_t now_ns) {

@@ -110,6 +110,7 @@ class Player {
   // Runs the tick of this sample; false if the servo produced none.
   bool play(std::size_t index) {
     const TipSample& sample = session_.samples[index];
+    order_what_came(sample.time_ns);
     const bool was_stopped = index > 0 && session_.samples[index - 1].renderer == RendererLink::Stopped;
     const bool goes_on = was_stopped && lives(sample.renderer);
     if (goes_on || beats(std::span(session_.samples).subspan(index))) {
@@ -150,7 +151,17 @@ class Player {
 
   void beat(scene::RendererHeartbeat heartbeat) {
     heartbeat.frame = ++frame_;
+    heartbeat.take_back = taken_back_;
+    heartbeat.put_back = put_back_;
     renderer_.store(heartbeat);
+  }
+
+  // An order that took effect is known by its event; it came with a heartbeat of the same tick.
+  void order_what_came(std::int64_t now_ns) {
+    for (; next_event_ < session_.events.size() && session_.events[next_event_].time_ns <= now_ns; ++next_event_) {
+      if (session_.events[next_event_].kind == physics::EventKind::PushTakenBack) ++taken_back_;
+      if (session_.events[next_event_].kind == physics::EventKind::ParticlesPutBack) ++put_back_;
+    }
   }
 
   void lead(const scene::ScanLead& scan) {
@@ -218,6 +229,9 @@ class Player {
   RecordedHand hand_;
   std::unique_ptr<haptics::ServoLoop> loop_;
   std::uint64_t frame_ = 0;
+  std::uint32_t taken_back_ = 0;
+  std::uint32_t put_back_ = 0;
+  std::size_t next_event_ = 0;
   std::int32_t chosen_ = 0;
   haptics::SampleAxes axes_;    // as last placed
   std::size_t next_frame_ = 0;  // next frame of the wall that may turn the sample

@@ -7,7 +7,6 @@ namespace afm::servo {
 
 namespace {
 
-using scene::ServoState;
 using scene::TipSample;
 
 // True if the poses that touchafm has are those of this sample, and a session can begin with them.
@@ -28,8 +27,7 @@ bool is_of(const TipSample& sample, const scene::TipState& tip) {
 }  // namespace
 
 bool can_begin_with(const TipSample& sample, const scene::TipState& tip, bool dynamic) {
-  const bool off = sample.servo_state == ServoState::Disarmed || sample.servo_state == ServoState::Fault;
-  if (!off || sample.hand_force_n != 0.0) return false;
+  if (scene::is_armed(sample.servo_state) || sample.hand_force_n != 0.0) return false;
   if (sample.phase == physics::Phase::WaitForLift) return true;
   // an oscillating lever has more state than its position
   return sample.phase == physics::Phase::Free && !dynamic && is_of(sample, tip) &&
@@ -41,7 +39,9 @@ bool SessionRecorder::goes_on_with(const TipSample& sample) const {
 }
 
 bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
-  if (!goes_on_with(sample)) finish();
+  // a replay knows only the pushes of its session
+  const auto taken_back = std::exchange(taken_back_, std::nullopt);
+  if (!goes_on_with(sample) || (taken_back && !places_.contains(sample.push.digest))) finish();
   const bool begins = ticks_ == 0;
   const bool fresh = previous_ && !same_contact(*previous_, sample) && sample.tick == previous_->tick + 1;
   previous_ = sample;
@@ -51,6 +51,8 @@ bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
   if (begins && !fresh && !can_begin_with(sample, servo.tip(), is_dynamic())) return false;
   if (begins && !has_poses_of(sample, servo)) return false;
   if (begins) begin(sample, servo);
+  if (!begins && taken_back) session_.events.push_back(*taken_back);
+  note_places(sample.push);
   if (!scale_known_) take_scale(sample, servo.tip());
   session_.samples.push_back(sample);
   ++ticks_;
@@ -58,7 +60,15 @@ bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
 }
 
 void SessionRecorder::add(const scene::TipEvent& event) {
-  if (ticks_ > 0) session_.events.push_back(event);
+  if (event.kind == physics::EventKind::PushTakenBack) {
+    taken_back_ = event;
+  } else if (ticks_ > 0) {
+    session_.events.push_back(event);
+  }
+}
+
+void SessionRecorder::note_places(const scene::PushSample& push) {
+  if (push.particle == scene::kNoParticle) places_.insert(push.digest);
 }
 
 void SessionRecorder::add(const WallFrame& frame) {
@@ -73,6 +83,7 @@ void SessionRecorder::forget_records() {
 
 void SessionRecorder::begin_again() {
   session_ = {};
+  places_.clear();
   ticks_ = 0;
 }
 

@@ -15,6 +15,12 @@ scene::Scene particle_sphere();
 // Ring around a particle of radius 1 that rests on z = 0: node "ring".
 scene::Scene particle_ring();
 
+// Ring on the sample where a particle of radius 1 lay: node "footprint".
+scene::Scene particle_footprint();
+
+// Dot on the sample, one of those between the footprint and a particle of radius 1: node "dot".
+scene::Scene particle_dot();
+
 // Tip of true shape: a cone that ends in a ball of radius 1, with its apex at the origin, z up to `height`: node "tip".
 scene::Scene particle_tip(double half_angle_rad, double height);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -15,7 +16,8 @@ namespace afm::exhibit {
 
 class ModelBuilder;
 
-// Particles on the drawn sample: copies of one mesh, a ring around the touched one, and the tip at its true size.
+// Particles on the drawn sample: copies of one mesh, a ring around the touched one, a footprint where each one that has
+// moved lay at the start, with dots from there to where it lies, and the tip at its true size.
 // Const after creation.
 class StageParticles {
  public:
@@ -35,7 +37,8 @@ class StageParticles {
   // The copies, at their start places where `now` is null or does not know better.
   void add_copies(const ParticlesNow* now, double layout_per_m, render::FrameState& frame) const;
 
-  scene::NodeIndex spheres() const { return spheres_; }
+  // All but the ring.
+  std::vector<scene::NodeIndex> nodes() const { return {spheres_, footprints_, dots_, tip_}; }
   scene::NodeIndex tip() const { return tip_; }
   scene::NodeIndex ring() const { return ring_; }
 
@@ -49,9 +52,12 @@ class StageParticles {
     glm::vec3 color{1.0F};  // linear
   };
 
+  void add_marks(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const;
+
   std::vector<Particle> particles_;
+  std::uint32_t most_dots_ = 0;  // between a particle and its footprint
   double tip_radius_m_ = 0;
-  scene::NodeIndex spheres_ = 0, ring_ = 0, tip_ = 0;
+  scene::NodeIndex spheres_ = 0, footprints_ = 0, dots_ = 0, ring_ = 0, tip_ = 0;
 };
 
 }  // namespace afm::exhibit

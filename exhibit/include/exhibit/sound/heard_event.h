@@ -23,7 +23,9 @@ enum class HeardEvent {
   ParticleTouched,
   ParticleGave,
   ParticleLost,
-  ParticleRiddenOver
+  ParticleRiddenOver,
+  PushTakenBack,
+  ParticlesPutBack
 };
 
 // One note of a signal: a sine that glides between two pitches, with a smooth envelope.

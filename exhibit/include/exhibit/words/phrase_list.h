@@ -211,6 +211,7 @@
 // Particles. States in the order of physics::PushState, laws in that of physics::ParticleLaw.
 #define AFM_FOR_EACH_PARTICLE_PHRASE(PHRASE)                               \
   PHRASE(ParticlesIn, "particles-in", "medium", kLine)                     \
+  PHRASE(ParticlesTakeBack, "particles-take-back", "medium count", kLine)  \
   PHRASE(PushStateName, "push-state", "", kLine)                           \
   PHRASE(PushFree, "push-free", "", kLine)                                 \
   PHRASE(PushHolds, "push-holds", "", kLine)                               \
@@ -316,6 +317,7 @@
   PHRASE(KeyBlank, "key-blank", "", kLine)                   \
   PHRASE(KeyStartAgain, "key-start-again", "", kLine)        \
   PHRASE(KeyHome, "key-home", "", kLine)                     \
+  PHRASE(KeyTakeBack, "key-take-back", "", kLine)            \
   PHRASE(KeyHeadAcross, "key-head-across", "", kLine)        \
   PHRASE(KeyHeadHeight, "key-head-height", "", kLine)        \
   PHRASE(KeyHeadDistance, "key-head-distance", "", kLine)    \

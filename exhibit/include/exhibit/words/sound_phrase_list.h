@@ -17,6 +17,8 @@
   PHRASE(HeardParticleGave, "heard-particle-gave", kEventPlaces, kLine)              \
   PHRASE(HeardParticleLost, "heard-particle-lost", kEventPlaces, kLine)              \
   PHRASE(HeardParticleRiddenOver, "heard-particle-ridden-over", kEventPlaces, kLine) \
+  PHRASE(HeardPushTakenBack, "heard-push-taken-back", kEventPlaces, kLine)           \
+  PHRASE(HeardParticlesPutBack, "heard-particles-put-back", kEventPlaces, kLine)     \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -31,6 +33,8 @@
   PHRASE(SayParticleGave, "say-particle-gave", kEventPlaces, kLine)                  \
   PHRASE(SayParticleLost, "say-particle-lost", kEventPlaces, kLine)                  \
   PHRASE(SayParticleRiddenOver, "say-particle-ridden-over", kEventPlaces, kLine)     \
+  PHRASE(SayPushTakenBack, "say-push-taken-back", kEventPlaces, kLine)               \
+  PHRASE(SayParticlesPutBack, "say-particles-put-back", kEventPlaces, kLine)         \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \

@@ -103,6 +103,9 @@ class PushedParticles {
   // hold_over(). Throws std::invalid_argument unless there is a finite place for each.
   void put(const std::vector<Sideways<Length>>& places, const LeverBase& base);
 
+  // Puts one sphere at a finite place, which is that of no other. Call hold_over() before the next tick.
+  void put(std::size_t particle, const Sideways<Length>& place) noexcept;
+
   // Spheres that the last tick moved, each once.
   std::span<const std::uint32_t> moved() const noexcept;
 

@@ -139,7 +139,7 @@ struct ParticlePose {
   double y_m = 0;
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: sample's frame from sphere
   physics::PushState moved = physics::PushState::Free;    // latest motion: Slides, Rolls or Several; Free: none yet
-  std::uint32_t yields = 0;                               // number of times that it gave
+  std::uint32_t padding = 0;
 
   bool operator==(const ParticlePose&) const = default;
 };
@@ -150,7 +150,7 @@ constexpr void for_each_field(Visit&& visit, Record&... pose) {
   visit("y_m", pose.y_m...);
   visit("orientation_wxyz", pose.orientation...);
   visit("moved", pose.moved...);
-  visit("yields", pose.yields...);
+  visit("padding", pose.padding...);
 }
 static_assert(all_fields_described<ParticlePose>());
 
@@ -170,6 +170,7 @@ std::uint64_t place_mark(std::size_t particle, const ParticlePose& pose) noexcep
 std::uint64_t digest_of(std::span<const ParticlePage> pages, std::size_t count) noexcept;
 
 inline constexpr std::int32_t kNoParticle = -1;
+inline constexpr std::uint32_t kMostStrokes = 64;  // number of strokes of the tip that can be taken back
 
 // Push in the newest tick. The certificate: given_j plus the energy stored at the start is at least lost_j + stored_j.
 // An account begins whenever the tip is taken off the particles (`accounts`), and only then.
@@ -197,8 +198,9 @@ struct TipPush {
   std::uint64_t accounts = 0;
   std::int32_t particle = kNoParticle;  // the one with the largest normal force
   physics::PushState state = physics::PushState::Free;
-  std::uint32_t met = 0;      // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
-  std::uint32_t lagging = 0;  // 1: the hand was so fast that base_m is behind it
+  std::uint16_t met = 0;      // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
+  std::uint16_t lagging = 0;  // 1: the hand was so fast that base_m is behind it
+  std::uint32_t strokes = 0;  // number of strokes that can be taken back
 };
 
 template <class Visit, RecordOf<TipPush>... Record>
@@ -228,6 +230,7 @@ constexpr void for_each_field(Visit&& visit, Record&... push) {
   visit("state", push.state...);
   visit("met", push.met...);
   visit("lagging", push.lagging...);
+  visit("strokes", push.strokes...);
 }
 static_assert(all_fields_described<TipPush>());
 

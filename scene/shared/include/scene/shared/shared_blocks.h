@@ -174,15 +174,20 @@ inline constexpr double kMostScanGainPerS = 1e6;
 struct RendererHeartbeat {
   std::int64_t time_ns = 0;
   std::uint64_t frame = 0;
-  std::uint32_t leaving = 0;  // 1: the renderer exits in good order; the servo releases the hand and exits too
-  std::uint32_t stop = 0;     // 1: a person requests zero force at once
-  std::uint32_t unseen = 0;   // 1: the picture is not visible, so no force is applied
+  std::uint32_t leaving = 0;    // 1: the renderer exits in good order; the servo releases the hand and exits too
+  std::uint32_t stop = 0;       // 1: a person requests zero force at once
+  std::uint32_t unseen = 0;     // 1: the picture is not visible, so no force is applied
+  std::uint32_t take_back = 0;  // number of orders to take a push of particles back, since the renderer's start
+  std::uint32_t put_back = 0;   // the same to put all particles back
   std::uint32_t padding = 0;
 };
 
 // ---- written by touchafm-servo ----
 
 enum class ServoState : std::uint32_t { Disarmed = 0, Arming = 1, Running = 2, Fading = 3, Fault = 4 };
+
+// False: there is no force, or it goes to zero within milliseconds, and a new one needs Turn-On.
+constexpr bool is_armed(ServoState state) { return state != ServoState::Disarmed && state != ServoState::Fault; }
 
 // State of the renderer as detected by the servo.
 enum class RendererLink : std::uint32_t {

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Particles in the real window, on an X server without a screen: pushed with the mouse, taken back, recorded, replayed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/whole_file.h"
+#include "servo/session_file.h"
+#include "support/live_program.h"
+#include "support/places.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+#include "support/virtual_display.h"
+
+namespace afm::app {
+namespace view_particles_test {
+
+using testing::HasSubstr;
+
+constexpr int kWidth = 640, kHeight = 480;
+constexpr double kHandPerPixel = 0.085 / 0.30 / kHeight;  // docs/manual.md: a drag over 0.30 of the wall is 85 mm
+
+// The gold of the built-in set, in a row along the way of the mouse.
+std::string three_in_a_row() {
+  const std::string set = core::read_file(support::source("assets/particles/gold-row.toml")).value();
+  std::string row = set.substr(0, set.find("[[particle]]"));
+  for (const char* x : {"-100 nm", "0 nm", "100 nm"})
+    row += "[[particle]]\nx = \"" + std::string(x) + "\"\ny = \"0 nm\"\n";
+  return row +
+         "[start]\nx = \"-200 nm\"\ny = \"0 nm\"\nz = \"80 nm\"\n"
+         "[[move]]\nx = \"-200 nm\"\ny = \"0 nm\"\nz = \"0 nm\"\nspeed = \"1 um/s\"\n";
+}
+
+class ViewParticles : public ::testing::Test {
+ protected:
+  void xdotool(const std::string& what) const {
+    const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool " + what);
+    ASSERT_EQ(done.exit_code, 0) << "xdotool " << what << ": " << done.err << " (package xdotool)";
+  }
+
+  // Drags the hand by this in all, in steps of a pixel with pauses, or at once.
+  void drag(double right_m, double up_m, int steps = 1) const {
+    const auto pixels = [](double m) { return std::lround(m / kHandPerPixel); };
+    std::string moves = "mousemove 320 240 mousedown 3";
+    for (int i = 1; i <= steps; ++i) {
+      moves += " sleep 0.04 mousemove " + std::to_string(320 + pixels(right_m) * i / steps) + " " +
+               std::to_string(240 - pixels(up_m) * i / steps);
+    }
+    xdotool(moves + " mouseup 3");
+  }
+
+  // Lifts, switches the force on, puts the tip down left of the row, and pushes the first particle by most of its
+  // width. Repeats what a busy machine has stopped. False if there is no force.
+  bool push(support::LiveProgram& view) const {
+    for (int tries = 0; tries < 10; ++tries) {
+      drag(0.0, 0.130);
+      drag(-0.150, 0.0);
+      drag(0.040, 0.0);  // 30 mm left of the middle
+      bool on = false;
+      for (int presses = 0; presses < 20 && !on; ++presses) {
+        xdotool("key t");
+        on = view.says("force on", std::chrono::seconds(2));
+      }
+      if (!on) return false;
+      drag(0.0, -0.072, 10);
+      if (view.says_one_of({"jump to contact", "force off"}) != "jump to contact") continue;
+      drag(0.018, 0.0, 30);
+      drag(0.0, 0.130);
+      if (view.says_one_of({"jump off contact", "force off"}) == "jump off contact") return true;
+    }
+    return false;
+  }
+
+  support::ScratchFolder folder_;
+  support::VirtualDisplay display_{kWidth, kHeight};
+};
+
+std::size_t count(const servo::RecordedSession& session, physics::EventKind kind) {
+  return static_cast<std::size_t>(std::count_if(session.events.begin(), session.events.end(),
+                                                [&](const scene::TipEvent& event) { return event.kind == kind; }));
+}
+
+TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
+  folder_.write("row.toml", three_in_a_row());
+  support::LiveProgram view(
+      {support::touchafm(), "view", "--particles", folder_.file("row.toml"), "--size", "640x480", "--eye-width", "320",
+       "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
+      display_.name());
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  xdotool("key BackSpace");
+  ASSERT_TRUE(view.says("take back: no push has moved a particle")) << view.said();
+  xdotool("key 1");
+  ASSERT_TRUE(view.says("chosen: ")) << view.said();
+  ASSERT_TRUE(push(view)) << view.said();
+  xdotool("key BackSpace");
+  ASSERT_TRUE(view.says("taking the last push back")) << view.said();
+  ASSERT_TRUE(push(view)) << view.said();
+  // a push of the session before
+  xdotool("key 2");
+  ASSERT_TRUE(view.says("chosen: ")) << view.said();
+  xdotool("key BackSpace");
+  ASSERT_TRUE(view.says("taking the last push back")) << view.said();
+  ASSERT_TRUE(push(view)) << view.said();
+  xdotool("key r");
+  ASSERT_TRUE(view.says("putting all particles back")) << view.said();
+  xdotool("sleep 1 key Escape");
+  ASSERT_EQ(view.ends(), 0) << view.said();
+
+  std::size_t pushed = 0, taken_back = 0, put_back = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder_.file("kept"))) {
+    if (file.path().extension() != ".afms") continue;
+    const auto session = servo::load_session(file.path());
+    ASSERT_TRUE(session) << session.error().message;
+    pushed += count(*session, physics::EventKind::ParticleTouched);
+    taken_back += count(*session, physics::EventKind::PushTakenBack);
+    put_back += count(*session, physics::EventKind::ParticlesPutBack);
+    const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+    EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
+  }
+  EXPECT_GE(pushed, 3U);
+  EXPECT_EQ(taken_back, 1U) << "the other one began a session";
+  EXPECT_EQ(put_back, 1U);
+}
+
+}  // namespace view_particles_test
+}  // namespace afm::app
