@@ -5,16 +5,17 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/commands/species_figures.h"
 #include "app/options/command.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
-#include "physics/manipulation/push_figures.h"
+#include "physics/manipulation/pattern.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_files.h"
@@ -23,7 +24,6 @@
 namespace afm::app {
 namespace {
 
-using physics::Force;
 using physics::format_quantity;
 using physics::Frequency;
 using physics::kEnergyUnits;
@@ -31,19 +31,14 @@ using physics::kForceUnits;
 using physics::kLengthUnits;
 using physics::Length;
 using physics::LeverBase;
-using physics::ParticleLaw;
 using physics::ParticleSpecies;
 using physics::PushTick;
 using physics::Sideways;
-using physics::Stiffness;
 
 constexpr Frequency kSlowestTicks{10.0}, kFastestTicks{1e5};
 constexpr double kMostTicks = 2e7;  // some minutes
 constexpr std::size_t kMostChanges = 10'000;
-constexpr double kRounding = 1e-12;            // share of the energy given that the certificate may lack
-constexpr physics::Time kSteeringDelay{0.25};  // delay of a hand that steers by eye
-constexpr Length kAtomicDistance{0.3e-9};      // z0 of Tabor's parameter
-constexpr physics::Temperature kRoomTemperature{298.15};
+constexpr double kRounding = 1e-12;  // share of the energy given that the certificate may lack
 
 struct ParticlesOptions {
   std::string file;
@@ -114,67 +109,12 @@ Played play(const scene::ParticleSet& set, const ParticlesOptions& options, std:
   return played;
 }
 
-// What a user has to know of a species before a push.
-struct SpeciesFigures {
-  physics::PushBalance rest, moving;
-  Force adhesion, gentle, gentle_without_friction, most_push, area_law, amontons_law;
-  Stiffness softest, sideways;
-  Length rho;
-  double tabor = 0.0, kt_per_nm = 0.0, spinning = 0.0;
-};
-
-SpeciesFigures figures_of(const scene::ParticleSet& set, const ParticleSpecies& species) {
-  const physics::PushSetup& setup = set.setup;
-  const Length radius = species.contact.tip_radius;
-  const double sine = std::sin(setup.tip.half_angle_rad), cosine = std::cos(setup.tip.half_angle_rad);
-  const physics::TipGrip grip{setup.tip_friction, 1.5 * std::numbers::pi * species.tip_adhesion *
-                                                      physics::effective_radius(setup.tip, radius, true)};
-  SpeciesFigures f;
-  f.rest = physics::push_balance(species, grip, sine, cosine);
-  f.moving = physics::push_balance(species, grip, sine, cosine, species.kinetic_ratio);
-  f.adhesion = physics::pull_off_force(species);
-  f.gentle = physics::gentle_load(species, setup.tip, setup.tip_friction);
-  f.gentle_without_friction = physics::gentle_load(species, setup.tip, 0.0);
-  f.most_push = physics::largest_push(setup.tip, radius, setup.springs.normal, Force(0.0));
-  f.area_law = physics::sliding_threshold(species, ParticleLaw::ContactArea, Force(0.0));
-  f.amontons_law = physics::sliding_threshold(species, ParticleLaw::Amontons, Force(0.0));
-  f.softest = physics::softest_lever(species, setup.tip);
-  f.sideways = physics::stiffness_sideways(setup.springs, sine, cosine);
-  f.rho = physics::side_contact(setup.tip, radius, Length(0.0)).distance;
-  f.tabor = physics::tabor_parameter(species, kAtomicDistance);
-  f.kt_per_nm = f.rest.lateral * Length(1e-9) / physics::thermal_energy(kRoomTemperature);
-  f.spinning = physics::spinning_share(species, Force(0.0));
-  return f;
-}
-
 nlohmann::json json_of(std::span<const scene::SourcedValue> sources) {
   nlohmann::json list = nlohmann::json::array();
   for (const scene::SourcedValue& s : sources) {
     list.push_back({{"key", s.key}, {"value", s.value}, {"source", s.source}, {"estimated", s.estimated}});
   }
   return list;
-}
-
-nlohmann::json json_of(const SpeciesFigures& f) {
-  return {{"push_mode", physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word},
-          {"adhesion_N", f.adhesion.si},
-          {"threshold_at_rest_N", f.rest.lateral.si},
-          {"threshold_moving_N", f.moving.lateral.si},
-          {"normal_at_rest_N", f.rest.normal.si},
-          {"lift_at_rest_N", f.rest.lift.si},
-          {"unloaded_threshold_by_area_N", f.area_law.si},
-          {"unloaded_threshold_by_amontons_N", f.amontons_law.si},
-          {"gentle_load_N", f.gentle.si},
-          {"gentle_load_without_tip_friction_N", f.gentle_without_friction.si},
-          {"softest_lever_N_per_m", f.softest.si},
-          {"largest_push_N", f.most_push.si},
-          {"stiffness_sideways_N_per_m", f.sideways.si},
-          {"distance_of_axes_m", f.rho.si},
-          {"largest_offset_for_3_distances_m", (physics::largest_offset(3.0) * f.rho).si},
-          {"fastest_steering_m_per_s", physics::fastest_steering(f.rho, kSteeringDelay).si},
-          {"tabor_parameter", f.tabor},
-          {"spinning_moment_share", f.spinning},
-          {"kT_per_nm", f.kt_per_nm}};
 }
 
 nlohmann::json json_of(const TickSample& sample) {
@@ -196,6 +136,29 @@ nlohmann::json json_of(const TickSample& sample) {
           {"yields", t.yields}};
 }
 
+// The particles at the end against the targets of the file; nothing without targets. Numbers are those of the file.
+std::optional<physics::PatternMatch> pattern_of(const scene::ParticleSet& set, const Played& played) {
+  if (set.targets.empty()) return std::nullopt;
+  std::vector<Sideways<Length>> places;
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < set.particles.size(); ++i) {
+    if (set.particles[i].pinned) continue;
+    places.push_back(played.at[i]);
+    numbers.push_back(i);
+  }
+  physics::PatternMatch match = physics::match_pattern(set.targets, places);
+  for (std::size_t& particle : match.particles) particle = numbers[particle];
+  return match;
+}
+
+nlohmann::json json_of(const physics::PatternMatch& pattern, const scene::ParticleSet& set) {
+  const Length allowed = scene::median_radius(set);
+  return {{"particle_of_target", pattern.particles},
+          {"rms_m", pattern.rms.si},
+          {"allowed_m", allowed.si},
+          {"done", pattern.rms <= allowed}};
+}
+
 std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions& options, const Played& played) {
   nlohmann::json species = nlohmann::json::array(), particles = nlohmann::json::array();
   for (std::size_t i = 0; i < set.species.size(); ++i) {
@@ -203,7 +166,7 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
     species.push_back({{"name", set.species[i].name},
                        {"law", physics::text_of(s.law).word},
                        {"radius_m", s.contact.tip_radius.si},
-                       {"figures", json_of(figures_of(set, s))},
+                       {"figures", species_figures_json(set, i)},
                        {"sources", json_of(set.species[i].sources)}});
   }
   for (std::size_t i = 0; i < set.particles.size(); ++i) {
@@ -218,6 +181,9 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
     for (const TickSample& sample : samples) all.push_back(json_of(sample));
     return all;
   };
+  nlohmann::json targets = nlohmann::json::array();
+  for (const Sideways<Length>& target : set.targets) targets.push_back({target.x.si, target.y.si});
+  const auto pattern = pattern_of(set, played);
   const nlohmann::json whole{{"title", set.title},
                              {"medium", set.medium},
                              {"note", set.note},
@@ -230,6 +196,8 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
                              {"sources", json_of(set.sources)},
                              {"species", species},
                              {"particles", particles},
+                             {"targets_m", targets},
+                             {"pattern", pattern ? json_of(*pattern, set) : nlohmann::json()},
                              {"states", list(played.samples)},
                              {"changes", list(played.changes)},
                              {"all_changes", !played.more_changes},
@@ -237,46 +205,10 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
   return whole.dump() + "\n";
 }
 
-std::string force_text(Force force) {
-  return std::isfinite(force.si) ? format_quantity(force, kForceUnits, 4) : "none: it jams";
-}
-
-std::string figures_text(const scene::ParticleSet& set, std::size_t index) {
-  const ParticleSpecies& species = set.setup.species[index];
-  const SpeciesFigures f = figures_of(set, species);
-  const std::string gentle = f.gentle.si > 0.0 ? format_quantity(f.gentle, kForceUnits, 4)
-                                               : fmt::format(
-                                                     "none: the tip's friction locks it on the flank; without "
-                                                     "friction {}",
-                                                     format_quantity(f.gentle_without_friction, kForceUnits, 4));
-  std::string text = fmt::format(
-      "{}, law {} ({})\n"
-      "  adhesion             {}\n"
-      "  gives sideways at    {}, then {}: {}\n"
-      "  unloaded, by law     area {}, amontons {}\n"
-      "  gentle load          {}\n"
-      "  softest lever        {}; this one pushes up to {}\n"
-      "  aim                  {} beside the middle for a push of 3 x {}\n"
-      "  steering hand        up to {} on the sample\n"
-      "  unit of pushing      {:.3g} kT per nm at room temperature\n",
-      set.species[index].name, physics::text_of(species.law).word, physics::text_of(species.law).formula,
-      format_quantity(f.adhesion, kForceUnits, 4), force_text(f.rest.lateral), force_text(f.moving.lateral),
-      physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word, format_quantity(f.area_law, kForceUnits, 4),
-      format_quantity(f.amontons_law, kForceUnits, 4), gentle, format_quantity(f.softest, physics::kStiffnessUnits, 4),
-      force_text(f.most_push), format_quantity(physics::largest_offset(3.0) * f.rho, kLengthUnits, 4),
-      format_quantity(f.rho, kLengthUnits, 4),
-      format_quantity(physics::fastest_steering(f.rho, kSteeringDelay), physics::kVelocityUnits, 4), f.kt_per_nm);
-  const auto estimated = std::count_if(set.species[index].sources.begin(), set.species[index].sources.end(),
-                                       [](const scene::SourcedValue& s) { return s.estimated; });
-  text += fmt::format("  sources              {} of {} values are estimated; --json lists each\n", estimated,
-                      set.species[index].sources.size());
-  return text;
-}
-
 std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions& options, const Played& played) {
   std::string text = fmt::format("{}, in {}: {} particles, {:g} s at {:g} Hz\n", set.title, set.medium,
                                  set.particles.size(), played.seconds, options.rate.si);
-  for (std::size_t i = 0; i < set.species.size(); ++i) text += figures_text(set, i);
+  for (std::size_t i = 0; i < set.species.size(); ++i) text += species_figures_text(set, i);
   text += "\nmove       state     particle   force on the lever sideways   friction and slips\n";
   for (std::size_t i = 0; i < played.ends.size(); ++i) {
     const PushTick& t = played.ends[i].tick;
@@ -291,6 +223,12 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
     if (!(way.si > 0.0)) continue;
     text += fmt::format("{:<10} {:<12} {}, {}\n", i, format_quantity(way, kLengthUnits, 4),
                         format_quantity(played.at[i].x, kLengthUnits), format_quantity(played.at[i].y, kLengthUnits));
+  }
+  if (const auto pattern = pattern_of(set, played)) {
+    const Length allowed = scene::median_radius(set);
+    text += fmt::format("\npattern of {} targets: {}, {} off in the root mean square, {} allowed\n", set.targets.size(),
+                        pattern->rms <= allowed ? "done" : "not done", format_quantity(pattern->rms, kLengthUnits, 4),
+                        format_quantity(allowed, kLengthUnits, 4));
   }
   const PushTick& last = played.ends.back().tick;
   // below what rounding leaves of sums, nothing is stored

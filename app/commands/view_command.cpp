@@ -26,6 +26,7 @@
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"
 #include "app/view/view_wand.h"
+#include "core/clock.h"
 #include "core/exit_code.h"
 #include "core/interruption.h"
 #include "core/log.h"

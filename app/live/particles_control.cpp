@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "app/view/live_sound.h"
 #include "app/view/servo_supervisor.h"
 #include "app/view/view_choice.h"
 #include "app/view/view_parts.h"
@@ -31,7 +32,12 @@ void ParticlesControl::give(Order order) {
 }
 
 void ParticlesControl::update(const ViewFrame& frame) {
-  if (order_ == Order::None || !parts_.servo.running()) return;
+  if (!parts_.servo.running()) return;
+  const servo::ServoClient& link = parts_.servo.link();
+  now_.pages = link.particle_pages();
+  now_.push = link.push();
+  follow_pattern();
+  if (order_ == Order::None) return;
   servo::ServoClient& servo = parts_.servo.link();
   const scene::TipState& tip = servo.tip();
   if (scene::is_armed(tip.servo_state) || tip.hand.force_n != std::array<double, 3>{}) return;
@@ -44,11 +50,14 @@ void ParticlesControl::update(const ViewFrame& frame) {
   }
 }
 
-void ParticlesControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
-  const servo::ServoClient& servo = parts_.servo.link();
-  now_.pages = servo.particle_pages();
-  now_.push = servo.push();
-  now.wall.particles = &now_;
+void ParticlesControl::follow_pattern() {
+  if (std::exchange(digest_, now_.push.digest) == now_.push.digest) return;
+  const auto pattern = exhibit::pattern_of(now_);
+  if (!pattern || std::exchange(pattern_done_, pattern->done()) || !pattern->done()) return;
+  core::log_line("the pattern is done");
+  parts_.sound.narrator().happened(exhibit::HeardEvent::PatternDone, parts_.servo.link().tip().material);
 }
+
+void ParticlesControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) { now.wall.particles = &now_; }
 
 }  // namespace afm::app

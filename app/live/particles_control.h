@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "app/view/view_control.h"
 #include "exhibit/state/particles_now.h"
 
@@ -27,9 +29,14 @@ class ParticlesControl final : public ViewControl {
   // The servo carries it out without force alone, so the order waits until there is none.
   void give(Order order);
 
+  // Announces a pattern once it is done.
+  void follow_pattern();
+
   ViewParts& parts_;
   exhibit::ParticlesNow now_;
   Order order_ = Order::None;
+  std::uint64_t digest_ = 0;  // places whose pattern was judged last
+  bool pattern_done_ = true;  // at first, so that one that is done from the start is not announced
 };
 
 }  // namespace afm::app

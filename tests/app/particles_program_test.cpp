@@ -59,6 +59,25 @@ TEST(ParticlesCommand, PushesTheGoldOfTheBuiltInSet) {
   EXPECT_EQ(json["species"][0]["sources"].size(), 12U);
 }
 
+TEST(ParticlesCommand, SaysHowFarThePatternIs) {
+  const ProgramResult result = particles("gold-row --json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  ASSERT_EQ(json["targets_m"].size(), 5U);
+  const auto& pattern = json["pattern"];
+  double sum_m2 = 0.0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto& there = json["particles"][pattern["particle_of_target"][i].get<std::size_t>()]["end_m"];
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      sum_m2 += std::pow(there[axis].get<double>() - json["targets_m"][i][axis].get<double>(), 2);
+    }
+  }
+  EXPECT_NEAR(pattern["rms_m"].get<double>(), std::sqrt(sum_m2 / 5.0), 1e-15);
+  EXPECT_EQ(pattern["done"], false);
+  EXPECT_DOUBLE_EQ(pattern["allowed_m"].get<double>(), 25e-9);
+  EXPECT_THAT(particles("gold-row").out, HasSubstr("pattern of 5 targets: not done, "));
+}
+
 TEST(ParticlesCommand, EndsAtTheSamePlacesAtEveryRate) {
   double places[3][2] = {};
   const char* rates[] = {"500Hz", "1kHz", "4kHz"};

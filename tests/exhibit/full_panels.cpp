@@ -76,14 +76,18 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
   std::vector<render::DataPanel> panels;
   for (const char* name : {"gold-row", "latex-letter"}) {
     scene::ParticleSet set = test::particle_set(name);
+    const std::vector<scene::ParticlePage> pages = test::start_pages(set);
     for (const physics::PushState state : core::kEnumerators<physics::PushState>) {
       scene::TipPush push = test::push_of(set, set.particles.size() - 1, state);
       push.softened_sideways = 123.4;
+      push.strokes = scene::kMostStrokes;
       for (const physics::ParticleLawText& law : physics::kParticleLaws) {
         set.setup.species.front().law = law.law;
-        panels.push_back(particles_panel({.set = &set, .push = push}, phrases));
+        panels.push_back(particles_panel({.set = &set, .pages = pages, .push = push}, phrases));
       }
     }
+    set.targets.clear();
+    panels.push_back(particles_panel({.set = &set, .push = {.strokes = scene::kMostStrokes}}, phrases));
     panels.push_back(particles_panel({.set = &set}, phrases));
   }
   return panels;

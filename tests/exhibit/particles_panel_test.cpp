@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -38,7 +40,7 @@ class ParticlesPanel : public ::testing::Test {
 TEST_F(ParticlesPanel, NamesStateParticleAndForcesOfAPush) {
   const render::DataPanel shown = panel(test::push_of(set_, 2, PushState::Slides));
   EXPECT_EQ(shown.title, "Five gold spheres on mica");
-  EXPECT_EQ(shown.subtitle, "Particles in air");
+  EXPECT_EQ(shown.subtitle, "110 nm off the pattern (25 nm allowed); pushes: 0");
   EXPECT_EQ(row(shown, Phrase::PushStateName), (render::DataRow{"State", "slides", "particle 3 of 5: gold"}));
   EXPECT_EQ(row(shown, Phrase::PushNormal).value, "0.31 nN");
   EXPECT_EQ(row(shown, Phrase::PushLateral).value, "0.25 nN");
@@ -55,9 +57,31 @@ TEST_F(ParticlesPanel, HasAWordForEveryState) {
 }
 
 TEST_F(ParticlesPanel, SaysHowManyPushesCanBeTakenBack) {
+  set_.targets.clear();
   scene::TipPush push = test::push_of(set_, 0, PushState::Free);
+  EXPECT_EQ(panel(push).subtitle, "Particles in air");
   push.strokes = 3;
   EXPECT_EQ(panel(push).subtitle, "Particles in air; pushes to take back: 3");
+  push.strokes = scene::kMostStrokes;
+  EXPECT_EQ(panel(push).subtitle, "Particles in air; pushes to take back: 64+");
+}
+
+TEST_F(ParticlesPanel, SaysHowFarThePatternIsAndWhenItIsDone) {
+  scene::TipPush push = test::push_of(set_, 0, PushState::Free);
+  push.strokes = 7;
+  const auto targets = scene::shared_targets(set_);
+  const std::array<std::size_t, 5> order{3, 0, 4, 1, 2};  // whichever particle lies on which target
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    scene::ParticlePose& pose = pages_[0].poses[order[i]];
+    pose.x_m = targets[i].x.si + 24e-9;
+    pose.y_m = targets[i].y.si;
+  }
+  EXPECT_EQ(panel(push).subtitle, "Pattern done, 24 nm off; pushes: 7");
+  EXPECT_TRUE(pattern_of({.set = &set_, .pages = pages_})->done());
+  for (std::size_t i = 0; i < targets.size(); ++i) pages_[0].poses[i].x_m += 2e-9;
+  EXPECT_EQ(panel(push).subtitle, "26 nm off the pattern (25 nm allowed); pushes: 7");
+  EXPECT_FALSE(pattern_of({.set = &set_, .pages = pages_})->done());
+  EXPECT_FALSE(pattern_of({.set = &set_, .pages = {}})) << "before the servo has said where they lie";
 }
 
 // In brackets, and said to be unused: told apart without colour.

@@ -52,7 +52,7 @@ TEST_F(ParticlesOfAWall, LieAtTheirStartWithTheSizeOfTheScaleLine) {
     const scene::ParticleSet set = test::particle_set(name);
     const WallScene wall = wall_of(set);
     const render::FrameState drawn = frame(wall, nullptr);
-    ASSERT_EQ(drawn.copies.size(), 1U);
+    ASSERT_EQ(drawn.copies.size(), 2U) << "particles and targets";
     ASSERT_EQ(drawn.copies.front().copies.size(), set.particles.size());
     EXPECT_EQ(wall.scene().nodes[drawn.copies.front().node].most_copies, set.particles.size());
     const std::vector<scene::ParticlePage> pages = test::start_pages(set);
@@ -89,20 +89,36 @@ TEST_F(ParticlesOfAWall, FollowThePosesOfTheServo) {
   }
 }
 
+TEST_F(ParticlesOfAWall, LieAmongTheCrossesOfTheirPattern) {
+  const WallScene wall = wall_of(set_);
+  const render::FrameState drawn = frame(wall, nullptr);
+  const render::MeshCopies& crosses = drawn.copies.at(1);
+  EXPECT_EQ(crosses.node, wall.scene().find_node("targets/target"));
+  const auto targets = scene::shared_targets(set_);
+  ASSERT_EQ(crosses.copies.size(), targets.size());
+  const double scale = wall.unit_m() * wall.drawn_scale(0).sample_m_per_m;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    EXPECT_NEAR(scale * static_cast<double>(crosses.copies[i].place.x), targets[i].x.si, 0.1e-9);
+    EXPECT_NEAR(scale * static_cast<double>(crosses.copies[i].place.y), targets[i].y.si, 0.1e-9);
+  }
+  set_.targets.clear();
+  EXPECT_EQ(frame(wall_of(set_), nullptr).copies.size(), 1U);
+}
+
 TEST_F(ParticlesOfAWall, HaveAFootprintWhereTheyLayAndDotsFromThere) {
   const WallScene wall = wall_of(set_);
   std::vector<scene::ParticlePage> pages = test::start_pages(set_);
   const ParticlesNow at_start{.set = &set_, .pages = pages};
-  EXPECT_EQ(frame(wall, &at_start).copies.size(), 1U) << "none has moved";
+  EXPECT_EQ(frame(wall, &at_start).copies.size(), 2U) << "none has moved";
   const glm::dvec2 start_m(pages[0].poses[2].x_m, pages[0].poses[2].y_m), way_m(60e-9, -25e-9);
   pages[0].poses[1].x_m += 4e-9;  // less than its width shows
   pages[0].poses[2].x_m += way_m.x;
   pages[0].poses[2].y_m += way_m.y;
   const ParticlesNow now{.set = &set_, .pages = pages};
   const render::FrameState moved = frame(wall, &now);
-  ASSERT_EQ(moved.copies.size(), 3U);
-  const render::MeshCopies& footprints = moved.copies[1];
-  const render::MeshCopies& dots = moved.copies[2];
+  ASSERT_EQ(moved.copies.size(), 4U);
+  const render::MeshCopies& footprints = moved.copies[2];
+  const render::MeshCopies& dots = moved.copies[3];
   EXPECT_EQ(footprints.node, wall.scene().find_node("footprints/footprint"));
   EXPECT_EQ(dots.node, wall.scene().find_node("ways/dot"));
   ASSERT_EQ(footprints.copies.size(), 1U);
@@ -120,7 +136,7 @@ TEST_F(ParticlesOfAWall, HaveAFootprintWhereTheyLayAndDotsFromThere) {
   }
   EXPECT_LT(last_m, glm::length(way_m));
   pages[0].poses[2].x_m += 1.0;  // as far as a damaged session may have it
-  EXPECT_LE(frame(wall, &now).copies[2].copies.size(), wall.scene().nodes[dots.node].most_copies);
+  EXPECT_LE(frame(wall, &now).copies[3].copies.size(), wall.scene().nodes[dots.node].most_copies);
 }
 
 TEST_F(ParticlesOfAWall, MarkTheTouchedOneWithARingAroundIt) {
@@ -161,6 +177,7 @@ TEST_F(ParticlesOfAWall, AreHiddenWithTheInstrument) {
   EXPECT_FALSE(shown(wall, journey, "particles/sphere"));
   EXPECT_FALSE(shown(wall, journey, "footprints/footprint"));
   EXPECT_FALSE(shown(wall, journey, "ways/dot"));
+  EXPECT_FALSE(shown(wall, journey, "targets/target"));
   EXPECT_TRUE(shown(wall, frame(wall, nullptr), "particles/sphere"));
   EXPECT_TRUE(wall.scene().find_node("particles/sphere"));
   EXPECT_FALSE(scene_.scene().find_node("particles/sphere")) << "without particles";

@@ -70,6 +70,17 @@ std::string changed(const std::string& from, const std::string& to) {
   return text.replace(at, from.size(), to);
 }
 
+TEST(ParticleSet, HasItsPatternInTheFrameOfItsParticles) {
+  const auto set = load_particle_set(kFolder + "/gold-row.toml");
+  ASSERT_TRUE(set) << set.error().message;
+  ASSERT_EQ(set->targets.size(), 5U);
+  EXPECT_NEAR(median_radius(*set).si, 25e-9, 1e-20);
+  const auto shared = std::make_unique<SharedParticles>(shared_particles(*set));
+  const physics::Sideways<physics::Length> apart = set->targets[0] - set->particles[0].position;
+  EXPECT_NEAR(shared_targets(*set)[0].x.si - shared->particles[0].x_m, apart.x.si, 1e-20);
+  EXPECT_NEAR(shared_targets(*set)[0].y.si - shared->particles[0].y_m, apart.y.si, 1e-20);
+}
+
 TEST(ParticleSet, OfARecordingHasTheWordsOfTheSetOfTheAssets) {
   const auto set = load_particle_set(kFolder + "/latex-letter.toml");
   ASSERT_TRUE(set) << set.error().message;
@@ -77,6 +88,7 @@ TEST(ParticleSet, OfARecordingHasTheWordsOfTheSetOfTheAssets) {
   const ParticleSet known = recorded_set(*recorded, support::source("assets"));
   EXPECT_EQ(known.title, set->title);
   EXPECT_EQ(known.particles.size(), set->particles.size());
+  EXPECT_EQ(known.targets, set->targets);
   EXPECT_FALSE(known.sources.empty());
 
   recorded->species[0].kinetic_ratio *= 0.5;  // one of a user's file
@@ -112,6 +124,12 @@ TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {
   EXPECT_THAT(refusal(changed("speed = \"0.2 um/s\"", "speed = \"0 um/s\"")), HasSubstr("move.speed: 0"));
   EXPECT_THAT(refusal(changed("source = \"polycrystalline gold, bulk\", ", "")), HasSubstr("source"));
   EXPECT_THAT(refusal(""), HasSubstr("title: is missing"));
+  EXPECT_THAT(refusal(changed("x = \"30 nm\"", "x = \"400 nm\"")), HasSubstr("target.x: the target is outside"));
+  EXPECT_THAT(refusal(changed("x = \"30 nm\"", "x = \"51 nm\"")), HasSubstr("nearer to target 1 than"));
+  EXPECT_EQ(refusal(changed("x = \"30 nm\"", "x = \"50 nm\"")), "accepted") << "two that touch";
+  EXPECT_THAT(refusal(changed("[[target]]", "[[target]]\nx = \"10 nm\"\ny = \"-90 nm\"\n\n[[target]]")),
+              HasSubstr("more targets than the 5 particles"));
+  EXPECT_THAT(refusal(changed("x = \"180 nm\"", "pinned = true\nx = \"180 nm\"")), HasSubstr("than the 4 particles"));
 }
 
 }  // namespace particle_set_test

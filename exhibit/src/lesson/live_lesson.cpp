@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/clock.h"
 #include "core/log.h"
 #include "servo/servo_client.h"
 
@@ -215,5 +216,7 @@ core::Result<void> LiveLesson::finish() {
   if (error_) return tl::unexpected(*error_);
   return {};
 }
+
+double LiveLesson::now_s() const { return static_cast<double>(clock_.now_ns()) * 1e-9; }
 
 }  // namespace afm::exhibit

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <iterator>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@ constexpr int kRingSectors = 48, kRingSides = 8;
 constexpr int kTipSectors = 40, kTipCapRings = 8, kTipFlankRings = 4;
 constexpr double kRingRadius = 1.3, kRingThickness = 0.09;  // in radii of the particle
 constexpr double kFootprintRadius = 0.7, kFootprintThickness = 0.05, kDotRadius = 0.13;
+constexpr double kCrossReach = 0.6, kCrossHalfWidth = 0.06, kCrossHeight = 0.03;
 constexpr int kDotRings = 6, kDotSectors = 10;
 constexpr double kBandWidth = 0.42;    // half width of the dark band, sine of the latitude
 constexpr double kCapLatitude = 0.86;  // sine of the latitude of the cap's edge
@@ -91,22 +93,14 @@ scene::Primitive ring(double radius, double thickness, double z) {
   });
 }
 
-scene::PbrMaterial mark_on_sample() {
-  return {
-      .name = "where a particle was", .base_color = {0.85F, 0.88F, 0.90F, 1.0F}, .metallic = 0.0F, .roughness = 0.8F};
-}
-
-}  // namespace
-
-scene::Scene particle_ground(double side_m) {
-  const double half = 0.5 * side_m, depth = kGroundThickness * side_m;
+// Cuboid without its lower face.
+scene::Primitive slab(const glm::dvec3& size, const glm::dvec3& middle) {
   scene::Primitive slab;
   const auto face = [&](const glm::dvec3& normal, const glm::dvec3& right, const glm::dvec3& up) {
     const auto first = static_cast<std::uint32_t>(slab.vertices.size());
     for (const glm::dvec2 corner : {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
       const glm::dvec3 place = normal + corner.x * right + corner.y * up;
-      slab.vertices.push_back(
-          {glm::vec3(place * glm::dvec3(half, half, 0.5 * depth) - glm::dvec3(0, 0, 0.5 * depth)), glm::vec3(normal)});
+      slab.vertices.push_back({glm::vec3(0.5 * size * place + middle), glm::vec3(normal)});
     }
     slab.indices.insert(slab.indices.end(), {first, first + 1, first + 2, first + 2, first + 1, first + 3});
   };
@@ -115,9 +109,31 @@ scene::Scene particle_ground(double side_m) {
   face({-1, 0, 0}, {0, -1, 0}, {0, 0, 1});
   face({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});
   face({0, -1, 0}, {1, 0, 0}, {0, 0, 1});
+  return slab;
+}
+
+scene::PbrMaterial mark_on_sample() {
+  return {
+      .name = "where a particle was", .base_color = {0.85F, 0.88F, 0.90F, 1.0F}, .metallic = 0.0F, .roughness = 0.8F};
+}
+
+}  // namespace
+
+scene::Scene particle_ground(double side_m) {
+  const double depth = kGroundThickness * side_m;
   return one_mesh("surface",
                   {.name = "ground", .base_color = {0.30F, 0.34F, 0.37F, 1.0F}, .metallic = 0.0F, .roughness = 0.55F},
-                  std::move(slab));
+                  slab({side_m, side_m, depth}, {0.0, 0.0, -0.5 * depth}));
+}
+
+scene::Scene particle_target() {
+  scene::Primitive cross = slab({2.0 * kCrossReach, 2.0 * kCrossHalfWidth, 2.0 * kCrossHeight}, glm::dvec3(0.0));
+  const scene::Primitive other = slab({2.0 * kCrossHalfWidth, 2.0 * kCrossReach, 2.0 * kCrossHeight}, glm::dvec3(0.0));
+  const auto first = static_cast<std::uint32_t>(cross.vertices.size());
+  cross.vertices.insert(cross.vertices.end(), other.vertices.begin(), other.vertices.end());
+  std::transform(other.indices.begin(), other.indices.end(), std::back_inserter(cross.indices),
+                 [first](std::uint32_t index) { return first + index; });
+  return one_mesh("target", mark_on_sample(), std::move(cross));
 }
 
 scene::Scene particle_sphere() {

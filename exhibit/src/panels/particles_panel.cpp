@@ -143,14 +143,26 @@ class ParticleRows {
   std::vector<render::DataRow> rows_;
 };
 
+// How far a pattern is, or else what the particles are in; with the pushes that can be taken back.
+std::string subtitle(const ParticlesNow& now, const Phrases& phrases) {
+  const std::uint32_t strokes = now.push.strokes;
+  const std::string pushes = strokes < scene::kMostStrokes ? fmt::format("{}", strokes) : fmt::format("{}+", strokes);
+  const std::string& medium = phrases.word(now.set->medium);
+  if (const auto pattern = pattern_of(now)) {
+    const std::string off = quantity_text(physics::Length(pattern->off_m), physics::kLengthUnits, phrases);
+    if (pattern->done()) return phrases.text<Phrase::PatternDone>(off, pushes);
+    const std::string allowed = quantity_text(physics::Length(pattern->allowed_m), physics::kLengthUnits, phrases);
+    return phrases.text<Phrase::PatternOff>(off, allowed, pushes);
+  }
+  return strokes > 0 ? phrases.text<Phrase::ParticlesTakeBack>(medium, pushes)
+                     : phrases.text<Phrase::ParticlesIn>(medium);
+}
+
 }  // namespace
 
 render::DataPanel particles_panel(const ParticlesNow& now, const Phrases& phrases) {
-  const std::string& medium = phrases.word(now.set->medium);
-  const std::uint32_t strokes = now.push.strokes;
   return {.title = phrases.word(now.set->title),
-          .subtitle = strokes > 0 ? phrases.text<Phrase::ParticlesTakeBack>(medium, fmt::format("{}", strokes))
-                                  : phrases.text<Phrase::ParticlesIn>(medium),
+          .subtitle = subtitle(now, phrases),
           .rows = ParticleRows(now, phrases).take()};
 }
 

@@ -56,13 +56,9 @@ std::vector<Placed> placed(const scene::ParticleSet& set) {
   return all;
 }
 
-double median_radius_m(const std::vector<Placed>& particles) {
-  std::vector<double> radii;
-  radii.reserve(particles.size());
-  for (const Placed& particle : particles) radii.push_back(particle.radius_m);
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  return *middle;
+// On the sample, in layout units.
+render::MeshCopy mark_at(const glm::dvec2& place, double size) {
+  return {.place = glm::vec3(dvec3(place, 0.0)), .scale = static_cast<float>(size)};
 }
 
 }  // namespace
@@ -73,7 +69,7 @@ double StageParticles::stroke_m(const scene::ParticleSet& set) {
   for (const auto& [species, radius_m, x_m, y_m] : particles) {
     reach_m = std::max({reach_m, std::abs(x_m) + radius_m, std::abs(y_m) + radius_m});
   }
-  const double layout_per_m = std::min(kDrawnReach / reach_m, kDrawnDiameter / (2.0 * median_radius_m(particles)));
+  const double layout_per_m = std::min(kDrawnReach / reach_m, kDrawnDiameter / (2.0 * scene::median_radius(set).si));
   return kStrokeHeight / layout_per_m;
 }
 
@@ -85,7 +81,10 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
     particles_.push_back(
         {.radius_m = radius_m, .start_m = {x_m, y_m}, .color = kSpeciesColors.at(species % kSpeciesColors.size())});
   }
+  for (const auto& target : scene::shared_targets(set)) target_places_m_.push_back({target.x.si, target.y.si});
+  target_size_m_ = scene::median_radius(set).si;
   build.part(particle_sphere(), "particles", sample);
+  build.part(particle_target(), "targets", sample);
   build.part(particle_footprint(), "footprints", sample);
   build.part(particle_dot(), "ways", sample);
   build.part(particle_ring(), "touched-particle", sample);
@@ -93,6 +92,7 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   const double drawn_radius = tip_radius_m_ * kStrokeHeight / stroke_m(set);
   build.part(particle_tip(set.setup.tip.half_angle_rad, kTipDrawnLength / drawn_radius), "true-tip", sample);
   spheres_ = build.node("particles/sphere");
+  targets_ = build.node("targets/target");
   footprints_ = build.node("footprints/footprint");
   dots_ = build.node("ways/dot");
   ring_ = build.node("touched-particle/ring");
@@ -102,6 +102,7 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   if (build.error()) return;
   scene.nodes[spheres_].most_copies = scene.nodes[footprints_].most_copies = count;
   scene.nodes[dots_].most_copies = most_dots_ * count;
+  scene.nodes[targets_].most_copies = scene::kMostTargets;
 }
 
 std::optional<dvec3> StageParticles::apex_m(const ParticlesNow* now) {
@@ -142,6 +143,13 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
     all.copies.push_back(copy);
   }
   frame.copies.push_back(std::move(all));
+  if (!target_places_m_.empty()) {
+    render::MeshCopies targets{.node = targets_, .copies = {}};
+    for (const glm::dvec2& place_m : target_places_m_) {
+      targets.copies.push_back(mark_at(layout_per_m * place_m, layout_per_m * target_size_m_));
+    }
+    frame.copies.push_back(std::move(targets));
+  }
   if (now != nullptr) add_marks(*now, layout_per_m, frame);
 }
 
@@ -156,10 +164,7 @@ void StageParticles::add_marks(const ParticlesNow& now, double layout_per_m, ren
     const double length_m = glm::length(way_m);
     if (!(length_m > kShortestWay * radius_m)) continue;
     const auto add = [&](render::MeshCopies& marks, double share) {
-      render::MeshCopy mark;
-      mark.place = glm::vec3(layout_per_m * dvec3(start_m + share * way_m, 0.0));
-      mark.scale = static_cast<float>(layout_per_m * radius_m);
-      marks.copies.push_back(mark);
+      marks.copies.push_back(mark_at(layout_per_m * (start_m + share * way_m), layout_per_m * radius_m));
     };
     add(footprints, 0.0);
     const double gaps = std::clamp(length_m / (kDotSpacing * radius_m), 1.0, most_dots_ + 1.0);

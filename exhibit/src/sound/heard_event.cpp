@@ -14,7 +14,7 @@ using enum HeardEvent;
 // Notes of the equal temperament, rounded to a hertz: a glide down for closing, up for opening; two notes up for a
 // possible start, down for an end; a rough low note, three times, for a failure; a click for a repeated event. Of
 // particles: a soft knock for a touch, two for a ride over, a click for a first slip, a long fall for a loss, which a
-// rise takes back.
+// rise takes back; three notes up for a pattern.
 constexpr std::array kRows{
     HeardEventRow{
         SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},
@@ -89,6 +89,12 @@ constexpr std::array kRows{
                   Phrase::SayParticlesPutBack,
                   Spoken::AtOnce,
                   {{SignalNote{0, 0.160, 330, 880, 0.22, 0}, SignalNote{0.180, 0.160, 330, 880, 0.22, 0}}}},
+    HeardEventRow{PatternDone,
+                  Phrase::HeardPatternDone,
+                  Phrase::SayPatternDone,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.090, 659, 659, 0.24, 0}, SignalNote{0.110, 0.090, 880, 880, 0.24, 0},
+                    SignalNote{0.220, 0.240, 1319, 1319, 0.24, 0}}}},
 };
 static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
 static_assert([] {

@@ -24,6 +24,7 @@ using physics::Length;
 
 constexpr std::size_t kMostMoves = 1000;
 constexpr Length kWidestPlace{1e-4}, kHighestPlace{1e-5};
+constexpr double kRounding = 1e-6;
 constexpr physics::Velocity kSlowestHand{1e-11}, kFastestHand{1e-4};
 
 // A key of a table for a field that physics refuses.
@@ -147,22 +148,57 @@ HandMove read_move(const TomlTable& table) {
   return move;
 }
 
-// Middle of the smallest rectangle along x and y that has all the centres.
-physics::Sideways<Length> middle_of(const std::vector<physics::PlacedParticle>& particles) {
+// Smallest rectangle along x and y that has all the centres.
+struct Field {
+  physics::Sideways<Length> least, most;
+
+  physics::Sideways<Length> middle() const { return (least + most) * 0.5; }
+  bool holds(const physics::Sideways<Length>& place) const {
+    return place.x >= least.x && place.x <= most.x && place.y >= least.y && place.y <= most.y;
+  }
+};
+
+Field field_of(const std::vector<physics::PlacedParticle>& particles) {
   if (particles.empty()) return {};
-  const auto middle = [&](auto coordinate) {
-    const auto [least, most] =
-        std::minmax_element(particles.begin(), particles.end(),
-                            [&](const auto& a, const auto& b) { return coordinate(a) < coordinate(b); });
-    return 0.5 * (coordinate(*least) + coordinate(*most));
-  };
-  return {middle([](const physics::PlacedParticle& p) { return p.position.x; }),
-          middle([](const physics::PlacedParticle& p) { return p.position.y; })};
+  Field field{particles.front().position, particles.front().position};
+  for (const physics::PlacedParticle& particle : particles) {
+    const physics::Sideways<Length>& place = particle.position;
+    field.least = {std::min(field.least.x, place.x), std::min(field.least.y, place.y)};
+    field.most = {std::max(field.most.x, place.x), std::max(field.most.y, place.y)};
+  }
+  return field;
+}
+
+// The places of a pattern: within the field of the particles, over which the hand reaches, and so far apart that
+// particles can lie on all of them at once.
+void read_targets(const TomlTable& top, ParticleSet& set) {
+  const auto movable = static_cast<std::size_t>(
+      std::count_if(set.particles.begin(), set.particles.end(), [](const auto& p) { return !p.pinned; }));
+  Length smallest = set.setup.species.front().contact.tip_radius;
+  for (const physics::ParticleSpecies& species : set.setup.species) {
+    smallest = std::min(smallest, species.contact.tip_radius);
+  }
+  const Length touching = physics::touching_distance(smallest, smallest);
+  const Field field = field_of(set.particles);
+  for (const TomlTable& table : top.tables("target", kMostTargets)) {
+    table.allow_only({"x", "y"});
+    const physics::Sideways<Length> target{place(table, "x", kWidestPlace), place(table, "y", kWidestPlace)};
+    if (set.targets.size() == movable) {
+      table.refuse("x", fmt::format("there are more targets than the {} particles that can be moved", movable));
+    }
+    if (!field.holds(target)) table.refuse("x", "the target is outside the rectangle of the particles");
+    for (std::size_t i = 0; i < set.targets.size(); ++i) {
+      if (physics::magnitude(set.targets[i] - target) >= (1.0 - kRounding) * touching) continue;
+      table.refuse("x", fmt::format("the target is nearer to target {} than two particles that touch, {}", i + 1,
+                                    physics::format_quantity(touching, physics::kLengthUnits)));
+    }
+    set.targets.push_back(target);
+  }
 }
 
 ParticleSet read_set(const toml::table& root) {
   const TomlTable top(root);
-  top.allow_only({"title", "medium", "note", "tip", "lever", "species", "particle", "start", "move"});
+  top.allow_only({"title", "medium", "note", "tip", "lever", "species", "particle", "target", "start", "move"});
   ParticleSet set;
   set.title = top.text("title");
   set.medium = top.text("medium");
@@ -195,6 +231,7 @@ ParticleSet read_set(const toml::table& root) {
   } catch (const std::invalid_argument& error) {
     top.refuse("particle", error.what());
   }
+  if (top.has("target")) read_targets(top, set);
   const TomlTable start = top.table("start", "[start]");
   start.allow_only({"x", "y", "z"});
   set.start = base(start);
@@ -229,7 +266,7 @@ SharedParticles shared_particles(const ParticleSet& set) {
                                                .law = species.law};
     ++shared.species_count;
   }
-  const physics::Sideways<Length> middle = middle_of(set.particles);
+  const physics::Sideways<Length> middle = field_of(set.particles).middle();
   for (const physics::PlacedParticle& particle : set.particles) {
     shared.particles.at(shared.count++) = {.x_m = (particle.position - middle).x.si,
                                            .y_m = (particle.position - middle).y.si,
@@ -237,6 +274,25 @@ SharedParticles shared_particles(const ParticleSet& set) {
                                            .pinned = particle.pinned ? 1U : 0U};
   }
   return shared;
+}
+
+std::vector<physics::Sideways<Length>> shared_targets(const ParticleSet& set) {
+  std::vector<physics::Sideways<Length>> targets = set.targets;
+  const physics::Sideways<Length> middle = field_of(set.particles).middle();
+  for (physics::Sideways<Length>& target : targets) target = target - middle;
+  return targets;
+}
+
+Length median_radius(const ParticleSet& set) {
+  AFM_CHECK(!set.particles.empty());
+  std::vector<Length> radii;
+  radii.reserve(set.particles.size());
+  for (const physics::PlacedParticle& p : set.particles) {
+    radii.push_back(set.setup.species[p.species].contact.tip_radius);
+  }
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
 }
 
 ParticleSet recorded_set(const SharedParticles& recorded, const std::string& assets_dir) {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/clock.h"
 #include "curves/sample_model.h"
 #include "exhibit/lesson/data_set.h"
 #include "exhibit/lesson/hand_answer.h"
@@ -17,6 +16,9 @@
 #include "exhibit/lesson/lesson_run.h"
 #include "exhibit/words/phrases.h"
 
+namespace afm::core {
+class Clock;
+}
 namespace afm::servo {
 class ServoClient;
 }
@@ -97,7 +99,7 @@ class LiveLesson {
     bool operator==(const Laid&) const = default;
   };
 
-  double now_s() const { return static_cast<double>(clock_.now_ns()) * 1e-9; }
+  double now_s() const;
   void acted();
   core::Result<void> begin_data();
   core::Result<void> keep(const TrialRow& row);

@@ -21,6 +21,9 @@ scene::Scene particle_footprint();
 // Dot on the sample, one of those between the footprint and a particle of radius 1: node "dot".
 scene::Scene particle_dot();
 
+// Cross on the sample where a particle of radius 1 is to lie: node "target".
+scene::Scene particle_target();
+
 // Tip of true shape: a cone that ends in a ball of radius 1, with its apex at the origin, z up to `height`: node "tip".
 scene::Scene particle_tip(double half_angle_rad, double height);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
@@ -17,8 +18,8 @@ namespace afm::exhibit {
 class ModelBuilder;
 
 // Particles on the drawn sample: copies of one mesh, a ring around the touched one, a footprint where each one that has
-// moved lay at the start, with dots from there to where it lies, and the tip at its true size.
-// Const after creation.
+// moved lay at the start, with dots from there to where it lies, a cross on each place of the pattern, and the tip at
+// its true size. Const after creation.
 class StageParticles {
  public:
   // Stroke at which a set is drawn: that of the largest picture in which all its particles lie on the sample.
@@ -38,7 +39,7 @@ class StageParticles {
   void add_copies(const ParticlesNow* now, double layout_per_m, render::FrameState& frame) const;
 
   // All but the ring.
-  std::vector<scene::NodeIndex> nodes() const { return {spheres_, footprints_, dots_, tip_}; }
+  std::vector<scene::NodeIndex> nodes() const { return {spheres_, targets_, footprints_, dots_, tip_}; }
   scene::NodeIndex tip() const { return tip_; }
   scene::NodeIndex ring() const { return ring_; }
 
@@ -57,7 +58,9 @@ class StageParticles {
   std::vector<Particle> particles_;
   std::uint32_t most_dots_ = 0;  // between a particle and its footprint
   double tip_radius_m_ = 0;
-  scene::NodeIndex spheres_ = 0, footprints_ = 0, dots_ = 0, ring_ = 0, tip_ = 0;
+  std::vector<glm::dvec2> target_places_m_;
+  double target_size_m_ = 0;
+  scene::NodeIndex spheres_ = 0, targets_ = 0, footprints_ = 0, dots_ = 0, ring_ = 0, tip_ = 0;
 };
 
 }  // namespace afm::exhibit

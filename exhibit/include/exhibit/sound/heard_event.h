@@ -25,7 +25,8 @@ enum class HeardEvent {
   ParticleLost,
   ParticleRiddenOver,
   PushTakenBack,
-  ParticlesPutBack
+  ParticlesPutBack,
+  PatternDone  // the particles lie on the pattern of their set
 };
 
 // One note of a signal: a sine that glides between two pitches, with a smooth envelope.

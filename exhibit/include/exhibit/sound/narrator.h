@@ -31,6 +31,9 @@ class Narrator final : public servo::TipAudience {
   void heard(const scene::TipSample& sample) override;
   void heard(const scene::TipEvent& event) override;
 
+  // Any other event of the wall.
+  void happened(HeardEvent event, std::int32_t material);
+
   // Call once a frame, with the tip's state, the next step, and its line of guidance, which is spoken when it changes.
   struct Step {
     Hint hint = Hint::ChooseSample;
@@ -54,7 +57,6 @@ class Narrator final : public servo::TipAudience {
 
  private:
   void tell(const Heard& heard);
-  void happened(HeardEvent event, std::int32_t material);
   void follow_scan(std::uint32_t lines, std::int32_t material);
   std::string title(std::int32_t material) const;
 

@@ -208,38 +208,6 @@
   PHRASE(FrictionOffset, "friction-offset", "", kLine)        \
   PHRASE(FrictionSlope, "friction-slope", "", kLine)
 
-// Particles. States in the order of physics::PushState, laws in that of physics::ParticleLaw.
-#define AFM_FOR_EACH_PARTICLE_PHRASE(PHRASE)                               \
-  PHRASE(ParticlesIn, "particles-in", "medium", kLine)                     \
-  PHRASE(ParticlesTakeBack, "particles-take-back", "medium count", kLine)  \
-  PHRASE(PushStateName, "push-state", "", kLine)                           \
-  PHRASE(PushFree, "push-free", "", kLine)                                 \
-  PHRASE(PushHolds, "push-holds", "", kLine)                               \
-  PHRASE(PushSlides, "push-slides", "", kLine)                             \
-  PHRASE(PushRolls, "push-rolls", "", kLine)                               \
-  PHRASE(PushSeveral, "push-several", "", kLine)                           \
-  PHRASE(PushedParticle, "pushed-particle", "number count species", kLine) \
-  PHRASE(PushedNone, "pushed-none", "", kLine)                             \
-  PHRASE(PushNormal, "push-normal", "", kLine)                             \
-  PHRASE(PushNormalOn, "push-normal-on", "", kLine)                        \
-  PHRASE(PushLateral, "push-lateral", "", kLine)                           \
-  PHRASE(PushLateralOn, "push-lateral-on", "", kLine)                      \
-  PHRASE(PushThreshold, "push-threshold", "", kLine)                       \
-  PHRASE(PushOtherLaw, "push-other-law", "", kLine)                        \
-  PHRASE(PushLaw, "push-law", "formula", kLine)                            \
-  PHRASE(PushLawUnused, "push-law-unused", "formula", kLine)               \
-  PHRASE(PushLawArea, "push-law-area", "", kLine)                          \
-  PHRASE(PushLawAmontons, "push-law-amontons", "", kLine)                  \
-  PHRASE(PushLawBoth, "push-law-both", "", kLine)                          \
-  PHRASE(PushLawMeasured, "push-law-measured", "", kLine)                  \
-  PHRASE(ParticleRadius, "particle-radius", "", kLine)                     \
-  PHRASE(ParticleShearStrength, "particle-shear-strength", "", kLine)      \
-  PHRASE(ParticleCoefficient, "particle-coefficient", "", kLine)           \
-  PHRASE(LeverSideways, "lever-sideways", "", kLine)                       \
-  PHRASE(LeverSoftened, "lever-softened", "", kLine)                       \
-  PHRASE(TimesSofter, "times-softer", "factor", kLine)                     \
-  PHRASE(LeverSoftenedWhy, "lever-softened-why", "", kLine)
-
 // Scan images and settings; artefacts, in the order of physics::ScanArtefact, whose names are the ends of the keys.
 #define AFM_FOR_EACH_SCAN_PHRASE(PHRASE)                               \
   PHRASE(ScanTitle, "scan-title", "sample", kLine)                     \

@@ -19,6 +19,7 @@
   PHRASE(HeardParticleRiddenOver, "heard-particle-ridden-over", kEventPlaces, kLine) \
   PHRASE(HeardPushTakenBack, "heard-push-taken-back", kEventPlaces, kLine)           \
   PHRASE(HeardParticlesPutBack, "heard-particles-put-back", kEventPlaces, kLine)     \
+  PHRASE(HeardPatternDone, "heard-pattern-done", kEventPlaces, kLine)                \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -35,6 +36,7 @@
   PHRASE(SayParticleRiddenOver, "say-particle-ridden-over", kEventPlaces, kLine)     \
   PHRASE(SayPushTakenBack, "say-push-taken-back", kEventPlaces, kLine)               \
   PHRASE(SayParticlesPutBack, "say-particles-put-back", kEventPlaces, kLine)         \
+  PHRASE(SayPatternDone, "say-pattern-done", kEventPlaces, kLine)                    \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \

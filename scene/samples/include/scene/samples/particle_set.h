@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "core/result.h"
+#include "physics/friction/sideways.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/units.h"
 #include "scene/samples/sourced_value.h"
@@ -32,10 +34,13 @@ struct ParticleSet {
   physics::PushSetup setup;
   std::vector<SpeciesEntry> species;  // names of setup.species, in order
   std::vector<physics::PlacedParticle> particles;
+  std::vector<physics::Sideways<physics::Length>> targets;  // pattern that the particles are to become; may be empty
   physics::LeverBase start;
   std::vector<HandMove> moves;
   std::vector<SourcedValue> sources;  // sources of tip and lever
 };
+
+inline constexpr std::size_t kMostTargets = 32;
 
 // Reads a particle file (TOML, assets/particles; docs/manual.md lists its keys). The error names file, line, key and
 // reason.
@@ -44,6 +49,12 @@ core::Result<ParticleSet> load_particle_set(const std::string& path);
 // The same set for a shared scene: its middle is the origin of the sample, where a hand is in the middle of its device.
 // A set that was loaded has no more species and particles than that can hold.
 SharedParticles shared_particles(const ParticleSet& set);
+
+// The targets in the same frame.
+std::vector<physics::Sideways<physics::Length>> shared_targets(const ParticleSet& set);
+
+// Median radius of the particles. A pattern is done when they are no farther from it (physics::PatternMatch).
+physics::Length median_radius(const ParticleSet& set);
 
 // The set of a recording, a valid one: that of the assets with the same particles, if there is one; otherwise without
 // words and sources.

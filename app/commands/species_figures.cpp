@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands/species_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "physics/manipulation/push_figures.h"
+#include "physics/quantity_text.h"
+#include "scene/samples/particle_set.h"
+
+namespace afm::app {
+namespace {
+
+using physics::Force;
+using physics::format_quantity;
+using physics::kForceUnits;
+using physics::kLengthUnits;
+using physics::Length;
+using physics::ParticleLaw;
+using physics::ParticleSpecies;
+using physics::Stiffness;
+
+constexpr physics::Time kSteeringDelay{0.25};  // delay of a hand that steers by eye
+constexpr Length kAtomicDistance{0.3e-9};      // z0 of Tabor's parameter
+constexpr physics::Temperature kRoomTemperature{298.15};
+
+// What a user has to know of a species before a push.
+struct SpeciesFigures {
+  physics::PushBalance rest, moving;
+  Force adhesion, gentle, gentle_without_friction, most_push, area_law, amontons_law;
+  Stiffness softest, sideways;
+  Length rho;
+  double tabor = 0.0, kt_per_nm = 0.0, spinning = 0.0;
+};
+
+SpeciesFigures figures_of(const scene::ParticleSet& set, const ParticleSpecies& species) {
+  const physics::PushSetup& setup = set.setup;
+  const Length radius = species.contact.tip_radius;
+  const double sine = std::sin(setup.tip.half_angle_rad), cosine = std::cos(setup.tip.half_angle_rad);
+  const physics::TipGrip grip{setup.tip_friction, 1.5 * std::numbers::pi * species.tip_adhesion *
+                                                      physics::effective_radius(setup.tip, radius, true)};
+  SpeciesFigures f;
+  f.rest = physics::push_balance(species, grip, sine, cosine);
+  f.moving = physics::push_balance(species, grip, sine, cosine, species.kinetic_ratio);
+  f.adhesion = physics::pull_off_force(species);
+  f.gentle = physics::gentle_load(species, setup.tip, setup.tip_friction);
+  f.gentle_without_friction = physics::gentle_load(species, setup.tip, 0.0);
+  f.most_push = physics::largest_push(setup.tip, radius, setup.springs.normal, Force(0.0));
+  f.area_law = physics::sliding_threshold(species, ParticleLaw::ContactArea, Force(0.0));
+  f.amontons_law = physics::sliding_threshold(species, ParticleLaw::Amontons, Force(0.0));
+  f.softest = physics::softest_lever(species, setup.tip);
+  f.sideways = physics::stiffness_sideways(setup.springs, sine, cosine);
+  f.rho = physics::side_contact(setup.tip, radius, Length(0.0)).distance;
+  f.tabor = physics::tabor_parameter(species, kAtomicDistance);
+  f.kt_per_nm = f.rest.lateral * Length(1e-9) / physics::thermal_energy(kRoomTemperature);
+  f.spinning = physics::spinning_share(species, Force(0.0));
+  return f;
+}
+
+std::string force_text(Force force) {
+  return std::isfinite(force.si) ? format_quantity(force, kForceUnits, 4) : "none: it jams";
+}
+
+}  // namespace
+
+std::string species_figures_text(const scene::ParticleSet& set, std::size_t index) {
+  const ParticleSpecies& species = set.setup.species[index];
+  const SpeciesFigures f = figures_of(set, species);
+  const std::string gentle = f.gentle.si > 0.0 ? format_quantity(f.gentle, kForceUnits, 4)
+                                               : fmt::format(
+                                                     "none: the tip's friction locks it on the flank; without "
+                                                     "friction {}",
+                                                     format_quantity(f.gentle_without_friction, kForceUnits, 4));
+  std::string text = fmt::format(
+      "{}, law {} ({})\n"
+      "  adhesion             {}\n"
+      "  gives sideways at    {}, then {}: {}\n"
+      "  unloaded, by law     area {}, amontons {}\n"
+      "  gentle load          {}\n"
+      "  softest lever        {}; this one pushes up to {}\n"
+      "  aim                  {} beside the middle for a push of 3 x {}\n"
+      "  steering hand        up to {} on the sample\n"
+      "  unit of pushing      {:.3g} kT per nm at room temperature\n",
+      set.species[index].name, physics::text_of(species.law).word, physics::text_of(species.law).formula,
+      format_quantity(f.adhesion, kForceUnits, 4), force_text(f.rest.lateral), force_text(f.moving.lateral),
+      physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word, format_quantity(f.area_law, kForceUnits, 4),
+      format_quantity(f.amontons_law, kForceUnits, 4), gentle, format_quantity(f.softest, physics::kStiffnessUnits, 4),
+      force_text(f.most_push), format_quantity(physics::largest_offset(3.0) * f.rho, kLengthUnits, 4),
+      format_quantity(f.rho, kLengthUnits, 4),
+      format_quantity(physics::fastest_steering(f.rho, kSteeringDelay), physics::kVelocityUnits, 4), f.kt_per_nm);
+  const auto estimated = std::count_if(set.species[index].sources.begin(), set.species[index].sources.end(),
+                                       [](const scene::SourcedValue& s) { return s.estimated; });
+  text += fmt::format("  sources              {} of {} values are estimated; --json lists each\n", estimated,
+                      set.species[index].sources.size());
+  return text;
+}
+
+nlohmann::json species_figures_json(const scene::ParticleSet& set, std::size_t index) {
+  const SpeciesFigures f = figures_of(set, set.setup.species[index]);
+  return {{"push_mode", physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word},
+          {"adhesion_N", f.adhesion.si},
+          {"threshold_at_rest_N", f.rest.lateral.si},
+          {"threshold_moving_N", f.moving.lateral.si},
+          {"normal_at_rest_N", f.rest.normal.si},
+          {"lift_at_rest_N", f.rest.lift.si},
+          {"unloaded_threshold_by_area_N", f.area_law.si},
+          {"unloaded_threshold_by_amontons_N", f.amontons_law.si},
+          {"gentle_load_N", f.gentle.si},
+          {"gentle_load_without_tip_friction_N", f.gentle_without_friction.si},
+          {"softest_lever_N_per_m", f.softest.si},
+          {"largest_push_N", f.most_push.si},
+          {"stiffness_sideways_N_per_m", f.sideways.si},
+          {"distance_of_axes_m", f.rho.si},
+          {"largest_offset_for_3_distances_m", (physics::largest_offset(3.0) * f.rho).si},
+          {"fastest_steering_m_per_s", physics::fastest_steering(f.rho, kSteeringDelay).si},
+          {"tabor_parameter", f.tabor},
+          {"spinning_moment_share", f.spinning},
+          {"kT_per_nm", f.kt_per_nm}};
+}
+
+}  // namespace afm::app

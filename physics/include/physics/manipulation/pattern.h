@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "physics/friction/sideways.h"
+#include "physics/units.h"
+
+namespace afm::physics {
+
+// Particles on the places of a pattern, one on each.
+struct PatternMatch {
+  std::vector<std::size_t> particles;  // nearest to each target, in all
+  Length rms;                          // root of the mean square distance of the targets from them
+};
+
+// The assignment with the least sum of squared distances. There are at least as many particles as targets; without
+// targets the match is empty. Takes targets^2 x particles steps. Source: shortest augmenting paths of Jonker &
+// Volgenant, Computing 38 (1987) 325.
+PatternMatch match_pattern(std::span<const Sideways<Length>> targets, std::span<const Sideways<Length>> particles);
+
+}  // namespace afm::physics
