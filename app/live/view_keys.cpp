@@ -34,6 +34,7 @@ constexpr std::array kRows{
             [](KeyOwners& owners, std::size_t number) { owners.parts.choice.number(number); }, Phrase::LeftClick,
             Key::Digit9},
     LiveKey{MouseHand::kGripKey, "Space", Phrase::KeyHand, nullptr, Phrase::RightDragOrWheel},
+    LiveKey{MouseHand::kOverKey, "Z", Phrase::KeyHandOver, nullptr},
     LiveKey{MouseHand::kTurnOnKey, "T", Phrase::KeyTurnOn, nullptr, Phrase::MiddleClick},
     LiveKey{Key::Enter, "Enter", Phrase::KeyStop, [](KeyOwners& owners, std::size_t) { owners.parts.choice.enter(); }},
     LiveKey{Key::F2, "F2", Phrase::KeyParameters,

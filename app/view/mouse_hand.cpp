@@ -16,21 +16,23 @@ constexpr std::int64_t kShortestPressNs = 150'000'000;  // makes a click between
 
 using Kind = render::WindowEvent::Kind;
 
+bool is_of_key(const render::WindowEvent& event) { return event.kind == Kind::KeyDown || event.kind == Kind::KeyUp; }
+
+bool is_over(const render::WindowEvent& event) { return is_of_key(event) && event.key == MouseHand::kOverKey; }
+
 bool is_grip(const render::WindowEvent& event) {
-  const bool key = event.kind == Kind::KeyDown || event.kind == Kind::KeyUp;
-  return key ? event.key == MouseHand::kGripKey : event.button == render::MouseButton::Right;
+  return is_of_key(event) ? event.key == MouseHand::kGripKey : event.button == render::MouseButton::Right;
 }
 
 bool is_turn_on(const render::WindowEvent& event) {
-  const bool key = event.kind == Kind::KeyDown || event.kind == Kind::KeyUp;
-  return key ? event.key == MouseHand::kTurnOnKey : event.button == render::MouseButton::Middle;
+  return is_of_key(event) ? event.key == MouseHand::kTurnOnKey : event.button == render::MouseButton::Middle;
 }
 
 }  // namespace
 
 void MouseHand::drag_to(const glm::dvec2& cursor_px, double m_per_px) {
   const glm::dvec2 moved_m = m_per_px * glm::dvec2(cursor_px.x - grip_px_.x, grip_px_.y - cursor_px.y);
-  wanted_m_ += over_sample_ ? glm::dvec3(moved_m.x, 0.0, moved_m.y) : glm::dvec3(moved_m, 0.0);
+  wanted_m_ += scanning_ || over_held_ ? glm::dvec3(moved_m.x, 0.0, moved_m.y) : glm::dvec3(moved_m, 0.0);
   wanted_m_ =
       glm::clamp(wanted_m_, glm::dvec3(-kWidestM, kLowestM, -kWidestM), glm::dvec3(kWidestM, kHighestM, kWidestM));
   grip_px_ = cursor_px;
@@ -54,10 +56,11 @@ void MouseHand::apply(const render::WindowEvent& event, double m_per_px, std::in
     return;
   }
   const bool down = event.kind == Kind::KeyDown || event.kind == Kind::ButtonDown;
-  if (is_grip(event)) {
+  if (is_grip(event) || is_over(event)) {
     if (dragging()) drag_to(event.cursor_px, m_per_px);
     grip_px_ = event.cursor_px;
-    grips_ = std::clamp(grips_ + (down ? 1 : -1), 0, 2);
+    grips_ = std::clamp(grips_ + (down ? 1 : -1), 0, 3);
+    if (is_over(event)) over_held_ = down;
   }
   if (is_turn_on(event)) {
     turn_on_held_ = down;

@@ -15,8 +15,8 @@ namespace afm::app {
 // itself while the mouse moves evenly (pseudo-haptics). Positions are the hand's, relative to the contact point,
 // metres.
 //
-// Held right button or kGripKey: the aim follows the cursor, up and down or, in a scan, over the sample. Wheel: steps
-// up and down. Middle button or kTurnOnKey: Turn-On.
+// Held right button or kGripKey: the aim follows the cursor, up and down or, in a scan, over the sample. Held kOverKey:
+// over the sample. Wheel: steps up and down. Middle button or kTurnOnKey: Turn-On.
 class MouseHand {
  public:
   static constexpr double kLowestM = -0.030;
@@ -26,6 +26,7 @@ class MouseHand {
   static constexpr double kOnSampleM = -0.002;  // height to which a scanning hand lowers the tip
 
   static constexpr render::Key kGripKey = render::Key::Space;
+  static constexpr render::Key kOverKey = render::Key::Z;
   static constexpr render::Key kTurnOnKey = render::Key::T;
 
   // The sample's outward normal and its x axis, to the right; unit vectors in the device's frame.
@@ -43,7 +44,7 @@ class MouseHand {
 
   // Starts or stops scanning: a scanning hand lowers its tip onto the sample and follows drags; stopping lifts it.
   void scan(bool on) {
-    over_sample_ = on;
+    scanning_ = on;
     wanted_m_ = {0.0, on ? kOnSampleM : kHighestM, 0.0};
   }
 
@@ -68,8 +69,9 @@ class MouseHand {
   // right, up along the normal, and away from the viewer over the sample
   glm::dvec3 wanted_m_{0.0, kRestM, 0.0};
   glm::dvec3 aim_m_{0.0, kRestM, 0.0};
-  bool over_sample_ = false;
-  int grips_ = 0;  // number of held ones among right button and space bar
+  bool scanning_ = false;
+  bool over_held_ = false;
+  int grips_ = 0;  // number of held ones among right button, kGripKey and kOverKey
   glm::dvec2 grip_px_{0.0};
   bool axes_changed_ = false;
   bool turn_on_held_ = false;

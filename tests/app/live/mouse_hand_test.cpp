@@ -65,6 +65,26 @@ TEST_F(MouseHandTest, GoesOverTheSampleAsAScanner) {
   EXPECT_NEAR(hand_.script().target_m[2], 0.0, 1e-12);
 }
 
+// Held beside the button or alone, and the height stays.
+TEST_F(MouseHandTest, GoesOverTheSampleWhileItsKeyIsHeld) {
+  button(Kind::ButtonDown, render::MouseButton::Right, 100.0);
+  for (int i = 0; i < 100; ++i) frame(150.0);
+  const double height_m = hand_.wanted_m();
+  EXPECT_NEAR(height_m, MouseHand::kRestM - 50.0 * kMPerPx, 1e-12);
+  key(Kind::KeyDown, MouseHand::kOverKey, 150.0);
+  for (int i = 0; i < 100; ++i) frame(110.0, 30.0);
+  button(Kind::ButtonUp, render::MouseButton::Right, 110.0);
+  EXPECT_TRUE(hand_.dragging());
+  key(Kind::KeyUp, MouseHand::kOverKey, 110.0);
+  EXPECT_FALSE(hand_.dragging());
+  for (int i = 0; i < 100; ++i) frame(700.0, 700.0);
+  EXPECT_NEAR(hand_.script().target_m[1], height_m, 1e-12);
+  EXPECT_NEAR(hand_.script().target_m[2], -40.0 * kMPerPx, 1e-12);
+  button(Kind::ButtonDown, render::MouseButton::Right, 100.0);
+  frame(90.0);
+  EXPECT_NEAR(hand_.wanted_m(), height_m + 10.0 * kMPerPx, 1e-12) << "up and down again";
+}
+
 TEST_F(MouseHandTest, StaysWhereItIsLedTo) {
   hand_.rest_at({0.01, 0.02, -0.03});
   for (int i = 0; i < 100; ++i) frame(0.0);

@@ -267,6 +267,7 @@
   PHRASE(RightDragOrWheel, "right-drag-or-wheel", "", kLine) \
   PHRASE(KeyChoose, "key-choose", "", kLine)                 \
   PHRASE(KeyHand, "key-hand", "", kLine)                     \
+  PHRASE(KeyHandOver, "key-hand-over", "", kLine)            \
   PHRASE(KeyTurnOn, "key-turn-on", "", kLine)                \
   PHRASE(KeyStop, "key-stop", "", kLine)                     \
   PHRASE(KeyParameters, "key-parameters", "", kLine)         \
