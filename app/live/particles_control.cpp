@@ -18,12 +18,15 @@ namespace afm::app {
 void ParticlesControl::take_back() {
   if (!parts_.servo.running()) return;
   if (parts_.servo.link().push().strokes == 0) return core::log_line("take back: no push has moved a particle");
+  core::log_line("take back: the last push");
   give(Order::TakeBack);
 }
 
 void ParticlesControl::restart(Restart what) {
   order_ = Order::None;
-  if (what != Restart::Servo && parts_.servo.running()) give(Order::PutBack);
+  if (what == Restart::Servo || !parts_.servo.running() || !parts_.servo.material()) return;
+  core::log_line("take back: all pushes");
+  give(Order::PutBack);
 }
 
 void ParticlesControl::give(Order order) {
@@ -32,20 +35,18 @@ void ParticlesControl::give(Order order) {
 }
 
 void ParticlesControl::update(const ViewFrame& frame) {
-  if (!parts_.servo.running()) return;
   const servo::ServoClient& link = parts_.servo.link();
   now_.pages = link.particle_pages();
   now_.push = link.push();
+  if (!parts_.servo.running()) return;
   follow_pattern();
   if (order_ == Order::None) return;
   servo::ServoClient& servo = parts_.servo.link();
   const scene::TipState& tip = servo.tip();
   if (scene::is_armed(tip.servo_state) || tip.hand.force_n != std::array<double, 3>{}) return;
   if (std::exchange(order_, Order::None) == Order::TakeBack) {
-    core::log_line("taking the last push back");
     servo.take_back_push(frame.now_ns);
   } else {
-    core::log_line("putting all particles back");
     servo.put_particles_back(frame.now_ns);
   }
 }

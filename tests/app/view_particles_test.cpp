@@ -57,7 +57,7 @@ class ViewParticles : public ::testing::Test {
 
   // Lifts, switches the force on, puts the tip down left of the row, and pushes the first particle by most of its
   // width. Repeats what a busy machine has stopped. False if there is no force.
-  bool push(support::LiveProgram& view) const {
+  bool push(support::LiveProgram& view, double way_m) const {
     for (int tries = 0; tries < 10; ++tries) {
       drag(0.0, 0.130);
       drag(-0.150, 0.0);
@@ -70,7 +70,7 @@ class ViewParticles : public ::testing::Test {
       if (!on) return false;
       drag(0.0, -0.072, 10);
       if (view.says_one_of({"jump to contact", "force off"}) != "jump to contact") continue;
-      drag(0.018, 0.0, 30);
+      drag(way_m, 0.0, 30);
       drag(0.0, 0.130);
       if (view.says_one_of({"jump off contact", "force off"}) == "jump off contact") return true;
     }
@@ -98,26 +98,36 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
   ASSERT_TRUE(view.says("take back: no push has moved a particle")) << view.said();
   xdotool("key 1");
   ASSERT_TRUE(view.says("chosen: ")) << view.said();
-  ASSERT_TRUE(push(view)) << view.said();
-  xdotool("key BackSpace");
-  ASSERT_TRUE(view.says("taking the last push back")) << view.said();
-  ASSERT_TRUE(push(view)) << view.said();
-  // a push of the session before
-  xdotool("key 2");
-  ASSERT_TRUE(view.says("chosen: ")) << view.said();
-  xdotool("key BackSpace");
-  ASSERT_TRUE(view.says("taking the last push back")) << view.said();
-  ASSERT_TRUE(push(view)) << view.said();
-  xdotool("key r");
-  ASSERT_TRUE(view.says("putting all particles back")) << view.said();
+  const auto press = [&](const char* key, const char* said) {
+    xdotool(std::string("key ") + key);
+    return view.says(said);
+  };
+  const char* const one_back = "take back: the last push";
+  ASSERT_TRUE(push(view, 0.018)) << view.said();
+  ASSERT_TRUE(press("BackSpace", one_back)) << view.said();
+  ASSERT_TRUE(push(view, 0.018)) << view.said();
+  // another session: a push, all put back, and one after another taken back, the last of the session before
+  ASSERT_TRUE(press("2", "chosen: ")) << view.said();
+  ASSERT_TRUE(push(view, 0.026)) << view.said();
+  ASSERT_TRUE(press("r", "take back: all pushes")) << view.said();
+  xdotool("sleep 1");
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(press("BackSpace", one_back)) << view.said();
+    xdotool("sleep 1");
+  }
+  ASSERT_TRUE(push(view, 0.018)) << view.said();
+  ASSERT_TRUE(press("r", "take back: all pushes")) << view.said();
   xdotool("sleep 1 key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
 
   std::size_t pushed = 0, taken_back = 0, put_back = 0;
+  std::string events;
   for (const auto& file : std::filesystem::directory_iterator(folder_.file("kept"))) {
     if (file.path().extension() != ".afms") continue;
     const auto session = servo::load_session(file.path());
     ASSERT_TRUE(session) << session.error().message;
+    events += "\n" + file.path().filename().string();
+    for (const scene::TipEvent& event : session->events) events += std::string(" ") + physics::name_of(event.kind);
     pushed += count(*session, physics::EventKind::ParticleTouched);
     taken_back += count(*session, physics::EventKind::PushTakenBack);
     put_back += count(*session, physics::EventKind::ParticlesPutBack);
@@ -125,9 +135,9 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
     EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
     EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
   }
-  EXPECT_GE(pushed, 3U);
-  EXPECT_EQ(taken_back, 1U) << "the other one began a session";
-  EXPECT_EQ(put_back, 1U);
+  EXPECT_GE(pushed, 4U) << events;
+  EXPECT_GE(taken_back, 3U) << "the fourth began a session" << events;
+  EXPECT_EQ(put_back, 2U) << events;
 }
 
 }  // namespace view_particles_test

@@ -40,7 +40,7 @@ class ParticlesPanel : public ::testing::Test {
 TEST_F(ParticlesPanel, NamesStateParticleAndForcesOfAPush) {
   const render::DataPanel shown = panel(test::push_of(set_, 2, PushState::Slides));
   EXPECT_EQ(shown.title, "Five gold spheres on mica");
-  EXPECT_EQ(shown.subtitle, "110 nm off the pattern (25 nm allowed); pushes: 0");
+  EXPECT_EQ(shown.subtitle, "110 nm off the pattern (25 nm allowed); to take back: 0");
   EXPECT_EQ(row(shown, Phrase::PushStateName), (render::DataRow{"State", "slides", "particle 3 of 5: gold"}));
   EXPECT_EQ(row(shown, Phrase::PushNormal).value, "0.31 nN");
   EXPECT_EQ(row(shown, Phrase::PushLateral).value, "0.25 nN");
@@ -63,7 +63,7 @@ TEST_F(ParticlesPanel, SaysHowManyPushesCanBeTakenBack) {
   push.strokes = 3;
   EXPECT_EQ(panel(push).subtitle, "Particles in air; pushes to take back: 3");
   push.strokes = scene::kMostStrokes;
-  EXPECT_EQ(panel(push).subtitle, "Particles in air; pushes to take back: 64+");
+  EXPECT_EQ(panel(push).subtitle, "Particles in air; pushes to take back: 64");
 }
 
 TEST_F(ParticlesPanel, SaysHowFarThePatternIsAndWhenItIsDone) {
@@ -76,10 +76,10 @@ TEST_F(ParticlesPanel, SaysHowFarThePatternIsAndWhenItIsDone) {
     pose.x_m = targets[i].x.si + 24e-9;
     pose.y_m = targets[i].y.si;
   }
-  EXPECT_EQ(panel(push).subtitle, "Pattern done, 24 nm off; pushes: 7");
+  EXPECT_EQ(panel(push).subtitle, "Pattern done, 24 nm off; pushes to take back: 7");
   EXPECT_TRUE(pattern_of({.set = &set_, .pages = pages_})->done());
   for (std::size_t i = 0; i < targets.size(); ++i) pages_[0].poses[i].x_m += 2e-9;
-  EXPECT_EQ(panel(push).subtitle, "26 nm off the pattern (25 nm allowed); pushes: 7");
+  EXPECT_EQ(panel(push).subtitle, "26 nm off the pattern (25 nm allowed); to take back: 7");
   EXPECT_FALSE(pattern_of({.set = &set_, .pages = pages_})->done());
   EXPECT_FALSE(pattern_of({.set = &set_, .pages = {}})) << "before the servo has said where they lie";
 }

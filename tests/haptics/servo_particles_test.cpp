@@ -223,6 +223,21 @@ TEST(ServoAmongParticles, PutsAllBackAndTakesThatBackToo) {
   EXPECT_EQ(bench.pose(0), there);
 }
 
+TEST(ServoAmongParticles, StoresTheirPagesOnceOnAnyScale) {
+  PushingBench bench;
+  bench.push_to(-0.012);
+  bench.release();
+  bench.choose(test::kMica, ScaleMode::Fit);
+  bench.run(0.3);
+  const auto page_is_new = [&] { return bench.renderer.new_particle_page(0).has_value(); };
+  page_is_new();
+  bench.order(bench.put_back);
+  EXPECT_EQ(bench.count(EventKind::ParticlesPutBack), 1U);
+  EXPECT_TRUE(page_is_new());
+  bench.tick();
+  EXPECT_FALSE(page_is_new());
+}
+
 // Its predecessor's orders are none of its own.
 TEST(ServoAmongParticles, AnotherRendererTakesNothingBackByBeginning) {
   PushingBench bench;

@@ -113,8 +113,7 @@ scene::Primitive slab(const glm::dvec3& size, const glm::dvec3& middle) {
 }
 
 scene::PbrMaterial mark_on_sample() {
-  return {
-      .name = "where a particle was", .base_color = {0.85F, 0.88F, 0.90F, 1.0F}, .metallic = 0.0F, .roughness = 0.8F};
+  return {.name = "mark on the sample", .base_color = {0.85F, 0.88F, 0.90F, 1.0F}, .metallic = 0.0F, .roughness = 0.8F};
 }
 
 }  // namespace

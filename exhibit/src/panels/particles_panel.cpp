@@ -146,7 +146,7 @@ class ParticleRows {
 // How far a pattern is, or else what the particles are in; with the pushes that can be taken back.
 std::string subtitle(const ParticlesNow& now, const Phrases& phrases) {
   const std::uint32_t strokes = now.push.strokes;
-  const std::string pushes = strokes < scene::kMostStrokes ? fmt::format("{}", strokes) : fmt::format("{}+", strokes);
+  const std::string pushes = fmt::format("{}", strokes);
   const std::string& medium = phrases.word(now.set->medium);
   if (const auto pattern = pattern_of(now)) {
     const std::string off = quantity_text(physics::Length(pattern->off_m), physics::kLengthUnits, phrases);

@@ -65,7 +65,10 @@ class FeltParticles {
   scene::PushSample sample() const noexcept;
 
   std::span<const scene::ParticlePage> pages() const noexcept { return pages_; }
-  std::span<const std::uint32_t> changed_pages() const noexcept { return changed_; }  // by the newest step
+
+  // Pages changed since the last published(), which follows once they are stored.
+  std::span<const std::uint32_t> changed_pages() const noexcept { return changed_; }
+  void published() noexcept { changed_.clear(); }
 
  private:
   enum class Tip { Waits, Over, Among };

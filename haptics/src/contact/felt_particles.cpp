@@ -91,7 +91,6 @@ void FeltParticles::lift() noexcept {
   meeting_ = {};
   push_n_ = glm::dvec3(0.0);
   stored_j_ = 0.0;
-  changed_.clear();
 }
 
 bool FeltParticles::take_back() noexcept {
@@ -105,13 +104,15 @@ bool FeltParticles::put_back() noexcept {
   if (tip_ == Tip::Among) return false;
   lift();
   strokes_.begin();
+  bool moved = false;
   for (std::uint32_t i = 0; i < particles_.size(); ++i) {
     const scene::ParticlePose& start = start_[scene::page_of(i)].poses[i % scene::kPosesPerPage];
     if (pose(i) == start) continue;
     strokes_.keep(i, pose(i));
     put(i, start);
+    moved = true;
   }
-  return !changed_.empty();
+  return moved;
 }
 
 // hold_over() follows before the tip meets a particle again.
@@ -130,7 +131,6 @@ void FeltParticles::change(std::uint32_t particle, const scene::ParticlePose& no
 
 ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double elapsed_s) noexcept {
   ParticlePush step;
-  changed_.clear();
   const glm::dvec3 at_m(tip_xy_m, z_m);
   const bool over = z_m >= scale_.clear_z_m;
   if (over) {

@@ -110,6 +110,7 @@ void ServoLoop::publish_particles() noexcept {
   push.tick = state_.tick;
   shared_.store(push);
   for (const std::uint32_t page : particles_->changed_pages()) shared_.store(particles_->pages()[page], page);
+  particles_->published();
 }
 
 }  // namespace afm::haptics

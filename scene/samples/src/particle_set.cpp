@@ -169,8 +169,8 @@ Field field_of(const std::vector<physics::PlacedParticle>& particles) {
   return field;
 }
 
-// The places of a pattern: within the field of the particles, over which the hand reaches, and so far apart that
-// particles can lie on all of them at once.
+// The places of a pattern: within the field of the particles, over which the hand reaches, and no nearer to
+// each other than the smallest particles that touch.
 void read_targets(const TomlTable& top, ParticleSet& set) {
   const auto movable = static_cast<std::size_t>(
       std::count_if(set.particles.begin(), set.particles.end(), [](const auto& p) { return !p.pinned; }));

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "scene/shared/tip_blocks.h"
+#include "servo/reached_places.h"
 #include "servo/servo_client.h"
 #include "servo/session_file.h"
 
@@ -52,16 +51,15 @@ class SessionRecorder {
 
  private:
   bool goes_on_with(const scene::TipSample& sample) const;
-  void note_places(const scene::PushSample& push);
   void begin(const scene::TipSample& sample, const ServoClient& servo);
   void take_scale(const scene::TipSample& sample, const scene::TipState& tip);
 
   RecordedSession session_;
   std::optional<RecordedSession> finished_;
   std::optional<scene::TipSample> previous_;
-  std::optional<scene::TipEvent> taken_back_;  // event whose sample is still to come
-  std::unordered_set<std::uint64_t> places_;   // digests of the particles between the pushes of the current session
-  std::size_t ticks_ = 0;                      // ticks in the current session
+  std::optional<scene::TipEvent> put_;  // event of particles that were put somewhere, whose sample is still to come
+  ReachedPlaces places_;                // places in the current session
+  std::size_t ticks_ = 0;               // ticks in the current session
   bool scale_known_ = false;
 };
 

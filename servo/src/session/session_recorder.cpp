@@ -19,6 +19,11 @@ bool same_contact(const TipSample& a, const TipSample& b) {
   return a.material == b.material && a.edit_revision == b.edit_revision && a.scale_mode == b.scale_mode;
 }
 
+// Carried out because a person ordered it, not caused by the tip.
+bool is_order(physics::EventKind kind) {
+  return kind == physics::EventKind::PushTakenBack || kind == physics::EventKind::ParticlesPutBack;
+}
+
 bool is_of(const TipSample& sample, const scene::TipState& tip) {
   return tip.material == sample.material && tip.active.edit_revision == sample.edit_revision &&
          tip.active.scale_mode == sample.scale_mode;
@@ -39,9 +44,9 @@ bool SessionRecorder::goes_on_with(const TipSample& sample) const {
 }
 
 bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
-  // a replay knows only the pushes of its session
-  const auto taken_back = std::exchange(taken_back_, std::nullopt);
-  if (!goes_on_with(sample) || (taken_back && !places_.contains(sample.push.digest))) finish();
+  const auto put = std::exchange(put_, std::nullopt);
+  const bool taken_back = put && put->kind == physics::EventKind::PushTakenBack;
+  if (!goes_on_with(sample) || (taken_back && !places_.take_back_to(sample.push.digest))) finish();
   const bool begins = ticks_ == 0;
   const bool fresh = previous_ && !same_contact(*previous_, sample) && sample.tick == previous_->tick + 1;
   previous_ = sample;
@@ -51,8 +56,8 @@ bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
   if (begins && !fresh && !can_begin_with(sample, servo.tip(), is_dynamic())) return false;
   if (begins && !has_poses_of(sample, servo)) return false;
   if (begins) begin(sample, servo);
-  if (!begins && taken_back) session_.events.push_back(*taken_back);
-  note_places(sample.push);
+  if (!begins && put) session_.events.push_back(*put);
+  places_.add(sample.push);
   if (!scale_known_) take_scale(sample, servo.tip());
   session_.samples.push_back(sample);
   ++ticks_;
@@ -60,15 +65,11 @@ bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
 }
 
 void SessionRecorder::add(const scene::TipEvent& event) {
-  if (event.kind == physics::EventKind::PushTakenBack) {
-    taken_back_ = event;
+  if (is_order(event.kind)) {
+    put_ = event;
   } else if (ticks_ > 0) {
     session_.events.push_back(event);
   }
-}
-
-void SessionRecorder::note_places(const scene::PushSample& push) {
-  if (push.particle == scene::kNoParticle) places_.insert(push.digest);
 }
 
 void SessionRecorder::add(const WallFrame& frame) {
