@@ -238,7 +238,7 @@ TEST(ServoAmongParticles, StoresTheirPagesOnceOnAnyScale) {
   EXPECT_FALSE(page_is_new());
 }
 
-// Its predecessor's orders are none of its own.
+// A renderer that replaces another does not repeat its orders.
 TEST(ServoAmongParticles, AnotherRendererTakesNothingBackByBeginning) {
   PushingBench bench;
   bench.push_to(-0.012);

@@ -95,7 +95,7 @@ class PushedParticles {
   const PushTick& move_to(const LeverBase& base, Time elapsed) noexcept;
 
   // Takes the tip off all spheres and holds it over the place, so high that it touches none: base.z is at least
-  // clear_height(setup). Every sphere has then rested for ever, and given, work, lost and stored begin at zero. What
+  // clear_height(setup). Every sphere then counts as fully rested, and given, work, lost and stored start at zero. What
   // follows depends on the positions of the spheres alone.
   void hold_over(const LeverBase& base) noexcept;
 
