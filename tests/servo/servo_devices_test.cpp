@@ -28,10 +28,12 @@ using scene::TipSample;
 
 const std::string kServoProgram = support::built("bin/touchafm-servo");
 
-// Two presses at the top, because a fault takes one to acknowledge; then down, and up again. Contact lies at y = -20
-// mm.
+// One cycle, which the mock plays again and again: two presses at the top, because a fault takes one to acknowledge,
+// then half a second for the force to rise, down, and up. Contact lies at y = -20 mm; below some 35 mm no force may be
+// switched on. The cycle is short, because 5 ms without a call of the driver, common on a busy machine, end it.
 constexpr const char* kPerson =
-    "0.0 0 40 0 0\n0.4 0 40 0 1\n0.5 0 40 0 0\n0.7 0 40 0 1\n0.8 0 40 0 0\n1.6 0 40 0 0\n2.4 0 -25 0 0\n3.2 0 40 0 0\n";
+    "0.0 0 40 0 0\n0.2 0 40 0 1\n0.25 0 40 0 0\n0.3 0 40 0 1\n0.35 0 40 0 0\n0.8 0 40 0 0\n1.1 0 -25 0 0\n1.4 0 40 0 "
+    "0\n";
 
 // For one test's child processes.
 class Environment {
@@ -53,7 +55,7 @@ class ServoDevices : public testing::Test {
 
   // Beats and collects samples until the condition holds.
   bool until(ServoProcess& servo, const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(100);
     while (!condition()) {
       if (std::chrono::steady_clock::now() > end || !servo.alive()) return condition();
       side.store(scene::RendererHeartbeat{.time_ns = core::MonotonicClock().now_ns(), .frame = ++frame});
@@ -80,26 +82,12 @@ TEST_F(ServoDevices, LetsACycleBeFeltThroughTheVendorsLibrary) {
   const support::ScratchFolder folder;
   const Environment library("TOUCHAFM_HD_LIBRARY", support::mock_hd());
   const Environment script("MOCK_HD_SCRIPT", folder.write("person.txt", kPerson));
-  const auto felt = [&] {
-    return events.size() >= 2 &&
-           std::any_of(samples.begin(), samples.end(), [](const TipSample& s) { return s.hand_force_n < -1.5; });
-  };
-  const auto let_go = [&] {
-    const auto state = side.tip_state();
-    return state && state->fault == scene::FaultCode::LateTick;
-  };
   auto servo = start("hdapi");
   ASSERT_TRUE(servo) << servo.error().message;
-  // the mock's person goes down once: after a stall of this machine it takes another servo, and another person
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(100);
-  while (until(**servo, [&] { return felt() || let_go(); }) && !felt() && std::chrono::steady_clock::now() < end) {
-    servo->reset();
-    samples.clear();
-    events.clear();
-    servo = start("hdapi");
-    ASSERT_TRUE(servo) << servo.error().message;
-  }
-  EXPECT_TRUE(felt());
+  EXPECT_TRUE(until(**servo, [&] {
+    return events.size() >= 2 &&
+           std::any_of(samples.begin(), samples.end(), [](const TipSample& s) { return s.hand_force_n < -1.5; });
+  }));
   const pid_t pid = (*servo)->pid();
   servo->reset();
   EXPECT_NE(::kill(pid, 0), 0);
