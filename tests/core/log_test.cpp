@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <poll.h>
-#include <pty.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -15,6 +14,7 @@
 #include <string_view>
 
 #include "core/file_descriptor.h"
+#include "support/pseudo_terminal.h"
 
 // The log never waits for its reader: stderr is a full pipe or a stopped terminal.
 namespace afm::core {
@@ -79,14 +79,13 @@ TEST(Log, NeitherWaitsForAFullPipeNorLosesWhatItCanKeep) {
 }
 
 TEST(Log, DoesNotWaitForAStoppedTerminal) {
-  int master = -1, slave = -1;
-  ASSERT_EQ(::openpty(&master, &slave, nullptr, nullptr, nullptr), 0);
-  const FileDescriptor reader(master), terminal(slave);
-  const Stderr captured(terminal.get());
-  ASSERT_EQ(::tcflow(terminal.get(), TCOOFF), 0);  // Ctrl-S
+  const auto opened = support::open_pseudo_terminal();
+  ASSERT_TRUE(opened) << "no pseudo-terminal: mount /dev/pts, or run this as root";
+  const Stderr captured(opened->terminal.get());
+  ASSERT_EQ(::tcflow(opened->terminal.get(), TCOOFF), 0);  // Ctrl-S
   for (int i = 0; i < 10; ++i) log_line(fmt::format("line {}", i));
-  ASSERT_EQ(::tcflow(terminal.get(), TCOON), 0);
-  EXPECT_THAT(read_until(reader.get(), "line 9"), AllOf(HasSubstr("line 0"), HasSubstr("line 9")));
+  ASSERT_EQ(::tcflow(opened->terminal.get(), TCOON), 0);
+  EXPECT_THAT(read_until(opened->reader.get(), "line 9"), AllOf(HasSubstr("line 0"), HasSubstr("line 9")));
 }
 
 // Other processes share the open file.
