@@ -2,252 +2,165 @@
 #include "heap_descent.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+
+#include "definite_solution.h"
 
 namespace afm::physics {
 namespace {
 
-constexpr double kTinyGain = 1e-14;  // smallest gain of a round that counts, as a share of E + R
+using Step = HeapContacts::Step;
+using Sphere = HeapContacts::Sphere;
+using Normal = HeapContacts::Normal;
+using Touch = HeapContacts::Touch;
+
+constexpr double kTinyGain = 1e-12;       // smallest gain of a round that counts, as a share of E + R
+constexpr double kLeastStiffness = 1e-6;  // share of a contact's stiffness
 constexpr int kMostHalvings = 8;
+constexpr int kMostAttempts = 3;         // at the contacts of a Newton step
+constexpr double kSolvingShare = 0.02;   // work of a solution per cube of its size
+constexpr int kNewtonSteps = 3;          // a round, of the tip alone and of all
 constexpr double kRestRounding = 1e-12;  // share by which a force must exceed a threshold
+constexpr std::size_t kMostUnknowns = 3 + 2 * HeapContacts::kMostMovers;
 
-// Solves stiffness * step = -gradient for a symmetric positive definite matrix (Cholesky). False if it is not.
-template <class Matrix, class Vector>
-bool solve_definite(std::size_t size, Matrix& stiffness, const Vector& gradient, Vector& step) noexcept {
-  for (std::size_t i = 0; i < size; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      double value = stiffness[i][j];
-      for (std::size_t k = 0; k < j; ++k) value -= stiffness[i][k] * stiffness[j][k];
-      if (i == j) {
-        if (!(value > 0.0)) return false;
-        stiffness[i][i] = std::sqrt(value);
-      } else {
-        stiffness[i][j] = value / stiffness[j][j];
-      }
-    }
+// Gradient and stiffness of E + R over the apex and the movers: three unknowns, then two for each.
+struct System {
+  explicit System(std::size_t movers) noexcept : size(3 + 2 * movers) {
+    for (std::size_t i = 0; i < size; ++i) std::fill_n(stiffness[i].begin(), size, 0.0);
   }
-  for (std::size_t i = 0; i < size; ++i) {
-    double value = -gradient[i];
-    for (std::size_t k = 0; k < i; ++k) value -= stiffness[i][k] * step[k];
-    step[i] = value / stiffness[i][i];
+
+  std::size_t size;
+  std::array<double, kMostUnknowns> gradient{};
+  std::array<std::array<double, kMostUnknowns>, kMostUnknowns> stiffness;  // size x size are set
+};
+
+using Move = std::array<double, kMostUnknowns>;
+
+class Descent {
+ public:
+  Descent(HeapContacts& heap, double reach_m, double& work) noexcept
+      : heap_(heap), start_(heap.apex()), reach_m_(reach_m), work_(work) {}
+
+  bool run() noexcept;
+
+ private:
+  Flat pull_on(std::size_t i, double& spring) const noexcept;
+  bool settle(std::size_t i) noexcept;
+  bool sweep() noexcept;
+  bool touches(std::size_t i) const noexcept;
+  void add_tip(System& s, std::size_t i, bool curved) const noexcept;
+  void add_pair(System& s, std::size_t p, bool curved) const noexcept;
+  void add_friction(System& s, std::size_t i) const noexcept;
+  void assemble(System& s, const Step& movers, bool curved, bool foreseen) const noexcept;
+  bool solve(const Step& movers, bool foreseen, Move& move) noexcept;
+  void propose(Step& step, const Move& move, double share) const noexcept;
+  bool foresee(const Step& step, bool foreseen) noexcept;
+  bool tip_counts(std::size_t i, bool foreseen) const noexcept {
+    return foreseen ? tip_foreseen_[i] : heap_.normal_of(i).overlap_m > 0.0;
   }
-  for (std::size_t i = size; i-- > 0;) {
-    double value = step[i];
-    for (std::size_t k = i + 1; k < size; ++k) value -= stiffness[k][i] * step[k];
-    step[i] = value / stiffness[i][i];
+  bool pair_counts(std::size_t p, bool foreseen) const noexcept {
+    return foreseen ? pair_foreseen_[p] : heap_.touch_of(p).overlap_m > 0.0;
   }
+  bool within_reach(const Step& step) const noexcept;
+  bool newton() noexcept;
+  bool take_if_lower(const Step& step, double change_j) noexcept;
+  std::size_t row_of(std::size_t sphere) const noexcept;
+
+  HeapContacts& heap_;
+  Apex start_;
+  double reach_m_;
+  double& work_;
+  double gained_j_ = 0.0;  // in this round
+  double tiny_j_ = 0.0;    // gain of a round that does not count
+  std::size_t links_ = 0;  // contacts of the parts that a Newton step moves
+  std::array<bool, HeapContacts::kMostActive> tip_foreseen_{};
+  std::array<bool, HeapContacts::kMostPairs> pair_foreseen_{};
+  bool at_limit_ = false;  // a part has moved by reach_m_
+};
+
+bool Descent::take_if_lower(const Step& step, double change_j) noexcept {
+  if (!may_be_taken(change_j)) return false;
+  gained_j_ -= change_j;
+  heap_.take(step);
   return true;
-}
-
-double distance_between(const Flat& a, const Flat& b) noexcept {
-  const double x = a.x - b.x, y = a.y - b.y;
-  return std::sqrt(x * x + y * y);
-}
-
-}  // namespace
-
-bool may_be_taken(double change_j) noexcept { return change_j < 0.0; }
-
-void HeapDescent::begin(const Apex& base, const Apex& apex, double reach_m) noexcept {
-  base_ = base;
-  start_ = apex_ = apex;
-  reach_m_ = reach_m;
-  count_ = pair_count_ = 0;
-}
-
-bool HeapDescent::add(const Sphere& sphere) noexcept {
-  if (count_ == kMostActive) return false;
-  spheres_[count_++] = sphere;
-  return true;
-}
-
-bool HeapDescent::add(const Pair& pair) noexcept {
-  if (pair_count_ == kMostPairs) return false;
-  pairs_[pair_count_++] = pair;
-  return true;
-}
-
-double HeapDescent::stored(const Apex& apex) const noexcept {
-  const double x = apex.x - base_.x, y = apex.y - base_.y, z = apex.height - base_.height;
-  double energy_j = 0.5 * (springs_.lateral.si * (x * x + y * y) + springs_.normal.si * z * z);
-  double squares = 0.0;
-  for (std::size_t i = 0; i < count_; ++i) {
-    const Sphere& sphere = spheres_[i];
-    const double depth = sphere.profile->overlap(distance_between(sphere.at, {apex.x, apex.y}), apex.height).depth_m;
-    if (depth > 0.0) squares += depth * depth;
-  }
-  for (std::size_t p = 0; p < pair_count_; ++p) {
-    const Pair& pair = pairs_[p];
-    const Flat& other = pair.second == kMostActive ? pair.stays : spheres_[pair.second].at;
-    const double depth = pair.distance_m - distance_between(spheres_[pair.first].at, other);
-    if (depth > 0.0) squares += depth * depth;
-  }
-  return energy_j + 0.5 * springs_.contact.si * squares;
-}
-
-double HeapDescent::friction() const noexcept {
-  double lost_j = 0.0;
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (spheres_[i].moved()) lost_j += spheres_[i].moving_n * distance_between(spheres_[i].at, spheres_[i].start);
-  }
-  return lost_j;
-}
-
-HeapDescent::Places HeapDescent::places() const noexcept {
-  Places now{.apex = apex_};
-  for (std::size_t i = 0; i < count_; ++i) now.spheres[i] = spheres_[i].at;
-  return now;
-}
-
-void HeapDescent::restore(const Places& places) noexcept {
-  apex_ = places.apex;
-  for (std::size_t i = 0; i < count_; ++i) spheres_[i].at = places.spheres[i];
-}
-
-// Change of the overlap of tip and sphere; as a difference where both contacts are on the same side of the tip.
-double HeapDescent::overlap_change(const Sphere& sphere, const Flat& was, const Apex& apex_was) const noexcept {
-  const double x0 = was.x - apex_was.x, y0 = was.y - apex_was.y, x1 = sphere.at.x - apex_.x, y1 = sphere.at.y - apex_.y;
-  const double away0 = std::sqrt(x0 * x0 + y0 * y0), away1 = std::sqrt(x1 * x1 + y1 * y1);
-  const Overlap before = sphere.profile->overlap(away0, apex_was.height),
-                now = sphere.profile->overlap(away1, apex_.height);
-  if (before.depth_m <= 0.0 && now.depth_m <= 0.0) return 0.0;
-  const double k = 0.5 * springs_.contact.si;
-  if (before.depth_m <= 0.0) return k * now.depth_m * now.depth_m;
-  if (now.depth_m <= 0.0) return -k * before.depth_m * before.depth_m;
-  const double flank = sphere.profile->flank_sine();
-  double change = now.depth_m - before.depth_m;
-  const double dx = (sphere.at.x - was.x) - (apex_.x - apex_was.x), dy = (sphere.at.y - was.y) - (apex_.y - apex_was.y);
-  const double squares = dx * (x0 + x1) + dy * (y0 + y1), rise = apex_.height - apex_was.height;
-  if (before.sine == flank && now.sine == flank) {
-    change = -(away0 + away1 > 0.0 ? squares / (away0 + away1) : 0.0) * now.cosine - rise * flank;
-  } else if (before.sine > flank && now.sine > flank) {
-    const double apart0 = sphere.profile->reach_sum_m() - before.depth_m,
-                 apart1 = sphere.profile->reach_sum_m() - now.depth_m;
-    const double drops = apex_.height + apex_was.height + 2.0 * sphere.profile->cap_offset_m();
-    change = -(squares + rise * drops) / (apart0 + apart1);
-  }
-  return k * change * (now.depth_m + before.depth_m);
-}
-
-// Change of E + R, summed from differences: near rest it is smaller than what rounding leaves of the sums themselves.
-double HeapDescent::change_since(const Places& before) const noexcept {
-  const Apex& was = before.apex;
-  double change_j = 0.5 * springs_.lateral.si *
-                    ((apex_.x - was.x) * ((apex_.x - base_.x) + (was.x - base_.x)) +
-                     (apex_.y - was.y) * ((apex_.y - base_.y) + (was.y - base_.y)));
-  change_j += 0.5 * springs_.normal.si * (apex_.height - was.height) *
-              ((apex_.height - base_.height) + (was.height - base_.height));
-  for (std::size_t i = 0; i < count_; ++i) {
-    const Sphere& sphere = spheres_[i];
-    const Flat& old = before.spheres[i];
-    change_j += overlap_change(sphere, old, was);
-    const double x0 = old.x - sphere.start.x, y0 = old.y - sphere.start.y;
-    const double x1 = sphere.at.x - sphere.start.x, y1 = sphere.at.y - sphere.start.y;
-    const double ways = std::sqrt(x0 * x0 + y0 * y0) + std::sqrt(x1 * x1 + y1 * y1);
-    if (ways > 0.0) {
-      change_j += sphere.moving_n * ((sphere.at.x - old.x) * (x0 + x1) + (sphere.at.y - old.y) * (y0 + y1)) / ways;
-    }
-  }
-  for (std::size_t p = 0; p < pair_count_; ++p) {
-    const Pair& pair = pairs_[p];
-    const bool stays = pair.second == kMostActive;
-    const Flat &a1 = spheres_[pair.first].at, &a0 = before.spheres[pair.first];
-    const Flat& b1 = stays ? pair.stays : spheres_[pair.second].at;
-    const Flat& b0 = stays ? pair.stays : before.spheres[pair.second];
-    const double apart0 = distance_between(a0, b0), apart1 = distance_between(a1, b1);
-    const double depth0 = std::max(0.0, pair.distance_m - apart0), depth1 = std::max(0.0, pair.distance_m - apart1);
-    if (!(depth0 + depth1 > 0.0)) continue;
-    double change = depth1 - depth0;
-    if (depth0 > 0.0 && depth1 > 0.0) {
-      const double dx = (a1.x - a0.x) - (b1.x - b0.x), dy = (a1.y - a0.y) - (b1.y - b0.y);
-      const double squares = dx * ((a1.x - b1.x) + (a0.x - b0.x)) + dy * ((a1.y - b1.y) + (a0.y - b0.y));
-      change = -squares / (apart0 + apart1);
-    }
-    change_j += 0.5 * springs_.contact.si * change * (depth0 + depth1);
-  }
-  return change_j;
-}
-
-HeapDescent::Normal HeapDescent::normal_to(const Sphere& sphere, const Apex& apex) const noexcept {
-  const double x = sphere.at.x - apex.x, y = sphere.at.y - apex.y;
-  const double away = std::sqrt(x * x + y * y);
-  const Overlap overlap = sphere.profile->overlap(away, apex.height);
-  const double ux = away > 0.0 ? x / away : 1.0, uy = away > 0.0 ? y / away : 0.0;
-  Normal normal;
-  normal.overlap_m = overlap.depth_m;
-  normal.towards = {ux * overlap.cosine, uy * overlap.cosine, -overlap.sine};
-  normal.ball = overlap.sine > sphere.profile->flank_sine();
-  normal.apart_m = std::max(1e-30, normal.ball ? sphere.profile->reach_sum_m() - overlap.depth_m : away);
-  return normal;
 }
 
 // Force of E on a sphere, and the stiffness of what it touches.
-Flat HeapDescent::pull_on(std::size_t i, double& spring) const noexcept {
-  const Sphere& sphere = spheres_[i];
-  const double k_n = springs_.contact.si;
+Flat Descent::pull_on(std::size_t i, double& spring) const noexcept {
+  const double k_n = heap_.springs().contact.si;
   Flat force;
   spring = 0.0;
-  if (const Normal normal = normal_to(sphere, apex_); normal.overlap_m > 0.0) {
+  if (const Normal normal = heap_.normal_of(i); normal.overlap_m > 0.0) {
     force.x += k_n * normal.overlap_m * normal.towards[0];
     force.y += k_n * normal.overlap_m * normal.towards[1];
     spring += k_n;
   }
-  for (std::size_t p = 0; p < pair_count_; ++p) {
-    const Pair& pair = pairs_[p];
-    if (pair.first != i && pair.second != i) continue;
-    const Flat& first = spheres_[pair.first].at;
-    const Flat& other = pair.second == kMostActive ? pair.stays : spheres_[pair.second].at;
-    const double apart = distance_between(first, other), depth = pair.distance_m - apart;
-    if (!(depth > 0.0 && apart > 0.0)) continue;
-    const double push = (pair.first == i ? k_n : -k_n) * depth / apart;
-    force.x += push * (first.x - other.x);
-    force.y += push * (first.y - other.y);
+  for (const std::size_t p : heap_.pairs_of(i)) {
+    const Touch touch = heap_.touch_of(p);
+    if (!(touch.overlap_m > 0.0)) continue;
+    const double push = (heap_.pair(p).first == i ? k_n : -k_n) * touch.overlap_m;
+    force.x += push * touch.u[0];
+    force.y += push * touch.u[1];
     spring += k_n;
   }
   return force;
 }
 
-// One proximal step for each sphere: decides which move. Returns whether one moved.
-bool HeapDescent::sweep(double& gained_j) noexcept {
-  bool any = false;
-  for (std::size_t i = 0; i < count_; ++i) {
-    Sphere& sphere = spheres_[i];
-    if (sphere.pinned) continue;
-    double spring = 0.0;
-    const Flat force = pull_on(i, spring);
-    if (!(spring > 0.0)) continue;
-    const bool at_rest = !sphere.moved();
-    const double size = std::sqrt(force.x * force.x + force.y * force.y);
-    if (at_rest && size <= sphere.rest_n * (1.0 + kRestRounding)) continue;
-    const double f = sphere.moving_n;
-    const double zx = sphere.at.x + force.x / spring - sphere.start.x;
-    const double zy = sphere.at.y + force.y / spring - sphere.start.y;
-    const double way = std::sqrt(zx * zx + zy * zy);
-    const double share = way * spring > f ? 1.0 - f / (spring * way) : 0.0;
-    const Places before = places();
-    const Flat& was = before.spheres[i];
-    double step = 1.0;
-    bool taken = false;
-    for (int halving = 0; halving < kMostHalvings && !taken; ++halving, step *= 0.5) {
-      sphere.at = {was.x + step * (sphere.start.x + share * zx - was.x),
-                   was.y + step * (sphere.start.y + share * zy - was.y)};
-      if (step == 1.0 && share == 0.0) sphere.at = sphere.start;
-      if (distance_between(sphere.at, sphere.start) > reach_m_) continue;
-      if (const double change_j = change_since(before); may_be_taken(change_j)) {
-        gained_j -= change_j;
-        any = taken = true;
-      }
-    }
-    if (!taken) sphere.at = was;
+// One proximal step of a sphere, which decides whether it moves. Returns whether it was taken.
+bool Descent::settle(std::size_t i) noexcept {
+  const Sphere& sphere = heap_.sphere(i);
+  if (sphere.pinned) return false;
+  double spring = 0.0;
+  const Flat force = pull_on(i, spring);
+  const double size = std::sqrt(force.x * force.x + force.y * force.y);
+  if (!sphere.moved() && size <= sphere.rest_n * (1.0 + kRestRounding)) return false;
+  if (!(spring > 0.0)) spring = heap_.springs().contact.si;  // friction alone: back to where it started
+  const double f = sphere.moving_n;
+  const Flat was = sphere.at, start = sphere.start;
+  const double zx = was.x + force.x / spring - start.x, zy = was.y + force.y / spring - start.y;
+  const double way = std::sqrt(zx * zx + zy * zy);
+  const double share = way * spring > f ? 1.0 - f / (spring * way) : 0.0;
+  Step step;
+  step.count = 1;
+  step.spheres[0] = i;
+  heap_.choose({step.spheres.data(), 1});
+  double length = 1.0;
+  for (int halving = 0; halving < kMostHalvings; ++halving, length *= 0.5) {
+    Flat& to = step.to[0];
+    to = {was.x + length * (start.x + share * zx - was.x), was.y + length * (start.y + share * zy - was.y)};
+    if (length == 1.0 && share == 0.0) to = start;
+    if (distance_between(to, start) > reach_m_) continue;
+    work_ -= static_cast<double>(heap_.pairs_of(i).size());
+    if (take_if_lower(step, heap_.change_of(step))) return true;
   }
+  return false;
+}
+
+bool Descent::touches(std::size_t i) const noexcept {
+  if (heap_.normal_of(i).overlap_m > 0.0) return true;
+  const auto pairs = heap_.pairs_of(i);
+  return std::any_of(pairs.begin(), pairs.end(), [this](std::size_t p) { return heap_.touch_of(p).overlap_m > 0.0; });
+}
+
+bool Descent::sweep() noexcept {
+  work_ -= static_cast<double>(heap_.size() + heap_.pair_count());
+  bool any = false;
+  for (std::size_t i = 0; i < heap_.size(); ++i) any = settle(i) || any;
   return any;
 }
 
-void HeapDescent::add_tip(System& s, const std::array<std::size_t, kMostActive>& place, std::size_t i,
-                          bool curved) const noexcept {
-  const Normal normal = normal_to(spheres_[i], apex_);
-  if (!(normal.overlap_m > 0.0)) return;
-  const double k = springs_.contact.si, force = k * normal.overlap_m;
+// First row of a sphere in the system; 0: it does not move.
+std::size_t Descent::row_of(std::size_t sphere) const noexcept {
+  const std::size_t mover = heap_.mover(sphere);
+  return mover == HeapContacts::kMostMovers ? 0 : 3 + 2 * mover;
+}
+
+void Descent::add_tip(System& s, std::size_t i, bool curved) const noexcept {
+  const Normal normal = heap_.normal_of(i);
+  const double k = heap_.springs().contact.si, force = k * normal.overlap_m;
+  const std::size_t row = row_of(i);
   const auto& d = normal.towards;
   // d overlap/d apex = d, against the sphere: -d; curvature -(1 - dd')/r, on the flank in the plane alone
   const double away = std::sqrt(d[0] * d[0] + d[1] * d[1]);
@@ -261,30 +174,25 @@ void HeapDescent::add_tip(System& s, const std::array<std::size_t, kMostActive>&
         if (!normal.ball && a < 2 && b < 2) value -= force * away * (same - u[a] * u[b]) / normal.apart_m;
       }
       s.stiffness[a][b] += value;
-      if (place[i] == 0) continue;
-      if (b < 2) s.stiffness[a][place[i] + b] -= value;
-      if (a < 2) s.stiffness[place[i] + a][b] -= value;
-      if (a < 2 && b < 2) s.stiffness[place[i] + a][place[i] + b] += value;
+      if (row == 0) continue;
+      if (b < 2) s.stiffness[a][row + b] -= value;
+      if (a < 2) s.stiffness[row + a][b] -= value;
+      if (a < 2 && b < 2) s.stiffness[row + a][row + b] += value;
     }
     s.gradient[a] += force * d[a];
-    if (place[i] != 0 && a < 2) s.gradient[place[i] + a] -= force * d[a];
+    if (row != 0 && a < 2) s.gradient[row + a] -= force * d[a];
   }
 }
 
-void HeapDescent::add_pair(System& s, const std::array<std::size_t, kMostActive>& place, const Pair& pair,
-                           bool curved) const noexcept {
-  const Flat& first = spheres_[pair.first].at;
-  const bool stays = pair.second == kMostActive;
-  const Flat& other = stays ? pair.stays : spheres_[pair.second].at;
-  const double apart = distance_between(first, other), depth = pair.distance_m - apart;
-  if (!(depth > 0.0 && apart > 0.0)) return;
-  const double k = springs_.contact.si;
-  const std::array<double, 2> u{(first.x - other.x) / apart, (first.y - other.y) / apart};
-  const std::size_t p = place[pair.first], q = stays ? 0 : place[pair.second];
+void Descent::add_pair(System& s, std::size_t pair, bool curved) const noexcept {
+  const Touch touch = heap_.touch_of(pair);
+  const double k = heap_.springs().contact.si, force = k * touch.overlap_m;
+  const std::size_t p = row_of(heap_.pair(pair).first), q = row_of(heap_.pair(pair).second);
+  const auto& u = touch.u;
   for (std::size_t a = 0; a < 2; ++a) {
     for (std::size_t b = 0; b < 2; ++b) {
       double value = k * u[a] * u[b];
-      if (curved) value -= k * depth * ((a == b ? 1.0 : 0.0) - u[a] * u[b]) / apart;
+      if (curved) value -= force * ((a == b ? 1.0 : 0.0) - u[a] * u[b]) / touch.apart_m;
       if (p != 0) s.stiffness[p + a][p + b] += value;
       if (q != 0) s.stiffness[q + a][q + b] += value;
       if (p != 0 && q != 0) {
@@ -292,98 +200,177 @@ void HeapDescent::add_pair(System& s, const std::array<std::size_t, kMostActive>
         s.stiffness[q + a][p + b] -= value;
       }
     }
-    if (p != 0) s.gradient[p + a] -= k * depth * u[a];
-    if (q != 0) s.gradient[q + a] += k * depth * u[a];
+    if (p != 0) s.gradient[p + a] -= force * u[a];
+    if (q != 0) s.gradient[q + a] += force * u[a];
   }
 }
 
-// Gradient and stiffness of E + R over the apex and the spheres with a place.
-void HeapDescent::assemble(System& s, const std::array<std::size_t, kMostActive>& place, bool curved) const noexcept {
-  const double k_l = springs_.lateral.si, k_c = springs_.normal.si;
-  s.gradient = {k_l * (apex_.x - base_.x), k_l * (apex_.y - base_.y), k_c * (apex_.height - base_.height)};
-  s.stiffness = {};
+void Descent::add_friction(System& s, std::size_t i) const noexcept {
+  const Sphere& sphere = heap_.sphere(i);
+  const std::size_t row = row_of(i);
+  const double x = sphere.at.x - sphere.start.x, y = sphere.at.y - sphere.start.y;
+  const double way = std::sqrt(x * x + y * y);
+  const std::array<double, 2> u{x / way, y / way};
+  for (std::size_t a = 0; a < 2; ++a) {
+    s.gradient[row + a] += sphere.moving_n * u[a];
+    for (std::size_t b = 0; b < 2; ++b) {
+      s.stiffness[row + a][row + b] += sphere.moving_n / way * ((a == b ? 1.0 : 0.0) - u[a] * u[b]);
+    }
+  }
+}
+
+void Descent::assemble(System& s, const Step& movers, bool curved, bool foreseen) const noexcept {
+  const double k_l = heap_.springs().lateral.si, k_c = heap_.springs().normal.si;
+  const Apex &apex = heap_.apex(), &base = heap_.base();
+  s.gradient[0] = k_l * (apex.x - base.x);
+  s.gradient[1] = k_l * (apex.y - base.y);
+  s.gradient[2] = k_c * (apex.height - base.height);
   s.stiffness[0][0] = s.stiffness[1][1] = k_l;
   s.stiffness[2][2] = k_c;
-  for (std::size_t i = 0; i < count_; ++i) add_tip(s, place, i, curved);
-  for (std::size_t p = 0; p < pair_count_; ++p) add_pair(s, place, pairs_[p], curved);
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (place[i] == 0) continue;
-    const Sphere& sphere = spheres_[i];
-    const double x = sphere.at.x - sphere.start.x, y = sphere.at.y - sphere.start.y;
-    const double way = std::sqrt(x * x + y * y);
-    const std::array<double, 2> u{x / way, y / way};
-    for (std::size_t a = 0; a < 2; ++a) {
-      s.gradient[place[i] + a] += sphere.moving_n * u[a];
-      for (std::size_t b = 0; b < 2; ++b) {
-        s.stiffness[place[i] + a][place[i] + b] += sphere.moving_n / way * ((a == b ? 1.0 : 0.0) - u[a] * u[b]);
-      }
+  for (const std::size_t i : heap_.near_tip()) {
+    if (tip_counts(i, foreseen)) add_tip(s, i, curved);
+  }
+  for (std::size_t m = 0; m < movers.count; ++m) {
+    const std::size_t i = movers.spheres[m];
+    add_friction(s, i);
+    for (const std::size_t p : heap_.pairs_of(i)) {
+      if (heap_.counts_to(i, p) && pair_counts(p, foreseen)) add_pair(s, p, curved);
     }
   }
   // an apex that the lever presses on the sample stays there
-  if (apex_.height <= 0.0 && s.gradient[2] > 0.0) {
+  if (!curved) {
+    // a sphere that nothing touches has no stiffness along its way
+    for (std::size_t i = 3; i < s.size; ++i) s.stiffness[i][i] += kLeastStiffness * heap_.springs().contact.si;
+  }
+  if (apex.height <= 0.0 && s.gradient[2] > 0.0) {
     for (std::size_t j = 0; j < s.size; ++j) s.stiffness[2][j] = s.stiffness[j][2] = 0.0;
     s.stiffness[2][2] = k_c;
     s.gradient[2] = 0.0;
   }
 }
 
-bool HeapDescent::within_reach(const Apex& apex) const noexcept {
-  const double x = apex.x - start_.x, y = apex.y - start_.y, z = apex.height - start_.height;
+bool Descent::within_reach(const Step& step) const noexcept {
+  const double x = step.apex.x - start_.x, y = step.apex.y - start_.y, z = step.apex.height - start_.height;
   if (!(x * x + y * y + z * z <= reach_m_ * reach_m_)) return false;
-  return std::all_of(spheres_.begin(), spheres_.begin() + static_cast<std::ptrdiff_t>(count_),
-                     [this](const Sphere& s) { return distance_between(s.at, s.start) <= reach_m_; });
+  for (std::size_t m = 0; m < step.count; ++m) {
+    if (!(distance_between(step.to[m], heap_.sphere(step.spheres[m]).start) <= reach_m_)) return false;
+  }
+  return true;
 }
 
-// One Newton step of the apex, and of the spheres that move. Taken only if it lowers the sum.
-bool HeapDescent::newton(double& gained_j, bool tip_alone) noexcept {
-  System system;
-  std::array<std::size_t, kMostActive> place{};
-  for (std::size_t i = 0; i < count_ && !tip_alone; ++i) {
-    if (!spheres_[i].moved() || system.size + 2 > kMostUnknowns) continue;
-    place[i] = system.size;
-    system.size += 2;
+// Solves for the Newton step from the contacts of now, or from those foreseen. False if there is none.
+bool Descent::solve(const Step& movers, bool foreseen, Move& move) noexcept {
+  const auto size = static_cast<double>(3 + 2 * movers.count);
+  for (const bool curved : {true, false}) {
+    work_ -= static_cast<double>(links_) + kSolvingShare * size * size * size;
+    System system(movers.count);
+    assemble(system, movers, curved, foreseen);
+    if (!solve_definite(system.size, system.stiffness, system.gradient, move)) continue;
+    // what a step gains is half of what its gradient promises
+    double promised_j = 0.0;
+    for (std::size_t i = 0; i < system.size; ++i) promised_j -= 0.5 * system.gradient[i] * move[i];
+    return foreseen || promised_j > 0.1 * tiny_j_;
   }
-  std::array<double, kMostUnknowns> step{};
-  assemble(system, place, true);
-  if (!solve_definite(system.size, system.stiffness, system.gradient, step)) {
-    assemble(system, place, false);
-    if (!solve_definite(system.size, system.stiffness, system.gradient, step)) return false;
+  return false;
+}
+
+// Proposes a share of a move. Friction has a kink where a sphere started: one that would go back past it stops there.
+void Descent::propose(Step& step, const Move& move, double share) const noexcept {
+  const Apex& was = heap_.apex();
+  step.apex = {was.x + share * move[0], was.y + share * move[1], std::max(0.0, was.height + share * move[2])};
+  for (std::size_t m = 0; m < step.count; ++m) {
+    const Sphere& sphere = heap_.sphere(step.spheres[m]);
+    const Flat &old = sphere.at, &start = sphere.start;
+    Flat& to = step.to[m];
+    to = {old.x + share * move[3 + 2 * m], old.y + share * move[4 + 2 * m]};
+    if ((to.x - start.x) * (old.x - start.x) + (to.y - start.y) * (old.y - start.y) <= 0.0) to = start;
   }
-  const Places before = places();
-  double share = 1.0;
+}
+
+// Takes the contacts at the end of the step asked last for those of the next solution. False if they are the same.
+bool Descent::foresee(const Step& step, bool foreseen) noexcept {
+  bool changed = false;
+  const auto mark = [&changed](bool& known, bool solved_with, bool touches) {
+    changed = changed || touches != solved_with;
+    known = touches;
+  };
+  for (const std::size_t i : heap_.near_tip())
+    mark(tip_foreseen_[i], tip_counts(i, foreseen), heap_.tip_touches_then(i));
+  for (std::size_t m = 0; m < step.count; ++m) {
+    const std::size_t i = step.spheres[m];
+    for (const std::size_t p : heap_.pairs_of(i)) {
+      if (heap_.counts_to(i, p)) mark(pair_foreseen_[p], pair_counts(p, foreseen), heap_.touches_then(p));
+    }
+  }
+  return changed;
+}
+
+double farthest(const Move& move, std::size_t movers) noexcept {
+  double squares = move[0] * move[0] + move[1] * move[1] + move[2] * move[2];
+  for (std::size_t i = 3; i < 3 + 2 * movers; i += 2)
+    squares = std::max(squares, move[i] * move[i] + move[i + 1] * move[i + 1]);
+  return std::sqrt(squares);
+}
+
+// One Newton step of the apex, and of the spheres that move. Taken only if it lowers the sum. A step that would close
+// or open contacts is tried again with those that it ends in, and then in parts.
+bool Descent::newton() noexcept {
+  Step step;
+  step.moves_apex = true;
+  links_ = heap_.near_tip().size();
+  for (std::size_t i = 0; i < heap_.size() && step.count < step.spheres.size(); ++i) {
+    if (!heap_.sphere(i).moved() || !touches(i)) continue;
+    step.spheres[step.count++] = i;
+    links_ += heap_.pairs_of(i).size();
+  }
+  heap_.choose({step.spheres.data(), step.count});
+  Move first{}, move{};
+  bool inside = false;
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    if (!solve(step, attempt > 0, move)) {
+      if (attempt == 0) return false;
+      break;
+    }
+    if (attempt == 0) first = move;
+    propose(step, move, 1.0);
+    work_ -= static_cast<double>(links_);
+    const double change_j = heap_.change_of(step);
+    const bool within = within_reach(step);
+    if (attempt == 0) inside = within;
+    if (within && take_if_lower(step, change_j)) return true;
+    if (!foresee(step, attempt > 0)) break;
+  }
+  // what nothing holds may be far away
+  double share = std::min(0.5, reach_m_ / std::max(1e-30, farthest(first, step.count)));
   for (int halving = 0; halving < kMostHalvings; ++halving, share *= 0.5) {
-    const Apex& was = before.apex;
-    apex_ = {was.x + share * step[0], was.y + share * step[1], std::max(0.0, was.height + share * step[2])};
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Flat& old = before.spheres[i];
-      if (place[i] != 0) spheres_[i].at = {old.x + share * step[place[i]], old.y + share * step[place[i] + 1]};
-    }
-    if (!within_reach(apex_)) continue;
-    if (const double change_j = change_since(before); may_be_taken(change_j)) {
-      gained_j -= change_j;
-      return true;
-    }
+    propose(step, first, share);
+    if (!within_reach(step)) continue;
+    inside = true;
+    work_ -= static_cast<double>(links_);
+    if (take_if_lower(step, heap_.change_of(step))) return true;
   }
-  restore(before);
+  if (!inside) at_limit_ = true;
   return false;
 }
 
-bool HeapDescent::descend(int most_steps) noexcept {
-  int steps = 0;
-  while (steps < most_steps) {
-    double gained_j = 0.0;
-    for (int i = 0; i < 3 && steps < most_steps; ++i, ++steps) {
-      if (!newton(gained_j, true)) break;
-    }
-    bool moved = sweep(gained_j);
-    ++steps;
-    for (int i = 0; i < 3 && steps < most_steps; ++i, ++steps) {
-      if (!newton(gained_j, false)) break;
-      moved = true;
-    }
-    if (!moved || gained_j <= kTinyGain * (stored() + friction())) return true;
+bool Descent::run() noexcept {
+  tiny_j_ = kTinyGain * heap_.stored();
+  // no sphere moves yet: these are steps of the tip alone
+  for (int i = 0; i < kNewtonSteps && newton(); ++i) continue;
+  while (work_ > 0.0 && !at_limit_) {
+    gained_j_ = 0.0;
+    tiny_j_ = kTinyGain * (heap_.stored() + heap_.friction());
+    bool moved = sweep();
+    for (int i = 0; i < kNewtonSteps && work_ > 0.0 && newton(); ++i) moved = true;
+    if (!moved || gained_j_ <= tiny_j_) return true;
   }
   return false;
 }
+
+}  // namespace
+
+bool may_be_taken(double change_j) noexcept { return change_j < 0.0; }
+
+bool descend(HeapContacts& heap, double reach_m, double& work) noexcept { return Descent(heap, reach_m, work).run(); }
 
 }  // namespace afm::physics

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "physics/manipulation/particle_friction.h"
@@ -12,6 +13,11 @@ namespace afm::physics {
 struct Flat {
   double x = 0.0, y = 0.0;  // SI, in the plane of the sample
 };
+
+inline double distance_between(const Flat& a, const Flat& b) noexcept {
+  const double x = a.x - b.x, y = a.y - b.y;
+  return std::sqrt(x * x + y * y);
+}
 
 // The tip against one sphere, at rest under a lateral force: base, apex and centre lie in one vertical plane.
 struct Leaning {

@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "heap_descent.h"
+
 namespace afm::physics {
 namespace {
 
 constexpr int kMostSubSteps = 8;              // a tick
-constexpr int kStepsOfASubStep = 48;          // steps of a heap's descent
-constexpr int kHeapSplit = 3;                 // sub-steps of a heap in one of a lone sphere
+constexpr double kWorkOfATick = 4000.0;       // contacts that heaps may look at: some 20 us
+constexpr int kHeapSplit = 3;                 // steps of a heap in a sub-step
 constexpr double kSubStepShare = 1.0 / 20.0;  // share of the smallest distance of tip and sphere
-constexpr double kReachShare = 0.25;  // share of the smallest radius: the furthest that a part moves in a sub-step
+// furthest that a part moves in a sub-step, as shares of the smallest radius: alone, and in a heap
+constexpr double kReachShare = 1.0 / 4.0;
+constexpr double kHeapReachShare = 1.0 / 12.0;
 
 double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
@@ -29,7 +33,13 @@ PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<Placed
     touching_m = std::max(touching_m, 2.0 * species.contact.tip_radius.si);
   }
   reach_m_ = kReachShare * smallest_m;
+  heap_reach_m_ = kHeapReachShare * smallest_m;
   sub_step_m_ = kSubStepShare * (smallest_m + setup_.tip.radius.si) * std::cos(setup_.tip.half_angle_rad);
+  for (const ParticleSpecies& a : setup_.species) {
+    for (const ParticleSpecies& b : setup_.species) {
+      touching_m_.push_back(touching_distance(a.contact.tip_radius, b.contact.tip_radius).si);
+    }
+  }
   for (const PlacedParticle& particle : particles) {
     x_.push_back(particle.position.x.si);
     y_.push_back(particle.position.y.si);
@@ -45,6 +55,7 @@ PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<Placed
   base_ = {start.position.x.si, start.position.y.si, start.z.si};
   apex_ = {base_.x, base_.y, std::max(0.0, base_.height)};
   tick_.stored = tick_.given = Energy(stored_everywhere());
+  work_left_ = kWorkOfATick;
   sub_step(base_);
   publish();
 }
@@ -67,12 +78,14 @@ const PushTick& PushedParticles::Ticker::tick(const LeverBase& asked, double ela
 void PushedParticles::Ticker::advance(const Apex& to) noexcept {
   const double dx = to.x - base_.x, dy = to.y - base_.y, dz = to.height - base_.height;
   const double way_m = std::sqrt(dx * dx + dy * dy + dz * dz);
-  const double needed = std::ceil(way_m / sub_step_m_);
+  const double needed = way_m / sub_step_m_;
   tick_.lagging = needed > kMostSubSteps;
-  const int steps = tick_.lagging ? kMostSubSteps : std::max(1, static_cast<int>(needed));
+  const int steps = tick_.lagging ? kMostSubSteps : std::max(1, static_cast<int>(std::ceil(needed)));
   const double share = tick_.lagging ? sub_step_m_ / way_m : 1.0 / steps;
   const Apex from = base_;
+  work_left_ = kWorkOfATick;
   for (int i = 1; i <= steps; ++i) {
+    heap_steps_left_ = (steps - i + 1) * kHeapSplit;
     const double at = i * share;
     sub_step(i == steps && !tick_.lagging ? to : Apex{from.x + at * dx, from.y + at * dy, from.height + at * dz});
   }
@@ -80,20 +93,16 @@ void PushedParticles::Ticker::advance(const Apex& to) noexcept {
 
 // The spheres that the apex may touch within its reach. False: there are too many.
 bool PushedParticles::Ticker::find_near() noexcept {
-  near_count_ = 0;
+  near_.clear();
   bool fits = true;
   const double x = apex_.x, y = apex_.y, lowest_m = apex_.height - reach_m_;
   grid_->near(x, y, [&](std::size_t i) {
     const double diameter_m = 2.0 * setup_.species[species_[i]].contact.tip_radius.si;
     const double most_m = contacts_[species_[i]].profile().reach_m() + reach_m_;
     if (lowest_m > diameter_m || length_of(x_[i] - x, y_[i] - y) > most_m) return;
-    if (near_count_ < near_.size()) {
-      near_[near_count_++] = i;
-    } else {
-      fits = false;
-    }
+    fits = near_.add(i) && fits;
   });
-  std::sort(near_.begin(), near_.begin() + static_cast<std::ptrdiff_t>(near_count_));
+  std::sort(near_.begin(), near_.end());
   return fits;
 }
 
@@ -105,7 +114,8 @@ void PushedParticles::Ticker::sub_step(const Apex& to) noexcept {
     return;
   }
   settled_ = true;
-  const bool in_closed_form = near_count_ == 0 ? free_step(to) : near_count_ == 1 && lone_step(to, near_[0]);
+  const bool in_closed_form =
+      restless_.empty() && (near_.empty() ? free_step(to) : near_.size() == 1 && lone_step(to, *near_.begin()));
   if (!in_closed_form) {
     const Apex from = base_;
     for (int i = 1; i < kHeapSplit; ++i) {
@@ -140,9 +150,7 @@ double PushedParticles::Ticker::tip_contact_j(std::size_t i, const Flat& at, con
 }
 
 double PushedParticles::Ticker::touching_m(std::size_t i, std::size_t j) const noexcept {
-  return touching_distance(setup_.species[species_[i]].contact.tip_radius,
-                           setup_.species[species_[j]].contact.tip_radius)
-      .si;
+  return touching_m_[species_[i] * contacts_.size() + species_[j]];
 }
 
 double PushedParticles::Ticker::stored_everywhere() const noexcept {
@@ -166,7 +174,10 @@ bool PushedParticles::Ticker::within_reach(const Apex& apex) const noexcept {
 bool PushedParticles::Ticker::free_step(const Apex& to) noexcept {
   const auto rests = [](const Apex& base) { return Apex{base.x, base.y, std::max(0.0, base.height)}; };
   if (!within_reach(rests(to))) return false;
-  const double was_j = lever_j(base_, apex_), rested_j = lever_j(base_, rests(base_)), now_j = lever_j(to, rests(to));
+  double was_j = lever_j(base_, apex_);
+  // a descent that was cut short may have left the tip in a sphere
+  for (const std::size_t i : near_) was_j += tip_contact_j(i, {x_[i], y_[i]}, apex_);
+  const double rested_j = lever_j(base_, rests(base_)), now_j = lever_j(to, rests(to));
   tick_.given = tick_.given + Energy(now_j - rested_j);
   tick_.work = tick_.work + Energy(now_j - rested_j);
   tick_.stored = tick_.stored + Energy(now_j - was_j);
@@ -248,69 +259,6 @@ bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept 
   return true;
 }
 
-bool PushedParticles::Ticker::add_sphere(std::size_t i) noexcept {
-  const LoneContact& contact = contacts_[species_[i]];
-  const Pressed& pressed = pressed_[i];
-  const LoneThresholds thresholds = contact.under_load(pressed.normal_n, pressed.sine, pressed.cosine);
-  return heap_.add(HeapDescent::Sphere{.particle = i,
-                                       .profile = &contact.profile(),
-                                       .start = {x_[i], y_[i]},
-                                       .at = {x_[i], y_[i]},
-                                       .rest_n = rest_threshold(i, thresholds.rest_n, thresholds.moving_n),
-                                       .moving_n = thresholds.moving_n,
-                                       .pinned = pinned_[i]});
-}
-
-// The neighbours of a sphere of the descent, as spheres of it too while there is room.
-bool PushedParticles::Ticker::gather_pairs_of(std::size_t first) noexcept {
-  const std::size_t i = heap_.sphere(first).particle;
-  bool fits = true;
-  grid_->near(x_[i], y_[i], [&](std::size_t j) {
-    const double touching = touching_m(i, j);
-    if (j == i || length_of(x_[i] - x_[j], y_[i] - y_[j]) > touching + 2.0 * reach_m_) return;
-    std::size_t second = 0;
-    while (second < heap_.size() && heap_.sphere(second).particle != j) ++second;
-    if (second == heap_.size() && !add_sphere(j)) second = HeapDescent::kMostActive;
-    if (second < first) return;  // known from the other side
-    fits = heap_.add(HeapDescent::Pair{first, second, {x_[j], y_[j]}, touching}) && fits;
-  });
-  return fits;
-}
-
-bool PushedParticles::Ticker::gather(const Apex& to) noexcept {
-  heap_.begin(to, apex_, reach_m_);
-  if (!find_near()) return false;
-  bool fits = true;
-  for (std::size_t n = 0; n < near_count_; ++n) fits = add_sphere(near_[n]) && fits;
-  for (std::size_t n = 0; n < heap_.size(); ++n) fits = gather_pairs_of(n) && fits;
-  return fits;
-}
-
-void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
-  if (!gather(to)) {  // the base waits
-    exhausted_ = true;
-    settled_ = false;
-    return;
-  }
-  const double loaded_j = lever_j(to, apex_) - lever_j(base_, apex_), frozen_j = heap_.stored();
-  const bool at_rest = heap_.descend(kStepsOfASubStep);
-  if (!at_rest) exhausted_ = true;
-  const Apex& now = heap_.apex();
-  settled_ = at_rest && heap_.friction() == 0.0 && now.x == apex_.x && now.y == apex_.y && now.height == apex_.height;
-  tick_.given = tick_.given + Energy(loaded_j);
-  tick_.work = tick_.work + Energy(work_j(base_, apex_, to, heap_.apex()));
-  tick_.lost = tick_.lost + Energy(heap_.friction());
-  tick_.stored = tick_.stored + Energy(loaded_j + heap_.stored() - frozen_j);
-  base_ = to;
-  apex_ = heap_.apex();
-  for (std::size_t n = 0; n < heap_.size(); ++n) {
-    const HeapDescent::Sphere& sphere = heap_.sphere(n);
-    if (!sphere.moved()) continue;
-    if (sphere.rest_n > sphere.moving_n) gave(sphere.rest_n, sphere.moving_n);
-    place(sphere.particle, sphere.at);
-  }
-}
-
 void PushedParticles::Ticker::place(std::size_t i, const Flat& at) noexcept {
   x_[i] = at.x;
   y_[i] = at.y;
@@ -338,11 +286,12 @@ void PushedParticles::Ticker::hold_over(const LeverBase& base) noexcept {
   apex_ = base_;
   for (const std::uint32_t i : moved_) moves_[i] = false;
   moved_.clear();
-  near_count_ = 0;
+  near_.clear();
   press();
   std::fill(moved_at_s_.begin(), moved_at_s_.end(), -HUGE_VAL);
   time_s_ = tick_end_s_ = 0.0;
   settled_ = false;
+  restless_.clear();
   tick_.given = tick_.work = tick_.lost = tick_.stored = Energy();
   tick_.lagging = false;
   publish();
@@ -350,15 +299,14 @@ void PushedParticles::Ticker::hold_over(const LeverBase& base) noexcept {
 
 // What the tip presses: the load of the next sub-step's friction.
 void PushedParticles::Ticker::press() noexcept {
-  for (std::size_t n = 0; n < touched_count_; ++n) pressed_[touched_[n]] = {};
-  touched_count_ = 0;
-  for (std::size_t n = 0; n < near_count_; ++n) {
-    const std::size_t i = near_[n];
+  for (const std::size_t i : touched_) pressed_[i] = {};
+  touched_.clear();
+  for (const std::size_t i : near_) {
     const Overlap overlap =
         contacts_[species_[i]].profile().overlap(length_of(x_[i] - apex_.x, y_[i] - apex_.y), apex_.height);
     if (!(overlap.depth_m > 0.0)) continue;
     pressed_[i] = {setup_.springs.contact.si * overlap.depth_m, overlap.sine, overlap.cosine};
-    touched_[touched_count_++] = i;
+    touched_.add(i);
   }
 }
 
@@ -369,14 +317,14 @@ void PushedParticles::Ticker::publish() noexcept {
   tick_.lateral = {setup_.springs.lateral * Length(apex_.x - base_.x),
                    setup_.springs.lateral * Length(apex_.y - base_.y)};
   tick_.lift = setup_.springs.normal * Length(apex_.height - base_.height);
-  tick_.near = !find_near() || near_count_ > 0;
+  tick_.near = !find_near() || !near_.empty();
   tick_.particle = kNoParticle;
   tick_.state = PushState::Free;
   tick_.normal = tick_.threshold = Force(0.0);
-  for (std::size_t n = 0; n < touched_count_; ++n) {
-    if (pressed_[touched_[n]].normal_n <= tick_.normal.si) continue;
-    tick_.particle = touched_[n];
-    tick_.normal = Force(pressed_[touched_[n]].normal_n);
+  for (const std::size_t i : touched_) {
+    if (pressed_[i].normal_n <= tick_.normal.si) continue;
+    tick_.particle = i;
+    tick_.normal = Force(pressed_[i].normal_n);
   }
   if (tick_.particle == kNoParticle) return;
   const std::size_t i = tick_.particle;
@@ -384,7 +332,7 @@ void PushedParticles::Ticker::publish() noexcept {
   const Pressed& pressed = pressed_[i];
   const bool moves = moved_at_s_[i] >= time_s_ && !moved_.empty();
   LoneThresholds thresholds = contact.under_load(pressed.normal_n, pressed.sine, pressed.cosine);
-  if (touched_count_ > 1 || moved_.size() > 1) {
+  if (touched_.size() > 1 || moved_.size() > 1) {
     tick_.state = PushState::Several;
   } else {
     if (is_alone(i)) thresholds = contact.thresholds(base_.height);

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "heap_descent.h"
+#include "heap_contacts.h"
 #include "lone_push.h"
 #include "particle_grid.h"
 #include "physics/manipulation/pushed_particles.h"
@@ -31,6 +31,25 @@ class PushedParticles::Ticker {
   std::size_t species(std::size_t i) const { return species_.at(i); }
 
  private:
+  // Some spheres.
+  class Few {
+   public:
+    bool add(std::size_t sphere) noexcept {  // false: full
+      if (count_ == spheres_.size()) return false;
+      spheres_[count_++] = sphere;
+      return true;
+    }
+    void clear() noexcept { count_ = 0; }
+    bool empty() const noexcept { return count_ == 0; }
+    std::size_t size() const noexcept { return count_; }
+    auto begin() noexcept { return spheres_.begin(); }
+    auto end() noexcept { return spheres_.begin() + static_cast<std::ptrdiff_t>(count_); }
+
+   private:
+    std::array<std::size_t, HeapContacts::kMostActive> spheres_{};
+    std::size_t count_ = 0;
+  };
+
   struct Pressed {
     double normal_n = 0.0, sine = 0.0, cosine = 1.0;
   };
@@ -46,7 +65,7 @@ class PushedParticles::Ticker {
   bool gather(const Apex& to) noexcept;
   bool gather_pairs_of(std::size_t place) noexcept;
   bool is_alone(std::size_t i) const noexcept;
-  bool add_sphere(std::size_t i) noexcept;
+  bool add_sphere(std::size_t i, bool near_tip) noexcept;
   double lever_j(const Apex& base, const Apex& apex) const noexcept;
   double work_j(const Apex& base0, const Apex& apex0, const Apex& base1, const Apex& apex1) const noexcept;
   double tip_contact_j(std::size_t i, const Flat& at, const Apex& apex) const noexcept;
@@ -60,20 +79,23 @@ class PushedParticles::Ticker {
 
   PushSetup setup_;
   std::vector<LoneContact> contacts_;  // contact of each species
+  std::vector<double> touching_m_;     // distance at which two species touch, by rows
   std::vector<double> x_, y_;
   std::vector<double> moved_at_s_;  // end of the tick in which it moved last
   std::vector<std::size_t> species_;
   std::vector<bool> pinned_;
   std::vector<Pressed> pressed_;  // load by the tip after the last sub-step
   std::unique_ptr<ParticleGrid> grid_;
-  HeapDescent heap_;
+  HeapContacts heap_;
   Apex base_, apex_;
-  double reach_m_ = 0.0, sub_step_m_ = 0.0, clear_m_ = 0.0;
+  double reach_m_ = 0.0, heap_reach_m_ = 0.0, sub_step_m_ = 0.0, clear_m_ = 0.0;
   double time_s_ = 0.0, tick_end_s_ = 0.0;
-  std::array<std::size_t, HeapDescent::kMostActive> near_{}, touched_{};  // spheres near the tip
-  std::size_t near_count_ = 0, touched_count_ = 0;
+  Few near_, touched_;                // spheres near the tip, and those that it presses
+  Few restless_;                      // heap that has not come to rest
   std::vector<std::uint32_t> moved_;  // in this tick
   std::vector<bool> moves_;           // part of moved_
+  double work_left_ = 0.0;            // contacts that heaps may still look at
+  int heap_steps_left_ = 0;           // in this tick
   bool exhausted_ = false;
   bool settled_ = false;  // a base that rests changes nothing
   PushTick tick_;

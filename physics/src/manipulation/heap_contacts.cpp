@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heap_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace afm::physics {
+
+void HeapContacts::begin(const Apex& base, const Apex& apex) noexcept {
+  base_ = base;
+  apex_ = apex;
+  count_ = pair_count_ = near_count_ = 0;
+}
+
+bool HeapContacts::add(const Sphere& sphere) noexcept {
+  if (count_ == kMostActive) return false;
+  if (sphere.near_tip) near_[near_count_++] = count_;
+  link_count_[count_] = 0;
+  mover_[count_] = kMostMovers;
+  spheres_[count_++] = sphere;
+  return true;
+}
+
+bool HeapContacts::add(const Pair& pair) noexcept {
+  const bool stays = pair.second == kMostActive;
+  if (pair_count_ == kMostPairs || link_count_[pair.first] == kMostLinks) return false;
+  if (!stays && link_count_[pair.second] == kMostLinks) return false;
+  const auto number = static_cast<std::uint16_t>(pair_count_);
+  links_[pair.first][link_count_[pair.first]++] = number;
+  if (!stays) links_[pair.second][link_count_[pair.second]++] = number;
+  pairs_[pair_count_++] = pair;
+  return true;
+}
+
+std::size_t HeapContacts::find(std::size_t particle) const noexcept {
+  std::size_t i = 0;
+  while (i < count_ && spheres_[i].particle != particle) ++i;
+  return i;
+}
+
+void HeapContacts::find_contacts() noexcept {
+  for (const std::size_t i : near_tip()) tips_[i] = contact_at(i, spheres_[i].at, apex_);
+  for (std::size_t p = 0; p < pair_count_; ++p) {
+    const Pair& pair = pairs_[p];
+    const Flat& second = pair.second == kMostActive ? pair.stays : spheres_[pair.second].at;
+    apart_m_[p] = distance_between(spheres_[pair.first].at, second);
+  }
+}
+
+double HeapContacts::stored() const noexcept {
+  const double x = apex_.x - base_.x, y = apex_.y - base_.y, z = apex_.height - base_.height;
+  const double lever_j = 0.5 * (springs_.lateral.si * (x * x + y * y) + springs_.normal.si * z * z);
+  double squares = 0.0;
+  for (const std::size_t i : near_tip()) {
+    const double depth = std::max(0.0, tips_[i].overlap.depth_m);
+    squares += depth * depth;
+  }
+  for (std::size_t p = 0; p < pair_count_; ++p) {
+    const double depth = std::max(0.0, pairs_[p].distance_m - apart_m_[p]);
+    squares += depth * depth;
+  }
+  return lever_j + 0.5 * springs_.contact.si * squares;
+}
+
+double HeapContacts::friction() const noexcept {
+  double lost_j = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (spheres_[i].moved()) lost_j += spheres_[i].moving_n * distance_between(spheres_[i].at, spheres_[i].start);
+  }
+  return lost_j;
+}
+
+void HeapContacts::choose(std::span<const std::size_t> movers) noexcept {
+  std::fill_n(mover_.begin(), count_, kMostMovers);
+  for (std::size_t m = 0; m < movers.size(); ++m) mover_[movers[m]] = m;
+}
+
+HeapContacts::TipContact HeapContacts::contact_at(std::size_t i, const Flat& at, const Apex& apex) const noexcept {
+  const double x = at.x - apex.x, y = at.y - apex.y, away_m = std::sqrt(x * x + y * y);
+  return {x, y, away_m, spheres_[i].profile->overlap(away_m, apex.height)};
+}
+
+Flat HeapContacts::place_of(std::size_t i, const Step& step) const noexcept {
+  return mover_[i] == kMostMovers ? spheres_[i].at : step.to[mover_[i]];
+}
+
+bool HeapContacts::counts_to(std::size_t i, std::size_t p) const noexcept {
+  return pairs_[p].first == i || mover_[pairs_[p].first] == kMostMovers;
+}
+
+// Changes are summed from differences: near rest they are smaller than what rounding leaves of the sums themselves.
+double HeapContacts::change_of(const Step& step) noexcept {
+  const Apex& apex = step.moves_apex ? step.apex : apex_;
+  double change_j = step.moves_apex ? lever_change(apex) : 0.0;
+  for (const std::size_t i : near_tip()) {
+    if (!step.moves_apex && mover_[i] == kMostMovers) continue;
+    const Flat to = place_of(i, step);
+    tips_then_[i] = contact_at(i, to, apex);
+    change_j += tip_change(i, to, apex);
+  }
+  for (std::size_t m = 0; m < step.count; ++m) {
+    const std::size_t i = step.spheres[m];
+    change_j += friction_change(i, step.to[m]);
+    for (const std::size_t p : pairs_of(i)) {
+      if (counts_to(i, p)) change_j += pair_change(p, step);
+    }
+  }
+  return change_j;
+}
+
+void HeapContacts::take(const Step& step) noexcept {
+  for (const std::size_t i : near_tip()) {
+    if (step.moves_apex || mover_[i] != kMostMovers) tips_[i] = tips_then_[i];
+  }
+  if (step.moves_apex) apex_ = step.apex;
+  for (std::size_t m = 0; m < step.count; ++m) {
+    const std::size_t i = step.spheres[m];
+    spheres_[i].at = step.to[m];
+    for (const std::size_t p : pairs_of(i)) {
+      if (counts_to(i, p)) apart_m_[p] = apart_then_m_[p];
+    }
+  }
+}
+
+double HeapContacts::lever_change(const Apex& to) const noexcept {
+  const double sideways = (to.x - apex_.x) * ((to.x - base_.x) + (apex_.x - base_.x)) +
+                          (to.y - apex_.y) * ((to.y - base_.y) + (apex_.y - base_.y));
+  const double upwards = (to.height - apex_.height) * ((to.height - base_.height) + (apex_.height - base_.height));
+  return 0.5 * (springs_.lateral.si * sideways + springs_.normal.si * upwards);
+}
+
+// By a difference where both contacts are on the same side of the tip.
+double HeapContacts::tip_change(std::size_t i, const Flat& to, const Apex& apex) const noexcept {
+  const TipContact &was = tips_[i], &now = tips_then_[i];
+  const double depth0 = was.overlap.depth_m, depth1 = now.overlap.depth_m, k = 0.5 * springs_.contact.si;
+  if (depth0 <= 0.0) return depth1 <= 0.0 ? 0.0 : k * depth1 * depth1;
+  if (depth1 <= 0.0) return -k * depth0 * depth0;
+  const TipProfile& profile = *spheres_[i].profile;
+  const double flank = profile.flank_sine(), rise = apex.height - apex_.height;
+  const double dx = (to.x - spheres_[i].at.x) - (apex.x - apex_.x), dy = (to.y - spheres_[i].at.y) - (apex.y - apex_.y);
+  const double squares = dx * (was.x + now.x) + dy * (was.y + now.y);
+  double change = depth1 - depth0;
+  if (was.overlap.sine == flank && now.overlap.sine == flank) {
+    const double ways = was.away_m + now.away_m;
+    change = -(ways > 0.0 ? squares / ways : 0.0) * now.overlap.cosine - rise * flank;
+  } else if (was.overlap.sine > flank && now.overlap.sine > flank) {
+    const double drops = apex.height + apex_.height + 2.0 * profile.cap_offset_m();
+    change = -(squares + rise * drops) / ((profile.reach_sum_m() - depth0) + (profile.reach_sum_m() - depth1));
+  }
+  return k * change * (depth0 + depth1);
+}
+
+double HeapContacts::friction_change(std::size_t i, const Flat& to) const noexcept {
+  const Sphere& sphere = spheres_[i];
+  const double x0 = sphere.at.x - sphere.start.x, y0 = sphere.at.y - sphere.start.y;
+  const double x1 = to.x - sphere.start.x, y1 = to.y - sphere.start.y;
+  const double ways = std::sqrt(x0 * x0 + y0 * y0) + std::sqrt(x1 * x1 + y1 * y1);
+  if (!(ways > 0.0)) return 0.0;
+  return sphere.moving_n * ((to.x - sphere.at.x) * (x0 + x1) + (to.y - sphere.at.y) * (y0 + y1)) / ways;
+}
+
+double HeapContacts::pair_change(std::size_t p, const Step& step) noexcept {
+  const Pair& pair = pairs_[p];
+  const bool stays = pair.second == kMostActive;
+  const Flat &a0 = spheres_[pair.first].at, &b0 = stays ? pair.stays : spheres_[pair.second].at;
+  const Flat a1 = place_of(pair.first, step), b1 = stays ? pair.stays : place_of(pair.second, step);
+  const double apart0 = apart_m_[p], apart1 = apart_then_m_[p] = distance_between(a1, b1);
+  const double depth0 = std::max(0.0, pair.distance_m - apart0), depth1 = std::max(0.0, pair.distance_m - apart1);
+  if (!(depth0 + depth1 > 0.0)) return 0.0;
+  double change = depth1 - depth0;
+  if (depth0 > 0.0 && depth1 > 0.0) {
+    const double dx = (a1.x - a0.x) - (b1.x - b0.x), dy = (a1.y - a0.y) - (b1.y - b0.y);
+    const double squares = dx * ((a1.x - b1.x) + (a0.x - b0.x)) + dy * ((a1.y - b1.y) + (a0.y - b0.y));
+    change = -squares / (apart0 + apart1);
+  }
+  return 0.5 * springs_.contact.si * change * (depth0 + depth1);
+}
+
+HeapContacts::Normal HeapContacts::normal_of(std::size_t i) const noexcept {
+  const Sphere& sphere = spheres_[i];
+  if (!sphere.near_tip) return {};
+  const TipContact& tip = tips_[i];
+  const double ux = tip.away_m > 0.0 ? tip.x / tip.away_m : 1.0, uy = tip.away_m > 0.0 ? tip.y / tip.away_m : 0.0;
+  const bool ball = tip.overlap.sine > sphere.profile->flank_sine();
+  return {.overlap_m = tip.overlap.depth_m,
+          .towards = {ux * tip.overlap.cosine, uy * tip.overlap.cosine, -tip.overlap.sine},
+          .apart_m = std::max(1e-30, ball ? sphere.profile->reach_sum_m() - tip.overlap.depth_m : tip.away_m),
+          .ball = ball};
+}
+
+HeapContacts::Touch HeapContacts::touch_of(std::size_t p) const noexcept {
+  const Pair& pair = pairs_[p];
+  const double apart = apart_m_[p], depth = pair.distance_m - apart;
+  if (!(apart > 0.0)) return {};
+  const Flat& first = spheres_[pair.first].at;
+  const Flat& second = pair.second == kMostActive ? pair.stays : spheres_[pair.second].at;
+  return {.overlap_m = depth, .apart_m = apart, .u = {(first.x - second.x) / apart, (first.y - second.y) / apart}};
+}
+
+}  // namespace afm::physics
