@@ -18,7 +18,11 @@ namespace {
 constexpr std::int64_t kMinuteNs = 60'000'000'000;
 constexpr std::size_t kMostRestarts = 3;  // per minute
 
-std::string text_of(const scene::TipEvent& event) {
+// Empty for events that occur many times a second: they are not logged.
+std::string log_text(const scene::TipEvent& event) {
+  if (event.kind == physics::EventKind::PushTakenBack) return "the last push was taken back";
+  if (event.kind == physics::EventKind::ParticlesPutBack) return "all pushes were taken back";
+  if (!physics::is_jump(event.kind)) return {};
   const bool in = event.kind == physics::EventKind::JumpToContact;
   return fmt::format("{} at Z = {:.3f} nm, pull {:.4f} nN", in ? "jump to contact" : "jump off contact",
                      event.z_m * 1e9, -(in ? event.force_after_n : event.force_before_n) * 1e9);
@@ -96,8 +100,8 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         recorder_->add(event);
         audience_.heard(event);
         cues_.add(event);
-        if (!physics::is_jump(event.kind)) return;  // the others occur many times a second
-        core::log_line(text_of(event));
+        if (const std::string text = log_text(event); !text.empty()) core::log_line(text);
+        if (!physics::is_jump(event.kind)) return;
         for (const auto& hears : hears_jumps_) hears(event);
       });
   keep_part(now_ns);

@@ -102,22 +102,19 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
     xdotool(std::string("key ") + key);
     return view.says(said);
   };
-  const char* const one_back = "take back: the last push";
+  const char* const one_back = "the last push was taken back";
+  const char* const all_back = "all pushes were taken back";
   ASSERT_TRUE(push(view, 0.018)) << view.said();
   ASSERT_TRUE(press("BackSpace", one_back)) << view.said();
   ASSERT_TRUE(push(view, 0.018)) << view.said();
   // another session: a push, all put back, and one after another taken back, the last of the session before
   ASSERT_TRUE(press("2", "chosen: ")) << view.said();
   ASSERT_TRUE(push(view, 0.026)) << view.said();
-  ASSERT_TRUE(press("r", "take back: all pushes")) << view.said();
-  xdotool("sleep 1");
-  for (int i = 0; i < 3; ++i) {
-    ASSERT_TRUE(press("BackSpace", one_back)) << view.said();
-    xdotool("sleep 1");
-  }
+  ASSERT_TRUE(press("r", all_back)) << view.said();
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(press("BackSpace", one_back)) << view.said();
   ASSERT_TRUE(push(view, 0.018)) << view.said();
-  ASSERT_TRUE(press("r", "take back: all pushes")) << view.said();
-  xdotool("sleep 1 key Escape");
+  ASSERT_TRUE(press("r", all_back)) << view.said();
+  xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
 
   std::size_t pushed = 0, taken_back = 0, put_back = 0;
