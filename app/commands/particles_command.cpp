@@ -15,11 +15,11 @@
 #include "app/options/command.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
-#include "physics/manipulation/pattern.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
+#include "scene/samples/pattern_state.h"
 
 namespace afm::app {
 namespace {
@@ -136,27 +136,11 @@ nlohmann::json json_of(const TickSample& sample) {
           {"yields", t.yields}};
 }
 
-// The particles at the end against the targets of the file; nothing without targets. Numbers are those of the file.
-std::optional<physics::PatternMatch> pattern_of(const scene::ParticleSet& set, const Played& played) {
-  if (set.targets.empty()) return std::nullopt;
-  std::vector<Sideways<Length>> places;
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < set.particles.size(); ++i) {
-    if (set.particles[i].pinned) continue;
-    places.push_back(played.at[i]);
-    numbers.push_back(i);
-  }
-  physics::PatternMatch match = physics::match_pattern(set.targets, places);
-  for (std::size_t& particle : match.particles) particle = numbers[particle];
-  return match;
-}
-
-nlohmann::json json_of(const physics::PatternMatch& pattern, const scene::ParticleSet& set) {
-  const Length allowed = scene::median_radius(set);
-  return {{"particle_of_target", pattern.particles},
-          {"rms_m", pattern.rms.si},
-          {"allowed_m", allowed.si},
-          {"done", pattern.rms <= allowed}};
+nlohmann::json json_of(const scene::PatternState& pattern) {
+  return {{"particle_of_target", pattern.match.particles},
+          {"rms_m", pattern.match.rms.si},
+          {"allowed_m", pattern.allowed.si},
+          {"done", pattern.done()}};
 }
 
 std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions& options, const Played& played) {
@@ -183,7 +167,7 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
   };
   nlohmann::json targets = nlohmann::json::array();
   for (const Sideways<Length>& target : set.targets) targets.push_back({target.x.si, target.y.si});
-  const auto pattern = pattern_of(set, played);
+  const auto pattern = scene::pattern_state(set, set.targets, played.at);
   const nlohmann::json whole{{"title", set.title},
                              {"medium", set.medium},
                              {"note", set.note},
@@ -197,7 +181,7 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
                              {"species", species},
                              {"particles", particles},
                              {"targets_m", targets},
-                             {"pattern", pattern ? json_of(*pattern, set) : nlohmann::json()},
+                             {"pattern", pattern ? json_of(*pattern) : nlohmann::json()},
                              {"states", list(played.samples)},
                              {"changes", list(played.changes)},
                              {"all_changes", !played.more_changes},
@@ -224,11 +208,10 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
     text += fmt::format("{:<10} {:<12} {}, {}\n", i, format_quantity(way, kLengthUnits, 4),
                         format_quantity(played.at[i].x, kLengthUnits), format_quantity(played.at[i].y, kLengthUnits));
   }
-  if (const auto pattern = pattern_of(set, played)) {
-    const Length allowed = scene::median_radius(set);
+  if (const auto pattern = scene::pattern_state(set, set.targets, played.at)) {
     text += fmt::format("\npattern of {} targets: {}, {} off in the root mean square, {} allowed\n", set.targets.size(),
-                        pattern->rms <= allowed ? "done" : "not done", format_quantity(pattern->rms, kLengthUnits, 4),
-                        format_quantity(allowed, kLengthUnits, 4));
+                        pattern->done() ? "done" : "not done", format_quantity(pattern->match.rms, kLengthUnits, 4),
+                        format_quantity(pattern->allowed, kLengthUnits, 4));
   }
   const PushTick& last = played.ends.back().tick;
   // below what rounding leaves of sums, nothing is stored

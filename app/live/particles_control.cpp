@@ -11,6 +11,7 @@
 #include "core/clock.h"
 #include "core/log.h"
 #include "exhibit/state/moment.h"
+#include "scene/samples/pattern_state.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {

@@ -12,7 +12,7 @@
 #include "exhibit/scan/scan_subject.h"
 #include "exhibit/words/guidance.h"
 #include "scene/shared/shared_blocks.h"
-#include "support/particles.h"
+#include "support/particles/particle_sets.h"
 
 namespace afm::exhibit {
 

@@ -7,7 +7,7 @@
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "render/renderer.h"
-#include "support/particles.h"
+#include "support/particles/particle_sets.h"
 #include "support/pictures.h"
 #include "support/vulkan_fixture.h"
 

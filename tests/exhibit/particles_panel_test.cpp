@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "core/enumerators.h"
-#include "support/particles.h"
+#include "scene/samples/pattern_state.h"
+#include "support/particles/particle_sets.h"
 #include "support/phrases.h"
 
 // The panel of the particles, of five gold spheres on mica.

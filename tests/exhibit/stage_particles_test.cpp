@@ -15,7 +15,7 @@
 #include "exhibit/scenery/wall_scene.h"
 #include "scene/samples/particle_set.h"
 #include "support/paper_wall.h"
-#include "support/particles.h"
+#include "support/particles/particle_sets.h"
 
 // Particles on the wall, where the servo has them.
 namespace afm::exhibit {

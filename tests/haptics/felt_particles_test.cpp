@@ -18,7 +18,7 @@
 #include "haptics/contact_model.h"
 #include "haptics/passivity_observer.h"
 #include "servo_bench.h"
-#include "support/gold_particles.h"
+#include "support/particles/gold_particles.h"
 
 namespace afm {
 namespace felt_particles_test {

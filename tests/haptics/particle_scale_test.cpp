@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "haptics/felt_particles.h"
-#include "support/gold_particles.h"
+#include "support/particles/gold_particles.h"
 
 namespace afm {
 namespace particle_scale_test {

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "servo_bench.h"
-#include "support/gold_particles.h"
 #include "support/measured_curve_of.h"
 #include "support/measured_surface.h"
 #include "support/no_alloc.h"
 #include "support/no_lock.h"
+#include "support/particles/gold_particles.h"
 #include "support/rough_surface.h"
 
 namespace servo_allocation_test {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "servo_bench.h"
-#include "support/gold_particles.h"
+#include "support/particles/gold_particles.h"
 
 namespace afm {
 namespace servo_particles_test {

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "scene/shared/shared_segment.h"
-#include "support/gold_particles.h"
 #include "support/paper_model.h"
+#include "support/particles/gold_particles.h"
 
 namespace shared_blocks_test {
 

@@ -10,7 +10,7 @@
 #include "servo/recorded_servo.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
-#include "support/gold_particles.h"
+#include "support/particles/gold_particles.h"
 #include "support/scratch_folder.h"
 
 namespace afm::servo {

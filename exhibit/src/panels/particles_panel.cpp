@@ -19,6 +19,7 @@
 #include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
+#include "scene/samples/pattern_state.h"
 
 namespace afm::exhibit {
 
@@ -149,9 +150,9 @@ std::string subtitle(const ParticlesNow& now, const Phrases& phrases) {
   const std::string pushes = fmt::format("{}", strokes);
   const std::string& medium = phrases.word(now.set->medium);
   if (const auto pattern = pattern_of(now)) {
-    const std::string off = quantity_text(physics::Length(pattern->off_m), physics::kLengthUnits, phrases);
+    const std::string off = quantity_text(pattern->match.rms, physics::kLengthUnits, phrases);
     if (pattern->done()) return phrases.text<Phrase::PatternDone>(off, pushes);
-    const std::string allowed = quantity_text(physics::Length(pattern->allowed_m), physics::kLengthUnits, phrases);
+    const std::string allowed = quantity_text(pattern->allowed, physics::kLengthUnits, phrases);
     return phrases.text<Phrase::PatternOff>(off, allowed, pushes);
   }
   return strokes > 0 ? phrases.text<Phrase::ParticlesTakeBack>(medium, pushes)

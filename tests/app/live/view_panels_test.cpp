@@ -25,7 +25,7 @@
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
-#include "support/particles.h"
+#include "support/particles/particle_sets.h"
 #include "support/places.h"
 
 namespace afm::app {

@@ -21,7 +21,7 @@
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/recorded_wall.h"
 #include "exhibit/scan/scan_subject.h"
-#include "support/particles.h"
+#include "support/particles/particle_sets.h"
 #include "support/places.h"
 
 namespace afm::exhibit {

@@ -9,7 +9,8 @@
 
 namespace afm::scene {
 struct ParticleSet;
-}
+struct PatternState;
+}  // namespace afm::scene
 
 namespace afm::exhibit {
 
@@ -33,13 +34,7 @@ inline std::optional<std::size_t> touched(const ParticlesNow& now, std::size_t c
   return known ? std::optional(static_cast<std::size_t>(now.push.particle)) : std::nullopt;
 }
 
-// How near the particles are to the pattern of their set; nothing if it has none.
-struct PatternNow {
-  double off_m = 0;      // physics::PatternMatch::rms
-  double allowed_m = 0;  // largest of a pattern that is done
-
-  bool done() const { return off_m <= allowed_m; }
-};
-std::optional<PatternNow> pattern_of(const ParticlesNow& now);
+// Nothing if the set has no pattern, or before the servo has said where the particles are.
+std::optional<scene::PatternState> pattern_of(const ParticlesNow& now);
 
 }  // namespace afm::exhibit
