@@ -8,7 +8,6 @@
 
 #include "output/window_handle.h"
 #include "output/window_keys.h"
-#include "render/device_failure.h"
 #include "render/monitor.h"
 
 namespace afm::render {
@@ -73,13 +72,13 @@ vk::raii::SurfaceKHR WindowHandle::create_surface(const vk::raii::Instance& inst
 }
 
 WindowInput WindowHandle::poll() {
+  WindowSystem::expect_display();
   glfwPollEvents();
-  if (WindowSystem::lost()) {
-    throw DeviceFailure("the display and its window were lost: check the X server and start again");
-  }
+  WindowSystem::expect_display();
   pressed_.reset();
   int x = 0, y = 0;
   glfwGetWindowPos(window_, &x, &y);
+  WindowSystem::expect_display();
   const WindowInput::MonitorChange update = follow_monitor();
   return {.events = std::exchange(events_, {}),
           .cursor_px = picture_px(cursor_),
@@ -90,10 +89,13 @@ WindowInput WindowHandle::poll() {
           .refused_place = std::exchange(refused_place_, std::nullopt)};
 }
 
-void WindowHandle::wait(double seconds) { glfwWaitEventsTimeout(seconds); }
+void WindowHandle::wait(double seconds) {
+  WindowSystem::expect_display();
+  glfwWaitEventsTimeout(seconds);
+}
 
 glm::uvec2 WindowHandle::size_px() const {
-  if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) {
+  if (WindowSystem::lost() || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) {
     return {0, 0};
   }
   int width = 0;
@@ -104,6 +106,7 @@ glm::uvec2 WindowHandle::size_px() const {
 
 // Pixels per desktop unit. GLFW reports positions in desktop units, which some window systems scale.
 glm::dvec2 WindowHandle::pixels_per_unit() const {
+  if (WindowSystem::lost()) return glm::dvec2(1.0);
   int width = 0;
   int height = 0;
   glfwGetWindowSize(window_, &width, &height);

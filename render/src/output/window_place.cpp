@@ -94,7 +94,7 @@ void WindowHandle::follow_mode() {
 // A window manager may place a window anew when it is mapped, when the manager starts, or for a user.
 void WindowHandle::keep_rect() {
   const double now_s = glfwGetTime();
-  if (now_s < next_look_s_ || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) return;
+  if (now_s < next_look_s_ || WindowSystem::lost() || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) return;
   next_look_s_ = now_s + kRefillS;
   scene::PixelRect place;
   glm::ivec2 size(0);
@@ -152,6 +152,7 @@ void WindowHandle::fill_rect() {
 
 // Monitor that shows the largest part of the window.
 GLFWmonitor* WindowHandle::monitor() const {
+  if (WindowSystem::lost()) return nullptr;
   if (GLFWmonitor* current = glfwGetWindowMonitor(window_)) {
     return current;
   }

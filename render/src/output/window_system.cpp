@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "render/device_failure.h"
 #include "render/monitor.h"
 
 namespace afm::render {
@@ -73,6 +74,10 @@ WindowSystem& WindowSystem::operator=(WindowSystem&& other) noexcept {
 
 WindowSystem::~WindowSystem() {
   if (joined_ && --shares_ == 0) glfwTerminate();
+}
+
+void WindowSystem::expect_display() {
+  if (lost_) throw DeviceFailure("the display and its window were lost: check the X server and start again");
 }
 
 // Keeps the process alive when the X connection breaks: Xlib ends it unless two handlers return, a global one and one

@@ -19,8 +19,12 @@ class WindowSystem {
   WindowSystem& operator=(WindowSystem&& other) noexcept;
   ~WindowSystem();
 
-  // True if the display has gone. Without this handler, Xlib would end the process.
+  // True if the display has gone. Without this handler, Xlib would end the process. Ask the window system nothing then:
+  // what nobody reads fills Xlib's buffer, and a request beyond it ends the process.
   static bool lost() { return lost_; }
+
+  // Throws DeviceFailure if it has gone.
+  static void expect_display();
 
   // Number of monitor connections and disconnections so far.
   static unsigned monitor_changes() { return monitor_changes_; }
