@@ -225,7 +225,7 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
                         format_quantity(rest, kEnergyUnits, 4));
   }
   if (played.lagging > 0) text += fmt::format("{} ticks lagged behind the hand: it was too fast\n", played.lagging);
-  if (last.exhausted > 0) text += fmt::format("{} ticks ran out of steps\n", last.exhausted);
+  if (last.exhausted > 0) text += fmt::format("{} ticks ended before all spheres were at rest\n", last.exhausted);
   return text;
 }
 

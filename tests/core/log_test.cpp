@@ -80,7 +80,7 @@ TEST(Log, NeitherWaitsForAFullPipeNorLosesWhatItCanKeep) {
 
 TEST(Log, DoesNotWaitForAStoppedTerminal) {
   const auto opened = support::open_pseudo_terminal();
-  ASSERT_TRUE(opened) << "no pseudo-terminal: mount /dev/pts, or run this as root";
+  ASSERT_TRUE(opened) << "no pseudo-terminal: mount /dev/pts, or run this with CAP_SYS_ADMIN";
   const Stderr captured(opened->terminal.get());
   ASSERT_EQ(::tcflow(opened->terminal.get(), TCOOFF), 0);  // Ctrl-S
   for (int i = 0; i < 10; ++i) log_line(fmt::format("line {}", i));

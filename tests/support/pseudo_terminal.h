@@ -8,6 +8,7 @@
 #include <termios.h>
 
 #include <optional>
+#include <utility>
 
 #include "core/file_descriptor.h"
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/state/particles_now.h"
-#include "scene/samples/pattern_state.h"
 
 #include <vector>
+
+#include "scene/samples/pattern_state.h"
 
 namespace afm::exhibit {
 

@@ -6,7 +6,8 @@
 
 namespace afm::physics {
 
-// Solves stiffness * step = -gradient for a symmetric positive definite matrix (Cholesky). False if it is not.
+// Solves stiffness * step = -gradient for a symmetric positive definite matrix (Cholesky), which it overwrites. False
+// if it is not.
 template <class Matrix, class Vector>
 bool solve_definite(std::size_t size, Matrix& stiffness, const Vector& gradient, Vector& step) noexcept {
   for (std::size_t i = 0; i < size; ++i) {

@@ -98,7 +98,7 @@ class HeapContacts {
   Normal normal_of(std::size_t sphere) const noexcept;  // a gap if the tip is not near
   Touch touch_of(std::size_t pair) const noexcept;
 
-  // Contacts after the step whose change was asked last; only of what it moves.
+  // Contacts after the step whose change was asked last. Valid only for what it moves.
   bool touches_then(std::size_t pair) const noexcept { return apart_then_m_[pair] < pairs_[pair].distance_m; }
   bool tip_touches_then(std::size_t sphere) const noexcept { return tips_then_[sphere].overlap.depth_m > 0.0; }
 

@@ -64,6 +64,7 @@ class Descent {
     return foreseen ? pair_foreseen_[p] : heap_.touch_of(p).overlap_m > 0.0;
   }
   bool within_reach(const Step& step) const noexcept;
+  double farthest(const Step& step) const noexcept;
   bool newton() noexcept;
   bool take_if_lower(const Step& step, double change_j) noexcept;
   std::size_t row_of(std::size_t sphere) const noexcept;
@@ -237,11 +238,11 @@ void Descent::assemble(System& s, const Step& movers, bool curved, bool foreseen
       if (heap_.counts_to(i, p) && pair_counts(p, foreseen)) add_pair(s, p, curved);
     }
   }
-  // an apex that the lever presses on the sample stays there
   if (!curved) {
     // a sphere that nothing touches has no stiffness along its way
     for (std::size_t i = 3; i < s.size; ++i) s.stiffness[i][i] += kLeastStiffness * heap_.springs().contact.si;
   }
+  // an apex that the lever presses on the sample stays there
   if (apex.height <= 0.0 && s.gradient[2] > 0.0) {
     for (std::size_t j = 0; j < s.size; ++j) s.stiffness[2][j] = s.stiffness[j][2] = 0.0;
     s.stiffness[2][2] = k_c;
@@ -262,6 +263,7 @@ bool Descent::within_reach(const Step& step) const noexcept {
 bool Descent::solve(const Step& movers, bool foreseen, Move& move) noexcept {
   const auto size = static_cast<double>(3 + 2 * movers.count);
   for (const bool curved : {true, false}) {
+    if (!curved && work_ <= 0.0) return false;
     work_ -= static_cast<double>(links_) + kSolvingShare * size * size * size;
     System system(movers.count);
     assemble(system, movers, curved, foreseen);
@@ -305,11 +307,15 @@ bool Descent::foresee(const Step& step, bool foreseen) noexcept {
   return changed;
 }
 
-double farthest(const Move& move, std::size_t movers) noexcept {
-  double squares = move[0] * move[0] + move[1] * move[1] + move[2] * move[2];
-  for (std::size_t i = 3; i < 3 + 2 * movers; i += 2)
-    squares = std::max(squares, move[i] * move[i] + move[i + 1] * move[i + 1]);
-  return std::sqrt(squares);
+// Longest way of a part in a proposed step, above zero.
+double Descent::farthest(const Step& step) const noexcept {
+  const Apex& was = heap_.apex();
+  const double x = step.apex.x - was.x, y = step.apex.y - was.y, z = step.apex.height - was.height;
+  double longest_m = std::max(1e-30, std::sqrt(x * x + y * y + z * z));
+  for (std::size_t m = 0; m < step.count; ++m) {
+    longest_m = std::max(longest_m, distance_between(step.to[m], heap_.sphere(step.spheres[m]).at));
+  }
+  return longest_m;
 }
 
 // One Newton step of the apex, and of the spheres that move. Taken only if it lowers the sum. A step that would close
@@ -326,13 +332,14 @@ bool Descent::newton() noexcept {
   heap_.choose({step.spheres.data(), step.count});
   Move first{}, move{};
   bool inside = false;
-  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+  for (int attempt = 0; attempt < kMostAttempts && (attempt == 0 || work_ > 0.0); ++attempt) {
     if (!solve(step, attempt > 0, move)) {
       if (attempt == 0) return false;
       break;
     }
     if (attempt == 0) first = move;
     propose(step, move, 1.0);
+    if (!within_reach(step)) propose(step, move, 0.5 * reach_m_ / farthest(step));
     work_ -= static_cast<double>(links_);
     const double change_j = heap_.change_of(step);
     const bool within = within_reach(step);
@@ -341,15 +348,16 @@ bool Descent::newton() noexcept {
     if (!foresee(step, attempt > 0)) break;
   }
   // what nothing holds may be far away
-  double share = std::min(0.5, reach_m_ / std::max(1e-30, farthest(first, step.count)));
-  for (int halving = 0; halving < kMostHalvings; ++halving, share *= 0.5) {
+  propose(step, first, 0.5);
+  double share = 0.5 * std::min(1.0, reach_m_ / farthest(step));
+  for (int halving = 0; halving < kMostHalvings && work_ > 0.0; ++halving, share *= 0.5) {
     propose(step, first, share);
     if (!within_reach(step)) continue;
     inside = true;
     work_ -= static_cast<double>(links_);
     if (take_if_lower(step, heap_.change_of(step))) return true;
   }
-  if (!inside) at_limit_ = true;
+  if (!inside && work_ > 0.0) at_limit_ = true;
   return false;
 }
 
@@ -362,6 +370,7 @@ bool Descent::run() noexcept {
     tiny_j_ = kTinyGain * (heap_.stored() + heap_.friction());
     bool moved = sweep();
     for (int i = 0; i < kNewtonSteps && work_ > 0.0 && newton(); ++i) moved = true;
+    if (at_limit_ || work_ <= 0.0) return false;
     if (!moved || gained_j_ <= tiny_j_) return true;
   }
   return false;

@@ -12,8 +12,9 @@ bool may_be_taken(double change_j) noexcept;
 // than `reach_m`. Friction separates by sphere, so that its minimum is the motion of least dissipation. A step is taken
 // only if it lowers the sum.
 //
-// Ends when no step gains, or when `work` is spent: contacts looked at, a figure that depends on the heap alone. Takes
-// from it what was needed, at times a little more than was left. Returns whether the heap came to rest.
+// Ends when no step gains, when a part has moved by `reach_m`, or when `work` is spent: looks at contacts, a figure
+// that depends on the heap alone. Takes from it what was needed; a step that has begun is solved even if that is more
+// than was left. Returns whether the heap came to rest.
 bool descend(HeapContacts& heap, double reach_m, double& work) noexcept;
 
 }  // namespace afm::physics

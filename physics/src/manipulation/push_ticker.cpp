@@ -10,7 +10,7 @@ namespace afm::physics {
 namespace {
 
 constexpr int kMostSubSteps = 8;              // a tick
-constexpr double kWorkOfATick = 4000.0;       // contacts that heaps may look at: some 20 us
+constexpr double kWorkOfATick = 4000.0;       // looks at contacts by heaps: some 100 us
 constexpr int kHeapSplit = 3;                 // steps of a heap in a sub-step
 constexpr double kSubStepShare = 1.0 / 20.0;  // share of the smallest distance of tip and sphere
 // furthest that a part moves in a sub-step, as shares of the smallest radius: alone, and in a heap

@@ -43,10 +43,13 @@ bool PushedParticles::Ticker::gather(const Apex& to) noexcept {
   if (!find_near()) return false;
   bool fits = true;
   for (const std::size_t i : near_) fits = add_sphere(i, true) && fits;
-  for (const std::size_t i : restless_) {  // as far as there is room
+  // what the tip may touch and its neighbours come first, then what is left of an older heap, as far as there is room
+  std::size_t n = 0;
+  for (; n < near_.size(); ++n) fits = gather_pairs_of(n) && fits;
+  for (const std::size_t i : restless_) {
     if (heap_.find(i) == heap_.size()) add_sphere(i, false);
   }
-  for (std::size_t n = 0; n < heap_.size(); ++n) fits = gather_pairs_of(n) && fits;
+  for (; n < heap_.size(); ++n) fits = gather_pairs_of(n) && fits;
   heap_.find_contacts();
   return fits;
 }
@@ -62,7 +65,7 @@ void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
   double work = share;
   const bool at_rest = descend(heap_, heap_reach_m_, work);
   work_left_ -= share - work;
-  if (work <= 0.0) exhausted_ = true;
+  if (!at_rest) exhausted_ = true;
   const Apex& now = heap_.apex();
   settled_ = at_rest && heap_.friction() == 0.0 && now.x == apex_.x && now.y == apex_.y && now.height == apex_.height;
   tick_.given = tick_.given + Energy(loaded_j);
@@ -72,7 +75,9 @@ void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
   base_ = to;
   apex_ = heap_.apex();
   restless_.clear();
-  for (std::size_t n = 0; n < heap_.size() && !at_rest; ++n) restless_.add(heap_.sphere(n).particle);
+  for (std::size_t n = 0; n < heap_.size() && !at_rest; ++n) {
+    if (!heap_.sphere(n).pinned) restless_.add(heap_.sphere(n).particle);
+  }
   for (std::size_t n = 0; n < heap_.size(); ++n) {
     const HeapContacts::Sphere& sphere = heap_.sphere(n);
     if (!sphere.moved()) continue;

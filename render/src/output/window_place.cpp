@@ -94,12 +94,13 @@ void WindowHandle::follow_mode() {
 // A window manager may place a window anew when it is mapped, when the manager starts, or for a user.
 void WindowHandle::keep_rect() {
   const double now_s = glfwGetTime();
-  if (now_s < next_look_s_ || WindowSystem::lost() || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) return;
+  if (now_s < next_look_s_ || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || WindowSystem::lost()) return;
   next_look_s_ = now_s + kRefillS;
   scene::PixelRect place;
   glm::ivec2 size(0);
   glfwGetWindowPos(window_, &place.offset_px.x, &place.offset_px.y);
   glfwGetWindowSize(window_, &size.x, &size.y);
+  if (WindowSystem::lost()) return;
   place.size_px = size;
   if (place.offset_px == rect_->offset_px && place.size_px == rect_->size_px) {
     if (now_s - last_refill_s_ > kKeptS) refills_ = 0;
@@ -195,7 +196,7 @@ void WindowHandle::fill(GLFWmonitor* monitor) {
 }
 
 void WindowHandle::set_full_screen(bool wanted) {
-  if (wanted == full_screen() || rect_) {
+  if (wanted == full_screen() || rect_ || WindowSystem::lost()) {
     return;
   }
   if (!wanted) {

@@ -20,7 +20,7 @@ class WindowSystem {
   ~WindowSystem();
 
   // True if the display has gone. Without this handler, Xlib would end the process. Ask the window system nothing then:
-  // what nobody reads fills Xlib's buffer, and a request beyond it ends the process.
+  // libX11 1.8.12 crashes at the third request after the loss.
   static bool lost() { return lost_; }
 
   // Throws DeviceFailure if it has gone.

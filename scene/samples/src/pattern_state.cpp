@@ -18,6 +18,7 @@ std::optional<PatternState> pattern_state(const ParticleSet& set, std::span<cons
     movable.push_back(places[i]);
     numbers.push_back(i);
   }
+  if (movable.size() < targets.size()) return std::nullopt;
   PatternState state{.match = physics::match_pattern(targets, movable), .allowed = median_radius(set)};
   for (std::size_t& particle : state.match.particles) particle = numbers[particle];
   return state;

@@ -72,7 +72,7 @@ struct PushTick {
   Energy lost;       // loss by friction and by slips of lone spheres since the start
   Energy stored;     // energy in lever and contacts
   std::uint64_t yields = 0;     // spheres that gave, since the start
-  std::uint64_t exhausted = 0;  // ticks that ran out of steps, since the start
+  std::uint64_t exhausted = 0;  // ticks at whose end a heap was not at rest, since the start
   bool lagging = false;
   bool near = false;  // spheres are within reach of the apex
 };
