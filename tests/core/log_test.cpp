@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "core/file_descriptor.h"
-#include "support/pseudo_terminal.h"
+#include "pseudo_terminal.h"
 
 // The log never waits for its reader: stderr is a full pipe or a stopped terminal.
 namespace afm::core {
@@ -79,7 +79,7 @@ TEST(Log, NeitherWaitsForAFullPipeNorLosesWhatItCanKeep) {
 }
 
 TEST(Log, DoesNotWaitForAStoppedTerminal) {
-  const auto opened = support::open_pseudo_terminal();
+  const auto opened = open_pseudo_terminal();
   ASSERT_TRUE(opened) << "no pseudo-terminal: mount /dev/pts, or run this with CAP_SYS_ADMIN";
   const Stderr captured(opened->terminal.get());
   ASSERT_EQ(::tcflow(opened->terminal.get(), TCOOFF), 0);  // Ctrl-S

@@ -16,7 +16,7 @@ bool HeapContacts::add(const Sphere& sphere) noexcept {
   if (count_ == kMostActive) return false;
   if (sphere.near_tip) near_[near_count_++] = count_;
   link_count_[count_] = 0;
-  mover_[count_] = kMostMovers;
+  mover_[count_] = kMostActive;
   spheres_[count_++] = sphere;
   return true;
 }
@@ -71,7 +71,7 @@ double HeapContacts::friction() const noexcept {
 }
 
 void HeapContacts::choose(std::span<const std::size_t> movers) noexcept {
-  std::fill_n(mover_.begin(), count_, kMostMovers);
+  std::fill_n(mover_.begin(), count_, kMostActive);
   for (std::size_t m = 0; m < movers.size(); ++m) mover_[movers[m]] = m;
 }
 
@@ -81,11 +81,11 @@ HeapContacts::TipContact HeapContacts::contact_at(std::size_t i, const Flat& at,
 }
 
 Flat HeapContacts::place_of(std::size_t i, const Step& step) const noexcept {
-  return mover_[i] == kMostMovers ? spheres_[i].at : step.to[mover_[i]];
+  return mover_[i] == kMostActive ? spheres_[i].at : step.to[mover_[i]];
 }
 
 bool HeapContacts::counts_to(std::size_t i, std::size_t p) const noexcept {
-  return pairs_[p].first == i || mover_[pairs_[p].first] == kMostMovers;
+  return pairs_[p].first == i || mover_[pairs_[p].first] == kMostActive;
 }
 
 // Changes are summed from differences: near rest they are smaller than what rounding leaves of the sums themselves.
@@ -93,7 +93,7 @@ double HeapContacts::change_of(const Step& step) noexcept {
   const Apex& apex = step.moves_apex ? step.apex : apex_;
   double change_j = step.moves_apex ? lever_change(apex) : 0.0;
   for (const std::size_t i : near_tip()) {
-    if (!step.moves_apex && mover_[i] == kMostMovers) continue;
+    if (!step.moves_apex && mover_[i] == kMostActive) continue;
     const Flat to = place_of(i, step);
     tips_then_[i] = contact_at(i, to, apex);
     change_j += tip_change(i, to, apex);
@@ -110,7 +110,7 @@ double HeapContacts::change_of(const Step& step) noexcept {
 
 void HeapContacts::take(const Step& step) noexcept {
   for (const std::size_t i : near_tip()) {
-    if (step.moves_apex || mover_[i] != kMostMovers) tips_[i] = tips_then_[i];
+    if (step.moves_apex || mover_[i] != kMostActive) tips_[i] = tips_then_[i];
   }
   if (step.moves_apex) apex_ = step.apex;
   for (std::size_t m = 0; m < step.count; ++m) {

@@ -26,7 +26,6 @@ class HeapContacts {
   static constexpr std::size_t kMostActive = 16;
   static constexpr std::size_t kMostLinks = 24;  // pairs of a sphere
   static constexpr std::size_t kMostPairs = 256;
-  static constexpr std::size_t kMostMovers = 16;  // spheres moved by one step
 
   struct Sphere {
     std::size_t particle = 0;
@@ -67,8 +66,8 @@ class HeapContacts {
     Apex apex;
     bool moves_apex = false;
     std::size_t count = 0;
-    std::array<std::size_t, kMostMovers> spheres{};
-    std::array<Flat, kMostMovers> to{};
+    std::array<std::size_t, kMostActive> spheres{};
+    std::array<Flat, kMostActive> to{};
   };
 
   explicit HeapContacts(const PushSprings& springs) noexcept : springs_(springs) {}
@@ -113,8 +112,8 @@ class HeapContacts {
   std::span<const std::uint16_t> pairs_of(std::size_t sphere) const noexcept {
     return {links_[sphere].data(), link_count_[sphere]};
   }
-  // Number of a sphere among those that were chosen; kMostMovers: it was not.
-  std::size_t mover(std::size_t sphere) const noexcept { return sphere < kMostActive ? mover_[sphere] : kMostMovers; }
+  // Number of a sphere among those that were chosen; kMostActive if it was not.
+  std::size_t mover(std::size_t sphere) const noexcept { return sphere < kMostActive ? mover_[sphere] : kMostActive; }
   // Whether a pair counts to this mover: once, if both of its spheres move.
   bool counts_to(std::size_t sphere, std::size_t pair) const noexcept;
 

@@ -19,11 +19,11 @@ using Touch = HeapContacts::Touch;
 constexpr double kTinyGain = 1e-12;       // smallest gain of a round that counts, as a share of E + R
 constexpr double kLeastStiffness = 1e-6;  // share of a contact's stiffness
 constexpr int kMostHalvings = 8;
-constexpr int kMostAttempts = 3;         // at the contacts of a Newton step
+constexpr int kMostAttempts = 3;         // solutions for one Newton step, each with other contacts
 constexpr double kSolvingShare = 0.02;   // work of a solution per cube of its size
-constexpr int kNewtonSteps = 3;          // a round, of the tip alone and of all
+constexpr int kNewtonSteps = 3;          // in a round, and of the tip at the start
 constexpr double kRestRounding = 1e-12;  // share by which a force must exceed a threshold
-constexpr std::size_t kMostUnknowns = 3 + 2 * HeapContacts::kMostMovers;
+constexpr std::size_t kMostUnknowns = 3 + 2 * HeapContacts::kMostActive;
 
 // Gradient and stiffness of E + R over the apex and the movers: three unknowns, then two for each.
 struct System {
@@ -155,7 +155,7 @@ bool Descent::sweep() noexcept {
 // First row of a sphere in the system; 0: it does not move.
 std::size_t Descent::row_of(std::size_t sphere) const noexcept {
   const std::size_t mover = heap_.mover(sphere);
-  return mover == HeapContacts::kMostMovers ? 0 : 3 + 2 * mover;
+  return mover == HeapContacts::kMostActive ? 0 : 3 + 2 * mover;
 }
 
 void Descent::add_tip(System& s, std::size_t i, bool curved) const noexcept {
@@ -324,7 +324,7 @@ bool Descent::newton() noexcept {
   Step step;
   step.moves_apex = true;
   links_ = heap_.near_tip().size();
-  for (std::size_t i = 0; i < heap_.size() && step.count < step.spheres.size(); ++i) {
+  for (std::size_t i = 0; i < heap_.size(); ++i) {
     if (!heap_.sphere(i).moved() || !touches(i)) continue;
     step.spheres[step.count++] = i;
     links_ += heap_.pairs_of(i).size();
@@ -347,7 +347,7 @@ bool Descent::newton() noexcept {
     if (within && take_if_lower(step, change_j)) return true;
     if (!foresee(step, attempt > 0)) break;
   }
-  // what nothing holds may be far away
+  // a part that nothing holds may be sent far away
   propose(step, first, 0.5);
   double share = 0.5 * std::min(1.0, reach_m_ / farthest(step));
   for (int halving = 0; halving < kMostHalvings && work_ > 0.0; ++halving, share *= 0.5) {

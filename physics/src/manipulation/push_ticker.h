@@ -31,7 +31,7 @@ class PushedParticles::Ticker {
   std::size_t species(std::size_t i) const { return species_.at(i); }
 
  private:
-  // Some spheres.
+  // Short list of spheres.
   class Few {
    public:
     bool add(std::size_t sphere) noexcept {  // false: full
@@ -91,7 +91,7 @@ class PushedParticles::Ticker {
   double reach_m_ = 0.0, heap_reach_m_ = 0.0, sub_step_m_ = 0.0, clear_m_ = 0.0;
   double time_s_ = 0.0, tick_end_s_ = 0.0;
   Few near_, touched_;                // spheres near the tip, and those that it presses
-  Few restless_;                      // heap that has not come to rest
+  Few restless_;                      // unsettled heap
   std::vector<std::uint32_t> moved_;  // in this tick
   std::vector<bool> moves_;           // part of moved_
   double work_left_ = 0.0;            // contacts that heaps may still look at

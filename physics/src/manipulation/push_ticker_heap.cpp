@@ -43,7 +43,7 @@ bool PushedParticles::Ticker::gather(const Apex& to) noexcept {
   if (!find_near()) return false;
   bool fits = true;
   for (const std::size_t i : near_) fits = add_sphere(i, true) && fits;
-  // what the tip may touch and its neighbours come first, then what is left of an older heap, as far as there is room
+  // spheres near the tip and their neighbours first, then those of an unsettled heap while there is room
   std::size_t n = 0;
   for (; n < near_.size(); ++n) fits = gather_pairs_of(n) && fits;
   for (const std::size_t i : restless_) {

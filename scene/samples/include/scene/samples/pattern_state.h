@@ -18,7 +18,7 @@ struct PatternState {
 };
 
 // Particles that are pinned stay out. `targets` are the set's and `places` those of all its particles, in one frame.
-// Nothing without targets, or with fewer particles that can be moved.
+// Nothing without targets, or if there are more of them than particles that can be moved.
 std::optional<PatternState> pattern_state(const ParticleSet& set,
                                           std::span<const physics::Sideways<physics::Length>> targets,
                                           std::span<const physics::Sideways<physics::Length>> places);

@@ -194,7 +194,7 @@ struct TipPush {
   double softened_sideways = 1;       // the lever is felt this many times softer than it is, so that a hand can bear it
   double softened_upwards = 1;
   std::uint64_t yields = 0;     // particles that gave, since the servo's start
-  std::uint64_t exhausted = 0;  // ticks that ran out of steps, since the servo's start
+  std::uint64_t exhausted = 0;  // ticks at whose end a heap was not at rest, since the servo's start
   std::uint64_t accounts = 0;
   std::int32_t particle = kNoParticle;  // the one with the largest normal force
   physics::PushState state = physics::PushState::Free;

@@ -12,35 +12,35 @@
 
 #include "core/file_descriptor.h"
 
-namespace afm::support {
+namespace afm::core {
 
 struct PseudoTerminal {
-  core::FileDescriptor reader;
-  core::FileDescriptor terminal;
+  FileDescriptor reader;
+  FileDescriptor terminal;
 };
 
 namespace detail {
 
 // A container without /dev/pts has no /dev/ptmx that works; root mounts one that nobody else sees.
-inline core::FileDescriptor terminal_device() {
-  core::FileDescriptor device(::posix_openpt(O_RDWR | O_NOCTTY));
+inline FileDescriptor terminal_device() {
+  FileDescriptor device(::posix_openpt(O_RDWR | O_NOCTTY));
   if (device.get() >= 0) return device;
-  const core::FileDescriptor context(::fsopen("devpts", FSOPEN_CLOEXEC));
+  const FileDescriptor context(::fsopen("devpts", FSOPEN_CLOEXEC));
   if (::fsconfig(context.get(), FSCONFIG_CMD_CREATE, nullptr, nullptr, 0) != 0) return device;
-  const core::FileDescriptor mount(::fsmount(context.get(), FSMOUNT_CLOEXEC, 0));
-  return core::FileDescriptor(::openat(mount.get(), "ptmx", O_RDWR | O_NOCTTY));
+  const FileDescriptor mount(::fsmount(context.get(), FSMOUNT_CLOEXEC, 0));
+  return FileDescriptor(::openat(mount.get(), "ptmx", O_RDWR | O_NOCTTY));
 }
 
 }  // namespace detail
 
 // Nothing if the machine has no pseudo-terminals and the user is not root.
 inline std::optional<PseudoTerminal> open_pseudo_terminal() {
-  core::FileDescriptor reader = detail::terminal_device();
+  FileDescriptor reader = detail::terminal_device();
   const int unlock = 0;
   if (reader.get() < 0 || ::ioctl(reader.get(), TIOCSPTLCK, &unlock) != 0) return std::nullopt;
-  core::FileDescriptor terminal(::ioctl(reader.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY));
+  FileDescriptor terminal(::ioctl(reader.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY));
   if (terminal.get() < 0) return std::nullopt;
   return PseudoTerminal{std::move(reader), std::move(terminal)};
 }
 
-}  // namespace afm::support
+}  // namespace afm::core
