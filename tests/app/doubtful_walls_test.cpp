@@ -71,8 +71,8 @@ TEST(DoubtfulWalls, AreRefusedOrLoggedByRender) {
 TEST(DoubtfulWalls, AreRefusedOrLoggedByView) {
   const support::VirtualDisplay display(320, 240);
   for (const Case& one : {cases()[0], cases()[5]}) {
-    support::LiveProgram program({support::touchafm(), "view", "--size", "160x90", "--eye-width", "160", "--servo",
-                                  support::servo_mode(), "--wall", wall(one.file)},
+    support::LiveProgram program({support::touchafm(), "view", "--size", "160x90", "--frame-rate", "12", "--eye-width",
+                                  "160", "--servo", support::servo_mode(), "--wall", wall(one.file)},
                                  display.name());
     if (!one.refused) {
       ASSERT_TRUE(program.says("F1 shows the keys")) << program.said();

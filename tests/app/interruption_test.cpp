@@ -181,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(After, InterruptedDemonstration,
 TEST(Interruption, OfAViewThatStartsIsItsEnd) {
   const support::VirtualDisplay display(64, 64);
   const auto interrupted = [&](const std::string& line) {
-    support::LiveProgram view({support::touchafm(), "view", "--size", "64x64"}, display.name());
+    support::LiveProgram view({support::touchafm(), "view", "--size", "64x64", "--frame-rate", "12"}, display.name());
     EXPECT_TRUE(view.says(line)) << view.said();
     const Ended ended = interrupt(view, SIGTERM);
     EXPECT_EQ(ended.exit_code, 0) << ended.said;

@@ -31,8 +31,8 @@ class KeyboardOfTheView : public ::testing::Test {
  protected:
   void try_layout(const std::string& layout, const std::vector<Pressed>& keys) {
     run("setxkbmap -layout " + layout);
-    support::LiveProgram view({support::touchafm(), "view", "--size", "320x240", "--eye-width", "80", "--servo",
-                               support::servo_mode(), "--language", "en"},
+    support::LiveProgram view({support::touchafm(), "view", "--size", "320x240", "--frame-rate", "12", "--eye-width",
+                               "80", "--servo", support::servo_mode(), "--language", "en"},
                               display_.name());
     ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
     run("xdotool search --sync --name TouchAFM windowfocus --sync");

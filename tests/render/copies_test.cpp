@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "support/deep.h"
 #include "support/pictures.h"
 #include "support/vulkan_fixture.h"
 
@@ -102,9 +103,9 @@ TEST_F(Copies, AreNotShownWithoutAnEntryOfTheFrame) {
 // Two thousand spheres, of which a few move, roll or change their colour: what is redrawn gives the bytes of drawing
 // everything, with their shadows, and is a small part of the picture.
 TEST_F(Copies, RedrawnWhereTheyChangeGiveTheBytesOfRedrawingEverything) {
-  constexpr std::size_t kCount = 2000;
+  const std::size_t count = support::deep() ? 2000 : 200;
   constexpr int kFrames = 24;
-  Crowd crowd = copies_test::crowd(kCount, 5);
+  Crowd crowd = copies_test::crowd(count, 5);
   auto changes = make_renderer(crowd.scene, sized(render::Redraw::Changes));
   auto everything = make_renderer(crowd.scene, sized(render::Redraw::Everything));
   std::mt19937 random(6);
@@ -123,7 +124,7 @@ TEST_F(Copies, RedrawnWhereTheyChangeGiveTheBytesOfRedrawingEverything) {
         copy.turn = {turn.x, turn.y, turn.z, turn.w};
       }
     }
-    if (i == 10) copies.resize(kCount / 2);
+    if (i == 10) copies.resize(count / 2);
     if (i == 14) crowd.frame.room_from_node[crowd.copied][3].x += 0.05;
     if (i == 18) crowd.frame.fog.fade = 0.3F;
     changes.render(crowd.frame);
