@@ -158,6 +158,7 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
   for_curves("--curve", command.add_option("--curve", reading.index, "number of the curve in an .h5 file, from 0")
                             .show_default()
                             .type_name("INDEX"));
+  for (const NamedOption& of_fit : add_fit_options(command, options.fit)) for_curves(of_fit.name, of_fit.option);
   for_curves("--out", command.add_option("--out", options.out, "write a plot of the curve (SVG) to FILE")
                           .writable_file()
                           .type_name("FILE"));
@@ -224,14 +225,23 @@ core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
     beside = std::move(*other);
   }
   const curves::AnalysedCurve* compared = beside ? &*beside : nullptr;
-  if (!options.out.empty()) {
-    if (const auto written = core::write_file(options.out, curves::svg(curves::features_plot(*measured, compared)));
-        !written)
-      return written;
+  std::optional<fits::ElasticFit> fit;
+  if (options.fit.shape) {
+    auto found = fit_of(*measured, options.fit);
+    if (!found) return tl::unexpected(found.error());
+    fit = std::move(*found);
   }
-  const std::string text = options.json ? curves::features_json(*measured, compared).dump(2) + "\n"
-                                        : curves::features_text(*measured, compared);
-  return write_stdout(text);
+  if (!options.out.empty()) {
+    curves::SvgPlot plot = curves::features_plot(*measured, compared);
+    if (fit) plot.lines.push_back(fit_line(*measured, *fit));
+    if (const auto written = core::write_file(options.out, curves::svg(plot)); !written) return written;
+  }
+  if (!options.json) {
+    return write_stdout(curves::features_text(*measured, compared) + (fit ? fit_text(*fit, options.fit) : ""));
+  }
+  nlohmann::ordered_json result = curves::features_json(*measured, compared);
+  if (fit) result["fit"] = fit_json(*fit, options.fit);
+  return write_stdout(result.dump(2) + "\n");
 }
 
 void add_analyse_command(OptionList& program, const CommandContext&) {
@@ -248,8 +258,10 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
   command.footer(
       "docs/curves.md defines each figure.\n"
       "example: touchafm analyse gold.jpk-force --beside model.csv --out gold.svg\n"
+      "         touchafm analyse gel.jpk-force --fit sphere --radius 5um --out gel.svg\n"
       "         touchafm analyse mica.spm --channel \"Height Sensor\" --json");
   command.when_chosen([options, of_kind = std::move(of_kind)]() -> core::Result<void> {
+    if (const auto checked = check(options->fit); !checked) return checked;
     if (const auto checked = check_options(options->file, of_kind); !checked) return checked;
     return analyse_curve_file(*options);
   });

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/commands/analyse_fit.h"
 #include "core/result.h"
 #include "curves/curve_file.h"
 #include "physics/imaging/levelling.h"
@@ -17,7 +18,8 @@ struct AnalyseOptions {
   std::optional<physics::ContactMethod> contact_method;  // empty: chosen from the curve
   std::string beside;                                    // second curve for comparison, measured or computed
   bool json = false;
-  std::string out;      // SVG of the curve, in addition to the text
+  std::string out;  // SVG of the curve, in addition to the text
+  FitOptions fit;
   std::string channel;  // name of an image's channel
   physics::Levelling levelling = physics::Levelling::Plane;
 };

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <utility>
 
+#include "app/options/angle_units.h"
 #include "app/options/command.h"
 #include "app/options/enum_option.h"
 #include "app/options/levelling_option.h"
@@ -33,8 +34,6 @@ namespace {
 using core::wrong_usage;
 using physics::ScanImage;
 
-constexpr std::array kAngles{physics::Unit{"deg", 180.0 / std::numbers::pi, true}};
-constexpr physics::Units kAngleUnits{"an angle", kAngles};
 constexpr int kFewestPixels = 2;
 constexpr std::size_t kManyLines = 1024;  // scans with at least this many lines take seconds and report progress
 

@@ -29,8 +29,8 @@ constexpr int kMostFields = 30;
 constexpr int kMostFunctions = 40;
 constexpr std::size_t kMostSources = 2;
 
-constexpr std::array kRoots{"app",   "cluster", "core",   "curves", "exhibit", "haptics",
-                            "input", "physics", "render", "scene",  "servo",   "study"};
+constexpr std::array kRoots{"app",     "cluster", "core",  "curves", "exhibit", "haptics", "input",
+                            "physics", "render",  "scene", "servo",  "fits",    "study"};
 
 std::string text_of(const std::vector<ClassShape>& shapes) {
   std::string text;

@@ -73,7 +73,7 @@ constexpr std::array kWords{
 };
 
 constexpr std::array kProduction{"app",   "cluster", "core",   "curves", "docs/reference", "exhibit", "haptics",
-                                 "input", "physics", "render", "scene",  "servo",          "study"};
+                                 "input", "physics", "render", "scene",  "servo",          "fits",    "study"};
 
 std::string in_tree(const std::filesystem::path& path) {
   return std::filesystem::relative(path, support::source()).string();

@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, 9> kDependent{"of",  "that",  "for",     
                                                      "who", "where", "whether", "likewise"};
 
 constexpr std::array kRoots{"app",     "assets", "cluster", "core",  "curves",  "exhibit", "haptics", "input",
-                            "physics", "render", "scene",   "servo", "shaders", "study",   "tests"};
+                            "physics", "render", "scene",   "servo", "shaders", "fits",    "study",   "tests"};
 
 bool is_dependent(const Comment& comment) {
   const std::string first = comment.text.substr(0, comment.text.find_first_of(" ,.:;"));

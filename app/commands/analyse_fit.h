@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/options/command.h"
+#include "core/result.h"
+#include "curves/curve_report.h"
+#include "fits/elastic_fit.h"
+
+namespace afm::app {
+
+// Options of a fit; zero: not given.
+struct FitOptions {
+  std::optional<fits::Shape> shape;  // empty: no fit is wanted
+  double radius_m = 0;
+  double half_angle_rad = 0;
+  double layer_m = 0;
+  double poisson = 0.5;
+  fits::Against against = fits::Against::Z;
+  bool tilt = false;
+};
+
+// Adds --fit and its options, which write into `options` while the parser lives. Returns them with their names.
+struct NamedOption {
+  Option option;
+  const char* name;
+};
+std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& options);
+
+// WrongUsage if the shape lacks a size, or has one that it does not need.
+core::Result<void> check(const FitOptions& options);
+
+// Fits the approach of a curve. `options` is checked and wants a fit. BadInputFile, naming the curve, if it has no
+// spring constant or nothing fits.
+core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const FitOptions& options);
+
+// Lines for the report, the same in SI, and the model for the plot.
+std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options);
+nlohmann::ordered_json fit_json(const fits::ElasticFit& fit, const FitOptions& options);
+curves::SvgLine fit_line(const curves::AnalysedCurve& curve, const fits::ElasticFit& fit);
+
+}  // namespace afm::app

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <numbers>
+
+#include "physics/quantity_text.h"
+
+namespace afm::app {
+
+inline constexpr std::array kAngles{physics::Unit{"deg", 180.0 / std::numbers::pi, true}};
+inline constexpr physics::Units kAngleUnits{"an angle", kAngles};
+
+}  // namespace afm::app

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fits/indenter.h"
+
+// Fit of an elastic contact to the approach of a force curve (docs/fits.md). Any thread; allocates.
+namespace afm::fits {
+
+// What the force is a function of.
+enum class Against {
+  Z,    // height of the lever's base: lever and contact in series, and only the force is noisy
+  Tip,  // tip position Z + F/k, as in nanite and AtomicJ: its noise is that of the force, too
+};
+
+struct AgainstName {
+  Against against;
+  std::string_view name;
+};
+inline constexpr std::array kAgainst{AgainstName{Against::Z, "z"}, AgainstName{Against::Tip, "tip"}};
+
+// One point of an approach, in the order of recording.
+struct Sample {
+  double z_m = 0;      // base of the lever; smaller is deeper
+  double force_n = 0;  // of the lever, positive away from the sample, with any zero
+};
+
+struct FitSetup {
+  Indenter indenter;
+  double poisson = 0.5;       // of the sample, -1 to 0.5
+  double spring_n_per_m = 0;  // positive
+  double zero_n = 0;          // force of the free lever, for the tip position alone
+  Against against = Against::Z;
+  bool tilt = false;           // also fits a slope of the baseline
+  std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts
+};
+
+// Interval of 95 %: of the statistics alone, by the profile likelihood of the whitened fit.
+struct Interval {
+  double low = 0, high = 0;
+};
+
+// Reasons not to trust a modulus, in the order of their gravity.
+enum class Doubt {
+  NeverPushed,    // the sample is never pushed by five times the noise
+  Saturated,      // the greatest force is that of several points: the detector's end
+  LeverTooSoft,   // the contact is over 20 times as stiff as the lever: it bends instead of the sample
+  FewPoints,      // fewer than 50 points in contact
+  Shallow,        // depth below three times the noise's
+  BeyondLayer,    // deeper than the layer's formula allows
+  NotLevel,       // the modulus depends on the depth
+  NotRandom,      // residuals in runs: the curve has another shape
+  ShortBaseline,  // less than a tenth of the points before contact
+};
+
+struct DoubtRow {
+  Doubt doubt;
+  bool fatal;             // the modulus means nothing
+  std::string_view name;  // in reports
+};
+extern const std::array<DoubtRow, 9> kDoubts;
+
+enum class Trust { Trusted, Doubtful, No };
+std::string_view name_of(Trust trust);
+
+struct Found {
+  Doubt doubt;
+  double figure;  // value that was compared, of its own unit
+  double limit;   // value that it was compared with
+};
+
+struct ElasticFit {
+  double modulus_pa = 0;          // Young's, for the setup's Poisson ratio
+  double reduced_modulus_pa = 0;  // E/(1 - nu^2)
+  Interval modulus_interval_pa;
+  double contact_z_m = 0;  // of the base, or of the tip with Against::Tip
+  double level_n = 0;      // of the baseline at the first sample's place
+  double tilt_n_per_m = 0;
+  double depth_m = 0;      // largest depth of the model's tip
+  double rms_n = 0;        // of the residuals
+  std::size_t points = 0;  // in all
+  std::size_t in_contact = 0;
+  std::size_t noise_order = 0;                  // of the autoregressive noise, 0 to 4
+  double runs_p = 1;                            // probability of as few runs of the whitened residuals, or fewer
+  std::optional<double> half_depth_modulus_pa;  // modulus from the upper half of the depth
+  Trust trust = Trust::Trusted;
+  std::vector<Found> doubts;
+  std::vector<double> model_n;  // force of the model at each sample, baseline included
+};
+
+// Fits reduced modulus, contact point, level and, if wanted, tilt to all samples. Empty, with the reason in `why`, if
+// there are fewer than 10 samples, one is not finite, all have one Z, or no start leads to a modulus.
+std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& setup, std::string& why);
+
+}  // namespace afm::fits

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+
+// Elastic contacts without adhesion (docs/fits.md; equation numbers (F...)). Any thread.
+namespace afm::fits {
+
+enum class Shape {
+  Paraboloid,
+  Sphere,
+  Cone,
+  Pyramid3,
+  Pyramid4Bilodeau,
+  Pyramid4Rico,
+  LayerSphere,
+  LayerCone,
+  LayerDimitriadis
+};
+
+// Description of a shape for options, reports and checks.
+struct ShapeRow {
+  Shape shape;
+  std::string_view name;     // on the command line and in reports
+  bool has_radius;           // false: a half angle
+  bool has_layer;            // a thickness, and Poisson's ratio 0.5
+  std::string_view meaning;  // with its source, in one line
+};
+
+// In the order of Shape.
+extern const std::array<ShapeRow, 9> kShapes;
+
+const ShapeRow& row_of(Shape shape);
+
+struct Indenter {
+  Shape shape = Shape::Sphere;
+  double radius_m = 0;        // positive where the shape has one
+  double half_angle_rad = 0;  // between axis and edge of a cone, axis and face of a pyramid; in (0, pi/2)
+  double layer_m = 0;         // thickness on a rigid base; positive where the shape has one
+};
+
+// For a reduced modulus E* = E/(1 - nu^2) of 1 Pa.
+struct Push {
+  double force = 0;  // N/Pa
+  double slope = 0;  // derivative by the depth, N/(m Pa)
+};
+
+// For a depth of zero or more, in metres; nothing above the sample.
+Push push_of(const Indenter& indenter, double depth_m) noexcept;
+
+// How far the depth is beyond the range in which the shape's formula is within 1 % of the exact layer (lab cases P09 to
+// P20): sqrt(R d)/h over 0.5, or d tan(alpha)/h over 0.9. 0 for a thick sample.
+double layer_strain(const Indenter& indenter, double depth_m) noexcept;
+
+}  // namespace afm::fits

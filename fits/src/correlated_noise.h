@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace afm::fits {
+
+inline constexpr std::size_t kMostNoiseOrder = 4;
+
+// Coefficients of autoregressive noise, r_t = sum_j c_j r_(t-j) + white, in the residuals of a least squares fit, by
+// restricted maximum likelihood on the linearised fit (Patterson & Thompson 1971): from the residuals alone they come
+// out too small, since the fit has removed a part. Order 0 to kMostNoiseOrder by Akaike's criterion. `jacobian`: column
+// by column.
+std::vector<double> noise_coefficients(std::span<const double> residuals, std::span<const double> jacobian);
+
+// values_t - sum_j c_j values_(t-j), the first ones dropped. Returns the number of values left; in place.
+std::size_t whiten(std::span<const double> coefficients, std::span<double> values);
+
+// Probability that as many signs in random order have as few runs, or fewer (Wald & Wolfowitz 1940, normal
+// approximation).
+double runs_probability(std::span<const double> residuals);
+
+}  // namespace afm::fits

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fits/elastic_fit.h"
+
+namespace afm::fits {
+
+// Unknowns of a fit: logarithm of the reduced modulus, contact point, level, and tilt with FitSetup::tilt.
+using Unknowns = std::vector<double>;
+inline constexpr std::size_t kModulus = 0, kContact = 1, kLevel = 2, kTilt = 3;
+
+// The curve as a problem of least squares. Lengths are in metres.
+class CurveProblem {
+ public:
+  CurveProblem(std::span<const Sample> samples, const FitSetup& setup);
+
+  std::size_t size() const { return z_m_.size(); }
+  std::size_t unknown_count() const { return setup_.tilt ? 4 : 3; }
+
+  // Best modulus for this contact point, the mean of the outer samples as level: where a fit begins. Empty if nothing
+  // pushes there.
+  std::optional<Unknowns> start_at(double contact_m) const;
+
+  // Minimum of the whitened residuals. With `held`, the logarithm of the modulus stays. Returns the sum of squares.
+  double minimise(Unknowns& unknowns, std::span<const double> noise = {}, std::optional<double> held = {}) const;
+
+  // Measured less model, and its derivatives, column by column; without noise's whitening.
+  std::vector<double> residuals(const Unknowns& unknowns) const;
+  std::vector<double> jacobian(const Unknowns& unknowns) const;
+
+  double depth_m(const Unknowns& unknowns, std::size_t sample) const;
+  double force_n(const Unknowns& unknowns, std::size_t sample) const;  // baseline included
+
+ private:
+  struct Bent {
+    double depth_m = 0, force_n = 0;
+    double by_modulus_n = 0;        // derivative by the logarithm of the modulus
+    double by_contact_n_per_m = 0;  // derivative by the contact point
+  };
+  Bent bent(const Unknowns& unknowns, std::size_t sample) const;
+  void evaluate(const Unknowns& unknowns, std::span<double> residuals, std::span<double> jacobian) const;
+
+  FitSetup setup_;
+  std::vector<double> z_m_, force_n_;
+  double origin_m_;  // of the tilt
+};
+
+}  // namespace afm::fits

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fits/elastic_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "correlated_noise.h"
+#include "curve_problem.h"
+
+namespace afm::fits {
+
+namespace {
+
+constexpr double kChiSquare95 = 3.841458820694124;  // one degree of freedom
+constexpr std::size_t kFewest = 10;
+
+// A fit that has ended: unknowns, noise, and the sum of the whitened squares.
+struct Ended {
+  Unknowns unknowns;
+  std::vector<double> noise;
+  double squares = std::numeric_limits<double>::infinity();
+};
+
+bool is_usable(const Unknowns& unknowns, double squares) {
+  return std::isfinite(squares) &&
+         std::all_of(unknowns.begin(), unknowns.end(), [](double value) { return std::isfinite(value); });
+}
+
+// Means of neighbours, so that looking for the best start costs little.
+std::vector<Sample> thinned(std::span<const Sample> samples) {
+  constexpr std::size_t kLeft = 256;
+  if (samples.size() <= 2 * kLeft) return {samples.begin(), samples.end()};
+  std::vector<Sample> means;
+  for (std::size_t i = 0; i < kLeft; ++i) {
+    const std::size_t begin = i * samples.size() / kLeft, end = (i + 1) * samples.size() / kLeft;
+    Sample mean;
+    for (std::size_t t = begin; t < end; ++t) {
+      mean.z_m += samples[t].z_m / static_cast<double>(end - begin);
+      mean.force_n += samples[t].force_n / static_cast<double>(end - begin);
+    }
+    means.push_back(mean);
+  }
+  return means;
+}
+
+std::optional<Unknowns> best_start(std::span<const Sample> samples, const FitSetup& setup) {
+  const std::vector<Sample> few = thinned(samples);
+  const CurveProblem problem(few, setup);
+  const auto [low, high] =
+      std::minmax_element(few.begin(), few.end(), [](const Sample& a, const Sample& b) { return a.z_m < b.z_m; });
+  std::vector<double> starts(setup.starts);
+  for (const double share : {0.25, 0.5, 0.75}) starts.push_back(std::lerp(low->z_m, high->z_m, share));
+  std::optional<Unknowns> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double start : starts) {
+    auto unknowns = problem.start_at(start);
+    if (!unknowns) continue;
+    const double squares = problem.minimise(*unknowns);
+    if (!is_usable(*unknowns, squares) || !(squares < least)) continue;
+    least = squares;
+    best = unknowns;
+  }
+  return best;
+}
+
+// White first, then with the noise that is left, until its coefficients stay.
+Ended minimum(const CurveProblem& problem, const Unknowns& start) {
+  constexpr int kRounds = 3;
+  Ended ended{start, {}, 0.0};
+  ended.squares = problem.minimise(ended.unknowns);
+  for (int round = 0; round < kRounds; ++round) {
+    auto noise = noise_coefficients(problem.residuals(ended.unknowns), problem.jacobian(ended.unknowns));
+    double change = noise.size() == ended.noise.size() ? 0.0 : 1.0;
+    for (std::size_t j = 0; change == 0.0 && j < noise.size(); ++j) {
+      if (std::abs(noise[j] - ended.noise[j]) > 1e-3) change = 1.0;
+    }
+    if (change == 0.0) break;
+    ended.noise = std::move(noise);
+    ended.squares = problem.minimise(ended.unknowns, ended.noise);
+  }
+  return ended;
+}
+
+// Standard deviation of the logarithm of the modulus, from the whitened Jacobian: where the profile begins.
+double deviation_of_modulus(const CurveProblem& problem, const Ended& ended) {
+  std::vector<double> jacobian = problem.jacobian(ended.unknowns);
+  const std::size_t n = problem.size(), count = problem.unknown_count();
+  const std::size_t left = n - ended.noise.size();
+  for (std::size_t c = 0; c < count; ++c) whiten(ended.noise, std::span(jacobian).subspan(c * n, n));
+  // what the other columns leave of the modulus's, by Gram and Schmidt from the last column
+  for (std::size_t c = count - 1; c >= 1; --c) {
+    double own = 0.0;
+    for (std::size_t t = 0; t < left; ++t) own += jacobian[c * n + t] * jacobian[c * n + t];
+    for (std::size_t other = 0; other < c && own > 0.0; ++other) {
+      double shared = 0.0;
+      for (std::size_t t = 0; t < left; ++t) shared += jacobian[c * n + t] * jacobian[other * n + t];
+      for (std::size_t t = 0; t < left; ++t) jacobian[other * n + t] -= shared / own * jacobian[c * n + t];
+    }
+  }
+  double own = 0.0;
+  for (std::size_t t = 0; t < left; ++t) own += jacobian[t] * jacobian[t];
+  const auto free = static_cast<double>(left - count);
+  return own > 0.0 ? std::sqrt(ended.squares / free / own) : std::numeric_limits<double>::infinity();
+}
+
+// End of the interval on one side: where the likelihood, maximised over the other unknowns, has fallen by half the 95 %
+// quantile of chi square. The way is nearly a parabola, so that its root is stepped to.
+double profile_end(const CurveProblem& problem, const Ended& ended, double deviation, double side) {
+  constexpr int kSteps = 8;
+  constexpr double kFarthest = 5.0;  // in the logarithm: a modulus that is unknown by a factor of 148
+  const auto free = static_cast<double>(problem.size() - ended.noise.size() - problem.unknown_count());
+  const auto rise = [&](double way) {
+    Unknowns unknowns(ended.unknowns);
+    const double squares = problem.minimise(unknowns, ended.noise, ended.unknowns[kModulus] + side * way);
+    return free * std::log(squares / ended.squares);
+  };
+  double way = std::min(std::sqrt(kChiSquare95) * deviation, kFarthest);
+  for (int step = 0; step < kSteps; ++step) {
+    const double risen = rise(way);
+    if (!(risen > 0.0)) break;
+    const double next = std::min(way * std::sqrt(kChiSquare95 / risen), kFarthest);
+    const bool close = std::abs(next - way) < 1e-3 * way;
+    way = next;
+    if (close) break;
+  }
+  return ended.unknowns[kModulus] + side * way;
+}
+
+// Of the forces above the level, the deepest sample's.
+double greatest_push_n(std::span<const Sample> samples, double level_n) {
+  double greatest = 0.0;
+  for (const Sample& sample : samples) greatest = std::max(greatest, sample.force_n - level_n);
+  return greatest;
+}
+
+class Judge {
+ public:
+  Judge(std::span<const Sample> samples, const FitSetup& setup, const CurveProblem& problem, const Ended& ended)
+      : samples_(samples), setup_(setup), problem_(problem), ended_(ended) {}
+
+  void judge(ElasticFit& fit) {
+    const double push_n = greatest_push_n(samples_, fit.level_n);
+    add(fit, Doubt::NeverPushed, push_n / fit.rms_n, 5.0, push_n < 5.0 * fit.rms_n);
+    const auto at_end = std::count_if(samples_.begin(), samples_.end(), [&](const Sample& sample) {
+      return sample.force_n - fit.level_n >= push_n * (1.0 - 1e-9);
+    });
+    add(fit, Doubt::Saturated, static_cast<double>(at_end), 4.0, at_end > 4 && push_n > 5.0 * fit.rms_n);
+    const double stiffer = fit.reduced_modulus_pa * push_of(setup_.indenter, fit.depth_m).slope / setup_.spring_n_per_m;
+    add(fit, Doubt::LeverTooSoft, stiffer, 20.0, stiffer > 20.0);
+    add(fit, Doubt::FewPoints, static_cast<double>(fit.in_contact), 50.0, fit.in_contact < 50);
+    const double noise_depth_m = fit.rms_n / setup_.spring_n_per_m;
+    add(fit, Doubt::Shallow, fit.depth_m / noise_depth_m, 3.0, fit.depth_m < 3.0 * noise_depth_m);
+    const double strain = layer_strain(setup_.indenter, fit.depth_m);
+    add(fit, Doubt::BeyondLayer, strain, 1.0, strain > 1.0);
+    judge_level(fit);
+    add(fit, Doubt::NotRandom, fit.runs_p, 0.01, fit.runs_p < 0.01);
+    const double outside = 1.0 - static_cast<double>(fit.in_contact) / static_cast<double>(fit.points);
+    add(fit, Doubt::ShortBaseline, outside, 0.1, outside < 0.1);
+    for (const Found& found : fit.doubts) {
+      const bool fatal = kDoubts.at(static_cast<std::size_t>(found.doubt)).fatal;
+      fit.trust = fatal || fit.trust == Trust::No ? Trust::No : Trust::Doubtful;
+    }
+  }
+
+ private:
+  static void add(ElasticFit& fit, Doubt doubt, double figure, double limit, bool found) {
+    if (found) fit.doubts.push_back({doubt, figure, limit});
+  }
+
+  // The modulus of half the depth, by the same noise; it may differ by three of its standard deviations.
+  void judge_level(ElasticFit& fit) {
+    std::vector<Sample> shallow;
+    std::size_t pushed = 0;
+    for (std::size_t t = 0; t < samples_.size(); ++t) {
+      const double depth_m = problem_.depth_m(ended_.unknowns, t);
+      if (depth_m > 0.5 * fit.depth_m) continue;
+      shallow.push_back(samples_[t]);
+      if (depth_m > 0.0) ++pushed;
+    }
+    constexpr std::size_t kFewestPushed = 10;
+    if (pushed < kFewestPushed || shallow.size() < 2 * kFewest) return;
+    const CurveProblem half(shallow, setup_);
+    Ended ended{ended_.unknowns, ended_.noise, 0.0};
+    ended.squares = half.minimise(ended.unknowns, ended.noise);
+    if (!is_usable(ended.unknowns, ended.squares)) return;
+    fit.half_depth_modulus_pa = std::exp(ended.unknowns[kModulus]) * (fit.modulus_pa / fit.reduced_modulus_pa);
+    const double apart = std::abs(ended.unknowns[kModulus] - ended_.unknowns[kModulus]);
+    const double deviation = deviation_of_modulus(half, ended);
+    add(fit, Doubt::NotLevel, apart / deviation, 3.0, apart > 3.0 * deviation);
+  }
+
+  std::span<const Sample> samples_;
+  const FitSetup& setup_;
+  const CurveProblem& problem_;
+  const Ended& ended_;
+};
+
+}  // namespace
+
+const std::array<DoubtRow, 9> kDoubts{{
+    {Doubt::NeverPushed, true, "the sample is hardly pushed: greatest push over the noise"},
+    {Doubt::Saturated, true, "the force stands still at its greatest: points there"},
+    {Doubt::LeverTooSoft, false, "the lever bends instead of the sample: contact stiffness over the lever's"},
+    {Doubt::FewPoints, false, "few points in contact"},
+    {Doubt::Shallow, false, "depth over that of the noise"},
+    {Doubt::BeyondLayer, false, "deeper than the layer's formula allows: strain over its limit"},
+    {Doubt::NotLevel, false, "the modulus depends on the depth: half the depth differs, in standard deviations"},
+    {Doubt::NotRandom, false, "the curve has another shape: probability of the residuals' runs"},
+    {Doubt::ShortBaseline, false, "little recorded before contact: share of the points"},
+}};
+
+std::string_view name_of(Trust trust) {
+  switch (trust) {
+    case Trust::Trusted:
+      return "trusted";
+    case Trust::Doubtful:
+      return "doubtful";
+    case Trust::No:
+      break;
+  }
+  return "no";
+}
+
+std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& setup, std::string& why) {
+  const auto finite = [](const Sample& s) { return std::isfinite(s.z_m) && std::isfinite(s.force_n); };
+  if (samples.size() < kFewest) {
+    why = "it has fewer than 10 points of an approach";
+    return std::nullopt;
+  }
+  if (!std::all_of(samples.begin(), samples.end(), finite)) {
+    why = "a height or a force is not a number";
+    return std::nullopt;
+  }
+  const auto start = best_start(samples, setup);
+  if (!start) {
+    why = "the lever is nowhere pushed up: turned forces, or no contact";
+    return std::nullopt;
+  }
+  const CurveProblem problem(samples, setup);
+  const Ended ended = minimum(problem, *start);
+  if (!is_usable(ended.unknowns, ended.squares)) {
+    why = "no modulus fits";
+    return std::nullopt;
+  }
+  ElasticFit found;
+  const double from_reduced = 1.0 - setup.poisson * setup.poisson;
+  found.reduced_modulus_pa = std::exp(ended.unknowns[kModulus]);
+  found.modulus_pa = from_reduced * found.reduced_modulus_pa;
+  const double deviation = deviation_of_modulus(problem, ended);
+  found.modulus_interval_pa = {from_reduced * std::exp(profile_end(problem, ended, deviation, -1.0)),
+                               from_reduced * std::exp(profile_end(problem, ended, deviation, 1.0))};
+  found.contact_z_m = ended.unknowns[kContact];
+  found.level_n = ended.unknowns[kLevel];
+  if (setup.tilt) found.tilt_n_per_m = ended.unknowns[kTilt];
+  std::vector<double> residuals = problem.residuals(ended.unknowns);
+  double squares = 0.0;
+  for (std::size_t t = 0; t < samples.size(); ++t) {
+    const double depth_m = problem.depth_m(ended.unknowns, t);
+    found.depth_m = std::max(found.depth_m, depth_m);
+    if (depth_m > 0.0) ++found.in_contact;
+    found.model_n.push_back(problem.force_n(ended.unknowns, t));
+    squares += residuals[t] * residuals[t];
+  }
+  found.points = samples.size();
+  found.rms_n = std::sqrt(squares / static_cast<double>(samples.size()));
+  found.noise_order = ended.noise.size();
+  found.runs_p = runs_probability(std::span(residuals).first(whiten(ended.noise, residuals)));
+  Judge(samples, setup, problem, ended).judge(found);
+  return found;
+}
+
+}  // namespace afm::fits

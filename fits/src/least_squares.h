@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace afm::fits {
+
+// Least squares by Levenberg and Marquardt: MINPACK's lmder, which scipy and lmfit call "leastsq". `evaluate` fills the
+// residuals, and the Jacobian, column by column, where it is not empty. Changes `parameters` to the minimum. Returns
+// the sum of squares there; not finite if there is no minimum.
+using Residuals =
+    std::function<void(std::span<const double> parameters, std::span<double> residuals, std::span<double> jacobian)>;
+
+double least_squares(const Residuals& evaluate, std::size_t residual_count, std::vector<double>& parameters);
+
+}  // namespace afm::fits
