@@ -20,7 +20,7 @@ namespace afm::app {
 namespace {
 
 using physics::format_quantity;
-using json = nlohmann::ordered_json;
+using FitJson = nlohmann::ordered_json;
 
 constexpr QuantityRange<physics::Length> kRadii{physics::Length(1e-10), physics::Length(1e-3)};
 constexpr QuantityRange<physics::Length> kLayers{physics::Length(1e-10), physics::Length(1e-1)};
@@ -100,13 +100,16 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
                   "of --fit: z, the height of the lever's base, or tip, the tip position of nanite and AtomicJ; "
                   "default: z"));
   add("--tilt", command.add_flag("--tilt", options.tilt, "of --fit: also fit a tilt of the baseline"));
+  add("--white-noise", command.add_flag("--white-noise", options.white,
+                                        "of --fit: take the noise for white, as nanite and AtomicJ do; its interval is "
+                                        "too narrow where it is not"));
   return added;
 }
 
 core::Result<void> check(const FitOptions& options) {
   const bool radius = options.radius_m > 0.0, angle = options.half_angle_rad > 0.0, layer = options.layer_m > 0.0;
   if (!options.shape) {
-    if (radius || angle || layer || options.poisson != FitOptions{}.poisson || options.tilt ||
+    if (radius || angle || layer || options.poisson != FitOptions{}.poisson || options.tilt || options.white ||
         options.against != FitOptions{}.against) {
       return core::wrong_usage("an option of a fit is given without --fit; add --fit SHAPE, such as --fit sphere");
     }
@@ -138,6 +141,7 @@ core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const 
                        .zero_n = 0.0,
                        .against = options.against,
                        .tilt = options.tilt,
+                       .white = options.white,
                        .starts = {}};
   for (const auto& estimate : curve.features.contact_estimates) {
     if (estimate) setup.starts.push_back(estimate->si);
@@ -170,7 +174,8 @@ std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options) {
   line("rms of residuals", force_text(fit.rms_n));
   line("points", fmt::format("{}", fit.points));
   line("  in contact", fmt::format("{}", fit.in_contact));
-  line("noise", fit.noise_order == 0 ? "white" : fmt::format("order {}", fit.noise_order));
+  line("noise", force_text(fit.noise_n));
+  line("  its order", options.white ? "taken for white" : fmt::format("{}", fit.noise_order));
   line("trust", std::string(fits::name_of(fit.trust)));
   for (const fits::Found& found : fit.doubts) {
     fmt::format_to(out, "  {} {:.3g} (limit {:g})\n", fits::kDoubts.at(static_cast<std::size_t>(found.doubt)).name,
@@ -182,30 +187,31 @@ std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options) {
   return fmt::to_string(text);
 }
 
-json fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
+FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
   const fits::ShapeRow& shape = fits::row_of(*options.shape);
-  json result{{"shape", shape.name},
-              {"source", shape.meaning},
-              {"radius_m", shape.has_radius ? json(options.radius_m) : json()},
-              {"half_angle_rad", shape.has_radius ? json() : json(options.half_angle_rad)},
-              {"layer_m", shape.has_layer ? json(options.layer_m) : json()},
-              {"poisson_ratio", options.poisson},
-              {"against", name_of(options.against)},
-              {"modulus_Pa", fit.modulus_pa},
-              {"modulus_95_percent_Pa", {fit.modulus_interval_pa.low, fit.modulus_interval_pa.high}},
-              {"reduced_modulus_Pa", fit.reduced_modulus_pa},
-              {"contact_m", fit.contact_z_m},
-              {"level_N", fit.level_n},
-              {"tilt_N_per_m", options.tilt ? json(fit.tilt_n_per_m) : json()},
-              {"depth_m", fit.depth_m},
-              {"rms_N", fit.rms_n},
-              {"points", fit.points},
-              {"points_in_contact", fit.in_contact},
-              {"noise_order", fit.noise_order},
-              {"runs_probability", fit.runs_p},
-              {"half_depth_modulus_Pa", fit.half_depth_modulus_pa ? json(*fit.half_depth_modulus_pa) : json()},
-              {"trust", fits::name_of(fit.trust)}};
-  result["doubts"] = json::array();
+  FitJson result{{"shape", shape.name},
+                 {"source", shape.meaning},
+                 {"radius_m", shape.has_radius ? FitJson(options.radius_m) : FitJson()},
+                 {"half_angle_rad", shape.has_radius ? FitJson() : FitJson(options.half_angle_rad)},
+                 {"layer_m", shape.has_layer ? FitJson(options.layer_m) : FitJson()},
+                 {"poisson_ratio", options.poisson},
+                 {"against", name_of(options.against)},
+                 {"modulus_Pa", fit.modulus_pa},
+                 {"modulus_95_percent_Pa", {fit.modulus_interval_pa.low, fit.modulus_interval_pa.high}},
+                 {"reduced_modulus_Pa", fit.reduced_modulus_pa},
+                 {"contact_m", fit.contact_z_m},
+                 {"level_N", fit.level_n},
+                 {"tilt_N_per_m", options.tilt ? FitJson(fit.tilt_n_per_m) : FitJson()},
+                 {"depth_m", fit.depth_m},
+                 {"rms_N", fit.rms_n},
+                 {"points", fit.points},
+                 {"points_in_contact", fit.in_contact},
+                 {"noise_N", fit.noise_n},
+                 {"noise_order", options.white ? FitJson() : FitJson(fit.noise_order)},
+                 {"runs_probability", fit.runs_p},
+                 {"half_depth_modulus_Pa", fit.half_depth_modulus_pa ? FitJson(*fit.half_depth_modulus_pa) : FitJson()},
+                 {"trust", fits::name_of(fit.trust)}};
+  result["doubts"] = FitJson::array();
   for (const fits::Found& found : fit.doubts) {
     result["doubts"].push_back({{"reason", fits::kDoubts.at(static_cast<std::size_t>(found.doubt)).name},
                                 {"figure", found.figure},

@@ -22,6 +22,7 @@ struct FitOptions {
   double poisson = 0.5;
   fits::Against against = fits::Against::Z;
   bool tilt = false;
+  bool white = false;
 };
 
 // Adds --fit and its options, which write into `options` while the parser lives. Returns them with their names.

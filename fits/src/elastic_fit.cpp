@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "correlated_noise.h"
 #include "curve_problem.h"
@@ -64,12 +65,18 @@ std::optional<Unknowns> best_start(std::span<const Sample> samples, const FitSet
   return best;
 }
 
-// White first, then with the noise that is left, until its coefficients stay.
-Ended minimum(const CurveProblem& problem, const Unknowns& start) {
-  constexpr int kRounds = 3;
-  Ended ended{start, {}, 0.0};
-  ended.squares = problem.minimise(ended.unknowns);
-  for (int round = 0; round < kRounds; ++round) {
+double squares_of(const std::vector<double>& residuals) {
+  return std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
+}
+
+// White first, then with the noise that is left, until its coefficients stay. Where another shape was pressed in, the
+// residuals are no noise: a filter that takes them for it lets the model leave the curve, and is not used.
+Ended minimum(const CurveProblem& problem, const Unknowns& start, bool white) {
+  const int rounds = white ? 0 : 3;
+  Ended white_noise{start, {}, 0.0};
+  white_noise.squares = problem.minimise(white_noise.unknowns);
+  Ended ended = white_noise;
+  for (int round = 0; round < rounds; ++round) {
     auto noise = noise_coefficients(problem.residuals(ended.unknowns), problem.jacobian(ended.unknowns));
     double change = noise.size() == ended.noise.size() ? 0.0 : 1.0;
     for (std::size_t j = 0; change == 0.0 && j < noise.size(); ++j) {
@@ -79,7 +86,10 @@ Ended minimum(const CurveProblem& problem, const Unknowns& start) {
     ended.noise = std::move(noise);
     ended.squares = problem.minimise(ended.unknowns, ended.noise);
   }
-  return ended;
+  constexpr double kLeftCurve = 4.0;  // of the sum of squares
+  const bool left = !is_usable(ended.unknowns, ended.squares) ||
+                    squares_of(problem.residuals(ended.unknowns)) > kLeftCurve * white_noise.squares;
+  return left ? white_noise : ended;
 }
 
 // Standard deviation of the logarithm of the modulus, from the whitened Jacobian: where the profile begins.
@@ -141,15 +151,15 @@ class Judge {
 
   void judge(ElasticFit& fit) {
     const double push_n = greatest_push_n(samples_, fit.level_n);
-    add(fit, Doubt::NeverPushed, push_n / fit.rms_n, 5.0, push_n < 5.0 * fit.rms_n);
+    add(fit, Doubt::NeverPushed, push_n / fit.noise_n, 5.0, !(push_n > 0.0 && push_n >= 5.0 * fit.noise_n));
     const auto at_end = std::count_if(samples_.begin(), samples_.end(), [&](const Sample& sample) {
       return sample.force_n - fit.level_n >= push_n * (1.0 - 1e-9);
     });
-    add(fit, Doubt::Saturated, static_cast<double>(at_end), 4.0, at_end > 4 && push_n > 5.0 * fit.rms_n);
+    add(fit, Doubt::Saturated, static_cast<double>(at_end), 4.0, at_end > 4);
     const double stiffer = fit.reduced_modulus_pa * push_of(setup_.indenter, fit.depth_m).slope / setup_.spring_n_per_m;
     add(fit, Doubt::LeverTooSoft, stiffer, 20.0, stiffer > 20.0);
     add(fit, Doubt::FewPoints, static_cast<double>(fit.in_contact), 50.0, fit.in_contact < 50);
-    const double noise_depth_m = fit.rms_n / setup_.spring_n_per_m;
+    const double noise_depth_m = fit.noise_n / setup_.spring_n_per_m;
     add(fit, Doubt::Shallow, fit.depth_m / noise_depth_m, 3.0, fit.depth_m < 3.0 * noise_depth_m);
     const double strain = layer_strain(setup_.indenter, fit.depth_m);
     add(fit, Doubt::BeyondLayer, strain, 1.0, strain > 1.0);
@@ -238,7 +248,7 @@ std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& s
     return std::nullopt;
   }
   const CurveProblem problem(samples, setup);
-  const Ended ended = minimum(problem, *start);
+  const Ended ended = minimum(problem, *start, setup.white);
   if (!is_usable(ended.unknowns, ended.squares)) {
     why = "no modulus fits";
     return std::nullopt;
@@ -254,16 +264,18 @@ std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& s
   found.level_n = ended.unknowns[kLevel];
   if (setup.tilt) found.tilt_n_per_m = ended.unknowns[kTilt];
   std::vector<double> residuals = problem.residuals(ended.unknowns);
-  double squares = 0.0;
+  double before_contact = 0.0;
   for (std::size_t t = 0; t < samples.size(); ++t) {
     const double depth_m = problem.depth_m(ended.unknowns, t);
     found.depth_m = std::max(found.depth_m, depth_m);
     if (depth_m > 0.0) ++found.in_contact;
     found.model_n.push_back(problem.force_n(ended.unknowns, t));
-    squares += residuals[t] * residuals[t];
+    if (!(depth_m > 0.0)) before_contact += residuals[t] * residuals[t];
   }
   found.points = samples.size();
-  found.rms_n = std::sqrt(squares / static_cast<double>(samples.size()));
+  found.rms_n = std::sqrt(squares_of(residuals) / static_cast<double>(samples.size()));
+  const std::size_t outside = samples.size() - found.in_contact;
+  found.noise_n = outside < kFewest ? found.rms_n : std::sqrt(before_contact / static_cast<double>(outside));
   found.noise_order = ended.noise.size();
   found.runs_p = runs_probability(std::span(residuals).first(whiten(ended.noise, residuals)));
   Judge(samples, setup, problem, ended).judge(found);

@@ -39,6 +39,7 @@ struct FitSetup {
   double zero_n = 0;          // force of the free lever, for the tip position alone
   Against against = Against::Z;
   bool tilt = false;           // also fits a slope of the baseline
+  bool white = false;          // takes the noise for white: ordinary least squares, as in nanite and AtomicJ
   std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts
 };
 
@@ -84,6 +85,7 @@ struct ElasticFit {
   double level_n = 0;      // of the baseline at the first sample's place
   double tilt_n_per_m = 0;
   double depth_m = 0;      // largest depth of the model's tip
+  double noise_n = 0;      // rms of the residuals before contact, or of all where these are few
   double rms_n = 0;        // of the residuals
   std::size_t points = 0;  // in all
   std::size_t in_contact = 0;
