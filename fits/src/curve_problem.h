@@ -47,7 +47,7 @@ class CurveProblem {
 
   FitSetup setup_;
   std::vector<double> z_m_, force_n_;
-  double origin_m_;  // of the tilt
+  double origin_m_;  // place where the tilt is zero
 };
 
 }  // namespace afm::fits

@@ -86,7 +86,7 @@ Ended minimum(const CurveProblem& problem, const Unknowns& start, bool white) {
     ended.noise = std::move(noise);
     ended.squares = problem.minimise(ended.unknowns, ended.noise);
   }
-  constexpr double kLeftCurve = 4.0;  // of the sum of squares
+  constexpr double kLeftCurve = 4.0;  // largest ratio of the sums of squares
   const bool left = !is_usable(ended.unknowns, ended.squares) ||
                     squares_of(problem.residuals(ended.unknowns)) > kLeftCurve * white_noise.squares;
   return left ? white_noise : ended;
@@ -163,8 +163,11 @@ class Judge {
     add(fit, Doubt::Shallow, fit.depth_m / noise_depth_m, 3.0, fit.depth_m < 3.0 * noise_depth_m);
     const double strain = layer_strain(setup_.indenter, fit.depth_m);
     add(fit, Doubt::BeyondLayer, strain, 1.0, strain > 1.0);
-    judge_level(fit);
-    add(fit, Doubt::NotRandom, fit.runs_p, 0.01, fit.runs_p < 0.01);
+    constexpr double kRounding = 1e-6;  // share of the push; smaller residuals say nothing of the shape
+    if (fit.rms_n > kRounding * push_n) {
+      judge_level(fit);
+      add(fit, Doubt::NotRandom, fit.runs_p, 0.01, fit.runs_p < 0.01);
+    }
     const double outside = 1.0 - static_cast<double>(fit.in_contact) / static_cast<double>(fit.points);
     add(fit, Doubt::ShortBaseline, outside, 0.1, outside < 0.1);
     for (const Found& found : fit.doubts) {
@@ -210,7 +213,7 @@ class Judge {
 
 const std::array<DoubtRow, 9> kDoubts{{
     {Doubt::NeverPushed, true, "the sample is hardly pushed: greatest push over the noise"},
-    {Doubt::Saturated, true, "the force stands still at its greatest: points there"},
+    {Doubt::Saturated, true, "the greatest force is that of several points: the detector's end"},
     {Doubt::LeverTooSoft, false, "the lever bends instead of the sample: contact stiffness over the lever's"},
     {Doubt::FewPoints, false, "few points in contact"},
     {Doubt::Shallow, false, "depth over that of the noise"},

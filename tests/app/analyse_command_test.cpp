@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/analyse_command.h"
+#include "app/analyse/analyse_command.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -147,6 +147,59 @@ TEST(AnalyseCommand, ReadsASensitivityThatIsADeflectionPerVolt) {
     EXPECT_EQ(sensitivity.error().category, core::ErrorCategory::WrongUsage);
     EXPECT_THAT(sensitivity.error().message, HasSubstr("not a deflection per volt"));
   }
+}
+
+TEST(FitOfACurve, HasEveryNumberWithItsUnitInTextAndJson) {
+  const auto curve = curves::analysed("gel.tab", test::hertz_curve());
+  ASSERT_TRUE(curve.has_value());
+  FitOptions options;
+  options.shape = fits::Shape::Paraboloid;
+  options.radius_m = test::kHertzRadiusM;
+  ASSERT_TRUE(check(options));
+  const auto fit = fit_of(*curve, options);
+  ASSERT_TRUE(fit) << fit.error().message;
+  const std::string text = fit_text(*fit, options);
+  for (const char* expected :
+       {"fit of paraboloid (Hertz 1881", "R = 5 um, nu = 0.5", "force against Z", "3 kPa", "trusted"}) {
+    EXPECT_THAT(text, HasSubstr(expected));
+  }
+  const auto json = fit_json(*fit, options);
+  EXPECT_NEAR(json.at("modulus_Pa").get<double>(), test::kHertzModulusPa, 1e-3);
+  EXPECT_NEAR(json.at("contact_m").get<double>(), 0.0, 1e-12);
+  EXPECT_EQ(json.at("half_angle_rad"), nullptr);
+  EXPECT_EQ(json.at("trust"), "trusted");
+  EXPECT_TRUE(json.at("doubts").empty());
+  const curves::SvgLine line = fit_line(*curve, *fit);
+  EXPECT_EQ(line.points.size(), 2000U);
+}
+
+TEST(FitOfACurve, IsRefusedWithoutWhatItNeeds) {
+  const auto refusal = [](const FitOptions& options) {
+    const auto checked = check(options);
+    EXPECT_FALSE(checked);
+    return checked ? "accepted" : checked.error().message;
+  };
+  FitOptions options;
+  options.radius_m = 1e-6;
+  EXPECT_THAT(refusal(options), HasSubstr("without --fit"));
+  options.shape = fits::Shape::Cone;
+  EXPECT_THAT(refusal(options), HasSubstr("no use for --radius"));
+  options.radius_m = 0.0;
+  EXPECT_THAT(refusal(options), HasSubstr("needs --half-angle"));
+  options.shape = fits::Shape::LayerCone;
+  options.half_angle_rad = 0.3;
+  EXPECT_THAT(refusal(options), HasSubstr("needs --layer"));
+  options.layer_m = 1e-6;
+  options.poisson = 0.3;
+  EXPECT_THAT(refusal(options), HasSubstr("leave --poisson out"));
+  options.poisson = 0.5;
+  EXPECT_TRUE(check(options));
+
+  curves::RecordedCurve volts = test::hertz_curve();
+  volts.metadata.spring_constant.reset();
+  const auto fit = fit_of(*curves::analysed("volts", volts), options);
+  ASSERT_FALSE(fit);
+  EXPECT_THAT(fit.error().message, HasSubstr("give --spring-constant"));
 }
 
 }  // namespace analyse_command_test

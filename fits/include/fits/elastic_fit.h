@@ -29,12 +29,12 @@ inline constexpr std::array kAgainst{AgainstName{Against::Z, "z"}, AgainstName{A
 // One point of an approach, in the order of recording.
 struct Sample {
   double z_m = 0;      // base of the lever; smaller is deeper
-  double force_n = 0;  // of the lever, positive away from the sample, with any zero
+  double force_n = 0;  // force of the lever, positive away from the sample, with any zero
 };
 
 struct FitSetup {
   Indenter indenter;
-  double poisson = 0.5;       // of the sample, -1 to 0.5
+  double poisson = 0.5;       // Poisson's ratio of the sample, 0 to 0.5
   double spring_n_per_m = 0;  // positive
   double zero_n = 0;          // force of the free lever, for the tip position alone
   Against against = Against::Z;
@@ -81,15 +81,15 @@ struct ElasticFit {
   double modulus_pa = 0;          // Young's, for the setup's Poisson ratio
   double reduced_modulus_pa = 0;  // E/(1 - nu^2)
   Interval modulus_interval_pa;
-  double contact_z_m = 0;  // of the base, or of the tip with Against::Tip
-  double level_n = 0;      // of the baseline at the first sample's place
+  double contact_z_m = 0;  // height of the base, or of the tip with Against::Tip
+  double level_n = 0;      // baseline at the first sample's place
   double tilt_n_per_m = 0;
   double depth_m = 0;      // largest depth of the model's tip
   double noise_n = 0;      // rms of the residuals before contact, or of all where these are few
-  double rms_n = 0;        // of the residuals
+  double rms_n = 0;        // rms of all residuals
   std::size_t points = 0;  // in all
   std::size_t in_contact = 0;
-  std::size_t noise_order = 0;                  // of the autoregressive noise, 0 to 4
+  std::size_t noise_order = 0;                  // order of the autoregressive noise, 0 to 4
   double runs_p = 1;                            // probability of as few runs of the whitened residuals, or fewer
   std::optional<double> half_depth_modulus_pa;  // modulus from the upper half of the depth
   Trust trust = Trust::Trusted;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/analyse_image.h"
+#include "app/analyse/analyse_image.h"
 
 #include <nlohmann/json.hpp>
 

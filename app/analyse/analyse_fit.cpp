@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/analyse_fit.h"
+#include "app/analyse/analyse_fit.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "app/commands/analyse_fit.h"
+#include "app/analyse/analyse_fit.h"
 #include "core/result.h"
 #include "curves/curve_file.h"
 #include "physics/imaging/levelling.h"

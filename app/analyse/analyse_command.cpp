@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/analyse_command.h"
+#include "app/analyse/analyse_command.h"
 
 #include <fmt/format.h>
 
@@ -11,9 +11,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
+#include <thread>
 #include <vector>
 
-#include "app/commands/analyse_image.h"
+#include "app/analyse/analyse_image.h"
+#include "app/analyse/fit_batch.h"
 #include "app/options/command.h"
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
@@ -112,6 +114,15 @@ core::Result<void> check_options(const std::string& file, const std::vector<Opti
   return {};
 }
 
+// Several files are for fits alone.
+core::Result<void> check_batch(const AnalyseOptions& options) {
+  if (!options.fit.shape) return wrong_usage("several files are for a fit; add --fit SHAPE, or name one file");
+  if (options.out.empty()) return wrong_usage("several files need --out FOLDER, for the table of their fits");
+  if (options.json) return wrong_usage("--json is for one file; the table of several has every number");
+  if (!options.beside.empty()) return wrong_usage("--beside is for one file; leave it out");
+  return {};
+}
+
 // The options write into `options` while the parser lives.
 std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions& options) {
   std::vector<OptionOfKind> added;
@@ -159,8 +170,10 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
                             .show_default()
                             .type_name("INDEX"));
   for (const NamedOption& of_fit : add_fit_options(command, options.fit)) for_curves(of_fit.name, of_fit.option);
-  for_curves("--out", command.add_option("--out", options.out, "write a plot of the curve (SVG) to FILE")
-                          .writable_file()
+  for_curves("--out", command
+                          .add_option("--out", options.out,
+                                      "write a plot of the curve (SVG) to FILE; with several files, the folder of "
+                                      "their table")
                           .type_name("FILE"));
   return added;
 }
@@ -249,7 +262,10 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
       "analyse", "analyse a measured or computed curve, alone or compared with another, or an image");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<AnalyseOptions>();
-  command.add_option("file", options->file, known_files()).required().type_name("FILE");
+  const auto files = std::make_shared<std::vector<std::string>>();
+  command.add_option("file", *files, known_files() + "; several files with --fit and --out FOLDER")
+      .required()
+      .type_name("FILE");
   std::vector<OptionOfKind> of_kind = add_curve_options(command, *options);
   const auto [channel, level] = add_channel_options(command, options->channel, options->levelling);
   of_kind.push_back({channel, "--channel", FileKind::Image});
@@ -259,10 +275,20 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
       "docs/curves.md defines each figure.\n"
       "example: touchafm analyse gold.jpk-force --beside model.csv --out gold.svg\n"
       "         touchafm analyse gel.jpk-force --fit sphere --radius 5um --out gel.svg\n"
+      "         touchafm analyse day1/*.jpk-force --fit sphere --radius 5um --out day1-fits\n"
       "         touchafm analyse mica.spm --channel \"Height Sensor\" --json");
-  command.when_chosen([options, of_kind = std::move(of_kind)]() -> core::Result<void> {
+  command.when_chosen([options, files, of_kind = std::move(of_kind)]() -> core::Result<void> {
+    options->file = files->front();
     if (const auto checked = check(options->fit); !checked) return checked;
+    if (files->size() > 1) {
+      if (const auto checked = check_batch(*options); !checked) return checked;
+      return fit_files(*files, *options, std::thread::hardware_concurrency());
+    }
     if (const auto checked = check_options(options->file, of_kind); !checked) return checked;
+    if (!options->out.empty()) {
+      const auto writable = core::check_writable(options->out);
+      if (!writable) return wrong_usage("--out: " + writable.error().message);
+    }
     return analyse_curve_file(*options);
   });
 }
