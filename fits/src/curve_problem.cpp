@@ -21,7 +21,7 @@ CurveProblem::CurveProblem(std::span<const Sample> samples, const FitSetup& setu
 // since F is convex. Against the tip (F8): d = z_c - (Z + F_measured/k).
 CurveProblem::Bent CurveProblem::bent(const Unknowns& unknowns, std::size_t sample) const {
   constexpr int kMostSteps = 60;
-  constexpr double kClose = 1e-13;
+  constexpr double kClose = 1e-7;  // the error of a step is the square
   const double modulus_pa = std::exp(unknowns[kModulus]), spring = setup_.spring_n_per_m;
   const double measured_n = force_n_[sample] - setup_.zero_n;
   if (setup_.against == Against::Tip) {
@@ -38,26 +38,36 @@ CurveProblem::Bent CurveProblem::bent(const Unknowns& unknowns, std::size_t samp
     push = push_of(setup_.indenter, depth_m);
     const double off_m = depth_m + modulus_pa * push.force / spring - way_m;
     const double next_m = depth_m - off_m / (1.0 + modulus_pa * push.slope / spring);
-    const double change_m = std::abs(next_m - depth_m);
+    const double change_m = next_m - depth_m;
     depth_m = next_m > 0.0 ? std::min(next_m, way_m) : 0.5 * depth_m;
-    if (change_m < kClose * way_m) break;
+    if (std::abs(change_m) > kClose * depth_m) continue;
+    push.force += push.slope * change_m;
+    break;
   }
-  push = push_of(setup_.indenter, depth_m);
   const double softer = 1.0 / (1.0 + modulus_pa * push.slope / spring);
   return {depth_m, modulus_pa * push.force, modulus_pa * push.force * softer, modulus_pa * push.slope * softer};
 }
 
-void CurveProblem::evaluate(const Unknowns& unknowns, std::span<double> residuals, std::span<double> jacobian) const {
+std::vector<CurveProblem::Bent> CurveProblem::all_bent(const Unknowns& unknowns) const {
+  std::vector<Bent> all(size());
+  for (std::size_t t = 0; t < size(); ++t) all[t] = bent(unknowns, t);
+  return all;
+}
+
+void CurveProblem::fill(const Unknowns& unknowns, const std::vector<Bent>& bent, std::span<double> residuals) const {
+  for (std::size_t t = 0; t < size(); ++t) {
+    const double tilt_n = setup_.tilt ? unknowns[kTilt] * (z_m_[t] - origin_m_) : 0.0;
+    residuals[t] = bent[t].force_n + unknowns[kLevel] + tilt_n - force_n_[t];
+  }
+}
+
+void CurveProblem::fill_jacobian(const std::vector<Bent>& bent, std::span<double> jacobian) const {
   const std::size_t n = size();
   for (std::size_t t = 0; t < n; ++t) {
-    const Bent there = bent(unknowns, t);
-    const double away_m = z_m_[t] - origin_m_;
-    residuals[t] = there.force_n + unknowns[kLevel] + (setup_.tilt ? unknowns[kTilt] * away_m : 0.0) - force_n_[t];
-    if (jacobian.empty()) continue;
-    jacobian[kModulus * n + t] = there.by_modulus_n;
-    jacobian[kContact * n + t] = there.by_contact_n_per_m;
+    jacobian[kModulus * n + t] = bent[t].by_modulus_n;
+    jacobian[kContact * n + t] = bent[t].by_contact_n_per_m;
     jacobian[kLevel * n + t] = 1.0;
-    if (setup_.tilt) jacobian[kTilt * n + t] = away_m;
+    if (setup_.tilt) jacobian[kTilt * n + t] = z_m_[t] - origin_m_;
   }
 }
 
@@ -97,41 +107,49 @@ std::optional<Unknowns> CurveProblem::start_at(double contact_m) const {
 }
 
 double CurveProblem::minimise(Unknowns& unknowns, std::span<const double> noise, std::optional<double> held) const {
-  const std::size_t n = size(), count = unknown_count(), first = held ? 1 : 0;
-  std::vector<double> all_jacobian(n * count), all_residuals(n);
-  const auto white = [&](std::span<const double> from, std::span<double> to) {
-    std::vector<double> values(from.begin(), from.end());
+  const std::size_t n = size(), first = held ? 1 : 0, left = n - noise.size();
+  if (held) unknowns[kModulus] = *held;
+  std::vector<double> columns(n * unknown_count());
+  // the solver asks for the Jacobian where it has just asked for the residuals
+  Unknowns at;
+  std::vector<Bent> bent;
+  const auto white = [&](std::span<double> values, std::span<double> to) {
     whiten(noise, values);
-    std::copy_n(values.begin(), to.size(), to.begin());
+    std::copy_n(values.begin(), left, to.begin());
   };
   const Residuals evaluate = [&](std::span<const double> free, std::span<double> residuals,
                                  std::span<double> jacobian) {
     Unknowns now(unknowns);
-    if (held) now[kModulus] = *held;
     std::copy(free.begin(), free.end(), now.begin() + static_cast<std::ptrdiff_t>(first));
-    this->evaluate(now, all_residuals, jacobian.empty() ? std::span<double>() : std::span<double>(all_jacobian));
-    if (jacobian.empty()) return white(all_residuals, residuals);
-    for (std::size_t c = first; c < count; ++c) {
-      white(std::span<const double>(all_jacobian).subspan(c * n, n),
-            jacobian.subspan((c - first) * residuals.size(), residuals.size()));
+    if (now != at) {
+      bent = all_bent(now);
+      at = now;
+    }
+    const std::span all(columns);
+    if (jacobian.empty()) {
+      fill(now, bent, all.first(n));
+      return white(all.first(n), residuals);
+    }
+    fill_jacobian(bent, all);
+    for (std::size_t c = first; c < unknown_count(); ++c) {
+      white(all.subspan(c * n, n), jacobian.subspan((c - first) * left, left));
     }
   };
-  if (held) unknowns[kModulus] = *held;
   std::vector<double> free(unknowns.begin() + static_cast<std::ptrdiff_t>(first), unknowns.end());
-  const double squares = least_squares(evaluate, n - noise.size(), free);
+  const double squares = least_squares(evaluate, left, free);
   std::copy(free.begin(), free.end(), unknowns.begin() + static_cast<std::ptrdiff_t>(first));
   return squares;
 }
 
 std::vector<double> CurveProblem::residuals(const Unknowns& unknowns) const {
   std::vector<double> residuals(size());
-  evaluate(unknowns, residuals, {});
+  fill(unknowns, all_bent(unknowns), residuals);
   return residuals;
 }
 
 std::vector<double> CurveProblem::jacobian(const Unknowns& unknowns) const {
-  std::vector<double> residuals(size()), jacobian(size() * unknown_count());
-  evaluate(unknowns, residuals, jacobian);
+  std::vector<double> jacobian(size() * unknown_count());
+  fill_jacobian(all_bent(unknowns), jacobian);
   return jacobian;
 }
 

@@ -43,7 +43,9 @@ class CurveProblem {
     double by_contact_n_per_m = 0;  // derivative by the contact point
   };
   Bent bent(const Unknowns& unknowns, std::size_t sample) const;
-  void evaluate(const Unknowns& unknowns, std::span<double> residuals, std::span<double> jacobian) const;
+  std::vector<Bent> all_bent(const Unknowns& unknowns) const;
+  void fill(const Unknowns& unknowns, const std::vector<Bent>& bent, std::span<double> residuals) const;
+  void fill_jacobian(const std::vector<Bent>& bent, std::span<double> jacobian) const;
 
   FitSetup setup_;
   std::vector<double> z_m_, force_n_;

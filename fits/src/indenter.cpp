@@ -17,26 +17,87 @@ Push paraboloid(double radius_m, double depth_m) {
   return {2.0 / 3.0 * slope * depth_m, slope};
 }
 
-// (F2): with x = a/R, d/R = x artanh(x), F = E* R^2 [(1 + x^2) artanh(x) - x], dF/dd = 2 E* a
-Push sphere(double radius_m, double depth_m) {
-  constexpr double kShallow = 0.01;  // below, the series is exact to 1e-12 and the difference above is not
-  const double t = depth_m / radius_m;
-  if (t < kShallow) {
-    const Push flat = paraboloid(radius_m, depth_m);
-    const double factor = 1.0 + t * (-0.1 + t * (-1.0 / 840.0 + t * (11.0 / 15120.0)));
-    const double growth = t * (-0.1 + t * (-2.0 / 840.0 + t * (33.0 / 15120.0)));
-    return {flat.force * factor, flat.slope * (factor + 2.0 / 3.0 * growth)};
-  }
-  double y = std::sqrt(t * (1.0 + t / 3.0));  // artanh(x); Newton from above
-  double x = 0.0;
+// (F2) in units of R and E*: with x = a/R, d/R = x artanh(x), F = (1 + x^2) artanh(x) - x, dF/dd = 2 x
+Push unit_sphere(double depth) {
+  double y = std::sqrt(depth * (1.0 + depth / 3.0)), x = 0.0;  // artanh(x), by Halley's method from above, and x
   for (int i = 0; i < 12; ++i) {
     x = std::tanh(y);
-    const double step = (y * x - t) / (x + y * (1.0 - x) * (1.0 + x));
+    const double square = (1.0 - x) * (1.0 + x);
+    const double off = y * x - depth, first = x + y * square, second = 2.0 * square * (1.0 - y * x);
+    const double step = 2.0 * off * first / (2.0 * first * first - off * second);
     y -= step;
-    if (std::abs(step) < 1e-14 * y) break;
+    if (std::abs(step) < 1e-6 * y) break;
   }
   x = std::tanh(y);
-  return {radius_m * radius_m * ((1.0 + x * x) * y - x), 2.0 * radius_m * x};
+  return {(1.0 + x * x) * y - x, 2.0 * x};
+}
+
+// Share of the paraboloid's slope that is left to the sphere, x/sqrt(t), for depths t from 0 to R: a polynomial of
+// Chebyshev, since Newton's method would cost every point of a fit three hyperbolic tangents. The force is its
+// integral.
+class ShallowSphere {
+ public:
+  ShallowSphere() {
+    constexpr auto kCount = static_cast<double>(kTerms);
+    std::array<double, kTerms> shares{};
+    for (std::size_t i = 0; i < kTerms; ++i) {
+      const double t = 0.5 + 0.5 * std::cos(kPi * (static_cast<double>(i) + 0.5) / kCount);
+      shares[i] = 0.5 * unit_sphere(t).slope / std::sqrt(t);
+    }
+    for (std::size_t k = 0; k < kTerms; ++k) {
+      for (std::size_t i = 0; i < kTerms; ++i) {
+        slope_[k] +=
+            2.0 / kCount * shares[i] * std::cos(kPi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / kCount);
+      }
+    }
+    // F = (4/3) t^1.5 g(t) has the slope 2 sqrt(t) [g + (2/3) t g']: solved in powers of t, term by term
+    force_ = powers_of(slope_);
+    slope_ = force_;
+    for (std::size_t k = 0; k < kTerms; ++k) force_[k] = slope_[k] / (1.0 + 2.0 / 3.0 * static_cast<double>(k));
+  }
+
+  // Shares of force and slope.
+  Push at(double t) const {
+    Push share;
+    for (std::size_t k = kTerms; k-- > 0;) {
+      share.force = share.force * t + force_[k];
+      share.slope = share.slope * t + slope_[k];
+    }
+    return share;
+  }
+
+ private:
+  static constexpr std::size_t kTerms = 18;
+  using Terms = std::array<double, kTerms>;
+
+  // Of a polynomial in 2 t - 1, those in t.
+  static Terms powers_of(const Terms& chebyshev) {
+    Terms before{1.0}, now{-1.0, 2.0}, sum{};
+    sum[0] = 0.5 * chebyshev[0];
+    for (std::size_t k = 1; k < kTerms; ++k) {
+      Terms next{};
+      for (std::size_t p = 0; p < kTerms; ++p) {
+        sum[p] += chebyshev[k] * now[p];
+        next[p] = -2.0 * now[p] - before[p] + (p > 0 ? 4.0 * now[p - 1] : 0.0);
+      }
+      before = now;
+      now = next;
+    }
+    return sum;
+  }
+
+  Terms force_{}, slope_{};
+};
+
+Push sphere(double radius_m, double depth_m) {
+  static const ShallowSphere kShallow;
+  const double t = depth_m / radius_m;
+  if (t <= 1.0) {
+    const Push flat = paraboloid(radius_m, depth_m), share = kShallow.at(t);
+    return {flat.force * share.force, flat.slope * share.slope};
+  }
+  const Push deep = unit_sphere(t);
+  return {radius_m * radius_m * deep.force, radius_m * deep.slope};
 }
 
 // (F3): F = c tan(alpha) E* d^2

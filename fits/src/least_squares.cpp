@@ -19,8 +19,7 @@ int residuals_or_jacobian(void* evaluate, int residual_count, int parameter_coun
   if (wanted == kResiduals) {
     function({parameters, n}, {residuals, m}, {});
   } else {
-    std::vector<double> unused(m);
-    function({parameters, n}, unused, {jacobian, m * n});
+    function({parameters, n}, {}, {jacobian, m * n});
   }
   return 0;
 }
@@ -28,7 +27,7 @@ int residuals_or_jacobian(void* evaluate, int residual_count, int parameter_coun
 }  // namespace
 
 double least_squares(const Residuals& evaluate, std::size_t residual_count, std::vector<double>& parameters) {
-  constexpr double kTolerance = 1e-11, kFactor = 1.0;
+  constexpr double kReduction = 1e-12, kStep = 1e-9, kFactor = 1.0;
   constexpr int kMostEvaluations = 60, kOwnScales = 1;
   const std::size_t n = parameters.size(), m = residual_count;
   if (m < n) return std::numeric_limits<double>::quiet_NaN();
@@ -37,9 +36,8 @@ double least_squares(const Residuals& evaluate, std::size_t residual_count, std:
   int evaluations = 0, jacobians = 0;
   Residuals function = evaluate;
   lmder(residuals_or_jacobian, &function, static_cast<int>(m), static_cast<int>(n), parameters.data(), residuals.data(),
-        jacobian.data(), static_cast<int>(m), kTolerance, kTolerance, 0.0, kMostEvaluations, diagonal.data(),
-        kOwnScales, kFactor, 0, &evaluations, &jacobians, pivots.data(), qtf.data(), a.data(), b.data(), c.data(),
-        d.data());
+        jacobian.data(), static_cast<int>(m), kReduction, kStep, 0.0, kMostEvaluations, diagonal.data(), kOwnScales,
+        kFactor, 0, &evaluations, &jacobians, pivots.data(), qtf.data(), a.data(), b.data(), c.data(), d.data());
   return std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
 }
 

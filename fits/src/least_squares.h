@@ -9,7 +9,7 @@
 namespace afm::fits {
 
 // Least squares by Levenberg and Marquardt: MINPACK's lmder, which scipy and lmfit call "leastsq". `evaluate` fills the
-// residuals, and the Jacobian, column by column, where it is not empty. Changes `parameters` to the minimum. Returns
+// one that is not empty: the residuals, or the Jacobian, column by column. Changes `parameters` to the minimum. Returns
 // the sum of squares there; not finite if there is no minimum.
 using Residuals =
     std::function<void(std::span<const double> parameters, std::span<double> residuals, std::span<double> jacobian)>;

@@ -83,11 +83,9 @@ TEST(FitBatch, HasARowAFileWhateverIsInIt) {
 
 TEST(FitBatch, HasTheSameBytesWithOneThreadAndWithEight) {
   const support::ScratchFolder folder;
+  const std::vector<std::string> five = files_in(folder);
   std::vector<std::string> files;
-  for (int i = 0; i < 4; ++i) {
-    if (i == 0) files = files_in(folder);
-    files.insert(files.end(), files.begin(), files.begin() + 5);
-  }
+  for (int i = 0; i < 5; ++i) files.insert(files.end(), five.begin(), five.end());
   ASSERT_TRUE(fit_files(files, paraboloid(folder.file("one")), 1));
   ASSERT_TRUE(fit_files(files, paraboloid(folder.file("eight")), 8));
   EXPECT_EQ(core::read_file(folder.file("one/fits.tsv")).value(),
