@@ -114,12 +114,26 @@ core::Result<void> check_options(const std::string& file, const std::vector<Opti
   return {};
 }
 
-// Several files are for fits alone.
-core::Result<void> check_batch(const AnalyseOptions& options) {
+// A fit of several files, or one whose --out is no picture, so that a pattern may match one file.
+bool wants_table(const std::vector<std::string>& files, const AnalyseOptions& options) {
+  return files.size() > 1 || (options.fit.shape && !options.out.empty() && !options.out.ends_with(".svg"));
+}
+
+core::Result<void> check_batch(const AnalyseOptions& options, const std::vector<OptionOfKind>& of_kind) {
   if (!options.fit.shape) return wrong_usage("several files are for a fit; add --fit SHAPE, or name one file");
   if (options.out.empty()) return wrong_usage("several files need --out FOLDER, for the table of their fits");
-  if (options.json) return wrong_usage("--json is for one file; the table of several has every number");
+  if (options.out.ends_with(".svg")) {
+    return wrong_usage(
+        fmt::format("--out {}: several files need a folder for their table, not a picture", options.out));
+  }
+  if (options.json) return wrong_usage("--json is for one file; the table has every number");
   if (!options.beside.empty()) return wrong_usage("--beside is for one file; leave it out");
+  for (const OptionOfKind& row : of_kind) {
+    if (row.option.given() && row.kind != FileKind::Curve) {
+      return wrong_usage(fmt::format("{} is for {}, and a fit is for curves; leave it out", row.name,
+                                     kFileKinds[static_cast<std::size_t>(row.kind)].many));
+    }
+  }
   return {};
 }
 
@@ -172,8 +186,9 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
   for (const NamedOption& of_fit : add_fit_options(command, options.fit)) for_curves(of_fit.name, of_fit.option);
   for_curves("--out", command
                           .add_option("--out", options.out,
-                                      "write a plot of the curve (SVG) to FILE; with several files, the folder of "
-                                      "their table")
+                                      "write a plot of the curve (SVG) to FILE; with --fit a name that does not end in "
+                                      ".svg is the folder of the "
+                                      "table of fits")
                           .type_name("FILE"));
   return added;
 }
@@ -263,7 +278,7 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<AnalyseOptions>();
   const auto files = std::make_shared<std::vector<std::string>>();
-  command.add_option("file", *files, known_files() + "; several files with --fit and --out FOLDER")
+  command.add_option("file", *files, known_files() + "; several files, or one, for a table: --fit SHAPE --out FOLDER")
       .required()
       .type_name("FILE");
   std::vector<OptionOfKind> of_kind = add_curve_options(command, *options);
@@ -280,8 +295,8 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
   command.when_chosen([options, files, of_kind = std::move(of_kind)]() -> core::Result<void> {
     options->file = files->front();
     if (const auto checked = check(options->fit); !checked) return checked;
-    if (files->size() > 1) {
-      if (const auto checked = check_batch(*options); !checked) return checked;
+    if (wants_table(*files, *options)) {
+      if (const auto checked = check_batch(*options, of_kind); !checked) return checked;
       return fit_files(*files, *options, std::thread::hardware_concurrency());
     }
     if (const auto checked = check_options(options->file, of_kind); !checked) return checked;

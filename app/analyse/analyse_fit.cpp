@@ -138,7 +138,8 @@ core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const 
                                     .layer_m = options.layer_m},
                        .poisson = options.poisson,
                        .spring_n_per_m = spring->si,
-                       .zero_n = 0.0,
+                       .pull_off_n = curve.features.adhesion ? std::abs(curve.features.adhesion->force.si) : 0.0,
+                       .zero_n = curve.features.baseline.level.si,
                        .against = options.against,
                        .tilt = options.tilt,
                        .white = options.white,
@@ -162,8 +163,8 @@ std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options) {
   fmt::format_to(out, "\nfit of {} ({}; {}), force against {}\n", shape.name, shape.meaning, size_text(options),
                  options.against == fits::Against::Z ? "Z" : "the tip position");
   line("modulus E", pressure_text(fit.modulus_pa));
-  line("  95 % from", pressure_text(fit.modulus_interval_pa.low));
-  line("  to", pressure_text(fit.modulus_interval_pa.high));
+  line("  95 % from", fit.modulus_interval_pa.low > 0.0 ? pressure_text(fit.modulus_interval_pa.low) : "not found");
+  line("  to", std::isfinite(fit.modulus_interval_pa.high) ? pressure_text(fit.modulus_interval_pa.high) : "not found");
   line("reduced modulus", pressure_text(fit.reduced_modulus_pa));
   line("contact at", length_text(fit.contact_z_m));
   line("level", force_text(fit.level_n));
@@ -175,7 +176,9 @@ std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options) {
   line("points", fmt::format("{}", fit.points));
   line("  in contact", fmt::format("{}", fit.in_contact));
   line("noise", force_text(fit.noise_n));
-  line("  its order", options.white ? "taken for white" : fmt::format("{}", fit.noise_order));
+  line("  its order", options.white     ? "taken for white"
+                      : fit.noise_order ? fmt::format("{}", *fit.noise_order)
+                                        : "no noise");
   line("trust", std::string(fits::name_of(fit.trust)));
   for (const fits::Found& found : fit.doubts) {
     fmt::format_to(out, "  {} {:.3g} (limit {:g})\n", fits::kDoubts.at(static_cast<std::size_t>(found.doubt)).name,
@@ -197,7 +200,9 @@ FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
                  {"poisson_ratio", options.poisson},
                  {"against", name_of(options.against)},
                  {"modulus_Pa", fit.modulus_pa},
-                 {"modulus_95_percent_Pa", {fit.modulus_interval_pa.low, fit.modulus_interval_pa.high}},
+                 {"modulus_95_percent_Pa",
+                  {fit.modulus_interval_pa.low > 0.0 ? FitJson(fit.modulus_interval_pa.low) : FitJson(),
+                   std::isfinite(fit.modulus_interval_pa.high) ? FitJson(fit.modulus_interval_pa.high) : FitJson()}},
                  {"reduced_modulus_Pa", fit.reduced_modulus_pa},
                  {"contact_m", fit.contact_z_m},
                  {"level_N", fit.level_n},
@@ -207,7 +212,7 @@ FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
                  {"points", fit.points},
                  {"points_in_contact", fit.in_contact},
                  {"noise_N", fit.noise_n},
-                 {"noise_order", options.white ? FitJson() : FitJson(fit.noise_order)},
+                 {"noise_order", fit.noise_order ? FitJson(*fit.noise_order) : FitJson()},
                  {"runs_probability", fit.runs_p},
                  {"half_depth_modulus_Pa", fit.half_depth_modulus_pa ? FitJson(*fit.half_depth_modulus_pa) : FitJson()},
                  {"trust", fits::name_of(fit.trust)}};

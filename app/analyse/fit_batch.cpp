@@ -9,8 +9,10 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <iterator>
 #include <mutex>
@@ -38,9 +40,10 @@ constexpr const char* kTable = "fits.tsv";
 constexpr const char* kColumns =
     "file\ttrust\treason\tmodulus_Pa\tmodulus_low_Pa\tmodulus_high_Pa\treduced_modulus_Pa\tcontact_m\tlevel_N\ttilt_N_"
     "per_m\t"
-    "depth_m\tnoise_N\trms_N\tpoints\tpoints_in_contact\tnoise_order\thalf_depth_modulus_Pa\tspring_constant_N_per_"
+    "depth_m\tnoise_N\trms_N\tpoints\tpoints_in_contact\tnoise_order\truns_probability\thalf_depth_modulus_Pa\tspring_"
+    "constant_N_per_"
     "m\tshape\t"
-    "radius_m\thalf_angle_rad\tlayer_m\tpoisson_ratio\tagainst\n";
+    "radius_m\thalf_angle_rad\tlayer_m\tpoisson_ratio\tagainst\twhite_noise\n";
 
 // What is known of one file: a fit with the spring constant it was made with, or why there is none.
 struct Fitted {
@@ -67,6 +70,7 @@ Fitted fitted(const std::string& file, const AnalyseOptions& options) {
     return result;
   }
   result.fit = std::move(*fit);
+  result.fit->model_n = {};  // of no use in a table
   result.spring_n_per_m = analysed->curve.metadata.spring_constant->si;
   return result;
 }
@@ -84,27 +88,32 @@ std::string reasons(const fits::ElasticFit& fit) {
 std::string sizes(const FitOptions& options) {
   const fits::ShapeRow& shape = fits::row_of(*options.shape);
   const auto cell = [](bool has, double value) { return has ? fmt::format("{}", value) : std::string(); };
-  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}", shape.name, cell(shape.has_radius, options.radius_m),
+  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}", shape.name, cell(shape.has_radius, options.radius_m),
                      cell(!shape.has_radius, options.half_angle_rad), cell(shape.has_layer, options.layer_m),
-                     options.poisson, fits::kAgainst.at(static_cast<std::size_t>(options.against)).name);
+                     options.poisson, fits::kAgainst.at(static_cast<std::size_t>(options.against)).name,
+                     options.white ? "yes" : "no");
 }
 
 std::string row_of(const std::string& file, const Fitted& fitted, const FitOptions& options) {
   const std::string name = core::printable_line(file);
   if (!fitted.fit) {
-    return fmt::format("{}\t{}\t{}{}\t{}\n", name, fits::name_of(fits::Trust::No), core::printable_line(fitted.why),
-                       std::string(15, '\t'), sizes(options));
+    constexpr std::size_t kNumbers = 16;
+    return fmt::format("{}\tnone\t{}{}\t{}\n", name, core::printable_line(fitted.why), std::string(kNumbers, '\t'),
+                       sizes(options));
   }
   const fits::ElasticFit& fit = *fitted.fit;
   const auto cell = [](const std::optional<double>& value) {
     return value ? fmt::format("{}", *value) : std::string();
   };
-  const std::string order = options.white ? "" : fmt::format("{}", fit.noise_order);
-  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", name,
+  const auto finite = [&cell](double value) {
+    return cell(std::isfinite(value) ? std::optional(value) : std::nullopt);
+  };
+  const std::string order = fit.noise_order ? fmt::format("{}", *fit.noise_order) : "";
+  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", name,
                      fits::name_of(fit.trust), reasons(fit), fit.modulus_pa, fit.modulus_interval_pa.low,
-                     fit.modulus_interval_pa.high, fit.reduced_modulus_pa, fit.contact_z_m, fit.level_n,
+                     finite(fit.modulus_interval_pa.high), fit.reduced_modulus_pa, fit.contact_z_m, fit.level_n,
                      cell(options.tilt ? std::optional(fit.tilt_n_per_m) : std::nullopt), fit.depth_m, fit.noise_n,
-                     fit.rms_n, fit.points, fit.in_contact, order, cell(fit.half_depth_modulus_pa),
+                     fit.rms_n, fit.points, fit.in_contact, order, fit.runs_p, cell(fit.half_depth_modulus_pa),
                      fitted.spring_n_per_m, sizes(options));
 }
 
@@ -126,10 +135,18 @@ class FitPool {
  public:
   FitPool(const std::vector<std::string>& files, const AnalyseOptions& options, unsigned threads)
       : files_(files), options_(options), results_(files.size()) {
-    for (unsigned i = 0; i < std::max(1U, threads); ++i) {
+    const std::size_t count = std::clamp<std::size_t>(threads, 1, files.size());
+    for (std::size_t i = 0; i < count; ++i) {
       workers_.emplace_back([this](const std::stop_token& stop) { work(stop); });
     }
   }
+
+  // At most the files begun are ended.
+  ~FitPool() {
+    for (std::jthread& worker : workers_) worker.request_stop();
+  }
+  FitPool(const FitPool&) = delete;
+  FitPool& operator=(const FitPool&) = delete;
 
   // Waits for the result of this file. Empty after an interruption.
   std::optional<Fitted> take(std::size_t file) {
@@ -145,7 +162,12 @@ class FitPool {
  private:
   void work(const std::stop_token& stop) {
     for (std::size_t i; !stop.stop_requested() && (i = next_.fetch_add(1)) < files_.size();) {
-      Fitted result = fitted(files_[i], options_);
+      Fitted result;
+      try {
+        result = fitted(files_[i], options_);
+      } catch (const std::exception& error) {  // a curve too large for this machine's memory
+        result.why = fmt::format("cannot fit {}: {}", files_[i], error.what());
+      }
       const std::lock_guard lock(mutex_);
       results_[i] = std::move(result);
       changed_.notify_all();

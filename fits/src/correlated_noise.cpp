@@ -48,7 +48,7 @@ class LaggedProducts {
   }
 
  private:
-  // so that the determinant compares columns of one size
+  // keeps the elimination well conditioned
   static double norm(std::span<const double> jacobian, std::size_t n, std::size_t column) {
     double largest = 0.0;
     for (std::size_t t = 0; t < n; t += std::max<std::size_t>(1, n / 64)) {
@@ -182,16 +182,26 @@ std::size_t whiten(std::span<const double> coefficients, std::span<double> value
   return values.size() - order;
 }
 
-double runs_probability(std::span<const double> residuals) {
-  double above = 0.0, below = 0.0, runs = residuals.empty() ? 0.0 : 1.0;
-  for (std::size_t t = 0; t < residuals.size(); ++t) {
-    (residuals[t] > 0.0 ? above : below) += 1.0;
-    if (t > 0 && (residuals[t] > 0.0) != (residuals[t - 1] > 0.0)) runs += 1.0;
+double runs_probability(std::span<const double> residuals, std::size_t split) {
+  double runs = 0.0, mean = 0.0, variance = 0.0;
+  for (const auto part : {residuals.first(split), residuals.subspan(split)}) {
+    constexpr std::size_t kFewest = 20;
+    if (part.size() < kFewest) continue;
+    std::vector<double> sorted(part.begin(), part.end());
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    double above = 0.0, below = 0.0, here = 1.0;
+    for (std::size_t t = 0; t < part.size(); ++t) {
+      (part[t] > *middle ? above : below) += 1.0;
+      if (t > 0 && (part[t] > *middle) != (part[t - 1] > *middle)) here += 1.0;
+    }
+    const double n = above + below, product = 2.0 * above * below;
+    if (!(product > 0.0)) continue;
+    runs += here;
+    mean += product / n + 1.0;
+    variance += product * (product - n) / (n * n * (n - 1.0));
   }
-  const double n = above + below, product = 2.0 * above * below;
-  if (!(product > 0.0) || n < 20.0) return 1.0;
-  const double mean = product / n + 1.0, variance = product * (product - n) / (n * n * (n - 1.0));
-  return 0.5 * std::erfc(-(runs - mean) / std::sqrt(2.0 * variance));
+  return variance > 0.0 ? 0.5 * std::erfc(-(runs - mean) / std::sqrt(2.0 * variance)) : 1.0;
 }
 
 }  // namespace afm::fits

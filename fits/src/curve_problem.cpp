@@ -17,8 +17,8 @@ CurveProblem::CurveProblem(std::span<const Sample> samples, const FitSetup& setu
   origin_m_ = z_m_.front();
 }
 
-// Lever and contact in series (F7): d + F(d)/k = z_c - Z, by Newton's method, which comes from deeper and stays there
-// since F is convex. Against the tip (F8): d = z_c - (Z + F_measured/k).
+// Lever and contact in series (F7): d + F(d)/k = z_c - Z, by Newton's method; F is convex, so that it comes from deeper
+// from its second step on. Against the tip (F8): d = z_c - (Z + F_measured/k).
 CurveProblem::Bent CurveProblem::bent(const Unknowns& unknowns, std::size_t sample) const {
   constexpr int kMostSteps = 60;
   constexpr double kClose = 1e-7;  // the error of a step is the square

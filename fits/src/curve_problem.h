@@ -29,7 +29,7 @@ class CurveProblem {
   // Minimum of the whitened residuals. With `held`, the logarithm of the modulus stays. Returns the sum of squares.
   double minimise(Unknowns& unknowns, std::span<const double> noise = {}, std::optional<double> held = {}) const;
 
-  // Measured less model, and its derivatives, column by column; without noise's whitening.
+  // Model less measured, and its derivatives, column by column; without noise's whitening.
   std::vector<double> residuals(const Unknowns& unknowns) const;
   std::vector<double> jacobian(const Unknowns& unknowns) const;
 

@@ -35,9 +35,13 @@ double least_squares(const Residuals& evaluate, std::size_t residual_count, std:
   std::vector<int> pivots(n);
   int evaluations = 0, jacobians = 0;
   Residuals function = evaluate;
-  lmder(residuals_or_jacobian, &function, static_cast<int>(m), static_cast<int>(n), parameters.data(), residuals.data(),
-        jacobian.data(), static_cast<int>(m), kReduction, kStep, 0.0, kMostEvaluations, diagonal.data(), kOwnScales,
-        kFactor, 0, &evaluations, &jacobians, pivots.data(), qtf.data(), a.data(), b.data(), c.data(), d.data());
+  const int end = lmder(residuals_or_jacobian, &function, static_cast<int>(m), static_cast<int>(n), parameters.data(),
+                        residuals.data(), jacobian.data(), static_cast<int>(m), kReduction, kStep, 0.0,
+                        kMostEvaluations, diagonal.data(), kOwnScales, kFactor, 0, &evaluations, &jacobians,
+                        pivots.data(), qtf.data(), a.data(), b.data(), c.data(), d.data());
+  // 0: wrong arguments. 5, too many evaluations, is a minimum but for its last digits: samples that enter the contact
+  // make kinks
+  if (end <= 0) return std::numeric_limits<double>::quiet_NaN();
   return std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
 }
 

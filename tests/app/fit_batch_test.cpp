@@ -74,7 +74,7 @@ TEST(FitBatch, HasARowAFileWhateverIsInIt) {
     EXPECT_NEAR(std::stod(rows[i][3]), test::kHertzModulusPa, 1e-3 * test::kHertzModulusPa) << rows[i][0];
   }
   for (const std::size_t i : {2U, 4U}) {
-    EXPECT_EQ(rows[i][1], "no");
+    EXPECT_EQ(rows[i][1], "none");
     EXPECT_NE(rows[i][2], "");
     EXPECT_EQ(rows[i][3], "");
   }

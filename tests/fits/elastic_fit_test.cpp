@@ -171,6 +171,11 @@ TEST(ElasticFit, SaysWhyAModulusIsDoubtful) {
   const ElasticFit stiff = fitted(Curves(4).approach(sphere, 4e6, Noise::White), setup_of(sphere));
   EXPECT_TRUE(has(stiff, Doubt::LeverTooSoft));
 
+  FitSetup sticking = setup_of(sphere);
+  sticking.pull_off_n = 0.06 * pushed.back().force_n;
+  EXPECT_TRUE(has(fitted(pushed, sticking), Doubt::Adhesive));
+  EXPECT_EQ(fitted(pushed, sticking).trust, Trust::Doubtful);
+
   std::vector<Sample> flat(pushed);
   for (Sample& sample : flat) sample.force_n = std::min(sample.force_n, 5e-9);
   EXPECT_TRUE(has(fitted(flat, setup_of(sphere)), Doubt::Saturated));
@@ -184,18 +189,78 @@ TEST(ElasticFit, SaysWhyAModulusIsDoubtful) {
   EXPECT_TRUE(has(fitted(Curves(4).approach(thin, 4e3, Noise::White), setup_of(thin)), Doubt::BeyondLayer));
 }
 
+// Forces in steps as large as twice the noise, and so many points that each step lasts.
+TEST(ElasticFit, OfADigitisedCurveIsTrusted) {
+  const Indenter tip = indenter(Shape::Sphere);
+  const auto digitised = [&](unsigned seed, double step_n, std::size_t repeated) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> noise(0.0, 2e-12);
+    std::vector<Sample> samples;
+    const std::vector<Sample> exact = Curves(seed).approach(tip, 4e3, repeated > 1 ? Noise::None : Noise::White);
+    for (std::size_t t = 0; t + 1 < exact.size(); ++t) {
+      for (std::size_t i = 0; i < repeated; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(repeated);
+        const double force_n = std::lerp(exact[t].force_n, exact[t + 1].force_n, share) + noise(random);
+        samples.push_back({std::lerp(exact[t].z_m, exact[t + 1].z_m, share), step_n * std::round(force_n / step_n)});
+      }
+    }
+    return samples;
+  };
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    for (const auto& [step_n, repeated] : {std::pair(30e-12, 1U), std::pair(45e-12, 1U), std::pair(25e-12, 20U)}) {
+      const ElasticFit fit = fitted(digitised(seed, step_n, repeated), setup_of(tip));
+      EXPECT_FALSE(has(fit, Doubt::NotRandom)) << step_n;
+      EXPECT_FALSE(has(fit, Doubt::Saturated)) << step_n;
+      EXPECT_NE(fit.trust, Trust::No) << step_n;
+      EXPECT_NEAR(fit.reduced_modulus_pa, 4e3, 20.0) << step_n;
+    }
+  }
+}
+
+// The contact point against the tip position is where the undeflected tip touches, whatever the detector's zero.
+TEST(ElasticFit, FindsTheContactPointWithoutTheDetectorsZero) {
+  const Indenter tip = indenter(Shape::Sphere);
+  FitSetup setup = setup_of(tip);
+  setup.against = Against::Tip;
+  setup.zero_n = kLevel;
+  EXPECT_NEAR(fitted(Curves(6).approach(tip, 4e3, Noise::None), setup).contact_z_m, 0.0, 1e-12);
+}
+
+// Neither with a tilt that is fitted nor with one that is not.
+TEST(ElasticFit, OfATiltedBaselineAloneIsNotTrusted) {
+  for (const double tilt_n_per_m : {-1e-3, -5e-4, 5e-4, 1e-3}) {
+    for (const unsigned seed : {20U, 21U, 22U}) {
+      std::vector<Sample> samples = Curves(seed).approach(indenter(Shape::Sphere), 4e3, Noise::White);
+      samples.resize(550);  // before contact
+      for (Sample& sample : samples) sample.force_n += tilt_n_per_m * sample.z_m;
+      FitSetup setup = setup_of(indenter(Shape::Sphere));
+      setup.tilt = true;
+      std::string why;
+      const auto found = fit(samples, setup, why);
+      if (found) {
+        EXPECT_EQ(found->trust, Trust::No) << tilt_n_per_m << ", " << seed << ": " << found->modulus_pa;
+      }
+      setup.tilt = false;
+      const auto without = fit(samples, setup, why);
+      if (without) {
+        EXPECT_NE(without->trust, Trust::Trusted) << tilt_n_per_m << ", " << seed;
+      }
+    }
+  }
+}
+
 // Trusted nowhere, and an exception nowhere.
 TEST(ElasticFit, OfACurveThatIsNoneIsRefusedOrNotTrusted) {
   const Indenter tip = indenter(Shape::Sphere);
   const std::vector<Sample> pushed = Curves(5).approach(tip, 4e3, Noise::White);
   std::vector<Sample> without(pushed.begin(), pushed.begin() + 500), turned(pushed), dead(pushed), nan(pushed),
-      far(pushed);
+      still(pushed);
   for (Sample& sample : turned) sample.force_n = -sample.force_n;
   for (Sample& sample : dead) sample.force_n = 1e-9;
   for (Sample& sample : nan) sample.force_n = std::numeric_limits<double>::quiet_NaN();
-  for (Sample& sample : far) sample.z_m = 1e3;
+  for (Sample& sample : still) sample.z_m = 1e-6;
   const std::vector<Sample> five(pushed.begin(), pushed.begin() + 5);
-  for (const auto& samples : {without, turned, dead, nan, far, five, std::vector<Sample>{}}) {
+  for (const auto& samples : {without, turned, dead, nan, still, five, std::vector<Sample>{}}) {
     std::string why;
     const auto found = fit(samples, setup_of(tip), why);
     if (found) {

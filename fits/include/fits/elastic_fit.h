@@ -36,6 +36,7 @@ struct FitSetup {
   Indenter indenter;
   double poisson = 0.5;       // Poisson's ratio of the sample, 0 to 0.5
   double spring_n_per_m = 0;  // positive
+  double pull_off_n = 0;      // hardest pull of the retract, a magnitude; 0: unknown
   double zero_n = 0;          // force of the free lever, for the tip position alone
   Against against = Against::Z;
   bool tilt = false;           // also fits a slope of the baseline
@@ -43,7 +44,8 @@ struct FitSetup {
   std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts
 };
 
-// Interval of 95 %: of the statistics alone, by the profile likelihood of the whitened fit.
+// Interval of 95 %: of the statistics alone, by the profile likelihood of the whitened fit. An end that was not found
+// within a factor of 148 is 0 or infinite.
 struct Interval {
   double low = 0, high = 0;
 };
@@ -53,8 +55,10 @@ enum class Doubt {
   NeverPushed,    // the sample is never pushed by five times the noise
   Saturated,      // the greatest force is that of several points: the detector's end
   LeverTooSoft,   // the contact is over 20 times as stiff as the lever: it bends instead of the sample
+  Unknown,        // the interval spans more than a factor of 10
   FewPoints,      // fewer than 50 points in contact
   Shallow,        // depth below three times the noise's
+  Adhesive,       // the retract pulls by more than a twentieth of the push: the modulus comes out too large
   BeyondLayer,    // deeper than the layer's formula allows
   NotLevel,       // the modulus depends on the depth
   NotRandom,      // residuals in runs: the curve has another shape
@@ -66,7 +70,7 @@ struct DoubtRow {
   bool fatal;             // the modulus means nothing
   std::string_view name;  // in reports
 };
-extern const std::array<DoubtRow, 9> kDoubts;
+extern const std::array<DoubtRow, 11> kDoubts;
 
 enum class Trust { Trusted, Doubtful, No };
 std::string_view name_of(Trust trust);
@@ -89,8 +93,9 @@ struct ElasticFit {
   double rms_n = 0;        // rms of all residuals
   std::size_t points = 0;  // in all
   std::size_t in_contact = 0;
-  std::size_t noise_order = 0;                  // order of the autoregressive noise, 0 to 4
-  double runs_p = 1;                            // probability of as few runs of the whitened residuals, or fewer
+  std::optional<std::size_t>
+      noise_order;    // order of the autoregressive noise, 0 to 4; none: taken for white, or no noise
+  double runs_p = 1;  // probability of as few runs of the whitened residuals, or fewer
   std::optional<double> half_depth_modulus_pa;  // modulus from the upper half of the depth
   Trust trust = Trust::Trusted;
   std::vector<Found> doubts;
