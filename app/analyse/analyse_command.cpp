@@ -294,7 +294,7 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
       "         touchafm analyse mica.spm --channel \"Height Sensor\" --json");
   command.when_chosen([options, files, of_kind = std::move(of_kind)]() -> core::Result<void> {
     options->file = files->front();
-    if (const auto checked = check(options->fit); !checked) return checked;
+    if (const auto checked = prepare(options->fit); !checked) return checked;
     if (wants_table(*files, *options)) {
       if (const auto checked = check_batch(*options, of_kind); !checked) return checked;
       return fit_files(*files, *options, std::thread::hardware_concurrency());

@@ -58,16 +58,18 @@ std::string pressure_text(double pa) {
 std::string length_text(double m) { return format_quantity(physics::Length(m), physics::kLengthUnits, kDigits); }
 std::string force_text(double n) { return format_quantity(physics::Force(n), physics::kForceUnits, kDigits); }
 
+std::string_view name_of(fits::Against against) { return fits::kAgainst.at(static_cast<std::size_t>(against)).name; }
+std::string_view name_of(fits::Base base) { return fits::kBases.at(static_cast<std::size_t>(base)).name; }
+
 std::string size_text(const FitOptions& options) {
   const fits::ShapeRow& shape = fits::row_of(*options.shape);
   std::string text = shape.has_radius
                          ? "R = " + length_text(options.radius_m)
                          : "half angle " + physics::format_si(options.half_angle_rad, kAngleUnits.units, kDigits);
   if (shape.has_layer) text += ", layer of " + length_text(options.layer_m);
+  if (shape.is_exact) text += fmt::format(", {}", name_of(options.base));
   return text + fmt::format(", nu = {:g}", options.poisson);
 }
-
-std::string_view name_of(fits::Against against) { return fits::kAgainst.at(static_cast<std::size_t>(against)).name; }
 
 }  // namespace
 
@@ -89,6 +91,9 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
       quantity_option(
           command, "--layer", [&options](physics::Length layer) { options.layer_m = layer.si; }, physics::kLengthUnits,
           "of --fit: thickness of the sample on a rigid base", std::optional(kLayers)));
+  add("--base",
+      enum_option(command, "--base", options.base, "a base", fits::kBases, &fits::BaseName::name, &fits::BaseName::base,
+                  "of --fit layer-exact-...: how the layer lies on it; default: bonded"));
   add("--poisson",
       si_option(
           command, "--poisson", [&options](double ratio) { options.poisson = ratio; },
@@ -106,11 +111,11 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
   return added;
 }
 
-core::Result<void> check(const FitOptions& options) {
+core::Result<void> prepare(FitOptions& options) {
   const bool radius = options.radius_m > 0.0, angle = options.half_angle_rad > 0.0, layer = options.layer_m > 0.0;
   if (!options.shape) {
     if (radius || angle || layer || options.poisson != FitOptions{}.poisson || options.tilt || options.white ||
-        options.against != FitOptions{}.against) {
+        options.base != FitOptions{}.base || options.against != FitOptions{}.against) {
       return core::wrong_usage("an option of a fit is given without --fit; add --fit SHAPE, such as --fit sphere");
     }
     return {};
@@ -120,9 +125,15 @@ core::Result<void> check(const FitOptions& options) {
                            Size{"--layer", shape.has_layer, layer}}) {
     if (const auto checked = check_size(shape, size); !checked) return checked;
   }
-  if (shape.has_layer && options.poisson != 0.5) {
-    return core::wrong_usage(fmt::format("--fit {} knows Poisson's ratio 0.5 alone; leave --poisson out", shape.name));
+  if (shape.has_layer && !shape.is_exact && options.poisson != 0.5) {
+    return core::wrong_usage(fmt::format(
+        "--fit {} knows Poisson's ratio 0.5 alone; leave --poisson out, or take layer-exact-sphere or layer-exact-cone",
+        shape.name));
   }
+  if (!shape.is_exact && options.base != fits::Base::Bonded) {
+    return core::wrong_usage(fmt::format("--fit {} has no use for --base; leave it out", shape.name));
+  }
+  if (shape.is_exact) options.table = fits::exact_table(*options.shape, options.base, options.poisson);
   return {};
 }
 
@@ -135,7 +146,8 @@ core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const 
   fits::FitSetup setup{.indenter = {.shape = *options.shape,
                                     .radius_m = options.radius_m,
                                     .half_angle_rad = options.half_angle_rad,
-                                    .layer_m = options.layer_m},
+                                    .layer_m = options.layer_m,
+                                    .table = options.table},
                        .poisson = options.poisson,
                        .spring_n_per_m = spring->si,
                        .pull_off_n = curve.features.adhesion ? std::abs(curve.features.adhesion->force.si) : 0.0,
@@ -197,6 +209,7 @@ FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
                  {"radius_m", shape.has_radius ? FitJson(options.radius_m) : FitJson()},
                  {"half_angle_rad", shape.has_radius ? FitJson() : FitJson(options.half_angle_rad)},
                  {"layer_m", shape.has_layer ? FitJson(options.layer_m) : FitJson()},
+                 {"base", shape.is_exact ? FitJson(name_of(options.base)) : FitJson()},
                  {"poisson_ratio", options.poisson},
                  {"against", name_of(options.against)},
                  {"modulus_Pa", fit.modulus_pa},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -20,9 +21,11 @@ struct FitOptions {
   double half_angle_rad = 0;
   double layer_m = 0;
   double poisson = 0.5;
+  fits::Base base = fits::Base::Bonded;
   fits::Against against = fits::Against::Z;
   bool tilt = false;
   bool white = false;
+  std::shared_ptr<const fits::LayerTable> table{};  // set by prepare() for an exact layer
 };
 
 // Adds --fit and its options, which write into `options` while the parser lives. Returns them with their names.
@@ -32,10 +35,10 @@ struct NamedOption {
 };
 std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& options);
 
-// WrongUsage if the shape lacks a size, or has one that it does not need.
-core::Result<void> check(const FitOptions& options);
+// Computes the table of an exact layer. WrongUsage if the shape lacks a size, or has one that it does not need.
+core::Result<void> prepare(FitOptions& options);
 
-// Fits the approach of a curve. `options` is checked and wants a fit. BadInputFile, naming the curve, if it has no
+// Fits the approach of a curve. `options` is prepared and wants a fit. BadInputFile, naming the curve, if it has no
 // spring constant or nothing fits.
 core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const FitOptions& options);
 

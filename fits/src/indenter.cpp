@@ -113,6 +113,13 @@ Push in_layer(const Push& thick, double s, double power, double depth_m, const s
   return {thick.force * factor, thick.slope * factor + thick.force * growth * power / depth_m};
 }
 
+// The force of a thick sample times that of the table at the strain s, which grows like d^power.
+Push in_exact_layer(const Push& thick, double s, double power, double depth_m, const LayerTable& table) {
+  const LayerTable::Stiffening stiffer = table.at(s);
+  return {thick.force * stiffer.factor,
+          stiffer.factor * (thick.slope + thick.force * stiffer.slope * power * s / depth_m)};
+}
+
 constexpr std::array kGarciaSphere{1.133, 1.497, 1.469, 0.755};  // (F4)
 constexpr std::array kGarciaCone{0.721, 0.650, 0.491, 0.225};    // (F5)
 
@@ -123,18 +130,26 @@ double contact_over_layer(const Indenter& indenter, double depth_m) {
   return std::sqrt(indenter.radius_m * depth_m) / indenter.layer_m;
 }
 
+double depth_over_layer(const Indenter& indenter, double depth_m) {
+  return depth_m * std::tan(indenter.half_angle_rad) / indenter.layer_m;
+}
+
 }  // namespace
 
-const std::array<ShapeRow, 9> kShapes{{
-    {Shape::Paraboloid, "paraboloid", true, false, "Hertz 1881, (4/3) E* sqrt(R) d^1.5; nanite's hertz_para"},
-    {Shape::Sphere, "sphere", true, false, "Sneddon 1965, exact"},
-    {Shape::Cone, "cone", false, false, "Sneddon 1965, (2/pi) tan(a) E* d^2"},
-    {Shape::Pyramid3, "pyramid3", false, false, "three faces, 0.8887 tan(a) E* d^2, as in nanite 4.2"},
-    {Shape::Pyramid4Bilodeau, "pyramid4-bilodeau", false, false, "four faces, 0.7453 tan(a) E* d^2, Bilodeau 1992"},
-    {Shape::Pyramid4Rico, "pyramid4-rico", false, false, "four faces, 0.7071 tan(a) E* d^2, Rico 2005, as in JPK's"},
-    {Shape::LayerSphere, "layer-sphere", true, true, "bonded layer, nu 0.5, Garcia & Garcia 2018"},
-    {Shape::LayerCone, "layer-cone", false, true, "bonded layer, nu 0.5, Garcia & Garcia 2018"},
-    {Shape::LayerDimitriadis, "layer-dimitriadis", true, true,
+const std::array<ShapeRow, 11> kShapes{{
+    {Shape::Paraboloid, "paraboloid", true, false, false, "Hertz 1881, (4/3) E* sqrt(R) d^1.5; nanite's hertz_para"},
+    {Shape::Sphere, "sphere", true, false, false, "Sneddon 1965, exact"},
+    {Shape::Cone, "cone", false, false, false, "Sneddon 1965, (2/pi) tan(a) E* d^2"},
+    {Shape::Pyramid3, "pyramid3", false, false, false, "three faces, 0.8887 tan(a) E* d^2, as in nanite 4.2"},
+    {Shape::Pyramid4Bilodeau, "pyramid4-bilodeau", false, false, false,
+     "four faces, 0.7453 tan(a) E* d^2, Bilodeau 1992"},
+    {Shape::Pyramid4Rico, "pyramid4-rico", false, false, false,
+     "four faces, 0.7071 tan(a) E* d^2, Rico 2005, as in JPK's"},
+    {Shape::LayerSphere, "layer-sphere", true, true, false, "bonded layer, nu 0.5, Garcia & Garcia 2018"},
+    {Shape::LayerCone, "layer-cone", false, true, false, "bonded layer, nu 0.5, Garcia & Garcia 2018"},
+    {Shape::LayerExactSphere, "layer-exact-sphere", true, true, true, "layer of any nu and --base, exact, paraboloid"},
+    {Shape::LayerExactCone, "layer-exact-cone", false, true, true, "layer of any nu and --base, exact, cone"},
+    {Shape::LayerDimitriadis, "layer-dimitriadis", true, true, false,
      "bonded layer, nu 0.5, Dimitriadis 2002: biased, 5 % low at sqrt(R d)/h = 0.42"},
 }};
 
@@ -160,8 +175,14 @@ Push push_of(const Indenter& indenter, double depth_m) noexcept {
       return in_layer(paraboloid(indenter.radius_m, depth_m), contact_over_layer(indenter, depth_m), 0.5, depth_m,
                       kGarciaSphere);
     case Shape::LayerCone:
-      return in_layer(sharp(2.0 / kPi, angle_rad, depth_m), depth_m * std::tan(angle_rad) / indenter.layer_m, 1.0,
-                      depth_m, kGarciaCone);
+      return in_layer(sharp(2.0 / kPi, angle_rad, depth_m), depth_over_layer(indenter, depth_m), 1.0, depth_m,
+                      kGarciaCone);
+    case Shape::LayerExactSphere:
+      return in_exact_layer(paraboloid(indenter.radius_m, depth_m), contact_over_layer(indenter, depth_m), 0.5, depth_m,
+                            *indenter.table);
+    case Shape::LayerExactCone:
+      return in_exact_layer(sharp(2.0 / kPi, angle_rad, depth_m), depth_over_layer(indenter, depth_m), 1.0, depth_m,
+                            *indenter.table);
     case Shape::LayerDimitriadis:
       return in_layer(paraboloid(indenter.radius_m, depth_m), contact_over_layer(indenter, depth_m), 0.5, depth_m,
                       kDimitriadis);
@@ -173,8 +194,14 @@ double layer_strain(const Indenter& indenter, double depth_m) noexcept {
   constexpr double kMostSphere = 0.5, kMostCone = 0.9;
   const ShapeRow& row = row_of(indenter.shape);
   if (!row.has_layer || !(depth_m > 0.0)) return 0.0;
-  if (row.has_radius) return contact_over_layer(indenter, depth_m) / kMostSphere;
-  return depth_m * std::tan(indenter.half_angle_rad) / indenter.layer_m / kMostCone;
+  const double strain = row.has_radius ? contact_over_layer(indenter, depth_m) : depth_over_layer(indenter, depth_m);
+  if (row.is_exact) return strain / indenter.table->largest_strain();
+  return strain / (row.has_radius ? kMostSphere : kMostCone);
+}
+
+std::shared_ptr<const LayerTable> exact_table(Shape shape, Base base, double poisson) {
+  const Profile profile = row_of(shape).has_radius ? Profile::Paraboloid : Profile::Cone;
+  return std::make_shared<const LayerTable>(profile, base, poisson);
 }
 
 }  // namespace afm::fits

@@ -155,7 +155,7 @@ TEST(FitOfACurve, HasEveryNumberWithItsUnitInTextAndJson) {
   FitOptions options;
   options.shape = fits::Shape::Paraboloid;
   options.radius_m = test::kHertzRadiusM;
-  ASSERT_TRUE(check(options));
+  ASSERT_TRUE(prepare(options));
   const auto fit = fit_of(*curve, options);
   ASSERT_TRUE(fit) << fit.error().message;
   const std::string text = fit_text(*fit, options);
@@ -174,8 +174,8 @@ TEST(FitOfACurve, HasEveryNumberWithItsUnitInTextAndJson) {
 }
 
 TEST(FitOfACurve, IsRefusedWithoutWhatItNeeds) {
-  const auto refusal = [](const FitOptions& options) {
-    const auto checked = check(options);
+  const auto refusal = [](FitOptions options) {
+    const auto checked = prepare(options);
     EXPECT_FALSE(checked);
     return checked ? "accepted" : checked.error().message;
   };
@@ -193,7 +193,13 @@ TEST(FitOfACurve, IsRefusedWithoutWhatItNeeds) {
   options.poisson = 0.3;
   EXPECT_THAT(refusal(options), HasSubstr("leave --poisson out"));
   options.poisson = 0.5;
-  EXPECT_TRUE(check(options));
+  EXPECT_TRUE(prepare(options));
+  options.base = fits::Base::Sliding;
+  EXPECT_THAT(refusal(options), HasSubstr("no use for --base"));
+  options.shape = fits::Shape::LayerExactCone;
+  options.poisson = 0.3;
+  ASSERT_TRUE(prepare(options));
+  EXPECT_NE(options.table, nullptr);
 
   curves::RecordedCurve volts = test::hertz_curve();
   volts.metadata.spring_constant.reset();

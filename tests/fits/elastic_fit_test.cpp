@@ -27,7 +27,8 @@ Indenter indenter(Shape shape) {
   return {.shape = shape,
           .radius_m = row.has_radius ? 5e-6 : 0.0,
           .half_angle_rad = row.has_radius ? 0.0 : 0.4,
-          .layer_m = row.has_layer ? 8e-6 : 0.0};
+          .layer_m = row.has_layer ? 8e-6 : 0.0,
+          .table = row.is_exact ? exact_table(shape, Base::Bonded, 0.4) : nullptr};
 }
 
 // An approach from 2 um above the contact to 1.5 um below, as in the lab's cases P25 to P27.

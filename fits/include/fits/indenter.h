@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string_view>
+
+#include "fits/layer.h"
 
 // Elastic contacts without adhesion (docs/fits.md; equation numbers (F...)). Any thread.
 namespace afm::fits {
@@ -16,6 +19,8 @@ enum class Shape {
   Pyramid4Rico,
   LayerSphere,
   LayerCone,
+  LayerExactSphere,
+  LayerExactCone,
   LayerDimitriadis
 };
 
@@ -24,12 +29,13 @@ struct ShapeRow {
   Shape shape;
   std::string_view name;     // on the command line and in reports
   bool has_radius;           // false: a half angle
-  bool has_layer;            // a thickness, and Poisson's ratio 0.5
+  bool has_layer;            // a thickness
+  bool is_exact;             // a layer of any Poisson ratio, on any base; the others have 0.5, bonded
   std::string_view meaning;  // with its source, in one line
 };
 
 // In the order of Shape.
-extern const std::array<ShapeRow, 9> kShapes;
+extern const std::array<ShapeRow, 11> kShapes;
 
 const ShapeRow& row_of(Shape shape);
 
@@ -38,7 +44,11 @@ struct Indenter {
   double radius_m = 0;        // positive where the shape has one
   double half_angle_rad = 0;  // between axis and edge of a cone, axis and face of a pyramid; in (0, pi/2)
   double layer_m = 0;         // thickness on a rigid base; positive where the shape has one
+  std::shared_ptr<const LayerTable> table{};  // exact_table() of the shape; not null where it is exact
 };
+
+// Table of an exact layer.
+std::shared_ptr<const LayerTable> exact_table(Shape shape, Base base, double poisson);
 
 // For a reduced modulus E* = E/(1 - nu^2) of 1 Pa.
 struct Push {
@@ -50,7 +60,8 @@ struct Push {
 Push push_of(const Indenter& indenter, double depth_m) noexcept;
 
 // How far the depth is beyond the range in which the shape's formula is within 1 % of the exact layer (lab cases P09 to
-// P20): sqrt(R d)/h over 0.5, or d tan(alpha)/h over 0.9. 0 for a thick sample.
+// P20): sqrt(R d)/h over 0.5, or d tan(alpha)/h over 0.9; of an exact layer,
+// over the largest of its table. 0 for a thick sample.
 double layer_strain(const Indenter& indenter, double depth_m) noexcept;
 
 }  // namespace afm::fits

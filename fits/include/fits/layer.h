@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace afm::fits {
+
+// How a layer lies on its rigid base.
+enum class Base {
+  Bonded,
+  Sliding,  // without friction
+};
+
+struct BaseName {
+  Base base;
+  std::string_view name;
+};
+inline constexpr std::array kBases{BaseName{Base::Bonded, "bonded"}, BaseName{Base::Sliding, "sliding"}};
+
+enum class Profile {
+  Paraboloid,  // strain: sqrt(R d)/h
+  Cone,        // strain: d tan(alpha)/h
+};
+
+// Force of a layer over that of a thick sample at the same depth, exact in small strains, by the integral equation of
+// Lebedev & Ufliand (1958) and Hayes and others (1972): docs/fits.md (F9). Tabulated once. Const; any thread.
+class LayerTable {
+ public:
+  // Throws std::invalid_argument for a Poisson ratio outside 0 to 0.5.
+  LayerTable(Profile profile, Base base, double poisson);
+
+  struct Stiffening {
+    double factor = 1;  // 1 for a strain of 0
+    double slope = 0;   // derivative of its logarithm by the strain
+  };
+  // Beyond largest_strain() the logarithm goes on in a straight line.
+  Stiffening at(double strain) const noexcept;
+
+  double largest_strain() const noexcept { return strains_.back(); }
+
+ private:
+  std::vector<double> strains_, logs_, slopes_;  // ascending; logarithms of the factor, and their derivatives
+};
+
+}  // namespace afm::fits
