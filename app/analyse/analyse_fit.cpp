@@ -23,6 +23,7 @@ using physics::format_quantity;
 using FitJson = nlohmann::ordered_json;
 
 constexpr QuantityRange<physics::Length> kRadii{physics::Length(1e-10), physics::Length(1e-3)};
+constexpr QuantityRange<physics::Force> kMostForces{physics::Force(1e-13), physics::Force(1e-1)};
 constexpr QuantityRange<physics::Length> kLayers{physics::Length(1e-10), physics::Length(1e-1)};
 constexpr QuantityRange<double> kHalfAngles{std::numbers::pi / 180.0, std::numbers::pi * 0.49};
 constexpr double kLeastPoisson = 0.0, kMostPoisson = 0.5;
@@ -104,6 +105,15 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
                   &fits::AgainstName::against,
                   "of --fit: z, the height of the lever's base, or tip, the tip position of nanite and AtomicJ; "
                   "default: z"));
+  add("--most-force", quantity_option(
+                          command, "--most-force", [&options](physics::Force force) { options.most_force_n = force.si; },
+                          physics::kForceUnits, "of --fit: leave out what comes after a greater force above the baseline",
+                          std::optional(kMostForces)));
+  add("--most-depth",
+      quantity_option(
+          command, "--most-depth", [&options](physics::Length depth) { options.most_depth_m = depth.si; },
+          physics::kLengthUnits, "of --fit: leave out what comes after a greater depth below the fitted contact point",
+          std::optional(kRadii)));
   add("--tilt", command.add_flag("--tilt", options.tilt, "of --fit: also fit a tilt of the baseline"));
   add("--white-noise", command.add_flag("--white-noise", options.white,
                                         "of --fit: take the noise for white, as nanite and AtomicJ do; its interval is "
@@ -114,7 +124,7 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
 core::Result<void> prepare(FitOptions& options) {
   const bool radius = options.radius_m > 0.0, angle = options.half_angle_rad > 0.0, layer = options.layer_m > 0.0;
   if (!options.shape) {
-    if (radius || angle || layer || options.poisson != FitOptions{}.poisson || options.tilt || options.white ||
+    if (radius || angle || layer || options.poisson != FitOptions{}.poisson || options.tilt || options.white || std::isfinite(options.most_force_n) || std::isfinite(options.most_depth_m) ||
         options.base != FitOptions{}.base || options.against != FitOptions{}.against) {
       return core::wrong_usage("an option of a fit is given without --fit; add --fit SHAPE, such as --fit sphere");
     }
@@ -153,6 +163,8 @@ core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const 
                        .pull_off_n = curve.features.adhesion ? std::abs(curve.features.adhesion->force.si) : 0.0,
                        .zero_n = curve.features.baseline.level.si,
                        .against = options.against,
+                       .most_force_n = options.most_force_n,
+                       .most_depth_m = options.most_depth_m,
                        .tilt = options.tilt,
                        .white = options.white,
                        .starts = {}};
@@ -204,6 +216,7 @@ std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options) {
 
 FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
   const fits::ShapeRow& shape = fits::row_of(*options.shape);
+  const auto limit = [](double value) { return std::isfinite(value) ? FitJson(value) : FitJson(); };
   FitJson result{{"shape", shape.name},
                  {"source", shape.meaning},
                  {"radius_m", shape.has_radius ? FitJson(options.radius_m) : FitJson()},
@@ -212,6 +225,8 @@ FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
                  {"base", shape.is_exact ? FitJson(name_of(options.base)) : FitJson()},
                  {"poisson_ratio", options.poisson},
                  {"against", name_of(options.against)},
+              {"most_force_N", limit(options.most_force_n)},
+              {"most_depth_m", limit(options.most_depth_m)},
                  {"modulus_Pa", fit.modulus_pa},
                  {"modulus_95_percent_Pa",
                   {fit.modulus_interval_pa.low > 0.0 ? FitJson(fit.modulus_interval_pa.low) : FitJson(),
@@ -243,7 +258,7 @@ curves::SvgLine fit_line(const curves::AnalysedCurve& curve, const fits::Elastic
   const double zero_m = curve.features.contact_point.value_or(physics::Length()).si;
   std::size_t at = 0;
   for (const physics::CurvePoint& point : curve.curve.points) {
-    if (point.branch != physics::Branch::Approach) continue;
+    if (point.branch != physics::Branch::Approach || at == fit.model_n.size()) continue;
     line.points.push_back({(point.z.si - zero_m) * curves::kNmPerM,
                            (fit.model_n[at++] - curve.features.baseline.at(point.z).si) * curves::kNnPerN});
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -14,7 +15,7 @@
 
 namespace afm::app {
 
-// Options of a fit; zero: not given.
+// Options of a fit; sizes of zero: not given.
 struct FitOptions {
   std::optional<fits::Shape> shape;  // empty: no fit is wanted
   double radius_m = 0;
@@ -23,6 +24,8 @@ struct FitOptions {
   double poisson = 0.5;
   fits::Base base = fits::Base::Bonded;
   fits::Against against = fits::Against::Z;
+  double most_force_n = std::numeric_limits<double>::infinity();
+  double most_depth_m = std::numeric_limits<double>::infinity();
   bool tilt = false;
   bool white = false;
   std::shared_ptr<const fits::LayerTable> table{};  // set by prepare() for an exact layer

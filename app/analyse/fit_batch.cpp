@@ -43,7 +43,7 @@ constexpr const char* kColumns =
     "depth_m\tnoise_N\trms_N\tpoints\tpoints_in_contact\tnoise_order\truns_probability\thalf_depth_modulus_Pa\tspring_"
     "constant_N_per_"
     "m\tshape\t"
-    "radius_m\thalf_angle_rad\tlayer_m\tbase\tpoisson_ratio\tagainst\twhite_noise\n";
+    "radius_m\thalf_angle_rad\tlayer_m\tbase\tpoisson_ratio\tagainst\twhite_noise\tmost_force_N\tmost_depth_m\n";
 
 // What is known of one file: a fit with the spring constant it was made with, or why there is none.
 struct Fitted {
@@ -89,10 +89,11 @@ std::string sizes(const FitOptions& options) {
   const fits::ShapeRow& shape = fits::row_of(*options.shape);
   const auto cell = [](bool has, double value) { return has ? fmt::format("{}", value) : std::string(); };
   const std::string_view base = shape.is_exact ? fits::kBases.at(static_cast<std::size_t>(options.base)).name : "";
-  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", shape.name, cell(shape.has_radius, options.radius_m),
+  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", shape.name, cell(shape.has_radius, options.radius_m),
                      cell(!shape.has_radius, options.half_angle_rad), cell(shape.has_layer, options.layer_m), base,
                      options.poisson, fits::kAgainst.at(static_cast<std::size_t>(options.against)).name,
-                     options.white ? "yes" : "no");
+                     options.white ? "yes" : "no", cell(std::isfinite(options.most_force_n), options.most_force_n),
+                     cell(std::isfinite(options.most_depth_m), options.most_depth_m));
 }
 
 std::string row_of(const std::string& file, const Fitted& fitted, const FitOptions& options) {

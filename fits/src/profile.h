@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "curve_problem.h"
+
+namespace afm::fits {
+
+inline constexpr double kChiSquare95 = 3.841458820694124;  // 95 % quantile for one degree of freedom
+
+// A fit that has ended: unknowns, noise, and the sum of the whitened squares.
+struct Ended {
+  Unknowns unknowns;
+  std::vector<double> noise;
+  bool filtered = false;  // the noise was found, and used
+  double squares = std::numeric_limits<double>::infinity();
+};
+
+// False for what no minimum can have.
+bool is_usable(const Unknowns& unknowns, double squares);
+
+// Standard deviation of the logarithm of the modulus, from the whitened Jacobian: where the profile begins.
+double deviation_of_modulus(const CurveProblem& problem, const Ended& ended);
+
+// End of the interval on one side: where the likelihood, maximised over the other unknowns, has fallen by half the 95 %
+// quantile of chi square. The root of the fall is nearly linear in the way, and is stepped to along that line, once
+// there is an end on either side between them.
+struct ProfileEnd {
+  double log_modulus = 0;         // infinite if no end was found
+  std::optional<Unknowns> lower;  // a better minimum that was met on the way
+};
+// `side` is -1 or 1; `deviation` as above.
+ProfileEnd profile_end(const CurveProblem& problem, const Ended& ended, double deviation, double side);
+
+}  // namespace afm::fits
