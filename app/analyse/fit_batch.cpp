@@ -204,7 +204,7 @@ class Summary {
     if (moduli_pa_.empty()) return text;
     std::sort(moduli_pa_.begin(), moduli_pa_.end());
     const auto at = [&](double share) {
-      const auto place = static_cast<std::size_t>(share * static_cast<double>(moduli_pa_.size() - 1) + 0.5);
+      const auto place = static_cast<std::size_t>(std::lround(share * static_cast<double>(moduli_pa_.size() - 1)));
       return physics::format_quantity(physics::Pressure(moduli_pa_[place]), physics::kPressureUnits, 4);
     };
     return text + fmt::format("modulus of the trusted and the doubtful: median {}, quartiles {} and {}\n", at(0.5),
