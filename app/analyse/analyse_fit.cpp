@@ -105,10 +105,11 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
                   &fits::AgainstName::against,
                   "of --fit: z, the height of the lever's base, or tip, the tip position of nanite and AtomicJ; "
                   "default: z"));
-  add("--most-force", quantity_option(
-                          command, "--most-force", [&options](physics::Force force) { options.most_force_n = force.si; },
-                          physics::kForceUnits, "of --fit: leave out what comes after a greater force above the baseline",
-                          std::optional(kMostForces)));
+  add("--most-force",
+      quantity_option(
+          command, "--most-force", [&options](physics::Force force) { options.most_force_n = force.si; },
+          physics::kForceUnits, "of --fit: leave out what comes after a greater force above the baseline",
+          std::optional(kMostForces)));
   add("--most-depth",
       quantity_option(
           command, "--most-depth", [&options](physics::Length depth) { options.most_depth_m = depth.si; },
@@ -124,7 +125,8 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
 core::Result<void> prepare(FitOptions& options) {
   const bool radius = options.radius_m > 0.0, angle = options.half_angle_rad > 0.0, layer = options.layer_m > 0.0;
   if (!options.shape) {
-    if (radius || angle || layer || options.poisson != FitOptions{}.poisson || options.tilt || options.white || std::isfinite(options.most_force_n) || std::isfinite(options.most_depth_m) ||
+    if (radius || angle || layer || options.poisson != FitOptions{}.poisson || options.tilt || options.white ||
+        std::isfinite(options.most_force_n) || std::isfinite(options.most_depth_m) ||
         options.base != FitOptions{}.base || options.against != FitOptions{}.against) {
       return core::wrong_usage("an option of a fit is given without --fit; add --fit SHAPE, such as --fit sphere");
     }
@@ -225,8 +227,8 @@ FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
                  {"base", shape.is_exact ? FitJson(name_of(options.base)) : FitJson()},
                  {"poisson_ratio", options.poisson},
                  {"against", name_of(options.against)},
-              {"most_force_N", limit(options.most_force_n)},
-              {"most_depth_m", limit(options.most_depth_m)},
+                 {"most_force_N", limit(options.most_force_n)},
+                 {"most_depth_m", limit(options.most_depth_m)},
                  {"modulus_Pa", fit.modulus_pa},
                  {"modulus_95_percent_Pa",
                   {fit.modulus_interval_pa.low > 0.0 ? FitJson(fit.modulus_interval_pa.low) : FitJson(),

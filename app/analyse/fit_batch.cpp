@@ -70,7 +70,7 @@ Fitted fitted(const std::string& file, const AnalyseOptions& options) {
     return result;
   }
   result.fit = std::move(*fit);
-  result.fit->model_n = {};  // of no use in a table
+  result.fit->model_n = {};  // the curve of the fit, for plots alone
   result.spring_n_per_m = analysed->curve.metadata.spring_constant->si;
   return result;
 }

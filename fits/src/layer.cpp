@@ -12,7 +12,6 @@ namespace afm::fits {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::size_t kNodes = 32;          // Gauss-Legendre nodes on the contact's radius
 constexpr double kWidest = 3.0;             // largest contact radius over the thickness
 constexpr std::size_t kRadii = 160;         // number of tabulated contact radii
@@ -24,7 +23,8 @@ struct Gauss {
 
   explicit Gauss(std::size_t count) : nodes(count), weights(count) {
     for (std::size_t i = 0; i < count; ++i) {
-      double x = std::cos(kPi * (static_cast<double>(i) + 0.75) / (static_cast<double>(count) + 0.5)), slope = 0.0;
+      double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (static_cast<double>(count) + 0.5)),
+             slope = 0.0;
       for (int step = 0; step < 20; ++step) {
         double before = 1.0, now = x;
         for (std::size_t k = 2; k <= count; ++k) {
@@ -110,7 +110,8 @@ Point solved(const Kernel& kernel, const Gauss& gauss, Profile profile, double r
   const auto tip = [&](double tau) { return profile == Profile::Paraboloid ? tau * tau : tau; };
   const auto weight = [&](double tau, std::size_t j) {
     const double sigma = gauss.nodes[j];
-    return radius / kPi * gauss.weights[j] * (kernel.at(radius * (tau - sigma)) + kernel.at(radius * (tau + sigma)));
+    return radius / std::numbers::pi * gauss.weights[j] *
+           (kernel.at(radius * (tau - sigma)) + kernel.at(radius * (tau + sigma)));
   };
   std::vector<std::vector<double>> rows(kNodes, std::vector<double>(kNodes + 2));
   for (std::size_t i = 0; i < kNodes; ++i) {
@@ -133,7 +134,7 @@ Point solved(const Kernel& kernel, const Gauss& gauss, Profile profile, double r
   if (profile == Profile::Paraboloid) {
     return {radius * std::sqrt(depth), std::log(0.75 * force / std::pow(depth, 1.5))};
   }
-  return {0.5 * kPi * radius * depth, std::log(force / (depth * depth))};
+  return {0.5 * std::numbers::pi * radius * depth, std::log(force / (depth * depth))};
 }
 
 }  // namespace
