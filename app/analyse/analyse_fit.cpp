@@ -45,10 +45,19 @@ core::Result<void> check_size(const fits::ShapeRow& shape, const Size& size) {
   return {};
 }
 
-std::vector<fits::Sample> approach_of(const curves::RecordedCurve& curve) {
+// The approach up to the first point that exceeds a limit. The depth counts from the contact point of the analysis, not
+// of the fit: that one moves with what is left out, on a sample that stiffens further and further.
+std::vector<fits::Sample> approach_of(const curves::AnalysedCurve& curve, double spring_n_per_m,
+                                      const FitOptions& options) {
+  const physics::CurveFeatures& features = curve.features;
   std::vector<fits::Sample> approach;
-  for (const physics::CurvePoint& point : curve.points) {
-    if (point.branch == physics::Branch::Approach) approach.push_back({point.z.si, point.force.si});
+  for (const physics::CurvePoint& point : curve.curve.points) {
+    if (point.branch != physics::Branch::Approach) continue;
+    const double force_n = (point.force - features.baseline.at(point.z)).si;
+    const double bent_m = force_n / spring_n_per_m;
+    const double depth_m = features.contact_point ? features.contact_point->si - (point.z.si + bent_m) : 0.0;
+    if (force_n > options.most_force_n || depth_m > options.most_depth_m) break;
+    approach.push_back({point.z.si, point.force.si});
   }
   return approach;
 }
@@ -110,11 +119,12 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
           command, "--most-force", [&options](physics::Force force) { options.most_force_n = force.si; },
           physics::kForceUnits, "of --fit: leave out what comes after a greater force above the baseline",
           std::optional(kMostForces)));
-  add("--most-depth",
-      quantity_option(
-          command, "--most-depth", [&options](physics::Length depth) { options.most_depth_m = depth.si; },
-          physics::kLengthUnits, "of --fit: leave out what comes after a greater depth below the fitted contact point",
-          std::optional(kRadii)));
+  add("--most-depth", quantity_option(
+                          command, "--most-depth",
+                          [&options](physics::Length depth) { options.most_depth_m = depth.si; }, physics::kLengthUnits,
+                          "of --fit: leave out what comes after a greater depth below the contact point of the "
+                          "analysis (--contact-point)",
+                          std::optional(kRadii)));
   add("--tilt", command.add_flag("--tilt", options.tilt, "of --fit: also fit a tilt of the baseline"));
   add("--white-noise", command.add_flag("--white-noise", options.white,
                                         "of --fit: take the noise for white, as nanite and AtomicJ do; its interval is "
@@ -155,6 +165,9 @@ core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const 
   };
   const auto spring = curve.curve.metadata.spring_constant;
   if (!spring) return refused("it has no spring constant; give --spring-constant");
+  if (std::isfinite(options.most_depth_m) && !curve.features.contact_point) {
+    return refused("--most-depth counts from the contact point, and it has none; leave it out");
+  }
   fits::FitSetup setup{.indenter = {.shape = *options.shape,
                                     .radius_m = options.radius_m,
                                     .half_angle_rad = options.half_angle_rad,
@@ -165,8 +178,6 @@ core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const 
                        .pull_off_n = curve.features.adhesion ? std::abs(curve.features.adhesion->force.si) : 0.0,
                        .zero_n = curve.features.baseline.level.si,
                        .against = options.against,
-                       .most_force_n = options.most_force_n,
-                       .most_depth_m = options.most_depth_m,
                        .tilt = options.tilt,
                        .white = options.white,
                        .starts = {}};
@@ -174,7 +185,7 @@ core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const 
     if (estimate) setup.starts.push_back(estimate->si);
   }
   std::string why;
-  auto fit = fits::fit(approach_of(curve.curve), setup, why);
+  auto fit = fits::fit(approach_of(curve, spring->si, options), setup, why);
   if (!fit) return refused(why);
   return std::move(*fit);
 }

@@ -96,7 +96,9 @@ Ended minimum(const CurveProblem& problem, const Unknowns& start, bool white) {
   return left ? white_noise : ended;
 }
 
-std::optional<ElasticFit> fit_all(std::span<const Sample> samples, const FitSetup& setup, std::string& why) {
+}  // namespace
+
+std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& setup, std::string& why) {
   const auto finite = [](const Sample& s) { return std::isfinite(s.z_m) && std::isfinite(s.force_n); };
   if (samples.size() < kFewest) {
     why = "it has fewer than 10 points of an approach";
@@ -164,31 +166,6 @@ std::optional<ElasticFit> fit_all(std::span<const Sample> samples, const FitSetu
   const std::size_t left = whiten(ended.noise, residuals);
   found.runs_p = runs_probability(std::span(residuals).first(left), std::min(outside, left));
   judge(samples, setup, problem, ended, found);
-  return found;
-}
-
-// Number of samples before the first one that exceeds a limit by this fit.
-std::size_t within_limits(std::span<const Sample> samples, const FitSetup& setup, const ElasticFit& fit) {
-  for (std::size_t t = 0; t < samples.size(); ++t) {
-    const double force_n = samples[t].force_n - baseline_n(fit, samples[t], samples.front());
-    const double bent_n = setup.against == Against::Z ? force_n : samples[t].force_n - setup.zero_n;
-    const double depth_m = fit.contact_z_m - (samples[t].z_m + bent_n / setup.spring_n_per_m);
-    if (force_n > setup.most_force_n || depth_m > setup.most_depth_m) return t;
-  }
-  return samples.size();
-}
-
-}  // namespace
-
-std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& setup, std::string& why) {
-  constexpr int kMostRounds = 5;
-  auto found = fit_all(samples, setup, why);
-  for (int round = 0; round < kMostRounds && found; ++round) {
-    const std::size_t kept = within_limits(samples, setup, *found);
-    if (kept == found->points) break;
-    found = fit_all(samples.first(kept), setup, why);
-    if (!found) why += ", within the limits of force and depth";
-  }
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -171,6 +172,31 @@ TEST(FitOfACurve, HasEveryNumberWithItsUnitInTextAndJson) {
   EXPECT_TRUE(json.at("doubts").empty());
   const curves::SvgLine line = fit_line(*curve, *fit);
   EXPECT_EQ(line.points.size(), 2000U);
+}
+
+// A gel that stiffens from 0.8 um of the base's way on.
+TEST(FitOfACurve, OfAPartHasThatPartsModulus) {
+  curves::RecordedCurve recorded = test::hertz_curve();
+  for (physics::CurvePoint& point : recorded.points) {
+    point.force = point.force + physics::Force(0.01 * std::max(-0.8e-6 - point.z.si, 0.0));
+  }
+  const auto curve = curves::analysed("gel.tab", recorded);
+  ASSERT_TRUE(curve.has_value());
+  FitOptions options;
+  options.shape = fits::Shape::Paraboloid;
+  options.radius_m = test::kHertzRadiusM;
+  EXPECT_GT(fit_of(*curve, options)->modulus_pa, 1.1 * test::kHertzModulusPa);
+  options.most_force_n = 3e-9;
+  const auto by_force = fit_of(*curve, options);
+  ASSERT_TRUE(by_force) << by_force.error().message;
+  EXPECT_NEAR(by_force->modulus_pa, test::kHertzModulusPa, 1.0);
+  EXPECT_EQ(fit_line(*curve, *by_force).points.size(), by_force->points);
+  options.most_force_n = std::numeric_limits<double>::infinity();
+  options.most_depth_m = 0.4e-6;
+  const auto by_depth = fit_of(*curve, options);
+  ASSERT_TRUE(by_depth) << by_depth.error().message;
+  EXPECT_NEAR(by_depth->modulus_pa, test::kHertzModulusPa, 1.0);
+  EXPECT_NEAR(by_depth->depth_m, 0.4e-6, 0.1e-6);
 }
 
 TEST(FitOfACurve, IsRefusedWithoutWhatItNeeds) {

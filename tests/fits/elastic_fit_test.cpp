@@ -190,34 +190,6 @@ TEST(ElasticFit, SaysWhyAModulusIsDoubtful) {
   EXPECT_TRUE(has(fitted(Curves(4).approach(thin, 4e3, Noise::White), setup_of(thin)), Doubt::BeyondLayer));
 }
 
-// A sample that stiffens from some depth on: only the part above is the shape's.
-TEST(ElasticFit, OfAPartOfTheCurveHasThatPartsModulus) {
-  const Indenter tip = indenter(Shape::Sphere);
-  std::vector<Sample> samples = Curves(8).approach(tip, 4e3, Noise::White);
-  for (Sample& sample : samples) sample.force_n += 0.2 * kSpring * std::max(-0.8e-6 - sample.z_m, 0.0);
-  EXPECT_GT(fitted(samples, setup_of(tip)).reduced_modulus_pa, 4.4e3);
-  FitSetup setup = setup_of(tip);
-  setup.most_force_n = 3e-9;
-  const ElasticFit by_force = fitted(samples, setup);
-  EXPECT_NEAR(by_force.reduced_modulus_pa, 4e3, 60.0);
-  EXPECT_EQ(by_force.model_n.size(), by_force.points);
-  EXPECT_LT(by_force.points, samples.size());
-  setup = setup_of(tip);
-  setup.most_depth_m = 0.5e-6;
-  for (const AgainstName& against : kAgainst) {
-    setup.against = against.against;
-    const ElasticFit by_depth = fitted(samples, setup);
-    EXPECT_NEAR(by_depth.reduced_modulus_pa, 4e3, 60.0) << against.name;
-    EXPECT_NEAR(by_depth.depth_m, 0.5e-6, 0.01e-6) << against.name;
-  }
-  setup.most_depth_m = 1e-12;
-  std::string why;
-  const auto none = fit(samples, setup, why);
-  if (none) {
-    EXPECT_EQ(none->trust, Trust::No);
-  }
-}
-
 // Forces in steps as large as twice the noise, and so many points that each step lasts.
 TEST(ElasticFit, OfADigitisedCurveIsTrusted) {
   const Indenter tip = indenter(Shape::Sphere);

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -40,9 +39,7 @@ struct FitSetup {
   double pull_off_n = 0;      // hardest pull of the retract, a magnitude; 0: unknown
   double zero_n = 0;          // force of the free lever, for the tip position alone
   Against against = Against::Z;
-  double most_force_n = std::numeric_limits<double>::infinity();  // above the baseline
-  double most_depth_m = std::numeric_limits<double>::infinity();  // below the contact point
-  bool tilt = false;                                              // also fits a slope of the baseline
+  bool tilt = false;           // also fits a slope of the baseline
   bool white = false;          // takes the noise for white: ordinary least squares, as in nanite and AtomicJ
   std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts
 };
@@ -102,11 +99,10 @@ struct ElasticFit {
   std::optional<double> half_depth_modulus_pa;  // modulus from the upper half of the depth
   Trust trust = Trust::Trusted;
   std::vector<Found> doubts;
-  std::vector<double> model_n;  // force of the model at each fitted sample, baseline included
+  std::vector<double> model_n;  // force of the model at each sample, baseline included
 };
 
-// Fits reduced modulus, contact point, level and, if wanted, tilt to the samples before the first that exceeds the
-// limits; for the depth the contact point of the fit itself counts, found in up to 5 rounds. Empty, with the reason in
+// Fits reduced modulus, contact point, level and, if wanted, tilt to all samples. Empty, with the reason in
 // `why`, if there are fewer than 10 samples, one is not finite, all have one Z, or no start leads to a modulus.
 std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& setup, std::string& why);
 
