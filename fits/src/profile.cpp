@@ -39,7 +39,7 @@ double deviation_of_modulus(const CurveProblem& problem, const Ended& ended) {
 ProfileEnd profile_end(const CurveProblem& problem, const Ended& ended, double deviation, double side) {
   constexpr int kSteps = 16;
   constexpr double kFarthest = 5.0, kClose = 1e-3, kLower = 1e-6;
-  const ProfileEnd none{side * std::numeric_limits<double>::infinity(), std::nullopt};
+  const auto none = [side] { return ProfileEnd{side * std::numeric_limits<double>::infinity(), std::nullopt}; };
   const auto free = static_cast<double>(problem.size() - ended.noise.size() - problem.unknown_count());
   const double target = std::sqrt(kChiSquare95);
   struct Place {
@@ -51,15 +51,15 @@ ProfileEnd profile_end(const CurveProblem& problem, const Ended& ended, double d
   for (int step = 0; step < kSteps; ++step) {
     Unknowns unknowns(ended.unknowns);
     const double squares = problem.minimise(unknowns, ended.noise, ended.unknowns[kModulus] + side * way);
-    if (!is_usable(unknowns, squares)) return none;
-    if (squares < ended.squares * (1.0 - kLower)) return {none.log_modulus, unknowns};
+    if (!is_usable(unknowns, squares)) return none();
+    if (squares < ended.squares * (1.0 - kLower)) return {none().log_modulus, unknowns};
     const Place here{way, std::sqrt(std::max(free * std::log(squares / ended.squares), 0.0))};
     if (here.root < target) {
       near = here;
     } else {
       far = here;
     }
-    if (!far && way >= kFarthest) return none;
+    if (!far && way >= kFarthest) return none();
     const double slope = far ? (far->root - near.root) / (far->way - near.way) : here.root / here.way;
     const double next = slope > 0.0 ? std::min(near.way + (target - near.root) / slope, kFarthest) : kFarthest;
     if (std::abs(next - way) < kClose * way && next < kFarthest) {
@@ -67,7 +67,7 @@ ProfileEnd profile_end(const CurveProblem& problem, const Ended& ended, double d
     }
     way = next;
   }
-  return far ? ProfileEnd{ended.unknowns[kModulus] + side * way, std::nullopt} : none;
+  return far ? ProfileEnd{ended.unknowns[kModulus] + side * way, std::nullopt} : none();
 }
 
 }  // namespace afm::fits
