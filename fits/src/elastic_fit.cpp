@@ -96,76 +96,106 @@ Ended minimum(const CurveProblem& problem, const Unknowns& start, bool white) {
   return left ? white_noise : ended;
 }
 
+// Why no fit is tried; empty if one is.
+std::string refusal_of(std::span<const Sample> samples) {
+  const auto finite = [](const Sample& s) { return std::isfinite(s.z_m) && std::isfinite(s.force_n); };
+  if (samples.size() < kFewest) return "it has fewer than 10 points of an approach";
+  if (!std::all_of(samples.begin(), samples.end(), finite)) return "a height or a force is not a number";
+  const auto [low_m, high_m] = heights_of(samples);
+  return high_m > low_m ? "" : "all its heights are the same";
+}
+
+// A contact point that lies farther from the data than these are long is none.
+bool is_contact(const Ended& ended, std::span<const Sample> samples) {
+  const auto [low_m, high_m] = heights_of(samples);
+  const double contact_m = ended.unknowns[kContact];
+  return is_usable(ended.unknowns, ended.squares) &&
+         std::abs(contact_m - std::clamp(contact_m, low_m, high_m)) <= high_m - low_m;
+}
+
+struct Minimum {
+  Ended ended;
+  Interval log_modulus;
+};
+
+// With its interval; a better minimum that is met on the way to an end becomes the start of another fit. Empty without
+// a contact.
+std::optional<Minimum> minimum_with_interval(const CurveProblem& problem, std::span<const Sample> samples,
+                                             const Unknowns& start, bool white) {
+  constexpr int kMostRestarts = 4;
+  const double rounding_n = kRounding * force_range_n(samples);
+  Minimum found{minimum(problem, start, white), {}};
+  for (int restart = 0; restart < kMostRestarts; ++restart) {
+    if (!is_contact(found.ended, samples)) return std::nullopt;
+    const double deviation = deviation_of_modulus(problem, found.ended);
+    // of a curve without noise there is no likelihood
+    if (std::sqrt(found.ended.squares / static_cast<double>(samples.size())) < rounding_n) {
+      const double way = std::sqrt(kChiSquare95) * deviation, middle = found.ended.unknowns[kModulus];
+      found.log_modulus = {middle - way, middle + way};
+      break;
+    }
+    const ProfileEnd low = profile_end(problem, found.ended, deviation, -1.0);
+    const ProfileEnd high = profile_end(problem, found.ended, deviation, 1.0);
+    found.log_modulus = {low.log_modulus, high.log_modulus};
+    const auto& lower = low.lower ? low.lower : high.lower;
+    if (!lower) break;
+    found.ended = minimum(problem, *lower, white);
+  }
+  return found;
+}
+
+// Depths, forces and residuals at the minimum.
+void describe(const CurveProblem& problem, const Ended& ended, ElasticFit& fit) {
+  std::vector<double> residuals = problem.residuals(ended.unknowns);
+  double before_contact = 0.0;
+  fit.model_n.reserve(residuals.size());
+  for (std::size_t t = 0; t < residuals.size(); ++t) {
+    const double depth_m = problem.depth_m(ended.unknowns, t);
+    fit.depth_m = std::max(fit.depth_m, depth_m);
+    fit.model_n.push_back(problem.force_n(ended.unknowns, t));
+    if (depth_m > 0.0) {
+      ++fit.in_contact;
+    } else {
+      before_contact += residuals[t] * residuals[t];
+    }
+  }
+  fit.points = residuals.size();
+  fit.rms_n = std::sqrt(squares_of(residuals) / static_cast<double>(fit.points));
+  const std::size_t outside = fit.points - fit.in_contact;
+  fit.noise_n = outside < kFewest ? fit.rms_n : std::sqrt(before_contact / static_cast<double>(outside));
+  if (ended.filtered) fit.noise_order = ended.noise.size();
+  const std::size_t left = whiten(ended.noise, residuals);
+  fit.runs_p = runs_probability(std::span(residuals).first(left), std::min(outside, left));
+}
+
 }  // namespace
 
 std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& setup, std::string& why) {
-  const auto finite = [](const Sample& s) { return std::isfinite(s.z_m) && std::isfinite(s.force_n); };
-  if (samples.size() < kFewest) {
-    why = "it has fewer than 10 points of an approach";
-    return std::nullopt;
-  }
-  if (!std::all_of(samples.begin(), samples.end(), finite)) {
-    why = "a height or a force is not a number";
-    return std::nullopt;
-  }
-  const auto [low_m, high_m] = heights_of(samples);
-  if (!(high_m > low_m)) {
-    why = "all its heights are the same";
-    return std::nullopt;
-  }
+  why = refusal_of(samples);
+  if (!why.empty()) return std::nullopt;
   const auto start = best_start(samples, setup);
   if (!start) {
     why = "the lever is nowhere pushed up: turned forces, or no contact";
     return std::nullopt;
   }
   const CurveProblem problem(samples, setup);
-  Ended ended = minimum(problem, *start, setup.white);
-  std::array<ProfileEnd, 2> ends;
-  constexpr int kMostRestarts = 4;
-  for (int restart = 0; restart < kMostRestarts; ++restart) {
-    const double from_data_m = ended.unknowns[kContact] - std::clamp(ended.unknowns[kContact], low_m, high_m);
-    if (!is_usable(ended.unknowns, ended.squares) || std::abs(from_data_m) > high_m - low_m) {
-      why = "no modulus fits: the sample is not pushed, or the curve is no contact's";
-      return std::nullopt;
-    }
-    const double deviation = deviation_of_modulus(problem, ended);
-    // of a curve without noise there is no likelihood
-    if (std::sqrt(ended.squares / static_cast<double>(samples.size())) < kRounding * force_range_n(samples)) {
-      const double way = std::sqrt(kChiSquare95) * deviation, middle = ended.unknowns[kModulus];
-      ends = {ProfileEnd{middle - way, std::nullopt}, ProfileEnd{middle + way, std::nullopt}};
-      break;
-    }
-    ends = {profile_end(problem, ended, deviation, -1.0), profile_end(problem, ended, deviation, 1.0)};
-    const auto& lower = ends[0].lower ? ends[0].lower : ends[1].lower;
-    if (!lower) break;
-    ended = minimum(problem, *lower, setup.white);
+  const auto best = minimum_with_interval(problem, samples, *start, setup.white);
+  if (!best) {
+    why = "no modulus fits: the sample is not pushed, or the curve is no contact's";
+    return std::nullopt;
   }
   ElasticFit found;
   const double from_reduced = 1.0 - setup.poisson * setup.poisson;
-  found.reduced_modulus_pa = std::exp(ended.unknowns[kModulus]);
+  const Unknowns& unknowns = best->ended.unknowns;
+  found.reduced_modulus_pa = std::exp(unknowns[kModulus]);
   found.modulus_pa = from_reduced * found.reduced_modulus_pa;
-  found.modulus_interval_pa = {from_reduced * std::exp(ends[0].log_modulus),
-                               from_reduced * std::exp(ends[1].log_modulus)};
-  found.contact_z_m = ended.unknowns[kContact];
-  found.level_n = ended.unknowns[kLevel];
-  if (setup.tilt) found.tilt_n_per_m = ended.unknowns[kTilt];
-  std::vector<double> residuals = problem.residuals(ended.unknowns);
-  double before_contact = 0.0;
-  for (std::size_t t = 0; t < samples.size(); ++t) {
-    const double depth_m = problem.depth_m(ended.unknowns, t);
-    found.depth_m = std::max(found.depth_m, depth_m);
-    if (depth_m > 0.0) ++found.in_contact;
-    found.model_n.push_back(problem.force_n(ended.unknowns, t));
-    if (!(depth_m > 0.0)) before_contact += residuals[t] * residuals[t];
-  }
-  found.points = samples.size();
-  found.rms_n = std::sqrt(squares_of(residuals) / static_cast<double>(samples.size()));
-  const std::size_t outside = samples.size() - found.in_contact;
-  found.noise_n = outside < kFewest ? found.rms_n : std::sqrt(before_contact / static_cast<double>(outside));
-  if (ended.filtered) found.noise_order = ended.noise.size();
-  const std::size_t left = whiten(ended.noise, residuals);
-  found.runs_p = runs_probability(std::span(residuals).first(left), std::min(outside, left));
-  judge(samples, setup, problem, ended, found);
+  found.modulus_interval_pa = {from_reduced * std::exp(best->log_modulus.low),
+                               from_reduced * std::exp(best->log_modulus.high)};
+  found.contact_z_m = unknowns[kContact];
+  found.level_n = unknowns[kLevel];
+  if (setup.tilt) found.tilt_n_per_m = unknowns[kTilt];
+  describe(problem, best->ended, found);
+  judge(samples, setup, problem, best->ended, found);
   return found;
 }
 

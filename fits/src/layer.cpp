@@ -59,6 +59,7 @@ class Kernel {
     constexpr double kEnd = 24.0;  // 1 - L is below 1e-18 there
     const Gauss gauss(160);
     std::vector<double> shares;
+    shares.reserve(gauss.nodes.size());
     for (const double node : gauss.nodes) shares.push_back(missing(base, nu, kEnd * node));
     for (std::size_t i = 0; i < values_.size(); ++i) {
       const double v = static_cast<double>(i) * kStep;
