@@ -127,7 +127,7 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
                           std::optional(kRadii)));
   add("--tilt", command.add_flag("--tilt", options.tilt, "of --fit: also fit a tilt of the baseline"));
   add("--white-noise", command.add_flag("--white-noise", options.white,
-                                        "of --fit: take the noise for white, as nanite and AtomicJ do; its interval is "
+                                        "of --fit: assume white noise, as nanite and AtomicJ do; its interval is "
                                         "too narrow where it is not"));
   return added;
 }
@@ -213,7 +213,7 @@ std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options) {
   line("points", fmt::format("{}", fit.points));
   line("  in contact", fmt::format("{}", fit.in_contact));
   line("noise", force_text(fit.noise_n));
-  line("  its order", options.white     ? "taken for white"
+  line("  its order", options.white     ? "assumed white"
                       : fit.noise_order ? fmt::format("{}", *fit.noise_order)
                                         : "no noise");
   line("trust", std::string(fits::name_of(fit.trust)));

@@ -35,12 +35,12 @@ struct Sample {
 struct FitSetup {
   Indenter indenter;
   double poisson = 0.5;       // Poisson's ratio of the sample, 0 to 0.5
-  double spring_n_per_m = 0;  // positive
+  double spring_n_per_m = 0;  // stiffness of the lever, positive
   double pull_off_n = 0;      // hardest pull of the retract, a magnitude; 0: unknown
   double zero_n = 0;          // force of the free lever, for the tip position alone
   Against against = Against::Z;
   bool tilt = false;           // also fits a slope of the baseline
-  bool white = false;          // takes the noise for white: ordinary least squares, as in nanite and AtomicJ
+  bool white = false;          // takes the noise as white: ordinary least squares, as in nanite and AtomicJ
   std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts
 };
 
@@ -50,7 +50,7 @@ struct Interval {
   double low = 0, high = 0;
 };
 
-// Reasons not to trust a modulus, in the order of their gravity.
+// Reasons not to trust a modulus.
 enum class Doubt {
   NeverPushed,    // the sample is never pushed by five times the noise
   Saturated,      // the greatest force is that of several points: the detector's end
@@ -77,8 +77,8 @@ std::string_view name_of(Trust trust);
 
 struct Found {
   Doubt doubt;
-  double figure;  // value that was compared, of its own unit
-  double limit;   // value that it was compared with
+  double figure;  // compared value, in the unit of the limit
+  double limit;   // limit of the figure
 };
 
 struct ElasticFit {
@@ -93,9 +93,8 @@ struct ElasticFit {
   double rms_n = 0;        // rms of all residuals
   std::size_t points = 0;  // in all
   std::size_t in_contact = 0;
-  std::optional<std::size_t>
-      noise_order;    // order of the autoregressive noise, 0 to 4; none: taken for white, or no noise
-  double runs_p = 1;  // probability of as few runs of the whitened residuals, or fewer
+  std::optional<std::size_t> noise_order;       // autoregressive order, 0 to 4; none: assumed white, or no noise
+  double runs_p = 1;                            // probability of as few runs of the whitened residuals, or fewer
   std::optional<double> half_depth_modulus_pa;  // modulus from the upper half of the depth
   Trust trust = Trust::Trusted;
   std::vector<Found> doubts;
