@@ -18,7 +18,7 @@ namespace afm::curves {
 
 namespace {
 
-constexpr std::size_t kMostCurvesCounted = 1000;
+constexpr std::size_t kMostCurves = 1'000'000;
 
 // Owns an HDF5 identifier of any kind; all kinds are reference-counted in the same way.
 class Handle {
@@ -140,9 +140,11 @@ std::string text_of(hid_t attribute, hid_t type) {
 
 // The attributes that afmformats may have written, as JSON in its format.
 nlohmann::json metadata_of(hid_t group) {
-  constexpr std::array kKeys{"imaging mode", "spring constant", "sensitivity", "speed approach",   "speed retract",
-                             "setpoint",     "instrument",      "software",    "software version", "date",
-                             "time",         "curve id"};
+  constexpr std::array kKeys{"imaging mode",  "spring constant", "sensitivity",  "speed approach",   "speed retract",
+                             "setpoint",      "instrument",      "software",     "software version", "date",
+                             "time",          "curve id",        "position x",   "position y",       "grid center x",
+                             "grid center y", "grid index x",    "grid index y", "grid shape x",     "grid shape y",
+                             "grid size x",   "grid size y"};
   nlohmann::json metadata = nlohmann::json::object();
   for (const char* key : kKeys) {
     if (H5Aexists(group, key) <= 0) continue;
@@ -193,9 +195,7 @@ bool has(hid_t group, const char* name) {
 }
 
 // afmformats' files have the groups "0", "1", ...; other programs' files have others.
-std::string missing_curve(hid_t file, const std::string& name) {
-  std::size_t curves = 0;
-  while (curves < kMostCurvesCounted && has(file, std::to_string(curves).c_str())) ++curves;
+std::string missing_curve(hid_t file, const std::string& name, std::size_t curves) {
   if (curves > 0) return fmt::format("it has no curve \"{}\"; it has {}, counted from 0", name, curves);
   std::array<char, 64> first{};
   const ssize_t size =
@@ -230,19 +230,30 @@ std::vector<double> column_of(hid_t group, const char* name) {
 
 }  // namespace
 
-RecordedCurve read_hdf5(std::string_view bytes, std::size_t index) {
+Hdf5Curves::Hdf5Curves(std::string_view bytes) : file_(H5I_INVALID_HID) {
   const Handle access = access_to_memory();
   // HDF5 copies the image
   must_do(H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()), "take the file");
-  const Handle file(H5Fopen("curve", H5F_ACC_RDONLY, access.get()));
-  if (!file.is_open()) throw CurveError("it is damaged or cut short");
+  file_ = H5Fopen("curve", H5F_ACC_RDONLY, access.get());
+  if (file_ < 0) throw CurveError("it is damaged or cut short");
+}
+
+Hdf5Curves::~Hdf5Curves() { H5Fclose(file_); }
+
+std::size_t Hdf5Curves::size() const {
+  std::size_t curves = 0;
+  while (curves < kMostCurves && has(file_, std::to_string(curves).c_str())) ++curves;
+  return curves;
+}
+
+RecordedCurve Hdf5Curves::curve(std::size_t index) const {
   const std::string name = std::to_string(index);
-  if (!has(file.get(), name.c_str())) throw CurveError(missing_curve(file.get(), name));
-  const Handle group(H5Gopen2(file.get(), name.c_str(), H5P_DEFAULT));
+  if (!has(file_, name.c_str())) throw CurveError(missing_curve(file_, name, size()));
+  const Handle group(H5Gopen2(file_, name.c_str(), H5P_DEFAULT));
   if (!group.is_open()) throw CurveError(fmt::format("its curve \"{}\" is damaged", name));
 
   RecordedCurve curve;
-  read_parameters(file.get(), curve.metadata);
+  read_parameters(file_, curve.metadata);
   read_afmformats_metadata(metadata_of(group.get()), curve.metadata);
   const std::vector<double> force = column_of(group.get(), "force"), segment = column_of(group.get(), "segment");
   const std::vector<double> height =

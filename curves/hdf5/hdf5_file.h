@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -15,7 +16,23 @@ namespace afm::curves {
 // One curve in group "0". Throws std::runtime_error.
 std::string hdf5_bytes(const RecordedCurve& curve);
 
-// Reads the curve of group `index`. Rejects data in other files. HDF5 may crash on a damaged file. Throws CurveError.
-RecordedCurve read_hdf5(std::string_view bytes, std::size_t index);
+// A file in memory. Rejects data in other files. HDF5 may crash on a damaged file. Throws CurveError.
+class Hdf5Curves {
+ public:
+  // The bytes must outlive the object.
+  explicit Hdf5Curves(std::string_view bytes);
+  Hdf5Curves(const Hdf5Curves&) = delete;
+  Hdf5Curves& operator=(const Hdf5Curves&) = delete;
+  ~Hdf5Curves();
+
+  // Number of the groups "0", "1" and so on, at most a million.
+  std::size_t size() const;
+
+  // The curve of group `index`.
+  RecordedCurve curve(std::size_t index) const;
+
+ private:
+  std::int64_t file_;  // HDF5's hid_t
+};
 
 }  // namespace afm::curves

@@ -2,13 +2,18 @@
 // touchafm-hdf5: reads and writes afmformats' HDF5 curves for touchafm in a confined process, because HDF5 1.10 crashes
 // on damaged files, and Debian's library loads curl, Kerberos and LDAP, which no other command needs.
 //
-// touchafm-hdf5 read INDEX   reads an .h5 from stdin, writes its curve as afmformats .tab to stdout
-// touchafm-hdf5 write        the reverse
+// touchafm-hdf5 read INDEX          reads an .h5 from stdin, writes its curve as afmformats .tab to stdout
+// touchafm-hdf5 count               writes the number of its curves
+// touchafm-hdf5 stream FIRST STEP   writes every STEP-th curve from FIRST on, each as a message
+// (formats/confined_child.h) touchafm-hdf5 write               the reverse of read
 //
 // Exit codes are those of formats/confined_child.h; a fault of the file is reported on stdout.
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstddef>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -18,6 +23,7 @@
 #include "curves/curve_error.h"
 #include "formats/confined_child.h"
 #include "formats/confinement.h"
+#include "formats/segments.h"
 #include "formats/tab_file.h"
 #include "hdf5_file.h"
 
@@ -34,16 +40,48 @@ std::string read_stdin() {
   return bytes;
 }
 
-curves::ChildExit convert(std::string_view how, std::string_view index_text) {
-  std::size_t index = 0;
-  std::from_chars(index_text.data(), index_text.data() + index_text.size(), index);
+std::size_t number_of(std::string_view text) {
+  std::size_t number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+void stream(const curves::Hdf5Curves& file, std::size_t first, std::size_t step) {
+  const std::size_t count = file.size();
+  for (std::size_t i = first; i < count; i += step) {
+    try {
+      curves::put_message({false, tab_bytes(file.curve(i))});
+    } catch (const curves::CurveError& fault) {
+      curves::put_message({true, fault.what()});
+    }
+  }
+}
+
+// What is written to stdout at the end; a stream has written everything before.
+std::string converted(std::string_view how, std::size_t first, std::size_t step) {
+  const std::string bytes = read_stdin();
+  curves::confine_this_process(how == "stream" ? curves::kStreamProcessorTime : curves::kChildProcessorTime);
+  if (how == "write") return curves::hdf5_bytes(curves::read_tab(bytes));
+  const curves::Hdf5Curves file(bytes);
+  if (how == "count") return std::to_string(file.size());
+  if (how == "read") {
+    curves::RecordedCurve curve = file.curve(first);
+    curves::remark_index(first, file.size(), curve.metadata);
+    return tab_bytes(curve);
+  }
+  stream(file, first, std::max<std::size_t>(1, step));
+  return {};
+}
+
+curves::ChildExit convert(std::string_view how, std::size_t first, std::size_t step) {
   try {
-    const std::string bytes = read_stdin();
-    curves::confine_this_process();
-    const std::string converted =
-        how == "read" ? tab_bytes(curves::read_hdf5(bytes, index)) : curves::hdf5_bytes(curves::read_tab(bytes));
-    return core::write_all(STDOUT_FILENO, converted) == 0 ? curves::ChildExit::Done : curves::ChildExit::Failed;
+    return core::write_all(STDOUT_FILENO, converted(how, first, step)) == 0 ? curves::ChildExit::Done
+                                                                            : curves::ChildExit::Failed;
   } catch (const curves::CurveError& fault) {
+    if (how == "stream") {
+      curves::put_message({true, fault.what()});
+      return curves::ChildExit::Done;
+    }
     return core::write_all(STDOUT_FILENO, fault.what()) == 0 ? curves::ChildExit::Fault : curves::ChildExit::Failed;
   } catch (const std::exception& fault) {
     core::log_line(fault.what());
@@ -54,11 +92,13 @@ curves::ChildExit convert(std::string_view how, std::string_view index_text) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  constexpr std::array<std::string_view, 4> kWays{"read", "count", "stream", "write"};
   const std::string_view how = count > 1 ? arguments[1] : "";
-  if (how != "read" && how != "write") {
+  if (std::find(kWays.begin(), kWays.end(), how) == kWays.end()) {
     core::log_line("touchafm-hdf5 is started by touchafm; run 'touchafm analyse FILE.h5' instead");
     return 2;
   }
+  const std::size_t first = count > 2 ? number_of(arguments[2]) : 0, step = count > 3 ? number_of(arguments[3]) : 1;
   // skips HDF5's own clean-up, which may crash
-  ::_exit(static_cast<int>(convert(how, count > 2 ? arguments[2] : "0")));
+  ::_exit(static_cast<int>(convert(how, first, step)));
 }

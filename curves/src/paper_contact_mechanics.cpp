@@ -48,7 +48,7 @@ struct Row {
   double (*value)(const physics::CycleFigures& figures, double contact_zero_m);
 };
 
-constexpr std::array<Row, 8> kRows{
+constexpr std::array<Row, 8> kContactRows{
     {{"snap-in at Z (nm)", "snap_in_z_m", 1e9, [](const physics::CycleFigures& f, double) { return f.z_jtc.si; }},
      {"lever's force before it (nN)", "snap_in_force_before_N", 1e9,
       [](const physics::CycleFigures& f, double) { return f.force_before_jtc.si; }},
@@ -78,7 +78,7 @@ std::string contact_mechanics_markdown(const scene::MaterialLibrary& library) {
     rule += "---:|---:|";
   }
   text += "\n" + rule + "\n";
-  for (const Row& row : kRows) {
+  for (const Row& row : kContactRows) {
     text += fmt::format("| {} |", row.name);
     for (const Comparison& c : columns) {
       text += fmt::format(" {} | {} |", cell(row.value(c.paper, 0.0) * row.per_si),
@@ -101,7 +101,7 @@ nlohmann::ordered_json contact_mechanics_json(const scene::MaterialLibrary& libr
     entry = {{"law", physics::name_of(c.choice.law)},
              {"regime", physics::name_of(c.choice.regime)},
              {"tabor_parameter", c.choice.tabor}};
-    for (const Row& row : kRows) {
+    for (const Row& row : kContactRows) {
       const double paper = row.value(c.paper, 0.0), chosen = row.value(c.chosen, c.contact_zero_m);
       entry["paper"][row.key] = std::isfinite(paper) ? json(paper + 0.0) : json();
       entry["chosen"][row.key] = std::isfinite(chosen) ? json(chosen + 0.0) : json();

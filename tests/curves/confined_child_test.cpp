@@ -74,6 +74,45 @@ TEST(ConfinedChild, IsKilledWhenItTakesTooLong) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 
+TEST(ConfinedStream, GivesMessagesAsTheyComeAndAFaultAsTheLast) {
+  ConfinedStream stream(
+      [](const PutMessage& put) {
+        put({false, std::string(300'000, 'x')});
+        put({true, "one of them is odd"});
+        put({false, ""});
+        throw CurveError("the rest is odd");
+      },
+      "died");
+  EXPECT_EQ(stream.next()->text, std::string(300'000, 'x'));
+  const auto odd = stream.next();
+  EXPECT_TRUE(odd->fault);
+  EXPECT_EQ(odd->text, "one of them is odd");
+  EXPECT_EQ(stream.next()->text, "");
+  EXPECT_EQ(stream.next()->text, "the rest is odd");
+  EXPECT_FALSE(stream.next());
+  EXPECT_FALSE(stream.next()) << "after its end";
+}
+
+TEST(ConfinedStream, SaysThatItsChildDied) {
+  ConfinedStream stream(
+      [](const PutMessage& put) {
+        put({false, "first"});
+        ::_exit(3);
+      },
+      "died");
+  EXPECT_EQ(stream.next()->text, "first");
+  EXPECT_THAT([&] { stream.next(); }, testing::ThrowsMessage<CurveError>("died"));
+}
+
+TEST(ConfinedStream, WaitsForEachMessageSoLongAndNoLonger) {
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    ConfinedStream stream([](const PutMessage&) { hang(); }, "died", std::chrono::milliseconds(200));
+    EXPECT_THAT([&] { stream.next(); }, testing::ThrowsMessage<CurveError>(HasSubstr("longer than 0.2 s")));
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
+
 // "S", "R", ...; "Z" or nothing once it is dead.
 std::string state_of(pid_t process) {
   std::ifstream stat("/proc/" + std::to_string(process) + "/stat");

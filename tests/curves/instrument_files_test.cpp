@@ -118,7 +118,6 @@ TEST(JpkFile, RefusesWhatItDoesNotUnderstand) {
     entries[entry] = text;
     return error_of(test::stored_zip(entries));
   };
-  EXPECT_THAT(refusal("index/0/header.properties", ""), HasSubstr("a map or QI file of many curves"));
   EXPECT_THAT(refusal("segments/0/channels/vDeflection.dat", "odd"), HasSubstr("\"vDeflection\" is cut short"));
   EXPECT_THAT(refusal("segments/0/channels/vDeflection.dat", "even"), HasSubstr("differ in length"));
   EXPECT_THAT(refusal("segments/0/segment-header.properties", ""), HasSubstr("whether it extends or retracts"));

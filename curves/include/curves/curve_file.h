@@ -19,14 +19,15 @@ enum class CurveFormat {
   TouchAfmCsv,     // output of `touchafm curve`
   Tab,             // afmformats, text
   Hdf5,            // afmformats, HDF5
-  JpkForce,        // JPK's .jpk-force; read only
+  JpkForce,        // JPK's .jpk-force and its maps; read only
   AfmWorkshop,     // AFM Workshop's .csv; Gwyddion reads it too
   IgorBinaryWave,  // Asylum Research's .ibw; read only
 };
 
 // All formats, for help and error messages.
 inline constexpr const char* kCurveFiles =
-    "TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, Igor .ibw";
+    "TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, .jpk-force-map or .jpk-qi-data, Igor "
+    ".ibw";
 
 // Returns whether a regular file begins like a curve.
 bool is_curve_file(const std::string& path);
@@ -49,12 +50,13 @@ std::vector<WritableFormat> writable_formats();
 struct CurveReading {
   std::optional<physics::Stiffness> spring_constant;
   std::optional<double> sensitivity_m_per_v;
-  std::size_t index = 0;  // index of the curve, in an .h5 with several
+  std::size_t index = 0;  // number of the curve in a file with several (curves/curve_series.h)
   bool confined = true;   // foreign formats in a process that cannot open anything; false: here, for a fuzzer
 };
 
 // Detects the format by its content. BadInputFile, in one line that names the file, for any content that is not
-// completely understood: truncated, altered, larger than 256 MiB, of another kind, or without a necessary calibration.
+// completely understood: truncated, altered, of another kind, without a necessary calibration, or larger than 256 MiB
+// (a map: 16 GiB).
 // Takes at most 1 GiB.
 core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReading& reading = {});
 

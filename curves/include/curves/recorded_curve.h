@@ -13,6 +13,31 @@
 
 namespace afm::curves {
 
+// Where a curve was recorded, in the frame of the instrument's scanner; x is the fast axis.
+struct CurvePosition {
+  double x_m = 0, y_m = 0;
+};
+
+// Grid of a map of curves.
+struct MapGrid {
+  std::size_t columns = 0, rows = 0;      // 1 to kMostMapSide
+  double width_m = 0, height_m = 0;       // from edge to edge of the outer pixels; positive
+  double center_x_m = 0, center_y_m = 0;  // in the frame of CurvePosition
+  bool operator==(const MapGrid&) const = default;
+};
+inline constexpr std::size_t kMostMapSide = 8192;
+
+// Place of a curve in its map. Column 0 is at the left, row 0 at the bottom.
+struct MapPixel {
+  MapGrid grid;
+  std::size_t column = 0, row = 0;
+};
+
+// Pixel of a grid that is turned by `turn_rad` about its center, counterclockwise, with `reflected` rows from the top.
+// Empty outside the grid.
+std::optional<MapPixel> pixel_at(const CurvePosition& position, const MapGrid& grid, double turn_rad = 0,
+                                 bool reflected = false);
+
 // A file's information on how its curve was recorded; missing information is empty.
 struct CurveMetadata {
   std::optional<physics::Stiffness> spring_constant;
@@ -26,6 +51,8 @@ struct CurveMetadata {
   std::string date;      // YYYY-MM-DD
   std::string time;      // HH:MM:SS, local to the instrument
   std::string curve_id;  // identifies the curve
+  std::optional<CurvePosition> position;
+  std::optional<MapPixel> pixel;
   // Inputs of a computed curve and other entries of TouchAFM's own files: keys with their units, "tip_radius_m".
   std::vector<std::pair<std::string, std::string>> parameters;
   // What a reader left out or turned, and what it doubts: one sentence each, for the person who brought the file.

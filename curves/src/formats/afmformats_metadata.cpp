@@ -30,6 +30,34 @@ void read_number(const nlohmann::json& from, const char* key, std::optional<Q>& 
   value = Q(si);
 }
 
+std::optional<std::size_t> count_of(const std::optional<double>& number, std::size_t most) {
+  const bool is_count = number && *number >= 0.0 && *number <= static_cast<double>(most);
+  return is_count ? std::optional(static_cast<std::size_t>(std::lround(*number))) : std::nullopt;
+}
+
+// Position, and with a whole grid the pixel: by its indexes, or, without them, by the position as in afmformats.
+void read_place(const nlohmann::json& from, CurveMetadata& metadata) {
+  const auto number = [&from](const char* key) {
+    std::optional<double> value;
+    read_number(from, key, value);
+    return value;
+  };
+  const auto x = number("position x"), y = number("position y");
+  if (x && y) metadata.position = {*x, *y};
+  const auto columns = count_of(number("grid shape x"), kMostMapSide),
+             rows = count_of(number("grid shape y"), kMostMapSide);
+  const auto width = number("grid size x"), height = number("grid size y");
+  if (columns.value_or(0) == 0 || rows.value_or(0) == 0 || !(width && *width > 0.0 && height && *height > 0.0)) return;
+  const MapGrid grid{
+      *columns, *rows, *width, *height, number("grid center x").value_or(0.0), number("grid center y").value_or(0.0)};
+  const auto column = count_of(number("grid index x"), *columns - 1), row = count_of(number("grid index y"), *rows - 1);
+  if (column && row) {
+    metadata.pixel = {grid, *column, *row};
+  } else if (metadata.position) {
+    metadata.pixel = pixel_at(*metadata.position, grid);
+  }
+}
+
 }  // namespace
 
 nlohmann::ordered_json afmformats_metadata(const RecordedCurve& curve) {
@@ -52,6 +80,21 @@ nlohmann::ordered_json afmformats_metadata(const RecordedCurve& curve) {
   put_text("date", from.date);
   put_text("time", from.time);
   put_text("curve id", from.curve_id);
+  if (from.position) {
+    to["position x"] = from.position->x_m;
+    to["position y"] = from.position->y_m;
+  }
+  if (from.pixel) {
+    const MapGrid& grid = from.pixel->grid;
+    to["grid center x"] = grid.center_x_m;
+    to["grid center y"] = grid.center_y_m;
+    to["grid index x"] = from.pixel->column;
+    to["grid index y"] = from.pixel->row;
+    to["grid shape x"] = grid.columns;
+    to["grid shape y"] = grid.rows;
+    to["grid size x"] = grid.width_m;
+    to["grid size y"] = grid.height_m;
+  }
   return to;
 }
 
@@ -73,6 +116,7 @@ void read_afmformats_metadata(const nlohmann::json& from, CurveMetadata& metadat
   read_text(from, "date", metadata.date);
   read_text(from, "time", metadata.time);
   read_text(from, "curve id", metadata.curve_id);
+  read_place(from, metadata);
 }
 
 }  // namespace afm::curves

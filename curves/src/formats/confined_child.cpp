@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdint>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <initializer_list>
@@ -21,6 +23,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "core/file_descriptor.h"
 #include "core/system_error.h"
@@ -37,20 +40,21 @@ using Clock = std::chrono::steady_clock;
 // more than the text of the largest curve
 constexpr std::size_t kMostResultBytes = std::size_t{1} << 30U;
 
-// Reads until the other end is closed. Empty if that does not happen before `end`, or the data are too long.
-std::optional<std::string> read_all(int descriptor, Clock::time_point end) {
+// Reads `most` bytes, or all until the other end is closed. Empty if neither happens before `end`.
+std::optional<std::string> read_until(int descriptor, std::size_t most, Clock::time_point end) {
   std::string bytes;
   char buffer[65536];
-  for (;;) {
+  while (bytes.size() < most) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
     pollfd watched{.fd = descriptor, .events = POLLIN, .revents = 0};
-    if (left.count() <= 0 || bytes.size() > kMostResultBytes) return std::nullopt;
+    if (left.count() <= 0) return std::nullopt;
     if (::poll(&watched, 1, static_cast<int>(left.count())) <= 0) continue;
-    const ssize_t count = ::read(descriptor, buffer, sizeof(buffer));
+    const ssize_t count = ::read(descriptor, buffer, std::min(sizeof(buffer), most - bytes.size()));
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return bytes;
+    if (count <= 0) break;
     bytes.append(buffer, static_cast<std::size_t>(count));
   }
+  return bytes;
 }
 
 // Waits for the child's end until `end`; returns whether it ended, and its status.
@@ -73,12 +77,16 @@ void keep_only(std::initializer_list<int> descriptors) {
   ::syscall(SYS_close_range, first, std::numeric_limits<unsigned>::max(), 0U);
 }
 
-ChildExit work_confined(const std::function<std::string()>& work, int to_parent) {
+// A child's whole life: what is written to the descriptor goes to the parent.
+using ChildWork = std::function<ChildExit(int to_parent)>;
+
+ChildExit work_confined(const std::function<void()>& work, std::chrono::seconds processor_time, int to_parent) {
   try {
     const auto [lower, upper] = std::minmax({to_parent, STDERR_FILENO});
     keep_only({lower, upper});
-    confine_this_process();
-    return core::write_all(to_parent, work()) == 0 ? ChildExit::Done : ChildExit::Failed;
+    confine_this_process(processor_time);
+    work();
+    return ChildExit::Done;
   } catch (const CurveError& fault) {
     return core::write_all(to_parent, fault.what()) == 0 ? ChildExit::Fault : ChildExit::Failed;
   } catch (const std::exception&) {
@@ -86,10 +94,13 @@ ChildExit work_confined(const std::function<std::string()>& work, int to_parent)
   }
 }
 
-// Forks a process that runs `child_work`, and returns what it writes to the given descriptor. The child neither runs
-// the parent's destructors nor flushes its buffers.
-std::string result_of(const std::function<ChildExit(int to_parent)>& child_work, const std::string& on_death,
-                      std::chrono::milliseconds patience) {
+struct Forked {
+  pid_t child;
+  core::FileDescriptor from_child;
+};
+
+// The child neither runs the parent's destructors nor flushes its buffers.
+Forked forked(const ChildWork& work) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
     throw std::runtime_error(std::string("cannot make a pipe: ") + core::system_error(errno));
@@ -100,18 +111,26 @@ std::string result_of(const std::function<ChildExit(int to_parent)>& child_work,
   if (child == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const bool orphan = ::getppid() != parent;  // the parent died earlier
-    ::_exit(static_cast<int>(orphan ? ChildExit::Failed : child_work(to_parent.get())));
+    ::_exit(static_cast<int>(orphan ? ChildExit::Failed : work(to_parent.get())));
   }
-  to_parent.close();
+  return {child, std::move(from_child)};
+}
+
+[[noreturn]] void throw_late(std::chrono::milliseconds patience) {
+  throw CurveError(fmt::format("reading it took longer than {:g} s", std::chrono::duration<double>(patience).count()));
+}
+
+// All that a child writes.
+std::string result_of(const ChildWork& work, const std::string& on_death, std::chrono::milliseconds patience) {
+  const Forked forked_child = forked(work);
   const auto end = Clock::now() + patience;
-  const auto bytes = read_all(from_child.get(), end);
+  const auto bytes = read_until(forked_child.from_child.get(), kMostResultBytes, end);
   int status = 0;
-  const bool ended = bytes && ended_by(end, child, status);
+  const bool ended = bytes && bytes->size() < kMostResultBytes && ended_by(end, forked_child.child, status);
   if (!ended) {
-    ::kill(child, SIGKILL);
-    ::waitpid(child, &status, 0);
-    throw CurveError(
-        fmt::format("reading it took longer than {:g} s", std::chrono::duration<double>(patience).count()));
+    ::kill(forked_child.child, SIGKILL);
+    ::waitpid(forked_child.child, &status, 0);
+    throw_late(patience);
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ChildExit::Done)) return *bytes;
   if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ChildExit::Fault)) throw CurveError(*bytes);
@@ -138,32 +157,120 @@ core::FileDescriptor unnamed_file(std::string_view bytes) {
   return file;
 }
 
+// Runs one of our programs in a child, with `input` on stdin and the pipe on stdout. Everything is allocated before the
+// fork.
+class ProgramWork {
+ public:
+  ProgramWork(const std::string& name, const std::vector<std::string>& arguments, std::string_view input)
+      : program_(find_program(name)), arguments_(arguments), input_(unnamed_file(input)) {
+    raw_.push_back(program_.data());
+    for (std::string& argument : arguments_) raw_.push_back(argument.data());
+    raw_.push_back(nullptr);
+  }
+
+  ChildExit operator()(int to_parent) const {
+    if (::dup2(to_parent, STDOUT_FILENO) >= 0 && ::dup2(input_.get(), STDIN_FILENO) >= 0) {
+      keep_only({STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO});
+      ::execv(raw_.front(), raw_.data());
+    }
+    return ChildExit::Failed;
+  }
+
+ private:
+  std::string program_;
+  std::vector<std::string> arguments_;
+  std::vector<char*> raw_;
+  core::FileDescriptor input_;
+};
+
+// Before the text of a message.
+struct MessageHead {
+  std::uint64_t size = 0;
+  std::uint64_t fault = 0;
+};
+
+void put_message_to(int descriptor, const ChildMessage& message) {
+  const MessageHead head{message.text.size(), message.fault ? 1U : 0U};
+  std::string bytes(sizeof(head), '\0');
+  std::memcpy(bytes.data(), &head, sizeof(head));
+  bytes += message.text;
+  if (core::write_all(descriptor, bytes) != 0) throw std::runtime_error("nobody reads the messages any more");
+}
+
 }  // namespace
 
 std::string in_confined_child(const std::function<std::string()>& work, const std::string& on_death,
                               std::chrono::milliseconds patience) {
-  return result_of([&](int to_parent) { return work_confined(work, to_parent); }, on_death, patience);
+  return result_of(
+      [&](int to_parent) {
+        const auto write = [&] {
+          if (core::write_all(to_parent, work()) != 0) throw std::runtime_error("nobody reads the result");
+        };
+        return work_confined(write, kChildProcessorTime, to_parent);
+      },
+      on_death, patience);
 }
 
 std::string from_confined_program(const std::string& name, const std::vector<std::string>& arguments,
                                   std::string_view input, const std::string& on_death,
                                   std::chrono::milliseconds patience) {
-  // allocates everything before the fork
-  std::string program = find_program(name);
-  std::vector<std::string> all = arguments;
-  std::vector<char*> raw{program.data()};
-  for (std::string& argument : all) raw.push_back(argument.data());
-  raw.push_back(nullptr);
-  const core::FileDescriptor file = unnamed_file(input);
-  return result_of(
-      [&](int to_parent) {
-        if (::dup2(to_parent, STDOUT_FILENO) >= 0 && ::dup2(file.get(), STDIN_FILENO) >= 0) {
-          keep_only({STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO});
-          ::execv(raw.front(), raw.data());
-        }
-        return ChildExit::Failed;
-      },
-      on_death, patience);
+  const ProgramWork work(name, arguments, input);
+  return result_of([&](int to_parent) { return work(to_parent); }, on_death, patience);
+}
+
+void put_message(const ChildMessage& message) { put_message_to(STDOUT_FILENO, message); }
+
+ConfinedStream::ConfinedStream(const std::function<void(const PutMessage&)>& work, const char* on_death,
+                               std::chrono::milliseconds patience)
+    : on_death_(on_death), patience_(patience) {
+  Forked made = forked([&](int to_parent) {
+    const auto put = [&] {
+      try {
+        work([to_parent](const ChildMessage& message) { put_message_to(to_parent, message); });
+      } catch (const CurveError& fault) {
+        put_message_to(to_parent, {true, fault.what()});
+      }
+    };
+    return work_confined(put, kStreamProcessorTime, to_parent);
+  });
+  child_ = made.child;
+  from_child_ = std::move(made.from_child);
+}
+
+ConfinedStream::ConfinedStream(const std::string& name, const std::vector<std::string>& arguments,
+                               std::string_view input, const char* on_death, std::chrono::milliseconds patience)
+    : on_death_(on_death), patience_(patience) {
+  const ProgramWork work(name, arguments, input);
+  Forked made = forked([&](int to_parent) { return work(to_parent); });
+  child_ = made.child;
+  from_child_ = std::move(made.from_child);
+}
+
+ConfinedStream::~ConfinedStream() {
+  if (child_ < 0) return;
+  ::kill(child_, SIGKILL);
+  ::waitpid(child_, nullptr, 0);
+}
+
+std::optional<ChildMessage> ConfinedStream::next() {
+  if (child_ < 0) return std::nullopt;
+  const auto end = Clock::now() + patience_;
+  MessageHead head;
+  const auto begun = read_until(from_child_.get(), sizeof(head), end);
+  if (!begun) throw_late(patience_);
+  if (begun->size() == sizeof(head)) {
+    std::memcpy(&head, begun->data(), sizeof(head));
+    if (head.size > kMostResultBytes) throw CurveError(on_death_);
+    auto text = read_until(from_child_.get(), head.size, end);
+    if (!text) throw_late(patience_);
+    if (text->size() < head.size) throw CurveError(on_death_);
+    return ChildMessage{head.fault != 0, std::move(*text)};
+  }
+  int status = 0;
+  if (!ended_by(end, child_, status)) throw_late(patience_);
+  child_ = -1;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ChildExit::Done)) return std::nullopt;
+  throw CurveError(on_death_);
 }
 
 }  // namespace afm::curves

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/file_descriptor.h"
 
 namespace afm::curves {
 
@@ -30,5 +36,42 @@ std::string in_confined_child(const std::function<std::string()>& work, const st
 std::string from_confined_program(const std::string& name, const std::vector<std::string>& arguments,
                                   std::string_view input, const std::string& on_death,
                                   std::chrono::milliseconds patience = kChildPatience);
+
+// One message of a child: a result, or a fault of the file, as a sentence.
+struct ChildMessage {
+  bool fault = false;
+  std::string text;
+};
+
+// Passes a message to the parent. Throws std::runtime_error if it has gone.
+using PutMessage = std::function<void(const ChildMessage&)>;
+
+// For a program that was started for a stream: a message on stdout.
+void put_message(const ChildMessage& message);
+
+// A confined child that goes on while its messages are read, with the rules of in_confined_child(). At most 64 KiB wait
+// unread. One thread, the one that made it. Not moved.
+class ConfinedStream {
+ public:
+  // `patience`: for each message. `on_death` must outlive the object.
+  ConfinedStream(const std::function<void(const PutMessage&)>& work, const char* on_death,
+                 std::chrono::milliseconds patience = kChildPatience);
+  // One of our programs, as in from_confined_program(), which writes put_message()s.
+  ConfinedStream(const std::string& name, const std::vector<std::string>& arguments, std::string_view input,
+                 const char* on_death, std::chrono::milliseconds patience = kChildPatience);
+  ConfinedStream(const ConfinedStream&) = delete;
+  ConfinedStream& operator=(const ConfinedStream&) = delete;
+  ~ConfinedStream();  // kills the child
+
+  // The next message; empty at the end of the work. A CurveError that ends the work is a message, too. Throws
+  // CurveError if the child died, or is late.
+  std::optional<ChildMessage> next();
+
+ private:
+  const char* on_death_;
+  std::chrono::milliseconds patience_;
+  pid_t child_ = -1;
+  core::FileDescriptor from_child_;
+};
 
 }  // namespace afm::curves

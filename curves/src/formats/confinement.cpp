@@ -27,7 +27,6 @@ namespace afm::curves {
 namespace {
 
 constexpr rlim_t kMoreMemory = rlim_t{512} << 20U;
-constexpr rlim_t kMoreSeconds = 3;
 
 // Calls for memory, time, waiting threads, open descriptors, and exit. A pipe within the process is harmless; UBSan
 // uses one to test whether an address is readable.
@@ -57,7 +56,7 @@ constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
                            core::system_error(errno));
 }
 
-void limit_resources() {
+void limit_resources(std::chrono::seconds processor_time) {
   // in pages; relative, because a sanitizer has mapped terabytes already
   rlim_t mapped = 0;
   std::ifstream("/proc/self/statm") >> mapped;
@@ -65,7 +64,7 @@ void limit_resources() {
   const rlimit address_space{memory, memory}, no_core{0, 0};
   rusage used{};
   ::getrusage(RUSAGE_SELF, &used);
-  const rlim_t seconds = static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + kMoreSeconds;
+  const rlim_t seconds = static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec + processor_time.count());
   const rlimit processor{seconds, seconds};
   if (::setrlimit(RLIMIT_AS, &address_space) != 0 || ::setrlimit(RLIMIT_CPU, &processor) != 0 ||
       ::setrlimit(RLIMIT_CORE, &no_core) != 0) {
@@ -108,8 +107,8 @@ void close_calls() {
 
 }  // namespace
 
-void confine_this_process() {
-  limit_resources();
+void confine_this_process(std::chrono::seconds processor_time) {
+  limit_resources(processor_time);
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) refuse("no_new_privs");
   close_files();
   close_calls();

@@ -6,20 +6,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "core/enumerators.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
+#include "curves/curve_series.h"
 #include "curves/image_file.h"
 #include "formats/confined_child.h"
+#include "formats/confined_series.h"
 #include "formats/format_table.h"
 #include "formats/igor_file.h"
 #include "formats/igor_wave.h"
 #include "formats/jpk_file.h"
+#include "formats/mapped_file.h"
 #include "formats/segments.h"
 #include "formats/tab_file.h"
+#include "formats/text_table.h"
 #include "formats/touchafm_csv_file.h"
 #include "formats/workshop_file.h"
 
@@ -38,9 +44,34 @@ bool begins_as_tab(std::string_view bytes) {
 RecordedCurve read_hdf5(std::string_view bytes, const CurveReading& reading) {
   return read_tab(from_confined_program(kHdf5Program, {"read", std::to_string(reading.index)}, bytes, kNotSurvived));
 }
+std::size_t count_hdf5(const std::string& path) {
+  const auto bytes = bytes_of_file(path);
+  if (!bytes) throw CurveError(bytes.error().message);
+  const std::string count = from_confined_program(kHdf5Program, {"count"}, *bytes, kNotSurvived);
+  return static_cast<std::size_t>(number_in(count, "count", Lines({})));
+}
+std::unique_ptr<ConfinedStream> stream_hdf5(const std::string& path, const SeriesPart& part, const CurveReading&) {
+  const auto bytes = bytes_of_file(path);
+  if (!bytes) throw CurveError(bytes.error().message);
+  return std::make_unique<ConfinedStream>(
+      kHdf5Program, std::vector{std::string("stream"), std::to_string(part.first), std::to_string(part.step)}, *bytes,
+      kNotSurvived);
+}
 std::string hdf5_bytes(const RecordedCurve& curve) {
   return from_confined_program(kHdf5Program, {"write"}, tab_bytes(curve), "HDF5 could not make it");
 }
+
+RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
+  const JpkArchive archive(bytes);
+  if (reading.index >= archive.size()) {
+    throw CurveError(fmt::format("it has no curve {}; it has {}, counted from 0", reading.index, archive.size()));
+  }
+  RecordedCurve curve = archive.curve(reading.index, reading);
+  remark_index(reading.index, archive.size(), curve.metadata);
+  return curve;
+}
+
+constexpr SeriesRow kHdf5Series{count_hdf5, stream_hdf5}, kJpkSeries = series_of<JpkArchive>();
 
 enum class Reader { Ours, Foreign };  // Foreign: formats of other programs, read in a confined child
 
@@ -50,7 +81,7 @@ struct CurveRow {
   std::string_view word;   // value of --format; empty: read only
   bool (*begins)(std::string_view bytes);
   Reader reader;
-  bool several;  // files may contain several curves
+  const SeriesRow* series;  // null: files hold one curve
   RecordedCurve (*read)(std::string_view bytes, const CurveReading& reading);
   std::string (*write)(const RecordedCurve& curve);  // null: read only
   bool binary = false;                               // no text for a terminal
@@ -65,19 +96,19 @@ constexpr FormatTable kCurves{
     std::array{
         CurveRow{CurveFormat::TouchAfmCsv, "TouchAFM .csv", "",
                  [](std::string_view b) { return b.starts_with("# TouchAFM force-displacement curve"); }, Reader::Ours,
-                 false, [](std::string_view b, const CurveReading&) { return read_touchafm_csv(b); }, nullptr},
-        CurveRow{CurveFormat::Tab, "afmformats .tab", "tab", begins_as_tab, Reader::Ours, false,
+                 nullptr, [](std::string_view b, const CurveReading&) { return read_touchafm_csv(b); }, nullptr},
+        CurveRow{CurveFormat::Tab, "afmformats .tab", "tab", begins_as_tab, Reader::Ours, nullptr,
                  [](std::string_view b, const CurveReading&) { return read_tab(b); }, tab_bytes},
         CurveRow{CurveFormat::Hdf5, ".h5", "h5", [](std::string_view b) { return b.starts_with("\x89HDF\r\n\x1a\n"); },
-                 Reader::Ours, true, read_hdf5, hdf5_bytes, true},
-        CurveRow{CurveFormat::JpkForce, "JPK .jpk-force", "",
-                 [](std::string_view b) { return b.starts_with("PK\x03\x04"); }, Reader::Foreign, false, read_jpk,
+                 Reader::Ours, &kHdf5Series, read_hdf5, hdf5_bytes, true},
+        CurveRow{CurveFormat::JpkForce, "JPK .jpk-force, .jpk-force-map or .jpk-qi-data", "",
+                 [](std::string_view b) { return b.starts_with("PK\x03\x04"); }, Reader::Foreign, &kJpkSeries, read_jpk,
                  nullptr},
         CurveRow{
             CurveFormat::AfmWorkshop, "AFM Workshop .csv", "afm-workshop",
             [](std::string_view b) { return b.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos; },
-            Reader::Foreign, false, read_workshop, workshop_bytes},
-        CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", looks_like_igor, Reader::Foreign, false, read_igor,
+            Reader::Foreign, nullptr, read_workshop, workshop_bytes},
+        CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", looks_like_igor, Reader::Foreign, nullptr, read_igor,
                  nullptr}}};
 static_assert(core::has_row_for_each(kCurves.rows, &CurveRow::format));
 static_assert(kCurves.names_all(), "kCurveFiles names the files of every format");
@@ -132,6 +163,61 @@ void make_texts_printable(CurveMetadata& metadata) {
   for (std::string& remark : metadata.remarks) remark = core::printable_line(remark);
 }
 
+// What every curve must meet, whatever its format.
+RecordedCurve finished(RecordedCurve curve, const CurveReading& reading) {
+  recalibrate(reading, curve);
+  check(curve);
+  make_texts_printable(curve.metadata);
+  return curve;
+}
+
+RecordedCurve parsed(const CurveRow& row, std::string_view text, const CurveReading& reading) {
+  if (reading.index != 0 && row.series == nullptr) throw CurveError("it holds one curve alone");
+  const bool confined = row.reader == Reader::Foreign && reading.confined;
+  RecordedCurve curve = read_confined(confined, [&] { return row.read(text, reading); }, tab_bytes, read_tab);
+  return finished(std::move(curve), reading);
+}
+
+// A map may be larger than memory: its bytes are for the confined child alone.
+bool is_mapped(const CurveRow& row) { return row.reader == Reader::Foreign && row.series != nullptr; }
+
+// Curves of a part of a file, one after the other. A child that dies costs the curve that it was to read.
+class PartReader {
+ public:
+  PartReader(const SeriesRow& series, const std::string& path, const SeriesPart& part, const CurveReading& reading)
+      : series_(series), path_(path), rest_(part), reading_(reading) {}
+
+  // The next curve. Throws if it cannot be read; the next call goes on after it.
+  RecordedCurve next() {
+    constexpr int kMostDeaths = 8;
+    if (deaths_ == kMostDeaths) throw CurveError("it is damaged: its reader has died too often");
+    const SeriesPart rest = std::exchange(rest_, {rest_.first + rest_.step, rest_.step});
+    const ChildMessage message = message_of(rest);
+    if (message.fault) throw CurveError(message.text);
+    return finished(read_tab(message.text), reading_);
+  }
+
+ private:
+  ChildMessage message_of(const SeriesPart& rest) {
+    try {
+      if (!stream_) stream_ = series_.stream(path_, rest, reading_);
+      if (auto message = stream_->next()) return std::move(*message);
+      throw CurveError("it has fewer curves than it had");
+    } catch (const CurveError&) {
+      stream_.reset();
+      ++deaths_;
+      throw;
+    }
+  }
+
+  const SeriesRow& series_;
+  const std::string& path_;
+  SeriesPart rest_;
+  const CurveReading& reading_;
+  std::unique_ptr<ConfinedStream> stream_;
+  int deaths_ = 0;
+};
+
 }  // namespace
 
 std::vector<WritableFormat> writable_formats() {
@@ -142,26 +228,41 @@ std::vector<WritableFormat> writable_formats() {
   return formats;
 }
 
-bool is_curve_file(const std::string& path) { return kCurves.has(path); }
+bool is_curve_file(const std::string& path) { return kCurves.row_of_file(path) != nullptr; }
 
 bool begins_like_curve(std::string_view bytes) { return kCurves.row_of(without_byte_order_mark(bytes)) != nullptr; }
 
 core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReading& reading) {
+  if (const CurveRow* const row = kCurves.row_of_file(path); row != nullptr && is_mapped(*row)) {
+    return kCurves.named(path, [&] { return parsed(*row, MappedFile(path).bytes(), reading); });
+  }
   const auto bytes = bytes_of_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_curve(*bytes, path, reading);
 }
 
 core::Result<RecordedCurve> parse_curve(std::string_view bytes, const std::string& name, const CurveReading& reading) {
-  return kCurves.parse(bytes, name, [&](const CurveRow& row, std::string_view text) {
-    if (reading.index != 0 && !row.several) throw CurveError("it holds one curve alone");
-    const bool confined = row.reader == Reader::Foreign && reading.confined;
-    RecordedCurve curve = read_confined(confined, [&] { return row.read(text, reading); }, tab_bytes, read_tab);
-    recalibrate(reading, curve);
-    check(curve);
-    make_texts_printable(curve.metadata);
-    return curve;
-  });
+  return kCurves.parse(bytes, name,
+                       [&](const CurveRow& row, std::string_view text) { return parsed(row, text, reading); });
+}
+
+core::Result<std::size_t> curve_count(const std::string& path) {
+  const CurveRow* const row = kCurves.row_of_file(path);
+  if (row == nullptr || row->series == nullptr) return 1;
+  return kCurves.named(path, [&] { return row->series->count(path); });
+}
+
+void read_curves(const std::string& path, std::size_t count, const SeriesPart& part, const CurveReading& reading,
+                 const TakeCurve& take) {
+  const CurveRow* const row = kCurves.row_of_file(path);
+  if (row == nullptr || row->series == nullptr) {
+    if (part.first == 0) take(0, load_curve(path, reading));
+    return;
+  }
+  PartReader reader(*row->series, path, part, reading);
+  for (std::size_t index = part.first; index < count; index += part.step) {
+    if (!take(index, kCurves.named(path, [&] { return reader.next(); }))) return;
+  }
 }
 
 core::Result<std::string> curve_bytes(CurveFormat format, const RecordedCurve& curve) {

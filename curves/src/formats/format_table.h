@@ -64,26 +64,33 @@ struct FormatTable {
     return fmt::format("it is {}; known are {}", true_kind, files);
   }
 
-  // Whether the beginning of a regular file is that of a format.
-  bool has(const std::string& path) const {
+  // The row of a regular file by its beginning. Null: of no known format, or no file that can be read.
+  const Row* row_of_file(const std::string& path) const {
     const auto beginning = core::read_beginning(path, longest_beginning);
-    return beginning && row_of(without_byte_order_mark(*beginning)) != nullptr;
+    return beginning ? row_of(without_byte_order_mark(*beginning)) : nullptr;
   }
 
-  // The result of `read`, which gets the row of the content and the bytes without a byte order mark, and throws;
-  // BadInputFile with the name of the file.
+  // The result of `read`, which throws; BadInputFile with the name of the file.
   template <class Read>
-  auto parse(std::string_view bytes, const std::string& name, const Read& read) const
-      -> core::Result<decltype(read(rows.front(), bytes))> {
+  auto named(const std::string& name, const Read& read) const -> core::Result<decltype(read())> {
     try {
-      const std::string_view text = without_byte_order_mark(bytes);
-      const Row* const row = row_of(text);
-      if (row == nullptr) throw CurveError(refusal_of(bytes));
-      return read(*row, text);
+      return read();
     } catch (...) {
       return core::failure(core::ErrorCategory::BadInputFile,
                            fmt::format("cannot read the {} {}: {}", kind, name, reason_of_failure()));
     }
+  }
+
+  // The same for a `read` that gets the row of the content and the bytes without a byte order mark.
+  template <class Read>
+  auto parse(std::string_view bytes, const std::string& name, const Read& read) const
+      -> core::Result<decltype(read(rows.front(), bytes))> {
+    return named(name, [&] {
+      const std::string_view text = without_byte_order_mark(bytes);
+      const Row* const row = row_of(text);
+      if (row == nullptr) throw CurveError(refusal_of(bytes));
+      return read(*row, text);
+    });
   }
 };
 

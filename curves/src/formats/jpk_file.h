@@ -1,18 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "curves/curve_file.h"
 #include "curves/recorded_curve.h"
+#include "formats/jpk_properties.h"
+#include "formats/zip_archive.h"
 
 namespace afm::curves {
 
-// JPK's .jpk-force: a zip archive with a folder for each segment, which contains a .properties file and a raw file of
-// big-endian integers for each channel. An encoder converts the integers to volts and a chain of linear conversions
-// these to metres and newtons. Leaves out pauses and oscillations, with a remark. Rejects maps and QI files, which
-// contain many curves, with their
-// names. Throws CurveError.
-RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading);
+// JPK's .jpk-force, and its maps: .jpk-force-map, .jpk-qi-data. A zip archive with a folder for each segment of the
+// curve, or of the numbered curves in the folder "index". Leaves out pauses and oscillations, with a remark. Throws
+// CurveError.
+class JpkArchive {
+ public:
+  // The bytes must outlive the object.
+  explicit JpkArchive(std::string_view bytes);
+  JpkArchive(const JpkArchive&) = delete;
+  JpkArchive& operator=(const JpkArchive&) = delete;
+
+  // Number of curves.
+  std::size_t size() const { return folders_.size(); }
+
+  // Curve of an index below size().
+  RecordedCurve curve(std::size_t index, const CurveReading& reading) const;
+
+ private:
+  std::vector<std::size_t> folders_;  // numbers of the curves in the folder "index", rising; a single 0 without one
+  ZipArchive archive_;                // fills folders_
+  bool is_map_;
+  JpkProperties general_, shared_;
+};
 
 }  // namespace afm::curves

@@ -29,33 +29,36 @@ void JpkProperties::add(std::string_view text) {
   }
 }
 
-void JpkProperties::take_shared(const JpkProperties& shared) {
-  std::map<std::string, std::string, std::less<>> taken;
+void JpkProperties::set_shared(const JpkProperties& shared) {
+  shared_ = &shared;
   for (const auto& [key, number] : values_) {
     constexpr std::string_view kStar = ".*";
     if (!key.ends_with(kStar)) continue;
     const std::string_view whole = std::string_view(key).substr(0, key.size() - kStar.size());
     const std::size_t dot = whole.rfind('.');
     if (dot == std::string_view::npos) continue;
-    const std::string from = std::string(whole.substr(dot + 1)) + "." + number + ".";
-    for (auto entry = shared.values_.lower_bound(from); entry != shared.values_.end() && entry->first.starts_with(from);
-         ++entry) {
-      taken[std::string(whole.substr(0, dot + 1)) + entry->first.substr(from.size())] = entry->second;
-    }
+    references_.push_back(
+        {std::string(whole.substr(0, dot + 1)), std::string(whole.substr(dot + 1)) + "." + number + "."});
   }
-  values_.merge(taken);
 }
 
 std::optional<std::string> JpkProperties::text(std::string_view key) const {
-  const auto found = values_.find(key);
-  if (found == values_.end()) return std::nullopt;
-  return found->second;
+  if (general_ != nullptr) {
+    if (const auto found = general_->values_.find(key); found != general_->values_.end()) return found->second;
+  }
+  if (const auto found = values_.find(key); found != values_.end()) return found->second;
+  for (const Reference& reference : references_) {
+    if (!key.starts_with(reference.prefix)) continue;
+    const auto found = shared_->values_.find(reference.place + std::string(key.substr(reference.prefix.size())));
+    if (found != shared_->values_.end()) return found->second;
+  }
+  return std::nullopt;
 }
 
 std::optional<double> JpkProperties::number(std::string_view key) const {
-  const auto found = values_.find(key);
-  if (found == values_.end()) return std::nullopt;
-  return number_in(found->second, key, Lines({}));
+  const auto found = text(key);
+  if (!found) return std::nullopt;
+  return number_in(*found, key, Lines({}));
 }
 
 }  // namespace afm::curves

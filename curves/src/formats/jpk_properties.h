@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace afm::curves {
 
@@ -15,9 +16,12 @@ class JpkProperties {
   // Adds properties; a later value replaces an earlier one.
   void add(std::string_view text);
 
+  // Properties of the whole file, which go before those added here. Must outlive the object.
+  void set_general(const JpkProperties& general) { general_ = &general; }
+
   // Newer files store the segments' common properties in one place: for "channel.height.lcd-info.*=2" everything in
-  // `shared` below "lcd-info.2." is added below "channel.height.".
-  void take_shared(const JpkProperties& shared);
+  // `shared` below "lcd-info.2." is found below "channel.height.", where nothing else is. Must outlive the object.
+  void set_shared(const JpkProperties& shared);
 
   std::optional<std::string> text(std::string_view key) const;
 
@@ -25,7 +29,15 @@ class JpkProperties {
   std::optional<double> number(std::string_view key) const;
 
  private:
+  struct Reference {
+    std::string prefix;  // "channel.height."
+    std::string place;   // "lcd-info.2.", in the shared properties
+  };
+
   std::map<std::string, std::string, std::less<>> values_;
+  std::vector<Reference> references_;
+  const JpkProperties* general_ = nullptr;
+  const JpkProperties* shared_ = nullptr;
 };
 
 }  // namespace afm::curves

@@ -2,6 +2,7 @@
 #include "curves/recorded_curve.h"
 
 #include <charconv>
+#include <cmath>
 
 #include "core/printable.h"
 #include "core/version.h"
@@ -16,6 +17,17 @@ RecordedCurve recorded_curve(const physics::ForceCurve& curve, physics::Stiffnes
   recorded.metadata.software = kComputedBy;
   recorded.metadata.software_version = core::kVersion;
   return recorded;
+}
+
+std::optional<MapPixel> pixel_at(const CurvePosition& position, const MapGrid& grid, double turn_rad, bool reflected) {
+  const double x = position.x_m - grid.center_x_m, y = position.y_m - grid.center_y_m;
+  const double u = std::cos(turn_rad) * x + std::sin(turn_rad) * y;
+  const double v = (std::cos(turn_rad) * y - std::sin(turn_rad) * x) * (reflected ? -1.0 : 1.0);
+  const double column = std::floor((u / grid.width_m + 0.5) * static_cast<double>(grid.columns));
+  const double row = std::floor((v / grid.height_m + 0.5) * static_cast<double>(grid.rows));
+  if (!(column >= 0.0 && column < static_cast<double>(grid.columns))) return std::nullopt;
+  if (!(row >= 0.0 && row < static_cast<double>(grid.rows))) return std::nullopt;
+  return MapPixel{grid, static_cast<std::size_t>(column), static_cast<std::size_t>(row)};
 }
 
 void add_parameter(std::string_view line, CurveMetadata& metadata) {

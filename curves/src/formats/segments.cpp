@@ -138,6 +138,10 @@ void assign_branches(std::span<const double> segments, RecordedCurve& curve) {
   curve.time_s = std::move(times);
 }
 
+void remark_index(std::size_t index, std::size_t count, CurveMetadata& metadata) {
+  if (count > 1) metadata.remarks.push_back(fmt::format("it is curve {} of {}, counted from 0", index, count));
+}
+
 void set_directions(RecordedCurve& curve) {
   constexpr double kClearRise = 0.2;
   const auto remark = [&](const char* sentence) {

@@ -23,6 +23,9 @@ inline constexpr const char* kAfterRetract = "after the retract";
 void remark_left_out(std::size_t points, std::string_view when, std::string_view what_it_does,
                      std::optional<double> duration_s, CurveMetadata& metadata);
 
+// Adds a remark on which curve of a file with several it is.
+void remark_index(std::size_t index, std::size_t count, CurveMetadata& metadata);
+
 // Makes both branches lead the way that every reader of them expects: heights fall on the approach, all of which are
 // counted the other way otherwise, and rise on the retract. Adds a remark on what was turned. Throws CurveError where
 // approach and retract contradict each other.

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <ioapi.h>
 
+#include <algorithm>
 #include <array>
-#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <string_view>
 
 #include "curves/curve_error.h"
 
@@ -13,50 +16,77 @@ namespace afm::curves {
 
 namespace {
 
-constexpr int kCaseSensitive = 1;
 constexpr std::size_t kLongestName = 1024;
 
-// minizip's callback for opening a file: `bytes`, passed as the file name, become the stream.
-voidpf open_bytes(voidpf /*opaque*/, const void* bytes, int /*mode*/) {
-  const auto& view = *static_cast<const std::string_view*>(bytes);
-  return ::fmemopen(const_cast<char*>(view.data()), view.size(), "rb");
-}
-
-unzFile open_archive(std::string_view bytes) {
-  if (bytes.empty()) return nullptr;
-  zlib_filefunc64_def stream{};
-  fill_fopen64_filefunc(&stream);
-  stream.zopen64_file = open_bytes;
-  return unzOpen2_64(&bytes, &stream);
-}
-
-std::string name_of_entry(unzFile archive) {
-  std::array<char, kLongestName> name{};
+// Name of the archive's current entry; empty if it cannot be read.
+std::string_view name_of_entry(unzFile archive, std::array<char, kLongestName>& name) {
+  name.fill('\0');
   // a longer name is cut off without a terminating zero
   const int read = unzGetCurrentFileInfo64(archive, nullptr, name.data(), name.size() - 1, nullptr, 0, nullptr, 0);
-  return read == UNZ_OK ? std::string(name.data()) : std::string();
+  return read == UNZ_OK ? std::string_view(name.data()) : std::string_view();
 }
 
 }  // namespace
 
-ZipArchive::ZipArchive(std::string_view bytes) : archive_(open_archive(bytes), &unzClose) {
+// minizip's access to a file: the stream is the archive's cursor.
+struct ZipCallbacks {
+  using Cursor = ZipArchive::Cursor;
+
+  static voidpf open(voidpf /*opaque*/, const void* cursor, int /*mode*/) { return const_cast<void*>(cursor); }
+  static uLong read(voidpf /*opaque*/, voidpf stream, void* to, uLong size) {
+    Cursor& cursor = *static_cast<Cursor*>(stream);
+    const std::size_t count = std::min<std::size_t>(size, cursor.bytes.size() - cursor.at);
+    std::memcpy(to, cursor.bytes.data() + cursor.at, count);
+    cursor.at += count;
+    return count;
+  }
+  static uLong write(voidpf /*opaque*/, voidpf /*stream*/, const void* /*from*/, uLong /*size*/) { return 0; }
+  static ZPOS64_T tell(voidpf /*opaque*/, voidpf stream) { return static_cast<Cursor*>(stream)->at; }
+  static long seek(voidpf /*opaque*/, voidpf stream, ZPOS64_T offset, int origin) {
+    Cursor& cursor = *static_cast<Cursor*>(stream);
+    const ZPOS64_T from = origin == ZLIB_FILEFUNC_SEEK_SET   ? 0
+                          : origin == ZLIB_FILEFUNC_SEEK_CUR ? cursor.at
+                                                             : cursor.bytes.size();
+    if (offset > cursor.bytes.size() - from) return -1;  // minizip never goes back from the end or where it reads
+    cursor.at = from + offset;
+    return 0;
+  }
+  static int close(voidpf /*opaque*/, voidpf /*stream*/) { return 0; }
+  static int error(voidpf /*opaque*/, voidpf /*stream*/) { return 0; }
+};
+
+ZipArchive::ZipArchive(std::string_view bytes, const std::function<void(std::string_view name)>& see)
+    : cursor_(std::make_unique<Cursor>(Cursor{bytes, 0})), archive_(nullptr, &unzClose) {
+  zlib_filefunc64_def access{&ZipCallbacks::open, &ZipCallbacks::read,  &ZipCallbacks::write, &ZipCallbacks::tell,
+                             &ZipCallbacks::seek, &ZipCallbacks::close, &ZipCallbacks::error, nullptr};
+  archive_.reset(unzOpen2_64(cursor_.get(), &access));
   if (!archive_) throw CurveError("its zip archive is damaged");
-}
-
-bool ZipArchive::holds(const std::string& name) const {
-  return unzLocateFile(archive_.get(), name.c_str(), kCaseSensitive) == UNZ_OK;
-}
-
-bool ZipArchive::holds_folder(std::string_view prefix) const {
+  std::array<char, kLongestName> buffer{};
   for (int next = unzGoToFirstFile(archive_.get()); next == UNZ_OK; next = unzGoToNextFile(archive_.get())) {
-    if (name_of_entry(archive_.get()).starts_with(prefix)) return true;
+    const std::string_view name = name_of_entry(archive_.get(), buffer);
+    unz64_file_pos at{};
+    if (name.empty() || unzGetFilePos64(archive_.get(), &at) != UNZ_OK) continue;
+    places_.push_back({std::hash<std::string_view>()(name), at});
+    if (see) see(name);
+  }
+  std::stable_sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.hash < b.hash; });
+}
+
+bool ZipArchive::find(std::string_view name) const {
+  const std::size_t hash = std::hash<std::string_view>()(name);
+  auto place = std::lower_bound(places_.begin(), places_.end(), hash,
+                                [](const Place& a, std::size_t wanted) { return a.hash < wanted; });
+  std::array<char, kLongestName> buffer{};
+  for (; place != places_.end() && place->hash == hash; ++place) {
+    if (unzGoToFilePos64(archive_.get(), &place->at) == UNZ_OK && name_of_entry(archive_.get(), buffer) == name)
+      return true;
   }
   return false;
 }
 
-std::string ZipArchive::entry(const std::string& name, std::size_t most_bytes) const {
+std::string ZipArchive::entry(std::string_view name, std::size_t most_bytes) const {
   unz_file_info64 info{};
-  if (!holds(name) || unzGetCurrentFileInfo64(archive_.get(), &info, nullptr, 0, nullptr, 0, nullptr, 0) != UNZ_OK) {
+  if (!find(name) || unzGetCurrentFileInfo64(archive_.get(), &info, nullptr, 0, nullptr, 0, nullptr, 0) != UNZ_OK) {
     throw CurveError(fmt::format("its archive has no \"{}\"", name));
   }
   if (info.uncompressed_size > most_bytes) throw CurveError(fmt::format("\"{}\" in its archive is too large", name));

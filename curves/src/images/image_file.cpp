@@ -316,7 +316,7 @@ void make_texts_printable(LoadedImage& loaded) {
 
 std::string_view name_of(ImageFormat format) { return kImages.rows[static_cast<std::size_t>(format)].name; }
 
-bool is_image_file(const std::string& path) { return kImages.has(path); }
+bool is_image_file(const std::string& path) { return kImages.row_of_file(path) != nullptr; }
 
 bool begins_like_image(std::string_view bytes) { return kImages.row_of(bytes) != nullptr; }
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+#include "core/result.h"
+#include "curves/curve_file.h"
+#include "curves/recorded_curve.h"
+
+namespace afm::curves {
+
+// Curves of a file: one of most formats, several of an .h5 and of JPK's maps. Known files that cannot hold several are
+// not opened. BadInputFile as load_curve().
+core::Result<std::size_t> curve_count(const std::string& path);
+
+// Every `step`-th curve from `first` on, so that several threads can share a file.
+struct SeriesPart {
+  std::size_t first = 0;
+  std::size_t step = 1;
+};
+
+// Gets a curve and its index, or the reason why it cannot be read; returns whether it wants the next one.
+using TakeCurve = std::function<bool(std::size_t index, core::Result<RecordedCurve> curve)>;
+
+// Reads a part of the curves of a file with `count` curves, in order, one in memory at a time, in a confined process
+// that stays; a curve that kills it costs itself alone. `reading.index` is not used. One call a thread; any thread but
+// the servo's.
+void read_curves(const std::string& path, std::size_t count, const SeriesPart& part, const CurveReading& reading,
+                 const TakeCurve& take);
+
+}  // namespace afm::curves

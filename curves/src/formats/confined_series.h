@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "curves/curve_error.h"
+#include "curves/curve_file.h"
+#include "curves/curve_series.h"
+#include "formats/confined_child.h"
+#include "formats/format_table.h"
+#include "formats/mapped_file.h"
+#include "formats/tab_file.h"
+#include "formats/text_table.h"
+
+namespace afm::curves {
+
+// How the curves of a format whose files hold several are counted and read, without their bytes in this process. Throws
+// CurveError.
+struct SeriesRow {
+  std::size_t (*count)(const std::string& path);
+  // A message a curve, as afmformats .tab.
+  std::unique_ptr<ConfinedStream> (*stream)(const std::string& path, const SeriesPart& part,
+                                            const CurveReading& reading);
+};
+
+// For an Archive(std::string_view bytes) with size() and curve(index, reading).
+template <class Archive>
+constexpr SeriesRow series_of() {
+  return {[](const std::string& path) -> std::size_t {
+            const MappedFile file(path);
+            const std::string count =
+                in_confined_child([&] { return std::to_string(Archive(file.bytes()).size()); }, kNotSurvived);
+            return static_cast<std::size_t>(number_in(count, "count", Lines({})));
+          },
+          [](const std::string& path, const SeriesPart& part, const CurveReading& reading) {
+            const MappedFile file(path);
+            return std::make_unique<ConfinedStream>(
+                [&](const PutMessage& put) {
+                  constexpr std::size_t kCurvesKept = 256;  // between two returns of memory
+                  const Archive archive(file.bytes());
+                  for (std::size_t i = part.first, read = 1; i < archive.size(); i += part.step, ++read) {
+                    try {
+                      put({false, tab_bytes(archive.curve(i, reading))});
+                    } catch (const CurveError& fault) {
+                      put({true, fault.what()});
+                    }
+                    if (read % kCurvesKept == 0) file.forget();
+                  }
+                },
+                kNotSurvived);
+          }};
+}
+
+}  // namespace afm::curves
