@@ -129,6 +129,10 @@ core::Result<void> check_batch(const AnalyseOptions& options, const std::vector<
   if (options.json) return wrong_usage("--json is for one file; the table has every number");
   if (!options.beside.empty()) return wrong_usage("--beside is for one file; leave it out");
   for (const OptionOfKind& row : of_kind) {
+    if (row.option.given() && row.name == std::string_view("--curve")) {
+      return wrong_usage(
+          "--curve is for one curve, and a table has all of them; leave it out, or name a picture, --out FILE.svg");
+    }
     if (row.option.given() && row.kind != FileKind::Curve) {
       return wrong_usage(fmt::format("{} is for {}, and a fit is for curves; leave it out", row.name,
                                      kFileKinds[static_cast<std::size_t>(row.kind)].many));
@@ -180,9 +184,10 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
                                         "; default: zero-force if the tip is attracted before contact or the curve is "
                                         "computed, otherwise fit-polynomial")
                  .type_name("METHOD"));
-  for_curves("--curve", command.add_option("--curve", reading.index, "number of the curve in an .h5 file, from 0")
-                            .show_default()
-                            .type_name("INDEX"));
+  for_curves("--curve",
+             command.add_option("--curve", reading.index, "number of the curve in a file with several, from 0")
+                 .show_default()
+                 .type_name("INDEX"));
   for (const NamedOption& of_fit : add_fit_options(command, options.fit)) for_curves(of_fit.name, of_fit.option);
   for_curves("--out", command
                           .add_option("--out", options.out,
@@ -278,7 +283,7 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<AnalyseOptions>();
   const auto files = std::make_shared<std::vector<std::string>>();
-  command.add_option("file", *files, known_files() + "; several files, or one, for a table: --fit SHAPE --out FOLDER")
+  command.add_option("file", *files, known_files() + "; several files, or a map, for a table: --fit SHAPE --out FOLDER")
       .required()
       .type_name("FILE");
   std::vector<OptionOfKind> of_kind = add_curve_options(command, *options);
@@ -291,6 +296,7 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
       "example: touchafm analyse gold.jpk-force --beside model.csv --out gold.svg\n"
       "         touchafm analyse gel.jpk-force --fit sphere --radius 5um --out gel.svg\n"
       "         touchafm analyse day1/*.jpk-force --fit sphere --radius 5um --out day1-fits\n"
+      "         touchafm analyse cell.jpk-qi-data --fit paraboloid --radius 30nm --out cell-fits\n"
       "         touchafm analyse mica.spm --channel \"Height Sensor\" --json");
   command.when_chosen([options, files, of_kind = std::move(of_kind)]() -> core::Result<void> {
     options->file = files->front();

@@ -6,30 +6,27 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <cstddef>
-#include <exception>
 #include <filesystem>
 #include <iterator>
-#include <mutex>
 #include <optional>
 #include <system_error>
-#include <thread>
-#include <utility>
 
 #include "app/analyse/analyse_fit.h"
+#include "app/analyse/fit_maps.h"
+#include "app/analyse/fit_pool.h"
+#include "app/analyse/modulus_statistics.h"
 #include "app/options/standard_output.h"
 #include "core/file_descriptor.h"
 #include "core/interruption.h"
 #include "core/log.h"
 #include "core/printable.h"
 #include "core/system_error.h"
+#include "core/whole_file.h"
 #include "core/write_all.h"
-#include "curves/curve_file.h"
 #include "physics/quantity_text.h"
 
 namespace afm::app {
@@ -37,43 +34,15 @@ namespace afm::app {
 namespace {
 
 constexpr const char* kTable = "fits.tsv";
+constexpr const char* kHistograms = "modulus.svg";
 constexpr const char* kColumns =
     "file\ttrust\treason\tmodulus_Pa\tmodulus_low_Pa\tmodulus_high_Pa\treduced_modulus_Pa\tcontact_m\tlevel_N\ttilt_N_"
     "per_m\t"
     "depth_m\tnoise_N\trms_N\tpoints\tpoints_in_contact\tnoise_order\truns_probability\thalf_depth_modulus_Pa\tspring_"
     "constant_N_per_"
     "m\tshape\t"
-    "radius_m\thalf_angle_rad\tlayer_m\tbase\tpoisson_ratio\tagainst\twhite_noise\tmost_force_N\tmost_depth_m\n";
-
-// What is known of one file: a fit with the spring constant it was made with, or why there is none.
-struct Fitted {
-  std::optional<fits::ElasticFit> fit;
-  double spring_n_per_m = 0;
-  std::string why;
-};
-
-Fitted fitted(const std::string& file, const AnalyseOptions& options) {
-  Fitted result;
-  auto curve = curves::load_curve(file, options.reading);
-  if (!curve) {
-    result.why = curve.error().message;
-    return result;
-  }
-  const auto analysed = curves::analysed(file, std::move(*curve), options.contact_method);
-  if (!analysed) {
-    result.why = analysed.error().message;
-    return result;
-  }
-  auto fit = fit_of(*analysed, options.fit);
-  if (!fit) {
-    result.why = fit.error().message;
-    return result;
-  }
-  result.fit = std::move(*fit);
-  result.fit->model_n = {};  // the curve of the fit, for plots alone
-  result.spring_n_per_m = analysed->curve.metadata.spring_constant->si;
-  return result;
-}
+    "radius_m\thalf_angle_rad\tlayer_m\tbase\tpoisson_ratio\tagainst\twhite_noise\tmost_force_N\tmost_depth_m\t"
+    "curve\tx_m\ty_m\tcolumn\trow\tadhesion_N\tsnap_in_N\tcontact_slope_N_per_m\tloop_energy_J\tadhesion_energy_J\n";
 
 std::string reasons(const fits::ElasticFit& fit) {
   std::string text;
@@ -96,27 +65,36 @@ std::string sizes(const FitOptions& options) {
                      cell(std::isfinite(options.most_depth_m), options.most_depth_m));
 }
 
-std::string row_of(const std::string& file, const Fitted& fitted, const FitOptions& options) {
+std::string cell(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); }
+
+// Which curve it is, where it was recorded, and its figures without a fit.
+std::string features(std::size_t index, const FittedCurve& fitted) {
+  const auto& position = fitted.position;
+  const auto& pixel = fitted.pixel;
+  const CurveFigures& figures = fitted.figures;
+  return fmt::format(
+      "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", index, cell(position ? std::optional(position->x_m) : std::nullopt),
+      cell(position ? std::optional(position->y_m) : std::nullopt), pixel ? fmt::format("{}", pixel->column) : "",
+      pixel ? fmt::format("{}", pixel->row) : "", cell(figures.adhesion_n), cell(figures.snap_in_n),
+      cell(figures.contact_slope_n_per_m), cell(figures.loop_energy_j), cell(figures.adhesion_energy_j));
+}
+
+std::string row_of(const std::string& file, std::size_t index, const FittedCurve& fitted, const FitOptions& options) {
   const std::string name = core::printable_line(file);
   if (!fitted.fit) {
     constexpr std::size_t kNumbers = 16;
-    return fmt::format("{}\tnone\t{}{}\t{}\n", name, core::printable_line(fitted.why), std::string(kNumbers, '\t'),
-                       sizes(options));
+    return fmt::format("{}\tnone\t{}{}\t{}\t{}\n", name, core::printable_line(fitted.why), std::string(kNumbers, '\t'),
+                       sizes(options), features(index, fitted));
   }
   const fits::ElasticFit& fit = *fitted.fit;
-  const auto cell = [](const std::optional<double>& value) {
-    return value ? fmt::format("{}", *value) : std::string();
-  };
-  const auto finite = [&cell](double value) {
-    return cell(std::isfinite(value) ? std::optional(value) : std::nullopt);
-  };
+  const auto finite = [](double value) { return cell(std::isfinite(value) ? std::optional(value) : std::nullopt); };
   const std::string order = fit.noise_order ? fmt::format("{}", *fit.noise_order) : "";
-  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", name,
+  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", name,
                      fits::name_of(fit.trust), reasons(fit), fit.modulus_pa, fit.modulus_interval_pa.low,
                      finite(fit.modulus_interval_pa.high), fit.reduced_modulus_pa, fit.contact_z_m, fit.level_n,
                      cell(options.tilt ? std::optional(fit.tilt_n_per_m) : std::nullopt), fit.depth_m, fit.noise_n,
                      fit.rms_n, fit.points, fit.in_contact, order, fit.runs_p, cell(fit.half_depth_modulus_pa),
-                     fitted.spring_n_per_m, sizes(options));
+                     fitted.spring_n_per_m, sizes(options), features(index, fitted));
 }
 
 core::Result<core::FileDescriptor> new_table(const std::string& folder, const std::string& path) {
@@ -132,62 +110,9 @@ core::Result<core::FileDescriptor> new_table(const std::string& folder, const st
                        fmt::format("cannot write {}: {}", path, core::system_error(errno)));
 }
 
-// Fits on several threads; hands the results out in order.
-class FitPool {
- public:
-  FitPool(const std::vector<std::string>& files, const AnalyseOptions& options, unsigned threads)
-      : files_(files), options_(options), results_(files.size()) {
-    const std::size_t count = std::clamp<std::size_t>(threads, 1, files.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      workers_.emplace_back([this](const std::stop_token& stop) { work(stop); });
-    }
-  }
-
-  // At most the files begun are ended.
-  ~FitPool() {
-    for (std::jthread& worker : workers_) worker.request_stop();
-  }
-  FitPool(const FitPool&) = delete;
-  FitPool& operator=(const FitPool&) = delete;
-
-  // Waits for the result of this file. Empty after an interruption.
-  std::optional<Fitted> take(std::size_t file) {
-    constexpr std::chrono::milliseconds kLook{100};
-    std::unique_lock lock(mutex_);
-    while (!results_[file]) {
-      if (core::interrupted()) return std::nullopt;
-      changed_.wait_for(lock, kLook);
-    }
-    return std::exchange(results_[file], std::nullopt);
-  }
-
- private:
-  void work(const std::stop_token& stop) {
-    for (std::size_t i; !stop.stop_requested() && (i = next_.fetch_add(1)) < files_.size();) {
-      Fitted result;
-      try {
-        result = fitted(files_[i], options_);
-      } catch (const std::exception& error) {  // a curve too large for this machine's memory
-        result.why = fmt::format("cannot fit {}: {}", files_[i], error.what());
-      }
-      const std::lock_guard lock(mutex_);
-      results_[i] = std::move(result);
-      changed_.notify_all();
-    }
-  }
-
-  const std::vector<std::string>& files_;
-  const AnalyseOptions& options_;
-  std::atomic<std::size_t> next_{0};
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<std::optional<Fitted>> results_;
-  std::vector<std::jthread> workers_;  // last: they end before what they use
-};
-
 class Summary {
  public:
-  void add(const Fitted& fitted) {
+  void add(const FittedCurve& fitted) {
     ++done_;
     if (!fitted.fit) return void(++unread_);
     const auto trust = static_cast<std::size_t>(fitted.fit->trust);
@@ -198,23 +123,46 @@ class Summary {
   std::size_t done() const { return done_; }
   bool has_fits() const { return unread_ < done_; }
 
-  std::string text(const std::string& path) {
+  std::string text(const std::string& path) const {
     std::string text = fmt::format("{}: {} curves; {} trusted, {} doubtful, {} not trusted, {} without a fit\n", path,
                                    done_, trusts_[0], trusts_[1], trusts_[2], unread_);
     if (moduli_pa_.empty()) return text;
-    std::sort(moduli_pa_.begin(), moduli_pa_.end());
-    const auto at = [&](double share) {
-      const auto place = static_cast<std::size_t>(std::lround(share * static_cast<double>(moduli_pa_.size() - 1)));
-      return physics::format_quantity(physics::Pressure(moduli_pa_[place]), physics::kPressureUnits, 4);
+    const ModulusFigures figures = modulus_figures(moduli_pa_);
+    const auto pressure = [](double pa) {
+      return physics::format_quantity(physics::Pressure(pa), physics::kPressureUnits, 4);
     };
-    return text + fmt::format("modulus of the trusted and the doubtful: median {}, quartiles {} and {}\n", at(0.5),
-                              at(0.25), at(0.75));
+    return text + fmt::format("modulus of the trusted and the doubtful: median {}, deviation {}, geometric mean {}\n",
+                              pressure(figures.median_pa), pressure(figures.deviation_pa),
+                              pressure(figures.geometric_mean_pa));
   }
+
+  // Histograms of the trusted and the doubtful; empty without any.
+  std::string histograms() const { return moduli_pa_.empty() ? std::string() : modulus_histograms(moduli_pa_); }
 
  private:
   std::size_t done_ = 0, unread_ = 0;
   std::array<std::size_t, 3> trusts_{};  // in the order of Trust
   std::vector<double> moduli_pa_;
+};
+
+// A line a second on what is done.
+class Progress {
+ public:
+  void tell(std::size_t whole_files, std::size_t files, std::size_t curves, std::size_t count) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told_ < std::chrono::seconds(1)) return;
+    told_ = now;
+    if (count == 1) {
+      core::log_line(
+          fmt::format("fits: {} of {} files, {} %", whole_files + 1, files, 100 * (whole_files + 1) / files));
+    } else {
+      core::log_line(fmt::format("fits: {} of {} curves of file {} of {}, {} %", curves, count, whole_files + 1, files,
+                                 100 * curves / count));
+    }
+  }
+
+ private:
+  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace
@@ -233,24 +181,38 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
   if (const auto written = write(kColumns); !written) return written;
   const core::OrderlyEnd by_itself;
   Summary summary;
+  std::size_t whole_files = 0;
   {
     FitPool pool(files, options, threads);
-    auto told = std::chrono::steady_clock::now();
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      const auto fitted = pool.take(i);
-      if (!fitted) break;
-      if (const auto written = write(row_of(files[i], *fitted, options.fit)); !written) return written;
-      summary.add(*fitted);
-      if (const auto now = std::chrono::steady_clock::now(); now - told >= std::chrono::seconds(1)) {
-        told = now;
-        core::log_line(fmt::format("fits: {} of {} files, {} %", i + 1, files.size(), 100 * (i + 1) / files.size()));
+    Progress progress;
+    for (; whole_files < files.size(); ++whole_files) {
+      const std::string& file = files[whole_files];
+      const auto count = pool.count(whole_files);
+      if (!count) break;
+      FitMaps maps;
+      std::size_t index = 0;
+      for (; index < *count; ++index) {
+        const auto fitted = pool.take(whole_files, index);
+        if (!fitted) break;
+        if (const auto written = write(row_of(file, index, *fitted, options.fit)); !written) return written;
+        summary.add(*fitted);
+        maps.add(*fitted);
+        progress.tell(whole_files, files.size(), index + 1, *count);
       }
+      pool.forget(whole_files);
+      if (index < *count) break;
+      if (const auto written = maps.write(options.out, file); !written) return written;
     }
   }
+  if (const std::string histograms = summary.histograms(); !histograms.empty()) {
+    const std::string picture = (std::filesystem::path(options.out) / kHistograms).string();
+    if (const auto written = core::write_file(picture, histograms); !written) return written;
+  }
   if (const auto printed = write_stdout(summary.text(path)); !printed) return printed;
-  if (summary.done() < files.size()) {
+  if (whole_files < files.size()) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("interrupted: {} has {} of {} files", path, summary.done(), files.size()));
+                         fmt::format("interrupted: {} has {} curves, and {} of {} files whole", path, summary.done(),
+                                     whole_files, files.size()));
   }
   if (summary.has_fits()) return {};
   return core::failure(

@@ -31,6 +31,8 @@ constexpr std::array kGlyphs{
     Glyph{'9', 0b111'101'111'001'111}, Glyph{'.', 0b000'000'000'000'010}, Glyph{'-', 0b000'000'111'000'000},
     Glyph{'n', 0b000'110'101'101'101}, Glyph{'m', 0b000'111'111'101'101}, Glyph{'p', 0b000'110'101'110'100},
     Glyph{'u', 0b000'101'101'101'110}, Glyph{'N', 0b101'111'111'111'101}, Glyph{'e', 0b000'111'111'100'111},
+    Glyph{'P', 0b110'101'110'100'100}, Glyph{'a', 0b000'110'011'101'111}, Glyph{'k', 0b100'101'110'101'101},
+    Glyph{'M', 0b101'111'101'101'101}, Glyph{'G', 0b011'100'101'101'011}, Glyph{'f', 0b011'010'111'010'010},
 };
 
 class Canvas {
@@ -51,6 +53,16 @@ class Canvas {
   void fill(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height, const Color& color) {
     for (std::uint32_t row = 0; row < height; ++row) {
       for (std::uint32_t column = 0; column < width; ++column) dot(x + column, y + row, color);
+    }
+  }
+
+  // Stripes that run on from one square to the next.
+  void hatch(std::uint32_t left, std::uint32_t top, std::uint32_t side) {
+    constexpr std::uint32_t kStripes = 6;  // pixels from one to the next
+    for (std::uint32_t y = top; y < top + side; ++y) {
+      for (std::uint32_t x = left; x < left + side; ++x) {
+        if ((x + y) % kStripes == 0) dot(x, y, kPaper);
+      }
     }
   }
 
@@ -77,17 +89,18 @@ struct ValueRange {
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
 
-  double share(double value) const { return most > least ? (value - least) / (most - least) : 0.5; }
+  double share(double value) const {
+    return most > least ? std::clamp((value - least) / (most - least), 0.0, 1.0) : 0.5;
+  }
 };
 
-ValueRange value_range_of(const std::vector<double>& values) {
-  ValueRange range;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    range.least = std::min(range.least, value);
-    range.most = std::max(range.most, value);
-  }
-  return range;
+// The range of all values but this share at each end.
+ValueRange value_range_of(std::vector<double> values, double cut_share) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const auto cut = static_cast<std::size_t>(cut_share * static_cast<double>(values.size()));
+  return {values[cut], values[values.size() - 1 - cut]};
 }
 
 std::string value_label(double value, const std::string& unit) {
@@ -95,6 +108,7 @@ std::string value_label(double value, const std::string& unit) {
   if (!std::isfinite(value)) return "";
   if (unit == "m") return physics::format_quantity(physics::Length(value), physics::kLengthUnits, kDigits);
   if (unit == "N") return physics::format_quantity(physics::Force(value), physics::kForceUnits, kDigits);
+  if (unit == "Pa") return physics::format_quantity(physics::Pressure(value), physics::kPressureUnits, kDigits);
   return physics::format_si(value, physics::kPlainNumber.units, kDigits);
 }
 
@@ -109,9 +123,9 @@ double round_length_m(double width_m) {
 
 }  // namespace
 
-render::Image picture_of(const physics::ScanImage& image, std::size_t channel) {
+render::Image picture_of(const physics::ScanImage& image, std::size_t channel, const PictureStyle& style) {
   const physics::ImageChannel& shown = image.channels[channel];
-  const ValueRange range = value_range_of(shown.values);
+  const ValueRange range = value_range_of(shown.values, style.cut_share);
   const auto columns = static_cast<std::uint32_t>(image.columns), rows = static_cast<std::uint32_t>(image.rows);
   const std::uint32_t zoom = std::max(1U, (kSmallestSide + columns - 1) / columns);
   const std::uint32_t width = zoom * columns, height = zoom * rows;
@@ -120,8 +134,9 @@ render::Image picture_of(const physics::ScanImage& image, std::size_t channel) {
   for (std::uint32_t row = 0; row < rows; ++row) {
     for (std::uint32_t column = 0; column < columns; ++column) {
       const double value = shown.values[std::size_t{row} * columns + column];
-      canvas.fill(kPictureMargin + zoom * column, kPictureMargin + zoom * row, zoom, zoom,
-                  height_colour(std::isfinite(value) ? range.share(value) : value));
+      const std::uint32_t x = kPictureMargin + zoom * column, y = kPictureMargin + zoom * row;
+      canvas.fill(x, y, zoom, zoom, height_colour(std::isfinite(value) ? range.share(value) : value));
+      if (!style.hatched.empty() && style.hatched[std::size_t{row} * columns + column]) canvas.hatch(x, y, zoom);
     }
   }
 

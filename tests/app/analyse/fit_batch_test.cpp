@@ -4,14 +4,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "app/analyse/modulus_statistics.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
+#include "curves/image_file.h"
 #include "support/hertz_curve.h"
+#include "support/jpk_map.h"
 #include "support/scratch_folder.h"
+#include "support/stored_zip.h"
 
 namespace afm::app {
 namespace fit_batch_test {
@@ -110,6 +115,78 @@ TEST(FitBatch, OfFilesWithoutACurveFailsAndSaysWhere) {
   EXPECT_EQ(done.error().category, core::ErrorCategory::BadInputFile);
   EXPECT_THAT(done.error().message, HasSubstr("fits.tsv has the reasons"));
   EXPECT_EQ(rows_of(folder.file("out/fits.tsv")).size(), 3U);
+}
+
+// The contact of each curve is 10 nm higher than that of the one before.
+std::string map_in(const support::ScratchFolder& folder) {
+  return folder.write("gel.jpk-force-map", test::stored_zip(test::jpk_map([](std::size_t index) {
+                        curves::RecordedCurve curve = test::hertz_curve(200);
+                        for (auto& point : curve.points)
+                          point.z = point.z + physics::Length(10e-9 * static_cast<double>(index));
+                        return curve;
+                      })));
+}
+
+TEST(FitBatch, OfAMapHasARowACurveAndMapsThatShowThem) {
+  const support::ScratchFolder folder;
+  const auto files = std::vector<std::string>{files_in(folder).front(), map_in(folder)};
+  const auto done = fit_files(files, paraboloid(folder.file("out")), 2);
+  ASSERT_TRUE(done) << done.error().message;
+  const auto rows = rows_of(folder.file("out/fits.tsv"));
+  ASSERT_EQ(rows.size(), 1U + 1U + 6U);
+  const auto column = [&rows](const char* name) {
+    return static_cast<std::size_t>(std::find(rows[0].begin(), rows[0].end(), name) - rows[0].begin());
+  };
+  ASSERT_LT(column("row"), rows[0].size());
+  EXPECT_EQ(rows[1][column("column")], "");
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto& row = rows[2 + i];
+    EXPECT_EQ(row[column("curve")], std::to_string(i));
+    EXPECT_EQ(row[column("column")], std::to_string(test::map_column(i)));
+    EXPECT_EQ(row[column("row")], std::to_string(test::map_row(i)));
+    EXPECT_NEAR(std::stod(row[3]), test::kHertzModulusPa, 1e-3 * test::kHertzModulusPa);
+  }
+
+  const auto image = curves::load_image(folder.file("out/gel.gwy"), {.channel = "Contact height"});
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_EQ(image->image.columns, test::kMapColumns);
+  EXPECT_EQ(image->image.rows, test::kMapRows);
+  EXPECT_DOUBLE_EQ(image->image.width_m, test::kMapWidthM);
+  // the rows from the top: 5 4 3, 0 1 2
+  const std::vector<double>& heights = image->image.channels[image->chosen].values;
+  const double steps[] = {5, 4, 3, 0, 1, 2};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(heights[i] - heights[3], 10e-9 * steps[i], 1e-10) << i;
+  for (const char* picture : {"modulus", "contact", "depth", "trust"}) {
+    EXPECT_TRUE(core::read_file(folder.file(std::string("out/gel-") + picture + ".png"))) << picture;
+  }
+}
+
+TEST(FitBatch, OfAMapHasTheSameBytesWithOneThreadAndWithEight) {
+  const support::ScratchFolder folder;
+  const std::vector<std::string> files{map_in(folder), map_in(folder)};
+  ASSERT_TRUE(fit_files(files, paraboloid(folder.file("one")), 1));
+  ASSERT_TRUE(fit_files(files, paraboloid(folder.file("eight")), 8));
+  for (const char* name : {"fits.tsv", "gel.gwy", "gel-2.gwy", "gel-modulus.png"}) {
+    EXPECT_EQ(core::read_file(folder.file(std::string("one/") + name)).value(),
+              core::read_file(folder.file(std::string("eight/") + name)).value())
+        << name;
+  }
+}
+
+// Lab case M08.
+TEST(ModulusFigures, AreThoseOfRobustStatistics) {
+  const ModulusFigures figures = modulus_figures({100e3, 1e3, 4e3, 2e3, 3e3});
+  EXPECT_DOUBLE_EQ(figures.median_pa, 3e3);
+  EXPECT_NEAR(figures.deviation_pa, 1482.6, 1e-6);
+  EXPECT_NEAR(figures.geometric_mean_pa, 4742.88122, 5e-6);
+  EXPECT_DOUBLE_EQ(modulus_figures({1.0, 2.0}).median_pa, 1.5);
+}
+
+TEST(ModulusHistograms, NameTheMedianInItsUnit) {
+  const std::string svg = modulus_histograms({100e3, 1e3, 4e3, 2e3, 3e3});
+  EXPECT_THAT(svg, HasSubstr("5 curves: median 3 kPa, deviation 1.483 kPa"));
+  EXPECT_THAT(svg, HasSubstr("modulus E, kPa"));
+  EXPECT_THAT(modulus_histograms({5e9, 5e9}), HasSubstr("modulus E, GPa"));
 }
 
 }  // namespace fit_batch_test

@@ -2,14 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "physics/imaging/scan_image.h"
 #include "render/frame.h"
 
 namespace afm::exhibit {
 
-// Draws a channel in false colours over its whole range, at least 256 pixels wide, row 0 on top; places without a value
-// are grey. Adds a labelled colour bar on the right and a scale bar of a round length below.
-render::Image picture_of(const physics::ScanImage& image, std::size_t channel);
+struct PictureStyle {
+  double cut_share = 0;       // share of the values that may lie beyond each end of the colours, below 0.5
+  std::vector<bool> hatched;  // pixels with dark stripes, row by row from the top; empty: none
+};
+
+// Draws a channel in false colours, at least 256 pixels wide, row 0 on top; places without a value are grey. Adds a
+// labelled colour bar on the right and a scale bar of a round length below.
+render::Image picture_of(const physics::ScanImage& image, std::size_t channel, const PictureStyle& style = {});
 
 }  // namespace afm::exhibit

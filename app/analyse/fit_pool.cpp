@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/analyse/fit_pool.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "app/analyse/analyse_fit.h"
+#include "core/interruption.h"
+#include "curves/curve_report.h"
+
+namespace afm::app {
+
+namespace {
+
+CurveFigures figures_of(const physics::CurveFeatures& features) {
+  CurveFigures figures;
+  if (features.adhesion) figures.adhesion_n = std::abs(features.adhesion->force.si);
+  if (features.snap_in) figures.snap_in_n = std::abs(features.snap_in->force_after.si);
+  if (features.contact_slope) figures.contact_slope_n_per_m = features.contact_slope->si;
+  figures.loop_energy_j = features.loop_energy.si;
+  figures.adhesion_energy_j = features.adhesion_energy.si;
+  return figures;
+}
+
+FittedCurve fitted(const std::string& file, core::Result<curves::RecordedCurve> curve, const AnalyseOptions& options) {
+  FittedCurve result;
+  try {
+    if (!curve) {
+      result.why = curve.error().message;
+      return result;
+    }
+    result.position = curve->metadata.position;
+    result.pixel = curve->metadata.pixel;
+    const auto analysed = curves::analysed(file, std::move(*curve), options.contact_method);
+    if (!analysed) {
+      result.why = analysed.error().message;
+      return result;
+    }
+    result.figures = figures_of(analysed->features);
+    auto fit = fit_of(*analysed, options.fit);
+    if (!fit) {
+      result.why = fit.error().message;
+      return result;
+    }
+    result.fit = std::move(*fit);
+    result.fit->model_n = {};
+    result.spring_n_per_m = analysed->curve.metadata.spring_constant->si;
+  } catch (const std::exception& error) {  // a curve too large for this machine's memory
+    result.fit.reset();
+    result.why = fmt::format("cannot fit {}: {}", file, error.what());
+  }
+  return result;
+}
+
+}  // namespace
+
+FitPool::FitPool(const std::vector<std::string>& files, const AnalyseOptions& options, unsigned threads)
+    : files_(files), options_(options), threads_(std::max(1U, threads)), results_(files.size()) {
+  for (unsigned i = 0; i < threads_; ++i) {
+    workers_.emplace_back([this](const std::stop_token& stop) { work(stop); });
+  }
+}
+
+FitPool::~FitPool() {
+  for (std::jthread& worker : workers_) worker.request_stop();
+  changed_.notify_all();
+}
+
+std::optional<std::size_t> FitPool::count(std::size_t file) {
+  return wait([&] { return results_[file].count.has_value(); }) ? results_[file].count : std::nullopt;
+}
+
+std::optional<FittedCurve> FitPool::take(std::size_t file, std::size_t curve) {
+  if (!wait([&] { return results_[file].curves[curve].has_value(); })) return std::nullopt;
+  const std::lock_guard lock(mutex_);
+  return std::exchange(results_[file].curves[curve], std::nullopt);
+}
+
+void FitPool::forget(std::size_t file) {
+  const std::lock_guard lock(mutex_);
+  results_[file].curves = {};
+}
+
+template <class Ready>
+bool FitPool::wait(const Ready& ready) {
+  constexpr std::chrono::milliseconds kLook{100};
+  std::unique_lock lock(mutex_);
+  while (!ready()) {
+    if (core::interrupted()) return false;
+    changed_.wait_for(lock, kLook);
+  }
+  return true;
+}
+
+// Shares of a file that is begun go before the next file: the results of the first are wanted first.
+void FitPool::work(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (!stop.stop_requested()) {
+    if (!shares_.empty()) {
+      const Share share = shares_.front();
+      shares_.pop_front();
+      lock.unlock();
+      fit_share(stop, share);
+      lock.lock();
+    } else if (next_file_ < files_.size()) {
+      const std::size_t file = next_file_++;
+      ++beginning_;
+      lock.unlock();
+      begin(file);
+      lock.lock();
+    } else if (beginning_ == 0) {
+      return;
+    } else {
+      constexpr std::chrono::milliseconds kLook{100};
+      changed_.wait_for(lock, kLook);
+    }
+  }
+}
+
+void FitPool::begin(std::size_t file) {
+  const auto counted = curves::curve_count(files_[file]);
+  const std::size_t count = counted.value_or(1);
+  const unsigned shares = static_cast<unsigned>(std::min<std::size_t>(threads_, std::max<std::size_t>(1, count)));
+  const std::lock_guard lock(mutex_);
+  results_[file].count = count;
+  results_[file].curves.resize(count);
+  if (counted) {
+    for (unsigned i = 0; i < shares; ++i) shares_.push_back({file, {i, shares}});
+  } else {
+    results_[file].curves.front().emplace().why = counted.error().message;
+  }
+  --beginning_;
+  changed_.notify_all();
+}
+
+void FitPool::fit_share(const std::stop_token& stop, const Share& share) {
+  const std::string& file = files_[share.file];
+  const std::size_t count = *results_[share.file].count;
+  curves::read_curves(file, count, share.part, options_.reading,
+                      [&](std::size_t index, core::Result<curves::RecordedCurve> curve) {
+                        put(share.file, index, fitted(file, std::move(curve), options_));
+                        return !stop.stop_requested();
+                      });
+}
+
+void FitPool::put(std::size_t file, std::size_t curve, FittedCurve result) {
+  const std::lock_guard lock(mutex_);
+  results_[file].curves[curve] = std::move(result);
+  changed_.notify_all();
+}
+
+}  // namespace afm::app

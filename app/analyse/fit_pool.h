@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/analyse/analyse_command.h"
+#include "curves/curve_series.h"
+#include "curves/recorded_curve.h"
+#include "fits/elastic_fit.h"
+
+namespace afm::app {
+
+// Figures of a curve without a fit (physics/curve_analysis.h); empty: not found. Pulls are magnitudes.
+struct CurveFigures {
+  std::optional<double> adhesion_n;
+  std::optional<double> snap_in_n;
+  std::optional<double> contact_slope_n_per_m;
+  std::optional<double> loop_energy_j;
+  std::optional<double> adhesion_energy_j;
+};
+
+// What is known of one curve: a fit with the spring constant it was made with, or why there is none.
+struct FittedCurve {
+  std::optional<fits::ElasticFit> fit;  // without its model
+  double spring_n_per_m = 0;
+  std::string why;
+  CurveFigures figures;
+  std::optional<curves::CurvePosition> position;
+  std::optional<curves::MapPixel> pixel;
+};
+
+// Fits the curves of files on several threads, which share a file with several curves, and hands the results out in
+// order. What was not taken is kept: some hundred bytes a curve. One thread calls it.
+class FitPool {
+ public:
+  // Files and options must outlive the object. `options` wants a fit that is prepared.
+  FitPool(const std::vector<std::string>& files, const AnalyseOptions& options, unsigned threads);
+  ~FitPool();  // ends after the curves that are being fitted
+  FitPool(const FitPool&) = delete;
+  FitPool& operator=(const FitPool&) = delete;
+
+  // Waits for the number of the file's curves; 1 if it cannot be read. Empty after an interruption.
+  std::optional<std::size_t> count(std::size_t file);
+
+  // Waits for the result of one curve, which can be taken once. Empty after an interruption.
+  std::optional<FittedCurve> take(std::size_t file, std::size_t curve);
+
+  // Frees what is left of a file's results.
+  void forget(std::size_t file);
+
+ private:
+  // A part of a file's curves.
+  struct Share {
+    std::size_t file = 0;
+    curves::SeriesPart part;
+  };
+  struct Results {
+    std::optional<std::size_t> count;
+    std::vector<std::optional<FittedCurve>> curves;
+  };
+
+  void work(const std::stop_token& stop);
+  void begin(std::size_t file);
+  void fit_share(const std::stop_token& stop, const Share& share);
+  void put(std::size_t file, std::size_t curve, FittedCurve result);
+  template <class Ready>
+  bool wait(const Ready& ready);
+
+  const std::vector<std::string>& files_;
+  const AnalyseOptions& options_;
+  const unsigned threads_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t next_file_ = 0;  // first that is not begun
+  std::size_t beginning_ = 0;  // files whose curves are being counted
+  std::deque<Share> shares_;
+  std::vector<Results> results_;
+  std::vector<std::jthread> workers_;  // last: they end before what they use
+};
+
+}  // namespace afm::app

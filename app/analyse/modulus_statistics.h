@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace afm::app {
+
+// Figures of moduli that a few wrong ones hardly move, and the mean of a log-normal sample.
+struct ModulusFigures {
+  double median_pa = 0;
+  double deviation_pa =
+      0;  // 1.4826 times the median distance from the median: the standard deviation of a normal sample
+  double geometric_mean_pa = 0;
+};
+
+// For moduli above zero, at least one.
+ModulusFigures modulus_figures(std::vector<double> moduli_pa);
+
+// Histograms of the moduli, a linear one and one of their logarithms, as an SVG file; the median is marked. The linear
+// one ends at the 1st and the 99th percentile. For moduli above zero, at least one.
+std::string modulus_histograms(std::vector<double> moduli_pa);
+
+}  // namespace afm::app
