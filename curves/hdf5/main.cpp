@@ -5,9 +5,9 @@
 // touchafm-hdf5 read INDEX          reads an .h5 from stdin, writes its curve as afmformats .tab to stdout
 // touchafm-hdf5 count               writes the number of its curves
 // touchafm-hdf5 stream FIRST STEP   writes every STEP-th curve from FIRST on, each as a message
-// (formats/confined_child.h) touchafm-hdf5 write               the reverse of read
+// (confined/confined_child.h) touchafm-hdf5 write               the reverse of read
 //
-// Exit codes are those of formats/confined_child.h; a fault of the file is reported on stdout.
+// Exit codes are those of confined/confined_child.h; a fault of the file is reported on stdout.
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,11 +18,11 @@
 #include <string>
 #include <string_view>
 
+#include "confined/confined_child.h"
+#include "confined/confinement.h"
 #include "core/log.h"
 #include "core/write_all.h"
 #include "curves/curve_error.h"
-#include "formats/confined_child.h"
-#include "formats/confinement.h"
 #include "formats/segments.h"
 #include "formats/tab_file.h"
 #include "hdf5_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/confined_child.h"
+#include "confined/confined_child.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>

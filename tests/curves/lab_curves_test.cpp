@@ -58,8 +58,9 @@ std::string remarks_of(const AnalysedCurve& curve) {
 }
 
 TEST(LabFiles, AreRefusedByTheirTrueKind) {
-  EXPECT_THAT(curve_refusal("ramp.spm"), HasSubstr("it is a Nanoscope force curve or force volume"));
-  EXPECT_THAT(image_refusal("ramp.spm"), HasSubstr("it is a Nanoscope force curve or force volume"));
+  EXPECT_THAT(curve_refusal("ramp.spm"),
+              HasSubstr("it is a Nanoscope force curve without a deflection; its channels are \"Height\""));
+  EXPECT_THAT(image_refusal("ramp.spm"), HasSubstr("it is a curve, not an image"));
   EXPECT_THAT(curve_refusal("jpk-image.h5-jpk"), HasSubstr("no curve file of afmformats"));
   EXPECT_THAT(curve_refusal("jpk-image.h5-jpk"), HasSubstr("it begins with \"Measurement_000\""));
   EXPECT_THAT(curve_refusal("qnm-log.spm"), HasSubstr("it is an image, not a curve"));

@@ -5,12 +5,12 @@
 #include <memory>
 #include <string>
 
+#include "confined/confined_child.h"
+#include "confined/mapped_file.h"
 #include "curves/curve_error.h"
 #include "curves/curve_file.h"
 #include "curves/curve_series.h"
-#include "formats/confined_child.h"
 #include "formats/format_table.h"
-#include "formats/mapped_file.h"
 #include "formats/tab_file.h"
 #include "formats/text_table.h"
 

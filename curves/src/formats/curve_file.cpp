@@ -10,19 +10,20 @@
 #include <stdexcept>
 #include <utility>
 
+#include "confined/confined_child.h"
+#include "confined/mapped_file.h"
 #include "core/enumerators.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
 #include "curves/curve_series.h"
 #include "curves/image_file.h"
-#include "formats/confined_child.h"
 #include "formats/confined_series.h"
 #include "formats/format_table.h"
 #include "formats/igor_file.h"
 #include "formats/igor_wave.h"
 #include "formats/jpk_file.h"
-#include "formats/mapped_file.h"
+#include "formats/nanoscope_curve.h"
 #include "formats/segments.h"
 #include "formats/tab_file.h"
 #include "formats/text_table.h"
@@ -108,6 +109,9 @@ constexpr FormatTable kCurves{
             CurveFormat::AfmWorkshop, "AFM Workshop .csv", "afm-workshop",
             [](std::string_view b) { return b.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos; },
             Reader::Foreign, nullptr, read_workshop, workshop_bytes},
+        CurveRow{CurveFormat::NanoscopeForce, "Nanoscope .spm or .000", "",
+                 [](std::string_view b) { return b.starts_with(kNanoscopeForceMagic); }, Reader::Foreign, nullptr,
+                 read_nanoscope_curve, nullptr},
         CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", looks_like_igor, Reader::Foreign, nullptr, read_igor,
                  nullptr}}};
 static_assert(core::has_row_for_each(kCurves.rows, &CurveRow::format));

@@ -9,11 +9,11 @@
 #include <string>
 #include <string_view>
 
+#include "confined/confined_child.h"
 #include "core/result.h"
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
 #include "curves/unread_kinds.h"
-#include "formats/confined_child.h"
 
 namespace afm::curves {
 

@@ -11,6 +11,7 @@
 
 #include "curves/curve_error.h"
 #include "curves/image_file.h"
+#include "formats/scaled_unit.h"
 
 namespace afm::curves {
 
@@ -79,13 +80,6 @@ inline constexpr double kLongestSideM = 1.0;
 
 // Throws CurveError if the side is out of range.
 std::size_t image_side(double count);
-
-// A unit without its prefix: "nm" becomes 1e-9 and "m". An unknown unit has the factor 1 and stays unchanged.
-struct ScaledUnit {
-  double factor = 1.0;
-  std::string unit;
-};
-ScaledUnit scaled_unit(std::string_view text);
 
 // A length on the sample, in metres: the absolute value. A side without a unit counts as metres. Throws CurveError for
 // another unit, and unless the side is above zero and at most kLongestSideM.

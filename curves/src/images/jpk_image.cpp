@@ -20,8 +20,8 @@ namespace afm::curves {
 namespace {
 
 enum Tag : std::uint16_t {
-  kColumns = 0x0100,
-  kRows = 0x0101,
+  kColumnCount = 0x0100,
+  kRowCount = 0x0101,
   kBits = 0x0102,
   kCompression = 0x0103,
   kPhotometric = 0x0106,
@@ -204,8 +204,8 @@ ImagePage channel_of(std::string_view file, const Page& page, const Grid& grid, 
     throw CurveError("it is compressed");
   }
   const Calibration scale = default_calibration(page);
-  const std::size_t columns = image_side(page.number(kColumns).value_or(0)),
-                    rows = image_side(page.number(kRows).value_or(0));
+  const std::size_t columns = image_side(page.number(kColumnCount).value_or(0)),
+                    rows = image_side(page.number(kRowCount).value_or(0));
   const auto size = static_cast<std::size_t>(*page.number(kBits)) / 8;
   const bool is_signed = page.number(kSampleFormat).value_or(0) == kSignedIntegers;
   const bool reflected = page.number(kGridReflected).value_or(0) != 0;

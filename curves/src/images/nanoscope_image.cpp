@@ -4,145 +4,38 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 
 #include "curves/curve_error.h"
 #include "formats/file_bytes.h"
+#include "formats/nanoscope_header.h"
 #include "formats/text_table.h"
 
 namespace afm::curves {
 
 namespace {
 
-constexpr std::size_t kMostHeaderBytes = std::size_t{4} << 20U;
 constexpr std::uint32_t kFourBytesFrom = 0x09200000;
 constexpr std::string_view kImageBlock = "Ciao image list";
 constexpr double kSquarePixelTolerance = 0.02;
-
-std::string lower_key(std::string_view text) {
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
-
-struct Block {
-  std::string_view name;                           // "Ciao image list"
-  std::map<std::string, std::string_view> values;  // keys in lower case, "@2:z scale"
-
-  const std::string_view* find(const std::string& key) const {
-    const auto found = values.find(key);
-    return found != values.end() ? &found->second : nullptr;
-  }
-};
-
-// "\key: value"; the colon in "@2:Z scale" belongs to the key.
-void add_line(std::string_view line, Block& block) {
-  const bool counted =
-      line.size() > 2 && line[0] == '@' && std::isdigit(static_cast<unsigned char>(line[1])) != 0 && line[2] == ':';
-  const std::size_t colon = line.find(':', counted ? 3 : 0);
-  if (colon == std::string_view::npos) return;
-  block.values.emplace(lower_key(trimmed(line.substr(0, colon))), trimmed(line.substr(colon + 1)));
-}
-
-std::vector<Block> blocks_of(std::string_view header) {
-  std::vector<Block> blocks;
-  std::string_view line;
-  for (Lines lines(header); lines.next(line);) {
-    if (line == "\\*File list end") break;
-    if (line.starts_with("\\*")) {
-      blocks.push_back({trimmed(line.substr(2)), {}});
-    } else if (line.starts_with('\\') && !blocks.empty()) {
-      add_line(line.substr(1), blocks.back());
-    }
-  }
-  return blocks;
-}
-
-// Takes the number at the front of the text.
-std::optional<double> take_number(std::string_view& text) {
-  text = trimmed(text);
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  return number;
-}
-
-double nanoscope_number(const Block& block, const std::string& key) {
-  const std::string_view* text = block.find(key);
-  if (text == nullptr) throw CurveError(fmt::format("it has no \"{}\"", key));
-  std::string_view rest = *text;
-  const auto number = take_number(rest);
-  if (!number) throw CurveError(fmt::format("its \"{}\" is no number", key));
-  return *number;
-}
-
-// Takes the text between a bracket and its counterpart, with all before it; empty if they do not come next. Brackets
-// may be nested: "(0.0003 log(Arb)/LSB)".
-std::string_view take_between(char open, char close, std::string_view& text) {
-  text = trimmed(text);
-  if (!text.starts_with(open)) return {};
-  std::size_t end = 1;
-  for (int depth = 1; end < text.size(); ++end) {
-    depth += text[end] == close ? -1 : text[end] == open ? 1 : 0;
-    if (depth == 0) break;
-  }
-  if (end == text.size()) return {};
-  const std::string_view inside = text.substr(1, end - 1);
-  text.remove_prefix(end + 1);
-  return inside;
-}
-
-struct SoftScale {
-  double factor = 1.0;
-  std::string unit;
-};
-
-// "V 12.5 nm/V" of "@Sens. Zsens", or "V 1 log(Pa)/log(Arb)", from any block. `per` is the unit behind the stroke.
-std::optional<SoftScale> soft_scale(const std::vector<Block>& blocks, std::string_view name, std::string_view per) {
-  const std::string key = "@" + lower_key(name);
-  for (const Block& block : blocks) {
-    const std::string_view* text = block.find(key);
-    if (text == nullptr || !text->starts_with('V')) continue;
-    std::string_view rest = text->substr(1);
-    const auto number = take_number(rest);
-    if (!number) continue;
-    rest = trimmed(rest);
-    for (const std::string_view divisor : {std::string_view("V"), per}) {
-      if (rest.size() <= divisor.size() || !rest.ends_with(divisor)) continue;
-      if (rest[rest.size() - divisor.size() - 1] == '/') rest.remove_suffix(divisor.size() + 1);
-    }
-    const ScaledUnit unit = scaled_unit(rest);
-    return SoftScale{*number * unit.factor, unit.unit};
-  }
-  return std::nullopt;
-}
 
 struct ValueScale {
   double factor = 1.0;  // per integer divided by 256^(Bytes/pixel)
   std::string unit;
 };
 
-ValueScale value_scale(const Block& image, const std::vector<Block>& blocks) {
-  const std::string_view* text = image.find("@2:z scale");
-  if (text == nullptr || !text->starts_with('V')) throw CurveError("it has no \"@2:Z scale\"");
-  std::string_view rest = text->substr(1);
-  const std::string_view soft_name = take_between('[', ']', rest);
-  take_between('(', ')', rest);
-  const auto hard = take_number(rest);
-  if (!hard) throw CurveError("its \"@2:Z scale\" has no number");
-  const ScaledUnit hard_unit = scaled_unit(rest);
-  const auto soft = soft_name.empty() ? std::nullopt : soft_scale(blocks, soft_name, trimmed(rest));
-  if (!soft) return {*hard * hard_unit.factor, hard_unit.unit};
-  return {*hard * hard_unit.factor * soft->factor, soft->unit.empty() ? hard_unit.unit : soft->unit};
+ValueScale value_scale(const NanoscopeBlock& image, const std::vector<NanoscopeBlock>& blocks) {
+  const auto hard = hard_scale(image.find("@2:z scale"));
+  if (!hard) throw CurveError("it has no \"@2:Z scale\"");
+  if (!hard->value) throw CurveError("its \"@2:Z scale\" has no number");
+  const ScaledUnit hard_unit = scaled_unit(hard->unit);
+  const auto soft = hard->soft_name.empty() ? std::nullopt : soft_scale(blocks, hard->soft_name, hard->unit);
+  if (!soft) return {*hard->value * hard_unit.factor, hard_unit.unit};
+  return {*hard->value * hard_unit.factor * soft->factor, soft->unit.empty() ? hard_unit.unit : soft->unit};
 }
 
 struct ScanSize {
@@ -150,7 +43,7 @@ struct ScanSize {
 };
 
 // "1000 1000 nm", or one number for both.
-std::optional<ScanSize> scan_size(const Block& block) {
+std::optional<ScanSize> scan_size(const NanoscopeBlock& block) {
   const std::string_view* text = block.find("scan size");
   if (text == nullptr) return std::nullopt;
   std::string_view rest = *text;
@@ -163,7 +56,7 @@ std::optional<ScanSize> scan_size(const Block& block) {
 }
 
 // "S [Height] \"Height Sensor\"" becomes Height Sensor; a retrace is marked.
-std::string nanoscope_name(const Block& image) {
+std::string nanoscope_name(const NanoscopeBlock& image) {
   std::string name = "Image";
   if (const std::string_view* data = image.find("@2:image data")) {
     const std::size_t open = data->find('"'), close = data->rfind('"');
@@ -171,18 +64,6 @@ std::string nanoscope_name(const Block& image) {
   }
   const std::string_view* direction = image.find("line direction");
   return direction != nullptr && *direction == "Retrace" ? name + " (retrace)" : name;
-}
-
-std::uint32_t nanoscope_version(const std::vector<Block>& blocks) {
-  for (const Block& block : blocks) {
-    const std::string_view* text = block.find("version");
-    if (text == nullptr) continue;
-    std::string_view digits = *text;
-    if (digits.starts_with("0x") || digits.starts_with("0X")) digits.remove_prefix(2);
-    std::uint32_t version = 0;
-    if (std::from_chars(digits.data(), digits.data() + digits.size(), version, 16).ec == std::errc()) return version;
-  }
-  return 0;
 }
 
 template <class Integer>
@@ -206,7 +87,7 @@ struct Captured {
 };
 
 // All lines if the header does not say otherwise. A scan that was stopped has fewer.
-Captured captured_lines(const Block& image, const Points& points) {
+Captured captured_lines(const NanoscopeBlock& image, const Points& points) {
   const auto whole_number = [&](const char* key) {
     return image.find(key) != nullptr ? std::max(0.0, std::floor(nanoscope_number(image, key))) : 0.0;
   };
@@ -217,8 +98,8 @@ Captured captured_lines(const Block& image, const Points& points) {
 }
 
 // The bytes of the captured lines, which a file may have alone.
-std::string_view data_of(std::string_view bytes, const Block& image, const Points& points, std::size_t number_size,
-                         const Captured& captured) {
+std::string_view data_of(std::string_view bytes, const NanoscopeBlock& image, const Points& points,
+                         std::size_t number_size, const Captured& captured) {
   const double offset = nanoscope_number(image, "data offset"), length = nanoscope_number(image, "data length");
   const std::size_t line = points.columns * number_size, whole = points.rows * line;
   const bool alone = length == static_cast<double>(captured.count * line);
@@ -232,7 +113,7 @@ std::string_view data_of(std::string_view bytes, const Block& image, const Point
 }
 
 // "2:1", width to height; 1 without it.
-double aspect_ratio(const Block& block) {
+double aspect_ratio(const NanoscopeBlock& block) {
   const std::string_view* text = block.find("aspect ratio");
   if (text == nullptr) return 1.0;
   std::string_view rest = *text;
@@ -250,7 +131,7 @@ bool has_square_pixels(const ScanSize& area, const Points& points) {
 }
 
 // The lines of the scan of which an image has `points`; these if the scan list does not tell, or for other points.
-double lines_of_scan(const Block& list, const Points& points) {
+double lines_of_scan(const NanoscopeBlock& list, const Points& points) {
   const auto rows = static_cast<double>(points.rows), columns = static_cast<double>(points.columns);
   if (list.find("lines") == nullptr) return rows;
   const double samples = list.find("samps/line") != nullptr ? nanoscope_number(list, "samps/line") : columns;
@@ -259,13 +140,14 @@ double lines_of_scan(const Block& list, const Points& points) {
 
 // The area of an image. The header of a scan that was stopped may keep the size of the whole: its lines, or an aspect
 // ratio, tell which part of the height the image has.
-ScanSize area_of(const Block& image, const std::vector<Block>& blocks, const Points& points, ImagePages& found) {
+ScanSize area_of(const NanoscopeBlock& image, const std::vector<NanoscopeBlock>& blocks, const Points& points,
+                 ImagePages& found) {
   auto area = scan_size(image);
   for (std::size_t i = 0; i < blocks.size() && !area; ++i) area = scan_size(blocks[i]);
   if (!area) throw CurveError("it has no \"Scan Size\"");
   const bool square = area->width_m == area->height_m;
   const auto list = std::find_if(blocks.begin(), blocks.end(),
-                                 [](const Block& block) { return lower_key(block.name) == "ciao scan list"; });
+                                 [](const NanoscopeBlock& block) { return lower_key(block.name) == "ciao scan list"; });
   if (list != blocks.end()) {
     const double lines = lines_of_scan(*list, points), share = static_cast<double>(points.rows) / lines;
     const ScanSize part_of_it{area->width_m, area->height_m * share};
@@ -291,7 +173,7 @@ ScanSize area_of(const Block& image, const std::vector<Block>& blocks, const Poi
   return *area;
 }
 
-ImagePage nanoscope_page(std::string_view bytes, const Block& image, const std::vector<Block>& blocks,
+ImagePage nanoscope_page(std::string_view bytes, const NanoscopeBlock& image, const std::vector<NanoscopeBlock>& blocks,
                          ImagePages& found) {
   const double bytes_per_pixel = image.find("bytes/pixel") != nullptr ? nanoscope_number(image, "bytes/pixel") : 2.0;
   if (bytes_per_pixel != 1.0 && bytes_per_pixel != 2.0 && bytes_per_pixel != 4.0) {
@@ -327,11 +209,9 @@ ImagePage nanoscope_page(std::string_view bytes, const Block& image, const std::
 }  // namespace
 
 ImagePages read_nanoscope(std::string_view bytes) {
-  const std::string_view heading = bytes.substr(0, kMostHeaderBytes);
-  const std::size_t end = std::min(heading.find('\x1a'), heading.size());
-  const std::vector<Block> blocks = blocks_of(heading.substr(0, end));
+  const std::vector<NanoscopeBlock> blocks = nanoscope_blocks(bytes);
   ImagePages found;
-  for (const Block& block : blocks) {
+  for (const NanoscopeBlock& block : blocks) {
     if (block.name == kImageBlock) {
       add_page(nanoscope_name(block), found, [&] { return nanoscope_page(bytes, block, blocks, found); });
       continue;

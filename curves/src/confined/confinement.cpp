@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/confinement.h"
+#include "confined/confinement.h"
 
 #include <linux/audit.h>
 #include <linux/filter.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/mapped_file.h"
+#include "confined/mapped_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/confined_child.h"
+#include "confined/confined_child.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -25,11 +25,11 @@
 #include <thread>
 #include <utility>
 
+#include "confined/confinement.h"
 #include "core/file_descriptor.h"
 #include "core/system_error.h"
 #include "core/write_all.h"
 #include "curves/curve_error.h"
-#include "formats/confinement.h"
 
 namespace afm::curves {
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/nanoscope_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "curves/curve_error.h"
+#include "formats/scaled_unit.h"
+#include "formats/text_table.h"
+
+namespace afm::curves {
+
+namespace {
+
+constexpr std::size_t kMostHeaderBytes = std::size_t{4} << 20U;
+
+// "\key: value"; the colon in "@2:Z scale" belongs to the key.
+void add_line(std::string_view line, NanoscopeBlock& block) {
+  const bool counted =
+      line.size() > 2 && line[0] == '@' && std::isdigit(static_cast<unsigned char>(line[1])) != 0 && line[2] == ':';
+  const std::size_t colon = line.find(':', counted ? 3 : 0);
+  if (colon == std::string_view::npos) return;
+  block.values.emplace(lower_key(trimmed(line.substr(0, colon))), trimmed(line.substr(colon + 1)));
+}
+
+// Takes the text between a bracket and its counterpart, with all before it; empty if they do not come next. Brackets
+// may be nested: "(0.0003 log(Arb)/LSB)".
+std::string_view take_between(char open, char close, std::string_view& text) {
+  text = trimmed(text);
+  if (!text.starts_with(open)) return {};
+  std::size_t end = 1;
+  for (int depth = 1; end < text.size(); ++end) {
+    depth += text[end] == close ? -1 : text[end] == open ? 1 : 0;
+    if (depth == 0) break;
+  }
+  if (end == text.size()) return {};
+  const std::string_view inside = text.substr(1, end - 1);
+  text.remove_prefix(end + 1);
+  return inside;
+}
+
+}  // namespace
+
+std::string lower_key(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+std::vector<NanoscopeBlock> nanoscope_blocks(std::string_view bytes) {
+  const std::string_view heading = bytes.substr(0, kMostHeaderBytes);
+  const std::string_view header = heading.substr(0, heading.find('\x1a'));
+  std::vector<NanoscopeBlock> blocks;
+  std::string_view line;
+  for (Lines lines(header); lines.next(line);) {
+    if (line == "\\*File list end") break;
+    if (line.starts_with("\\*")) {
+      blocks.push_back({trimmed(line.substr(2)), {}});
+    } else if (line.starts_with('\\') && !blocks.empty()) {
+      add_line(line.substr(1), blocks.back());
+    }
+  }
+  return blocks;
+}
+
+std::uint32_t nanoscope_version(const std::vector<NanoscopeBlock>& blocks) {
+  for (const NanoscopeBlock& block : blocks) {
+    const std::string_view* text = block.find("version");
+    if (text == nullptr) continue;
+    std::string_view digits = *text;
+    if (digits.starts_with("0x") || digits.starts_with("0X")) digits.remove_prefix(2);
+    std::uint32_t version = 0;
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), version, 16).ec == std::errc()) return version;
+  }
+  return 0;
+}
+
+std::optional<double> take_number(std::string_view& text) {
+  text = trimmed(text);
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return number;
+}
+
+double nanoscope_number(const NanoscopeBlock& block, const std::string& key) {
+  const std::string_view* text = block.find(key);
+  if (text == nullptr) throw CurveError(fmt::format("it has no \"{}\"", key));
+  std::string_view rest = *text;
+  const auto number = take_number(rest);
+  if (!number) throw CurveError(fmt::format("its \"{}\" is no number", key));
+  return *number;
+}
+
+std::optional<HardScale> hard_scale(const std::string_view* text) {
+  if (text == nullptr || !text->starts_with('V')) return std::nullopt;
+  std::string_view rest = text->substr(1);
+  HardScale scale;
+  scale.soft_name = take_between('[', ']', rest);
+  std::string_view per_lsb = take_between('(', ')', rest);
+  scale.per_lsb = take_number(per_lsb);
+  scale.value = take_number(rest);
+  scale.unit = trimmed(rest);
+  return scale;
+}
+
+std::optional<SoftScale> soft_scale(const std::vector<NanoscopeBlock>& blocks, std::string_view name,
+                                    std::string_view per) {
+  const std::string key = "@" + lower_key(name);
+  for (const NanoscopeBlock& block : blocks) {
+    const std::string_view* text = block.find(key);
+    if (text == nullptr || !text->starts_with('V')) continue;
+    std::string_view rest = text->substr(1);
+    const auto number = take_number(rest);
+    if (!number) continue;
+    rest = trimmed(rest);
+    for (const std::string_view divisor : {std::string_view("V"), per}) {
+      if (rest.size() <= divisor.size() || !rest.ends_with(divisor)) continue;
+      if (rest[rest.size() - divisor.size() - 1] == '/') rest.remove_suffix(divisor.size() + 1);
+    }
+    const ScaledUnit unit = scaled_unit(rest);
+    return SoftScale{*number * unit.factor, unit.unit};
+  }
+  return std::nullopt;
+}
+
+}  // namespace afm::curves
