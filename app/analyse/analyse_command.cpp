@@ -12,6 +12,7 @@
 #include <optional>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/analyse/analyse_image.h"
@@ -25,6 +26,7 @@
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
 #include "curves/image_file.h"
+#include "curves/table_columns.h"
 #include "curves/unread_kinds.h"
 #include "physics/friction/friction.h"
 #include "physics/quantity_text.h"
@@ -168,6 +170,19 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
                                   .add_parsed_option("--sensitivity", read_sensitivity,
                                                      "sensitivity of the optical lever instead of the file's")
                                   .type_name("SENSITIVITY in um/V, nm/V, pm/V"));
+  const auto read_columns = [&reading](const std::string& text) -> core::Result<void> {
+    auto columns = curves::parse_table_columns(text);
+    if (!columns) return tl::unexpected(columns.error());
+    reading.columns = std::move(*columns);
+    return {};
+  };
+  for_curves("--columns",
+             command
+                 .add_parsed_option("--columns", read_columns,
+                                    "read FILE as a plain table, by the names and units of its columns: "
+                                    "\"height:um force:nN\", \"- height:nm deflection:V\"; names: height, "
+                                    "force, deflection, retract-force, retract-deflection, segment, time, -")
+                 .type_name("COLUMNS"));
   const auto read_method = [&options](const std::string& text) -> core::Result<void> {
     const auto method = std::find_if(physics::kContactMethods.begin(), physics::kContactMethods.end(),
                                      [&](const auto& each) { return each.name == text; });
@@ -243,7 +258,7 @@ core::Result<void> analyse_session(const AnalyseOptions& options) {
 }
 
 core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
-  const auto kind = kind_of(options.file);
+  const auto kind = options.reading.columns ? core::Result<FileKind>(FileKind::Curve) : kind_of(options.file);
   if (!kind) return tl::unexpected(kind.error());
   if (*kind == FileKind::Session) return analyse_session(options);
   if (*kind == FileKind::Image) {
@@ -297,6 +312,7 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
       "         touchafm analyse gel.jpk-force --fit sphere --radius 5um --out gel.svg\n"
       "         touchafm analyse day1/*.jpk-force --fit sphere --radius 5um --out day1-fits\n"
       "         touchafm analyse cell.jpk-qi-data --fit paraboloid --radius 30nm --out cell-fits\n"
+      "         touchafm analyse table.txt --columns \"height:um force:nN\" --spring-constant 0.1N/m\n"
       "         touchafm analyse mica.spm --channel \"Height Sensor\" --json");
   command.when_chosen([options, files, of_kind = std::move(of_kind)]() -> core::Result<void> {
     options->file = files->front();

@@ -123,7 +123,7 @@ void FitPool::work(const std::stop_token& stop) {
 }
 
 void FitPool::begin(std::size_t file) {
-  const auto counted = curves::curve_count(files_[file]);
+  const auto counted = curves::curve_count(files_[file], options_.reading);
   const std::size_t count = counted.value_or(1);
   const unsigned shares = static_cast<unsigned>(std::min<std::size_t>(threads_, std::max<std::size_t>(1, count)));
   const std::lock_guard lock(mutex_);

@@ -9,6 +9,7 @@
 
 #include "core/result.h"
 #include "curves/recorded_curve.h"
+#include "curves/table_columns.h"
 
 // Reading and writing of force-distance curves. docs/curves.md describes the contents of each format.
 namespace afm::curves {
@@ -51,8 +52,9 @@ std::vector<WritableFormat> writable_formats();
 struct CurveReading {
   std::optional<physics::Stiffness> spring_constant;
   std::optional<double> sensitivity_m_per_v;
-  std::size_t index = 0;  // number of the curve in a file with several (curves/curve_series.h)
-  bool confined = true;   // foreign formats in a process that cannot open anything; false: here, for a fuzzer
+  std::size_t index = 0;                // number of the curve in a file with several (curves/curve_series.h)
+  std::optional<TableColumns> columns;  // what a plain table holds; a file is read as one if it is given
+  bool confined = true;  // foreign formats in a process that cannot open anything; false: here, for a fuzzer
 };
 
 // Detects the format by its content. BadInputFile, in one line that names the file, for any content that is not

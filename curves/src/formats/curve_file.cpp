@@ -18,6 +18,7 @@
 #include "curves/curve_error.h"
 #include "curves/curve_series.h"
 #include "curves/image_file.h"
+#include "formats/column_table.h"
 #include "formats/confined_series.h"
 #include "formats/format_table.h"
 #include "formats/igor_file.h"
@@ -114,6 +115,8 @@ constexpr FormatTable kCurves{
                  read_nanoscope_curve, nullptr},
         CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", looks_like_igor, Reader::Foreign, nullptr, read_igor,
                  nullptr}}};
+// Not known by its content: the user says what it is.
+constexpr CurveRow kColumnTable{CurveFormat{}, "", "", nullptr, Reader::Foreign, nullptr, read_column_table, nullptr};
 static_assert(core::has_row_for_each(kCurves.rows, &CurveRow::format));
 static_assert(kCurves.names_all(), "kCurveFiles names the files of every format");
 
@@ -185,6 +188,12 @@ RecordedCurve parsed(const CurveRow& row, std::string_view text, const CurveRead
 // A map may be larger than memory: its bytes are for the confined child alone.
 bool is_mapped(const CurveRow& row) { return row.reader == Reader::Foreign && row.series != nullptr; }
 
+// The row of a file that may hold several curves. Null: of any other.
+const CurveRow* row_with_series(const std::string& path, const CurveReading& reading) {
+  const CurveRow* const row = reading.columns ? nullptr : kCurves.row_of_file(path);
+  return row != nullptr && row->series != nullptr ? row : nullptr;
+}
+
 // Curves of a part of a file, one after the other. A child that dies costs the curve that it was to read.
 class PartReader {
  public:
@@ -237,7 +246,7 @@ bool is_curve_file(const std::string& path) { return kCurves.row_of_file(path) !
 bool begins_like_curve(std::string_view bytes) { return kCurves.row_of(without_byte_order_mark(bytes)) != nullptr; }
 
 core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReading& reading) {
-  if (const CurveRow* const row = kCurves.row_of_file(path); row != nullptr && is_mapped(*row)) {
+  if (const CurveRow* const row = row_with_series(path, reading); row != nullptr && is_mapped(*row)) {
     return kCurves.named(path, [&] { return parsed(*row, MappedFile(path).bytes(), reading); });
   }
   const auto bytes = bytes_of_file(path);
@@ -246,20 +255,23 @@ core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReadi
 }
 
 core::Result<RecordedCurve> parse_curve(std::string_view bytes, const std::string& name, const CurveReading& reading) {
+  if (reading.columns) {
+    return kCurves.named(name, [&] { return parsed(kColumnTable, without_byte_order_mark(bytes), reading); });
+  }
   return kCurves.parse(bytes, name,
                        [&](const CurveRow& row, std::string_view text) { return parsed(row, text, reading); });
 }
 
-core::Result<std::size_t> curve_count(const std::string& path) {
-  const CurveRow* const row = kCurves.row_of_file(path);
-  if (row == nullptr || row->series == nullptr) return 1;
+core::Result<std::size_t> curve_count(const std::string& path, const CurveReading& reading) {
+  const CurveRow* const row = row_with_series(path, reading);
+  if (row == nullptr) return 1;
   return kCurves.named(path, [&] { return row->series->count(path); });
 }
 
 void read_curves(const std::string& path, std::size_t count, const SeriesPart& part, const CurveReading& reading,
                  const TakeCurve& take) {
-  const CurveRow* const row = kCurves.row_of_file(path);
-  if (row == nullptr || row->series == nullptr) {
+  const CurveRow* const row = row_with_series(path, reading);
+  if (row == nullptr) {
     if (part.first == 0) take(0, load_curve(path, reading));
     return;
   }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+
+namespace afm::curves {
+
+// What a column of a plain table holds. Retract: of the way back, at the same heights in reverse order.
+enum class ColumnKind { Height, Force, Deflection, RetractForce, RetractDeflection, Segment, Time, Nothing };
+
+struct TableColumn {
+  ColumnKind kind = ColumnKind::Nothing;
+  double si_per_unit = 1;  // for a deflection in volts: V
+  bool volts = false;
+};
+
+// One for each column, from the left.
+using TableColumns = std::vector<TableColumn>;
+
+// From "height:um force:nN": the columns' names with their units, separated by blanks; "-" is a column that is not
+// read. WrongUsage, with the names and units that are known, for anything else, and unless there are one height and one
+// force or deflection.
+core::Result<TableColumns> parse_table_columns(std::string_view text);
+
+}  // namespace afm::curves

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/column_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/enumerators.h"
+#include "curves/curve_error.h"
+#include "curves/table_columns.h"
+#include "formats/segments.h"
+#include "formats/text_table.h"
+#include "physics/quantity_text.h"
+
+namespace afm::curves {
+
+namespace {
+
+enum class ColumnUnits { Length, Force, LengthOrVolts, Time, None };
+
+struct ColumnRow {
+  ColumnKind kind;
+  std::string_view name;
+  ColumnUnits units;
+};
+constexpr std::array kColumnRows{
+    ColumnRow{ColumnKind::Height, "height", ColumnUnits::Length},
+    ColumnRow{ColumnKind::Force, "force", ColumnUnits::Force},
+    ColumnRow{ColumnKind::Deflection, "deflection", ColumnUnits::LengthOrVolts},
+    ColumnRow{ColumnKind::RetractForce, "retract-force", ColumnUnits::Force},
+    ColumnRow{ColumnKind::RetractDeflection, "retract-deflection", ColumnUnits::LengthOrVolts},
+    ColumnRow{ColumnKind::Segment, "segment", ColumnUnits::None},
+    ColumnRow{ColumnKind::Time, "time", ColumnUnits::Time},
+    ColumnRow{ColumnKind::Nothing, "-", ColumnUnits::None}};
+static_assert(core::has_row_for_each(kColumnRows, &ColumnRow::kind));
+
+// SI units in one of this name; empty: not one of the list.
+std::optional<double> si_per_unit(const physics::Units& list, std::string_view name) {
+  const auto found = std::find_if(list.units.begin(), list.units.end(),
+                                  [&](const physics::Unit& unit) { return unit.symbol == name; });
+  return found != list.units.end() ? std::optional(1.0 / found->per_si) : std::nullopt;
+}
+
+std::optional<TableColumn> column_of(const ColumnRow& row, std::string_view unit) {
+  const auto in = [&](const physics::Units& list) -> std::optional<TableColumn> {
+    const auto factor = si_per_unit(list, unit);
+    return factor ? std::optional(TableColumn{row.kind, *factor, false}) : std::nullopt;
+  };
+  switch (row.units) {
+    case ColumnUnits::Length:
+      return in(physics::kLengthUnits);
+    case ColumnUnits::Force:
+      return in(physics::kForceUnits);
+    case ColumnUnits::LengthOrVolts:
+      if (unit == "V") return TableColumn{row.kind, 1.0, true};
+      if (unit == "mV") return TableColumn{row.kind, 1e-3, true};
+      return in(physics::kLengthUnits);
+    case ColumnUnits::Time:
+      return in(physics::kTimeUnits);
+    case ColumnUnits::None:
+      return unit.empty() ? std::optional(TableColumn{row.kind, 1.0, false}) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::size_t count_of(const TableColumns& columns, ColumnKind kind) {
+  return static_cast<std::size_t>(
+      std::count_if(columns.begin(), columns.end(), [&](const TableColumn& column) { return column.kind == kind; }));
+}
+
+// Empty without one.
+std::optional<std::size_t> place_of(const TableColumns& columns, ColumnKind kind) {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const TableColumn& column) { return column.kind == kind; });
+  return found != columns.end() ? std::optional(static_cast<std::size_t>(found - columns.begin())) : std::nullopt;
+}
+
+// The fields of one line, and how numbers are written in them.
+class FieldSplitter {
+ public:
+  // Chooses the separator by the first line of numbers.
+  explicit FieldSplitter(std::string_view line) {
+    for (const char separator : {'\t', ';', ','}) {
+      if (line.find(separator) == std::string_view::npos) continue;
+      separator_ = separator;
+      return;
+    }
+  }
+
+  void split_line(std::string_view line, std::vector<std::string_view>& fields) const {
+    if (separator_ != ' ') return split(line, separator_, fields);
+    fields.clear();
+    for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
+      const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+      fields.push_back(line.substr(0, end));
+      line.remove_prefix(end);
+    }
+  }
+
+  // A number, with a decimal comma where commas do not separate. Empty if it is none.
+  std::optional<double> number(std::string_view field) const {
+    std::string text(trimmed(field));
+    if (separator_ != ',' && text.find('.') == std::string::npos) std::replace(text.begin(), text.end(), ',', '.');
+    if (text.starts_with('+')) text.erase(0, 1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+    return is_number ? std::optional(value) : std::nullopt;
+  }
+
+ private:
+  char separator_ = ' ';  // a blank: any number of blanks and tabs
+};
+
+// The numbers of all rows, column by column; a column that is not read stays empty.
+std::vector<std::vector<double>> numbers_of(std::string_view bytes, const TableColumns& columns) {
+  std::vector<std::vector<double>> table(columns.size());
+  std::vector<std::string_view> fields;
+  std::vector<double> row(columns.size());
+  std::size_t rows = 0;
+  std::string_view line;
+  FieldSplitter splitter({});
+  for (Lines lines(bytes); lines.next(line);) {
+    if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
+    if (rows == 0) splitter = FieldSplitter(trimmed(line));
+    splitter.split_line(line, fields);
+    std::size_t bad = 0;
+    for (; bad < columns.size(); ++bad) {
+      if (columns[bad].kind == ColumnKind::Nothing) continue;
+      const auto number = bad < fields.size() ? splitter.number(fields[bad]) : std::nullopt;
+      if (!number) break;
+      row[bad] = *number;
+    }
+    if (bad < columns.size()) {
+      if (rows == 0) continue;  // the heading
+      if (bad >= fields.size()) {
+        throw CurveError(fmt::format("line {} has {} columns, and --columns names {}", lines.number(), fields.size(),
+                                     columns.size()));
+      }
+      throw CurveError(fmt::format("line {}: column {} is \"{}\", not a finite number", lines.number(), bad + 1,
+                                   trimmed(fields[bad]).substr(0, 40)));
+    }
+    if (++rows > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (columns[i].kind != ColumnKind::Nothing) table[i].push_back(row[i] * columns[i].si_per_unit);
+    }
+  }
+  if (rows == 0) {
+    throw CurveError(fmt::format("no line has {} columns with numbers where --columns names them", columns.size()));
+  }
+  return table;
+}
+
+// Newtons in a unit of a force, or of a deflection with the calibration that was given.
+double newtons_per(const TableColumn& column, const CurveReading& reading) {
+  if (column.kind == ColumnKind::Force || column.kind == ColumnKind::RetractForce) return 1.0;
+  if (!reading.spring_constant || (column.volts && !reading.sensitivity_m_per_v)) {
+    throw CurveError(fmt::format("its deflection is in {}; give {}--spring-constant",
+                                 column.volts ? "volts" : "a length",
+                                 column.volts && !reading.sensitivity_m_per_v ? "--sensitivity and " : ""));
+  }
+  return reading.spring_constant->si * (column.volts ? *reading.sensitivity_m_per_v : 1.0);
+}
+
+// First row of the retract: where the height turns, at the extreme that is further from both ends.
+std::size_t turn_of(const std::vector<double>& heights) {
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  const auto distance = [&](double height) {
+    return std::min(std::abs(height - heights.front()), std::abs(height - heights.back()));
+  };
+  const auto turn = distance(*low) >= distance(*high) ? low : high;
+  // a monotonic table has its extremes at its ends
+  return distance(*turn) > 0.0 ? static_cast<std::size_t>(turn - heights.begin()) + 1 : heights.size();
+}
+
+void add_branch(const std::vector<double>& heights, const std::vector<double>& forces, double newtons,
+                RecordedCurve& curve) {
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    curve.points.push_back({physics::Length(heights[i]), physics::Force(forces[i] * newtons)});
+  }
+}
+
+std::string known_columns() {
+  std::vector<std::string_view> names;
+  for (const ColumnRow& row : kColumnRows) names.push_back(row.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+core::Result<void> check(const TableColumns& columns) {
+  const auto count = [&](ColumnKind kind) { return count_of(columns, kind); };
+  const bool forces = count(ColumnKind::Force) == 1, deflections = count(ColumnKind::Deflection) == 1;
+  const std::size_t back = count(ColumnKind::RetractForce) + count(ColumnKind::RetractDeflection);
+  if (count(ColumnKind::Height) != 1 || forces == deflections || count(ColumnKind::Force) > 1 ||
+      count(ColumnKind::Deflection) > 1) {
+    return core::wrong_usage(
+        "--columns wants one height, and one force or deflection: --columns \"height:um force:nN\"");
+  }
+  if (back > 1 || count(ColumnKind::RetractForce) > (forces ? 1U : 0U) ||
+      count(ColumnKind::RetractDeflection) > (deflections ? 1U : 0U)) {
+    return core::wrong_usage("--columns: the retract has one column, of the same quantity as the approach");
+  }
+  if (count(ColumnKind::Segment) > 1 || count(ColumnKind::Time) > 1) {
+    return core::wrong_usage("--columns names a segment or a time twice");
+  }
+  if (back == 1 && (count(ColumnKind::Segment) > 0 || count(ColumnKind::Time) > 0)) {
+    return core::wrong_usage("--columns: a retract beside the approach has neither segment nor time; write - for them");
+  }
+  return {};
+}
+
+}  // namespace
+
+core::Result<TableColumns> parse_table_columns(std::string_view text) {
+  TableColumns columns;
+  for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
+    const std::string_view word = text.substr(0, std::min(text.find_first_of(" \t"), text.size()));
+    text.remove_prefix(word.size());
+    const std::size_t colon = std::min(word.find(':'), word.size());
+    const std::string_view name = word.substr(0, colon), unit = word.substr(std::min(colon + 1, word.size()));
+    const auto row = std::find_if(kColumnRows.begin(), kColumnRows.end(),
+                                  [&](const ColumnRow& known) { return known.name == name; });
+    if (row == kColumnRows.end()) {
+      return core::wrong_usage(fmt::format(
+          "--columns: \"{}\" is no column; write NAME:UNIT for each, with a name of {}", word, known_columns()));
+    }
+    const auto column = column_of(*row, unit);
+    if (!column) {
+      return core::wrong_usage(fmt::format(
+          "--columns: \"{}\" has no unit of its quantity; such as height:um, force:nN, deflection:V, time:s, segment",
+          word));
+    }
+    columns.push_back(*column);
+  }
+  if (const auto checked = check(columns); !checked) return tl::unexpected(checked.error());
+  return columns;
+}
+
+RecordedCurve read_column_table(std::string_view bytes, const CurveReading& reading) {
+  const TableColumns& columns = *reading.columns;
+  const auto table = numbers_of(bytes, columns);
+  const auto at = [&](ColumnKind kind) { return place_of(columns, kind); };
+  const auto column_of_kinds = [&](ColumnKind a, ColumnKind b) { return at(a) ? at(a) : at(b); };
+  const std::vector<double>& heights = table[*at(ColumnKind::Height)];
+  const std::size_t force = *column_of_kinds(ColumnKind::Force, ColumnKind::Deflection);
+  RecordedCurve curve;
+  add_branch(heights, table[force], newtons_per(columns[force], reading), curve);
+  std::vector<double> segments(heights.size(), 0.0);
+  if (const auto back = column_of_kinds(ColumnKind::RetractForce, ColumnKind::RetractDeflection)) {
+    const std::vector<double> reversed(heights.rbegin(), heights.rend());
+    const std::vector<double> forces(table[*back].rbegin(), table[*back].rend());
+    add_branch(reversed, forces, newtons_per(columns[*back], reading), curve);
+    segments.resize(curve.points.size(), 1.0);
+  } else if (const auto segment = at(ColumnKind::Segment)) {
+    segments = table[*segment];
+  } else {
+    std::fill(segments.begin() + static_cast<std::ptrdiff_t>(turn_of(heights)), segments.end(), 1.0);
+  }
+  if (const auto time = at(ColumnKind::Time)) curve.time_s = table[*time];
+  assign_branches(segments, curve);
+  curve.metadata.spring_constant = reading.spring_constant;
+  curve.metadata.sensitivity_m_per_v = reading.sensitivity_m_per_v;
+  return curve;
+}
+
+}  // namespace afm::curves

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "curves/curve_file.h"
+#include "curves/table_columns.h"
+
+namespace afm::curves {
+namespace column_table_test {
+
+using physics::Branch;
+using testing::HasSubstr;
+
+CurveReading columns(const std::string& text) {
+  CurveReading reading;
+  auto parsed = parse_table_columns(text);
+  EXPECT_TRUE(parsed) << parsed.error().message;
+  if (parsed) reading.columns = *parsed;
+  return reading;
+}
+
+// Down by 12 steps of 0.1 um and back; the force is 2 nN at the deepest point.
+std::string table(const char* separator, bool decimal_commas = false) {
+  std::string text = "exported by another program\nheight" + std::string(separator) + "force\n\n# a remark\n";
+  for (int i = 0; i <= 24; ++i) {
+    const int step = i <= 12 ? i : 24 - i;
+    std::string row = fmt::format("{:.2f}{}{:.2f}", 1.2 - 0.1 * step, separator, step < 8 ? 0.0 : 0.5 * (step - 8));
+    if (decimal_commas) std::replace(row.begin(), row.end(), '.', ',');
+    text += row + "\r\n";
+  }
+  return text;
+}
+
+std::string refusal(const std::string& bytes, const CurveReading& reading) {
+  const auto curve = parse_curve(bytes, "a.txt", reading);
+  return curve ? "accepted" : curve.error().message;
+}
+
+TEST(ColumnTable, IsReadWhateverSeparatesItsColumns) {
+  for (const char* separator : {"\t", ";", ",", "  ", " \t "}) {
+    for (const bool commas : {false, true}) {
+      if (commas && std::string(separator) == ",") continue;
+      const auto curve = parse_curve(table(separator, commas), "a.txt", columns("height:um force:nN"));
+      ASSERT_TRUE(curve) << separator << curve.error().message;
+      ASSERT_EQ(curve->points.size(), 25U);
+      EXPECT_NEAR(curve->points[0].z.si, 1.2e-6, 1e-18);
+      EXPECT_NEAR(curve->points[12].force.si, 2e-9, 1e-21);
+      EXPECT_EQ(curve->points[12].branch, Branch::Approach);
+      EXPECT_EQ(curve->points[13].branch, Branch::Retract);
+    }
+  }
+}
+
+TEST(ColumnTable, TurnsWhereTheHeightDoesWhicheverWayItCounts) {
+  std::string text;
+  for (int i = 0; i <= 24; ++i) {
+    const int step = i <= 12 ? i : 24 - i;
+    text += fmt::format("{} {}\n", 100 * step, step < 8 ? 0 : step - 8);
+  }
+  const auto curve = parse_curve(text, "a.txt", columns("height:nm force:nN"));
+  ASSERT_TRUE(curve) << curve.error().message;
+  EXPECT_GT(curve->points[0].z, curve->points[12].z) << "heights fall on the approach";
+  EXPECT_EQ(curve->points[12].branch, Branch::Approach);
+  EXPECT_EQ(curve->points[13].branch, Branch::Retract);
+}
+
+TEST(ColumnTable, MakesForcesOfADeflection) {
+  CurveReading reading = columns("height:um deflection:V");
+  EXPECT_THAT(refusal(table("\t"), reading), HasSubstr("its deflection is in volts; give --sensitivity and"));
+  reading.spring_constant = physics::Stiffness(0.1);
+  EXPECT_THAT(refusal(table("\t"), reading), HasSubstr("give --sensitivity and --spring-constant"));
+  reading.sensitivity_m_per_v = 50e-9;
+  const auto volts = parse_curve(table("\t"), "a.txt", reading);
+  ASSERT_TRUE(volts) << volts.error().message;
+  EXPECT_NEAR(volts->points[12].force.si, 2.0 * 50e-9 * 0.1, 1e-20);
+  reading.columns = *parse_table_columns("height:um deflection:nm");
+  EXPECT_NEAR(parse_curve(table("\t"), "a.txt", reading)->points[12].force.si, 2e-9 * 0.1, 1e-20);
+}
+
+// NT-MDT's text: height, approach and retract side by side, with decimal commas.
+TEST(ColumnTable, HasTheWayBackBesideTheApproach) {
+  std::string text;
+  for (int i = 0; i < 20; ++i)
+    text += fmt::format("{},5\t{},25\t{},75\n", 1000 - 50 * i, i < 10 ? 0 : i - 10, i < 5 ? 0 : i - 5);
+  const auto curve = parse_curve(text, "a.txt", columns("height:nm force:pN retract-force:pN"));
+  ASSERT_TRUE(curve) << curve.error().message;
+  ASSERT_EQ(curve->points.size(), 40U);
+  EXPECT_NEAR(curve->points[0].z.si, 1000.5e-9, 1e-18);
+  EXPECT_NEAR(curve->points[20].z.si, 50.5e-9, 1e-18);
+  EXPECT_NEAR(curve->points[20].force.si, 14.75e-12, 1e-21);
+  EXPECT_EQ(curve->points[20].branch, Branch::Retract);
+}
+
+TEST(ColumnTable, TakesSegmentTimeAndColumnsThatAreNotRead) {
+  std::string text;
+  for (int i = 0; i < 24; ++i) {
+    const int step = i < 12 ? i : 23 - i;
+    text += fmt::format("name{};{};{};{};{}\n", i, i < 12 ? 0 : 1, 1e-3 * i, 1e-6 - 1e-7 * step, 1e-9 * step);
+  }
+  const auto curve = parse_curve(text, "a.txt", columns("- segment time:s height:m force:N"));
+  ASSERT_TRUE(curve) << curve.error().message;
+  EXPECT_EQ(curve->points[12].branch, Branch::Retract);
+  EXPECT_DOUBLE_EQ(curve->time_s[5], 5e-3);
+}
+
+TEST(ColumnTable, RefusesWhatItDoesNotUnderstand) {
+  const CurveReading two = columns("height:um force:nN");
+  EXPECT_THAT(refusal("", two), HasSubstr("no line has 2 columns with numbers"));
+  EXPECT_THAT(refusal("only words\nand more\n", two), HasSubstr("no line has 2 columns with numbers"));
+  EXPECT_THAT(refusal(table("\t") + "broken\tline\n", two), HasSubstr("line 30: column 1 is \"broken\""));
+  EXPECT_THAT(refusal(table("\t") + "1.0\n", two), HasSubstr("line 30 has 1 columns, and --columns names 2"));
+  EXPECT_THAT(refusal(table("\t") + "nan\t1\n", two), HasSubstr("not a finite number"));
+  EXPECT_THAT(refusal("1 2\n3 4\n", two), HasSubstr("only 2 points"));
+  const std::string whole = table(",");
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    static_cast<void>(refusal(whole.substr(0, size), [&] {
+      CurveReading here = two;
+      here.confined = false;
+      return here;
+    }()));
+}
+
+TEST(TableColumns, AreNamedWithTheirUnits) {
+  const auto error = [](const char* text) {
+    const auto parsed = parse_table_columns(text);
+    return parsed ? "accepted" : parsed.error().message;
+  };
+  EXPECT_EQ(error(" height:pm   force:uN "), "accepted");
+  EXPECT_EQ(error("height:um deflection:mV time:ms - segment"), "accepted");
+  EXPECT_THAT(error("height:um power:W"), HasSubstr("\"power:W\" is no column; write NAME:UNIT"));
+  EXPECT_THAT(error("height:nN force:nN"), HasSubstr("\"height:nN\" has no unit of its quantity"));
+  EXPECT_THAT(error("height force:nN"), HasSubstr("has no unit of its quantity"));
+  for (const char* text :
+       {"", "height:um", "force:nN", "height:um height:nm force:nN", "height:um force:nN deflection:V"}) {
+    EXPECT_THAT(error(text), HasSubstr("one height, and one force or deflection")) << text;
+  }
+  EXPECT_THAT(error("height:um force:nN retract-deflection:V"), HasSubstr("the same quantity"));
+  EXPECT_THAT(error("height:um force:nN retract-force:nN segment"), HasSubstr("neither segment nor time"));
+}
+
+}  // namespace column_table_test
+}  // namespace afm::curves
