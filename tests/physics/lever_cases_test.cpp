@@ -54,7 +54,7 @@ double beam_value(const Case& row) {
 
 double thermal_value(const Case& row) {
   if (row.output == "mode_share") return thermal_share(static_cast<int>(row.input("mode")));
-  if (row.output == "chi") return optical_lever_ratio();
+  if (row.output == "chi") return optical_lever_ratio(1);
   const Stiffness k(row.input("kc"));
   const Temperature temperature(row.input("T"));
   const double deflection = thermal_deflection(k, temperature).si;

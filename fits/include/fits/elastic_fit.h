@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fits/indenter.h"
+#include "fits/interval.h"
 
 // Fit of an elastic contact to the approach of a force curve (docs/fits.md). Any thread; allocates.
 namespace afm::fits {
@@ -42,12 +43,6 @@ struct FitSetup {
   bool tilt = false;           // also fits a slope of the baseline
   bool white = false;          // takes the noise as white: ordinary least squares, as in nanite and AtomicJ
   std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts
-};
-
-// Interval of 95 %: of the statistics alone, by the profile likelihood of the whitened fit. An end that was not found
-// within a factor of 148 is 0 or infinite.
-struct Interval {
-  double low = 0, high = 0;
 };
 
 // Reasons not to trust a modulus.
@@ -84,9 +79,9 @@ struct Found {
 struct ElasticFit {
   double modulus_pa = 0;          // Young's, for the setup's Poisson ratio
   double reduced_modulus_pa = 0;  // E/(1 - nu^2)
-  Interval modulus_interval_pa;
-  double contact_z_m = 0;  // height of the base, or of the tip with Against::Tip
-  double level_n = 0;      // baseline at the first sample's place
+  Interval modulus_interval_pa;   // by the profile likelihood of the whitened fit, within a factor of 148
+  double contact_z_m = 0;         // height of the base, or of the tip with Against::Tip
+  double level_n = 0;             // baseline at the first sample's place
   double tilt_n_per_m = 0;
   double depth_m = 0;      // largest depth of the model's tip
   double noise_n = 0;      // rms of the residuals before contact, or of all where these are few

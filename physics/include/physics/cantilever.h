@@ -43,9 +43,6 @@ Frequency vacuum_resonance(const RectangularLever& lever, int mode = 1);
 // The mass that makes a point on the spring k resonate at the lever's first frequency: 3 m/alpha_1^4 = 0.243 m.
 Mass effective_mass(const RectangularLever& lever);
 
-// Torque at the clamp for a force at the end, F L. Same sign as the force.
-Torque clamp_moment(Force force, Length lever_length);
-
 // Stiffness of a lever of spring constant k against a force along the sample's normal if the lever is mounted at an
 // angle to the sample: k/cos^2(tilt) (Heim, Kappl & Butt 2004; without the tip's length and friction). Tilt below 90
 // degrees.

@@ -16,8 +16,8 @@ double thermal_share(int mode);
 // up to 4/3.
 double virtual_thermal_share(int mode);
 
-// chi = sqrt(thermal_share(1)/virtual_thermal_share(1)): ratio of the inverse optical lever sensitivity of the first
-// free mode to that of the end-loaded lever.
-double optical_lever_ratio();
+// chi = sqrt(thermal_share/virtual_thermal_share): ratio of the inverse optical lever sensitivity of a free mode to
+// that of the end-loaded lever.
+double optical_lever_ratio(int mode);
 
 }  // namespace afm::physics

@@ -60,8 +60,6 @@ Frequency vacuum_resonance(const RectangularLever& lever, int mode) {
 
 Mass effective_mass(const RectangularLever& lever) { return 3.0 / std::pow(flexural_root(1), 4) * mass(lever); }
 
-Torque clamp_moment(Force force, Length lever_length) { return force * lever_length; }
-
 Stiffness tilted_spring_constant(Stiffness spring_constant, double tilt_rad) {
   const double cosine = std::cos(tilt_rad);
   return spring_constant / (cosine * cosine);

@@ -28,6 +28,6 @@ double virtual_thermal_share(int mode) {
   return 16.0 / (3.0 * a * a) * slope * slope;
 }
 
-double optical_lever_ratio() { return std::sqrt(thermal_share(1) / virtual_thermal_share(1)); }
+double optical_lever_ratio(int mode) { return std::sqrt(thermal_share(mode) / virtual_thermal_share(mode)); }
 
 }  // namespace afm::physics

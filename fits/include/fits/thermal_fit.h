@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fits/interval.h"
+
+// Fit of a damped harmonic oscillator and a constant floor to the thermal noise of a free lever (docs/lever.md). Any
+// thread; allocates.
+namespace afm::fits {
+
+// One point of a one-sided power spectrum. The signal may have any unit, such as V or m.
+struct SpectrumPoint {
+  double frequency_hz = 0;
+  double density = 0;  // square of the signal's unit per hertz
+};
+
+struct Oscillator {
+  double resonance_hz = 0;
+  double quality_factor = 0;
+  double area = 0;   // mean square of the oscillator's part, from 0 to infinity: that of its equipartition
+  double floor = 0;  // density of white noise; an estimate may be a little below zero
+};
+
+// (L1) floor + 2 A/(pi f0 Q) / [(1 - r^2)^2 + (r/Q)^2], r = f/f0: an oscillator under white force (fluctuation and
+// dissipation).
+double density_at(const Oscillator& oscillator, double frequency_hz);
+
+// Reasons not to trust an area.
+enum class SpectrumDoubt {
+  OtherShape,    // groups of neighbours are off by more than chance
+  TooCoarse,     // fewer than four points in the width f0/Q
+  Unknown,       // the area's standard deviation is over a tenth
+  FewerAverages  // the scatter is that of fewer averages than were given
+};
+
+struct SpectrumDoubtRow {
+  SpectrumDoubt doubt;
+  std::string_view name;  // in reports
+};
+extern const std::array<SpectrumDoubtRow, 4> kSpectrumDoubts;
+
+struct FoundInSpectrum {
+  SpectrumDoubt doubt;
+  double figure;  // compared value, in the unit of the limit
+  double limit;
+};
+
+struct ThermalFit {
+  Oscillator oscillator;
+  Interval resonance_hz, quality_factor, area, floor;
+  double area_deviation = 0;            // relative standard deviation of the area
+  double averages = 0;                  // that the intervals assume
+  std::optional<double> seen_averages;  // those of the scatter; none: no scatter
+  double neighbour_factor = 1;          // growth of the variances because neighbours are correlated, by a window
+  std::size_t points = 0;
+  double low_hz = 0, high_hz = 0;  // first and last frequency
+  std::vector<FoundInSpectrum> doubts;
+};
+
+// Maximises Whittle's likelihood: each density is the mean of `averages` exponential ones around the model's. Without
+// `averages` the scatter around the model determines them. Intervals come from the Fisher information. Empty, with the
+// reason in `why`, if there are fewer than 20 points, frequencies do not rise from above zero, a density is not
+// positive, or no oscillator within the frequencies fits.
+std::optional<ThermalFit> fit_thermal(std::span<const SpectrumPoint> spectrum, std::optional<double> averages,
+                                      std::string& why);
+
+}  // namespace afm::fits
