@@ -28,6 +28,7 @@ struct CommandContext {
   COMMAND(curve)                      \
   COMMAND(scan)                       \
   COMMAND(analyse)                    \
+  COMMAND(lever)                      \
   COMMAND(material)                   \
   COMMAND(particles)                  \
   COMMAND(paper)                      \

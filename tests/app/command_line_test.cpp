@@ -353,6 +353,25 @@ TEST(CommandLine, ListsTheLegalValuesOfAChoiceThatIsNone) {
   expect_refusal(touchafm("analyse x.tab --sensitivity 70nm"), 2, "not a deflection per volt");
 }
 
+TEST(CommandLine, RefusesALeverThatCannotBeCalibrated) {
+  const support::ScratchFolder folder;
+  const std::string spectrum = folder.write("spectrum.txt", "Hz V2/Hz\n1 2\n2 3\n"),
+                    of_it = "lever --thermal " + spectrum;
+  expect_refusal(touchafm("lever"), 2, "nothing to calibrate by; give --thermal");
+  expect_refusal(touchafm("lever --sader --length 120um --width 30um --resonance 70kHz"), 2,
+                 "--sader needs --quality-factor");
+  expect_refusal(touchafm("lever --gci 5e-5 --resonance 70kHz --quality-factor 150"), 2, "N/m/kHz^1.3");
+  expect_refusal(touchafm("lever --sensitivity-from x.tab --length 120um"), 2, "--sader");
+  expect_refusal(touchafm("lever --sensitivity-from x.tab --range 1kHz:2kHz"), 2, "--thermal");
+  expect_refusal(touchafm(of_it + " --sensitivity 60nm"), 2, "nm/V");
+  expect_refusal(touchafm(of_it + " --range 20kHz:5kHz"), 2, "does not go up");
+  expect_refusal(touchafm(of_it + " --range 5kHz"), 2, "5kHz:20kHz");
+  expect_refusal(touchafm(of_it + " --uncertainty tilt=3%"), 2, "known are sensitivity");
+  expect_refusal(touchafm(of_it + " --uncertainty temperature=1"), 2, "%, K");
+  expect_refusal(touchafm(of_it + " --sensitivity 60nm/V"), 3, "fewer than 20 points; give --range");
+  expect_refusal(touchafm(of_it + " --units Hz"), 3, "has no density");
+}
+
 TEST(CommandLine, RefusesAHandThatIsNoHand) {
   expect_refusal(touchafm("demo --out /tmp/x --hand-speed 3m/s"), 2, "5mm/s to 200mm/s");
   expect_refusal(touchafm("demo --out /tmp/x --hand-speed 30"), 2, "mm/s");

@@ -78,6 +78,8 @@ const std::vector<Input> kInputs{
     {"analyse", "file", "@", ".001"},
     {"analyse", "file", "@", ".afms"},
     {"analyse", "--beside", "$CURVE --beside @", ".csv"},
+    {"lever", "--thermal", "--sensitivity 60nm/V --thermal @", ".txt"},
+    {"lever", "--sensitivity-from", "--sensitivity-from @", ".csv"},
     {"material", "--materials", "mica --materials @"},
     {"material", "--probes", "mica --probe none --probes @"},
     {"particles", "file", "@"},

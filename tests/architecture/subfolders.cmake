@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Subfolders of a folder, lowest first; then the arrows of each, which lead down alone, so that they close no circle.
-set(subfolders_app micro options . demo display view cluster headset lesson bench live analyse commands)
+set(subfolders_app micro options . demo display view cluster headset lesson bench live analyse lever commands)
 set(arrows_app/. micro options)
 set(arrows_app/demo options)
 set(arrows_app/display options)
@@ -15,6 +15,7 @@ set(arrows_app/lesson display view)
 set(arrows_app/bench options cluster)
 set(arrows_app/live display view cluster headset lesson)
 set(arrows_app/analyse options)
+set(arrows_app/lever options)
 set(arrows_app/commands options demo display view cluster headset lesson bench live)
 set(subfolders_curves . confined formats hdf5 images)
 set(arrows_curves/confined .)

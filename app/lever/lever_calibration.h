@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/lever/lever_inputs.h"
+#include "core/result.h"
+#include "curves/curve_file.h"
+#include "curves/spectrum_file.h"
+#include "fits/thermal_fit.h"
+
+// Calibration of a lever (docs/lever.md).
+namespace afm::app {
+
+// Standard uncertainty of an input: a share of its value, or in SI.
+struct InputUncertainty {
+  LeverInput input;
+  double value;
+  bool is_share;
+};
+
+struct LeverOptions {
+  LeverInputs inputs;
+  std::string thermal;  // file of a spectrum; empty: none
+  curves::SpectrumReading reading;
+  double low_hz = 0.0, high_hz = 1e12;
+  std::optional<double> averages;
+  int mode = 1;
+  bool sader = false;
+  std::string curve;  // file whose contact slope is the sensitivity; empty: none
+  curves::CurveReading curve_reading;
+  std::optional<double> bandwidth_hz;
+  std::vector<InputUncertainty> uncertainties;
+};
+
+// A spring constant, and the standard uncertainty by those of the inputs, to the first order.
+struct CalibratedConstant {
+  double k_n_per_m = 0;
+  double relative_uncertainty = 0;
+};
+
+struct ThermalConstant {
+  CalibratedConstant corrected;
+  fits::Interval interval_n_per_m;  // 95 % of the fit's statistics alone
+  double uncorrected_n_per_m = 0;   // k_B T/(sensitivity^2 area)
+  double floor_bias = 0;            // relative error of k, had the floor been taken for the lever's
+  double force_by_sensitivity = 0;  // relative uncertainty of forces k s V by that of the sensitivity s alone
+};
+
+struct SensitivityFound {
+  double measured_m_per_v = 0;
+  std::optional<double> corrected_m_per_v{};  // for a contact that is not rigid
+  bool without_contact = false;               // from the spectrum and a spring constant
+};
+
+struct LeverCalibration {
+  LeverInputs inputs;                        // completed by defaults, spectrum and curve
+  std::optional<curves::Spectrum> spectrum;  // its rows within the range
+  std::optional<fits::ThermalFit> fit;
+  std::optional<ThermalConstant> thermal;
+  std::optional<CalibratedConstant> sader, gci;
+  std::optional<SensitivityFound> sensitivity;
+
+  // The constant with which results go on: thermal, Sader's, GCI's, or the known one.
+  std::optional<double> spring_constant_n_per_m() const;
+};
+
+// Reads the files and computes whatever the options determine. WrongUsage if they lack an input; BadInputFile for files
+// that are none, or without a resonance or a contact.
+core::Result<LeverCalibration> calibrate(const LeverOptions& options);
+
+}  // namespace afm::app

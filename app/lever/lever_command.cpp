@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "app/lever/lever_calibration.h"
+#include "app/lever/lever_report.h"
+#include "app/options/command.h"
+#include "app/options/enum_option.h"
+#include "app/options/quantity_option.h"
+#include "app/options/standard_output.h"
+#include "core/whole_file.h"
+#include "physics/sader.h"
+
+namespace afm::app {
+
+namespace {
+
+using core::wrong_usage;
+
+struct FluidRow {
+  std::string_view name;
+  physics::Fluid fluid;
+};
+// At 25 degrees Celsius: air as in Sader's published program, water by IAPWS 2008.
+constexpr std::array kFluids{FluidRow{"air", {physics::Density(1.18), physics::Viscosity(1.86e-5)}},
+                             FluidRow{"water", {physics::Density(997.0), physics::Viscosity(8.90e-4)}}};
+
+constexpr QuantityRange<physics::Frequency> kBandwidths{physics::Frequency(1e-3), physics::Frequency(1e8)};
+constexpr double kRoomTemperature = 298.15;
+constexpr int kHighestMode = 10;
+
+// Options of the command beyond those of a calibration.
+struct LeverCommand {
+  LeverOptions lever;
+  physics::Fluid fluid = kFluids[0].fluid;
+  bool json = false;
+  std::string out;
+};
+
+core::Result<void> read_range(const std::string& text, LeverOptions& options) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return wrong_usage(fmt::format("\"{}\" is not a range, such as 5kHz:20kHz", text));
+  const auto low = physics::parse_quantity(std::string_view(text).substr(0, colon), physics::kFrequencyUnits);
+  const auto high = physics::parse_quantity(std::string_view(text).substr(colon + 1), physics::kFrequencyUnits);
+  if (!low.value) return wrong_usage(low.error);
+  if (!high.value) return wrong_usage(high.error);
+  if (!(low.value->si >= 0.0 && low.value->si < high.value->si)) {
+    return wrong_usage(fmt::format("{} does not go up from a frequency to a higher one", text));
+  }
+  options.low_hz = low.value->si;
+  options.high_hz = high.value->si;
+  return {};
+}
+
+// Inputs that can have an uncertainty. The tilt is no part of k, and a known k has no calibration.
+bool may_be_uncertain(LeverInput input) { return input != LeverInput::Tilt && input != LeverInput::SpringConstant; }
+
+std::string uncertain_names() {
+  std::string names;
+  for (const LeverInputRow& row : kLeverInputs) {
+    if (may_be_uncertain(row.input)) names += (names.empty() ? "" : ", ") + std::string(row.name);
+  }
+  return names;
+}
+
+// "sensitivity=3%" or "temperature=1K".
+core::Result<InputUncertainty> read_uncertainty(const std::string& text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::string_view name = std::string_view(text).substr(0, equals);
+  const std::string_view value = std::string_view(text).substr(std::min(equals + 1, text.size()));
+  for (const LeverInputRow& row : kLeverInputs) {
+    if (row.name != name || !may_be_uncertain(row.input)) continue;
+    static constexpr std::array kPercent{physics::Unit{"%", 1e2, true}};
+    std::vector<physics::Unit> units(kPercent.begin(), kPercent.end());
+    // a difference of temperatures has no zero
+    for (const physics::Unit& unit : row.units.units) {
+      if (unit.zero_si == 0.0 && !unit.symbol.empty()) units.push_back(unit);
+    }
+    const bool is_share = value.ends_with('%');
+    const auto parsed = physics::parse_si(value, "an uncertainty", units, physics::Infinity::Refused);
+    if (const auto* error = std::get_if<std::string>(&parsed)) return wrong_usage(*error);
+    const double si = std::get<double>(parsed);
+    if (!(si >= 0.0) || (is_share && si > 1.0)) return wrong_usage(fmt::format("{} is not 0 to 100 %", text));
+    return InputUncertainty{row.input, si, is_share};
+  }
+  return wrong_usage(
+      fmt::format("\"{}\" is not an uncertainty such as sensitivity=3%; known are {}", text, uncertain_names()));
+}
+
+// Options by the table of inputs.
+void add_inputs(OptionList& command, const Option& thermal, const Option& sader, LeverInputs& inputs) {
+  for (const LeverInputRow& row : kLeverInputs) {
+    if (row.help.empty()) continue;
+    Option added = si_option(
+        command, fmt::format("--{}", row.name), [&inputs, input = row.input](double si) { inputs[input] = si; },
+        {row.units.sort, row.units.units, row.range},
+        row.of.empty() ? std::string(row.help) : fmt::format("of {}: {}", row.of, row.help));
+    if (row.of == "--thermal") added.needs(thermal);
+    if (row.of == "--sader") added.needs(sader);
+  }
+}
+
+Option add_thermal_options(OptionList& command, LeverOptions& options) {
+  Option thermal = command
+                       .add_option("--thermal", options.thermal,
+                                   "text file with the power spectrum of the free lever: frequency and density, with "
+                                   "their units in a heading, such as Hz and V2/Hz, nm2/Hz or V/sqrt(Hz)")
+                       .type_name("FILE");
+  command
+      .add_option("--units", options.reading.units,
+                  "of --thermal: units of frequency and density instead of the heading's")
+      .needs(thermal)
+      .type_name("UNITS such as \"kHz, V2/Hz\"");
+  command
+      .add_option("--column", options.reading.column,
+                  "of --thermal: column of the density; the first is the frequency's")
+      .needs(thermal)
+      .within(2, static_cast<int>(curves::kMostSpectrumColumns))
+      .show_default();
+  command
+      .add_parsed_option(
+          "--range", [&options](const std::string& text) { return read_range(text, options); },
+          "of --thermal: frequencies to fit, around one resonance, such as 5kHz:20kHz; default: all")
+      .needs(thermal)
+      .type_name("RANGE");
+  command
+      .add_option("--averages", options.averages, "of --thermal: number of averaged spectra; default: by their scatter")
+      .needs(thermal)
+      .within(1.0, 1e9);
+  command.add_option("--mode", options.mode, "of --thermal: flexural mode of the resonance")
+      .needs(thermal)
+      .within(1, kHighestMode)
+      .show_default();
+  return thermal;
+}
+
+void add_uncertainty_option(OptionList& command, LeverOptions& options) {
+  command
+      .add_parsed_option(
+          "--uncertainty",
+          [&options](const std::string& text) -> core::Result<void> {
+            const auto uncertainty = read_uncertainty(text);
+            if (!uncertainty) return tl::unexpected(uncertainty.error());
+            options.uncertainties.push_back(*uncertainty);
+            return {};
+          },
+          "standard uncertainty of an input, in per cent or in its unit: " + uncertain_names() +
+              "; one option for each")
+      .one_value_each()
+      .type_name("NAME=VALUE such as sensitivity=3% or temperature=1K");
+}
+
+core::Result<void> calibrate_lever(LeverCommand command) {
+  LeverOptions& options = command.lever;
+  LeverInputs& in = options.inputs;
+  if (options.thermal.empty() && options.curve.empty() && !options.sader && !in[LeverInput::GciCoefficient]) {
+    return wrong_usage("nothing to calibrate by; give --thermal, --sader, --gci or --sensitivity-from");
+  }
+  if (!in[LeverInput::Temperature]) in[LeverInput::Temperature] = kRoomTemperature;
+  if (options.sader) {
+    if (!in[LeverInput::Density]) in[LeverInput::Density] = command.fluid.density.si;
+    if (!in[LeverInput::Viscosity]) in[LeverInput::Viscosity] = command.fluid.viscosity.si;
+  }
+  if (!command.out.empty()) {
+    const auto writable = core::check_writable(command.out);
+    if (!writable) return wrong_usage("--out: " + writable.error().message);
+  }
+  const auto result = calibrate(options);
+  if (!result) return tl::unexpected(result.error());
+  if (!command.out.empty()) {
+    if (const auto written = core::write_file(command.out, curves::svg(lever_plot(*result))); !written) return written;
+  }
+  return write_stdout(command.json ? lever_json(options, *result).dump(2) + "\n" : lever_text(options, *result));
+}
+
+}  // namespace
+
+void add_lever_command(OptionList& program, const CommandContext&) {
+  OptionList command =
+      program.add_command("lever", "calibrate a lever: spring constant by thermal noise, Sader or GCI, sensitivity");
+  // shared: the parser writes into it while it lives, the chosen command reads it afterwards
+  const auto options = std::make_shared<LeverCommand>();
+  LeverOptions& lever = options->lever;
+  const Option thermal = add_thermal_options(command, lever);
+  const Option sader =
+      command.add_flag("--sader", lever.sader, "spring constant of a rectangular lever by Sader's method");
+  enum_option(command, "--fluid", options->fluid, "a fluid", kFluids, &FluidRow::name, &FluidRow::fluid,
+              "of --sader: fluid around the lever, at 25 degrees Celsius; default: air")
+      .needs(sader);
+  add_inputs(command, thermal, sader, lever.inputs);
+  const Option curve =
+      command
+          .add_option(
+              "--sensitivity-from", lever.curve,
+              "force curve on a hard sample, whose contact slope gives the sensitivity instead of --sensitivity")
+          .type_name("FILE");
+  command.add_option("--curve", lever.curve_reading.index, "number of the curve in an .h5 file, from 0")
+      .needs(curve)
+      .show_default()
+      .type_name("INDEX");
+  quantity_option(
+      command, "--bandwidth", [&lever](physics::Frequency hz) { lever.bandwidth_hz = hz.si; }, physics::kFrequencyUnits,
+      "also print the thermal noise below this frequency", std::optional(kBandwidths));
+  add_uncertainty_option(command, lever);
+  command.add_flag("--json", options->json, "print JSON in SI units; null marks what was not asked for");
+  command.add_option("--out", options->out, "write a plot of spectrum and model (SVG) to FILE")
+      .needs(thermal)
+      .type_name("FILE");
+  command.footer(
+      "docs/lever.md has the equations and their limits.\n"
+      "example: touchafm lever --thermal spectrum.txt --sensitivity 60nm/V --range 5kHz:20kHz --out spectrum.svg\n"
+      "         touchafm lever --thermal spectrum.txt --sensitivity-from glass.jpk-force --uncertainty sensitivity=3%\n"
+      "         touchafm lever --sader --length 120um --width 30um --resonance 70kHz --quality-factor 150\n"
+      "         touchafm lever --thermal spectrum.txt --sader --length 120um --width 30um");
+  command.when_chosen([options] { return calibrate_lever(*options); });
+}
+
+}  // namespace afm::app

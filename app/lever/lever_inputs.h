@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+#include "app/options/angle_units.h"
+#include "app/options/quantity_option.h"
+#include "physics/quantity_text.h"
+
+// Numbers from which a spring constant is calibrated. Each is an option of `touchafm lever` and may have an
+// uncertainty.
+namespace afm::app {
+
+enum class LeverInput : std::size_t {
+  Sensitivity,
+  ContactStiffness,
+  Temperature,
+  ModeFactor,
+  SpringConstant,
+  Length,
+  Width,
+  Resonance,
+  QualityFactor,
+  Density,
+  Viscosity,
+  GciCoefficient,
+  Tilt,
+  Area,
+};
+
+// In SI; empty: not given.
+class LeverInputs {
+ public:
+  std::optional<double>& operator[](LeverInput input) { return values_[static_cast<std::size_t>(input)]; }
+  const std::optional<double>& operator[](LeverInput input) const { return values_[static_cast<std::size_t>(input)]; }
+
+ private:
+  std::array<std::optional<double>, static_cast<std::size_t>(LeverInput::Area) + 1> values_{};
+};
+
+namespace lever_units {
+
+inline constexpr std::array kSensitivities{physics::Unit{"um/V", 1e6, true}, physics::Unit{"\u00b5m/V", 1e6, false},
+                                           physics::Unit{"\u03bcm/V", 1e6, false}, physics::Unit{"nm/V", 1e9, true},
+                                           physics::Unit{"pm/V", 1e12, true}};
+inline constexpr std::array kViscosities{physics::Unit{"Pa*s", 1.0, true}, physics::Unit{"mPa*s", 1e3, true},
+                                         physics::Unit{"uPa*s", 1e6, true}};
+// 1000^1.3: coefficients are usual for frequencies in kilohertz, too
+inline constexpr std::array kGciCoefficients{physics::Unit{"N/m/kHz^1.3", 7943.282347242815, true},
+                                             physics::Unit{"N/m/Hz^1.3", 1.0, true}};
+
+}  // namespace lever_units
+
+struct LeverInputRow {
+  LeverInput input;
+  std::string_view name;  // of the option, without its dashes, and in --uncertainty
+  physics::Units units;
+  QuantityRange<double> range;
+  std::string_view of;    // option that it needs, or empty
+  std::string_view help;  // empty: no option, the spectrum's
+};
+
+inline const std::array kLeverInputs{
+    LeverInputRow{LeverInput::Sensitivity,
+                  "sensitivity",
+                  {"a sensitivity", lever_units::kSensitivities},
+                  {1e-12, 1e-3},
+                  "",
+                  "sensitivity of the optical lever, measured on a hard sample"},
+    LeverInputRow{LeverInput::ContactStiffness,
+                  "contact-stiffness",
+                  physics::kStiffnessUnits,
+                  {1e-6, 1e9},
+                  "",
+                  "stiffness of the contact with which the sensitivity was measured; default: rigid"},
+    LeverInputRow{LeverInput::Temperature,
+                  "temperature",
+                  physics::kTemperatureUnits,
+                  {200.0, 600.0},
+                  "",
+                  "temperature of the lever, also in C; default: 298.15 K"},
+    LeverInputRow{LeverInput::ModeFactor,
+                  "mode-factor",
+                  physics::kPlainNumber,
+                  {1e-3, 2.0},
+                  "--thermal",
+                  "share of k_B T/k that the optical lever sees in the mode; default: that of a "
+                  "rectangular lever, 0.8174 in mode 1; a V-shaped one needs its own"},
+    LeverInputRow{LeverInput::SpringConstant,
+                  "spring-constant",
+                  physics::kStiffnessUnits,
+                  {1e-6, 1e6},
+                  "",
+                  "known spring constant, for the sensitivity by --thermal, or for --contact-stiffness"},
+    LeverInputRow{LeverInput::Length, "length", physics::kLengthUnits, {1e-6, 1e-2}, "--sader", "length of the lever"},
+    LeverInputRow{LeverInput::Width, "width", physics::kLengthUnits, {1e-7, 1e-2}, "--sader", "width of the lever"},
+    LeverInputRow{LeverInput::Resonance,
+                  "resonance",
+                  physics::kFrequencyUnits,
+                  {1.0, 1e8},
+                  "",
+                  "of --sader and --gci: resonance in the fluid; default: that of --thermal"},
+    LeverInputRow{LeverInput::QualityFactor,
+                  "quality-factor",
+                  physics::kPlainNumber,
+                  {0.1, 1e7},
+                  "",
+                  "of --sader and --gci: quality factor in the fluid; default: that of --thermal"},
+    LeverInputRow{LeverInput::Density,
+                  "density",
+                  physics::kDensityUnits,
+                  {1e-3, 3e4},
+                  "--sader",
+                  "density of the fluid instead of --fluid's"},
+    LeverInputRow{LeverInput::Viscosity,
+                  "viscosity",
+                  {"a viscosity", lever_units::kViscosities},
+                  {1e-7, 1e3},
+                  "--sader",
+                  "viscosity of the fluid instead of --fluid's"},
+    LeverInputRow{LeverInput::GciCoefficient,
+                  "gci",
+                  {"a GCI coefficient", lever_units::kGciCoefficients},
+                  {1e-14, 1e-2},
+                  "",
+                  "coefficient A of the lever's type in k = A Q f^1.3 (Global Calibration Initiative)"},
+    LeverInputRow{LeverInput::Tilt,
+                  "tilt",
+                  kAngleUnits,
+                  {0.0, 80.0 * std::numbers::pi / 180.0},
+                  "",
+                  "angle between lever and sample: also print k/cos^2, for forces along the sample's normal"},
+    LeverInputRow{LeverInput::Area, "area", physics::kPlainNumber, {}, "", ""}};
+
+// The table has the order of the enum.
+inline const LeverInputRow& row_of(LeverInput input) { return kLeverInputs[static_cast<std::size_t>(input)]; }
+
+}  // namespace afm::app

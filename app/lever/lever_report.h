@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "app/lever/lever_calibration.h"
+#include "curves/svg_plot.h"
+
+namespace afm::app {
+
+// Lines with units; the same in SI, null for what was not asked for; the spectrum with its model on logarithmic axes.
+std::string lever_text(const LeverOptions& options, const LeverCalibration& result);
+nlohmann::ordered_json lever_json(const LeverOptions& options, const LeverCalibration& result);
+curves::SvgPlot lever_plot(const LeverCalibration& result);
+
+}  // namespace afm::app
