@@ -35,9 +35,10 @@ TEST(SpectrumFile, HasTheUnitsOfItsHeading) {
   for (const Row& row :
        {Row{"Frequency (Hz)\tPSD (V^2/Hz)", 2.0, 3.0, true}, Row{"# f [kHz]  S [mV\u00b2/Hz]", 2e3, 3e-6, true},
         Row{"% 4 averages\n% frequency / MHz  density / pm2/Hz", 2e6, 3e-24, false},
-        Row{"Hz nm^2 / Hz", 2.0, 3e-18, false}, Row{"Hz; \u00b5m2/Hz", 2.0, 3e-12, false},
-        Row{"Hz, m2/Hz", 2.0, 3.0, false}, Row{"Hz, V/sqrt(Hz)", 2.0, 9.0, true},
-        Row{"Hz, fm/\u221aHz", 2.0, 9e-30, false}, Row{"kHz fit (nm2/Hz) psd (nm2/Hz)", 2e3, 3e-18, false},
+        Row{"Hz nm^2 / Hz", 2.0, 3e-18, false}, Row{"f (kHz), S (V2/Hz), level (dB/Hz)", 2e3, 3.0, true},
+        Row{"Hz; \u00b5m2/Hz", 2.0, 3e-12, false}, Row{"Hz, m2/Hz", 2.0, 3.0, false},
+        Row{"Hz, V/sqrt(Hz)", 2.0, 9.0, true}, Row{"Hz, fm/\u221aHz", 2.0, 9e-30, false},
+        Row{"kHz fit (nm2/Hz) psd (nm2/Hz)", 2e3, 3e-18, false},
         Row{"\xEF\xBB\xBF"
             "Hz V2/Hz",
             2.0, 3.0, true}}) {

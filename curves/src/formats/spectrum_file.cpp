@@ -67,7 +67,7 @@ bool is_part_of_word(char c) {
 
 // Whether a symbol of `size` bytes at `at` is a word by itself.
 bool is_word(std::string_view text, std::size_t at, std::size_t size) {
-  const bool begins = at == 0 || (!is_part_of_word(text[at - 1]) && text[at - 1] != '/');
+  const bool begins = at == 0 || !is_part_of_word(text[at - 1]);
   return begins && (at + size >= text.size() || !is_part_of_word(text[at + size]));
 }
 
@@ -97,14 +97,16 @@ std::optional<ColumnUnits> units_in(std::string_view heading) {
   }
   auto units = take_density(text);
   if (!units) return std::nullopt;
+  // the first, since the frequency's is the first column
+  std::size_t first = std::string::npos;
   for (const FrequencyUnit& frequency : kFrequencyNames) {
-    for (std::size_t at = text.find(frequency.symbol); at != std::string::npos;
-         at = text.find(frequency.symbol, at + 1)) {
+    for (std::size_t at = text.find(frequency.symbol); at < first; at = text.find(frequency.symbol, at + 1)) {
       if (!is_word(text, at, frequency.symbol.size())) continue;
       units->hz = frequency.hz;
-      return units;
+      first = at;
     }
   }
+  if (first != std::string::npos) return units;
   throw CurveError(fmt::format("it has no unit of the frequency; {}", kUnitsWanted));
 }
 
