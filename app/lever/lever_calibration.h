@@ -51,7 +51,7 @@ struct ThermalConstant {
 
 struct SensitivityFound {
   double measured_m_per_v = 0;
-  std::optional<double> corrected_m_per_v{};  // for a contact that is not rigid
+  std::optional<double> corrected_m_per_v{};  // value of a rigid contact, if it was not
   bool without_contact = false;               // from the spectrum and a spring constant
 };
 

@@ -57,7 +57,7 @@ inline constexpr std::array kGciCoefficients{physics::Unit{"N/m/kHz^1.3", 7943.2
 
 struct LeverInputRow {
   LeverInput input;
-  std::string_view name;  // of the option, without its dashes, and in --uncertainty
+  std::string_view name;  // name of the option without its dashes, also in --uncertainty
   physics::Units units;
   QuantityRange<double> range;
   std::string_view of;    // option that it needs, or empty

@@ -200,7 +200,7 @@ std::optional<ThermalFit> fit_thermal(std::span<const SpectrumPoint> spectrum, s
   fit.floor = {best->floor - floor_way, best->floor + floor_way};
   fit.area_deviation = way(kArea) / std::sqrt(kChiSquare95);
   if (!(fit.area_deviation < kNoResonance)) {
-    why = "no resonance stands out of its noise";
+    why = "no resonance rises above its noise";
     return std::nullopt;
   }
   judge_spectrum(spectrum, deviations, averages, fit);

@@ -19,7 +19,7 @@ struct SpectrumRow {
 
 struct Spectrum {
   std::vector<SpectrumRow> rows;
-  bool in_volts = false;  // of the detector; else metres of deflection
+  bool in_volts = false;  // volts of the detector; false: metres of deflection
 };
 
 struct SpectrumReading {

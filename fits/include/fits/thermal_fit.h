@@ -56,7 +56,7 @@ struct ThermalFit {
   Oscillator oscillator;
   Interval resonance_hz, quality_factor, area, floor;
   double area_deviation = 0;            // relative standard deviation of the area
-  double averages = 0;                  // that the intervals assume
+  double averages = 0;                  // number assumed in the intervals
   std::optional<double> seen_averages;  // those of the scatter; none: no scatter
   double neighbour_factor = 1;          // growth of the variances because neighbours are correlated, by a window
   std::size_t points = 0;
