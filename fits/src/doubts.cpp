@@ -3,12 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "adhesive_branch.h"
 
 namespace afm::fits {
 
 namespace {
+
+// Tabor's parameter at the borders of law_of_tabor().
+constexpr double kMostDmt = 0.1, kLeastJkr = 5.0;
 
 // Greatest force above the baseline.
 double greatest_push_n(std::span<const Sample> samples, const ElasticFit& fit) {
@@ -69,7 +76,8 @@ class Judge {
       : samples_(samples), setup_(setup), problem_(problem), ended_(ended) {}
 
   void judge(ElasticFit& fit) {
-    const double push_n = greatest_push_n(samples_, fit);
+    // a tip that sticks tells of the sample by its pull, too
+    const double push_n = std::max(greatest_push_n(samples_, fit), fit.adhesion ? fit.adhesion->pull_off_n : 0.0);
     const bool pushed = fit.in_contact > 0 && push_n > 0.0 && push_n >= 5.0 * fit.noise_n;
     add(fit, Doubt::NeverPushed, fit.noise_n > 0.0 ? push_n / fit.noise_n : 0.0, 5.0, !pushed);
     const Standing standing = standing_of(samples_, std::max(1e-9 * push_n, 0.5 * fit.noise_n));
@@ -82,7 +90,7 @@ class Judge {
     add(fit, Doubt::FewPoints, static_cast<double>(fit.in_contact), 50.0, fit.in_contact < 50);
     const double noise_depth_m = fit.noise_n / setup_.spring_n_per_m;
     add(fit, Doubt::Shallow, fit.depth_m / noise_depth_m, 3.0, fit.depth_m < 3.0 * noise_depth_m);
-    add(fit, Doubt::Adhesive, setup_.pull_off_n / push_n, 0.05, setup_.pull_off_n > 0.05 * push_n);
+    if (!fit.adhesion) judge_adhesion(fit, push_n);
     const double strain = layer_strain(setup_.indenter, fit.depth_m);
     add(fit, Doubt::BeyondLayer, strain, 1.0, strain > 1.0);
     if (fit.rms_n > kRounding * push_n) {
@@ -93,6 +101,7 @@ class Judge {
     }
     const double outside = 1.0 - static_cast<double>(fit.in_contact) / static_cast<double>(fit.points);
     add(fit, Doubt::ShortBaseline, outside, 0.1, outside < 0.1);
+    if (fit.adhesion) judge_law(fit);
     for (const Found& found : fit.doubts) {
       const bool fatal = kDoubts.at(static_cast<std::size_t>(found.doubt)).fatal;
       fit.trust = fatal || fit.trust == Trust::No ? Trust::No : Trust::Doubtful;
@@ -101,18 +110,39 @@ class Judge {
 
  private:
   static void add(ElasticFit& fit, Doubt doubt, double figure, double limit, bool found) {
-    if (found) fit.doubts.push_back({doubt, figure, limit});
+    if (found) fit.doubts.push_back({doubt, figure, limit, std::nullopt});
+  }
+
+  // Advises the law of Tabor's parameter, with this modulus and the work of adhesion between those of JKR and DMT.
+  void judge_adhesion(ElasticFit& fit, double push_n) const {
+    if (!(setup_.pull_off_n > 0.05 * push_n)) return;
+    Found found{Doubt::Adhesive, setup_.pull_off_n / push_n, 0.05, std::nullopt};
+    const Indenter& indenter = setup_.indenter;
+    if (indenter.radius_m > 0.0 && indenter.layer_m == 0.0) {
+      const physics::Length radius(indenter.radius_m);
+      const physics::SurfaceEnergy work(setup_.pull_off_n / (1.75 * std::numbers::pi * indenter.radius_m));
+      found.advised =
+          law_of_tabor(tabor_of({radius, physics::Pressure(fit.reduced_modulus_pa), work}, indenter.atomic_distance_m));
+    }
+    fit.doubts.push_back(found);
+  }
+
+  void judge_law(ElasticFit& fit) const {
+    const double tabor = fit.adhesion->tabor;
+    const Shape law = law_of_tabor(tabor);
+    if (law == fit.shape || fit.shape == Shape::Maugis) return;
+    fit.doubts.push_back({Doubt::OtherLaw, tabor, fit.shape == Shape::Dmt ? kMostDmt : kLeastJkr, law});
   }
 
   // The modulus of half the depth, by the same noise; it may differ by three of its standard deviations.
   void judge_level(ElasticFit& fit) {
     std::vector<Sample> shallow;
     std::size_t pushed = 0;
+    const std::vector<CurveProblem::Bent> bent = problem_.all_bent(ended_.unknowns);
     for (std::size_t t = 0; t < samples_.size(); ++t) {
-      const double depth_m = problem_.depth_m(ended_.unknowns, t);
-      if (depth_m > 0.5 * fit.depth_m) continue;
+      if (bent[t].depth_m > 0.5 * fit.depth_m) continue;
       shallow.push_back(samples_[t]);
-      if (depth_m > 0.0) ++pushed;
+      if (bent[t].touches) ++pushed;
     }
     constexpr std::size_t kFewestPushed = 10;
     if (pushed < kFewestPushed || shallow.size() < 2 * kFewest) return;
@@ -122,7 +152,7 @@ class Judge {
     if (!is_usable(ended.unknowns, ended.squares)) return;
     fit.half_depth_modulus_pa = std::exp(ended.unknowns[kModulus]) * (fit.modulus_pa / fit.reduced_modulus_pa);
     const double apart = std::abs(ended.unknowns[kModulus] - ended_.unknowns[kModulus]);
-    const double deviation = deviation_of_modulus(half, ended);
+    const double deviation = deviation_of(kModulus, half, ended);
     add(fit, Doubt::NotLevel, apart / deviation, 3.0, apart > 3.0 * deviation);
   }
 
@@ -134,7 +164,7 @@ class Judge {
 
 }  // namespace
 
-const std::array<DoubtRow, 11> kDoubts{{
+const std::array<DoubtRow, 12> kDoubts{{
     {Doubt::NeverPushed, true, "the sample is hardly pushed: greatest push over the noise"},
     {Doubt::Saturated, true, "the greatest force is that of several points: the detector's end"},
     {Doubt::LeverTooSoft, false, "the lever bends instead of the sample: contact stiffness over the lever's"},
@@ -146,6 +176,7 @@ const std::array<DoubtRow, 11> kDoubts{{
     {Doubt::NotLevel, false, "the modulus depends on the depth: half the depth differs, in standard deviations"},
     {Doubt::NotRandom, false, "the curve has another shape: probability of the residuals' runs"},
     {Doubt::ShortBaseline, false, "little recorded before contact: share of the points"},
+    {Doubt::OtherLaw, false, "Tabor's parameter is that of another law of adhesion"},
 }};
 
 std::string_view name_of(Trust trust) {

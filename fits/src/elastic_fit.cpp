@@ -8,10 +8,12 @@
 #include <numeric>
 #include <utility>
 
+#include "adhesive_branch.h"
 #include "correlated_noise.h"
 #include "curve_problem.h"
 #include "doubts.h"
 #include "profile.h"
+#include "systematic.h"
 
 namespace afm::fits {
 
@@ -33,7 +35,8 @@ std::vector<Sample> thinned(std::span<const Sample> samples) {
   std::vector<Sample> means;
   for (std::size_t i = 0; i < kLeft; ++i) {
     const std::size_t begin = i * samples.size() / kLeft, end = (i + 1) * samples.size() / kLeft;
-    Sample mean;
+    Sample mean{0.0, 0.0, samples[begin].sticks};
+    if (samples[end - 1].sticks != mean.sticks) continue;
     for (std::size_t t = begin; t < end; ++t) {
       mean.z_m += samples[t].z_m / static_cast<double>(end - begin);
       mean.force_n += samples[t].force_n / static_cast<double>(end - begin);
@@ -97,12 +100,20 @@ Ended minimum(const CurveProblem& problem, const Unknowns& start, bool white) {
 }
 
 // Why no fit is tried; empty if one is.
-std::string refusal_of(std::span<const Sample> samples) {
+std::string refusal_of(std::span<const Sample> samples, const FitSetup& setup) {
   const auto finite = [](const Sample& s) { return std::isfinite(s.z_m) && std::isfinite(s.force_n); };
   if (samples.size() < kFewest) return "it has fewer than 10 points of an approach";
   if (!std::all_of(samples.begin(), samples.end(), finite)) return "a height or a force is not a number";
   const auto [low_m, high_m] = heights_of(samples);
-  return high_m > low_m ? "" : "all its heights are the same";
+  if (!(high_m > low_m)) return "all its heights are the same";
+  if (!row_of(setup.indenter.shape).is_adhesive) return "";
+  if (setup.against == Against::Tip) return "a law of adhesion is fitted against Z alone";
+  if (!(setup.pull_off_n > 0.0)) return "its retract has no pull; take a shape without adhesion";
+  const auto sticking = static_cast<std::size_t>(
+      std::count_if(samples.begin(), samples.end(), [](const Sample& sample) { return sample.sticks; }));
+  return sticking < kFewest || samples.size() - sticking < kFewest
+             ? "fewer than 10 points of a tip that sticks, or of one that is free: a law of adhesion needs both"
+             : "";
 }
 
 // A contact point that lies farther from the data than these are long is none.
@@ -115,8 +126,25 @@ bool is_contact(const Ended& ended, std::span<const Sample> samples) {
 
 struct Minimum {
   Ended ended;
-  Interval log_modulus;
+  Interval log_modulus, log_work;
 };
+
+// Interval of an unknown; a better minimum that was met on the way.
+struct Profiled {
+  Interval interval;
+  std::optional<Unknowns> lower;
+};
+Profiled profiled(std::size_t unknown, const CurveProblem& problem, const Ended& ended, double rounding_n) {
+  const double deviation = deviation_of(unknown, problem, ended);
+  // of a curve without noise there is no likelihood
+  if (std::sqrt(ended.squares / static_cast<double>(problem.size())) < rounding_n) {
+    const double way = std::sqrt(kChiSquare95) * deviation, middle = ended.unknowns[unknown];
+    return {{middle - way, middle + way}, std::nullopt};
+  }
+  const ProfileEnd low = profile_end(unknown, problem, ended, deviation, -1.0);
+  const ProfileEnd high = profile_end(unknown, problem, ended, deviation, 1.0);
+  return {{low.value, high.value}, low.lower ? low.lower : high.lower};
+}
 
 // With its interval; a better minimum that is met on the way to an end becomes the start of another fit. Empty without
 // a contact.
@@ -124,20 +152,16 @@ std::optional<Minimum> minimum_with_interval(const CurveProblem& problem, std::s
                                              const Unknowns& start, bool white) {
   constexpr int kMostRestarts = 4;
   const double rounding_n = kRounding * force_range_n(samples);
-  Minimum found{minimum(problem, start, white), {}};
+  Minimum found{minimum(problem, start, white), {}, {}};
   for (int restart = 0; restart < kMostRestarts; ++restart) {
     if (!is_contact(found.ended, samples)) return std::nullopt;
-    const double deviation = deviation_of_modulus(problem, found.ended);
-    // of a curve without noise there is no likelihood
-    if (std::sqrt(found.ended.squares / static_cast<double>(samples.size())) < rounding_n) {
-      const double way = std::sqrt(kChiSquare95) * deviation, middle = found.ended.unknowns[kModulus];
-      found.log_modulus = {middle - way, middle + way};
-      break;
+    Profiled last = profiled(kModulus, problem, found.ended, rounding_n);
+    found.log_modulus = last.interval;
+    if (problem.is_adhesive() && !last.lower) {
+      last = profiled(problem.work(), problem, found.ended, rounding_n);
+      found.log_work = last.interval;
     }
-    const ProfileEnd low = profile_end(problem, found.ended, deviation, -1.0);
-    const ProfileEnd high = profile_end(problem, found.ended, deviation, 1.0);
-    found.log_modulus = {low.log_modulus, high.log_modulus};
-    const auto& lower = low.lower ? low.lower : high.lower;
+    const auto& lower = last.lower;
     if (!lower) break;
     found.ended = minimum(problem, *lower, white);
   }
@@ -145,15 +169,15 @@ std::optional<Minimum> minimum_with_interval(const CurveProblem& problem, std::s
 }
 
 // Depths, forces and residuals at the minimum.
-void describe(const CurveProblem& problem, const Ended& ended, ElasticFit& fit) {
+void describe(std::span<const Sample> samples, const CurveProblem& problem, const Ended& ended, ElasticFit& fit) {
   std::vector<double> residuals = problem.residuals(ended.unknowns);
   double before_contact = 0.0;
+  const std::vector<CurveProblem::Bent> bent = problem.all_bent(ended.unknowns);
   fit.model_n.reserve(residuals.size());
   for (std::size_t t = 0; t < residuals.size(); ++t) {
-    const double depth_m = problem.depth_m(ended.unknowns, t);
-    fit.depth_m = std::max(fit.depth_m, depth_m);
-    fit.model_n.push_back(problem.force_n(ended.unknowns, t));
-    if (depth_m > 0.0) {
+    fit.depth_m = std::max(fit.depth_m, bent[t].depth_m);
+    fit.model_n.push_back(samples[t].force_n + residuals[t]);
+    if (bent[t].touches) {
       ++fit.in_contact;
     } else {
       before_contact += residuals[t] * residuals[t];
@@ -164,15 +188,27 @@ void describe(const CurveProblem& problem, const Ended& ended, ElasticFit& fit) 
   const std::size_t outside = fit.points - fit.in_contact;
   fit.noise_n = outside < kFewest ? fit.rms_n : std::sqrt(before_contact / static_cast<double>(outside));
   if (ended.filtered) fit.noise_order = ended.noise.size();
+  fit.noise = ended.noise;
   const std::size_t left = whiten(ended.noise, residuals);
   fit.runs_p = runs_probability(std::span(residuals).first(left), std::min(outside, left));
 }
 
-}  // namespace
+Adhesion adhesion_of(const Minimum& best, const CurveProblem& problem, const FitSetup& setup) {
+  const Unknowns& unknowns = best.ended.unknowns;
+  const Indenter& indenter = setup.indenter;
+  Adhesion adhesion;
+  adhesion.work_j_per_m2 = std::exp(unknowns[problem.work()]);
+  adhesion.work_interval = {std::exp(best.log_work.low), std::exp(best.log_work.high)};
+  const physics::AdhesiveContact contact{physics::Length(indenter.radius_m),
+                                         physics::Pressure(std::exp(unknowns[kModulus])),
+                                         physics::SurfaceEnergy(adhesion.work_j_per_m2)};
+  adhesion.pull_off_n =
+      AdhesiveBranch(indenter.shape, contact, indenter.atomic_distance_m, setup.spring_n_per_m).pull_off_n();
+  adhesion.tabor = tabor_of(contact, indenter.atomic_distance_m);
+  return adhesion;
+}
 
-std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& setup, std::string& why) {
-  why = refusal_of(samples);
-  if (!why.empty()) return std::nullopt;
+std::optional<ElasticFit> fit_shape(std::span<const Sample> samples, const FitSetup& setup, std::string& why) {
   const auto start = best_start(samples, setup);
   if (!start) {
     why = "the lever is nowhere pushed up: turned forces, or no contact";
@@ -185,6 +221,7 @@ std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& s
     return std::nullopt;
   }
   ElasticFit found;
+  found.shape = setup.indenter.shape;
   const double from_reduced = 1.0 - setup.poisson * setup.poisson;
   const Unknowns& unknowns = best->ended.unknowns;
   found.reduced_modulus_pa = std::exp(unknowns[kModulus]);
@@ -194,8 +231,36 @@ std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& s
   found.contact_z_m = unknowns[kContact];
   found.level_n = unknowns[kLevel];
   if (setup.tilt) found.tilt_n_per_m = unknowns[kTilt];
-  describe(problem, best->ended, found);
+  if (problem.is_adhesive()) found.adhesion = adhesion_of(*best, problem, setup);
+  describe(samples, problem, best->ended, found);
   judge(samples, setup, problem, best->ended, found);
+  return found;
+}
+
+// From Maugis' law, which has the others as its limits, until the law stays; a curve between two laws is Maugis'.
+std::optional<ElasticFit> fit_by_tabor(std::span<const Sample> samples, const FitSetup& setup, std::string& why) {
+  constexpr std::size_t kMostRounds = 4;
+  FitSetup tried(setup);
+  tried.indenter.shape = Shape::Maugis;
+  for (std::size_t round = 1;; ++round) {
+    auto found = fit_shape(samples, tried, why);
+    if (!found) return std::nullopt;
+    const Shape law = law_of_tabor(found->adhesion->tabor);
+    if (law == tried.indenter.shape || round > kMostRounds) {
+      found->adhesion->rounds = round;
+      return found;
+    }
+    tried.indenter.shape = round < kMostRounds ? law : Shape::Maugis;
+  }
+}
+
+}  // namespace
+
+std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& setup, std::string& why) {
+  why = refusal_of(samples, setup);
+  if (!why.empty()) return std::nullopt;
+  auto found = setup.indenter.shape == Shape::Auto ? fit_by_tabor(samples, setup, why) : fit_shape(samples, setup, why);
+  if (found) found->systematic = systematic_of(samples, setup, *found);
   return found;
 }
 

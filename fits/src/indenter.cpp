@@ -136,21 +136,30 @@ double depth_over_layer(const Indenter& indenter, double depth_m) {
 
 }  // namespace
 
-const std::array<ShapeRow, 11> kShapes{{
-    {Shape::Paraboloid, "paraboloid", true, false, false, "Hertz 1881, (4/3) E* sqrt(R) d^1.5; nanite's hertz_para"},
-    {Shape::Sphere, "sphere", true, false, false, "Sneddon 1965, exact"},
-    {Shape::Cone, "cone", false, false, false, "Sneddon 1965, (2/pi) tan(a) E* d^2"},
-    {Shape::Pyramid3, "pyramid3", false, false, false, "three faces, 0.8887 tan(a) E* d^2, as in nanite 4.2"},
-    {Shape::Pyramid4Bilodeau, "pyramid4-bilodeau", false, false, false,
+const std::array<ShapeRow, 15> kShapes{{
+    {Shape::Paraboloid, "paraboloid", true, false, false, false,
+     "Hertz 1881, (4/3) E* sqrt(R) d^1.5; nanite's hertz_para"},
+    {Shape::Sphere, "sphere", true, false, false, false, "Sneddon 1965, exact"},
+    {Shape::Cone, "cone", false, false, false, false, "Sneddon 1965, (2/pi) tan(a) E* d^2"},
+    {Shape::Pyramid3, "pyramid3", false, false, false, false, "three faces, 0.8887 tan(a) E* d^2, as in nanite 4.2"},
+    {Shape::Pyramid4Bilodeau, "pyramid4-bilodeau", false, false, false, false,
      "four faces, 0.7453 tan(a) E* d^2, Bilodeau 1992"},
-    {Shape::Pyramid4Rico, "pyramid4-rico", false, false, false,
+    {Shape::Pyramid4Rico, "pyramid4-rico", false, false, false, false,
      "four faces, 0.7071 tan(a) E* d^2, Rico 2005, as in JPK's"},
-    {Shape::LayerSphere, "layer-sphere", true, true, false, "bonded layer, nu 0.5, Garcia & Garcia 2018"},
-    {Shape::LayerCone, "layer-cone", false, true, false, "bonded layer, nu 0.5, Garcia & Garcia 2018"},
-    {Shape::LayerExactSphere, "layer-exact-sphere", true, true, true, "layer of any nu and --base, exact, paraboloid"},
-    {Shape::LayerExactCone, "layer-exact-cone", false, true, true, "layer of any nu and --base, exact, cone"},
-    {Shape::LayerDimitriadis, "layer-dimitriadis", true, true, false,
+    {Shape::LayerSphere, "layer-sphere", true, true, false, false, "bonded layer, nu 0.5, Garcia & Garcia 2018"},
+    {Shape::LayerCone, "layer-cone", false, true, false, false, "bonded layer, nu 0.5, Garcia & Garcia 2018"},
+    {Shape::LayerExactSphere, "layer-exact-sphere", true, true, true, false,
+     "layer of any nu and --base, exact, paraboloid"},
+    {Shape::LayerExactCone, "layer-exact-cone", false, true, true, false, "layer of any nu and --base, exact, cone"},
+    {Shape::LayerDimitriadis, "layer-dimitriadis", true, true, false, false,
      "bonded layer, nu 0.5, Dimitriadis 2002: biased, 5 % low at sqrt(R d)/h = 0.42"},
+    {Shape::Dmt, "dmt", true, false, false, true,
+     "adhesion: Derjaguin, Muller & Toporov 1975, stiff samples; both branches"},
+    {Shape::Jkr, "jkr", true, false, false, true,
+     "adhesion: Johnson, Kendall & Roberts 1971, soft samples; both branches"},
+    {Shape::Maugis, "maugis", true, false, false, true, "adhesion: Maugis 1992, between DMT and JKR; both branches"},
+    {Shape::Auto, "auto", true, false, false, true,
+     "adhesion: dmt, maugis or jkr, by Tabor's parameter; both branches"},
 }};
 
 const ShapeRow& row_of(Shape shape) { return kShapes.at(static_cast<std::size_t>(shape)); }
@@ -160,6 +169,10 @@ Push push_of(const Indenter& indenter, double depth_m) noexcept {
   const double angle_rad = indenter.half_angle_rad;
   switch (indenter.shape) {
     case Shape::Paraboloid:
+    case Shape::Dmt:
+    case Shape::Jkr:
+    case Shape::Maugis:
+    case Shape::Auto:
       return paraboloid(indenter.radius_m, depth_m);
     case Shape::Sphere:
       return sphere(indenter.radius_m, depth_m);

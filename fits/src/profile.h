@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -22,17 +23,18 @@ struct Ended {
 // False for what no minimum can have.
 bool is_usable(const Unknowns& unknowns, double squares);
 
-// Standard deviation of the logarithm of the modulus, from the whitened Jacobian: where the profile begins.
-double deviation_of_modulus(const CurveProblem& problem, const Ended& ended);
+// Standard deviation of an unknown, from the whitened Jacobian: where the profile begins.
+double deviation_of(std::size_t unknown, const CurveProblem& problem, const Ended& ended);
 
-// End of the interval on one side: where the likelihood, maximised over the other unknowns, has fallen by half the 95 %
-// quantile of chi square. The root of the fall is nearly linear in the way, and is stepped to along that line, once
-// there is an end on either side between them.
+// End of the interval of an unknown on one side: where the likelihood, maximised over the other unknowns, has fallen by
+// half the 95 % quantile of chi square. The root of the fall is nearly linear in the way, and is stepped to along that
+// line, once there is an end on either side between them.
 struct ProfileEnd {
-  double log_modulus = 0;         // infinite if no end was found
+  double value = 0;               // infinite if no end was found
   std::optional<Unknowns> lower;  // a better minimum that was met on the way
 };
 // `side` is -1 or 1; `deviation` as above.
-ProfileEnd profile_end(const CurveProblem& problem, const Ended& ended, double deviation, double side);
+ProfileEnd profile_end(std::size_t unknown, const CurveProblem& problem, const Ended& ended, double deviation,
+                       double side);
 
 }  // namespace afm::fits

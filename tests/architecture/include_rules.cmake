@@ -21,7 +21,7 @@ set(arrows_render core scene/display scene/graph)
 set(arrows_servo core physics haptics scene/shared)
 set(arrows_curves core physics haptics scene/shared scene/samples)
 set(arrows_study core curves)
-set(arrows_fits "")
+set(arrows_fits physics)
 set(arrows_cluster core physics scene/shared scene/display)
 set(arrows_exhibit core physics scene/config scene/shared scene/display scene/samples scene/graph scene/gltf haptics input render servo curves
                    study cluster)

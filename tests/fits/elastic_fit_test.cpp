@@ -97,6 +97,7 @@ bool has(const ElasticFit& fit, Doubt doubt) {
 // From a start 0.3 um off, without noise.
 TEST(ElasticFit, FindsTheModulusOfItsOwnCurve) {
   for (const ShapeRow& row : kShapes) {
+    if (row.is_adhesive) continue;
     for (const double reduced_pa : {400.0, 4e3, 1e5}) {
       const Indenter tip = indenter(row.shape);
       for (const AgainstName& against : kAgainst) {
@@ -225,6 +226,20 @@ TEST(ElasticFit, FindsTheContactPointWithoutTheDetectorsZero) {
   setup.against = Against::Tip;
   setup.zero_n = kLevel;
   EXPECT_NEAR(fitted(Curves(6).approach(tip, 4e3, Noise::None), setup).contact_z_m, 0.0, 1e-12);
+}
+
+// Lab case K10: E ~ 1/sensitivity with the k of a thermal tune, where the sample gives way much more than the lever.
+TEST(ElasticFit, HasTheShareOfEachError) {
+  const Indenter tip = indenter(Shape::Cone);
+  FitSetup setup = setup_of(tip);
+  setup.uncertainties = {{Given::SpringConstant, 0.05}, {Given::Sensitivity, 0.03}, {Given::HalfAngle, 0.02}};
+  const ElasticFit fit = fitted(Curves(8).approach(tip, 40.0, Noise::None), setup);
+  ASSERT_EQ(fit.systematic.size(), 3U);
+  EXPECT_NEAR(fit.systematic[0].modulus_share, 0.05, 1e-5);
+  EXPECT_NEAR(fit.systematic[1].modulus_share, 0.03, 1e-3);
+  // d ln tan(a)/d ln a = a/(sin(a) cos(a))
+  EXPECT_NEAR(fit.systematic[2].modulus_share, 0.02 * 0.4 / (std::sin(0.4) * std::cos(0.4)), 1e-4);
+  EXPECT_TRUE(fitted(Curves(8).approach(tip, 40.0, Noise::None), setup_of(tip)).systematic.empty());
 }
 
 // Neither with a tilt that is fitted nor with one that is not.

@@ -74,6 +74,7 @@ TEST(Indenter, LayersStiffenAsTheirFormulasSay) {
 
 TEST(Indenter, SlopeIsTheDerivativeOfTheForce) {
   for (const ShapeRow& row : kShapes) {
+    if (row.is_adhesive) continue;
     const auto table = row.is_exact ? exact_table(row.shape, Base::Sliding, 0.3) : nullptr;
     const Indenter indenter{
         .shape = row.shape, .radius_m = 2e-6, .half_angle_rad = 0.4, .layer_m = 3e-6, .table = table};

@@ -11,8 +11,10 @@
 
 #include "fits/indenter.h"
 #include "fits/interval.h"
+#include "fits/uncertainty.h"
 
-// Fit of an elastic contact to the approach of a force curve (docs/fits.md). Any thread; allocates.
+// Fit of an elastic contact to the approach of a force curve, or of a law of adhesion to both branches (docs/fits.md).
+// Any thread; allocates.
 namespace afm::fits {
 
 // What the force is a function of.
@@ -27,22 +29,24 @@ struct AgainstName {
 };
 inline constexpr std::array kAgainst{AgainstName{Against::Z, "z"}, AgainstName{Against::Tip, "tip"}};
 
-// One point of an approach, in the order of recording.
+// One point, in the order of recording.
 struct Sample {
-  double z_m = 0;      // base of the lever; smaller is deeper
-  double force_n = 0;  // force of the lever, positive away from the sample, with any zero
+  double z_m = 0;       // base of the lever; smaller is deeper
+  double force_n = 0;   // force of the lever, positive away from the sample, with any zero
+  bool sticks = false;  // the tip touches; for a law of adhesion alone, whose force is not a function of the height
 };
 
 struct FitSetup {
   Indenter indenter;
   double poisson = 0.5;       // Poisson's ratio of the sample, 0 to 0.5
   double spring_n_per_m = 0;  // stiffness of the lever, positive
-  double pull_off_n = 0;      // hardest pull of the retract, a magnitude; 0: unknown
+  double pull_off_n = 0;      // hardest pull of the retract, a magnitude; 0: unknown, or none
   double zero_n = 0;          // force of the free lever, for the tip position alone
   Against against = Against::Z;
   bool tilt = false;           // also fits a slope of the baseline
   bool white = false;          // takes the noise as white: ordinary least squares, as in nanite and AtomicJ
   std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts
+  std::vector<Uncertainty> uncertainties{};  // of what is given
 };
 
 // Reasons not to trust a modulus.
@@ -58,6 +62,7 @@ enum class Doubt {
   NotLevel,       // the modulus depends on the depth
   NotRandom,      // residuals in runs: the curve has another shape
   ShortBaseline,  // less than a tenth of the points before contact
+  OtherLaw,       // Tabor's parameter is that of another law of adhesion
 };
 
 struct DoubtRow {
@@ -65,23 +70,34 @@ struct DoubtRow {
   bool fatal;             // the modulus means nothing
   std::string_view name;  // in reports
 };
-extern const std::array<DoubtRow, 11> kDoubts;
+extern const std::array<DoubtRow, 12> kDoubts;
 
 enum class Trust { Trusted, Doubtful, No };
 std::string_view name_of(Trust trust);
 
 struct Found {
   Doubt doubt;
-  double figure;  // compared value, in the unit of the limit
-  double limit;   // limit of the figure
+  double figure;                 // compared value, in the unit of the limit
+  double limit;                  // limit of the figure
+  std::optional<Shape> advised;  // law of adhesion to try instead
+};
+
+// What a law of adhesion has besides.
+struct Adhesion {
+  double work_j_per_m2 = 0;  // work of adhesion
+  Interval work_interval;    // J/m^2
+  double pull_off_n = 0;     // of the model, for a soft lever; a magnitude
+  double tabor = 0;          // Tabor's parameter, for the setup's atomic distance
+  std::size_t rounds = 0;    // fits of Shape::Auto until the law stayed; 0: the law was given
 };
 
 struct ElasticFit {
-  double modulus_pa = 0;          // Young's, for the setup's Poisson ratio
-  double reduced_modulus_pa = 0;  // E/(1 - nu^2)
-  Interval modulus_interval_pa;   // by the profile likelihood of the whitened fit, within a factor of 148
-  double contact_z_m = 0;         // height of the base, or of the tip with Against::Tip
-  double level_n = 0;             // baseline at the first sample's place
+  Shape shape = Shape::Paraboloid;  // that of the setup, but for Auto the law that was chosen
+  double modulus_pa = 0;            // Young's, for the setup's Poisson ratio
+  double reduced_modulus_pa = 0;    // E/(1 - nu^2)
+  Interval modulus_interval_pa;     // by the profile likelihood of the whitened fit, within a factor of 148
+  double contact_z_m = 0;           // height of the base, or of the tip with Against::Tip
+  double level_n = 0;               // baseline at the first sample's place
   double tilt_n_per_m = 0;
   double depth_m = 0;      // largest depth of the model's tip
   double noise_n = 0;      // rms of the residuals before contact, or of all where these are few
@@ -89,15 +105,20 @@ struct ElasticFit {
   std::size_t points = 0;  // in all
   std::size_t in_contact = 0;
   std::optional<std::size_t> noise_order;       // autoregressive order, 0 to 4; none: assumed white, or no noise
+  std::vector<double> noise;                    // its coefficients
   double runs_p = 1;                            // probability of as few runs of the whitened residuals, or fewer
   std::optional<double> half_depth_modulus_pa;  // modulus from the upper half of the depth
   Trust trust = Trust::Trusted;
   std::vector<Found> doubts;
-  std::vector<double> model_n;  // force of the model at each sample, baseline included
+  std::optional<Adhesion> adhesion;
+  std::vector<Systematic> systematic;  // for each of the setup's uncertainties; not a number where no fit was found
+  std::vector<double> model_n;         // force of the model at each sample, baseline included
 };
 
-// Fits reduced modulus, contact point, level and, if wanted, tilt to all samples. Empty, with the reason in
-// `why`, if there are fewer than 10 samples, one is not finite, all have one Z, or no start leads to a modulus.
+// Fits reduced modulus, contact point, level, if wanted tilt, and of a law of adhesion the work of adhesion to all
+// samples. Empty, with the reason in `why`, if there are fewer than 10 samples, one is not finite, all have one Z, or
+// no start leads to a modulus; of a law of adhesion also without a pull, or without 10 samples on each side of the
+// contact.
 std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& setup, std::string& why);
 
 }  // namespace afm::fits

@@ -7,7 +7,7 @@
 
 #include "fits/layer.h"
 
-// Elastic contacts without adhesion (docs/fits.md; equation numbers (F...)). Any thread.
+// Elastic contacts (docs/fits.md; equation numbers (F...)). Any thread.
 namespace afm::fits {
 
 enum class Shape {
@@ -21,7 +21,11 @@ enum class Shape {
   LayerCone,
   LayerExactSphere,
   LayerExactCone,
-  LayerDimitriadis
+  LayerDimitriadis,
+  Dmt,
+  Jkr,
+  Maugis,
+  Auto  // one of the three before
 };
 
 // Description of a shape for options, reports and checks.
@@ -31,11 +35,12 @@ struct ShapeRow {
   bool has_radius;           // false: a half angle
   bool has_layer;            // a thickness
   bool is_exact;             // a layer of any Poisson ratio, on any base; the others have 0.5, bonded
+  bool is_adhesive;          // a law of adhesion, fitted to both branches
   std::string_view meaning;  // with its source, in one line
 };
 
 // In the order of Shape.
-extern const std::array<ShapeRow, 11> kShapes;
+extern const std::array<ShapeRow, 15> kShapes;
 
 const ShapeRow& row_of(Shape shape);
 
@@ -45,6 +50,8 @@ struct Indenter {
   double half_angle_rad = 0;  // between axis and edge of a cone, axis and face of a pyramid; in (0, pi/2)
   double layer_m = 0;         // thickness on a rigid base; positive where the shape has one
   std::shared_ptr<const LayerTable> table{};  // exact_table() of the shape; not null where it is exact
+  Base base = Base::Bonded;                   // that of the table
+  double atomic_distance_m = 0.3e-9;          // z0 of the attraction, for Maugis and for Tabor's parameter
 };
 
 // Table of an exact layer.
@@ -56,7 +63,7 @@ struct Push {
   double slope = 0;  // derivative by the depth, N/(m Pa)
 };
 
-// For a depth of zero or more, in metres; nothing above the sample.
+// For a depth of zero or more, in metres; nothing above the sample. Of a law of adhesion, the paraboloid without it.
 Push push_of(const Indenter& indenter, double depth_m) noexcept;
 
 // How far the depth is beyond the range in which the shape's formula is within 1 % of the exact layer (lab cases P09 to

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace afm::fits {
+
+// What a fit is given, and what may be wrong with it.
+enum class Given {
+  SpringConstant,  // forces scale with it
+  Sensitivity,     // of the optical lever; the spring constant is that of a thermal tune with it, k ~ 1/sensitivity^2
+  Radius,
+  HalfAngle,
+  Layer,
+  Poisson
+};
+
+struct GivenName {
+  Given given;
+  std::string_view name;
+};
+inline constexpr std::array kGiven{GivenName{Given::SpringConstant, "spring-constant"},
+                                   GivenName{Given::Sensitivity, "sensitivity"},
+                                   GivenName{Given::Radius, "radius"},
+                                   GivenName{Given::HalfAngle, "half-angle"},
+                                   GivenName{Given::Layer, "layer"},
+                                   GivenName{Given::Poisson, "poisson"}};
+
+// Relative standard deviation.
+struct Uncertainty {
+  Given of = Given::SpringConstant;
+  double share = 0;
+};
+
+// What it makes of the results, to first order: relative standard deviations. The interval of the noise is apart.
+struct Systematic {
+  Uncertainty uncertainty;
+  double modulus_share = 0;
+  double work_share = 0;  // 0 without a law of adhesion
+};
+
+}  // namespace afm::fits
