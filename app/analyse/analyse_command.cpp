@@ -281,7 +281,7 @@ core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
   }
   if (!options.out.empty()) {
     curves::SvgPlot plot = curves::features_plot(*measured, compared);
-    if (fit) plot.lines.push_back(fit_line(*measured, *fit));
+    if (fit) plot.lines.push_back(fit_line(*measured, *fit, options.fit));
     if (const auto written = core::write_file(options.out, curves::svg(plot)); !written) return written;
   }
   if (!options.json) {
@@ -310,6 +310,7 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
       "docs/curves.md defines each figure.\n"
       "example: touchafm analyse gold.jpk-force --beside model.csv --out gold.svg\n"
       "         touchafm analyse gel.jpk-force --fit sphere --radius 5um --out gel.svg\n"
+      "         touchafm analyse pdms.jpk-force --fit auto --radius 1um --uncertainty radius=10%\n"
       "         touchafm analyse day1/*.jpk-force --fit sphere --radius 5um --out day1-fits\n"
       "         touchafm analyse cell.jpk-qi-data --fit paraboloid --radius 30nm --out cell-fits\n"
       "         touchafm analyse table.txt --columns \"height:um force:nN\" --spring-constant 0.1N/m\n"

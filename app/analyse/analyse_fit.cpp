@@ -3,31 +3,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
-#include <nlohmann/json.hpp>
 #include <numbers>
+#include <system_error>
 
+#include "app/analyse/fit_points.h"
 #include "app/options/angle_units.h"
 #include "app/options/enum_option.h"
 #include "app/options/quantity_option.h"
-#include "curves/plot_units.h"
 #include "physics/quantity_text.h"
 
 namespace afm::app {
 
 namespace {
 
-using physics::format_quantity;
-using FitJson = nlohmann::ordered_json;
-
 constexpr QuantityRange<physics::Length> kRadii{physics::Length(1e-10), physics::Length(1e-3)};
 constexpr QuantityRange<physics::Force> kMostForces{physics::Force(1e-13), physics::Force(1e-1)};
 constexpr QuantityRange<physics::Length> kLayers{physics::Length(1e-10), physics::Length(1e-1)};
 constexpr QuantityRange<double> kHalfAngles{std::numbers::pi / 180.0, std::numbers::pi * 0.49};
 constexpr double kLeastPoisson = 0.0, kMostPoisson = 0.5;
-constexpr int kDigits = 4;
+constexpr double kMostPercent = 50.0;  // beyond it first order says nothing
+constexpr QuantityRange<physics::Length> kAtomicDistances{physics::Length(0.05e-9), physics::Length(5e-9)};
 
 // An option that a shape needs, or cannot use.
 struct Size {
@@ -45,40 +44,54 @@ core::Result<void> check_size(const fits::ShapeRow& shape, const Size& size) {
   return {};
 }
 
-// The approach up to the first point that exceeds a limit. The depth counts from the contact point of the analysis, not
-// of the fit: that one moves with what is left out, on a sample that stiffens further and further.
-std::vector<fits::Sample> approach_of(const curves::AnalysedCurve& curve, double spring_n_per_m,
-                                      const FitOptions& options) {
-  const physics::CurveFeatures& features = curve.features;
-  std::vector<fits::Sample> approach;
-  for (const physics::CurvePoint& point : curve.curve.points) {
-    if (point.branch != physics::Branch::Approach) continue;
-    const double force_n = (point.force - features.baseline.at(point.z)).si;
-    const double bent_m = force_n / spring_n_per_m;
-    const double depth_m = features.contact_point ? features.contact_point->si - (point.z.si + bent_m) : 0.0;
-    if (force_n > options.most_force_n || depth_m > options.most_depth_m) break;
-    approach.push_back({point.z.si, point.force.si});
+// "radius=5%"
+core::Result<fits::Uncertainty> parse_uncertainty(const std::string& text) {
+  std::string keys;
+  for (const fits::GivenName& row : fits::kGiven) {
+    keys += (keys.empty() ? "" : ", ") + std::string(row.name);
+    if (!text.starts_with(std::string(row.name) + "=") || !text.ends_with('%')) continue;
+    const std::string_view number =
+        std::string_view(text).substr(row.name.size() + 1, text.size() - row.name.size() - 2);
+    double percent = 0.0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), percent);
+    if (error != std::errc() || end != number.data() + number.size()) continue;
+    if (percent > 0.0 && percent <= kMostPercent) return fits::Uncertainty{row.given, percent / 100.0};
   }
-  return approach;
+  return core::wrong_usage(fmt::format(
+      "\"{}\" is no uncertainty above 0 % and up to {:g} %, such as radius=5%; keys are {}", text, kMostPercent, keys));
 }
 
-std::string pressure_text(double pa) {
-  return format_quantity(physics::Pressure(pa), physics::kPressureUnits, kDigits);
+core::Result<void> read_uncertainties(const fits::ShapeRow& shape, FitOptions& options) {
+  options.uncertainties.clear();
+  for (const std::string& text : options.uncertainty_texts) {
+    const auto uncertainty = parse_uncertainty(text);
+    if (!uncertainty) return tl::unexpected(uncertainty.error());
+    options.uncertainties.push_back(*uncertainty);
+  }
+  for (auto each = options.uncertainties.begin(); each != options.uncertainties.end(); ++each) {
+    const std::string_view name = fits::kGiven.at(static_cast<std::size_t>(each->of)).name;
+    if (std::any_of(options.uncertainties.begin(), each, [&](const auto& other) { return other.of == each->of; })) {
+      return core::wrong_usage(fmt::format("--uncertainty {}: given twice; give it once", name));
+    }
+    if ((each->of == fits::Given::Radius && !shape.has_radius) ||
+        (each->of == fits::Given::HalfAngle && shape.has_radius) ||
+        (each->of == fits::Given::Layer && !shape.has_layer)) {
+      return core::wrong_usage(
+          fmt::format("--uncertainty {}: --fit {} has no such size; leave it out", name, shape.name));
+    }
+  }
+  return {};
 }
-std::string length_text(double m) { return format_quantity(physics::Length(m), physics::kLengthUnits, kDigits); }
-std::string force_text(double n) { return format_quantity(physics::Force(n), physics::kForceUnits, kDigits); }
 
-std::string_view name_of(fits::Against against) { return fits::kAgainst.at(static_cast<std::size_t>(against)).name; }
-std::string_view name_of(fits::Base base) { return fits::kBases.at(static_cast<std::size_t>(base)).name; }
-
-std::string size_text(const FitOptions& options) {
-  const fits::ShapeRow& shape = fits::row_of(*options.shape);
-  std::string text = shape.has_radius
-                         ? "R = " + length_text(options.radius_m)
-                         : "half angle " + physics::format_si(options.half_angle_rad, kAngleUnits.units, kDigits);
-  if (shape.has_layer) text += ", layer of " + length_text(options.layer_m);
-  if (shape.is_exact) text += fmt::format(", {}", name_of(options.base));
-  return text + fmt::format(", nu = {:g}", options.poisson);
+fits::Indenter indenter_of(const FitOptions& options) {
+  fits::Indenter indenter{.shape = *options.shape,
+                          .radius_m = options.radius_m,
+                          .half_angle_rad = options.half_angle_rad,
+                          .layer_m = options.layer_m,
+                          .table = options.table,
+                          .base = options.base};
+  indenter.atomic_distance_m = options.atomic_distance_m.value_or(indenter.atomic_distance_m);
+  return indenter;
 }
 
 }  // namespace
@@ -88,8 +101,10 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
   for (const fits::ShapeRow& row : fits::kShapes) shapes += fmt::format("\n  {}: {}", row.name, row.meaning);
   std::vector<NamedOption> added;
   const auto add = [&added](const char* name, const Option& option) { added.push_back({option, name}); };
-  add("--fit", enum_option(command, "--fit", options.shape, "a shape of the tip", fits::kShapes, &fits::ShapeRow::name,
-                           &fits::ShapeRow::shape, "fit the elastic modulus to the approach:" + shapes));
+  add("--fit",
+      enum_option(command, "--fit", options.shape, "a shape of the tip", fits::kShapes, &fits::ShapeRow::name,
+                  &fits::ShapeRow::shape,
+                  "fit the elastic modulus to the approach, or with the work of adhesion to both branches:" + shapes));
   add("--radius", quantity_option(
                       command, "--radius", [&options](physics::Length radius) { options.radius_m = radius.si; },
                       physics::kLengthUnits, "of --fit: radius of the tip", std::optional(kRadii)));
@@ -109,6 +124,21 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
           command, "--poisson", [&options](double ratio) { options.poisson = ratio; },
           {physics::kPlainNumber.sort, physics::kPlainNumber.units, QuantityRange<double>{kLeastPoisson, kMostPoisson}},
           "of --fit: Poisson's ratio of the sample; default: 0.5"));
+  add("--atomic-distance",
+      quantity_option(
+          command, "--atomic-distance",
+          [&options](physics::Length distance) { options.atomic_distance_m = distance.si; }, physics::kLengthUnits,
+          "of --fit dmt, jkr, maugis or auto: equilibrium distance z0 of the surfaces, for Maugis' stress and Tabor's "
+          "parameter; default: 0.3nm",
+          std::optional(kAtomicDistances)));
+  add("--uncertainty",
+      command
+          .add_option("--uncertainty", options.uncertainty_texts,
+                      "of --fit: relative standard deviation of what the fit is given, such as "
+                      "radius=5%, for the systematic part of the results, apart from the interval; "
+                      "repeatable; keys: spring-constant, sensitivity, radius, half-angle, layer, poisson")
+          .one_value_each()
+          .type_name("KEY=PERCENT%"));
   add("--against",
       enum_option(command, "--against", options.against, "a variable", fits::kAgainst, &fits::AgainstName::name,
                   &fits::AgainstName::against,
@@ -136,8 +166,9 @@ core::Result<void> prepare(FitOptions& options) {
   const bool radius = options.radius_m > 0.0, angle = options.half_angle_rad > 0.0, layer = options.layer_m > 0.0;
   if (!options.shape) {
     if (radius || angle || layer || options.poisson != FitOptions{}.poisson || options.tilt || options.white ||
-        std::isfinite(options.most_force_n) || std::isfinite(options.most_depth_m) ||
-        options.base != FitOptions{}.base || options.against != FitOptions{}.against) {
+        std::isfinite(options.most_force_n) || std::isfinite(options.most_depth_m) || options.atomic_distance_m ||
+        !options.uncertainty_texts.empty() || options.base != FitOptions{}.base ||
+        options.against != FitOptions{}.against) {
       return core::wrong_usage("an option of a fit is given without --fit; add --fit SHAPE, such as --fit sphere");
     }
     return {};
@@ -155,6 +186,13 @@ core::Result<void> prepare(FitOptions& options) {
   if (!shape.is_exact && options.base != fits::Base::Bonded) {
     return core::wrong_usage(fmt::format("--fit {} has no use for --base; leave it out", shape.name));
   }
+  if (shape.is_adhesive && options.against != fits::Against::Z) {
+    return core::wrong_usage(fmt::format("--fit {} is against z; leave --against out", shape.name));
+  }
+  if (!shape.is_adhesive && options.atomic_distance_m) {
+    return core::wrong_usage(fmt::format("--fit {} has no use for --atomic-distance; leave it out", shape.name));
+  }
+  if (const auto checked = read_uncertainties(shape, options); !checked) return checked;
   if (shape.is_exact) options.table = fits::exact_table(*options.shape, options.base, options.poisson);
   return {};
 }
@@ -168,114 +206,23 @@ core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const 
   if (std::isfinite(options.most_depth_m) && !curve.features.contact_point) {
     return refused("--most-depth counts from the contact point, and it has none; leave it out");
   }
-  fits::FitSetup setup{.indenter = {.shape = *options.shape,
-                                    .radius_m = options.radius_m,
-                                    .half_angle_rad = options.half_angle_rad,
-                                    .layer_m = options.layer_m,
-                                    .table = options.table},
+  fits::FitSetup setup{.indenter = indenter_of(options),
                        .poisson = options.poisson,
                        .spring_n_per_m = spring->si,
-                       .pull_off_n = curve.features.adhesion ? std::abs(curve.features.adhesion->force.si) : 0.0,
+                       .pull_off_n = curve.features.adhesion ? std::fmax(-curve.features.adhesion->force.si, 0.0) : 0.0,
                        .zero_n = curve.features.baseline.level.si,
                        .against = options.against,
                        .tilt = options.tilt,
                        .white = options.white,
-                       .starts = {}};
+                       .starts = {},
+                       .uncertainties = options.uncertainties};
   for (const auto& estimate : curve.features.contact_estimates) {
     if (estimate) setup.starts.push_back(estimate->si);
   }
   std::string why;
-  auto fit = fits::fit(approach_of(curve, spring->si, options), setup, why);
+  auto fit = fits::fit(fit_points(curve, options).samples, setup, why);
   if (!fit) return refused(why);
   return std::move(*fit);
-}
-
-std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options) {
-  fmt::memory_buffer text;
-  const auto out = std::back_inserter(text);
-  const auto line = [&](const char* title, const std::string& value) {
-    fmt::format_to(out, "{:<16}{:>16}\n", title, value);
-  };
-  const fits::ShapeRow& shape = fits::row_of(*options.shape);
-  fmt::format_to(out, "\nfit of {} ({}; {}), force against {}\n", shape.name, shape.meaning, size_text(options),
-                 options.against == fits::Against::Z ? "Z" : "the tip position");
-  line("modulus E", pressure_text(fit.modulus_pa));
-  line("  95 % from", fit.modulus_interval_pa.low > 0.0 ? pressure_text(fit.modulus_interval_pa.low) : "not found");
-  line("  to", std::isfinite(fit.modulus_interval_pa.high) ? pressure_text(fit.modulus_interval_pa.high) : "not found");
-  line("reduced modulus", pressure_text(fit.reduced_modulus_pa));
-  line("contact at", length_text(fit.contact_z_m));
-  line("level", force_text(fit.level_n));
-  if (options.tilt) {
-    line("tilt", format_quantity(physics::Stiffness(fit.tilt_n_per_m), physics::kStiffnessUnits, kDigits));
-  }
-  line("depth", length_text(fit.depth_m));
-  line("rms of residuals", force_text(fit.rms_n));
-  line("points", fmt::format("{}", fit.points));
-  line("  in contact", fmt::format("{}", fit.in_contact));
-  line("noise", force_text(fit.noise_n));
-  line("  its order", options.white     ? "assumed white"
-                      : fit.noise_order ? fmt::format("{}", *fit.noise_order)
-                                        : "no noise");
-  line("trust", std::string(fits::name_of(fit.trust)));
-  for (const fits::Found& found : fit.doubts) {
-    fmt::format_to(out, "  {} {:.3g} (limit {:g})\n", fits::kDoubts.at(static_cast<std::size_t>(found.doubt)).name,
-                   found.figure, found.limit);
-  }
-  fmt::format_to(out,
-                 "the interval is that of the noise alone: errors of spring constant, sensitivity and radius come on "
-                 "top\n");
-  return fmt::to_string(text);
-}
-
-FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
-  const fits::ShapeRow& shape = fits::row_of(*options.shape);
-  const auto limit = [](double value) { return std::isfinite(value) ? FitJson(value) : FitJson(); };
-  FitJson result{{"shape", shape.name},
-                 {"source", shape.meaning},
-                 {"radius_m", shape.has_radius ? FitJson(options.radius_m) : FitJson()},
-                 {"half_angle_rad", shape.has_radius ? FitJson() : FitJson(options.half_angle_rad)},
-                 {"layer_m", shape.has_layer ? FitJson(options.layer_m) : FitJson()},
-                 {"base", shape.is_exact ? FitJson(name_of(options.base)) : FitJson()},
-                 {"poisson_ratio", options.poisson},
-                 {"against", name_of(options.against)},
-                 {"most_force_N", limit(options.most_force_n)},
-                 {"most_depth_m", limit(options.most_depth_m)},
-                 {"modulus_Pa", fit.modulus_pa},
-                 {"modulus_95_percent_Pa",
-                  {fit.modulus_interval_pa.low > 0.0 ? FitJson(fit.modulus_interval_pa.low) : FitJson(),
-                   std::isfinite(fit.modulus_interval_pa.high) ? FitJson(fit.modulus_interval_pa.high) : FitJson()}},
-                 {"reduced_modulus_Pa", fit.reduced_modulus_pa},
-                 {"contact_m", fit.contact_z_m},
-                 {"level_N", fit.level_n},
-                 {"tilt_N_per_m", options.tilt ? FitJson(fit.tilt_n_per_m) : FitJson()},
-                 {"depth_m", fit.depth_m},
-                 {"rms_N", fit.rms_n},
-                 {"points", fit.points},
-                 {"points_in_contact", fit.in_contact},
-                 {"noise_N", fit.noise_n},
-                 {"noise_order", fit.noise_order ? FitJson(*fit.noise_order) : FitJson()},
-                 {"runs_probability", fit.runs_p},
-                 {"half_depth_modulus_Pa", fit.half_depth_modulus_pa ? FitJson(*fit.half_depth_modulus_pa) : FitJson()},
-                 {"trust", fits::name_of(fit.trust)}};
-  result["doubts"] = FitJson::array();
-  for (const fits::Found& found : fit.doubts) {
-    result["doubts"].push_back({{"reason", fits::kDoubts.at(static_cast<std::size_t>(found.doubt)).name},
-                                {"figure", found.figure},
-                                {"limit", found.limit}});
-  }
-  return result;
-}
-
-curves::SvgLine fit_line(const curves::AnalysedCurve& curve, const fits::ElasticFit& fit) {
-  curves::SvgLine line{"fit", std::string(curves::distinct_color(2)), curves::LineStyle::Solid, {}};
-  const double zero_m = curve.features.contact_point.value_or(physics::Length()).si;
-  std::size_t at = 0;
-  for (const physics::CurvePoint& point : curve.curve.points) {
-    if (point.branch != physics::Branch::Approach || at == fit.model_n.size()) continue;
-    line.points.push_back({(point.z.si - zero_m) * curves::kNmPerM,
-                           (fit.model_n[at++] - curve.features.baseline.at(point.z).si) * curves::kNnPerN});
-  }
-  return line;
 }
 
 }  // namespace afm::app

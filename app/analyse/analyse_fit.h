@@ -22,12 +22,15 @@ struct FitOptions {
   double half_angle_rad = 0;
   double layer_m = 0;
   double poisson = 0.5;
+  std::optional<double> atomic_distance_m;  // empty: that of fits::Indenter
   fits::Base base = fits::Base::Bonded;
   fits::Against against = fits::Against::Z;
   double most_force_n = std::numeric_limits<double>::infinity();
   double most_depth_m = std::numeric_limits<double>::infinity();
   bool tilt = false;
   bool white = false;
+  std::vector<std::string> uncertainty_texts;       // "radius=5%"
+  std::vector<fits::Uncertainty> uncertainties{};   // set by prepare() from the texts
   std::shared_ptr<const fits::LayerTable> table{};  // set by prepare() for an exact layer
 };
 
@@ -38,16 +41,26 @@ struct NamedOption {
 };
 std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& options);
 
-// Computes the table of an exact layer. WrongUsage if the shape lacks a size, or has one that it does not need.
+// Computes the table of an exact layer and reads the uncertainties. WrongUsage if one of these cannot be read, and if
+// the shape lacks a size, or has one that it does not need.
 core::Result<void> prepare(FitOptions& options);
 
-// Fits the approach of a curve. `options` is prepared and wants a fit. BadInputFile, naming the curve, if it has no
-// spring constant or nothing fits.
+// Fits the approach of a curve, or both branches to a law of adhesion. `options` is prepared and wants a fit.
+// BadInputFile, naming the curve, if it has no spring constant or nothing fits.
 core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const FitOptions& options);
 
 // Lines for the report, the same in SI, and the model for the plot.
 std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options);
 nlohmann::ordered_json fit_json(const fits::ElasticFit& fit, const FitOptions& options);
-curves::SvgLine fit_line(const curves::AnalysedCurve& curve, const fits::ElasticFit& fit);
+curves::SvgLine fit_line(const curves::AnalysedCurve& curve, const fits::ElasticFit& fit, const FitOptions& options);
+
+// A doubt with its figure and limit, and which law to try.
+std::string doubt_text(const fits::Found& found);
+
+// Relative standard deviations of the results by all uncertainties of what the fit was given; 0 if none was given.
+struct SystematicShares {
+  double modulus = 0, work = 0;
+};
+SystematicShares systematic_shares(const fits::ElasticFit& fit);
 
 }  // namespace afm::app

@@ -42,13 +42,14 @@ constexpr const char* kColumns =
     "constant_N_per_"
     "m\tshape\t"
     "radius_m\thalf_angle_rad\tlayer_m\tbase\tpoisson_ratio\tagainst\twhite_noise\tmost_force_N\tmost_depth_m\t"
+    "law\tW_J_per_m2\tW_low_J_per_m2\tW_high_J_per_m2\tpull_off_N\ttabor\tmodulus_systematic_Pa\tW_systematic_J_per_"
+    "m2\t"
     "curve\tx_m\ty_m\tcolumn\trow\tadhesion_N\tsnap_in_N\tcontact_slope_N_per_m\tloop_energy_J\tadhesion_energy_J\n";
 
 std::string reasons(const fits::ElasticFit& fit) {
   std::string text;
   for (const fits::Found& found : fit.doubts) {
-    fmt::format_to(std::back_inserter(text), "{}{} {:.3g} (limit {:g})", text.empty() ? "" : "; ",
-                   fits::kDoubts.at(static_cast<std::size_t>(found.doubt)).name, found.figure, found.limit);
+    text += (text.empty() ? "" : "; ") + doubt_text(found);
   }
   return text;
 }
@@ -79,22 +80,38 @@ std::string features(std::size_t index, const FittedCurve& fitted) {
       cell(figures.contact_slope_n_per_m), cell(figures.loop_energy_j), cell(figures.adhesion_energy_j));
 }
 
+// Work of adhesion and systematic parts; cells are empty where the fit has none.
+std::string adhesion_cells(const fits::ElasticFit& fit) {
+  const auto given = [](bool has, double value) {
+    return has && std::isfinite(value) ? fmt::format("{}", value) : std::string();
+  };
+  const bool adheres = fit.adhesion.has_value(), erred = !fit.systematic.empty();
+  const fits::Adhesion adhesion = fit.adhesion.value_or(fits::Adhesion{});
+  const SystematicShares shares = systematic_shares(fit);
+  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", adheres ? fits::row_of(fit.shape).name : "",
+                     given(adheres, adhesion.work_j_per_m2), given(adheres, adhesion.work_interval.low),
+                     given(adheres, adhesion.work_interval.high), given(adheres, adhesion.pull_off_n),
+                     given(adheres, adhesion.tabor), given(erred, shares.modulus * fit.modulus_pa),
+                     given(adheres && erred, shares.work * adhesion.work_j_per_m2));
+}
+
 std::string row_of(const std::string& file, std::size_t index, const FittedCurve& fitted, const FitOptions& options) {
   const std::string name = core::printable_line(file);
   if (!fitted.fit) {
-    constexpr std::size_t kNumbers = 16;
-    return fmt::format("{}\tnone\t{}{}\t{}\t{}\n", name, core::printable_line(fitted.why), std::string(kNumbers, '\t'),
-                       sizes(options), features(index, fitted));
+    constexpr std::size_t kNumbers = 16, kAdhesionCells = 8;
+    return fmt::format("{}\tnone\t{}{}\t{}{}\t{}\n", name, core::printable_line(fitted.why),
+                       std::string(kNumbers, '\t'), sizes(options), std::string(kAdhesionCells, '\t'),
+                       features(index, fitted));
   }
   const fits::ElasticFit& fit = *fitted.fit;
   const auto finite = [](double value) { return cell(std::isfinite(value) ? std::optional(value) : std::nullopt); };
   const std::string order = fit.noise_order ? fmt::format("{}", *fit.noise_order) : "";
-  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", name,
+  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", name,
                      fits::name_of(fit.trust), reasons(fit), fit.modulus_pa, fit.modulus_interval_pa.low,
                      finite(fit.modulus_interval_pa.high), fit.reduced_modulus_pa, fit.contact_z_m, fit.level_n,
                      cell(options.tilt ? std::optional(fit.tilt_n_per_m) : std::nullopt), fit.depth_m, fit.noise_n,
                      fit.rms_n, fit.points, fit.in_contact, order, fit.runs_p, cell(fit.half_depth_modulus_pa),
-                     fitted.spring_n_per_m, sizes(options), features(index, fitted));
+                     fitted.spring_n_per_m, sizes(options), adhesion_cells(fit), features(index, fitted));
 }
 
 core::Result<core::FileDescriptor> new_table(const std::string& folder, const std::string& path) {

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <vector>
 
 #include "core/whole_file.h"
@@ -170,7 +172,7 @@ TEST(FitOfACurve, HasEveryNumberWithItsUnitInTextAndJson) {
   EXPECT_EQ(json.at("half_angle_rad"), nullptr);
   EXPECT_EQ(json.at("trust"), "trusted");
   EXPECT_TRUE(json.at("doubts").empty());
-  const curves::SvgLine line = fit_line(*curve, *fit);
+  const curves::SvgLine line = fit_line(*curve, *fit, options);
   EXPECT_EQ(line.points.size(), 2000U);
 }
 
@@ -190,13 +192,88 @@ TEST(FitOfACurve, OfAPartHasThatPartsModulus) {
   const auto by_force = fit_of(*curve, options);
   ASSERT_TRUE(by_force) << by_force.error().message;
   EXPECT_NEAR(by_force->modulus_pa, test::kHertzModulusPa, 1.0);
-  EXPECT_EQ(fit_line(*curve, *by_force).points.size(), by_force->points);
+  EXPECT_EQ(fit_line(*curve, *by_force, options).points.size(), by_force->points);
   options.most_force_n = std::numeric_limits<double>::infinity();
   options.most_depth_m = 0.4e-6;
   const auto by_depth = fit_of(*curve, options);
   ASSERT_TRUE(by_depth) << by_depth.error().message;
   EXPECT_NEAR(by_depth->modulus_pa, test::kHertzModulusPa, 1.0);
   EXPECT_NEAR(by_depth->depth_m, 0.4e-6, 0.1e-6);
+}
+
+TEST(FitOfACurve, HasTheSystematicPartApart) {
+  const auto curve = curves::analysed("gel.tab", test::hertz_curve());
+  ASSERT_TRUE(curve.has_value());
+  FitOptions options;
+  options.shape = fits::Shape::Paraboloid;
+  options.radius_m = test::kHertzRadiusM;
+  options.uncertainty_texts = {"spring-constant=8%", "radius=12%"};
+  ASSERT_TRUE(prepare(options));
+  const auto fit = fit_of(*curve, options);
+  ASSERT_TRUE(fit) << fit.error().message;
+  const auto json = fit_json(*fit, options).at("systematic");
+  // E ~ k and ~ R^(-1/2)
+  EXPECT_NEAR(json.at("modulus_Pa").get<double>(), 0.1 * test::kHertzModulusPa, 1e-3 * test::kHertzModulusPa);
+  EXPECT_EQ(json.at("parts").size(), 2U);
+  EXPECT_EQ(json.at("work_J_per_m2"), nullptr);
+  EXPECT_THAT(fit_text(*fit, options), HasSubstr("systematic of E"));
+  for (const char* wrong : {"radius", "radius=", "radius=%", "radius=5", "radius=-5%", "radius=0%", "radius=nan%",
+                            "radius=51%", "radius=1e999%", "tip=5%", "=5%", "", "half-angle=5%", "layer=5%"}) {
+    options.uncertainty_texts = {wrong};
+    EXPECT_FALSE(prepare(options)) << wrong;
+  }
+  options.uncertainty_texts = {"radius=5%", "radius=6%"};
+  EXPECT_FALSE(prepare(options));
+}
+
+// JKR by closed formulas: R = 1 um, E* = 10 MPa, W = 50 mJ/m2, k = 1 N/m, from 1 um above to a push of 1 uN.
+TEST(FitOfACurve, WithAdhesionHasBothBranches) {
+  constexpr double kRadius = 1e-6, kReduced = 10e6, kWork = 50e-3, kSpring = 1.0, kTop = 1e-6, kBottom = -1.2e-6;
+  using std::numbers::pi;
+  const auto force_n = [](double a) {
+    return 4.0 * kReduced * a * a * a / (3.0 * kRadius) - std::sqrt(8.0 * pi * kWork * kReduced * a * a * a);
+  };
+  const auto way_m = [&](double a) {
+    return a * a / kRadius - std::sqrt(2.0 * pi * kWork * a / kReduced) + force_n(a) / kSpring;
+  };
+  double fold_m = 2e-7;  // contact radius at which this lever jumps off
+  for (double a = 1e-7; a < 4e-7; a += 1e-11) fold_m = way_m(a) < way_m(fold_m) ? a : fold_m;
+  curves::RecordedCurve recorded = test::hertz_curve(3000);
+  recorded.metadata.spring_constant = physics::Stiffness(kSpring);
+  for (std::size_t i = 0; i < recorded.points.size(); ++i) {
+    physics::CurvePoint& point = recorded.points[i];
+    const std::size_t from_top = point.branch == physics::Branch::Approach ? i : recorded.points.size() - 1 - i;
+    const double z_m = std::lerp(kTop, kBottom, static_cast<double>(from_top) / 2999.0);
+    point = {physics::Length(z_m), physics::Force(), point.branch};
+    if (z_m > (point.branch == physics::Branch::Approach ? 0.0 : -way_m(fold_m))) continue;
+    double inner = 1e-5, outer = fold_m;
+    for (int step = 0; step < 80; ++step) {
+      const double middle = 0.5 * (inner + outer);
+      (way_m(middle) > -z_m ? inner : outer) = middle;
+    }
+    point.force = physics::Force(force_n(inner));
+  }
+  const auto curve = curves::analysed("pdms.tab", recorded);
+  ASSERT_TRUE(curve.has_value());
+  FitOptions options;
+  options.shape = fits::Shape::Auto;
+  options.radius_m = kRadius;
+  ASSERT_TRUE(prepare(options));
+  const auto fit = fit_of(*curve, options);
+  ASSERT_TRUE(fit) << fit.error().message;
+  const auto json = fit_json(*fit, options);
+  EXPECT_NEAR(json.at("reduced_modulus_Pa").get<double>(), kReduced, 1e-6 * kReduced);
+  EXPECT_EQ(json.at("adhesion").at("law"), "jkr");
+  EXPECT_NEAR(json.at("adhesion").at("work_J_per_m2").get<double>(), kWork, 1e-6 * kWork);
+  EXPECT_NEAR(json.at("adhesion").at("pull_off_N").get<double>(), 2.35619449e-7, 1e-12);
+  for (const char* expected : {"work of adhesion", "50 mJ/m2", "Tabor parameter", "jkr", "z0 = 300 pm"}) {
+    EXPECT_THAT(fit_text(*fit, options), HasSubstr(expected));
+  }
+  const curves::SvgLine line = fit_line(*curve, *fit, options);
+  EXPECT_GE(std::count_if(line.points.begin(), line.points.end(), [](const auto& p) { return std::isnan(p.y); }), 2);
+  EXPECT_GT(line.points.size(), fit->points);
+  options.against = fits::Against::Tip;
+  EXPECT_FALSE(prepare(options));
 }
 
 TEST(FitOfACurve, IsRefusedWithoutWhatItNeeds) {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "app/analyse/analyse_fit.h"
+#include "curves/curve_report.h"
+#include "fits/elastic_fit.h"
+
+namespace afm::app {
+
+// Points of a curve that a fit uses, and their places in it.
+struct FitPoints {
+  std::vector<fits::Sample> samples;
+  std::vector<std::size_t> places;
+};
+
+// Without adhesion the approach, up to the first point beyond a limit of `options`. With it, of both branches those
+// that surely stick and those that are surely free (docs/fits.md). The curve has a spring constant.
+FitPoints fit_points(const curves::AnalysedCurve& curve, const FitOptions& options);
+
+}  // namespace afm::app
