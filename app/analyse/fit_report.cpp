@@ -63,7 +63,7 @@ void adhesion_lines(const fits::ElasticFit& fit, const Line& line) {
   line("law", std::string(fits::row_of(fit.shape).name));
   if (adhesion.rounds > 0) {
     line("  chosen by", "Tabor");
-    line("  fits until it stayed", fmt::format("{}", adhesion.rounds));
+    line("  fits", fmt::format("{}", adhesion.rounds));
   }
 }
 
@@ -74,7 +74,7 @@ void systematic_lines(const fits::ElasticFit& fit, const Line& line) {
   for (const fits::Systematic& each : fit.systematic) {
     const auto& [of, share] = each.uncertainty;
     const std::string title =
-        fmt::format("  {} {:g} %", fits::kGiven.at(static_cast<std::size_t>(of)).name, 100.0 * share);
+        fmt::format("  {} {:g} %: ", fits::kGiven.at(static_cast<std::size_t>(of)).name, 100.0 * share);
     line(title.c_str(), fmt::format("E {:.3g} %", 100.0 * each.modulus_share) +
                             (fit.adhesion ? fmt::format(", W {:.3g} %", 100.0 * each.work_share) : ""));
   }
