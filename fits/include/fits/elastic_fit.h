@@ -46,7 +46,7 @@ struct FitSetup {
   bool tilt = false;           // also fits a slope of the baseline
   bool white = false;          // takes the noise as white: ordinary least squares, as in nanite and AtomicJ
   std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts
-  std::vector<Uncertainty> uncertainties{};  // of what is given
+  std::vector<Uncertainty> uncertainties{};  // errors in what the fit is given
 };
 
 // Reasons not to trust a modulus.
@@ -86,13 +86,13 @@ struct Found {
 struct Adhesion {
   double work_j_per_m2 = 0;  // work of adhesion
   Interval work_interval;    // J/m^2
-  double pull_off_n = 0;     // of the model, for a soft lever; a magnitude
+  double pull_off_n = 0;     // the model's, for a soft lever; a magnitude
   double tabor = 0;          // Tabor's parameter, for the setup's atomic distance
   std::size_t rounds = 0;    // fits of Shape::Auto until the law stayed; 0: the law was given
 };
 
 struct ElasticFit {
-  Shape shape = Shape::Paraboloid;  // that of the setup, but for Auto the law that was chosen
+  Shape shape = Shape::Paraboloid;  // the setup's; with Auto the law that was chosen
   double modulus_pa = 0;            // Young's, for the setup's Poisson ratio
   double reduced_modulus_pa = 0;    // E/(1 - nu^2)
   Interval modulus_interval_pa;     // by the profile likelihood of the whitened fit, within a factor of 148
@@ -111,7 +111,7 @@ struct ElasticFit {
   Trust trust = Trust::Trusted;
   std::vector<Found> doubts;
   std::optional<Adhesion> adhesion;
-  std::vector<Systematic> systematic;  // for each of the setup's uncertainties; not a number where no fit was found
+  std::vector<Systematic> systematic;  // one for each of the setup's uncertainties; not a number where no fit was found
   std::vector<double> model_n;         // force of the model at each sample, baseline included
 };
 

@@ -50,7 +50,7 @@ struct Indenter {
   double half_angle_rad = 0;  // between axis and edge of a cone, axis and face of a pyramid; in (0, pi/2)
   double layer_m = 0;         // thickness on a rigid base; positive where the shape has one
   std::shared_ptr<const LayerTable> table{};  // exact_table() of the shape; not null where it is exact
-  Base base = Base::Bonded;                   // that of the table
+  Base base = Base::Bonded;                   // the table's base
   double atomic_distance_m = 0.3e-9;          // z0 of the attraction, for Maugis and for Tabor's parameter
 };
 

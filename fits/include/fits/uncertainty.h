@@ -9,7 +9,7 @@ namespace afm::fits {
 // What a fit is given, and what may be wrong with it.
 enum class Given {
   SpringConstant,  // forces scale with it
-  Sensitivity,     // of the optical lever; the spring constant is that of a thermal tune with it, k ~ 1/sensitivity^2
+  Sensitivity,     // the optical lever's; the spring constant is that of a thermal tune with it, k ~ 1/sensitivity^2
   Radius,
   HalfAngle,
   Layer,
