@@ -10,6 +10,7 @@
 #include <limits>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "core/whole_file.h"
 #include "curves/image_output.h"
@@ -21,15 +22,27 @@ namespace afm::app {
 
 namespace {
 
-// A map's name in files, its title and its unit.
+using Cell = FitMaps::Cell;
+
+std::optional<double> trust_of(const Cell& cell) {
+  if (!cell.trust) return std::nullopt;
+  return static_cast<double>(fits::Trust::No) - static_cast<double>(*cell.trust);
+}
+
 struct MapRow {
-  const char* word;
+  const char* word;  // in names of files
   const char* title;
   const char* unit;
+  bool striped;  // shows which fits are not trusted
+  std::optional<double> (*value)(const Cell& cell);
 };
-constexpr std::array kMaps{MapRow{"modulus", "Modulus", "Pa"}, MapRow{"contact", "Contact height", "m"},
-                           MapRow{"depth", "Depth", "m"}, MapRow{"adhesion", "Adhesion", "N"},
-                           MapRow{"trust", "Trust", ""}};
+constexpr std::array kMaps{
+    MapRow{"modulus", "Modulus", "Pa", true, [](const Cell& cell) { return cell.modulus_pa; }},
+    MapRow{"contact", "Contact height", "m", true, [](const Cell& cell) { return cell.contact_m; }},
+    MapRow{"depth", "Depth", "m", true, [](const Cell& cell) { return cell.depth_m; }},
+    MapRow{"work", "Work of adhesion", "J/m^2", true, [](const Cell& cell) { return cell.work_j_per_m2; }},
+    MapRow{"adhesion", "Adhesion", "N", false, [](const Cell& cell) { return cell.adhesion_n; }},
+    MapRow{"trust", "Trust", "", false, trust_of}};
 
 // FOLDER/NAME, or FOLDER/NAME-2 and so on: the first of which there is no .gwy.
 std::string free_name(const std::string& folder, const std::string& name) {
@@ -63,6 +76,7 @@ void FitMaps::add(const FittedCurve& curve) {
   cell.modulus_pa = curve.fit->modulus_pa;
   cell.contact_m = curve.fit->contact_z_m;
   cell.depth_m = curve.fit->depth_m;
+  if (curve.fit->adhesion) cell.work_j_per_m2 = curve.fit->adhesion->work_j_per_m2;
   cell.trust = curve.fit->trust;
 }
 
@@ -76,26 +90,24 @@ core::Result<void> FitMaps::write(const std::string& folder, const std::string& 
                            .y_offset_m = grid_->center_y_m + 0.5 * grid_->height_m,
                            .channels = {},
                            .metadata = {{"Source", std::filesystem::path(file).filename().string()}}};
-  for (const MapRow& row : kMaps) image.channels.push_back({row.title, row.unit, {}});
   exhibit::PictureStyle style{.cut_share = 0.01, .hatched = {}};
-  for (const Cell& cell : cells_) {
-    const auto put = [&image](std::size_t map, const std::optional<double>& value) {
-      image.channels[map].values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
-    };
-    put(0, cell.modulus_pa);
-    put(1, cell.contact_m);
-    put(2, cell.depth_m);
-    put(3, cell.adhesion_n);
-    put(4, cell.trust ? std::optional(static_cast<double>(fits::Trust::No) - static_cast<double>(*cell.trust))
-                      : std::nullopt);
-    style.hatched.push_back(cell.trust && *cell.trust != fits::Trust::Trusted);
+  for (const Cell& cell : cells_) style.hatched.push_back(cell.trust && *cell.trust != fits::Trust::Trusted);
+  std::vector<const MapRow*> shown;
+  for (const MapRow& row : kMaps) {
+    physics::ImageChannel channel{row.title, row.unit, {}};
+    for (const Cell& cell : cells_) {
+      channel.values.push_back(row.value(cell).value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    if (!has_value(channel)) continue;
+    image.channels.push_back(std::move(channel));
+    shown.push_back(&row);
   }
+  if (shown.empty()) return {};
   const std::string name = free_name(folder, std::filesystem::path(file).stem().string());
   if (const auto written = core::write_file(name + ".gwy", curves::gwy_bytes(image)); !written) return written;
-  for (std::size_t map = 0; map < kMaps.size(); ++map) {
-    if (!has_value(image.channels[map])) continue;
-    const auto picture = exhibit::picture_of(image, map, map + 1 < kMaps.size() ? style : exhibit::PictureStyle{});
-    const auto written = render::write_png(picture, fmt::format("{}-{}.png", name, kMaps[map].word));
+  for (std::size_t map = 0; map < shown.size(); ++map) {
+    const auto picture = exhibit::picture_of(image, map, shown[map]->striped ? style : exhibit::PictureStyle{});
+    const auto written = render::write_png(picture, fmt::format("{}-{}.png", name, shown[map]->word));
     if (!written) return written;
   }
   return {};
