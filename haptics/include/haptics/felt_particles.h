@@ -14,6 +14,7 @@
 #include "haptics/particle_scale.h"
 #include "haptics/stroke_history.h"
 #include "physics/manipulation/pushed_particles.h"
+#include "physics/manipulation/tip_meeting.h"
 #include "scene/shared/particle_blocks.h"
 
 namespace afm::haptics {
@@ -73,43 +74,26 @@ class FeltParticles {
  private:
   enum class Tip { Waits, Over, Among };
 
-  // Contact with the particle that is pushed hardest.
-  struct Meeting {
-    std::size_t particle = physics::kNoParticle;
-    bool felt = false;       // strong enough for events
-    bool from_side = false;  // began on the flank
-    bool pushed = false;     // the particle has moved
-    bool ridden = false;
-    double lateral_n = 0;     // in the newest tick
-    double largest_n = 0;     // lateral, so far
-    glm::dvec2 towards{0.0};  // from the lever's base to the particle
-  };
-
   void move_poses(const physics::PushTick& tick) noexcept;
   void put(std::uint32_t particle, const scene::ParticlePose& there) noexcept;
   void change(std::uint32_t particle, const scene::ParticlePose& now) noexcept;
   void account(const physics::PushTick& tick) noexcept;
-  void note_events(const physics::PushTick& tick, std::uint64_t yields_before, const glm::dvec2& moved_m,
-                   ParticlePush& step) noexcept;
-  void begin_meeting(const physics::PushTick& tick) noexcept;
-  void end_meeting(const physics::PushTick& tick, const glm::dvec2& moved_m, ParticlePush& step) noexcept;
+  void note_events(const physics::PushTick& tick, std::uint64_t yields_before, ParticlePush& step) noexcept;
   scene::ParticlePose& pose(std::size_t particle) noexcept;
 
   ParticleScale scale_;
   physics::PushSetup setup_;  // with the springs that are felt
   physics::PushedParticles particles_;
-  std::vector<double> crest_m_;            // highest point of each species
   std::vector<double> other_threshold_n_;  // threshold of each species, by other_law()
   std::vector<scene::ParticlePage> pages_;
   std::vector<scene::ParticlePage> start_;  // pages of the constructor
   std::vector<std::uint32_t> changed_;
   StrokeHistory strokes_;
+  physics::TipMeeting meeting_;
   std::uint64_t digest_ = 0;
   double stiffness_n_per_m_;
   Tip tip_ = Tip::Waits;
   glm::dvec3 over_m_{0.0};  // place over the particles where the tip was last
-  glm::dvec3 last_m_{0.0};  // newest place of the lever's base
-  Meeting meeting_;
   glm::dvec3 push_n_{0.0};  // newest ParticlePush::push_n
   double sample_j_ = 0;     // energy of the lever on the bare sample, and of particles that press each other
   double stored_j_ = 0;

@@ -17,11 +17,6 @@ namespace {
 using physics::EventKind;
 using physics::Length;
 
-// A tip whose axis is within this share of a particle's radius of its centre has climbed onto it.
-constexpr double kOnTopShare = 0.5;
-// A base that leaves a particle by more than this against the direction to it goes back; otherwise it goes past.
-constexpr double kBackwards = -0.5;
-
 physics::LeverBase base_at(const glm::dvec3& at_m) { return {{Length(at_m.x), Length(at_m.y)}, Length(at_m.z)}; }
 
 glm::dvec2 flat(const physics::Sideways<Length>& place) { return {place.x.si, place.y.si}; }
@@ -46,12 +41,12 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
       particles_(setup_, scene::start_places(particles), base_at({0.0, 0.0, scale.clear_z_m})),
       pages_(scene::pages_of(particles.count)),
       strokes_(particles.count),
+      meeting_(setup_),
       stiffness_n_per_m_(std::max(setup_.springs.lateral, setup_.springs.normal).si * scale.hand_n_per_n /
                          scale.hand_m_per_m) {
   const double sine = std::sin(setup_.tip.half_angle_rad), cosine = std::cos(setup_.tip.half_angle_rad);
   for (physics::ParticleSpecies species : setup_.species) {
     const Length radius = species.contact.tip_radius;
-    crest_m_.push_back(physics::crest_height(setup_.tip, radius).si);
     const physics::TipGrip grip{setup_.tip_friction, 1.5 * std::numbers::pi * species.tip_adhesion *
                                                          physics::effective_radius(setup_.tip, radius, true)};
     species.law = scene::other_law(species.law);
@@ -88,7 +83,6 @@ scene::ParticlePose& FeltParticles::pose(std::size_t particle) noexcept {
 
 void FeltParticles::lift() noexcept {
   tip_ = Tip::Waits;
-  meeting_ = {};
   push_n_ = glm::dvec3(0.0);
   stored_j_ = 0.0;
 }
@@ -141,8 +135,8 @@ ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double 
   if (tip_ == Tip::Waits || over) return step;
   if (tip_ == Tip::Over) {
     particles_.hold_over(base_at(over_m_));
+    meeting_.begin(base_at(over_m_));
     tip_ = Tip::Among;
-    last_m_ = over_m_;
     sample_j_ = 0.0;
     ++accounts_;
     strokes_.begin();
@@ -153,9 +147,7 @@ ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double 
   step.near = tick.near;
   move_poses(tick);
   account(tick);
-  const glm::dvec3 base_m(flat(tick.base.position), tick.base.z.si);
-  note_events(tick, yields_before, glm::dvec2(base_m - last_m_), step);
-  last_m_ = base_m;
+  note_events(tick, yields_before, step);
   step.touches = tick.particle != physics::kNoParticle;
   step.push_n = push_n_;
   return step;
@@ -193,51 +185,12 @@ void FeltParticles::account(const physics::PushTick& tick) noexcept {
   stored_j_ = scale_.hand_n_per_n * scale_.hand_m_per_m * (tick.stored.si - alone_j - sample_j_);
 }
 
-void FeltParticles::note_events(const physics::PushTick& tick, std::uint64_t yields_before, const glm::dvec2& moved_m,
+void FeltParticles::note_events(const physics::PushTick& tick, std::uint64_t yields_before,
                                 ParticlePush& step) noexcept {
-  if (meeting_.particle != physics::kNoParticle && tick.particle != meeting_.particle) {
-    end_meeting(tick, moved_m, step);
-  }
-  if (tick.particle != physics::kNoParticle && meeting_.particle == physics::kNoParticle) begin_meeting(tick);
-  if (tick.particle != physics::kNoParticle) {
-    const double lateral_n = physics::magnitude(tick.lateral).si;
-    const std::size_t species = particles_.species(tick.particle);
-    if (!meeting_.felt && tick.normal.si * scale_.hand_n_per_n >= kFeltN) {
-      meeting_.felt = true;
-      step.add({EventKind::ParticleTouched, 0.0, lateral_n});
-    }
-    const glm::dvec2 centre_m = flat(particles_.position(tick.particle));
-    const double radius_m = setup_.species[species].contact.tip_radius.si;
-    const bool on_top = glm::distance(centre_m, flat(tick.apex.position)) < kOnTopShare * radius_m;
-    if (meeting_.felt && meeting_.from_side && !meeting_.ridden && on_top && tick.base.z.si < crest_m_[species]) {
-      meeting_.ridden = true;
-      step.add({EventKind::ParticleRiddenOver, meeting_.largest_n, lateral_n});
-    }
-    meeting_.lateral_n = lateral_n;
-    meeting_.largest_n = std::max(meeting_.largest_n, lateral_n);
-    const glm::dvec2 towards_m = centre_m - flat(tick.base.position);
-    const double away_m = glm::length(towards_m);
-    meeting_.towards = away_m > 0.0 ? towards_m / away_m : glm::dvec2(0.0);
-    const auto moved = particles_.moved();
-    meeting_.pushed = meeting_.pushed || std::find(moved.begin(), moved.end(), tick.particle) != moved.end();
-  }
+  const physics::TipMeeting::Events events =
+      meeting_.follow(particles_, tick.normal.si * scale_.hand_n_per_n >= kFeltN);
+  for (const physics::TipMeeting::Event& event : events.all()) step.add({event.kind, event.before.si, event.after.si});
   if (tick.yields > yields_before) step.add({EventKind::ParticleGave, tick.gave_at.si, tick.goes_on_at.si});
-}
-
-void FeltParticles::begin_meeting(const physics::PushTick& tick) noexcept {
-  meeting_ = {.particle = tick.particle};
-  meeting_.from_side = tick.apex.z.si <= crest_m_[particles_.species(tick.particle)];
-}
-
-// The tip has left its particle: a hand that lifts it or goes back means to; one that goes on has lost it.
-void FeltParticles::end_meeting(const physics::PushTick& tick, const glm::dvec2& moved_m, ParticlePush& step) noexcept {
-  const Meeting left = meeting_;
-  meeting_ = {};
-  const bool low = tick.base.z.si < crest_m_[particles_.species(left.particle)];
-  const bool alone = tick.particle == physics::kNoParticle;
-  const bool forward = glm::dot(moved_m, left.towards) > kBackwards * glm::length(moved_m);
-  if (!left.felt || !left.pushed || left.ridden || !low || !alone || !forward) return;
-  step.add({EventKind::ParticleLost, left.lateral_n, 0.0});
 }
 
 scene::TipPush FeltParticles::push() const noexcept {
