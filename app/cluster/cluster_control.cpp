@@ -26,7 +26,9 @@ ClusterControl::ClusterControl(ViewParts& parts, ClusterMaster& master) : parts_
     parts_.turn.seen_elsewhere_ns = [this](std::int64_t now_ns) { return master_.seen_ns(now_ns); };
   }
   parts_.servo.hear([this](const scene::TipSample& sample) { master_.hear(sample); });
-  parts_.servo.hear_jumps([this](const scene::TipEvent& event) { master_.hear(event); });
+  parts_.servo.hear_events([this](const scene::TipEvent& event) {
+    if (physics::is_jump(event.kind)) master_.hear(event);
+  });
 }
 
 void ClusterControl::share_scan() {

@@ -49,7 +49,8 @@ class ClusterMaster {
   // hand's motion, and again before the frame is sent.
   void follow_scan(const exhibit::LiveScan* scan, std::size_t material, std::uint64_t begun);
 
-  // Sends the poses that have changed, and the push. Call before the frame that shows them is sent; `count` particles.
+  // Sends the poses that have changed, the push, and a score that has changed. Call before the frame that shows them is
+  // sent; `count` particles.
   void follow_particles(const exhibit::ParticlesNow& now, std::size_t count);
 
   // Sends the next frame, and the history to a node that asks for it.
@@ -100,6 +101,7 @@ class ClusterMaster {
   std::uint64_t scan_begun_ = 0;
   std::vector<scene::ParticlePage> pages_;  // as recorded
   scene::TipPush push_;
+  scene::TaskScore score_;
   std::uint64_t number_ = 0;
   std::uint64_t waited_frames_ = 0;
   std::int64_t longest_wait_ns_ = 0;

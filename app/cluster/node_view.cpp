@@ -207,7 +207,7 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   exhibit::Moment now = exhibit::moment_of(message);
   now.curves = history_->cycles.curves();
   const exhibit::ParticlesNow particles{
-      .set = stage_.particles.get(), .pages = history_->pages, .push = history_->push};
+      .set = stage_.particles.get(), .pages = history_->pages, .push = history_->push, .score = history_->score};
   if (stage_.particles) now.wall.particles = &particles;
   follow_scan(message.moment);
   if (scan_) exhibit::show_scan(*scan_, now);

@@ -12,14 +12,17 @@
 #include <vector>
 
 #include "app/commands/species_figures.h"
+#include "app/commands/task_figures.h"
 #include "app/options/command.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
 #include "physics/manipulation/pushed_particles.h"
+#include "physics/manipulation/tip_meeting.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/pattern_state.h"
+#include "scene/samples/pattern_task.h"
 
 namespace afm::app {
 namespace {
@@ -62,6 +65,7 @@ struct Played {
   std::vector<TickSample> changes;   // ticks in which state or particle changes
   std::vector<TickSample> ends;      // end of each move
   std::vector<Sideways<Length>> at;  // places of the particles at the end
+  scene::TaskScore score;            // of a set with a pattern
 };
 
 std::size_t ticks_of(const LeverBase& from, const scene::HandMove& move, Frequency rate) {
@@ -76,9 +80,56 @@ LeverBase on_the_way(const LeverBase& a, const LeverBase& b, double share) {
 
 double margin_j(const PushTick& tick) { return (tick.given - tick.lost - tick.stored).si; }
 
+std::vector<Sideways<Length>> places_of(const physics::PushedParticles& particles) {
+  std::vector<Sideways<Length>> places;
+  for (std::size_t i = 0; i < particles.size(); ++i) places.push_back(particles.position(i));
+  return places;
+}
+
+// Keeps the score of the scripted hand, as a live window does that of a person.
+class ScriptedTask {
+ public:
+  explicit ScriptedTask(const scene::ParticleSet& set) : task_(set, set.targets), meeting_(set.setup) {
+    meeting_.begin(set.start);
+  }
+
+  void follow(const physics::PushedParticles& particles, double time_s) {
+    const PushTick& tick = particles.last();
+    for (const auto& event : meeting_.follow(particles, tick.normal.si > 0.0).all()) task_.add(event.kind);
+    if (!particles.moved().empty()) ++places_;
+    add(particles, time_s);
+  }
+
+  // The hand stays where its last move ended, as long as it takes to end the task.
+  scene::TaskScore end(const physics::PushedParticles& particles, double time_s) {
+    const scene::TaskScore ended = task_.score();
+    add(particles, time_s + 1e-9 * static_cast<double>(scene::PatternTask::kRestNs));
+    return task_.score().state == scene::TaskState::Done ? task_.score() : ended;
+  }
+
+ private:
+  void add(const physics::PushedParticles& particles, double time_s) {
+    const PushTick& tick = particles.last();
+    const bool touches = tick.particle != physics::kNoParticle;
+    const auto lateral = touches ? tick.lateral : Sideways<physics::Force>{};
+    task_.add({.time_ns = std::llround(1e9 * time_s),
+               .base_m = {tick.base.position.x.si, tick.base.position.y.si, tick.base.z.si},
+               .lateral_n = {lateral.x.si, lateral.y.si},
+               .lift_n = touches ? tick.lift.si : 0.0,
+               .places = places_});
+    if (task_.unjudged()) task_.judge(places_of(particles));
+  }
+
+  scene::PatternTask task_;
+  physics::TipMeeting meeting_;
+  std::uint64_t places_ = 0;
+};
+
 Played play(const scene::ParticleSet& set, const ParticlesOptions& options, std::size_t all_ticks) {
   physics::PushedParticles particles(set.setup, set.particles, set.start);
   Played played;
+  std::optional<ScriptedTask> task;
+  if (!set.targets.empty()) task.emplace(set);
   const double period_s = 1.0 / options.rate.si;
   const auto sample_count = static_cast<std::size_t>(options.samples);
   TickSample now{0.0, particles.last()};
@@ -92,6 +143,7 @@ Played play(const scene::ParticleSet& set, const ParticlesOptions& options, std:
       const double share = static_cast<double>(i) / static_cast<double>(ticks);
       now.tick = particles.move_to(i == ticks ? move.to : on_the_way(from, move.to, share), physics::Time(period_s));
       now.time_s = static_cast<double>(++played.ticks) * period_s;
+      if (task) task->follow(particles, now.time_s);
       if (now.tick.lagging) ++played.lagging;
       played.least_margin_j = std::min(played.least_margin_j, margin_j(now.tick));
       if (now.tick.state != before.state || now.tick.particle != before.particle) {
@@ -105,7 +157,8 @@ Played play(const scene::ParticleSet& set, const ParticlesOptions& options, std:
     from = move.to;
   }
   played.seconds = now.time_s;
-  for (std::size_t i = 0; i < particles.size(); ++i) played.at.push_back(particles.position(i));
+  if (task) played.score = task->end(particles, played.seconds);
+  played.at = places_of(particles);
   return played;
 }
 
@@ -182,6 +235,7 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
                              {"particles", particles},
                              {"targets_m", targets},
                              {"pattern", pattern ? json_of(*pattern) : nlohmann::json()},
+                             {"task", task_json(played.score)},
                              {"states", list(played.samples)},
                              {"changes", list(played.changes)},
                              {"all_changes", !played.more_changes},
@@ -212,6 +266,9 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
     text += fmt::format("\npattern of {} targets: {}, {} off in the root mean square, {} allowed\n", set.targets.size(),
                         pattern->done() ? "done" : "not done", format_quantity(pattern->match.rms, kLengthUnits, 4),
                         format_quantity(pattern->allowed, kLengthUnits, 4));
+    if (played.score.state != scene::TaskState::NotBegun) {
+      text += fmt::format("task of the pattern: {}\n", scene::text_of(played.score));
+    }
   }
   const PushTick& last = played.ends.back().tick;
   // below what rounding leaves of sums, nothing is stored

@@ -26,6 +26,7 @@
 #include "exhibit/models/model_view.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
+#include "exhibit/state/particle_task.h"
 #include "exhibit/state/particles_now.h"
 #include "render/context.h"
 #include "render/renderer.h"
@@ -207,9 +208,12 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
 
 // The session's particles as they lay at that time; no pages if it has none.
 core::Result<servo::ReplayedParticles> particles_at(const servo::RecordedSession& session, std::int64_t time_ns,
-                                                    const RenderOptions& options) {
+                                                    const RenderOptions& options,
+                                                    std::optional<exhibit::ParticleTask>& task) {
   if (!session.particles) return servo::ReplayedParticles{};
-  auto then = servo::replay_particles(session, time_ns);
+  auto then = servo::replay_particles(session, time_ns, [&](const servo::ReplayedTick& tick) {
+    if (task) task->hear(tick);
+  });
   if (then) return then;
   return core::failure(then.error().category,
                        fmt::format("session file {}: {}", options.session, then.error().message));
@@ -260,10 +264,14 @@ core::Result<void> run_render(const RenderOptions& options) {
 
   const auto material = static_cast<std::size_t>(found - materials.begin());
   const std::int64_t time_ns = session->samples.front().time_ns + static_cast<std::int64_t>(options.at_s * 1e9);
-  const auto replayed = particles_at(*session, time_ns, options);
+  std::optional<exhibit::ParticleTask> task;
+  if (session->particles && !stage->particles->targets.empty()) task.emplace(*stage->particles);
+  const auto replayed = particles_at(*session, time_ns, options, task);
   if (!replayed) return tl::unexpected(replayed.error());
-  const exhibit::ParticlesNow particles{
-      .set = stage->particles.get(), .pages = replayed->pages, .push = replayed->push};
+  const exhibit::ParticlesNow particles{.set = stage->particles.get(),
+                                        .pages = replayed->pages,
+                                        .push = replayed->push,
+                                        .score = task ? task->score() : scene::TaskScore{}};
   const exhibit::ParticlesNow* shown = session->particles ? &particles : nullptr;
   if (!session->wall.empty()) return draw_frame(*stage, models, *session, shown, time_ns, options);
   std::vector<exhibit::CycleCurve> curves(materials.size());

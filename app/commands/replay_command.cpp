@@ -7,12 +7,15 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app/commands/task_figures.h"
 #include "app/options/command.h"
 #include "app/options/sound_options.h"
 #include "core/log.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
 #include "exhibit/sound/session_sound.h"
+#include "exhibit/state/particle_task.h"
+#include "scene/samples/particle_set.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
 
@@ -40,8 +43,14 @@ double seconds(const servo::RecordedSession& session) {
   return session.seconds_since_start(session.samples.back().time_ns);
 }
 
-std::string json(const servo::RecordedSession& session, const servo::Replay& replayed,
-                 const servo::ReplayRange& range) {
+// Score of a session whose particles have a pattern.
+struct SessionTask {
+  scene::TaskScore score;
+  bool from_the_start = true;  // no particle had been moved before the session
+};
+
+std::string json(const servo::RecordedSession& session, const servo::Replay& replayed, const servo::ReplayRange& range,
+                 const std::optional<SessionTask>& task) {
   nlohmann::json events = nlohmann::json::array();
   for (const scene::TipEvent& event : session.events) {
     if (!range.holds(session.seconds_since_start(event.time_ns))) continue;
@@ -51,6 +60,9 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
                       {"force_before_N", event.force_before_n},
                       {"force_after_N", event.force_after_n}});
   }
+  nlohmann::json scored;
+  if (task) scored = task_json(task->score);
+  if (!scored.is_null()) scored["from_the_start"] = task->from_the_start;
   return nlohmann::json{
              {"material", session.material},
              {"rate_Hz", session.rate_hz},
@@ -61,6 +73,7 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
              {"to_s", std::min(range.to_s, seconds(session))},
              {"ticks", replayed.ticks},
              {"events", events},
+             {"task", scored},
              {"identical", replayed.identical()},
              {"different_ticks", replayed.different_ticks},
              {"first_difference", json_of(replayed.first)},
@@ -70,8 +83,8 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
          "\n";
 }
 
-std::string plain(const servo::RecordedSession& session, const servo::Replay& replayed,
-                  const servo::ReplayRange& range) {
+std::string plain(const servo::RecordedSession& session, const servo::Replay& replayed, const servo::ReplayRange& range,
+                  const std::optional<SessionTask>& task) {
   const auto with_force = std::count_if(session.samples.begin(), session.samples.end(), [](const scene::TipSample& s) {
     return s.servo_state == scene::ServoState::Running;
   });
@@ -88,6 +101,10 @@ std::string plain(const servo::RecordedSession& session, const servo::Replay& re
     text += fmt::format("  {:<16} at {:8.3f} s   Z = {:9.4f} nm   force {:9.5f} nN, then {:9.5f} nN\n",
                         physics::name_of(event.kind), session.seconds_since_start(event.time_ns), event.z_m * 1e9,
                         event.force_before_n * 1e9, event.force_after_n * 1e9);
+  }
+  if (task && task->score.state != scene::TaskState::NotBegun) {
+    text += fmt::format("pattern: {}{}\n", scene::text_of(task->score),
+                        task->from_the_start ? "" : "; of this session alone, before which particles had been moved");
   }
   text += fmt::format("largest difference: {:.3g} nN on the tip, {:.3g} N on the hand\n", replayed.largest_tip_n * 1e9,
                       replayed.largest_hand_n);
@@ -117,7 +134,15 @@ core::Result<void> write_sound(const servo::RecordedSession& session, const Repl
   return core::write_file(options.sound, *sound);
 }
 
-core::Result<void> run_replay(const ReplayOptions& options) {
+bool from_the_start(const servo::RecordedParticles& particles) {
+  for (std::uint32_t i = 0; i < particles.set.count; ++i) {
+    const scene::ParticlePose& pose = particles.pages[scene::page_of(i)].poses[i % scene::kPosesPerPage];
+    if (pose.x_m != particles.set.particles[i].x_m || pose.y_m != particles.set.particles[i].y_m) return false;
+  }
+  return true;
+}
+
+core::Result<void> run_replay(const ReplayOptions& options, const std::string& assets_dir) {
   const auto session = servo::load_session(options.session);
   if (!session) return tl::unexpected(session.error());
   const servo::ReplayRange& range = options.range;
@@ -127,7 +152,13 @@ core::Result<void> run_replay(const ReplayOptions& options) {
                                      range.from_s, range.to_s, seconds(*session)));
   }
   if (!session->complete) core::log_line(servo::cut_text(*session, options.session));
-  const auto replayed = servo::replay(*session, range);
+  scene::ParticleSet set;
+  if (session->particles) set = scene::recorded_set(session->particles->set, assets_dir);
+  std::optional<exhibit::ParticleTask> followed;
+  if (!set.targets.empty()) followed.emplace(set);
+  const auto replayed = servo::replay(*session, range, [&](const servo::ReplayedTick& tick) {
+    if (followed) followed->hear(tick);
+  });
   if (!replayed) {
     return core::failure(replayed.error().category,
                          fmt::format("session file {}: {}", options.session, replayed.error().message));
@@ -135,7 +166,10 @@ core::Result<void> run_replay(const ReplayOptions& options) {
   if (!options.sound.empty()) {
     if (auto written = write_sound(*session, options); !written) return written;
   }
-  std::fputs((options.json ? json(*session, *replayed, range) : plain(*session, *replayed, range)).c_str(), stdout);
+  std::optional<SessionTask> task;
+  if (followed) task = {followed->score(), from_the_start(*session->particles)};
+  std::fputs((options.json ? json(*session, *replayed, range, task) : plain(*session, *replayed, range, task)).c_str(),
+             stdout);
   if (replayed->identical()) return {};
   return core::failure(core::ErrorCategory::Failed,
                        fmt::format("the replay of {} differs: {}; another build of TouchAFM may have recorded it",
@@ -144,7 +178,7 @@ core::Result<void> run_replay(const ReplayOptions& options) {
 
 }  // namespace
 
-void add_replay_command(OptionList& program, const CommandContext&) {
+void add_replay_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
       "replay", "replay a recorded hand through the servo and compare every force with the recording, bit for bit");
   const auto options = std::make_shared<ReplayOptions>();
@@ -172,8 +206,10 @@ void add_replay_command(OptionList& program, const CommandContext&) {
       "         touchafm replay out/session-gold.afms --from 2 --to 3.5\n"
       "         touchafm replay out/session-gold.afms --sound gold.wav\n"
       "The exit code is 0 if every force is identical, otherwise 1. A truncated file is compared as far as it goes. "
-      "touchafm view --haptics replay:FILE shows the session on the wall.");
-  command.when_chosen([options] { return run_replay(*options); });
+      "touchafm view --haptics replay:FILE shows the session on the wall. A session in which particles are pushed to "
+      "the "
+      "pattern of a built-in set has the score of the task, up to --to.");
+  command.when_chosen([options, &context] { return run_replay(*options, context.assets_dir); });
 }
 
 }  // namespace afm::app

@@ -23,7 +23,9 @@ namespace afm::app {
 LessonControl::LessonControl(ViewParts& parts, exhibit::LiveLesson& lesson) : parts_(parts), lesson_(lesson) {
   parts_.choice.set_guide(*this);
   parts_.servo.hear([this](const scene::TipSample& sample) { lesson_.felt(sample, parts_.servo.link()); });
-  parts_.servo.hear_jumps([this](const scene::TipEvent& event) { lesson_.happened(event, parts_.servo.link()); });
+  parts_.servo.hear_events([this](const scene::TipEvent& event) {
+    if (physics::is_jump(event.kind)) lesson_.happened(event, parts_.servo.link());
+  });
 }
 
 void LessonControl::skip() { lesson_.skip(); }

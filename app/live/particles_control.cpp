@@ -2,6 +2,7 @@
 #include "app/live/particles_control.h"
 
 #include <array>
+#include <string>
 #include <utility>
 
 #include "app/view/live_sound.h"
@@ -11,10 +12,16 @@
 #include "core/clock.h"
 #include "core/log.h"
 #include "exhibit/state/moment.h"
-#include "scene/samples/pattern_state.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
+
+ParticlesControl::ParticlesControl(ViewParts& parts, const scene::ParticleSet& set) : parts_(parts), now_{.set = &set} {
+  if (set.targets.empty()) return;
+  task_.emplace(set);
+  parts_.servo.hear([this](const scene::TipSample& sample) { task_->add(sample); });
+  parts_.servo.hear_events([this](const scene::TipEvent& event) { task_->add(event); });
+}
 
 void ParticlesControl::take_back() {
   if (!parts_.servo.running()) return;
@@ -40,7 +47,7 @@ void ParticlesControl::update(const ViewFrame& frame) {
   now_.pages = link.particle_pages();
   now_.push = link.push();
   if (!parts_.servo.running()) return;
-  follow_pattern();
+  if (task_) follow_task();
   if (order_ == Order::None) return;
   servo::ServoClient& servo = parts_.servo.link();
   const scene::TipState& tip = servo.tip();
@@ -52,11 +59,11 @@ void ParticlesControl::update(const ViewFrame& frame) {
   }
 }
 
-void ParticlesControl::follow_pattern() {
-  if (std::exchange(digest_, now_.push.digest) == now_.push.digest) return;
-  const auto pattern = exhibit::pattern_of(now_);
-  if (!pattern || std::exchange(pattern_done_, pattern->done()) || !pattern->done()) return;
-  core::log_line("the pattern is done");
+void ParticlesControl::follow_task() {
+  const bool ends = task_->look(now_.pages);
+  now_.score = task_->score();
+  if (!ends) return;
+  core::log_line("the pattern is done: " + scene::text_of(now_.score));
   parts_.sound.narrator().happened(exhibit::HeardEvent::PatternDone, parts_.servo.link().tip().material);
 }
 

@@ -101,8 +101,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         audience_.heard(event);
         cues_.add(event);
         if (const std::string text = log_text(event); !text.empty()) core::log_line(text);
-        if (!physics::is_jump(event.kind)) return;
-        for (const auto& hears : hears_jumps_) hears(event);
+        for (const auto& hears : hears_events_) hears(event);
       });
   keep_part(now_ns);
   log_state();

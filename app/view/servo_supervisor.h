@@ -51,8 +51,8 @@ class ServoSupervisor {
   // Calls `hears` with every sample, in order, before a session stores it.
   void hear(std::function<void(const scene::TipSample&)> hears) { hears_.push_back(std::move(hears)); }
 
-  // Calls `hears` with every jump, in order.
-  void hear_jumps(std::function<void(const scene::TipEvent&)> hears) { hears_jumps_.push_back(std::move(hears)); }
+  // Calls `hears` with every event, before the sample of its tick.
+  void hear_events(std::function<void(const scene::TipEvent&)> hears) { hears_events_.push_back(std::move(hears)); }
 
   // Adds a frame of the wall to the current session.
   void record(const servo::WallFrame& frame);
@@ -88,7 +88,7 @@ class ServoSupervisor {
 
   Starter starter_;
   std::vector<std::function<void(const scene::TipSample&)>> hears_;
-  std::vector<std::function<void(const scene::TipEvent&)>> hears_jumps_;
+  std::vector<std::function<void(const scene::TipEvent&)>> hears_events_;
   Started started_;
   std::size_t materials_;
   std::string record_folder_;

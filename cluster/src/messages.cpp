@@ -143,6 +143,8 @@ bool JournalRecord::valid() const {
       return is_valid(pose());
     case JournalKind::Push:
       return scene::is_valid(push(), most_materials());
+    case JournalKind::Score:
+      return sound(score());
     case JournalKind::Forget:
     case JournalKind::ScanEnd:
       break;

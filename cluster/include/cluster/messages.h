@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "scene/shared/field_visitor.h"
+#include "scene/shared/task_score.h"
 #include "scene/shared/tip_blocks.h"
 
 // Messages between the machines of a wall: trivially copyable blocks, each in one datagram. Data from the network is
@@ -21,7 +22,7 @@ namespace afm::cluster {
 inline constexpr std::size_t kMostDatagramBytes = 1300;
 
 // Increase whenever the meaning of a message changes.
-inline constexpr std::uint32_t kClusterVersion = 3;
+inline constexpr std::uint32_t kClusterVersion = 4;
 
 // Header of every message. Each master draws a random `session` when it starts.
 struct ClusterHeader {
@@ -160,7 +161,7 @@ constexpr void for_each_field(Visit&& visit, Record&... record) {
 static_assert(scene::all_fields_described<PoseRecord>());
 
 // Records that every node must receive completely and in order: each sample and jump of the tip, each edit, each change
-// of a scan, each particle that has moved, and the push of a frame.
+// of a scan, each particle that has moved, the push of a frame, and the score of a task.
 enum class JournalKind : std::uint32_t {
   Sample = 0,
   Event = 1,
@@ -170,7 +171,8 @@ enum class JournalKind : std::uint32_t {
   ScanChange = 5,
   ScanEnd = 6,
   Pose = 7,
-  Push = 8
+  Push = 8,
+  Score = 9
 };
 
 class JournalRecord {
@@ -182,6 +184,7 @@ class JournalRecord {
   JournalRecord(JournalKind kind, const ScanRecord& scan) : kind_(kind) { set(scan); }  // kinds of a scan
   explicit JournalRecord(const PoseRecord& pose) : kind_(JournalKind::Pose) { set(pose); }
   explicit JournalRecord(const scene::TipPush& push) : kind_(JournalKind::Push) { set(push); }
+  explicit JournalRecord(const scene::TaskScore& score) : kind_(JournalKind::Score) { set(score); }
 
   JournalKind kind() const { return kind_; }
   // Valid only for records of that kind.
@@ -191,6 +194,7 @@ class JournalRecord {
   ScanRecord scan() const { return get<ScanRecord>(); }
   PoseRecord pose() const { return get<PoseRecord>(); }
   scene::TipPush push() const { return get<scene::TipPush>(); }
+  scene::TaskScore score() const { return get<scene::TaskScore>(); }
 
   // True if enumerators are known, numbers finite, materials below scene::kMaxMaterials, and particles below
   // scene::kMaxParticles.

@@ -135,6 +135,9 @@ void WallHistory::apply(const cluster::JournalRecord& record) {
     case cluster::JournalKind::Push:
       push = record.push();
       return;
+    case cluster::JournalKind::Score:
+      score = record.score();
+      return;
     case cluster::JournalKind::Forget:
       cycles = CycleHistory(cycles.curves().size());
       friction = {};
@@ -189,7 +192,8 @@ void add_change(const cluster::ScanRecord& change, std::vector<cluster::ScanReco
 std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& cycles, const FrictionHistory& friction,
                                     std::span<const cluster::EditRecord> edits,
                                     std::span<const cluster::ScanRecord> scan,
-                                    std::span<const scene::ParticlePage> pages, const scene::TipPush& push) {
+                                    std::span<const scene::ParticlePage> pages, const scene::TipPush& push,
+                                    const scene::TaskScore& score) {
   HistoryWriter writer;
   writer(journal);
   writer(static_cast<std::uint64_t>(cycles.curves().size()));
@@ -199,6 +203,7 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
   writer(std::vector<cluster::ScanRecord>(scan.begin(), scan.end()));
   writer(std::vector<scene::ParticlePage>(pages.begin(), pages.end()));
   writer(push);
+  writer(score);
   return writer.take();
 }
 
@@ -215,6 +220,7 @@ std::optional<WallHistory> load_history(std::span<const std::byte> document, std
   reader(history.scan);
   reader(history.pages);
   reader(history.push);
+  reader(history.score);
   const auto is_edit = [&](const cluster::EditRecord& edit) {
     return edit.material < materials && cluster::JournalRecord(edit).valid();
   };
@@ -228,7 +234,7 @@ std::optional<WallHistory> load_history(std::span<const std::byte> document, std
                      history.pages.size() <= scene::kParticlePages &&
                      std::all_of(history.pages.begin(), history.pages.end(),
                                  [](const scene::ParticlePage& page) { return scene::is_valid(page); }) &&
-                     cluster::JournalRecord(history.push).valid();
+                     cluster::JournalRecord(history.push).valid() && cluster::JournalRecord(history.score).valid();
   return valid ? std::optional(std::move(history)) : std::nullopt;
 }
 

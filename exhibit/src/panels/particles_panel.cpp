@@ -70,6 +70,7 @@ class ParticleRows {
       : now_(now), phrases_(phrases), touched_(touched(now, now.set->particles.size())) {}
 
   std::vector<render::DataRow> take() {
+    add_task();
     add_push();
     add_thresholds();
     add_numbers();
@@ -82,6 +83,22 @@ class ParticleRows {
 
   void add(Phrase name, std::string value, std::string source) {
     rows_.push_back({phrases_[name], std::move(value), std::move(source)});
+  }
+
+  // The clock while the task runs, the whole score once it is done.
+  void add_task() {
+    const scene::TaskScore& score = now_.score;
+    if (score.state == scene::TaskState::NotBegun) return;
+    const bool done = score.state == scene::TaskState::Done;
+    add(done ? Phrase::TaskDoneIn : Phrase::TaskClock,
+        phrases_.number(fmt::format("{:.{}f} s", score.time_s, done ? 1 : 0)),
+        phrases_.text<Phrase::TaskStrokes>(fmt::format("{}", score.strokes), fmt::format("{}", score.losses)));
+    if (!done) return;
+    add(Phrase::TaskOff, quantity_text(physics::Length(score.rms_m), physics::kLengthUnits, phrases_),
+        score.undos == 0 ? phrases_[Phrase::TaskUnaided]
+                         : phrases_.text<Phrase::TaskAided>(fmt::format("{}", score.undos)));
+    add(Phrase::TaskWork, quantity_text(physics::Energy(score.work_j), physics::kEnergyUnits, phrases_),
+        phrases_.text<Phrase::TaskLargest>(force_text(Force(score.largest_lateral_n), phrases_)));
   }
 
   void add_push() {

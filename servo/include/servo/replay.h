@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,10 +45,20 @@ struct ReplayRange {
   bool holds(double at_s) const { return at_s >= from_s && at_s <= to_s; }
 };
 
+// A tick of a replay as the session has it, the events since the tick before it, and the particles after it in the
+// replay. For the call alone.
+struct ReplayedTick {
+  const scene::TipSample& sample;
+  std::span<const scene::TipEvent> events;
+  std::span<const scene::ParticlePage> pages;
+};
+using HearTick = std::function<void(const ReplayedTick& tick)>;
+
 // Runs the recorded hand through a servo at the recorded times, with the renderer's heartbeats as recorded, and
 // compares every number bit for bit. Needs no clock, and takes about a thousandth of the session's time. Fails if a
-// servo rejects the session's materials or settings.
-core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& range = {});
+// servo rejects the session's materials or settings. Calls `hear` for every tick up to the end of the range, if it is
+// set.
+core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& range = {}, const HearTick& hear = {});
 
 // Particles after a tick. A session has their poses at its start alone: all others follow from its hand.
 struct ReplayedParticles {
@@ -56,6 +68,7 @@ struct ReplayedParticles {
 
 // Replays a session with particles up to its last tick at or before `time_ns`, and at least its first. Fails as
 // replay() does, and if the replay has other places than the session had.
-core::Result<ReplayedParticles> replay_particles(const RecordedSession& session, std::int64_t time_ns);
+core::Result<ReplayedParticles> replay_particles(const RecordedSession& session, std::int64_t time_ns,
+                                                 const HearTick& hear = {});
 
 }  // namespace afm::servo

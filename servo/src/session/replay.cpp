@@ -129,25 +129,27 @@ class Player {
     while (const auto event = renderer_.pop_event()) events_.push_back(*event);
     const auto given = renderer_.pop_sample();
     if (given) sample_ = *given;
+    take_pages();
     return given.has_value();
   }
 
   // As of the newest tick.
-  ReplayedParticles particles() {
-    ReplayedParticles particles;
-    particles.push = renderer_.tip_push().value_or(particles.push);
-    for (std::uint32_t i = 0; i < scene::pages_of(session_.particles->set.count); ++i) {
-      particles.pages.push_back(renderer_.new_particle_page(i).value_or(session_.particles->pages[i]));
-    }
-    return particles;
-  }
+  ReplayedParticles particles() { return {.pages = pages_, .push = renderer_.tip_push().value_or(scene::TipPush{})}; }
 
   const TipSample& sample() const { return sample_; }
   const std::vector<TipEvent>& events() const { return events_; }
 
+  // Tells of the newest tick, that of this sample.
+  void tell(std::size_t index, const HearTick& hear) const {
+    const auto came = std::span(session_.events).subspan(first_event_, next_event_ - first_event_);
+    if (hear) hear({.sample = session_.samples[index], .events = came, .pages = pages_});
+  }
+
  private:
   Player(const RecordedSession& session, scene::SharedSegment segment)
-      : session_(session), segment_(std::move(segment)), renderer_(segment_.renderer_side()), hand_(session) {}
+      : session_(session), segment_(std::move(segment)), renderer_(segment_.renderer_side()), hand_(session) {
+    if (session.particles) pages_ = session.particles->pages;
+  }
 
   void beat(scene::RendererHeartbeat heartbeat) {
     heartbeat.frame = ++frame_;
@@ -158,9 +160,18 @@ class Player {
 
   // An order that took effect is known by its event; it came with a heartbeat of the same tick.
   void order_what_came(std::int64_t now_ns) {
+    first_event_ = next_event_;
     for (; next_event_ < session_.events.size() && session_.events[next_event_].time_ns <= now_ns; ++next_event_) {
       if (session_.events[next_event_].kind == physics::EventKind::PushTakenBack) ++taken_back_;
       if (session_.events[next_event_].kind == physics::EventKind::ParticlesPutBack) ++put_back_;
+    }
+  }
+
+  void take_pages() {
+    if (sample_.push.digest == digest_) return;
+    digest_ = sample_.push.digest;
+    for (std::uint32_t i = 0; i < pages_.size(); ++i) {
+      if (const auto newer = renderer_.new_particle_page(i)) pages_[i] = *newer;
     }
   }
 
@@ -231,6 +242,7 @@ class Player {
   std::uint64_t frame_ = 0;
   std::uint32_t taken_back_ = 0;
   std::uint32_t put_back_ = 0;
+  std::size_t first_event_ = 0;  // of the newest tick
   std::size_t next_event_ = 0;
   std::int32_t chosen_ = 0;
   haptics::SampleAxes axes_;    // as last placed
@@ -239,11 +251,13 @@ class Player {
   scene::ScanLead scan_;  // as last sent
   TipSample sample_;
   std::vector<TipEvent> events_;
+  std::vector<scene::ParticlePage> pages_;
+  std::uint64_t digest_ = 0;  // digest of pages_
 };
 
 }  // namespace
 
-core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& range) {
+core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& range, const HearTick& hear) {
   const auto player = Player::create(session);
   if (!player) return tl::unexpected(player.error());
   const auto is_compared = [&](std::int64_t time_ns) { return range.holds(session.seconds_since_start(time_ns)); };
@@ -252,6 +266,7 @@ core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& r
     const TipSample& recorded = session.samples[i];
     if (session.seconds_since_start(recorded.time_ns) > range.to_s) break;
     const bool given = (*player)->play(i);
+    (*player)->tell(i, hear);
     if (!is_compared(recorded.time_ns)) continue;
     ++result.ticks;
     std::optional<Difference> found = Difference{i, "material", static_cast<double>(recorded.material), -1.0};
@@ -281,14 +296,18 @@ core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& r
   return result;
 }
 
-core::Result<ReplayedParticles> replay_particles(const RecordedSession& session, std::int64_t time_ns) {
+core::Result<ReplayedParticles> replay_particles(const RecordedSession& session, std::int64_t time_ns,
+                                                 const HearTick& hear) {
   AFM_CHECK(session.particles.has_value());
   const auto player = Player::create(session);
   if (!player) return tl::unexpected(player.error());
   const auto later = std::find_if(session.samples.begin(), session.samples.end(),
                                   [&](const TipSample& sample) { return sample.time_ns > time_ns; });
   const auto ticks = std::max<std::size_t>(1, static_cast<std::size_t>(later - session.samples.begin()));
-  for (std::size_t i = 0; i < ticks; ++i) (*player)->play(i);
+  for (std::size_t i = 0; i < ticks; ++i) {
+    (*player)->play(i);
+    (*player)->tell(i, hear);
+  }
   const TipSample& recorded = session.samples[ticks - 1];
   if ((*player)->sample().push.digest != recorded.push.digest) {
     return core::failure(core::ErrorCategory::BadInputFile,

@@ -23,6 +23,7 @@ struct WallHistory {
   std::vector<cluster::ScanRecord> scan;   // start and changes of the current scan; empty: none is shown
   std::vector<scene::ParticlePage> pages;  // poses of the particles
   scene::TipPush push;
+  scene::TaskScore score;
 
   explicit WallHistory(std::size_t materials) : cycles(materials) {}
 
@@ -32,7 +33,8 @@ struct WallHistory {
 std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& cycles, const FrictionHistory& friction,
                                     std::span<const cluster::EditRecord> edits,
                                     std::span<const cluster::ScanRecord> scan,
-                                    std::span<const scene::ParticlePage> pages = {}, const scene::TipPush& push = {});
+                                    std::span<const scene::ParticlePage> pages = {}, const scene::TipPush& push = {},
+                                    const scene::TaskScore& score = {});
 
 // Conversion of a scan to its record and back.
 cluster::ScanRecord record_of(const ScanChange& change, std::size_t material, const std::optional<HandPart>& hand);

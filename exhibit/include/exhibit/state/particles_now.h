@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "physics/friction/sideways.h"
 #include "scene/shared/particle_blocks.h"
+#include "scene/shared/task_score.h"
 
 namespace afm::scene {
 struct ParticleSet;
@@ -19,6 +22,7 @@ struct ParticlesNow {
   const scene::ParticleSet* set = nullptr;       // not null
   std::span<const scene::ParticlePage> pages{};  // poses; a particle beyond them is where it started
   scene::TipPush push{};
+  scene::TaskScore score{};  // of a set with a pattern
 };
 
 // Pose of a particle; nothing beyond the pages.
@@ -33,6 +37,9 @@ inline std::optional<std::size_t> touched(const ParticlesNow& now, std::size_t c
   const bool known = now.push.met != 0 && now.push.particle >= 0 && static_cast<std::size_t>(now.push.particle) < count;
   return known ? std::optional(static_cast<std::size_t>(now.push.particle)) : std::nullopt;
 }
+
+// Places of all particles; nothing before the servo has said where they are.
+std::optional<std::vector<physics::Sideways<physics::Length>>> places_of(const ParticlesNow& now);
 
 // Nothing if the set has no pattern, or before the servo has said where the particles are.
 std::optional<scene::PatternState> pattern_of(const ParticlesNow& now);

@@ -7,6 +7,14 @@
   PHRASE(ParticlesTakeBack, "particles-take-back", "medium count", kLine)  \
   PHRASE(PatternOff, "pattern-off", "distance allowed pushes", kLine)      \
   PHRASE(PatternDone, "pattern-done", "distance pushes", kLine)            \
+  PHRASE(TaskClock, "task-clock", "", kLine)                               \
+  PHRASE(TaskDoneIn, "task-done-in", "", kLine)                            \
+  PHRASE(TaskStrokes, "task-strokes", "strokes losses", kLine)             \
+  PHRASE(TaskOff, "task-off", "", kLine)                                   \
+  PHRASE(TaskUnaided, "task-unaided", "", kLine)                           \
+  PHRASE(TaskAided, "task-aided", "count", kLine)                          \
+  PHRASE(TaskWork, "task-work", "", kLine)                                 \
+  PHRASE(TaskLargest, "task-largest", "force", kLine)                      \
   PHRASE(PushStateName, "push-state", "", kLine)                           \
   PHRASE(PushFree, "push-free", "", kLine)                                 \
   PHRASE(PushHolds, "push-holds", "", kLine)                               \

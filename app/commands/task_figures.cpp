@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/commands/task_figures.h"
+
+#include <nlohmann/json.hpp>
+
+namespace afm::app {
+
+nlohmann::json task_json(const scene::TaskScore& score) {
+  if (score.state == scene::TaskState::NotBegun) return nullptr;
+  const bool done = score.state == scene::TaskState::Done;
+  return {{"done", done},
+          {"time_s", score.time_s},
+          {"rms_m", done ? nlohmann::json(score.rms_m) : nlohmann::json()},
+          {"strokes", score.strokes},
+          {"losses", score.losses},
+          {"pushes_taken_back", score.undos},
+          {"work_J", score.work_j},
+          {"largest_lateral_N", score.largest_lateral_n}};
+}
+
+}  // namespace afm::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/state/particle_task.h"
+
+#include "exhibit/state/particles_now.h"
+#include "servo/replay.h"
+
+namespace afm::exhibit {
+
+ParticleTask::ParticleTask(const scene::ParticleSet& set) : set_(set), task_(set, scene::shared_targets(set)) {}
+
+void ParticleTask::add(const scene::TipSample& sample) {
+  const auto& [x_m, y_m] = sample.surface.xy_m;
+  task_.add(scene::TaskTick{.time_ns = sample.time_ns,
+                            .base_m = {x_m, y_m, sample.tip.z_m},
+                            .lateral_n = sample.push.lateral_n,
+                            .lift_n = sample.push.lift_n,
+                            .places = sample.push.digest});
+}
+
+bool ParticleTask::look(std::span<const scene::ParticlePage> pages) {
+  const auto rest = task_.unjudged();
+  if (!rest || pages.size() < scene::pages_of(static_cast<std::uint32_t>(set_.particles.size()))) return false;
+  if (scene::digest_of(pages, set_.particles.size()) != *rest) return false;
+  task_.judge(*places_of({.set = &set_, .pages = pages}));
+  return task_.score().state == scene::TaskState::Done;
+}
+
+void ParticleTask::hear(const servo::ReplayedTick& tick) {
+  for (const scene::TipEvent& event : tick.events) add(event);
+  add(tick.sample);
+  look(tick.pages);
+}
+
+}  // namespace afm::exhibit

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "physics/contact_phase.h"
+#include "physics/friction/sideways.h"
+#include "physics/units.h"
+#include "scene/samples/particle_set.h"
+#include "scene/shared/task_score.h"
+
+namespace afm::scene {
+
+// Part of a tick that a score is made from. Places in one frame, that of the targets.
+struct TaskTick {
+  std::int64_t time_ns = 0;
+  std::array<double, 3> base_m{};     // apex on the unbent lever
+  std::array<double, 2> lateral_n{};  // force of the particles on the lever, along x and y
+  double lift_n = 0;                  // the same, upwards
+  std::uint64_t places = 0;           // changes whenever a particle has moved
+};
+
+// A task: to push the particles of a set to its pattern. It begins with the first push, ends once the pattern is done
+// and the hand has been lifted for kRestNs, and begins anew when all particles are put back. If that is taken back,
+// too, the task before goes on, with its clock.
+//
+// The score follows from ticks and events alone, so that a replay gives the same score. A caller that sees the
+// particles less often than every tick, as a frame of the wall does, misses only rests that are shorter than its
+// pauses. One thread.
+class PatternTask {
+ public:
+  static constexpr std::int64_t kRestNs = 500'000'000;
+
+  // `set` has targets and must outlive the object; `targets` are its targets in the frame of the ticks.
+  PatternTask(const ParticleSet& set, std::vector<physics::Sideways<physics::Length>> targets);
+
+  // Call in order of time, with the events of a tick before the tick. Other events than those of particles are ignored.
+  void add(physics::EventKind event);
+  void add(const TaskTick& tick);
+
+  // Places at which the particles rest, the hand lifted, and which have not been judged: call judge() with them.
+  std::optional<std::uint64_t> unjudged() const;
+
+  // Ends the task if the pattern is done. `places` are those of all particles of the set.
+  void judge(std::span<const physics::Sideways<physics::Length>> places);
+
+  const TaskScore& score() const { return task_.score; }
+
+ private:
+  struct Task {
+    TaskScore score;
+    std::int64_t begun_ns = 0;
+    std::uint32_t kept_strokes = 0;  // strokes that have not been taken back
+  };
+
+  void take_back();
+  void put_back();
+  void count_stroke(const TaskTick& tick);
+  void count_work(const TaskTick& tick);
+
+  const ParticleSet& set_;
+  std::vector<physics::Sideways<physics::Length>> targets_;
+  double clear_z_m_;
+  Task task_;
+  std::vector<Task> earlier_;  // tasks that ended because all particles were put back, which can be taken back
+  std::optional<TaskTick> last_;
+  bool put_ = false;     // the next tick has particles that were put somewhere, not pushed
+  bool moving_ = false;  // the current stroke has moved a particle
+  std::optional<std::int64_t> lifted_ns_;
+  std::optional<std::uint64_t> judged_;
+};
+
+// The score in one line, for logs and reports.
+std::string text_of(const TaskScore& score);
+
+}  // namespace afm::scene

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/samples/pattern_task.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/manipulation/pushed_particles.h"
+#include "physics/quantity_text.h"
+#include "scene/samples/pattern_state.h"
+#include "scene/shared/particle_blocks.h"
+
+namespace afm::scene {
+
+using physics::EventKind;
+using Place = physics::Sideways<physics::Length>;
+
+PatternTask::PatternTask(const ParticleSet& set, std::vector<Place> targets)
+    : set_(set), targets_(std::move(targets)), clear_z_m_(physics::clear_height(set.setup).si) {}
+
+void PatternTask::add(EventKind event) {
+  const bool runs = task_.score.state == TaskState::Running;
+  if (event == EventKind::ParticleLost && runs) ++task_.score.losses;
+  if (event == EventKind::PushTakenBack) take_back();
+  if (event == EventKind::ParticlesPutBack) put_back();
+}
+
+void PatternTask::take_back() {
+  put_ = true;
+  if (task_.kept_strokes > 0) {
+    --task_.kept_strokes;
+  } else if (!earlier_.empty()) {
+    task_ = earlier_.back();
+    earlier_.pop_back();
+  }
+  if (task_.score.state == TaskState::Running) ++task_.score.undos;
+}
+
+void PatternTask::put_back() {
+  put_ = true;
+  if (earlier_.size() == kMostStrokes) earlier_.erase(earlier_.begin());  // the servo has forgotten it, too
+  earlier_.push_back(std::exchange(task_, {}));
+}
+
+void PatternTask::add(const TaskTick& tick) {
+  if (!last_) last_ = tick;
+  TaskScore& score = task_.score;
+  const bool lifted = tick.base_m[2] >= clear_z_m_, put = std::exchange(put_, false);
+  if (lifted) moving_ = false;
+  if (tick.places != last_->places) {
+    if (!put) count_stroke(tick);
+    lifted_ns_.reset();
+    judged_.reset();
+  }
+  if (!lifted) lifted_ns_.reset();
+  if (lifted && !lifted_ns_) lifted_ns_ = tick.time_ns;
+  if (score.state != TaskState::Done) count_work(tick);
+  // the first stroke counts from its descent
+  if (lifted && score.state == TaskState::NotBegun) score = {};
+  if (score.state == TaskState::Running) score.time_s = 1e-9 * static_cast<double>(tick.time_ns - task_.begun_ns);
+  last_ = tick;
+}
+
+void PatternTask::count_stroke(const TaskTick& tick) {
+  if (std::exchange(moving_, true)) return;
+  ++task_.kept_strokes;
+  if (task_.score.state == TaskState::Done) return;
+  ++task_.score.strokes;
+  if (task_.score.state == TaskState::Running) return;
+  task_.score.state = TaskState::Running;
+  task_.begun_ns = tick.time_ns;
+}
+
+// By the mean of the forces at both ends of the tick.
+void PatternTask::count_work(const TaskTick& tick) {
+  TaskScore& score = task_.score;
+  const std::array<double, 3> before_n{last_->lateral_n[0], last_->lateral_n[1], last_->lift_n};
+  const std::array<double, 3> now_n{tick.lateral_n[0], tick.lateral_n[1], tick.lift_n};
+  for (std::size_t i = 0; i < now_n.size(); ++i) {
+    score.work_j -= 0.5 * (before_n[i] + now_n[i]) * (tick.base_m[i] - last_->base_m[i]);
+  }
+  score.largest_lateral_n = std::max(score.largest_lateral_n, std::hypot(now_n[0], now_n[1]));
+}
+
+std::optional<std::uint64_t> PatternTask::unjudged() const {
+  if (task_.score.state != TaskState::Running || !lifted_ns_ || judged_ == last_->places) return std::nullopt;
+  return last_->time_ns - *lifted_ns_ >= kRestNs ? std::optional(last_->places) : std::nullopt;
+}
+
+void PatternTask::judge(std::span<const Place> places) {
+  judged_ = last_->places;
+  const auto pattern = pattern_state(set_, targets_, places);
+  if (!pattern || !pattern->done()) return;
+  task_.score.state = TaskState::Done;
+  task_.score.rms_m = pattern->match.rms.si;
+  task_.score.time_s = 1e-9 * static_cast<double>(*lifted_ns_ - task_.begun_ns);
+}
+
+std::string text_of(const TaskScore& score) {
+  if (score.state == TaskState::NotBegun) return "not begun";
+  const bool done = score.state == TaskState::Done;
+  return fmt::format(
+      "{} {:.1f} s{}; strokes: {}, lost beside: {}, taken back as an aid: {}; {} of work, at most {} sideways",
+      done ? "done in" : "not done after", score.time_s,
+      done ? fmt::format(", {} off", format_quantity(physics::Length(score.rms_m), physics::kLengthUnits, 3)) : "",
+      score.strokes, score.losses, score.undos,
+      format_quantity(physics::Energy(score.work_j), physics::kEnergyUnits, 3),
+      format_quantity(physics::Force(score.largest_lateral_n), physics::kForceUnits, 3));
+}
+
+}  // namespace afm::scene

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "scene/shared/field_visitor.h"
+
+namespace afm::scene {
+
+// Done: the pattern is done and the hand was lifted; the score no longer changes.
+enum class TaskState : std::uint32_t { NotBegun = 0, Running = 1, Done = 2 };
+
+// Score of a person who pushes particles to a pattern, from the first push of the task on
+// (scene/samples/pattern_task.h).
+struct TaskScore {
+  double time_s = 0;             // since the first push; when done, up to the lift of the hand
+  double rms_m = 0;              // root mean square distance from the pattern when done, 0 before
+  double work_j = 0;             // of the hand against the particles
+  double largest_lateral_n = 0;  // on the lever
+  std::uint32_t strokes = 0;     // times that the tip came down and moved a particle
+  std::uint32_t losses = 0;      // times that the tip went past a particle that it had pushed
+  std::uint32_t undos = 0;       // pushes taken back, which is an aid
+  TaskState state = TaskState::NotBegun;
+
+  bool operator==(const TaskScore&) const = default;
+};
+
+template <class Visit, RecordOf<TaskScore>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... score) {
+  visit("time_s", score.time_s...);
+  visit("rms_m", score.rms_m...);
+  visit("work_J", score.work_j...);
+  visit("largest_lateral_N", score.largest_lateral_n...);
+  visit("strokes", score.strokes...);
+  visit("losses", score.losses...);
+  visit("undos", score.undos...);
+  visit("state", score.state...);
+}
+static_assert(all_fields_described<TaskScore>());
+
+}  // namespace afm::scene

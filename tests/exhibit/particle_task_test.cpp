@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// A simulated person pushes particles to their pattern through the servo's own code, in simulated time.
+#include "exhibit/state/particle_task.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "exhibit/state/particles_now.h"
+#include "scene/samples/pattern_state.h"
+#include "servo/recorded_servo.h"
+#include "support/particles/particle_sets.h"
+
+namespace afm::exhibit {
+namespace particle_task_test {
+
+constexpr int kStepTicks = 20;  // a command of the hand
+constexpr double kStepS = 1e-3 * kStepTicks;
+constexpr double kDelayS = 0.25;     // of the eye
+constexpr double kTremorM = 0.3e-3;  // of the hand, root mean square, each way along the sample
+constexpr double kHeldTremor = 0.5;  // share of the tremor that is left after a step
+constexpr double kSteerPerS = 2.0;   // of what the hand sees to be off its line
+constexpr double kPushMPerS = 6e-3;  // of the hand
+constexpr double kWayMPerS = 60e-3;
+constexpr double kLowM = 1.6e-3;  // height of the hand while it pushes
+constexpr double kHighM = 16e-3;
+constexpr double kBehindM = 50e-9;  // from the middle of the particle to the tip that comes down behind it
+constexpr double kNearM = 10e-9;    // distance from a target that the person is content with
+
+std::unique_ptr<scene::SharedModel> model_with(const scene::ParticleSet& set) {
+  auto model = std::make_unique<scene::SharedModel>(test::paper_model());
+  model->particles = scene::shared_particles(set);
+  return model;
+}
+
+class Person {
+ public:
+  explicit Person(const scene::ParticleSet& set, unsigned seed)
+      : set_(set), targets_(scene::shared_targets(set)), random_(seed), recording_(*model_with(set)) {
+    recording_.choose(test::kMica, scene::ScaleMode::Particles);
+    recording_.arm();
+    m_per_m_ = recording_.state().active.scale.hand_m_per_m;
+    go({0.0, 0.0}, kHighM, 0.5);
+  }
+
+  // Pushes what is farthest from its target until all are near, or for so long.
+  void solve(double most_s) {
+    for (const double end_s = time_s() + most_s; time_s() < end_s;) {
+      rest(0.5);
+      const auto pattern =
+          scene::pattern_state(set_, targets_, *places_of({.set = &set_, .pages = recording_.pages()}));
+      std::size_t worst = 0;
+      const auto off = [&](std::size_t i) { return glm::distance(target(i), place(pattern->match.particles[i])); };
+      for (std::size_t i = 1; i < targets_.size(); ++i) worst = off(i) > off(worst) ? i : worst;
+      if (off(worst) < kNearM) break;
+      push(pattern->match.particles[worst], target(worst));
+    }
+    rest(1.0);
+  }
+
+  double time_s() const { return 1e-9 * static_cast<double>(recording_.now_ns); }
+  servo::Recording& recording() { return recording_; }
+
+ private:
+  glm::dvec2 target(std::size_t i) const { return {targets_[i].x.si, targets_[i].y.si}; }
+  glm::dvec2 place(std::size_t particle) const {
+    const auto pose = pose_of({.set = &set_, .pages = recording_.pages()}, particle);
+    return {pose->x_m, pose->y_m};
+  }
+
+  void push(std::size_t particle, const glm::dvec2& to_m) {
+    const glm::dvec2 from_m = place(particle), along = glm::normalize(to_m - from_m);
+    go(m_per_m_ * (from_m - kBehindM * along), kHighM, kWayMPerS);
+    go(at_m_, kLowM, kWayMPerS);
+    std::deque<glm::dvec2> seen{place(particle)};
+    const auto delay = static_cast<std::size_t>(std::lround(kDelayS / kStepS));
+    const glm::dvec2 across(-along.y, along.x);
+    for (int i = 0; i < 2000; ++i) {
+      const glm::dvec2 there_m = seen.front();
+      if (glm::dot(to_m - there_m, along) < kPushMPerS / m_per_m_ * kDelayS) break;
+      const glm::dvec2 left = glm::normalize(to_m - there_m), aside(-left.y, left.x);
+      const double off_m = glm::dot(at_m_ - m_per_m_ * there_m, aside);
+      if (std::abs(off_m) > m_per_m_ * kBehindM * 0.7) break;  // lost
+      step(at_m_ + kStepS * (kPushMPerS * left - kSteerPerS * off_m * aside), kLowM);
+      seen.push_back(place(particle));
+      if (seen.size() > delay) seen.pop_front();
+    }
+    go(at_m_, kHighM, kWayMPerS);
+  }
+
+  void rest(double seconds) {
+    for (double s = 0.0; s < seconds; s += kStepS) step(at_m_, height_m_);
+  }
+
+  void go(const glm::dvec2& to_m, double height_m, double m_per_s) {
+    const glm::dvec3 from(at_m_, height_m_), to(to_m, height_m);
+    const int steps = std::max(1, static_cast<int>(std::ceil(glm::distance(from, to) / m_per_s / kStepS)));
+    for (int i = 1; i <= steps; ++i) {
+      const glm::dvec3 next = from + (to - from) * (static_cast<double>(i) / steps);
+      step(glm::dvec2(next), next.z);
+    }
+  }
+
+  void step(const glm::dvec2& to_m, double height_m) {
+    at_m_ = to_m;
+    height_m_ = height_m;
+    const double fresh = kTremorM * std::sqrt(1.0 - kHeldTremor * kHeldTremor);
+    tremor_m_ = kHeldTremor * tremor_m_ + fresh * glm::dvec2(noise_(random_), noise_(random_));
+    recording_.go(at_m_ + tremor_m_, height_m_, kStepS);
+    recording_.run(kStepTicks);
+  }
+
+  const scene::ParticleSet& set_;
+  std::vector<physics::Sideways<physics::Length>> targets_;
+  std::mt19937 random_;
+  std::normal_distribution<double> noise_;
+  servo::Recording recording_;
+  double m_per_m_ = 0.0;
+  glm::dvec2 at_m_{0.0}, tremor_m_{0.0};  // where the hand means to be, and how far off it is
+  double height_m_ = 0.06;
+};
+
+// The score as a live window keeps it, which sees the particles once a frame.
+scene::TaskScore live_score(const scene::ParticleSet& set, const servo::RecordedSession& session, std::size_t frame) {
+  ParticleTask task(set);
+  std::size_t tick = 0;
+  const auto replayed = servo::replay(session, {}, [&](const servo::ReplayedTick& now) {
+    for (const scene::TipEvent& event : now.events) task.add(event);
+    task.add(now.sample);
+    if (++tick % frame == 0) task.look(now.pages);
+  });
+  EXPECT_TRUE(replayed && replayed->identical());
+  return task.score();
+}
+
+TEST(ParticleTask, IsSolvedByAPersonWithDelayAndTremorAndScoredAlikeLiveAndInAReplay) {
+  const scene::ParticleSet set = test::particle_set("gold-row");
+  Person person(set, 11);
+  person.solve(300.0);
+  ASSERT_EQ(person.recording().sessions.size(), 1U);
+  const servo::RecordedSession& session = person.recording().sessions.front();
+  ParticleTask task(set);
+  const auto replayed = servo::replay(session, {}, [&](const servo::ReplayedTick& tick) { task.hear(tick); });
+  ASSERT_TRUE(replayed) << replayed.error().message;
+  EXPECT_TRUE(replayed->identical());
+  const scene::TaskScore score = task.score();
+  EXPECT_EQ(score.state, scene::TaskState::Done) << scene::text_of(score);
+  EXPECT_LT(score.time_s, 300.0);
+  EXPECT_LE(score.rms_m, scene::median_radius(set).si);
+  EXPECT_GE(score.strokes, 4U);
+  EXPECT_GT(score.work_j, 10e-18);
+  EXPECT_EQ(score.undos, 0U);
+  EXPECT_EQ(live_score(set, session, 17), score) << "at 60 frames a second";
+  EXPECT_EQ(live_score(set, session, 450), score) << "at two frames a second";
+}
+
+}  // namespace particle_task_test
+}  // namespace afm::exhibit
