@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "bytes/text_table.h"
 #include "core/enumerators.h"
 #include "curves/curve_error.h"
 #include "curves/table_columns.h"
 #include "formats/segments.h"
-#include "formats/text_table.h"
 #include "physics/quantity_text.h"
 
 namespace afm::curves {

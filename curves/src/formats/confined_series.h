@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "bytes/text_table.h"
 #include "confined/confined_child.h"
 #include "confined/mapped_file.h"
 #include "curves/curve_error.h"
@@ -12,7 +13,6 @@
 #include "curves/curve_series.h"
 #include "formats/format_table.h"
 #include "formats/tab_file.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

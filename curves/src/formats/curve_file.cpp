@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bytes/text_table.h"
 #include "confined/confined_child.h"
 #include "confined/mapped_file.h"
 #include "core/enumerators.h"
@@ -27,7 +28,6 @@
 #include "formats/nanoscope_curve.h"
 #include "formats/segments.h"
 #include "formats/tab_file.h"
-#include "formats/text_table.h"
 #include "formats/touchafm_csv_file.h"
 #include "formats/workshop_file.h"
 

@@ -13,9 +13,9 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "bytes/text_table.h"
 #include "core/version.h"
 #include "curves/plot_units.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 namespace {

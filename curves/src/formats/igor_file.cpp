@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "bytes/text_table.h"
 #include "curves/curve_error.h"
 #include "formats/igor_wave.h"
 #include "formats/segments.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "bytes/text_table.h"
 #include "curves/recorded_curve.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

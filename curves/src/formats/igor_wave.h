@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/file_bytes.h"
+#include "bytes/file_bytes.h"
 
 namespace afm::curves {
 

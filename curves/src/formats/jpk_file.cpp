@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
+#include "bytes/text_table.h"
 #include "curves/curve_error.h"
 #include "formats/jpk_segment.h"
 #include "formats/segments.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "bytes/zip_archive.h"
 #include "curves/curve_file.h"
 #include "curves/recorded_curve.h"
 #include "formats/jpk_properties.h"
-#include "formats/zip_archive.h"
 
 namespace afm::curves {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "formats/jpk_properties.h"
 
-#include "formats/text_table.h"
+#include "bytes/text_table.h"
 
 namespace afm::curves {
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "bytes/text_table.h"
 #include "curves/curve_error.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

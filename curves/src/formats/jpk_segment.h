@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "bytes/zip_archive.h"
 #include "curves/curve_file.h"
 #include "formats/jpk_properties.h"
-#include "formats/zip_archive.h"
 
 namespace afm::curves {
 

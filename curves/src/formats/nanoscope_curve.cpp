@@ -14,12 +14,12 @@
 #include <utility>
 #include <vector>
 
+#include "bytes/file_bytes.h"
+#include "bytes/scaled_unit.h"
+#include "bytes/text_table.h"
 #include "curves/curve_error.h"
-#include "formats/file_bytes.h"
 #include "formats/nanoscope_header.h"
-#include "formats/scaled_unit.h"
 #include "formats/segments.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

@@ -8,9 +8,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "bytes/scaled_unit.h"
+#include "bytes/text_table.h"
 #include "curves/curve_error.h"
-#include "formats/scaled_unit.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

@@ -4,9 +4,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "bytes/text_table.h"
 #include "core/printable.h"
 #include "core/version.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

@@ -10,11 +10,11 @@
 #include <cmath>
 #include <optional>
 
+#include "bytes/text_table.h"
 #include "core/printable.h"
 #include "curves/curve_error.h"
 #include "curves/unread_kinds.h"
 #include "formats/format_table.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

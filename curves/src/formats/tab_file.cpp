@@ -7,12 +7,12 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "bytes/text_table.h"
 #include "core/printable.h"
 #include "core/version.h"
 #include "curves/curve_error.h"
 #include "formats/afmformats_metadata.h"
 #include "formats/segments.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

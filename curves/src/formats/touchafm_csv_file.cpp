@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "bytes/text_table.h"
 #include "curves/curve_error.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

@@ -11,11 +11,11 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "bytes/text_table.h"
 #include "core/printable.h"
 #include "curves/curve_error.h"
 #include "curves/plot_units.h"
 #include "formats/afmformats_metadata.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

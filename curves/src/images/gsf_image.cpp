@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <string>
 
+#include "bytes/file_bytes.h"
+#include "bytes/text_table.h"
 #include "curves/curve_error.h"
-#include "formats/file_bytes.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

@@ -8,8 +8,8 @@
 #include <map>
 #include <string>
 
+#include "bytes/file_bytes.h"
 #include "curves/curve_error.h"
-#include "formats/file_bytes.h"
 
 namespace afm::curves {
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <string>
 
+#include "bytes/text_table.h"
 #include "curves/curve_error.h"
 #include "formats/igor_wave.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

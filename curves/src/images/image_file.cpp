@@ -11,11 +11,11 @@
 #include <limits>
 #include <utility>
 
+#include "bytes/file_bytes.h"
 #include "core/enumerators.h"
 #include "core/printable.h"
 #include "curves/curve_error.h"
 #include "curves/curve_file.h"
-#include "formats/file_bytes.h"
 #include "formats/format_table.h"
 #include "formats/igor_wave.h"
 #include "images/gsf_image.h"

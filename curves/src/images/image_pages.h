@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "bytes/scaled_unit.h"
 #include "curves/curve_error.h"
 #include "curves/image_file.h"
-#include "formats/scaled_unit.h"
 
 namespace afm::curves {
 

@@ -12,8 +12,8 @@
 #include <optional>
 #include <string>
 
+#include "bytes/file_bytes.h"
 #include "curves/curve_error.h"
-#include "formats/file_bytes.h"
 
 namespace afm::curves {
 

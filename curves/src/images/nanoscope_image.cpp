@@ -10,10 +10,10 @@
 #include <optional>
 #include <string>
 
+#include "bytes/file_bytes.h"
+#include "bytes/text_table.h"
 #include "curves/curve_error.h"
-#include "formats/file_bytes.h"
 #include "formats/nanoscope_header.h"
-#include "formats/text_table.h"
 
 namespace afm::curves {
 

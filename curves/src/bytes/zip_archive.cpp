@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/zip_archive.h"
+#include "bytes/zip_archive.h"
 
 #include <fmt/format.h>
 #include <ioapi.h>

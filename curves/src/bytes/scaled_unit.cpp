@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/scaled_unit.h"
+#include "bytes/scaled_unit.h"
 
 #include <array>
 
-#include "formats/text_table.h"
+#include "bytes/text_table.h"
 
 namespace afm::curves {
 

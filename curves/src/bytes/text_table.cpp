@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/text_table.h"
+#include "bytes/text_table.h"
 
 #include <fmt/format.h>
 
