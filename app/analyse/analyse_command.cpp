@@ -180,7 +180,8 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
              command
                  .add_parsed_option("--columns", read_columns,
                                     "read FILE as a plain table, by the names and units of its columns: "
-                                    "\"height:um force:nN\", \"- height:nm deflection:V\"; names: height, "
+                                    "\"height:um force:nN\", \"- height:nm deflection:V\", or deflection:-V where the "
+                                    "sign is the opposite; names: height, "
                                     "force, deflection, retract-force, retract-deflection, segment, time, -")
                  .type_name("COLUMNS"));
   const auto read_method = [&options](const std::string& text) -> core::Result<void> {

@@ -81,6 +81,12 @@ TEST(ColumnTable, MakesForcesOfADeflection) {
   EXPECT_NEAR(parse_curve(table("\t"), "a.txt", reading)->points[12].force.si, 2e-9 * 0.1, 1e-20);
 }
 
+TEST(ColumnTable, TurnsASign) {
+  const auto curve = parse_curve(table("\t"), "a.txt", columns("height:um force:-nN"));
+  ASSERT_TRUE(curve) << curve.error().message;
+  EXPECT_NEAR(curve->points[12].force.si, -2e-9, 1e-21);
+}
+
 // NT-MDT's text: height, approach and retract side by side, with decimal commas.
 TEST(ColumnTable, HasTheWayBackBesideTheApproach) {
   std::string text;

@@ -231,12 +231,14 @@ core::Result<TableColumns> parse_table_columns(std::string_view text) {
       return core::wrong_usage(fmt::format(
           "--columns: \"{}\" is no column; write NAME:UNIT for each, with a name of {}", word, known_columns()));
     }
-    const auto column = column_of(*row, unit);
+    const bool reversed = unit.starts_with('-');
+    auto column = column_of(*row, unit.substr(reversed ? 1 : 0));
     if (!column) {
       return core::wrong_usage(fmt::format(
           "--columns: \"{}\" has no unit of its quantity; such as height:um, force:nN, deflection:V, time:s, segment",
           word));
     }
+    if (reversed) column->si_per_unit = -column->si_per_unit;
     columns.push_back(*column);
   }
   if (const auto checked = check(columns); !checked) return tl::unexpected(checked.error());
