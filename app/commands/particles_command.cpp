@@ -65,7 +65,7 @@ struct Played {
   std::vector<TickSample> changes;   // ticks in which state or particle changes
   std::vector<TickSample> ends;      // end of each move
   std::vector<Sideways<Length>> at;  // places of the particles at the end
-  scene::TaskScore score;            // of a set with a pattern
+  scene::TaskScore score;            // only for a set with a pattern
 };
 
 std::size_t ticks_of(const LeverBase& from, const scene::HandMove& move, Frequency rate) {

@@ -36,7 +36,7 @@ class ParticlesControl final : public ViewControl {
   ViewParts& parts_;
   exhibit::ParticlesNow now_;
   Order order_ = Order::None;
-  std::optional<exhibit::ParticleTask> task_;  // of a set with a pattern
+  std::optional<exhibit::ParticleTask> task_;  // only for a set with a pattern
 };
 
 }  // namespace afm::app

@@ -24,11 +24,11 @@ namespace particle_task_test {
 
 constexpr int kStepTicks = 20;  // a command of the hand
 constexpr double kStepS = 1e-3 * kStepTicks;
-constexpr double kDelayS = 0.25;     // of the eye
-constexpr double kTremorM = 0.3e-3;  // of the hand, root mean square, each way along the sample
+constexpr double kDelayS = 0.25;     // delay of the eye
+constexpr double kTremorM = 0.3e-3;  // tremor of the hand, root mean square, each way along the sample
 constexpr double kHeldTremor = 0.5;  // share of the tremor that is left after a step
-constexpr double kSteerPerS = 2.0;   // of what the hand sees to be off its line
-constexpr double kPushMPerS = 6e-3;  // of the hand
+constexpr double kSteerPerS = 2.0;   // share of the seen error that the hand corrects
+constexpr double kPushMPerS = 6e-3;  // speed of the hand
 constexpr double kWayMPerS = 60e-3;
 constexpr double kLowM = 1.6e-3;  // height of the hand while it pushes
 constexpr double kHighM = 16e-3;
@@ -124,7 +124,7 @@ class Person {
   std::normal_distribution<double> noise_;
   servo::Recording recording_;
   double m_per_m_ = 0.0;
-  glm::dvec2 at_m_{0.0}, tremor_m_{0.0};  // where the hand means to be, and how far off it is
+  glm::dvec2 at_m_{0.0}, tremor_m_{0.0};  // intended place, and the error of the tremor
   double height_m_ = 0.06;
 };
 

@@ -242,7 +242,7 @@ class Player {
   std::uint64_t frame_ = 0;
   std::uint32_t taken_back_ = 0;
   std::uint32_t put_back_ = 0;
-  std::size_t first_event_ = 0;  // of the newest tick
+  std::size_t first_event_ = 0;  // first event of the newest tick
   std::size_t next_event_ = 0;
   std::int32_t chosen_ = 0;
   haptics::SampleAxes axes_;    // as last placed

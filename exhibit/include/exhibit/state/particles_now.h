@@ -22,7 +22,7 @@ struct ParticlesNow {
   const scene::ParticleSet* set = nullptr;       // not null
   std::span<const scene::ParticlePage> pages{};  // poses; a particle beyond them is where it started
   scene::TipPush push{};
-  scene::TaskScore score{};  // of a set with a pattern
+  scene::TaskScore score{};  // only for a set with a pattern
 };
 
 // Pose of a particle; nothing beyond the pages.

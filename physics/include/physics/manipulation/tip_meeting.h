@@ -60,7 +60,7 @@ class TipMeeting {
   void stay(const PushTick& tick, const PushedParticles& particles, bool felt, Events& events) noexcept;
   void leave(const PushTick& tick, const PushedParticles& particles, Events& events) noexcept;
 
-  std::vector<Length> radius_;  // of each species
+  std::vector<Length> radius_;  // radius of each species
   std::vector<Length> crest_;   // highest point of each species
   Contact contact_;
   Sideways<Length> last_;  // newest place of the lever's base

@@ -13,10 +13,10 @@ enum class TaskState : std::uint32_t { NotBegun = 0, Running = 1, Done = 2 };
 // Score of a person who pushes particles to a pattern, from the first push of the task on
 // (scene/samples/pattern_task.h).
 struct TaskScore {
-  double time_s = 0;             // since the first push; when done, up to the lift of the hand
+  double time_s = 0;             // time since the first push; when done, up to the lift of the hand
   double rms_m = 0;              // root mean square distance from the pattern when done, 0 before
-  double work_j = 0;             // of the hand against the particles
-  double largest_lateral_n = 0;  // on the lever
+  double work_j = 0;             // work of the hand against the particles
+  double largest_lateral_n = 0;  // force on the lever
   std::uint32_t strokes = 0;     // times that the tip came down and moved a particle
   std::uint32_t losses = 0;      // times that the tip went past a particle that it had pushed
   std::uint32_t undos = 0;       // pushes taken back, which is an aid
