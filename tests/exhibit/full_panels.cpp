@@ -83,7 +83,17 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
       push.strokes = scene::kMostStrokes;
       for (const physics::ParticleLawText& law : physics::kParticleLaws) {
         set.setup.species.front().law = law.law;
-        panels.push_back(particles_panel({.set = &set, .pages = pages, .push = push}, phrases));
+        for (const scene::TaskState task : core::kEnumerators<scene::TaskState>) {
+          const scene::TaskScore score{.time_s = 9999.0,
+                                       .rms_m = 123.4e-9,
+                                       .work_j = 123.4e-18,
+                                       .largest_lateral_n = 123.4e-9,
+                                       .strokes = 999,
+                                       .losses = 999,
+                                       .undos = 999,
+                                       .state = task};
+          panels.push_back(particles_panel({.set = &set, .pages = pages, .push = push, .score = score}, phrases));
+        }
       }
     }
     set.targets.clear();

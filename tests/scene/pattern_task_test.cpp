@@ -137,7 +137,7 @@ TEST_F(PatternTaskTest, IsOneLineOfText) {
   stroke();
   wait(990);
   EXPECT_EQ(text_of(score()),
-            "not done after 1.0 s; strokes: 1, lost beside: 0, taken back as an aid: 0; 1.9 aJ of work, at most 200 pN "
+            "not done after 1.0 s; strokes: 1, lost: 0, taken back: 0; 1.9 aJ of work, at most 200 pN "
             "sideways");
 }
 
