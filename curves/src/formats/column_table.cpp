@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bytes/text_table.h"
@@ -83,80 +84,91 @@ std::optional<std::size_t> place_of(const TableColumns& columns, ColumnKind kind
   return found != columns.end() ? std::optional(static_cast<std::size_t>(found - columns.begin())) : std::nullopt;
 }
 
-// The fields of one line, and how numbers are written in them.
-class FieldSplitter {
+// Separators, in the order in which they are tried. A blank: any number of blanks and tabs.
+constexpr std::array kSeparators{'\t', ';', ',', ' '};
+
+void split_line(std::string_view line, char separator, std::vector<std::string_view>& fields) {
+  if (separator != ' ') return split(line, separator, fields);
+  fields.clear();
+  for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
+    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+    fields.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+}
+
+// A number, with a decimal comma where commas do not separate. Empty if it is none.
+std::optional<double> number_in(std::string_view field, char separator) {
+  std::string text(trimmed(field));
+  if (separator != ',' && text.find('.') == std::string::npos) std::replace(text.begin(), text.end(), ',', '.');
+  if (text.starts_with('+')) text.erase(0, 1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+  return is_number ? std::optional(value) : std::nullopt;
+}
+
+// Reads lines into columns; a column that is not read stays empty.
+class TableReader {
  public:
-  // Chooses the separator by the first line of numbers.
-  explicit FieldSplitter(std::string_view line) {
-    for (const char separator : {'\t', ';', ','}) {
-      if (line.find(separator) == std::string_view::npos) continue;
-      separator_ = separator;
-      return;
+  explicit TableReader(const TableColumns& columns) : columns_(columns), table_(columns.size()), row_(columns.size()) {}
+
+  void read(std::string_view line, std::size_t number) {
+    if (rows_ == 0) {  // a heading, or the line by which the separator is known
+      const auto fits = [&](char separator) { return first_bad(line, separator) == columns_.size(); };
+      const auto found = std::find_if(kSeparators.begin(), kSeparators.end(), fits);
+      if (found == kSeparators.end()) return;
+      separator_ = *found;
+    }
+    const std::size_t bad = first_bad(line, separator_);
+    if (bad < columns_.size() && bad >= fields_.size()) {
+      throw CurveError(
+          fmt::format("line {} has {} columns, and --columns names {}", number, fields_.size(), columns_.size()));
+    }
+    if (bad < columns_.size()) {
+      throw CurveError(fmt::format("line {}: column {} is \"{}\", not a finite number", number, bad + 1,
+                                   trimmed(fields_[bad]).substr(0, 40)));
+    }
+    if (++rows_ > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i].kind != ColumnKind::Nothing) table_[i].push_back(row_[i] * columns_[i].si_per_unit);
     }
   }
 
-  void split_line(std::string_view line, std::vector<std::string_view>& fields) const {
-    if (separator_ != ' ') return split(line, separator_, fields);
-    fields.clear();
-    for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
-      const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-      fields.push_back(line.substr(0, end));
-      line.remove_prefix(end);
-    }
-  }
-
-  // A number, with a decimal comma where commas do not separate. Empty if it is none.
-  std::optional<double> number(std::string_view field) const {
-    std::string text(trimmed(field));
-    if (separator_ != ',' && text.find('.') == std::string::npos) std::replace(text.begin(), text.end(), ',', '.');
-    if (text.starts_with('+')) text.erase(0, 1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-    return is_number ? std::optional(value) : std::nullopt;
-  }
+  bool has_rows() const { return rows_ > 0; }
+  std::vector<std::vector<double>> take() { return std::move(table_); }
 
  private:
-  char separator_ = ' ';  // a blank: any number of blanks and tabs
+  // Puts the numbers of a line into the row. The first column without one; their number if there is none.
+  std::size_t first_bad(std::string_view line, char separator) {
+    split_line(line, separator, fields_);
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i].kind == ColumnKind::Nothing && i < fields_.size()) continue;
+      const auto number = i < fields_.size() ? number_in(fields_[i], separator) : std::nullopt;
+      if (!number) return i;
+      row_[i] = *number;
+    }
+    return columns_.size();
+  }
+
+  const TableColumns& columns_;
+  std::vector<std::vector<double>> table_;
+  std::vector<double> row_;
+  std::vector<std::string_view> fields_;
+  std::size_t rows_ = 0;
+  char separator_ = ' ';
 };
 
-// The numbers of all rows, column by column; a column that is not read stays empty.
 std::vector<std::vector<double>> numbers_of(std::string_view bytes, const TableColumns& columns) {
-  std::vector<std::vector<double>> table(columns.size());
-  std::vector<std::string_view> fields;
-  std::vector<double> row(columns.size());
-  std::size_t rows = 0;
+  TableReader reader(columns);
   std::string_view line;
-  FieldSplitter splitter({});
   for (Lines lines(bytes); lines.next(line);) {
-    if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
-    if (rows == 0) splitter = FieldSplitter(trimmed(line));
-    splitter.split_line(line, fields);
-    std::size_t bad = 0;
-    for (; bad < columns.size(); ++bad) {
-      if (columns[bad].kind == ColumnKind::Nothing) continue;
-      const auto number = bad < fields.size() ? splitter.number(fields[bad]) : std::nullopt;
-      if (!number) break;
-      row[bad] = *number;
-    }
-    if (bad < columns.size()) {
-      if (rows == 0) continue;  // the heading
-      if (bad >= fields.size()) {
-        throw CurveError(fmt::format("line {} has {} columns, and --columns names {}", lines.number(), fields.size(),
-                                     columns.size()));
-      }
-      throw CurveError(fmt::format("line {}: column {} is \"{}\", not a finite number", lines.number(), bad + 1,
-                                   trimmed(fields[bad]).substr(0, 40)));
-    }
-    if (++rows > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      if (columns[i].kind != ColumnKind::Nothing) table[i].push_back(row[i] * columns[i].si_per_unit);
-    }
+    if (!trimmed(line).empty() && !trimmed(line).starts_with('#')) reader.read(line, lines.number());
   }
-  if (rows == 0) {
+  if (!reader.has_rows()) {
     throw CurveError(fmt::format("no line has {} columns with numbers where --columns names them", columns.size()));
   }
-  return table;
+  return reader.take();
 }
 
 // Newtons in a unit of a force, or of a deflection with the calibration that was given.
