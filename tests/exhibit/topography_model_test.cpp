@@ -133,7 +133,7 @@ TEST(OwnSample, IsRefusedWithWhatWouldBeRead) {
     EXPECT_EQ(own.error().category, core::ErrorCategory::BadInputFile);
     EXPECT_THAT(own.error().message, testing::HasSubstr("neither a glTF model nor an image")) << bytes;
     EXPECT_THAT(own.error().message, testing::HasSubstr("Nanoscope .spm or .001")) << bytes;
-    const bool named = own.error().message.find("it is a Nanoscope force curve") != std::string::npos;
+    const bool named = own.error().message.find("it is a curve, which has no surface") != std::string::npos;
     EXPECT_EQ(named, std::string_view(bytes).starts_with("\\*Force")) << bytes;
   }
   const auto model = load_own_models("", folder.write("cube.stl", "solid cube\n facet normal 0 0 1\n"));
