@@ -14,6 +14,7 @@
 #include <iterator>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "app/analyse/analyse_fit.h"
 #include "app/analyse/fit_maps.h"
@@ -117,11 +118,13 @@ std::string row_of(const std::string& file, std::size_t index, const FittedCurve
 core::Result<core::FileDescriptor> new_table(const std::string& folder, const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
+  if (std::filesystem::exists(std::filesystem::path(folder) / kHistograms, error)) {
+    return core::wrong_usage(fmt::format("--out {}: it has a {} already; name another folder", folder, kHistograms));
+  }
   core::FileDescriptor table(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   if (table.is_open()) return table;
   if (errno == EEXIST) {
-    return core::wrong_usage(
-        fmt::format("--out {}: it has a {} already; name another folder, or move the table away", folder, kTable));
+    return core::wrong_usage(fmt::format("--out {}: it has a {} already; name another folder", folder, kTable));
   }
   return core::failure(core::ErrorCategory::Failed,
                        fmt::format("cannot write {}: {}", path, core::system_error(errno)));
@@ -199,6 +202,7 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
   const core::OrderlyEnd by_itself;
   Summary summary;
   std::size_t whole_files = 0;
+  core::Result<void> drawn;  // the first failure of a picture, which costs no fit
   {
     FitPool pool(files, options, threads);
     Progress progress;
@@ -206,7 +210,7 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
       const std::string& file = files[whole_files];
       const auto count = pool.count(whole_files);
       if (!count) break;
-      FitMaps maps;
+      FitMaps maps(*count);
       std::size_t index = 0;
       for (; index < *count; ++index) {
         const auto fitted = pool.take(whole_files, index);
@@ -216,14 +220,14 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
         maps.add(*fitted);
         progress.tell(whole_files, files.size(), index + 1, *count);
       }
-      pool.forget(whole_files);
       if (index < *count) break;
-      if (const auto written = maps.write(options.out, file); !written) return written;
+      pool.forget(whole_files);
+      if (auto written = maps.write(options.out, file); !written && drawn) drawn = std::move(written);
     }
   }
   if (const std::string histograms = summary.histograms(); !histograms.empty()) {
     const std::string picture = (std::filesystem::path(options.out) / kHistograms).string();
-    if (const auto written = core::write_file(picture, histograms); !written) return written;
+    if (auto written = core::write_file(picture, histograms); !written && drawn) drawn = std::move(written);
   }
   if (const auto printed = write_stdout(summary.text(path)); !printed) return printed;
   if (whole_files < files.size()) {
@@ -231,7 +235,7 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
                          fmt::format("interrupted: {} has {} curves, and {} of {} files whole", path, summary.done(),
                                      whole_files, files.size()));
   }
-  if (summary.has_fits()) return {};
+  if (summary.has_fits()) return drawn;
   return core::failure(
       core::ErrorCategory::BadInputFile,
       fmt::format("none of the {} files has a curve that can be fitted; {} has the reasons", files.size(), path));

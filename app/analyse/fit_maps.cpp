@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/log.h"
 #include "core/whole_file.h"
 #include "curves/image_output.h"
 #include "exhibit/scan/image_picture.h"
@@ -44,12 +45,19 @@ constexpr std::array kMaps{
     MapRow{"adhesion", "Adhesion", "N", false, [](const Cell& cell) { return cell.adhesion_n; }},
     MapRow{"trust", "Trust", "", false, trust_of}};
 
-// FOLDER/NAME, or FOLDER/NAME-2 and so on: the first of which there is no .gwy.
+bool is_free(const std::string& name) {
+  std::error_code unknown;
+  return !std::filesystem::exists(name + ".gwy", unknown) &&
+         std::none_of(kMaps.begin(), kMaps.end(), [&](const MapRow& row) {
+           return std::filesystem::exists(fmt::format("{}-{}.png", name, row.word), unknown);
+         });
+}
+
+// FOLDER/NAME, or FOLDER/NAME-2 and so on: the first of which there is no file.
 std::string free_name(const std::string& folder, const std::string& name) {
   const std::string first = (std::filesystem::path(folder) / name).string();
   std::string found = first;
-  std::error_code unknown;
-  for (int number = 2; std::filesystem::exists(found + ".gwy", unknown); ++number) {
+  for (int number = 2; !is_free(found); ++number) {
     found = fmt::format("{}-{}", first, number);
   }
   return found;
@@ -66,9 +74,10 @@ void FitMaps::add(const FittedCurve& curve) {
   const curves::MapPixel& pixel = *curve.pixel;
   if (!grid_) {
     grid_ = pixel.grid;
-    cells_.resize(grid_->columns * grid_->rows);
+    if (is_drawn()) cells_.resize(grid_->columns * grid_->rows);
   }
-  if (!(pixel.grid == *grid_)) return;
+  if (!(pixel.grid == *grid_)) return void(++elsewhere_);
+  if (!is_drawn()) return;
   Cell& cell = cells_[(grid_->rows - 1 - pixel.row) * grid_->columns + pixel.column];
   cell = {};
   cell.adhesion_n = curve.figures.adhesion_n;
@@ -80,8 +89,22 @@ void FitMaps::add(const FittedCurve& curve) {
   cell.trust = curve.fit->trust;
 }
 
+// The grid is the file's word: one curve must not claim the memory of a million.
+bool FitMaps::is_drawn() const {
+  constexpr std::size_t kSmall = 4096, kCellsACurve = 16;
+  return curves_ > 1 && grid_->columns * grid_->rows <= std::max(kSmall, kCellsACurve * curves_);
+}
+
 core::Result<void> FitMaps::write(const std::string& folder, const std::string& file) const {
-  if (!grid_) return {};
+  if (!grid_ || curves_ == 1) return {};
+  if (!is_drawn()) {
+    core::log_line(fmt::format("{}: no map is drawn of {} curves on a grid of {} x {} pixels", file, curves_,
+                               grid_->columns, grid_->rows));
+    return {};
+  }
+  if (elsewhere_ > 0) {
+    core::log_line(fmt::format("{}: {} of its curves are on another grid, and not on the map", file, elsewhere_));
+  }
   physics::ScanImage image{.columns = grid_->columns,
                            .rows = grid_->rows,
                            .width_m = grid_->width_m,

@@ -21,16 +21,25 @@ class FitMaps {
     std::optional<fits::Trust> trust;
   };
 
-  // A curve without a pixel is left out. The first one's grid is that of the maps.
+  // For a file with so many curves.
+  explicit FitMaps(std::size_t curves) : curves_(curves) {}
+
+  // A curve without a pixel is left out. The first one's grid is that of the maps; of two curves at one pixel the later
+  // counts.
   void add(const FittedCurve& curve);
 
   // Writes FOLDER/NAME.gwy with those that have a value, and a picture of each, NAME-modulus.png and so on, NAME being
   // the file's without its ending. Colours go from the 1st to the 99th percentile; in maps of the fit, pixels that are
-  // not trusted are striped. Nothing without a pixel. A name that exists gets a number. Failed names the path and the
-  // reason.
+  // not trusted are striped. Nothing without a pixel, of a
+  // single curve, or, with a line of the log, of a grid far larger than the number of curves. A name that exists gets a
+  // number. Failed names the path and the reason.
   core::Result<void> write(const std::string& folder, const std::string& file) const;
 
  private:
+  bool is_drawn() const;
+
+  std::size_t curves_;
+  std::size_t elsewhere_ = 0;  // curves on another grid
   std::optional<curves::MapGrid> grid_;
   std::vector<Cell> cells_;  // row by row from the top
 };

@@ -48,7 +48,7 @@ FittedCurve fitted(const std::string& file, core::Result<curves::RecordedCurve> 
       return result;
     }
     result.fit = std::move(*fit);
-    result.fit->model_n = {};
+    result.fit->model_n = std::vector<double>();  // frees its memory
     result.spring_n_per_m = analysed->curve.metadata.spring_constant->si;
   } catch (const std::exception& error) {  // a curve too large for this machine's memory
     result.fit.reset();
@@ -83,7 +83,7 @@ std::optional<FittedCurve> FitPool::take(std::size_t file, std::size_t curve) {
 
 void FitPool::forget(std::size_t file) {
   const std::lock_guard lock(mutex_);
-  results_[file].curves = {};
+  results_[file].curves = std::vector<std::optional<FittedCurve>>();
 }
 
 template <class Ready>
@@ -123,17 +123,26 @@ void FitPool::work(const std::stop_token& stop) {
 }
 
 void FitPool::begin(std::size_t file) {
-  const auto counted = curves::curve_count(files_[file], options_.reading);
-  const std::size_t count = counted.value_or(1);
-  const unsigned shares = static_cast<unsigned>(std::min<std::size_t>(threads_, std::max<std::size_t>(1, count)));
+  Results begun;
+  std::string why;
+  try {
+    const auto counted = curves::curve_count(files_[file], options_.reading);
+    if (!counted) why = counted.error().message;
+    begun.count = counted.value_or(1);
+    begun.curves.resize(*begun.count);
+  } catch (const std::exception& error) {  // more curves than this machine's memory holds
+    why = fmt::format("cannot fit {}: {}", files_[file], error.what());
+    begun.count = 1;
+    begun.curves.resize(1);
+  }
+  const auto shares = static_cast<unsigned>(std::min<std::size_t>(threads_, *begun.count));
   const std::lock_guard lock(mutex_);
-  results_[file].count = count;
-  results_[file].curves.resize(count);
-  if (counted) {
+  if (why.empty()) {
     for (unsigned i = 0; i < shares; ++i) shares_.push_back({file, {i, shares}});
   } else {
-    results_[file].curves.front().emplace().why = counted.error().message;
+    begun.curves.front().emplace().why = why;
   }
+  results_[file] = std::move(begun);
   --beginning_;
   changed_.notify_all();
 }

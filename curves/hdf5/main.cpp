@@ -4,8 +4,8 @@
 //
 // touchafm-hdf5 read INDEX          reads an .h5 from stdin, writes its curve as afmformats .tab to stdout
 // touchafm-hdf5 count               writes the number of its curves
-// touchafm-hdf5 stream FIRST STEP   writes every STEP-th curve from FIRST on, each as a message
-// (confined/confined_child.h) touchafm-hdf5 write               the reverse of read
+// touchafm-hdf5 stream FIRST STEP   writes every STEP-th curve from FIRST on, each as a message of a ConfinedStream
+// touchafm-hdf5 write               reads a .tab, writes an .h5
 //
 // Exit codes are those of confined/confined_child.h; a fault of the file is reported on stdout.
 #include <unistd.h>
@@ -60,10 +60,14 @@ void stream(const curves::Hdf5Curves& file, std::size_t first, std::size_t step)
 // What is written to stdout at the end; a stream has written everything before.
 std::string converted(std::string_view how, std::size_t first, std::size_t step) {
   const std::string bytes = read_stdin();
-  curves::confine_this_process(how == "stream" ? curves::kStreamProcessorTime : curves::kChildProcessorTime);
+  curves::confine_this_process((how == "stream" ? curves::kStreamTime : curves::kMapTime).processor_time);
   if (how == "write") return curves::hdf5_bytes(curves::read_tab(bytes));
   const curves::Hdf5Curves file(bytes);
-  if (how == "count") return std::to_string(file.size());
+  if (how == "count") {
+    const std::size_t count = file.size();
+    if (count == 0) return tab_bytes(file.curve(0));  // throws the reason
+    return std::to_string(count);
+  }
   if (how == "read") {
     curves::RecordedCurve curve = file.curve(first);
     curves::remark_index(first, file.size(), curve.metadata);

@@ -25,8 +25,8 @@ struct SeriesPart {
 using TakeCurve = std::function<bool(std::size_t index, core::Result<RecordedCurve> curve)>;
 
 // Reads a part of the curves of a file with `count` curves, in order, one in memory at a time, in a confined process
-// that stays; a curve that kills it costs itself alone. `reading.index` is not used. One call a thread; any thread but
-// the servo's.
+// that stays; a curve that kills it costs itself alone, eight in a row all that follow. `reading.index` is not used.
+// One call a thread; any thread but the servo's.
 void read_curves(const std::string& path, std::size_t count, const SeriesPart& part, const CurveReading& reading,
                  const TakeCurve& take);
 

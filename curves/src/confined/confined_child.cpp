@@ -120,6 +120,12 @@ Forked forked(const ChildWork& work) {
   throw CurveError(fmt::format("reading it took longer than {:g} s", std::chrono::duration<double>(patience).count()));
 }
 
+[[noreturn]] void throw_death(int status, const std::string& on_death) {
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (signal != SIGXCPU && signal != SIGKILL) throw CurveError(on_death);
+  throw CurveError("reading it takes too long, or more memory than there is");
+}
+
 // All that a child writes.
 std::string result_of(const ChildWork& work, const std::string& on_death, std::chrono::milliseconds patience) {
   const Forked forked_child = forked(work);
@@ -130,11 +136,12 @@ std::string result_of(const ChildWork& work, const std::string& on_death, std::c
   if (!ended) {
     ::kill(forked_child.child, SIGKILL);
     ::waitpid(forked_child.child, &status, 0);
+    if (bytes && bytes->size() == kMostResultBytes) throw CurveError("it is too large");
     throw_late(patience);
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ChildExit::Done)) return *bytes;
   if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ChildExit::Fault)) throw CurveError(*bytes);
-  throw CurveError(on_death);
+  throw_death(status, on_death);
 }
 
 // Path of the program with that name.
@@ -200,29 +207,28 @@ void put_message_to(int descriptor, const ChildMessage& message) {
 }  // namespace
 
 std::string in_confined_child(const std::function<std::string()>& work, const std::string& on_death,
-                              std::chrono::milliseconds patience) {
+                              const ChildTime& time) {
   return result_of(
       [&](int to_parent) {
         const auto write = [&] {
           if (core::write_all(to_parent, work()) != 0) throw std::runtime_error("nobody reads the result");
         };
-        return work_confined(write, kChildProcessorTime, to_parent);
+        return work_confined(write, time.processor_time, to_parent);
       },
-      on_death, patience);
+      on_death, time.patience);
 }
 
 std::string from_confined_program(const std::string& name, const std::vector<std::string>& arguments,
-                                  std::string_view input, const std::string& on_death,
-                                  std::chrono::milliseconds patience) {
+                                  std::string_view input, const std::string& on_death, const ChildTime& time) {
   const ProgramWork work(name, arguments, input);
-  return result_of([&](int to_parent) { return work(to_parent); }, on_death, patience);
+  return result_of([&](int to_parent) { return work(to_parent); }, on_death, time.patience);
 }
 
 void put_message(const ChildMessage& message) { put_message_to(STDOUT_FILENO, message); }
 
 ConfinedStream::ConfinedStream(const std::function<void(const PutMessage&)>& work, const char* on_death,
-                               std::chrono::milliseconds patience)
-    : on_death_(on_death), patience_(patience) {
+                               const ChildTime& time)
+    : on_death_(on_death), patience_(time.patience) {
   Forked made = forked([&](int to_parent) {
     const auto put = [&] {
       try {
@@ -231,15 +237,15 @@ ConfinedStream::ConfinedStream(const std::function<void(const PutMessage&)>& wor
         put_message_to(to_parent, {true, fault.what()});
       }
     };
-    return work_confined(put, kStreamProcessorTime, to_parent);
+    return work_confined(put, time.processor_time, to_parent);
   });
   child_ = made.child;
   from_child_ = std::move(made.from_child);
 }
 
 ConfinedStream::ConfinedStream(const std::string& name, const std::vector<std::string>& arguments,
-                               std::string_view input, const char* on_death, std::chrono::milliseconds patience)
-    : on_death_(on_death), patience_(patience) {
+                               std::string_view input, const char* on_death, const ChildTime& time)
+    : on_death_(on_death), patience_(time.patience) {
   const ProgramWork work(name, arguments, input);
   Forked made = forked([&](int to_parent) { return work(to_parent); });
   child_ = made.child;
@@ -270,7 +276,7 @@ std::optional<ChildMessage> ConfinedStream::next() {
   if (!ended_by(end, child_, status)) throw_late(patience_);
   child_ = -1;
   if (WIFEXITED(status) && WEXITSTATUS(status) == static_cast<int>(ChildExit::Done)) return std::nullopt;
-  throw CurveError(on_death_);
+  throw_death(status, on_death_);
 }
 
 }  // namespace afm::curves

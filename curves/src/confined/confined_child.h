@@ -15,7 +15,15 @@
 
 namespace afm::curves {
 
-inline constexpr auto kChildPatience = std::chrono::seconds(20);
+// How long a child may take.
+struct ChildTime {
+  std::chrono::milliseconds patience;  // until its result, or each message of a stream
+  std::chrono::seconds processor_time;
+};
+inline constexpr ChildTime kFileTime{std::chrono::seconds(20), std::chrono::seconds(3)};
+// For a file with up to a million curves; a stream waits for each of them to be used.
+inline constexpr ChildTime kMapTime{std::chrono::minutes(2), std::chrono::minutes(1)},
+    kStreamTime{std::chrono::minutes(2), std::chrono::hours(1)};
 
 // Exit status of a child. Done: its result was written. Fault: a fault of the file was written. Failed: neither could
 // be written.
@@ -23,19 +31,19 @@ enum class ChildExit : int { Done = 0, Fault = 1, Failed = 2 };
 
 // Runs `work` in a forked, confined child (confine_this_process), and returns its result: for libraries that crash on
 // damaged files, as HDF5 1.10 does. The child has no descriptors except stderr and its pipe, dies with the calling
-// thread, and is killed after `patience`. Throws CurveError with the child's own message, or `on_death` if it died, and
+// thread, and is killed after its time. Throws CurveError with the child's own message, or `on_death` if it died, and
 // std::runtime_error if no child could be created.
 //
 // Never call it in the servo or a thread that others depend on. If the program has other threads, `work` must not use
 // anything that they may have locked, except memory allocation.
 std::string in_confined_child(const std::function<std::string()>& work, const std::string& on_death,
-                              std::chrono::milliseconds patience = kChildPatience);
+                              const ChildTime& time = kFileTime);
 
 // The same with one of our programs, in the running one's folder or in ../bin, which confines itself. Passes `input` on
 // stdin and returns its stdout. Throws std::runtime_error also if there is no such program.
 std::string from_confined_program(const std::string& name, const std::vector<std::string>& arguments,
                                   std::string_view input, const std::string& on_death,
-                                  std::chrono::milliseconds patience = kChildPatience);
+                                  const ChildTime& time = kFileTime);
 
 // One message of a child: a result, or a fault of the file, as a sentence.
 struct ChildMessage {
@@ -53,12 +61,12 @@ void put_message(const ChildMessage& message);
 // unread. One thread, the one that made it. Not moved.
 class ConfinedStream {
  public:
-  // `patience`: for each message. `on_death` must outlive the object.
+  // `on_death` must outlive the object.
   ConfinedStream(const std::function<void(const PutMessage&)>& work, const char* on_death,
-                 std::chrono::milliseconds patience = kChildPatience);
+                 const ChildTime& time = kStreamTime);
   // One of our programs, as in from_confined_program(), which writes put_message()s.
   ConfinedStream(const std::string& name, const std::vector<std::string>& arguments, std::string_view input,
-                 const char* on_death, std::chrono::milliseconds patience = kChildPatience);
+                 const char* on_death, const ChildTime& time = kStreamTime);
   ConfinedStream(const ConfinedStream&) = delete;
   ConfinedStream& operator=(const ConfinedStream&) = delete;
   ~ConfinedStream();  // kills the child

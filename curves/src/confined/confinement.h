@@ -5,9 +5,6 @@
 
 namespace afm::curves {
 
-// Processor time for one file, and for a file of many curves, whose reader waits for them to be fitted.
-inline constexpr std::chrono::seconds kChildProcessorTime{3}, kStreamProcessorTime{3600};
-
 // Limits this process until its end: at most half a GiB of memory and this processor time more than now, and no opening
 // of files, sockets or processes, by Landlock and a seccomp filter if the kernel has them. Open descriptors stay open.
 // Throws std::runtime_error if a limit cannot be set, or if a kernel that has Landlock or seccomp refuses it.

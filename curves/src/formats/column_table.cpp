@@ -189,8 +189,10 @@ std::size_t turn_of(const std::vector<double>& heights) {
     return std::min(std::abs(height - heights.front()), std::abs(height - heights.back()));
   };
   const auto turn = distance(*low) >= distance(*high) ? low : high;
-  // a monotonic table has its extremes at its ends
-  return distance(*turn) > 0.0 ? static_cast<std::size_t>(turn - heights.begin()) + 1 : heights.size();
+  // a table of one way has its extremes near its ends, beside the noise
+  constexpr double kShareOfTurn = 0.05;
+  return distance(*turn) > kShareOfTurn * (*high - *low) ? static_cast<std::size_t>(turn - heights.begin()) + 1
+                                                         : heights.size();
 }
 
 void add_branch(const std::vector<double>& heights, const std::vector<double>& forces, double newtons,
@@ -277,7 +279,9 @@ RecordedCurve read_column_table(std::string_view bytes, const CurveReading& read
   } else {
     std::fill(segments.begin() + static_cast<std::ptrdiff_t>(turn_of(heights)), segments.end(), 1.0);
   }
-  if (const auto time = at(ColumnKind::Time)) curve.time_s = table[*time];
+  if (const auto time = at(ColumnKind::Time)) {
+    for (const double seconds : table[*time]) curve.time_s.push_back(seconds - table[*time].front());
+  }
   assign_branches(segments, curve);
   curve.metadata.spring_constant = reading.spring_constant;
   curve.metadata.sensitivity_m_per_v = reading.sensitivity_m_per_v;

@@ -25,14 +25,21 @@ struct SeriesRow {
                                             const CurveReading& reading);
 };
 
+// The number that a child says; it must not be believed unchecked.
+inline std::size_t count_in(const std::string& text) {
+  constexpr double kMostCurves = 4e6;
+  const double count = number_in(text, "count", Lines({}));
+  if (!(count >= 1.0 && count <= kMostCurves)) throw CurveError("it has no curves, or more than 4 million");
+  return static_cast<std::size_t>(count);
+}
+
 // For an Archive(std::string_view bytes) with size() and curve(index, reading).
 template <class Archive>
 constexpr SeriesRow series_of() {
   return {[](const std::string& path) -> std::size_t {
             const MappedFile file(path);
-            const std::string count =
-                in_confined_child([&] { return std::to_string(Archive(file.bytes()).size()); }, kNotSurvived);
-            return static_cast<std::size_t>(number_in(count, "count", Lines({})));
+            return count_in(in_confined_child([&] { return std::to_string(Archive(file.bytes()).size()); },
+                                              kNotSurvived, kMapTime));
           },
           [](const std::string& path, const SeriesPart& part, const CurveReading& reading) {
             const MappedFile file(path);

@@ -10,7 +10,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bytes/text_table.h"
 #include "confined/confined_child.h"
 #include "confined/mapped_file.h"
 #include "core/enumerators.h"
@@ -49,8 +48,7 @@ RecordedCurve read_hdf5(std::string_view bytes, const CurveReading& reading) {
 std::size_t count_hdf5(const std::string& path) {
   const auto bytes = bytes_of_file(path);
   if (!bytes) throw CurveError(bytes.error().message);
-  const std::string count = from_confined_program(kHdf5Program, {"count"}, *bytes, kNotSurvived);
-  return static_cast<std::size_t>(number_in(count, "count", Lines({})));
+  return count_in(from_confined_program(kHdf5Program, {"count"}, *bytes, kNotSurvived));
 }
 std::unique_ptr<ConfinedStream> stream_hdf5(const std::string& path, const SeriesPart& part, const CurveReading&) {
   const auto bytes = bytes_of_file(path);
@@ -178,15 +176,16 @@ RecordedCurve finished(RecordedCurve curve, const CurveReading& reading) {
   return curve;
 }
 
+// A map may be larger than memory: its bytes are for the confined child alone.
+bool is_mapped(const CurveRow& row) { return row.reader == Reader::Foreign && row.series != nullptr; }
+
 RecordedCurve parsed(const CurveRow& row, std::string_view text, const CurveReading& reading) {
   if (reading.index != 0 && row.series == nullptr) throw CurveError("it holds one curve alone");
   const bool confined = row.reader == Reader::Foreign && reading.confined;
-  RecordedCurve curve = read_confined(confined, [&] { return row.read(text, reading); }, tab_bytes, read_tab);
+  RecordedCurve curve = read_confined(
+      confined, [&] { return row.read(text, reading); }, tab_bytes, read_tab, is_mapped(row) ? kMapTime : kFileTime);
   return finished(std::move(curve), reading);
 }
-
-// A map may be larger than memory: its bytes are for the confined child alone.
-bool is_mapped(const CurveRow& row) { return row.reader == Reader::Foreign && row.series != nullptr; }
 
 // The row of a file that may hold several curves. Null: of any other.
 const CurveRow* row_with_series(const std::string& path, const CurveReading& reading) {
@@ -203,7 +202,7 @@ class PartReader {
   // The next curve. Throws if it cannot be read; the next call goes on after it.
   RecordedCurve next() {
     constexpr int kMostDeaths = 8;
-    if (deaths_ == kMostDeaths) throw CurveError("it is damaged: its reader has died too often");
+    if (deaths_ == kMostDeaths) throw CurveError("it is damaged: its reader died at each of the eight curves before");
     const SeriesPart rest = std::exchange(rest_, {rest_.first + rest_.step, rest_.step});
     const ChildMessage message = message_of(rest);
     if (message.fault) throw CurveError(message.text);
@@ -214,8 +213,11 @@ class PartReader {
   ChildMessage message_of(const SeriesPart& rest) {
     try {
       if (!stream_) stream_ = series_.stream(path_, rest, reading_);
-      if (auto message = stream_->next()) return std::move(*message);
-      throw CurveError("it has fewer curves than it had");
+      if (auto message = stream_->next()) {
+        deaths_ = 0;
+        return std::move(*message);
+      }
+      throw CurveError("the file ended before this curve; was it changed while it was read?");
     } catch (const CurveError&) {
       stream_.reset();
       ++deaths_;

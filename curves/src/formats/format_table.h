@@ -28,9 +28,10 @@ std::string reason_of_failure();
 // Runs `read` in a child that can open nothing, whose answer `take_over` makes of the bytes that `hand_over` made of
 // it. `confined` false: here.
 template <class Read, class HandOver, class TakeOver>
-auto read_confined(bool confined, const Read& read, const HandOver& hand_over, const TakeOver& take_over) {
+auto read_confined(bool confined, const Read& read, const HandOver& hand_over, const TakeOver& take_over,
+                   const ChildTime& time = kFileTime) {
   if (!confined) return read();
-  return take_over(in_confined_child([&] { return hand_over(read()); }, kNotSurvived));
+  return take_over(in_confined_child([&] { return hand_over(read()); }, kNotSurvived, time));
 }
 
 // The formats of one kind of file, which are known by their content. A Row has bool (*begins)(std::string_view bytes)

@@ -4,17 +4,23 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <signal.h>
+
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "app/analyse/modulus_statistics.h"
+#include "core/exit_code.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/image_file.h"
 #include "support/hertz_curve.h"
 #include "support/jpk_map.h"
+#include "support/live_program.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 #include "support/stored_zip.h"
 
@@ -125,6 +131,24 @@ std::string map_in(const support::ScratchFolder& folder) {
                           point.z = point.z + physics::Length(10e-9 * static_cast<double>(index));
                         return curve;
                       })));
+}
+
+TEST(FitBatch, KeepsItsRowsWhenItIsInterrupted) {
+  const support::ScratchFolder folder;
+  std::vector<std::string> command{support::touchafm(), "analyse"};
+  command.insert(command.end(), 1000, files_in(folder).front());
+  command.insert(command.end(), {"--fit", "paraboloid", "--radius", "5um", "--out", folder.file("out")});
+  support::LiveProgram program(command, "");
+  const auto table = [&] { return core::read_file(folder.file("out/fits.tsv")).value_or(""); };
+  ASSERT_TRUE(program.within(std::chrono::minutes(1), [&] {
+    const std::string now = table();
+    return std::count(now.begin(), now.end(), '\n') > 3;
+  })) << program.said();
+  program.signal(SIGINT);
+  EXPECT_EQ(program.ends(), static_cast<int>(core::ExitCode::RunFailed)) << program.said();
+  EXPECT_THAT(program.said(), HasSubstr("interrupted: "));
+  EXPECT_TRUE(table().ends_with('\n'));
+  EXPECT_LT(rows_of(folder.file("out/fits.tsv")).size(), 1001U);
 }
 
 TEST(FitBatch, OfAMapHasARowACurveAndMapsThatShowThem) {
