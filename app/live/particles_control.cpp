@@ -32,9 +32,16 @@ void ParticlesControl::take_back() {
 
 void ParticlesControl::restart(Restart what) {
   order_ = Order::None;
-  if (what == Restart::Servo || !parts_.servo.running() || !parts_.servo.material()) return;
+  if (what == Restart::Servo) return begin_task();
+  if (!parts_.servo.running() || !parts_.servo.material()) return;
   core::log_line("take back: all pushes");
   give(Order::PutBack);
+}
+
+// A new servo has every particle at its start, and no push to take back.
+void ParticlesControl::begin_task() {
+  if (task_) task_.emplace(*now_.set);
+  now_.score = {};
 }
 
 void ParticlesControl::give(Order order) {

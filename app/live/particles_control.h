@@ -30,6 +30,8 @@ class ParticlesControl final : public ViewControl {
   // The servo carries it out without force alone, so the order waits until there is none.
   void give(Order order);
 
+  void begin_task();
+
   // Announces that the pattern is done.
   void follow_task();
 
