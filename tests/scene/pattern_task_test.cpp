@@ -98,6 +98,33 @@ TEST_F(PatternTaskTest, EndsOnceTheHandHasBeenLiftedAndCountsUpToTheLift) {
   EXPECT_FALSE(task_.unjudged());
 }
 
+// A window looks once a frame, a replay at every tick.
+TEST_F(PatternTaskTest, SeesARestAlsoAfterTheHandHasComeDownAgain) {
+  const auto score_of = [&](int every) {
+    PatternTask task(set_, set_.targets);
+    std::int64_t ticks = 0;
+    std::uint64_t places = 99;
+    const auto tick = [&](double z_m, double lateral_n) {
+      task.add({.time_ns = 1'000'000 * ++ticks,
+                .base_m = {1e-9 * static_cast<double>(ticks), 0.0, z_m},
+                .lateral_n = {lateral_n, 0.0},
+                .places = places});
+      if (ticks % every == 0 && task.unjudged() == places) task.judge(set_.targets);
+    };
+    tick(kLowM, 0.0);
+    ++places;
+    tick(kLowM, -2e-10);
+    for (int i = 0; i < 501; ++i) tick(kHighM, 0.0);
+    for (int i = 0; i < 30; ++i) tick(kLowM, -3e-10);  // touched, not moved
+    return task.score();
+  };
+  const TaskScore score = score_of(1);
+  EXPECT_EQ(score.state, TaskState::Done);
+  EXPECT_NEAR(score.time_s, 0.001, 1e-9);
+  EXPECT_DOUBLE_EQ(score.largest_lateral_n, 2e-10);
+  EXPECT_EQ(score_of(17), score);
+}
+
 TEST_F(PatternTaskTest, CountsLossesAndPushesTakenBackButNoOtherEvents) {
   task_.add(EventKind::ParticleLost);
   stroke();

@@ -52,7 +52,7 @@ void PatternTask::add(const TaskTick& tick) {
   if (tick.places != last_->places) {
     if (!put) count_stroke(tick);
     lifted_ns_.reset();
-    judged_.reset();
+    rest_.reset();
   }
   if (!lifted) lifted_ns_.reset();
   if (lifted && !lifted_ns_) lifted_ns_ = tick.time_ns;
@@ -60,6 +60,8 @@ void PatternTask::add(const TaskTick& tick) {
   // the first stroke counts from its descent
   if (lifted && score.state == TaskState::NotBegun) score = {};
   if (score.state == TaskState::Running) score.time_s = 1e-9 * static_cast<double>(tick.time_ns - task_.begun_ns);
+  if (lifted_ns_ && !rest_ && tick.time_ns - *lifted_ns_ >= kRestNs)
+    rest_ = Rest{.lifted_ns = *lifted_ns_, .score = score};
   last_ = tick;
 }
 
@@ -85,17 +87,18 @@ void PatternTask::count_work(const TaskTick& tick) {
 }
 
 std::optional<std::uint64_t> PatternTask::unjudged() const {
-  if (task_.score.state != TaskState::Running || !lifted_ns_ || judged_ == last_->places) return std::nullopt;
-  return last_->time_ns - *lifted_ns_ >= kRestNs ? std::optional(last_->places) : std::nullopt;
+  const bool rests = task_.score.state == TaskState::Running && rest_ && !rest_->judged;
+  return rests ? std::optional(last_->places) : std::nullopt;
 }
 
 void PatternTask::judge(std::span<const Place> places) {
-  judged_ = last_->places;
+  rest_->judged = true;
   const auto pattern = pattern_state(set_, targets_, places);
   if (!pattern || !pattern->done()) return;
+  task_.score = rest_->score;
   task_.score.state = TaskState::Done;
   task_.score.rms_m = pattern->match.rms.si;
-  task_.score.time_s = 1e-9 * static_cast<double>(*lifted_ns_ - task_.begun_ns);
+  task_.score.time_s = 1e-9 * static_cast<double>(rest_->lifted_ns - task_.begun_ns);
 }
 
 std::string text_of(const TaskScore& score) {

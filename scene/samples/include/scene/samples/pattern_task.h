@@ -30,8 +30,8 @@ struct TaskTick {
 // too, the task before goes on, with its clock.
 //
 // The score follows from ticks and events alone, so that a replay gives the same score. A caller that sees the
-// particles less often than every tick, as a frame of the wall does, misses only rests that are shorter than its
-// pauses. One thread.
+// particles less often than every tick, as a frame of the wall does, misses the end only if a push moves a particle
+// after the rest and before the caller looks. One thread.
 class PatternTask {
  public:
   static constexpr std::int64_t kRestNs = 500'000'000;
@@ -43,10 +43,12 @@ class PatternTask {
   void add(physics::EventKind event);
   void add(const TaskTick& tick);
 
-  // Places at which the particles rest, the hand lifted, and which have not been judged: call judge() with them.
+  // Places at which the particles have lain since the hand was lifted for kRestNs, unless they have been judged: call
+  // judge() with them.
   std::optional<std::uint64_t> unjudged() const;
 
-  // Ends the task if the pattern is done. `places` are those of all particles of the set.
+  // Ends the task with its score at the end of the rest, if the pattern is done. `places` are those of all particles of
+  // the set. Only while there is something unjudged().
   void judge(std::span<const physics::Sideways<physics::Length>> places);
 
   const TaskScore& score() const { return task_.score; }
@@ -56,6 +58,11 @@ class PatternTask {
     TaskScore score;
     std::int64_t begun_ns = 0;
     std::uint32_t kept_strokes = 0;  // strokes that have not been taken back
+  };
+  struct Rest {
+    std::int64_t lifted_ns = 0;
+    TaskScore score;  // at the end of kRestNs
+    bool judged = false;
   };
 
   void take_back();
@@ -72,7 +79,7 @@ class PatternTask {
   bool put_ = false;     // the next tick has particles that were put somewhere, not pushed
   bool moving_ = false;  // the current stroke has moved a particle
   std::optional<std::int64_t> lifted_ns_;
-  std::optional<std::uint64_t> judged_;
+  std::optional<Rest> rest_;  // at the current places, even if the hand has come down since
 };
 
 // The score in one line, for logs and reports.
