@@ -85,6 +85,45 @@ TEST_F(ParticlesPanel, SaysHowFarThePatternIsAndWhenItIsDone) {
   EXPECT_FALSE(pattern_of({.set = &set_, .pages = {}})) << "before the servo has said where they lie";
 }
 
+TEST_F(ParticlesPanel, AsksForTheLiftWhileTheTaskRunsAndShowsTheScoreThen) {
+  pages_ = test::formed_pages(set_);
+  scene::TipPush push = test::push_of(set_, 0, PushState::Free);
+  push.strokes = 7;
+  scene::TaskScore score{.time_s = 83.54,
+                         .rms_m = 22.5e-9,
+                         .work_j = 42e-18,
+                         .largest_lateral_n = 0.25e-9,
+                         .strokes = 7,
+                         .losses = 2,
+                         .state = scene::TaskState::Running};
+  const Phrases german = Phrases::load(test::kPhraseFolder + "de.toml").value();
+  const auto shown = [&](const Phrases& phrases) {
+    return particles_panel({.set = &set_, .pages = pages_, .push = push, .score = score}, phrases);
+  };
+  const auto rows = [&](const Phrases& phrases, std::size_t count) {
+    const auto all = shown(phrases).rows;
+    return std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  EXPECT_EQ(shown(test::english()).subtitle, "22.5 nm off, within the limit: lift the tip; to take back: 7");
+  EXPECT_EQ(rows(test::english(), 1), (std::vector<render::DataRow>{{"Clock", "84 s", "pushes: 7; slipped past: 2"}}));
+  EXPECT_EQ(shown(test::english()).rows[1].name, "State");
+  EXPECT_EQ(shown(german).subtitle, "22,5 nm daneben, im Rahmen: Spitze abheben; zur\u00fccknehmbar: 7");
+  EXPECT_EQ(rows(german, 1),
+            (std::vector<render::DataRow>{{"Uhr", "84 s", "Sch\u00fcbe: 7; daran vorbeigerutscht: 2"}}));
+
+  score.state = scene::TaskState::Done;
+  EXPECT_EQ(shown(test::english()).subtitle, "Pattern done, 22.5 nm off; pushes to take back: 7");
+  EXPECT_EQ(rows(test::english(), 3),
+            (std::vector<render::DataRow>{{"Done in", "83.5 s", "pushes: 7; slipped past: 2"},
+                                          {"Distance when done", "22.5 nm", "no push was taken back"},
+                                          {"Work of the hand", "42 aJ", "largest lateral force 0.25 nN"}}));
+  score.undos = 3;
+  EXPECT_EQ(rows(german, 3),
+            (std::vector<render::DataRow>{{"Fertig in", "83,5 s", "Sch\u00fcbe: 7; daran vorbeigerutscht: 2"},
+                                          {"Abstand bei Abschluss", "22,5 nm", "zur\u00fcckgenommene Sch\u00fcbe: 3"},
+                                          {"Arbeit der Hand", "42 aJ", "gr\u00f6\u00dfte Seitenkraft 0,25 nN"}}));
+}
+
 // In brackets, and said to be unused: told apart without colour.
 TEST_F(ParticlesPanel, ShowsTheOtherLawsFigureInBrackets) {
   const auto other = row(panel(test::push_of(set_, 0, PushState::Holds)), Phrase::PushOtherLaw);

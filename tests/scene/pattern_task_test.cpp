@@ -164,8 +164,8 @@ TEST_F(PatternTaskTest, IsOneLineOfText) {
   stroke();
   wait(990);
   EXPECT_EQ(text_of(score()),
-            "not done after 1.0 s; strokes: 1, lost: 0, taken back: 0; 1.9 aJ of work, at most 200 pN "
-            "sideways");
+            "not done after 1.0 s; pushes: 1, slipped past: 0, taken back: 0; 1.9 aJ of work, at most "
+            "200 pN sideways");
 }
 
 }  // namespace pattern_task_test

@@ -168,7 +168,10 @@ std::string subtitle(const ParticlesNow& now, const Phrases& phrases) {
   const std::string& medium = phrases.word(now.set->medium);
   if (const auto pattern = pattern_of(now)) {
     const std::string off = quantity_text(pattern->match.rms, physics::kLengthUnits, phrases);
-    if (pattern->done()) return phrases.text<Phrase::PatternDone>(off, pushes);
+    if (pattern->done()) {
+      return now.score.state == scene::TaskState::Running ? phrases.text<Phrase::PatternFits>(off, pushes)
+                                                          : phrases.text<Phrase::PatternDone>(off, pushes);
+    }
     const std::string allowed = quantity_text(pattern->allowed, physics::kLengthUnits, phrases);
     return phrases.text<Phrase::PatternOff>(off, allowed, pushes);
   }

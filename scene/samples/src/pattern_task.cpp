@@ -105,7 +105,7 @@ std::string text_of(const TaskScore& score) {
   if (score.state == TaskState::NotBegun) return "not begun";
   const bool done = score.state == TaskState::Done;
   return fmt::format(
-      "{} {:.1f} s{}; strokes: {}, lost: {}, taken back: {}; {} of work, at most {} sideways",
+      "{} {:.1f} s{}; pushes: {}, slipped past: {}, taken back: {}; {} of work, at most {} sideways",
       done ? "done in" : "not done after", score.time_s,
       done ? fmt::format(", {} off", format_quantity(physics::Length(score.rms_m), physics::kLengthUnits, 3)) : "",
       score.strokes, score.losses, score.undos,

@@ -28,6 +28,20 @@ inline std::vector<scene::ParticlePage> start_pages(const scene::ParticleSet& se
   return pages;
 }
 
+// Pages in which the pattern of a set is done, but not exactly.
+inline std::vector<scene::ParticlePage> formed_pages(const scene::ParticleSet& set) {
+  std::vector<scene::ParticlePage> pages = start_pages(set);
+  std::uint32_t particle = 0;
+  for (const auto& target : scene::shared_targets(set)) {
+    while (set.particles.at(particle).pinned) ++particle;
+    scene::ParticlePose& pose = pages[scene::page_of(particle)].poses[particle % scene::kPosesPerPage];
+    pose.x_m = target.x.si + 0.9 * scene::median_radius(set).si;
+    pose.y_m = target.y.si;
+    ++particle;
+  }
+  return pages;
+}
+
 // A push of that particle, along x from its left.
 inline scene::TipPush push_of(const scene::ParticleSet& set, std::size_t particle, physics::PushState state) {
   const scene::ParticlePose pose =

@@ -7,6 +7,7 @@
   PHRASE(ParticlesTakeBack, "particles-take-back", "medium count", kLine)  \
   PHRASE(PatternOff, "pattern-off", "distance allowed pushes", kLine)      \
   PHRASE(PatternDone, "pattern-done", "distance pushes", kLine)            \
+  PHRASE(PatternFits, "pattern-fits", "distance pushes", kLine)            \
   PHRASE(TaskClock, "task-clock", "", kLine)                               \
   PHRASE(TaskDoneIn, "task-done-in", "", kLine)                            \
   PHRASE(TaskStrokes, "task-strokes", "strokes losses", kLine)             \
