@@ -86,10 +86,12 @@ std::vector<Sideways<Length>> places_of(const physics::PushedParticles& particle
   return places;
 }
 
-// Keeps the score of the scripted hand, as a live window does that of a person.
+// Keeps the score of the scripted hand, as a live window does that of a person, except that a touch too weak to be felt
+// (FeltParticles::kFeltN) can end in a loss, too.
 class ScriptedTask {
  public:
-  explicit ScriptedTask(const scene::ParticleSet& set) : task_(set, set.targets), meeting_(set.setup) {
+  explicit ScriptedTask(const scene::ParticleSet& set)
+      : normal_n_per_m_(set.setup.springs.normal.si), task_(set, set.targets), meeting_(set.setup) {
     meeting_.begin(set.start);
   }
 
@@ -111,15 +113,18 @@ class ScriptedTask {
   void add(const physics::PushedParticles& particles, double time_s) {
     const PushTick& tick = particles.last();
     const bool touches = tick.particle != physics::kNoParticle;
+    // of the particles alone, without what a lever that presses on the bare sample would have
+    const double lift_n = tick.lift.si + normal_n_per_m_ * std::min(0.0, tick.base.z.si);
     const auto lateral = touches ? tick.lateral : Sideways<physics::Force>{};
     task_.add({.time_ns = std::llround(1e9 * time_s),
                .base_m = {tick.base.position.x.si, tick.base.position.y.si, tick.base.z.si},
                .lateral_n = {lateral.x.si, lateral.y.si},
-               .lift_n = touches ? tick.lift.si : 0.0,
+               .lift_n = touches ? lift_n : 0.0,
                .places = places_});
     if (task_.unjudged()) task_.judge(places_of(particles));
   }
 
+  double normal_n_per_m_;
   scene::PatternTask task_;
   physics::TipMeeting meeting_;
   std::uint64_t places_ = 0;
