@@ -43,8 +43,9 @@ double seconds(const servo::RecordedSession& session) {
   return session.seconds_since_start(session.samples.back().time_ns);
 }
 
-// Score of a session whose particles have a pattern.
+// Score of a session whose particles have a pattern, which is that of the built-in set with these particles.
 struct SessionTask {
+  std::string set;  // its title
   scene::TaskScore score;
   bool from_the_start = true;  // no particle had been moved before the session
 };
@@ -62,7 +63,10 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
   }
   nlohmann::json scored;
   if (task) scored = task_json(task->score);
-  if (!scored.is_null()) scored["from_the_start"] = task->from_the_start;
+  if (!scored.is_null()) {
+    scored["set"] = task->set;
+    scored["from_the_start"] = task->from_the_start;
+  }
   return nlohmann::json{
              {"material", session.material},
              {"rate_Hz", session.rate_hz},
@@ -103,7 +107,7 @@ std::string plain(const servo::RecordedSession& session, const servo::Replay& re
                         event.force_before_n * 1e9, event.force_after_n * 1e9);
   }
   if (task && task->score.state != scene::TaskState::NotBegun) {
-    text += fmt::format("pattern: {}{}\n", scene::text_of(task->score),
+    text += fmt::format("pattern of the built-in set \"{}\": {}{}\n", task->set, scene::text_of(task->score),
                         task->from_the_start ? "" : "; of this session alone, before which particles had been moved");
   }
   text += fmt::format("largest difference: {:.3g} nN on the tip, {:.3g} N on the hand\n", replayed.largest_tip_n * 1e9,
@@ -167,7 +171,7 @@ core::Result<void> run_replay(const ReplayOptions& options, const std::string& a
     if (auto written = write_sound(*session, options); !written) return written;
   }
   std::optional<SessionTask> task;
-  if (followed) task = {followed->score(), from_the_start(*session->particles)};
+  if (followed) task = {set.title, followed->score(), from_the_start(*session->particles)};
   std::fputs((options.json ? json(*session, *replayed, range, task) : plain(*session, *replayed, range, task)).c_str(),
              stdout);
   if (replayed->identical()) return {};
