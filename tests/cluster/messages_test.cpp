@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -48,6 +49,21 @@ TEST(JournalBatchTest, SendsOnlyItsRecordsAndRefusesInvalidOnes) {
   EXPECT_FALSE(decode<JournalBatch>(encode(batch)));
   batch.records[0] = JournalRecord(EditRecord{.material = scene::kMaxMaterials});
   EXPECT_FALSE(decode<JournalBatch>(encode(batch)));
+}
+
+TEST(JournalBatchTest, RefusesAScoreThatIsNotValid) {
+  const auto came = [](const scene::TaskScore& score) {
+    JournalBatch batch;
+    batch.count = 1;
+    batch.records[0] = JournalRecord(score);
+    return decode<JournalBatch>(encode(batch));
+  };
+  const scene::TaskScore done{.time_s = 83.5, .rms_m = 18e-9, .strokes = 7, .state = scene::TaskState::Done};
+  ASSERT_TRUE(came(done));
+  EXPECT_EQ(came(done)->records[0].score(), done);
+  EXPECT_FALSE(came({.state = static_cast<scene::TaskState>(3)}));
+  EXPECT_FALSE(came({.time_s = std::numeric_limits<double>::quiet_NaN()}));
+  EXPECT_FALSE(came({.work_j = std::numeric_limits<double>::infinity()}));
 }
 
 TEST(DocumentReaderTest, PutsPiecesTogetherInAnyOrderAndTwice) {

@@ -98,7 +98,7 @@ TEST(FrameMessageTest, IsRefusedWithAnyNumberThatIsNotValid) {
 
 std::vector<std::byte> saved(const WallHistory& history) {
   return save_history(history.journal, history.cycles, history.friction, history.edits, history.scan, history.pages,
-                      history.push);
+                      history.push, history.score);
 }
 
 TEST(WallHistoryTest, IsTheSameForANodeThatComesLate) {
@@ -165,6 +165,38 @@ TEST(WallHistoryTest, HasTheNewestPoseOfEveryParticleAndThePush) {
   EXPECT_TRUE(refused([](cluster::PoseRecord& r) { r.pose.moved = static_cast<physics::PushState>(99); }));
   EXPECT_FALSE(JournalRecord(scene::TipPush{.particle = -2}).valid());
   EXPECT_FALSE(JournalRecord(scene::TipPush{.given_j = std::nan("")}).valid());
+}
+
+TEST(WallHistoryTest, HasTheNewestScore) {
+  const scene::TaskScore done{.time_s = 83.5,
+                              .rms_m = 18e-9,
+                              .work_j = 42e-18,
+                              .largest_lateral_n = 3e-9,
+                              .strokes = 7,
+                              .losses = 2,
+                              .undos = 1,
+                              .state = scene::TaskState::Done};
+  WallHistory here(1);
+  here.apply(JournalRecord(scene::TaskScore{.time_s = 1.0, .state = scene::TaskState::Running}));
+  here.apply(JournalRecord(done));
+  EXPECT_EQ(here.score, done);
+  const auto there = load_history(saved(here), 1);
+  ASSERT_TRUE(there);
+  EXPECT_EQ(there->score, done);
+  const auto refused = [&](auto&& spoil) {
+    scene::TaskScore score = done;
+    spoil(score);
+    WallHistory spoilt(1);
+    spoilt.score = score;
+    return !JournalRecord(score).valid() && !load_history(saved(spoilt), 1);
+  };
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(refused([](scene::TaskScore&) {}));
+  EXPECT_TRUE(refused([](scene::TaskScore& s) { s.state = static_cast<scene::TaskState>(3); }));
+  EXPECT_TRUE(refused([](scene::TaskScore& s) { s.time_s = std::nan(""); }));
+  EXPECT_TRUE(refused([](scene::TaskScore& s) { s.rms_m = kInfinity; }));
+  EXPECT_TRUE(refused([](scene::TaskScore& s) { s.work_j = -kInfinity; }));
+  EXPECT_TRUE(refused([](scene::TaskScore& s) { s.largest_lateral_n = std::nan(""); }));
 }
 
 TEST(WallHistoryTest, OfAnotherWallOrCutAnywhereIsRefused) {
