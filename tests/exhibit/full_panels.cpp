@@ -76,7 +76,7 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
   std::vector<render::DataPanel> panels;
   for (const char* name : {"gold-row", "latex-letter"}) {
     scene::ParticleSet set = test::particle_set(name);
-    const std::vector<scene::ParticlePage> pages = test::start_pages(set);
+    const std::vector<scene::ParticlePage> pages = test::start_pages(set), formed = test::formed_pages(set);
     for (const physics::PushState state : core::kEnumerators<physics::PushState>) {
       scene::TipPush push = test::push_of(set, set.particles.size() - 1, state);
       push.softened_sideways = 123.4;
@@ -92,7 +92,9 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
                                        .losses = 999,
                                        .undos = 999,
                                        .state = task};
-          panels.push_back(particles_panel({.set = &set, .pages = pages, .push = push, .score = score}, phrases));
+          for (const auto& lie : {pages, formed}) {
+            panels.push_back(particles_panel({.set = &set, .pages = lie, .push = push, .score = score}, phrases));
+          }
         }
       }
     }
