@@ -106,7 +106,7 @@ AdhesiveBranch::Held AdhesiveBranch::at(double way, double& near) const {
     return load_n - slope_n * (depth_m + load_n / spring_n_per_m_) / way_slope;
   };
   held.by_modulus_n = change(0.0, -2.0 / 3.0, -2.0 / 3.0);
-  held.by_work_n = change(1.0, 2.0 / 3.0, 1.0 / 3.0);
+  held.by_work_n = change(1.0, 2.0 / 3.0, 2.0 / 3.0);
   held.by_contact_n_per_m = beyond ? spring_n_per_m_ : slope_n / way_slope;
   if (beyond) held.force_n = spring_n_per_m_ * (way - held.depth_m);
   return held;

@@ -126,7 +126,9 @@ bool is_contact(const Ended& ended, std::span<const Sample> samples) {
 
 struct Minimum {
   Ended ended;
-  Interval log_modulus, log_work;
+  // infinite where an end was not found
+  Interval log_modulus{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Interval log_work = log_modulus;
 };
 
 // Interval of an unknown; a better minimum that was met on the way.
@@ -152,8 +154,8 @@ std::optional<Minimum> minimum_with_interval(const CurveProblem& problem, std::s
                                              const Unknowns& start, bool white) {
   constexpr int kMostRestarts = 4;
   const double rounding_n = kRounding * force_range_n(samples);
-  Minimum found{minimum(problem, start, white), {}, {}};
-  for (int restart = 0; restart < kMostRestarts; ++restart) {
+  Minimum found{.ended = minimum(problem, start, white)};
+  for (int restart = 0; restart <= kMostRestarts; ++restart) {
     if (!is_contact(found.ended, samples)) return std::nullopt;
     Profiled last = profiled(kModulus, problem, found.ended, rounding_n);
     found.log_modulus = last.interval;
@@ -162,8 +164,8 @@ std::optional<Minimum> minimum_with_interval(const CurveProblem& problem, std::s
       found.log_work = last.interval;
     }
     const auto& lower = last.lower;
-    if (!lower) break;
-    found.ended = minimum(problem, *lower, white);
+    if (!lower || restart == kMostRestarts) break;
+    found = {.ended = minimum(problem, *lower, white)};
   }
   return found;
 }
@@ -190,7 +192,10 @@ void describe(std::span<const Sample> samples, const CurveProblem& problem, cons
   if (ended.filtered) fit.noise_order = ended.noise.size();
   fit.noise = ended.noise;
   const std::size_t left = whiten(ended.noise, residuals);
-  fit.runs_p = runs_probability(std::span(residuals).first(left), std::min(outside, left));
+  // of a law of adhesion free points of the retract come last, too
+  const auto touching = std::find_if(bent.begin(), bent.end(), [](const auto& each) { return each.touches; });
+  const auto before = static_cast<std::size_t>(touching - bent.begin());
+  fit.runs_p = runs_probability(std::span(residuals).first(left), std::min(before, left));
 }
 
 Adhesion adhesion_of(const Minimum& best, const CurveProblem& problem, const FitSetup& setup) {
@@ -211,7 +216,7 @@ Adhesion adhesion_of(const Minimum& best, const CurveProblem& problem, const Fit
 std::optional<ElasticFit> fit_shape(std::span<const Sample> samples, const FitSetup& setup, std::string& why) {
   const auto start = best_start(samples, setup);
   if (!start) {
-    why = "the lever is nowhere pushed up: turned forces, or no contact";
+    why = "the force never rises: its sign may be turned, or there is no contact";
     return std::nullopt;
   }
   const CurveProblem problem(samples, setup);
@@ -242,14 +247,14 @@ std::optional<ElasticFit> fit_by_tabor(std::span<const Sample> samples, const Fi
   constexpr std::size_t kMostRounds = 4;
   FitSetup tried(setup);
   tried.indenter.shape = Shape::Maugis;
+  std::optional<ElasticFit> last;
   for (std::size_t round = 1;; ++round) {
     auto found = fit_shape(samples, tried, why);
-    if (!found) return std::nullopt;
+    if (!found) return last;  // a law that does not fit leaves that of the round before
     const Shape law = law_of_tabor(found->adhesion->tabor);
-    if (law == tried.indenter.shape || round > kMostRounds) {
-      found->adhesion->rounds = round;
-      return found;
-    }
+    found->adhesion->rounds = round;
+    if (law == tried.indenter.shape || round > kMostRounds) return found;
+    last = std::move(found);
     tried.indenter.shape = round < kMostRounds ? law : Shape::Maugis;
   }
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "curve_problem.h"
 #include "fits/elastic_fit.h"
 #include "physics/maugis_dugdale.h"
 #include "support/deep.h"
@@ -289,6 +290,36 @@ TEST(AdhesiveFit, HasTheShareOfEachError) {
   EXPECT_NEAR(fit.systematic[2].modulus_share, 0.02, 2e-4);  // by half the step, below 0.5 alone
   EXPECT_NEAR(fit.systematic[2].work_share, 0.0, 1e-9);
 }
+
+class AdhesiveLaw : public testing::TestWithParam<Shape> {};
+
+TEST_P(AdhesiveLaw, JacobianIsThatOfCentralDifferences) {
+  constexpr double kStep = 1e-5, kClose = 1e-5;
+  const Set set{};
+  const Curve curve(GetParam(), set, 40e-9, 60);
+  FitSetup setup = curve.setup(GetParam());
+  setup.tilt = true;
+  const CurveProblem problem(curve.samples(), setup);
+  const Unknowns here{std::log(set.modulus_pa), 1e-9, 0.5e-9, 1e-3, std::log(set.work_j_per_m2)};
+  const Unknowns scales{1.0, 1e-7, 1e-7, 1.0, 1.0};
+  const std::vector<double> jacobian = problem.jacobian(here);
+  for (std::size_t unknown = 0; unknown < here.size(); ++unknown) {
+    const double step = kStep * scales[unknown];
+    Unknowns more(here), less(here);
+    more[unknown] += step;
+    less[unknown] -= step;
+    const std::vector<double> above = problem.residuals(more), below = problem.residuals(less);
+    double largest = 0.0, off = 0.0;
+    for (std::size_t t = 0; t < problem.size(); ++t) {
+      const double difference = (above[t] - below[t]) / (2.0 * step);
+      largest = std::max(largest, std::abs(difference));
+      off = std::max(off, std::abs(jacobian[unknown * problem.size() + t] - difference));
+    }
+    EXPECT_LT(off, kClose * largest) << "unknown " << unknown;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, AdhesiveLaw, testing::Values(Shape::Dmt, Shape::Jkr, Shape::Maugis));
 
 }  // namespace adhesive_fit_test
 }  // namespace afm::fits
