@@ -4,16 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <system_error>
+#include <string_view>
+#include <vector>
 
 #include "app/analyse/fit_points.h"
 #include "app/options/angle_units.h"
 #include "app/options/enum_option.h"
 #include "app/options/quantity_option.h"
+#include "app/options/uncertainty_option.h"
 #include "physics/quantity_text.h"
 
 namespace afm::app {
@@ -25,7 +26,6 @@ constexpr QuantityRange<physics::Force> kMostForces{physics::Force(1e-13), physi
 constexpr QuantityRange<physics::Length> kLayers{physics::Length(1e-10), physics::Length(1e-1)};
 constexpr QuantityRange<double> kHalfAngles{std::numbers::pi / 180.0, std::numbers::pi * 0.49};
 constexpr double kLeastPoisson = 0.0, kMostPoisson = 0.5;
-constexpr double kMostPercent = 50.0;  // beyond it first order says nothing
 constexpr QuantityRange<physics::Length> kAtomicDistances{physics::Length(0.05e-9), physics::Length(5e-9)};
 
 // An option that a shape needs, or cannot use.
@@ -44,41 +44,25 @@ core::Result<void> check_size(const fits::ShapeRow& shape, const Size& size) {
   return {};
 }
 
-// "radius=5%"
-core::Result<fits::Uncertainty> parse_uncertainty(const std::string& text) {
-  std::string keys;
-  for (const fits::GivenName& row : fits::kGiven) {
-    keys += (keys.empty() ? "" : ", ") + std::string(row.name);
-    if (!text.starts_with(std::string(row.name) + "=") || !text.ends_with('%')) continue;
-    const std::string_view number =
-        std::string_view(text).substr(row.name.size() + 1, text.size() - row.name.size() - 2);
-    double percent = 0.0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), percent);
-    if (error != std::errc() || end != number.data() + number.size()) continue;
-    if (percent > 0.0 && percent <= kMostPercent) return fits::Uncertainty{row.given, percent / 100.0};
-  }
-  return core::wrong_usage(fmt::format(
-      "\"{}\" is no uncertainty above 0 % and up to {:g} %, such as radius=5%; keys are {}", text, kMostPercent, keys));
-}
-
 core::Result<void> read_uncertainties(const fits::ShapeRow& shape, FitOptions& options) {
   options.uncertainties.clear();
-  for (const std::string& text : options.uncertainty_texts) {
-    const auto uncertainty = parse_uncertainty(text);
-    if (!uncertainty) return tl::unexpected(uncertainty.error());
-    options.uncertainties.push_back(*uncertainty);
-  }
-  for (auto each = options.uncertainties.begin(); each != options.uncertainties.end(); ++each) {
-    const std::string_view name = fits::kGiven.at(static_cast<std::size_t>(each->of)).name;
-    if (std::any_of(options.uncertainties.begin(), each, [&](const auto& other) { return other.of == each->of; })) {
-      return core::wrong_usage(fmt::format("--uncertainty {}: given twice; give it once", name));
-    }
-    if ((each->of == fits::Given::Radius && !shape.has_radius) ||
-        (each->of == fits::Given::HalfAngle && shape.has_radius) ||
-        (each->of == fits::Given::Layer && !shape.has_layer)) {
+  std::vector<UncertainKey> keys;
+  for (const fits::GivenName& row : fits::kGiven) keys.push_back({row.name, {}});
+  const auto parsed = parse_uncertainties(options.uncertainty_texts, keys);
+  if (!parsed) return tl::unexpected(parsed.error());
+  for (const KeyUncertainty& each : *parsed) {
+    const auto& [of, name] = fits::kGiven.at(each.key);
+    if ((of == fits::Given::Radius && !shape.has_radius) || (of == fits::Given::HalfAngle && shape.has_radius) ||
+        (of == fits::Given::Layer && !shape.has_layer)) {
       return core::wrong_usage(
           fmt::format("--uncertainty {}: --fit {} has no such size; leave it out", name, shape.name));
     }
+    const bool is_fixed = (shape.has_layer && !shape.is_exact) || options.poisson == 0.0;
+    if (of == fits::Given::Poisson && is_fixed) {
+      return core::wrong_usage(
+          fmt::format("--uncertainty {}: Poisson's ratio is 0, or fixed by --fit {}; leave it out", name, shape.name));
+    }
+    options.uncertainties.push_back({of, each.value});
   }
   return {};
 }
@@ -132,13 +116,10 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
           "parameter; default: 0.3nm",
           std::optional(kAtomicDistances)));
   add("--uncertainty",
-      command
-          .add_option("--uncertainty", options.uncertainty_texts,
-                      "of --fit: relative standard deviation of what the fit is given, such as "
-                      "radius=5%, for the systematic part of the results, apart from the interval; "
-                      "repeatable; keys: spring-constant, sensitivity, radius, half-angle, layer, poisson")
-          .one_value_each()
-          .type_name("KEY=PERCENT%"));
+      uncertainty_option(command, options.uncertainty_texts, "radius=5%",
+                         "of --fit: relative standard deviation of what the fit is given, such as "
+                         "radius=5%, for the systematic part of the results, apart from the interval; "
+                         "repeatable; keys: spring-constant, sensitivity, radius, half-angle, layer, poisson"));
   add("--against",
       enum_option(command, "--against", options.against, "a variable", fits::kAgainst, &fits::AgainstName::name,
                   &fits::AgainstName::against,

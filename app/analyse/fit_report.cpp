@@ -69,12 +69,18 @@ void adhesion_lines(const fits::ElasticFit& fit, const Line& line) {
 
 void systematic_lines(const fits::ElasticFit& fit, const Line& line) {
   const SystematicShares sum = systematic_shares(fit);
-  line("systematic of E", pressure_text(sum.modulus * fit.modulus_pa));
-  if (fit.adhesion) line("  of W", work_text(sum.work * fit.adhesion->work_j_per_m2));
+  // a refit may have failed
+  const bool found = std::isfinite(sum.modulus) && std::isfinite(sum.work);
+  line("systematic of E", found ? pressure_text(sum.modulus * fit.modulus_pa) : "not found");
+  if (fit.adhesion) line("  of W", found ? work_text(sum.work * fit.adhesion->work_j_per_m2) : "not found");
   for (const fits::Systematic& each : fit.systematic) {
     const auto& [of, share] = each.uncertainty;
     const std::string title =
         fmt::format("  {} {:g} %: ", fits::kGiven.at(static_cast<std::size_t>(of)).name, 100.0 * share);
+    if (!std::isfinite(each.modulus_share)) {
+      line(title.c_str(), "not found");
+      continue;
+    }
     line(title.c_str(), fmt::format("E {:.3g} %", 100.0 * each.modulus_share) +
                             (fit.adhesion ? fmt::format(", W {:.3g} %", 100.0 * each.work_share) : ""));
   }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/options/uncertainty_option.h"
 #include "curves/curve_report.h"
 #include "physics/flexural_modes.h"
 #include "physics/sader.h"
@@ -93,8 +94,11 @@ core::Result<void> fit_spectrum(const LeverOptions& options, LeverCalibration& r
   LeverInputs& in = result.inputs;
   const fits::Oscillator& oscillator = result.fit->oscillator;
   in[LeverInput::Area] = oscillator.area;
-  if (!in[LeverInput::Resonance]) in[LeverInput::Resonance] = oscillator.resonance_hz;
-  if (!in[LeverInput::QualityFactor]) in[LeverInput::QualityFactor] = oscillator.quality_factor;
+  // Sader's and GCI's are those of the first mode
+  if (options.mode == 1) {
+    if (!in[LeverInput::Resonance]) in[LeverInput::Resonance] = oscillator.resonance_hz;
+    if (!in[LeverInput::QualityFactor]) in[LeverInput::QualityFactor] = oscillator.quality_factor;
+  }
   if (!in[LeverInput::ModeFactor]) in[LeverInput::ModeFactor] = physics::virtual_thermal_share(options.mode);
   return {};
 }
@@ -139,6 +143,10 @@ core::Result<void> check_uncertainties(const LeverOptions& options, const LeverI
     const LeverInputRow& row = row_of(each.input);
     if (!in[each.input])
       return wrong_usage(fmt::format("--uncertainty {}: nothing here is computed from it", row.name));
+    if (!each.is_share && each.value > kMostUncertainty * *in[each.input]) {
+      return wrong_usage(
+          fmt::format("--uncertainty {}: it is more than {:g} % of the value", row.name, 100.0 * kMostUncertainty));
+    }
   }
   return {};
 }

@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "app/lever/lever_calibration.h"
@@ -17,6 +16,7 @@
 #include "app/options/enum_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
+#include "app/options/uncertainty_option.h"
 #include "core/whole_file.h"
 #include "physics/sader.h"
 
@@ -42,6 +42,7 @@ constexpr int kHighestMode = 10;
 struct LeverCommand {
   LeverOptions lever;
   physics::Fluid fluid = kFluids[0].fluid;
+  std::vector<std::string> uncertainty_texts;  // "sensitivity=3%"
   bool json = false;
   std::string out;
 };
@@ -72,28 +73,20 @@ std::string uncertain_names() {
   return names;
 }
 
-// "sensitivity=3%" or "temperature=1K".
-core::Result<InputUncertainty> read_uncertainty(const std::string& text) {
-  const std::size_t equals = std::min(text.find('='), text.size());
-  const std::string_view name = std::string_view(text).substr(0, equals);
-  const std::string_view value = std::string_view(text).substr(std::min(equals + 1, text.size()));
+core::Result<void> read_uncertainties(const std::vector<std::string>& texts, LeverOptions& options) {
+  std::vector<UncertainKey> keys;
+  std::vector<LeverInput> inputs;
   for (const LeverInputRow& row : kLeverInputs) {
-    if (row.name != name || !may_be_uncertain(row.input)) continue;
-    static constexpr std::array kPercent{physics::Unit{"%", 1e2, true}};
-    std::vector<physics::Unit> units(kPercent.begin(), kPercent.end());
-    // a difference of temperatures has no zero
-    for (const physics::Unit& unit : row.units.units) {
-      if (unit.zero_si == 0.0 && !unit.symbol.empty()) units.push_back(unit);
-    }
-    const bool is_share = value.ends_with('%');
-    const auto parsed = physics::parse_si(value, "an uncertainty", units, physics::Infinity::Refused);
-    if (const auto* error = std::get_if<std::string>(&parsed)) return wrong_usage(*error);
-    const double si = std::get<double>(parsed);
-    if (!(si >= 0.0) || (is_share && si > 1.0)) return wrong_usage(fmt::format("{} is not 0 to 100 %", text));
-    return InputUncertainty{row.input, si, is_share};
+    if (!may_be_uncertain(row.input)) continue;
+    keys.push_back({row.name, row.units.units});
+    inputs.push_back(row.input);
   }
-  return wrong_usage(
-      fmt::format("\"{}\" is not an uncertainty such as sensitivity=3%; known are {}", text, uncertain_names()));
+  const auto parsed = parse_uncertainties(texts, keys);
+  if (!parsed) return tl::unexpected(parsed.error());
+  for (const KeyUncertainty& each : *parsed) {
+    options.uncertainties.push_back({inputs[each.key], each.value, each.is_share});
+  }
+  return {};
 }
 
 // Options by the table of inputs.
@@ -143,28 +136,13 @@ Option add_thermal_options(OptionList& command, LeverOptions& options) {
   return thermal;
 }
 
-void add_uncertainty_option(OptionList& command, LeverOptions& options) {
-  command
-      .add_parsed_option(
-          "--uncertainty",
-          [&options](const std::string& text) -> core::Result<void> {
-            const auto uncertainty = read_uncertainty(text);
-            if (!uncertainty) return tl::unexpected(uncertainty.error());
-            options.uncertainties.push_back(*uncertainty);
-            return {};
-          },
-          "standard uncertainty of an input, in per cent or in its unit: " + uncertain_names() +
-              "; one option for each")
-      .one_value_each()
-      .type_name("NAME=VALUE such as sensitivity=3% or temperature=1K");
-}
-
 core::Result<void> calibrate_lever(LeverCommand command) {
   LeverOptions& options = command.lever;
   LeverInputs& in = options.inputs;
   if (options.thermal.empty() && options.curve.empty() && !options.sader && !in[LeverInput::GciCoefficient]) {
     return wrong_usage("nothing to calibrate by; give --thermal, --sader, --gci or --sensitivity-from");
   }
+  if (const auto read = read_uncertainties(command.uncertainty_texts, options); !read) return read;
   if (!in[LeverInput::Temperature]) in[LeverInput::Temperature] = kRoomTemperature;
   if (options.sader) {
     if (!in[LeverInput::Density]) in[LeverInput::Density] = command.fluid.density.si;
@@ -210,7 +188,9 @@ void add_lever_command(OptionList& program, const CommandContext&) {
   quantity_option(
       command, "--bandwidth", [&lever](physics::Frequency hz) { lever.bandwidth_hz = hz.si; }, physics::kFrequencyUnits,
       "also print the thermal noise below this frequency", std::optional(kBandwidths));
-  add_uncertainty_option(command, lever);
+  uncertainty_option(
+      command, options->uncertainty_texts, "sensitivity=3% or temperature=1K",
+      "standard uncertainty of an input, in per cent or in its unit: " + uncertain_names() + "; one option for each");
   command.add_flag("--json", options->json, "print JSON in SI units; null marks what was not asked for");
   command.add_option("--out", options->out, "write a plot of spectrum and model (SVG) to FILE")
       .needs(thermal)

@@ -368,6 +368,9 @@ TEST(CommandLine, RefusesALeverThatCannotBeCalibrated) {
   expect_refusal(touchafm(of_it + " --range 5kHz"), 2, "5kHz:20kHz");
   expect_refusal(touchafm(of_it + " --uncertainty tilt=3%"), 2, "known are sensitivity");
   expect_refusal(touchafm(of_it + " --uncertainty temperature=1"), 2, "%, K");
+  expect_refusal(touchafm(of_it + " --uncertainty sensitivity=3% --uncertainty tilt=3%"), 2, "known are sensitivity");
+  expect_refusal(touchafm(of_it + " --uncertainty area=3% --uncertainty area=4%"), 2, "given twice");
+  expect_refusal(touchafm(of_it + " --uncertainty area=0%"), 2, "above 0 %");
   expect_refusal(touchafm(of_it + " --sensitivity 60nm/V"), 3, "fewer than 20 points; give --range");
   expect_refusal(touchafm(of_it + " --units Hz"), 3, "has no density");
 }

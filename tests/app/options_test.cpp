@@ -12,6 +12,7 @@
 #include "app/options/pixel_size_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/sound_options.h"
+#include "app/options/uncertainty_option.h"
 #include "exhibit/sound/synthesizer.h"
 
 namespace afm::app {
@@ -171,6 +172,27 @@ TEST(PixelSize, IsWidthAndHeight) {
   for (const char* wrong : {"", "x", "1920", "1920x", "x1080", "1920x1080x2", "-1x5", "1920 x 1080", "1x99999999999"}) {
     EXPECT_EQ(parse_pixel_size(wrong), std::nullopt) << wrong;
   }
+}
+
+TEST_F(OptionsTest, UncertaintiesAreCollectedAndHaveAKeyEach) {
+  std::vector<std::string> texts;
+  uncertainty_option(command_, texts, "radius=5%", "what is uncertain");
+  ASSERT_TRUE(parse({"--uncertainty", "radius=5%", "--uncertainty", "temperature=2K"}));
+  const std::array keys{UncertainKey{"temperature", physics::kTemperatureUnits.units}, UncertainKey{"radius", {}}};
+  const auto found = parse_uncertainties(texts, keys);
+  ASSERT_TRUE(found) << found.error().message;
+  ASSERT_EQ(found->size(), 2U);
+  EXPECT_EQ(found->at(0).key, 1U);
+  EXPECT_TRUE(found->at(0).is_share);
+  EXPECT_DOUBLE_EQ(found->at(0).value, 0.05);
+  EXPECT_EQ(found->at(1).key, 0U);
+  EXPECT_FALSE(found->at(1).is_share);
+  EXPECT_DOUBLE_EQ(found->at(1).value, 2.0);
+  for (const char* wrong : {"radius", "radius=5", "radius=0%", "radius=-1%", "radius=51%", "radius=nan%", "radius=1nm",
+                            "temperature=2C", "temperature=0K", "tip=5%", "=5%", ""}) {
+    EXPECT_FALSE(parse_uncertainties({wrong}, keys)) << wrong;
+  }
+  EXPECT_FALSE(parse_uncertainties({"radius=5%", "radius=6%"}, keys));
 }
 
 }  // namespace options_test

@@ -224,6 +224,14 @@ TEST(FitOfACurve, HasTheSystematicPartApart) {
   }
   options.uncertainty_texts = {"radius=5%", "radius=6%"};
   EXPECT_FALSE(prepare(options));
+  options.uncertainty_texts = {"poisson=5%"};
+  EXPECT_TRUE(prepare(options));
+  options.poisson = 0.0;
+  EXPECT_FALSE(prepare(options));
+  options.poisson = 0.5;
+  options.shape = fits::Shape::LayerSphere;
+  options.layer_m = 1e-6;
+  EXPECT_FALSE(prepare(options));
 }
 
 // JKR by closed formulas: R = 1 um, E* = 10 MPa, W = 50 mJ/m2, k = 1 N/m, from 1 um above to a push of 1 uN.

@@ -208,6 +208,16 @@ TEST_F(Lever, SaysWhatIsMissing) {
   EXPECT_THAT(calibrate(options).error().message, HasSubstr("--range"));
 }
 
+TEST_F(Lever, OfAHigherModeGivesNoResonanceToSaderAndGci) {
+  LeverOptions options = tuned();
+  options.mode = 2;
+  const LeverCalibration result = calibrated(options);
+  EXPECT_FALSE(result.inputs[LeverInput::Resonance]);
+  EXPECT_EQ(lever_json(options, result).at("noise").at("force_density_N_per_root_Hz"), nullptr);
+  options.inputs[LeverInput::GciCoefficient] = 1e-9;
+  EXPECT_THAT(calibrate(options).error().message, HasSubstr("--gci needs --resonance"));
+}
+
 TEST_F(Lever, DrawsSpectrumAndModelOnLogarithmicAxes) {
   const curves::SvgPlot plot = lever_plot(calibrated(tuned()));
   ASSERT_EQ(plot.lines.size(), 2U);
