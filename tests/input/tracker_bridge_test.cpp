@@ -3,37 +3,29 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <sstream>
 #include <string>
 
 #include "core/clock.h"
+#include "core/whole_file.h"
 #include "input/dtrack_source.h"
+#include "support/fenced_blocks.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::input {
 namespace tracker_bridge_test {
 
-std::string page() {
-  std::ostringstream text;
-  text << std::ifstream(support::source("docs/tracker-bridge.md")).rdbuf();
-  return text.str();
-}
-
-// The first fenced block that begins with these words.
-std::string block(const std::string& fence_and_words) {
-  const std::string text = page();
-  const std::size_t begin = text.find("\n```" + fence_and_words);
-  EXPECT_NE(begin, std::string::npos) << fence_and_words;
-  const std::size_t first = text.find('\n', begin + 1) + 1;
-  return text.substr(first, text.find("```\n", first) - first);
+std::string block(const std::string& language, const std::string& words = {}) {
+  const std::string text =
+      support::fenced_block(core::read_file(support::source("docs/tracker-bridge.md")).value(), language, words);
+  EXPECT_NE(text, "") << language << " " << words;
+  return text;
 }
 
 TEST(TrackerBridge, PrintsADatagramThatIsRead) {
-  const auto frame = parse_dtrack(block("\nfr 17"));
+  const auto frame = parse_dtrack(block("", "fr 17"));
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->frame, 17U);
   EXPECT_EQ(frame->faults.count, 0U);
