@@ -182,7 +182,9 @@ TEST(PlainEnglish, IsWhatEveryHelpTextUses) {
 
 TEST(PlainEnglish, IsWhatTheDocumentsAndTheWallUse) {
   std::vector<std::string> faults;
-  for (const char* page : {"README.md", "docs/manual.md", "ARCHITECTURE.md", "CONTRIBUTING.md"}) {
+  for (const char* page :
+       {"README.md", "docs/manual.md", "docs/tutorial.md", "docs/teaching.md", "docs/worksheet.md", "docs/museum.md",
+        "docs/troubleshooting.md", "docs/comparison.md", "ARCHITECTURE.md", "CONTRIBUTING.md"}) {
     append(faults, faults_of_page(page));
   }
   const auto guidance = files_below("assets/guidance", {".toml"});
