@@ -17,7 +17,7 @@ namespace afm::curves {
 
 // How long a child may take.
 struct ChildTime {
-  std::chrono::milliseconds patience;  // until its result, or each message of a stream
+  std::chrono::milliseconds patience;  // time for its result, or for each message of a stream
   std::chrono::seconds processor_time;
 };
 inline constexpr ChildTime kFileTime{std::chrono::seconds(20), std::chrono::seconds(3)};
