@@ -19,7 +19,6 @@
 #include "app/analyse/analyse_fit.h"
 #include "app/analyse/fit_maps.h"
 #include "app/analyse/fit_pool.h"
-#include "app/analyse/modulus_statistics.h"
 #include "app/options/standard_output.h"
 #include "core/file_descriptor.h"
 #include "core/interruption.h"
@@ -28,6 +27,7 @@
 #include "core/system_error.h"
 #include "core/whole_file.h"
 #include "core/write_all.h"
+#include "curves/modulus_statistics.h"
 #include "physics/quantity_text.h"
 
 namespace afm::app {
@@ -147,7 +147,7 @@ class Summary {
     std::string text = fmt::format("{}: {} curves; {} trusted, {} doubtful, {} not trusted, {} without a fit\n", path,
                                    done_, trusts_[0], trusts_[1], trusts_[2], unread_);
     if (moduli_pa_.empty()) return text;
-    const ModulusFigures figures = modulus_figures(moduli_pa_);
+    const curves::ModulusFigures figures = curves::modulus_figures(moduli_pa_);
     const auto pressure = [](double pa) {
       return physics::format_quantity(physics::Pressure(pa), physics::kPressureUnits, 4);
     };
@@ -157,7 +157,7 @@ class Summary {
   }
 
   // Histograms of the trusted and the doubtful; empty without any.
-  std::string histograms() const { return moduli_pa_.empty() ? std::string() : modulus_histograms(moduli_pa_); }
+  std::string histograms() const { return moduli_pa_.empty() ? std::string() : curves::modulus_histograms(moduli_pa_); }
 
  private:
   std::size_t done_ = 0, unread_ = 0;

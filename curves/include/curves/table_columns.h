@@ -13,7 +13,7 @@ enum class ColumnKind { Height, Force, Deflection, RetractForce, RetractDeflecti
 
 struct TableColumn {
   ColumnKind kind = ColumnKind::Nothing;
-  double si_per_unit = 1;  // for a deflection in volts: V
+  double si_per_unit = 1;  // V for a deflection in volts; negative where the sign is turned
   bool volts = false;
 };
 

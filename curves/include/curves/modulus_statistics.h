@@ -4,13 +4,12 @@
 #include <string>
 #include <vector>
 
-namespace afm::app {
+namespace afm::curves {
 
 // Figures of moduli that a few wrong ones hardly move, and the mean of a log-normal sample.
 struct ModulusFigures {
   double median_pa = 0;
-  double deviation_pa =
-      0;  // 1.4826 times the median distance from the median: the standard deviation of a normal sample
+  double deviation_pa = 0;  // 1.4826 times the median distance from the median; a normal sample's standard deviation
   double geometric_mean_pa = 0;
 };
 
@@ -21,4 +20,4 @@ ModulusFigures modulus_figures(std::vector<double> moduli_pa);
 // one ends at the 1st and the 99th percentile. For moduli above zero, at least one.
 std::string modulus_histograms(std::vector<double> moduli_pa);
 
-}  // namespace afm::app
+}  // namespace afm::curves

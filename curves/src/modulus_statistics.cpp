@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/analyse/modulus_statistics.h"
+#include "curves/modulus_statistics.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "curves/svg_plot.h"
 #include "physics/quantity_text.h"
 
-namespace afm::app {
+namespace afm::curves {
 
 namespace {
 
@@ -25,7 +25,7 @@ double median_of(const std::vector<double>& values) {
 std::string pressure(double pa) { return physics::format_quantity(physics::Pressure(pa), physics::kPressureUnits, 4); }
 
 // Steps of the shares of the values between two ends, in per cent; those beyond are left out.
-curves::SvgLine steps_of(const std::vector<double>& places, double low, double high) {
+SvgLine steps_of(const std::vector<double>& places, double low, double high) {
   // the root of their number, within what a picture shows
   const std::size_t bins =
       std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(static_cast<double>(places.size()))), 5, 60);
@@ -34,7 +34,7 @@ curves::SvgLine steps_of(const std::vector<double>& places, double low, double h
     const double bin = (place - low) / (high - low) * static_cast<double>(bins);
     if (bin >= 0.0 && bin <= static_cast<double>(bins)) ++counts[std::min(static_cast<std::size_t>(bin), bins - 1)];
   }
-  curves::SvgLine line{"", std::string(curves::distinct_color(0)), curves::LineStyle::Solid, {{low, 0.0}}};
+  SvgLine line{"", std::string(distinct_color(0)), LineStyle::Solid, {{low, 0.0}}};
   for (std::size_t i = 0; i < bins; ++i) {
     const double share = 100.0 * static_cast<double>(counts[i]) / static_cast<double>(places.size());
     for (const std::size_t end : {i, i + 1}) {
@@ -45,23 +45,22 @@ curves::SvgLine steps_of(const std::vector<double>& places, double low, double h
   return line;
 }
 
-curves::SvgPlot histogram(const std::string& title, const std::string& x_label, const std::vector<double>& places,
-                          std::pair<double, double> ends, double median) {
+SvgPlot histogram(const std::string& title, const std::string& x_label, const std::vector<double>& places,
+                  std::pair<double, double> ends, double median) {
   auto [low, high] = ends;
   if (!(high > low)) {  // all alike
     const double half = std::max(0.05 * std::abs(low), 1e-3);
     low -= half;
     high += half;
   }
-  curves::SvgPlot plot;
+  SvgPlot plot;
   plot.title = title;
   plot.x_label = x_label;
   plot.y_label = "share of the curves, %";
   plot.lines.push_back(steps_of(places, low, high));
   double most = 0;
-  for (const curves::SvgPoint& point : plot.lines.front().points) most = std::max(most, point.y);
-  plot.lines.push_back(
-      {"median", std::string(curves::distinct_color(1)), curves::LineStyle::Dashed, {{median, 0.0}, {median, most}}});
+  for (const SvgPoint& point : plot.lines.front().points) most = std::max(most, point.y);
+  plot.lines.push_back({"median", std::string(distinct_color(1)), LineStyle::Dashed, {{median, 0.0}, {median, most}}});
   plot.height = 420;
   return plot;
 }
@@ -105,7 +104,7 @@ std::string modulus_histograms(std::vector<double> moduli_pa) {
                          histogram(fmt::format("geometric mean {}", pressure(figures.geometric_mean_pa)),
                                    fmt::format("logarithm to base 10 of E in {}", kUnits[unit]), logarithmic,
                                    {logarithmic.front(), logarithmic.back()}, std::log10(factor * figures.median_pa))};
-  return curves::svg(plots);
+  return svg(plots);
 }
 
-}  // namespace afm::app
+}  // namespace afm::curves
