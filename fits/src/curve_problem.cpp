@@ -170,6 +170,7 @@ double CurveProblem::minimise(Unknowns& unknowns, std::span<const double> noise,
     }
   };
   std::vector<double> free;
+  free.reserve(freed.size());
   for (const std::size_t c : freed) free.push_back(unknowns[c]);
   const double squares = least_squares(evaluate, left, free);
   for (std::size_t c = 0; c < freed.size(); ++c) unknowns[freed[c]] = free[c];
