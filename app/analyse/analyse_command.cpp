@@ -143,19 +143,10 @@ core::Result<void> check_batch(const AnalyseOptions& options, const std::vector<
   return {};
 }
 
-// The options write into `options` while the parser lives.
-std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions& options) {
-  std::vector<OptionOfKind> added;
-  const auto for_curves = [&added](const char* name, const Option& option) {
-    added.push_back({option, name, FileKind::Curve});
-  };
-  for_curves("--beside", command
-                             .add_option("--beside", options.beside,
-                                         "second curve to compare with, measured or computed by touchafm curve")
-                             .type_name("FILE"));
-  curves::CurveReading& reading = options.reading;
-  for_curves(
-      "--spring-constant",
+// How a curve is read. The options write into `reading` while the parser lives.
+template <class Add>
+void add_reading_options(OptionList& command, curves::CurveReading& reading, const Add& add) {
+  add("--spring-constant",
       quantity_option(
           command, "--spring-constant", [&reading](physics::Stiffness lever) { reading.spring_constant = lever; },
           physics::kStiffnessUnits, "spring constant of the lever instead of the file's; forces scale with it",
@@ -166,24 +157,37 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
     reading.sensitivity_m_per_v = *sensitivity;
     return {};
   };
-  for_curves("--sensitivity", command
-                                  .add_parsed_option("--sensitivity", read_sensitivity,
-                                                     "sensitivity of the optical lever instead of the file's")
-                                  .type_name("SENSITIVITY in um/V, nm/V, pm/V"));
+  add("--sensitivity", command
+                           .add_parsed_option("--sensitivity", read_sensitivity,
+                                              "sensitivity of the optical lever instead of the file's")
+                           .type_name("SENSITIVITY in um/V, nm/V, pm/V"));
   const auto read_columns = [&reading](const std::string& text) -> core::Result<void> {
     auto columns = curves::parse_table_columns(text);
     if (!columns) return tl::unexpected(columns.error());
     reading.columns = std::move(*columns);
     return {};
   };
-  for_curves("--columns",
-             command
-                 .add_parsed_option("--columns", read_columns,
-                                    "read FILE as a plain table, by the names and units of its columns: "
-                                    "\"height:um force:nN\", \"- height:nm deflection:V\", or deflection:-V where the "
-                                    "sign is the opposite; names: height, "
-                                    "force, deflection, retract-force, retract-deflection, segment, time, -")
-                 .type_name("COLUMNS"));
+  add("--columns",
+      command
+          .add_parsed_option("--columns", read_columns,
+                             "read FILE as a plain table, by the names and units of its columns: "
+                             "\"height:um force:nN\", \"- height:nm deflection:V\", or deflection:-V where the "
+                             "sign is the opposite; names: height, "
+                             "force, deflection, retract-force, retract-deflection, segment, time, -")
+          .type_name("COLUMNS"));
+}
+
+// The options write into `options` while the parser lives.
+std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions& options) {
+  std::vector<OptionOfKind> added;
+  const auto for_curves = [&added](const char* name, const Option& option) {
+    added.push_back({option, name, FileKind::Curve});
+  };
+  for_curves("--beside", command
+                             .add_option("--beside", options.beside,
+                                         "second curve to compare with, measured or computed by touchafm curve")
+                             .type_name("FILE"));
+  add_reading_options(command, options.reading, for_curves);
   const auto read_method = [&options](const std::string& text) -> core::Result<void> {
     const auto method = std::find_if(physics::kContactMethods.begin(), physics::kContactMethods.end(),
                                      [&](const auto& each) { return each.name == text; });
@@ -201,7 +205,7 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
                                         "computed, otherwise fit-polynomial")
                  .type_name("METHOD"));
   for_curves("--curve",
-             command.add_option("--curve", reading.index, "number of the curve in a file with several, from 0")
+             command.add_option("--curve", options.reading.index, "number of the curve in a file with several, from 0")
                  .show_default()
                  .type_name("INDEX"));
   for (const NamedOption& of_fit : add_fit_options(command, options.fit)) for_curves(of_fit.name, of_fit.option);

@@ -47,6 +47,7 @@ core::Result<void> check_size(const fits::ShapeRow& shape, const Size& size) {
 core::Result<void> read_uncertainties(const fits::ShapeRow& shape, FitOptions& options) {
   options.uncertainties.clear();
   std::vector<UncertainKey> keys;
+  keys.reserve(fits::kGiven.size());
   for (const fits::GivenName& row : fits::kGiven) keys.push_back({row.name, {}});
   const auto parsed = parse_uncertainties(options.uncertainty_texts, keys);
   if (!parsed) return tl::unexpected(parsed.error());
@@ -78,17 +79,9 @@ fits::Indenter indenter_of(const FitOptions& options) {
   return indenter;
 }
 
-}  // namespace
-
-std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& options) {
-  std::string shapes;
-  for (const fits::ShapeRow& row : fits::kShapes) shapes += fmt::format("\n  {}: {}", row.name, row.meaning);
-  std::vector<NamedOption> added;
-  const auto add = [&added](const char* name, const Option& option) { added.push_back({option, name}); };
-  add("--fit",
-      enum_option(command, "--fit", options.shape, "a shape of the tip", fits::kShapes, &fits::ShapeRow::name,
-                  &fits::ShapeRow::shape,
-                  "fit the elastic modulus to the approach, or with the work of adhesion to both branches:" + shapes));
+// Sizes of tip and layer.
+template <class Add>
+void add_size_options(OptionList& command, FitOptions& options, const Add& add) {
   add("--radius", quantity_option(
                       command, "--radius", [&options](physics::Length radius) { options.radius_m = radius.si; },
                       physics::kLengthUnits, "of --fit: radius of the tip", std::optional(kRadii)));
@@ -103,6 +96,20 @@ std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& option
   add("--base",
       enum_option(command, "--base", options.base, "a base", fits::kBases, &fits::BaseName::name, &fits::BaseName::base,
                   "of --fit layer-exact-...: how the layer lies on it; default: bonded"));
+}
+
+}  // namespace
+
+std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& options) {
+  std::string shapes;
+  for (const fits::ShapeRow& row : fits::kShapes) shapes += fmt::format("\n  {}: {}", row.name, row.meaning);
+  std::vector<NamedOption> added;
+  const auto add = [&added](const char* name, const Option& option) { added.push_back({option, name}); };
+  add("--fit",
+      enum_option(command, "--fit", options.shape, "a shape of the tip", fits::kShapes, &fits::ShapeRow::name,
+                  &fits::ShapeRow::shape,
+                  "fit the elastic modulus to the approach, or with the work of adhesion to both branches:" + shapes));
+  add_size_options(command, options, add);
   add("--poisson",
       si_option(
           command, "--poisson", [&options](double ratio) { options.poisson = ratio; },

@@ -82,6 +82,7 @@ double margin_j(const PushTick& tick) { return (tick.given - tick.lost - tick.st
 
 std::vector<Sideways<Length>> places_of(const physics::PushedParticles& particles) {
   std::vector<Sideways<Length>> places;
+  places.reserve(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) places.push_back(particles.position(i));
   return places;
 }

@@ -219,6 +219,17 @@ core::Result<servo::ReplayedParticles> particles_at(const servo::RecordedSession
                        fmt::format("session file {}: {}", options.session, then.error().message));
 }
 
+// The moment of --at, by the session's clock.
+core::Result<std::int64_t> time_of(const servo::RecordedSession& session, double at_s) {
+  const double length_s = session.seconds_since_start(session.samples.back().time_ns);
+  constexpr double kRoundingS = 0.0005;  // rounding of the printed length
+  if (!(at_s >= 0.0 && at_s <= length_s + kRoundingS)) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("--at: {:g} s is outside the session, which lasts {:.3f} s", at_s, length_s));
+  }
+  return session.samples.front().time_ns + static_cast<std::int64_t>(at_s * 1e9);
+}
+
 core::Result<void> run_render(const RenderOptions& options) {
   if (options.journey_orders) return run_journey(options);
   auto session = servo::load_session(options.session);
@@ -254,16 +265,11 @@ core::Result<void> run_render(const RenderOptions& options) {
     if (!one) return tl::unexpected(one.error());
     models.push_back(std::move(*one));
   }
-  const double length_s = session->seconds_since_start(session->samples.back().time_ns);
-  constexpr double kRoundingS = 0.0005;  // rounding of the printed length
-  if (!(options.at_s >= 0.0 && options.at_s <= length_s + kRoundingS)) {
-    return core::failure(
-        core::ErrorCategory::WrongUsage,
-        fmt::format("--at: {:g} s is outside the session, which lasts {:.3f} s", options.at_s, length_s));
-  }
+  const auto at_ns = time_of(*session, options.at_s);
+  if (!at_ns) return tl::unexpected(at_ns.error());
 
   const auto material = static_cast<std::size_t>(found - materials.begin());
-  const std::int64_t time_ns = session->samples.front().time_ns + static_cast<std::int64_t>(options.at_s * 1e9);
+  const std::int64_t time_ns = *at_ns;
   std::optional<exhibit::ParticleTask> task;
   if (session->particles && !stage->particles->targets.empty()) task.emplace(*stage->particles);
   const auto replayed = particles_at(*session, time_ns, options, task);

@@ -182,9 +182,9 @@ core::Result<void> compute_constants(const LeverOptions& options, LeverCalibrati
   const std::vector<InputUncertainty>& uncertainties = options.uncertainties;
   if (const auto checked = check_uncertainties(options, in); !checked) return checked;
   if (options.sader) {
-    const auto checked = require(in, "--sader",
-                                 {LeverInput::Length, LeverInput::Width, LeverInput::Resonance,
-                                  LeverInput::QualityFactor, LeverInput::Density, LeverInput::Viscosity});
+    auto checked = require(in, "--sader",
+                           {LeverInput::Length, LeverInput::Width, LeverInput::Resonance, LeverInput::QualityFactor,
+                            LeverInput::Density, LeverInput::Viscosity});
     if (!checked) return checked;
     try {
       result.sader = calibrated(in, uncertainties, sader_k);

@@ -204,6 +204,7 @@ void add_branch(const std::vector<double>& heights, const std::vector<double>& f
 
 std::string known_columns() {
   std::vector<std::string_view> names;
+  names.reserve(kColumnRows.size());
   for (const ColumnRow& row : kColumnRows) names.push_back(row.name);
   return fmt::format("{}", fmt::join(names, ", "));
 }
