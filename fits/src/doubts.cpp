@@ -76,7 +76,7 @@ class Judge {
       : samples_(samples), setup_(setup), problem_(problem), ended_(ended) {}
 
   void judge(ElasticFit& fit) {
-    // a tip that sticks tells of the sample by its pull, too
+    // the pull of a tip that sticks depends on the sample, too
     const double push_n = std::max(greatest_push_n(samples_, fit), fit.adhesion ? fit.adhesion->pull_off_n : 0.0);
     const bool pushed = fit.in_contact > 0 && push_n > 0.0 && push_n >= 5.0 * fit.noise_n;
     add(fit, Doubt::NeverPushed, fit.noise_n > 0.0 ? push_n / fit.noise_n : 0.0, 5.0, !pushed);

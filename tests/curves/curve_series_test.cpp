@@ -8,10 +8,10 @@
 #include <numbers>
 #include <vector>
 
+#include "support/archives/jpk_map.h"
+#include "support/archives/stored_zip.h"
 #include "support/hertz_curve.h"
-#include "support/jpk_map.h"
 #include "support/scratch_folder.h"
-#include "support/stored_zip.h"
 
 namespace afm::curves {
 namespace curve_series_test {

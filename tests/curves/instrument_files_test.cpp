@@ -11,7 +11,7 @@
 #include <string>
 
 #include "curves/curve_file.h"
-#include "support/stored_zip.h"
+#include "support/archives/stored_zip.h"
 
 namespace afm::curves {
 namespace instrument_files_test {

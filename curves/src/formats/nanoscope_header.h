@@ -27,7 +27,7 @@ std::string lower_key(std::string_view text);
 
 std::vector<NanoscopeBlock> nanoscope_blocks(std::string_view bytes);
 
-// "0x09300201"; 0 if no block tells.
+// Version, such as 0x09300201; 0 if no block has it.
 std::uint32_t nanoscope_version(const std::vector<NanoscopeBlock>& blocks);
 
 // The number at the front of a value. Throws CurveError if there is none.

@@ -82,7 +82,7 @@ struct Found {
   std::optional<Shape> advised;  // law of adhesion to try instead
 };
 
-// What a law of adhesion has besides.
+// Results of a law of adhesion beside the modulus.
 struct Adhesion {
   double work_j_per_m2 = 0;  // work of adhesion
   Interval work_interval;    // J/m^2

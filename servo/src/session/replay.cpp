@@ -139,7 +139,7 @@ class Player {
   const TipSample& sample() const { return sample_; }
   const std::vector<TipEvent>& events() const { return events_; }
 
-  // Tells of the newest tick, that of this sample.
+  // Passes the newest tick on, whose sample has this index.
   void tell(std::size_t index, const HearTick& hear) const {
     const auto came = std::span(session_.events).subspan(first_event_, next_event_ - first_event_);
     if (hear) hear({.sample = session_.samples[index], .events = came, .pages = pages_});

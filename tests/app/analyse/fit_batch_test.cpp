@@ -16,12 +16,12 @@
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/image_file.h"
+#include "support/archives/jpk_map.h"
+#include "support/archives/stored_zip.h"
 #include "support/hertz_curve.h"
-#include "support/jpk_map.h"
 #include "support/live_program.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
-#include "support/stored_zip.h"
 
 namespace afm::app {
 namespace fit_batch_test {
