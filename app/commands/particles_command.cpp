@@ -98,7 +98,8 @@ class ScriptedTask {
 
   void follow(const physics::PushedParticles& particles, double time_s) {
     const PushTick& tick = particles.last();
-    for (const auto& event : meeting_.follow(particles, tick.normal.si > 0.0).all()) task_.add(event.kind);
+    const auto events = meeting_.follow(particles, tick.normal.si > 0.0);
+    for (const auto& event : events.all()) task_.add(event.kind);
     if (!particles.moved().empty()) ++places_;
     add(particles, time_s);
   }

@@ -27,7 +27,8 @@ class TipMeeting {
   class Events {
    public:
     void add(const Event& event) noexcept { events_[count_++] = event; }
-    std::span<const Event> all() const noexcept { return std::span(events_).first(count_); }
+    std::span<const Event> all() const& noexcept { return std::span(events_).first(count_); }
+    std::span<const Event> all() const&& = delete;  // events that are gone
 
    private:
     std::array<Event, 2> events_{};
