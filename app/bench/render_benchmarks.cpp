@@ -60,7 +60,7 @@ core::Result<double> first_frame_ms(const RenderBenchOptions& options) {
   const auto subject = wall_subject(*stage, options.eye_width, WallMotion::None);
   if (!subject) return tl::unexpected(subject.error());
   const std::int64_t start_ns = clock.now_ns();
-  auto context = render::Context::open();
+  auto context = render::Context::open({.gpu = options.plan.gpu});
   if (!context) return tl::unexpected(context.error());
   render::RendererOptions drawing = subject->drawing;
   drawing.samples = options.plan.samples;
@@ -240,6 +240,7 @@ void add_render_benchmarks(OptionList& bench, const CommandContext& context) {
       .within(16, 8192)
       .show_default()
       .type_name("PIXELS");
+  add_gpu_option(command, options->plan.gpu);
   command.add_option("--samples", options->plan.samples, "samples per pixel").one_of({1, 4}).show_default();
   command.add_option("--gltf", options->gltf, "glTF file to draw as well; repeatable").type_name("FILE");
   command

@@ -154,7 +154,7 @@ core::Result<double> printed_frame_ms(const std::string& command) {
 
 core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& subjects, const RenderTimingPlan& plan,
                                            const core::Clock& clock) {
-  auto context = render::Context::open();
+  auto context = render::Context::open({.gpu = plan.gpu});
   if (!context) return tl::unexpected(context.error());
   RenderFigures result;
   result.device = context->device_name();

@@ -52,6 +52,7 @@ struct DemoOptions {
   std::string out;
   exhibit::ExhibitFiles files;
   std::uint32_t eye_width = 0;  // 0: as large as fits
+  std::string gpu;
   input::HandPath hand;
   std::optional<double> frame_budget_ms;
   servo::ServoChoice servo;
@@ -269,7 +270,7 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
   auto out = core::OutputFolder::open(options.out);
   if (!out) return tl::unexpected(out.error());
   haptics::favour_drawing();
-  auto context = render::Context::open();
+  auto context = render::Context::open({.gpu = options.gpu});
   if (!context) return tl::unexpected(context.error());
   auto drawn =
       create_demo_renderer(*context, *stage, plan->materials, options.eye_width, options.frame_budget_ms, clock);
@@ -386,6 +387,7 @@ void add_demo_command(OptionList& program, const CommandContext& context) {
       .within(64, 8192)
       .type_name("PIXELS");
   add_frame_budget(command, options->frame_budget_ms);
+  add_gpu_option(command, options->gpu);
   quantity_option(
       command, "--hand-speed", [&hand = options->hand](physics::Velocity speed) { hand.speed_m_per_s = speed.si; },
       physics::kVelocityUnits, "mean speed of the simulated hand", std::optional(kHandSpeeds))

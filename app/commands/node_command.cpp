@@ -18,6 +18,7 @@
 #include "app/live/view_keys.h"
 #include "app/options/command.h"
 #include "app/options/dynamic_resolution.h"
+#include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
 #include "cluster/node_link.h"
 #include "core/exit_code.h"
@@ -240,6 +241,7 @@ void add_node_command(OptionList& program, const CommandContext& context) {
                     "open one window of this size in pixels; default: one window per output of this machine",
                     PixelRange{64, 16384});
   add_frame_budget(command, options->display.frame_budget_ms);
+  add_gpu_option(command, options->display.picture.gpu);
   command
       .add_option("--pictures", options->display.saved_folder,
                   "existing folder for screenshots taken with F12; default: the current folder")

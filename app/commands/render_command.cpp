@@ -127,7 +127,7 @@ core::Result<void> run_model(const RenderOptions& options) {
     return exhibit::describe_model(
         options.model.file, options.json ? exhibit::DescriptionForm::Json : exhibit::DescriptionForm::Lines, std::cout);
   }
-  auto context = render::Context::open();
+  auto context = render::Context::open({.gpu = options.picture.gpu});
   if (!context) return tl::unexpected(context.error());
   const scene::StereoMode mode = options.picture.mode.value_or(scene::StereoMode::Mono);
   exhibit::ModelChoice choice = options.model;
@@ -354,6 +354,7 @@ void add_render_command(OptionList& program, const CommandContext& context) {
       .excludes(size)
       .show_default()
       .type_name("PIXELS");
+  add_gpu_option(command, options->picture.gpu);
   add_stage_options(command, options->files, context);
   add_own_model_options(command, options->files);
   command.when_chosen([options, gltf, at]() -> core::Result<void> {

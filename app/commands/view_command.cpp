@@ -359,6 +359,7 @@ void add_view_command(OptionList& program, const CommandContext& context) {
                        "window mirrors the left eye");
   add_exhibition_options(command, *options);
   headset.excludes(add_cluster_options(command, options->cluster));
+  headset.excludes(add_gpu_option(command, options->display.picture.gpu));
   command.when_chosen([options, &context]() -> core::Result<void> {
     if (!options->kiosk) return run_view(*options, context.program_path);
     const core::CodeOfInterruption released(core::ExitCode::Done);

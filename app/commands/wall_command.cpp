@@ -333,6 +333,7 @@ void add_wall_command(OptionList& program, const CommandContext& context) {
   command.add_flag("--start", options->start, "print the commands that start a wall of several machines, one for each");
   pixel_size_option(command, "--size", options->picture.size_px, "size of the whole test pattern in pixels");
   add_stereo_options(command, options->picture, "the outputs of the wall file, otherwise side-by-side");
+  add_gpu_option(command, options->picture.gpu);
   add_phrase_options(command, options->files, context);
   command.when_chosen([options] { return run_wall(*options); });
 }

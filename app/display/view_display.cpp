@@ -101,8 +101,11 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
   }
   // before the driver starts its threads
   haptics::favour_drawing();
-  auto context = render::Context::open(options.validate ? render::Validation::On : render::Validation::Off,
-                                       render::Presentation::Window, runtime);
+  auto context =
+      render::Context::open({.validation = options.validate ? render::Validation::On : render::Validation::Off,
+                             .presentation = render::Presentation::Window,
+                             .gpu = options.picture.gpu,
+                             .runtime = runtime});
   if (!context) return tl::unexpected(context.error());
   display->context_ = std::move(*context);
   render::RendererOptions drawing =

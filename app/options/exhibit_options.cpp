@@ -30,6 +30,19 @@ void add_stereo_options(OptionList& command, exhibit::PictureOptions& options, c
       "distance between the eyes; default: that of the viewer in the wall file", std::optional(kEyeDistances));
 }
 
+Option add_gpu_option(OptionList& command, std::string& gpu) {
+  const auto read = [&gpu](const std::string& text) -> core::Result<void> {
+    if (text.empty()) return core::wrong_usage("give the name of a device, or leave --gpu out for the best");
+    gpu = text;
+    return {};
+  };
+  return command
+      .add_parsed_option("--gpu", read,
+                         "graphics device that draws: its name as touchafm devices prints it, or a part that no other "
+                         "has; default: the best, a GPU rather than the processor")
+      .type_name("NAME");
+}
+
 void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files) {
   command
       .add_option("--probe", files.probe,

@@ -15,6 +15,9 @@ namespace afm::app {
 // Adds --stereo, --swap-eyes and --ipd.
 void add_stereo_options(OptionList& command, exhibit::PictureOptions& options, const std::string& default_mode);
 
+// Adds --gpu.
+Option add_gpu_option(OptionList& command, std::string& gpu);
+
 // Adds --probe and --sample; the second function adds only --sample, for a command whose --probe also accepts names.
 void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files);
 void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files);

@@ -61,6 +61,24 @@ TEST(DevicesCommand, SaysWhatTheLibraryAnswersWhenNoDeviceIsThere) {
   EXPECT_THAT(touchafm("devices", kMock + " MOCK_HD_FAULT=busy").out, HasSubstr("mock: in use (0x0301)"));
 }
 
+TEST(GraphicsDevice, IsChosenByName) {
+  const support::ScratchFolder folder;
+  const std::string draw = "render --journey 3 --size 64x64 --out " + folder.file("a.png");
+  const auto list = nlohmann::json::parse(touchafm("devices --json").out);
+  ASSERT_EQ(list.front()["kind"], "vulkan");
+  const auto name = list.front()["device"].get<std::string>();
+  EXPECT_EQ(touchafm(draw + " --gpu '" + name + "'").exit_code, 0);
+  const ProgramResult missing = touchafm(draw + " --gpu Voodoo");
+  EXPECT_EQ(missing.exit_code, 4);
+  EXPECT_THAT(missing.err, ::testing::AllOf(HasSubstr("no graphics device is called 'Voodoo'"), HasSubstr(name)));
+  for (const char* command : {"demo --out x", "view", "wall --test-pattern --out x.png", "node left --interface lo"}) {
+    EXPECT_EQ(touchafm(std::string(command) + " --gpu ''").exit_code, 2) << command;
+  }
+  const ProgramResult headset = touchafm("view --headset --gpu '" + name + "'");
+  EXPECT_EQ(headset.exit_code, 2);
+  EXPECT_THAT(headset.err, HasSubstr("--headset excludes --gpu"));
+}
+
 TEST(DevicesCommand, NamesAHeadsetRuntimeThatDoesNotExist) {
   const std::string environment = "XR_RUNTIME_JSON=/nonexistent.json";
   for (const char* command : {"devices", "doctor --seconds 0.1"}) {

@@ -49,7 +49,7 @@ class HeadsetTest : public testing::Test {
 
   void connect() {
     runtime_ = must(render::HeadsetRuntime::connect(support::openxr_stand_in()));
-    context_.emplace(must(render::Context::open(validation_, render::Presentation::None, runtime_.get())));
+    context_.emplace(must(render::Context::open({.validation = validation_, .runtime = runtime_.get()})));
     const glm::uvec2 eye_px = runtime_->eye_px();
     renderer_.emplace(must(render::Renderer::create(*context_, scene_.scene,
                                                     {.eye_width = eye_px.x,

@@ -17,7 +17,7 @@ class OneView : public testing::Test {
  protected:
   static render::Context open() {
     const FaultyDevice without_multiview("one-view");
-    auto context = render::Context::open(render::Validation::On);
+    auto context = render::Context::open({.validation = render::Validation::On});
     if (!context) throw std::runtime_error(context.error().message);
     return std::move(*context);
   }

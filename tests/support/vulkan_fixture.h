@@ -41,7 +41,7 @@ class VulkanTest : public testing::Test {
 
  private:
   static render::Context open() {
-    auto context = render::Context::open(render::Validation::On);
+    auto context = render::Context::open({.validation = render::Validation::On});
     if (!context) {
       throw std::runtime_error(context.error().message);
     }

@@ -9,7 +9,7 @@ WallDrawing::WallDrawing(const scene::Wall& wall, const PictureOptions& options,
     : wall_(&wall), options_(options), context_(std::move(context)), plan_(std::move(plan)) {}
 
 core::Result<WallDrawing> WallDrawing::open(const scene::Wall& wall, const PictureOptions& options) {
-  auto context = render::Context::open();
+  auto context = render::Context::open({.gpu = options.gpu});
   if (!context) return tl::unexpected(context.error());
   if (options.size_px) {
     const auto checked = check_picture_size(*options.size_px, context->largest_picture_px());

@@ -21,11 +21,18 @@ enum class Presentation { None, Window };
 
 // One Vulkan device as the `devices` command lists it.
 struct DeviceDescription {
-  std::string name;
+  std::string name;    // the driver's; the second of two equal ones gets " #2"
   std::string kind;    // "discrete GPU", "CPU", ...
   std::string driver;  // name and version as the driver reports them
   bool usable = false;
   std::string reason;  // reason why not, empty if usable
+};
+
+struct ContextOptions {
+  Validation validation = Validation::Off;
+  Presentation presentation = Presentation::None;
+  std::string gpu{};                  // name of the device, or a part that no other has; empty: the best device
+  HeadsetRuntime* runtime = nullptr;  // of the headset that shows the pictures: it chooses the device, `gpu` is empty
 };
 
 // The Vulkan instance, the chosen device and its queue. Prefers a discrete GPU, then an integrated or virtual one, and
@@ -34,10 +41,10 @@ struct DeviceDescription {
 class Context {
  public:
   // DeviceMissing: no loader, no driver, no device with the features the renderer needs, or, with Validation::On, no
-  // validation layer. The message says what to install. `runtime`, if any, belongs to the headset that shows the
-  // device's pictures: it chooses the device, and must outlive this call.
-  static core::Result<Context> open(Validation validation = Validation::Off,
-                                    Presentation presentation = Presentation::None, HeadsetRuntime* runtime = nullptr);
+  // validation layer. The message says what to install. WrongUsage: several devices could be meant by `gpu`. A
+  // headset's runtime must outlive this call.
+  static core::Result<Context> open(const ContextOptions& options);
+  static core::Result<Context> open() { return open(ContextOptions{}); }
 
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;

@@ -13,8 +13,9 @@ Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
-core::Result<Context> Context::open(Validation validation, Presentation presentation, HeadsetRuntime* runtime) {
-  auto device = Device::open(validation, presentation, runtime == nullptr ? nullptr : &runtime->device_source());
+core::Result<Context> Context::open(const ContextOptions& options) {
+  auto device = Device::open(options.validation, options.presentation, options.gpu,
+                             options.runtime == nullptr ? nullptr : &options.runtime->device_source());
   if (!device) {
     return tl::unexpected(device.error());
   }

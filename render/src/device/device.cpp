@@ -13,6 +13,7 @@
 
 #include "core/check.h"
 #include "core/interruption.h"
+#include "device/device_choice.h"
 #include "device/extensions.h"
 #include "device/presentation.h"
 #include "device/shader_interface.h"
@@ -21,8 +22,6 @@ namespace afm::render {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-constexpr const char* kInstallDriver =
-    "install a Vulkan driver (Debian: mesa-vulkan-drivers, which also draws without a GPU)";
 
 // Callback with the C interface's types, or, since 1.4.304 (Debian 13), with Vulkan-Hpp's own.
 using MessageCallback = decltype(vk::DebugUtilsMessengerCreateInfoEXT::pfnUserCallback);
@@ -65,64 +64,6 @@ void check_threads() {
   release();
 }
 
-std::optional<std::uint32_t> graphics_family(const vk::raii::PhysicalDevice& physical) {
-  const auto families = physical.getQueueFamilyProperties();
-  for (std::uint32_t i = 0; i < families.size(); ++i) {
-    if (families[i].queueFlags & vk::QueueFlagBits::eGraphics) {
-      return i;
-    }
-  }
-  return std::nullopt;
-}
-
-// Reason why the renderer cannot use this device; empty if it can.
-std::string missing_ability(const vk::raii::PhysicalDevice& physical) {
-  if (physical.getProperties().apiVersion < VK_API_VERSION_1_3) {
-    return "its driver is older than Vulkan 1.3";
-  }
-  if (!graphics_family(physical)) {
-    return "it has no graphics queue";
-  }
-  return {};
-}
-
-bool shows_windows(const vk::raii::Instance& instance, const vk::raii::PhysicalDevice& physical) {
-  return has_extension(physical.enumerateDeviceExtensionProperties(), VK_KHR_SWAPCHAIN_EXTENSION_NAME) &&
-         can_present(instance, physical, *graphics_family(physical));
-}
-
-int preference(vk::PhysicalDeviceType type) {
-  switch (type) {
-    case vk::PhysicalDeviceType::eDiscreteGpu:
-      return 4;
-    case vk::PhysicalDeviceType::eIntegratedGpu:
-      return 3;
-    case vk::PhysicalDeviceType::eVirtualGpu:
-      return 2;
-    case vk::PhysicalDeviceType::eCpu:
-      return 1;
-    case vk::PhysicalDeviceType::eOther:
-      break;
-  }
-  return 0;
-}
-
-std::string kind_of(vk::PhysicalDeviceType type) {
-  switch (type) {
-    case vk::PhysicalDeviceType::eDiscreteGpu:
-      return "discrete GPU";
-    case vk::PhysicalDeviceType::eIntegratedGpu:
-      return "integrated GPU";
-    case vk::PhysicalDeviceType::eVirtualGpu:
-      return "virtual GPU";
-    case vk::PhysicalDeviceType::eCpu:
-      return "CPU";
-    case vk::PhysicalDeviceType::eOther:
-      break;
-  }
-  return "other";
-}
-
 bool has_validation_layer(const vk::raii::Context& loader) {
   const auto layers = loader.enumerateInstanceLayerProperties();
   return std::any_of(layers.begin(), layers.end(), [](const vk::LayerProperties& layer) {
@@ -140,22 +81,6 @@ core::Result<std::unique_ptr<vk::raii::Context>> open_loader() {
                          "cannot open the Vulkan loader libvulkan.so.1: install libvulkan1 and a driver "
                          "(Debian: mesa-vulkan-drivers, which also draws without a GPU)");
   }
-}
-
-// EnumeratePhysicalDevices fails or returns nothing if the loader has no driver.
-core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::raii::Instance& instance) {
-  try {
-    std::vector<vk::raii::PhysicalDevice> found;
-    for (auto& physical : vk::raii::PhysicalDevices(instance)) {
-      found.push_back(std::move(physical));
-    }
-    if (!found.empty()) {
-      return found;
-    }
-  } catch (const vk::SystemError&) {
-    // said by the failure below
-  }
-  return core::failure(core::ErrorCategory::DeviceMissing, std::string("found no Vulkan device: ") + kInstallDriver);
 }
 
 void MessageSink::add(std::string message) {
@@ -207,56 +132,18 @@ core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader
   }
 }
 
-DeviceDescription describe(const vk::raii::PhysicalDevice& physical) {
+DeviceDescription describe(const vk::raii::PhysicalDevice& physical, std::string name) {
   const auto properties = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
   const auto& core_properties = properties.get<vk::PhysicalDeviceProperties2>().properties;
   const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
   DeviceDescription description;
-  description.name = std::string(std::string_view(core_properties.deviceName));
+  description.name = std::move(name);
   description.kind = kind_of(core_properties.deviceType);
   description.driver =
       std::string(std::string_view(driver.driverName)) + " " + std::string(std::string_view(driver.driverInfo));
   description.reason = missing_ability(physical);
   description.usable = description.reason.empty();
   return description;
-}
-
-core::Result<void> Device::choose_physical(Presentation presentation, DeviceSource* source) {
-  auto candidates = physical_devices(instance_);
-  if (!candidates) return tl::unexpected(candidates.error());
-  if (source != nullptr) {
-    candidates->clear();
-    candidates->push_back(source->choose_device(instance_));
-  }
-  int best = -1;
-  bool display_refuses = false;
-  std::string reasons;
-  for (auto& candidate : *candidates) {
-    const auto properties = candidate.getProperties();
-    std::string reason = missing_ability(candidate);
-    if (reason.empty() && presentation == Presentation::Window && !shows_windows(instance_, candidate)) {
-      reason = "it cannot present to this display";
-      display_refuses = true;
-    }
-    if (!reason.empty()) {
-      reasons += (reasons.empty() ? "" : "; ") + std::string(std::string_view(properties.deviceName)) + ": " + reason;
-    } else if (preference(properties.deviceType) > best) {
-      best = preference(properties.deviceType);
-      name_ = std::string(std::string_view(properties.deviceName));
-      queue_family_ = *graphics_family(candidate);
-      physical_ = std::move(candidate);
-    }
-  }
-  if (best < 0 && display_refuses) {
-    return core::failure(core::ErrorCategory::DeviceMissing,
-                         "this display shows no Vulkan pictures (" + reasons +
-                             "): use a display with a colour depth of 24 or 30 bits, and check that its server runs");
-  }
-  if (best < 0) {
-    return core::failure(core::ErrorCategory::DeviceMissing,
-                         "no Vulkan device can draw this (" + reasons + "): " + kInstallDriver);
-  }
-  return {};
 }
 
 void Device::create_device(Presentation presentation, DeviceSource* source) {
@@ -298,7 +185,7 @@ void Device::create_device(Presentation presentation, DeviceSource* source) {
 }
 
 core::Result<std::unique_ptr<Device>> Device::open(Validation validation, Presentation presentation,
-                                                   DeviceSource* source) {
+                                                   const std::string& gpu, DeviceSource* source) {
   auto loader = open_loader();
   if (!loader) {
     return tl::unexpected(loader.error());
@@ -314,9 +201,13 @@ core::Result<std::unique_ptr<Device>> Device::open(Validation validation, Presen
   if (validation == Validation::On) {
     device->messenger_ = vk::raii::DebugUtilsMessengerEXT(device->instance_, messenger_info(*device->messages_));
   }
-  if (auto chosen = device->choose_physical(presentation, source); !chosen) {
+  auto chosen = choose_device(device->instance_, presentation, gpu, source);
+  if (!chosen) {
     return tl::unexpected(chosen.error());
   }
+  device->physical_ = std::move(chosen->physical);
+  device->name_ = std::move(chosen->name);
+  device->queue_family_ = chosen->queue_family;
   if (device->physical_.getProperties().deviceType == vk::PhysicalDeviceType::eCpu) check_threads();
   try {
     device->create_device(presentation, source);

@@ -31,15 +31,14 @@ core::Result<std::unique_ptr<vk::raii::Context>> open_loader();
 core::Result<vk::raii::Instance> create_instance(const vk::raii::Context& loader, Validation validation,
                                                  Presentation presentation, MessageSink& sink,
                                                  DeviceSource* source = nullptr);
-core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::raii::Instance& instance);
-DeviceDescription describe(const vk::raii::PhysicalDevice& physical);
+DeviceDescription describe(const vk::raii::PhysicalDevice& physical, std::string name);
 
 // Implementation of Context: the Vulkan objects shared by all parts of the renderer.
 class Device {
  public:
-  // `source` creates instance and device in place of the Vulkan loader; may be null.
+  // `gpu` as in ContextOptions. `source` creates instance and device in place of the Vulkan loader; may be null.
   static core::Result<std::unique_ptr<Device>> open(Validation validation, Presentation presentation,
-                                                    DeviceSource* source = nullptr);
+                                                    const std::string& gpu, DeviceSource* source);
 
   const vk::raii::Device& operator*() const { return device_; }
   const vk::raii::Device* operator->() const { return &device_; }
@@ -94,7 +93,6 @@ class Device {
 
  private:
   Device() = default;
-  core::Result<void> choose_physical(Presentation presentation, DeviceSource* source);
   void create_device(Presentation presentation, DeviceSource* source);
 
   std::unique_ptr<MessageSink> messages_ = std::make_unique<MessageSink>();

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
 #include "device/device.h"
+#include "device/device_choice.h"
 
 namespace afm::render {
 
@@ -18,8 +21,10 @@ core::Result<std::vector<DeviceDescription>> list_devices() {
     return tl::unexpected(found.error());
   }
   std::vector<DeviceDescription> descriptions;
-  for (const auto& physical : *found) {
-    descriptions.push_back(describe(physical));
+  std::vector<std::string> names = device_names(*found);
+  descriptions.reserve(found->size());
+  for (std::size_t i = 0; i < found->size(); ++i) {
+    descriptions.push_back(describe((*found)[i], std::move(names[i])));
   }
   return descriptions;
 }

@@ -18,7 +18,7 @@ std::optional<double> refresh_hz_of(const OpenXrInstance& calls, XrSession sessi
 core::Result<HeadsetDescription> describe_headset(std::string manifest) {
   auto runtime = HeadsetRuntime::connect(std::move(manifest));
   if (!runtime) return tl::unexpected(runtime.error());
-  auto context = Context::open(Validation::Off, Presentation::None, runtime->get());
+  auto context = Context::open({.runtime = runtime->get()});
   if (!context) return tl::unexpected(context.error());
   const HeadsetRuntimeParts& parts = (*runtime)->parts();
   HeadsetDescription description;

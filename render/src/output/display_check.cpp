@@ -11,7 +11,7 @@ core::Result<void> check_display() {
   try {
     auto window = WindowHandle::open({.title = "TouchAFM", .width = 64, .height = 64, .hidden = true});
     if (!window) return tl::unexpected(window.error());
-    auto device = Device::open(Validation::Off, Presentation::Window, nullptr);
+    auto device = Device::open(Validation::Off, Presentation::Window, {}, nullptr);
     if (!device) return tl::unexpected(device.error());
     const vk::raii::SurfaceKHR surface = (*window)->create_surface((*device)->instance());
     const auto format = choose_surface_format(**device, *surface);

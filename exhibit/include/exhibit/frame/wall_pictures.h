@@ -23,6 +23,7 @@ struct PictureOptions {
   std::optional<glm::uvec2> size_px{};  // size of the whole picture; replaces the outputs' sizes and eye_width
   bool mesh_lines = false;              // shows the lines of warp meshes
   std::uint32_t eye_width = 960;        // used if neither a size nor an output's rectangle is given
+  std::string gpu{};                    // graphics device that draws, as render::ContextOptions names it
 };
 
 // One output's part of a wall's picture.
