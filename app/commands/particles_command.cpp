@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,6 +35,7 @@ using physics::kForceUnits;
 using physics::kLengthUnits;
 using physics::Length;
 using physics::LeverBase;
+using physics::ParticlePlace;
 using physics::ParticleSpecies;
 using physics::PushTick;
 using physics::Sideways;
@@ -61,11 +63,11 @@ struct Played {
   std::size_t ticks = 0, lagging = 0;
   double least_margin_j = 0.0;  // least certificate of all ticks
   bool more_changes = false;
-  std::vector<TickSample> samples;   // evenly in time, with the last
-  std::vector<TickSample> changes;   // ticks in which state or particle changes
-  std::vector<TickSample> ends;      // end of each move
-  std::vector<Sideways<Length>> at;  // places of the particles at the end
-  scene::TaskScore score;            // only for a set with a pattern
+  std::vector<TickSample> samples;  // evenly in time, with the last
+  std::vector<TickSample> changes;  // ticks in which state or particle changes
+  std::vector<TickSample> ends;     // end of each move
+  std::vector<ParticlePlace> at;    // places of the particles at the end
+  scene::TaskScore score;           // only for a set with a pattern
 };
 
 std::size_t ticks_of(const LeverBase& from, const scene::HandMove& move, Frequency rate) {
@@ -80,10 +82,10 @@ LeverBase on_the_way(const LeverBase& a, const LeverBase& b, double share) {
 
 double margin_j(const PushTick& tick) { return (tick.given - tick.lost - tick.stored).si; }
 
-std::vector<Sideways<Length>> places_of(const physics::PushedParticles& particles) {
-  std::vector<Sideways<Length>> places;
+std::vector<ParticlePlace> places_of(const physics::PushedParticles& particles) {
+  std::vector<ParticlePlace> places;
   places.reserve(particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i) places.push_back(particles.position(i));
+  for (std::size_t i = 0; i < particles.size(); ++i) places.push_back({particles.position(i), particles.turn(i)});
   return places;
 }
 
@@ -92,7 +94,7 @@ std::vector<Sideways<Length>> places_of(const physics::PushedParticles& particle
 class ScriptedTask {
  public:
   explicit ScriptedTask(const scene::ParticleSet& set)
-      : normal_n_per_m_(set.setup.springs.normal.si), task_(set, set.targets), meeting_(set.setup) {
+      : normal_n_per_m_(set.setup.springs.normal.si), task_(set, scene::pattern_of(set)), meeting_(set.setup) {
     meeting_.begin(set.start);
   }
 
@@ -199,8 +201,23 @@ nlohmann::json json_of(const TickSample& sample) {
 nlohmann::json json_of(const scene::PatternState& pattern) {
   return {{"particle_of_target", pattern.match.particles},
           {"rms_m", pattern.match.rms.si},
-          {"allowed_m", pattern.allowed.si},
+          {"allowed_m", pattern.pads > 0 ? nlohmann::json() : nlohmann::json(pattern.allowed.si)},
+          {"pads", pattern.pads},
+          {"pads_touched", pattern.touched},
           {"done", pattern.done()}};
+}
+
+nlohmann::json particle_json(const scene::ParticleSet& set, std::size_t i, const ParticlePlace& end) {
+  const physics::PlacedParticle& start = set.particles[i];
+  nlohmann::json json{{"species", set.species[start.species].name},
+                      {"start_m", {start.position.x.si, start.position.y.si}},
+                      {"end_m", {end.position.x.si, end.position.y.si}},
+                      {"pinned", start.pinned}};
+  if (physics::is_rod(set.setup.species[start.species])) {
+    json["start_angle_rad"] = start.angle_rad;
+    json["end_angle_rad"] = physics::angle_rad(end.turn);
+  }
+  return json;
 }
 
 std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions& options, const Played& played) {
@@ -210,24 +227,19 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
     species.push_back({{"name", set.species[i].name},
                        {"law", physics::text_of(s.law).word},
                        {"radius_m", s.contact.tip_radius.si},
+                       {"length_m", physics::is_rod(s) ? nlohmann::json(s.length.si) : nlohmann::json()},
                        {"figures", species_figures_json(set, i)},
                        {"sources", json_of(set.species[i].sources)}});
   }
-  for (std::size_t i = 0; i < set.particles.size(); ++i) {
-    const physics::PlacedParticle& p = set.particles[i];
-    particles.push_back({{"species", set.species[p.species].name},
-                         {"start_m", {p.position.x.si, p.position.y.si}},
-                         {"end_m", {played.at[i].x.si, played.at[i].y.si}},
-                         {"pinned", p.pinned}});
-  }
+  for (std::size_t i = 0; i < set.particles.size(); ++i) particles.push_back(particle_json(set, i, played.at[i]));
   const auto list = [](const std::vector<TickSample>& samples) {
     nlohmann::json all = nlohmann::json::array();
     for (const TickSample& sample : samples) all.push_back(json_of(sample));
     return all;
   };
   nlohmann::json targets = nlohmann::json::array();
-  for (const Sideways<Length>& target : set.targets) targets.push_back({target.x.si, target.y.si});
-  const auto pattern = scene::pattern_state(set, set.targets, played.at);
+  for (const ParticlePlace& target : set.targets) targets.push_back({target.position.x.si, target.position.y.si});
+  const auto pattern = scene::pattern_state(set, scene::pattern_of(set), played.at);
   const nlohmann::json whole{{"title", set.title},
                              {"medium", set.medium},
                              {"note", set.note},
@@ -264,15 +276,19 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
   }
   text += "\nparticle   moved by     to\n";
   for (std::size_t i = 0; i < played.at.size(); ++i) {
-    const Length way = magnitude(played.at[i] - set.particles[i].position);
+    const auto& [to, turn] = played.at[i];
+    const Length way = magnitude(to - set.particles[i].position);
     if (!(way.si > 0.0)) continue;
-    text += fmt::format("{:<10} {:<12} {}, {}\n", i, format_quantity(way, kLengthUnits, 4),
-                        format_quantity(played.at[i].x, kLengthUnits), format_quantity(played.at[i].y, kLengthUnits));
+    const bool rod = physics::is_rod(set.setup.species[set.particles[i].species]);
+    text += fmt::format("{:<10} {:<12} {}, {}{}\n", i, format_quantity(way, kLengthUnits, 4),
+                        format_quantity(to.x, kLengthUnits), format_quantity(to.y, kLengthUnits),
+                        rod ? fmt::format(" at {:.1f} deg", physics::angle_rad(turn) * 180.0 / std::numbers::pi) : "");
   }
-  if (const auto pattern = scene::pattern_state(set, set.targets, played.at)) {
-    text += fmt::format("\npattern of {} targets: {}, {} off in the root mean square, {} allowed\n", set.targets.size(),
+  if (const auto pattern = scene::pattern_state(set, scene::pattern_of(set), played.at)) {
+    text += fmt::format("\npattern of {} targets: {}, {} off in the root mean square, {}\n", set.targets.size(),
                         pattern->done() ? "done" : "not done", format_quantity(pattern->match.rms, kLengthUnits, 4),
-                        format_quantity(pattern->allowed, kLengthUnits, 4));
+                        pattern->pads > 0 ? fmt::format("{} of {} pads touched", pattern->touched, pattern->pads)
+                                          : format_quantity(pattern->allowed, kLengthUnits, 4) + " allowed");
     if (played.score.state != scene::TaskState::NotBegun) {
       text += fmt::format("task of the pattern: {}\n", scene::text_of(played.score));
     }

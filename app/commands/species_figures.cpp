@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "physics/manipulation/push_figures.h"
+#include "physics/manipulation/rod.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
 
@@ -65,17 +66,65 @@ std::string force_text(Force force) {
   return std::isfinite(force.si) ? format_quantity(force, kForceUnits, 4) : "none: it jams";
 }
 
+// What a user has to know of rods before a push.
+struct RodFigures {
+  Force middle, end;  // at rest
+  Length pivot, rho;
+  Force most_push;
+};
+
+RodFigures rod_figures_of(const scene::ParticleSet& set, const ParticleSpecies& rod) {
+  const physics::PushSetup& setup = set.setup;
+  const Length radius = rod.contact.tip_radius, at_end = 0.5 * rod.length;
+  return {.middle = rod.measured_threshold,
+          .end = physics::rod_threshold(rod.measured_threshold, rod.length, at_end),
+          .pivot = physics::rod_pivot(rod.length, at_end),
+          .rho = physics::side_contact(setup.tip, radius, Length(0.0)).distance,
+          .most_push = physics::largest_push(setup.tip, radius, setup.springs.normal, Force(0.0))};
+}
+
+std::string sources_text(const scene::SpeciesEntry& entry) {
+  const auto estimated = std::count_if(entry.sources.begin(), entry.sources.end(),
+                                       [](const scene::SourcedValue& s) { return s.estimated; });
+  return fmt::format("  sources              {} of {} values are estimated; --json lists each\n", estimated,
+                     entry.sources.size());
+}
+
+std::string rod_figures_text(const scene::ParticleSet& set, std::size_t index) {
+  const ParticleSpecies& rod = set.setup.species[index];
+  const RodFigures f = rod_figures_of(set, rod);
+  return fmt::format(
+             "{}, rods of {} with a radius of {}, measured friction per length\n"
+             "  gives to a push      of {} in the middle, {} at an end; then of {:g} times that\n"
+             "  pushed at an end     it turns about a point {} beyond its middle\n"
+             "  lever                pushes up to {}\n"
+             "  distance of axes     {} at touch\n",
+             set.species[index].name, format_quantity(rod.length, kLengthUnits, 4),
+             format_quantity(rod.contact.tip_radius, kLengthUnits, 4), format_quantity(f.middle, kForceUnits, 4),
+             format_quantity(f.end, kForceUnits, 4), rod.kinetic_ratio, format_quantity(f.pivot, kLengthUnits, 4),
+             format_quantity(f.most_push, kForceUnits, 4), format_quantity(f.rho, kLengthUnits, 4)) +
+         sources_text(set.species[index]);
+}
+
+nlohmann::json rod_figures_json(const scene::ParticleSet& set, const ParticleSpecies& rod) {
+  const RodFigures f = rod_figures_of(set, rod);
+  return {{"threshold_in_the_middle_N", f.middle.si}, {"threshold_at_an_end_N", f.end.si},
+          {"kinetic_ratio", rod.kinetic_ratio},       {"pivot_from_middle_m", f.pivot.si},
+          {"largest_push_N", f.most_push.si},         {"distance_of_axes_m", f.rho.si}};
+}
+
 }  // namespace
 
 std::string species_figures_text(const scene::ParticleSet& set, std::size_t index) {
   const ParticleSpecies& species = set.setup.species[index];
+  if (physics::is_rod(species)) return rod_figures_text(set, index);
   const SpeciesFigures f = figures_of(set, species);
   const std::string gentle = f.gentle.si > 0.0 ? format_quantity(f.gentle, kForceUnits, 4)
                                                : fmt::format(
                                                      "none: the tip's friction locks it on the flank; without "
                                                      "friction {}",
                                                      format_quantity(f.gentle_without_friction, kForceUnits, 4));
-  std::string text = fmt::format(
+  const std::string text = fmt::format(
       "{}, law {} ({})\n"
       "  adhesion             {}\n"
       "  gives sideways at    {}, then {}: {}\n"
@@ -92,14 +141,11 @@ std::string species_figures_text(const scene::ParticleSet& set, std::size_t inde
       force_text(f.most_push), format_quantity(physics::largest_offset(3.0) * f.rho, kLengthUnits, 4),
       format_quantity(f.rho, kLengthUnits, 4),
       format_quantity(physics::fastest_steering(f.rho, kSteeringDelay), physics::kVelocityUnits, 4), f.kt_per_nm);
-  const auto estimated = std::count_if(set.species[index].sources.begin(), set.species[index].sources.end(),
-                                       [](const scene::SourcedValue& s) { return s.estimated; });
-  text += fmt::format("  sources              {} of {} values are estimated; --json lists each\n", estimated,
-                      set.species[index].sources.size());
-  return text;
+  return text + sources_text(set.species[index]);
 }
 
 nlohmann::json species_figures_json(const scene::ParticleSet& set, std::size_t index) {
+  if (physics::is_rod(set.setup.species[index])) return rod_figures_json(set, set.setup.species[index]);
   const SpeciesFigures f = figures_of(set, set.setup.species[index]);
   return {{"push_mode", physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word},
           {"adhesion_N", f.adhesion.si},

@@ -101,9 +101,40 @@ TEST(ParticlesCommand, PrintsWhatAUserMustKnow) {
   }
 }
 
+TEST(ParticlesCommand, LaysARodAcrossItsElectrodesAtAnyRate) {
+  double turned[3] = {}, moved[3] = {};
+  const char* rates[] = {"500Hz", "1kHz", "4kHz"};
+  for (int i = 0; i < 3; ++i) {
+    const ProgramResult result = particles(std::string("tube-and-electrodes --json --rate ") + rates[i]);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json["species"][0]["length_m"], 1e-6);
+    const auto& rod = json["particles"][0];
+    EXPECT_NEAR(rod["start_angle_rad"].get<double>(), 35.0 * 3.14159265358979 / 180.0, 1e-12);
+    turned[i] = rod["end_angle_rad"].get<double>();
+    moved[i] = rod["end_m"][1].get<double>();
+    EXPECT_EQ(json["pattern"]["pads_touched"], 2);
+    EXPECT_EQ(json["pattern"]["done"], true);
+    EXPECT_TRUE(json["pattern"]["allowed_m"].is_null());
+    EXPECT_EQ(json["task"]["done"], true);
+    EXPECT_EQ(json["task"]["strokes"], 2);
+    EXPECT_GE(json["least_certificate_J"].get<double>(), -1e-12 * json["moves"].back()["given_J"].get<double>());
+  }
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(turned[i], turned[2], 2e-3) << rates[i];
+    EXPECT_NEAR(moved[i], moved[2], 1e-9) << rates[i];
+  }
+  const ProgramResult text = particles("tube-and-electrodes");
+  for (const char* part :
+       {"nanotube, rods of 1 um", "in the middle", "at an end", "2 of 2 pads touched", " deg", "done in"}) {
+    EXPECT_THAT(text.out, HasSubstr(part));
+  }
+}
+
 TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
   expect_refusal(particles(""), 2, "file");
-  expect_refusal(particles("silver-row"), 2, "unknown set of particles \"silver-row\"; choose gold-row, latex-letter");
+  expect_refusal(particles("silver-row"), 2,
+                 "unknown set of particles \"silver-row\"; choose gold-row, latex-letter, tube-and-electrodes");
   expect_refusal(particles("/no/such.toml"), 3, "/no/such.toml");
   expect_refusal(particles("gold-row --rate 4"), 2, "kHz");
   expect_refusal(particles("gold-row --rate 1MHz"), 2, "100kHz");

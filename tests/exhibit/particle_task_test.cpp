@@ -44,7 +44,7 @@ std::unique_ptr<scene::SharedModel> model_with(const scene::ParticleSet& set) {
 class Person {
  public:
   explicit Person(const scene::ParticleSet& set, unsigned seed)
-      : set_(set), targets_(scene::shared_targets(set)), random_(seed), recording_(*model_with(set)) {
+      : set_(set), pattern_(scene::shared_pattern_of(set)), random_(seed), recording_(*model_with(set)) {
     recording_.choose(test::kMica, scene::ScaleMode::Particles);
     recording_.arm();
     m_per_m_ = recording_.state().active.scale.hand_m_per_m;
@@ -56,10 +56,10 @@ class Person {
     for (const double end_s = time_s() + most_s; time_s() < end_s;) {
       rest(0.5);
       const auto pattern =
-          scene::pattern_state(set_, targets_, *places_of({.set = &set_, .pages = recording_.pages()}));
+          scene::pattern_state(set_, pattern_, *places_of({.set = &set_, .pages = recording_.pages()}));
       std::size_t worst = 0;
       const auto off = [&](std::size_t i) { return glm::distance(target(i), place(pattern->match.particles[i])); };
-      for (std::size_t i = 1; i < targets_.size(); ++i) worst = off(i) > off(worst) ? i : worst;
+      for (std::size_t i = 1; i < pattern_.targets.size(); ++i) worst = off(i) > off(worst) ? i : worst;
       if (off(worst) < kNearM) break;
       push(pattern->match.particles[worst], target(worst));
     }
@@ -70,7 +70,9 @@ class Person {
   servo::Recording& recording() { return recording_; }
 
  private:
-  glm::dvec2 target(std::size_t i) const { return {targets_[i].x.si, targets_[i].y.si}; }
+  glm::dvec2 target(std::size_t i) const {
+    return {pattern_.targets[i].position.x.si, pattern_.targets[i].position.y.si};
+  }
   glm::dvec2 place(std::size_t particle) const {
     const auto pose = pose_of({.set = &set_, .pages = recording_.pages()}, particle);
     return {pose->x_m, pose->y_m};
@@ -119,7 +121,7 @@ class Person {
   }
 
   const scene::ParticleSet& set_;
-  std::vector<physics::Sideways<physics::Length>> targets_;
+  scene::Pattern pattern_;
   std::mt19937 random_;
   std::normal_distribution<double> noise_;
   servo::Recording recording_;

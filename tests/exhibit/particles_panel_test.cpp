@@ -74,8 +74,8 @@ TEST_F(ParticlesPanel, SaysHowFarThePatternIsAndWhenItIsDone) {
   const std::array<std::size_t, 5> order{3, 0, 4, 1, 2};  // whichever particle lies on which target
   for (std::size_t i = 0; i < targets.size(); ++i) {
     scene::ParticlePose& pose = pages_[0].poses[order[i]];
-    pose.x_m = targets[i].x.si + 24e-9;
-    pose.y_m = targets[i].y.si;
+    pose.x_m = targets[i].position.x.si + 24e-9;
+    pose.y_m = targets[i].position.y.si;
   }
   EXPECT_EQ(panel(push).subtitle, "Pattern done, 24 nm off; pushes to take back: 7");
   EXPECT_TRUE(pattern_of({.set = &set_, .pages = pages_})->done());

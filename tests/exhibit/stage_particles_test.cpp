@@ -98,8 +98,8 @@ TEST_F(ParticlesOfAWall, LieAmongTheCrossesOfTheirPattern) {
   ASSERT_EQ(crosses.copies.size(), targets.size());
   const double scale = wall.unit_m() * wall.drawn_scale(0).sample_m_per_m;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    EXPECT_NEAR(scale * static_cast<double>(crosses.copies[i].place.x), targets[i].x.si, 0.1e-9);
-    EXPECT_NEAR(scale * static_cast<double>(crosses.copies[i].place.y), targets[i].y.si, 0.1e-9);
+    EXPECT_NEAR(scale * static_cast<double>(crosses.copies[i].place.x), targets[i].position.x.si, 0.1e-9);
+    EXPECT_NEAR(scale * static_cast<double>(crosses.copies[i].place.y), targets[i].position.y.si, 0.1e-9);
   }
   set_.targets.clear();
   EXPECT_EQ(frame(wall_of(set_), nullptr).copies.size(), 1U);
@@ -153,6 +153,45 @@ TEST_F(ParticlesOfAWall, MarkTheTouchedOneWithARingAroundIt) {
                         glm::dvec4(glm::vec2(spheres.copies[3].place), 0.0, 1.0));
   EXPECT_LT(glm::distance(glm::dvec3(touching.room_from_node[ring][3]), foot), 1e-6);
   EXPECT_NE(spheres.copies[3].tint, spheres.copies[2].tint);
+}
+
+TEST_F(ParticlesOfAWall, AreRodsThatLieAsTheServoHasThem) {
+  const scene::ParticleSet set = test::particle_set("tube-and-electrodes");
+  const WallScene wall = wall_of(set);
+  std::vector<scene::ParticlePage> pages = test::start_pages(set);
+  scene::set_turn(pages[0].poses[0], physics::half_turn(1.0));
+  pages[0].poses[0].x_m = 30e-9;
+  ParticlesNow now{.set = &set, .pages = pages};
+  const render::FrameState drawn = frame(wall, &now), before = frame(wall, nullptr);
+  const render::MeshCopies& rods = drawn.copies.front();
+  EXPECT_EQ(rods.node, wall.scene().find_node("rods-0/rod"));
+  ASSERT_EQ(rods.copies.size(), 1U);
+  EXPECT_NEAR(rods.copies[0].turn.z, std::sin(0.5), 1e-6);
+  EXPECT_NEAR(rods.copies[0].turn.w, std::cos(0.5), 1e-6);
+  EXPECT_NEAR(before.copies.front().copies[0].turn.z, std::sin(0.5 * set.particles[0].angle_rad), 1e-6);
+  const auto mesh = wall.scene().nodes[rods.node].mesh.value();
+  float longest = 0.0F, widest = 0.0F;
+  for (const auto& vertex : wall.scene().meshes[mesh].primitives.front().vertices) {
+    longest = std::max(longest, std::abs(vertex.position.x));
+    widest = std::max(widest, std::abs(vertex.position.y));
+  }
+  EXPECT_NEAR(longest, 26.0F, 1e-4F) << "half of 1 um and the round end, in radii of 20 nm";
+  EXPECT_NEAR(widest, 1.0F, 1e-6F);
+  // a cross on each wanted end, and two pads
+  EXPECT_EQ(before.copies.at(1).copies.size(), 2U);
+  EXPECT_EQ(before.copies.at(2).node, wall.scene().find_node("pads-0/pad"));
+  EXPECT_EQ(before.copies.at(3).node, wall.scene().find_node("pads-1/pad"));
+  // the ring is where the tip is, not at the middle
+  now.push = test::push_of(set, 0, physics::PushState::Slides);
+  const glm::dvec2 end_m = glm::dvec2(30e-9, pages[0].poses[0].y_m) + 400e-9 * glm::dvec2(std::cos(1.0), std::sin(1.0));
+  now.push.apex_m = {end_m.x + 50e-9 * std::sin(1.0), end_m.y - 50e-9 * std::cos(1.0), 0.0};
+  const render::FrameState touched = frame(wall, &now);
+  const scene::NodeIndex ring = wall.scene().find_node("touched-particle/ring").value();
+  const glm::dvec3 room(touched.room_from_node[ring][3]);
+  const glm::dvec3 there =
+      glm::dvec3(glm::inverse(touched.room_from_node[wall.sample_node()]) * glm::dvec4(room, 1.0)) * wall.unit_m() *
+      wall.drawn_scale(0).sample_m_per_m;
+  EXPECT_LT(glm::distance(glm::dvec2(there), end_m), 0.1e-9);
 }
 
 TEST_F(ParticlesOfAWall, PutTheDrawnTipWhereTheBentLeverHasIt) {

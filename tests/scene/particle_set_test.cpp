@@ -28,12 +28,13 @@ TEST(ParticleSet, EveryShippedSetLoadsWithASourceForEachNumber) {
     EXPECT_FALSE(set->particles.empty());
     EXPECT_FALSE(set->moves.empty());
     EXPECT_EQ(set->sources.size(), 6U);
-    for (const SpeciesEntry& species : set->species) {
-      EXPECT_EQ(species.sources.size(), 12U) << species.name;
+    for (std::size_t i = 0; i < set->species.size(); ++i) {
+      const SpeciesEntry& species = set->species[i];
+      EXPECT_EQ(species.sources.size(), physics::is_rod(set->setup.species[i]) ? 6U : 12U) << species.name;
       for (const SourcedValue& value : species.sources) EXPECT_FALSE(value.source.empty()) << value.key;
     }
   }
-  EXPECT_EQ(sets, 2);
+  EXPECT_EQ(sets, 3);
 }
 
 TEST(ParticleSet, GoldRowHasTheNumbersOfTheCases) {
@@ -76,9 +77,50 @@ TEST(ParticleSet, HasItsPatternInTheFrameOfItsParticles) {
   ASSERT_EQ(set->targets.size(), 5U);
   EXPECT_NEAR(median_radius(*set).si, 25e-9, 1e-20);
   const auto shared = std::make_unique<SharedParticles>(shared_particles(*set));
-  const physics::Sideways<physics::Length> apart = set->targets[0] - set->particles[0].position;
-  EXPECT_NEAR(shared_targets(*set)[0].x.si - shared->particles[0].x_m, apart.x.si, 1e-20);
-  EXPECT_NEAR(shared_targets(*set)[0].y.si - shared->particles[0].y_m, apart.y.si, 1e-20);
+  const physics::Sideways<physics::Length> apart = set->targets[0].position - set->particles[0].position;
+  EXPECT_NEAR(shared_targets(*set)[0].position.x.si - shared->particles[0].x_m, apart.x.si, 1e-20);
+  EXPECT_NEAR(shared_targets(*set)[0].position.y.si - shared->particles[0].y_m, apart.y.si, 1e-20);
+}
+
+std::string changed_tube(const std::string& from, const std::string& to) {
+  std::string text = core::read_file(kFolder + "/tube-and-electrodes.toml").value_or("");
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(ParticleSet, OfRodsGoesThroughASharedSceneWithTheirDirections) {
+  const auto set = load_particle_set(kFolder + "/tube-and-electrodes.toml");
+  ASSERT_TRUE(set) << set.error().message;
+  ASSERT_EQ(set->setup.species.size(), 1U);
+  const physics::ParticleSpecies& tube = set->setup.species.front();
+  EXPECT_TRUE(physics::is_rod(tube));
+  EXPECT_NEAR(tube.measured_threshold.si, 30e-9, 1e-20) << "30 mN/m over 1 um";
+  const auto shared = std::make_unique<SharedParticles>(shared_particles(*set));
+  EXPECT_TRUE(has_rods(*shared));
+  const auto setup = push_setup(*shared);
+  EXPECT_EQ(setup.species.at(0).length, tube.length);
+  EXPECT_EQ(start_places(*shared).at(0).angle_rad, set->particles[0].angle_rad);
+  EXPECT_EQ(recorded_set(*shared, support::source("assets")).pads.size(), 2U);
+}
+
+TEST(ParticleSet, RefusesRodsThatCannotBe) {
+  EXPECT_EQ(refusal(changed_tube("angle_deg = 35", "angle_deg = -35")), "accepted");
+  EXPECT_THAT(refusal(changed_tube("\"1 um\"", "\"3 um\"")), HasSubstr("species.length: a rod longer than 2.2"));
+  EXPECT_THAT(refusal(changed_tube("\"1 um\"", "\"-1 um\"")), HasSubstr("species.length: it must be positive"));
+  EXPECT_THAT(refusal(changed_tube("\"1 um\"", "\"10 nm\"")), HasSubstr("species.length: length 10 nm is not within"));
+  EXPECT_THAT(refusal(changed_tube("\"30 mN/m\"", "\"30 nN\"")), HasSubstr("species.friction_per_length: cannot read"));
+  EXPECT_THAT(refusal(changed_tube("\"1 TPa\"", "\"0 TPa\"")),
+              HasSubstr("species.particle_modulus: it must be positive"));
+  EXPECT_THAT(refusal(changed_tube("angle_deg = 35", "")), HasSubstr("particle.angle_deg: is missing"));
+  EXPECT_THAT(refusal(changed_tube("angle_deg = 35", "angle_deg = nan")), HasSubstr("particle.angle_deg"));
+  EXPECT_THAT(refusal(changed_tube("angle_deg = 0", "")), HasSubstr("target.angle_deg: is missing"));
+  EXPECT_THAT(refusal(changed_tube("width = \"200 nm\"", "width = \"0 nm\"")),
+              HasSubstr("pad.width: 0 m is not positive"));
+  EXPECT_THAT(refusal(changed("x = \"180 nm\"", "angle_deg = 3\nx = \"180 nm\"")),
+              HasSubstr("only a rod has an angle"));
+  EXPECT_THAT(refusal(shipped() + "\n[[pad]]\nx = \"0 nm\"\ny = \"0 nm\"\nwidth = \"1 nm\"\nheight = \"1 nm\"\n"),
+              HasSubstr("pads need a rod"));
 }
 
 TEST(ParticleSet, OfARecordingHasTheWordsOfTheSetOfTheAssets) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace afm::scene {
 namespace pattern_task_test {
 
 using physics::EventKind;
-using Place = physics::Sideways<physics::Length>;
+using Place = physics::ParticlePlace;
 
 constexpr double kHighM = 100e-9, kLowM = 5e-9;
 
@@ -43,13 +44,13 @@ class PatternTaskTest : public ::testing::Test {
   }
   void judge(double off_m) {
     std::vector<Place> places = set_.targets;
-    for (Place& place : places) place.x = place.x + physics::Length(off_m);
+    for (Place& place : places) place.position.x = place.position.x + physics::Length(off_m);
     task_.judge(places);
   }
   const TaskScore& score() const { return task_.score(); }
 
   ParticleSet set_ = load_particle_set(particle_file("gold-row", support::source("assets")).value()).value();
-  PatternTask task_{set_, set_.targets};
+  PatternTask task_{set_, pattern_of(set_)};
   std::int64_t now_ns_ = 7'000'000'000;
   std::uint64_t places_ = 99;
 };
@@ -101,7 +102,7 @@ TEST_F(PatternTaskTest, EndsOnceTheHandHasBeenLiftedAndCountsUpToTheLift) {
 // A window looks once a frame, a replay at every tick.
 TEST_F(PatternTaskTest, SeesARestAlsoAfterTheHandHasComeDownAgain) {
   const auto score_of = [&](int every) {
-    PatternTask task(set_, set_.targets);
+    PatternTask task(set_, pattern_of(set_));
     std::int64_t ticks = 0;
     std::uint64_t places = 99;
     const auto tick = [&](double z_m, double lateral_n) {
@@ -166,6 +167,36 @@ TEST_F(PatternTaskTest, IsOneLineOfText) {
   EXPECT_EQ(text_of(score()),
             "not done after 1.0 s; pushes: 1, slipped past: 0, taken back: 0; 1.9 aJ of work, at most "
             "200 pN sideways");
+}
+
+// N71: a rod is laid across its pads, wherever its ends are.
+TEST(RodAcrossPads, IsJudgedAlongTheRodAndNotAtItsEnds) {
+  const ParticleSet set =
+      load_particle_set(particle_file("tube-and-electrodes", support::source("assets")).value()).value();
+  ASSERT_EQ(set.pads.size(), 2U);
+  const auto laid = [&](double x_m, double y_m, double degrees) {
+    const Place rod{{physics::Length(x_m), set.targets[0].position.y + physics::Length(y_m)},
+                    physics::half_turn(degrees * std::numbers::pi / 180.0)};
+    return pattern_state(set, pattern_of(set), std::vector{rod}).value();
+  };
+  const PatternState across = laid(0.0, 40e-9, 7.0);
+  EXPECT_NEAR(across.match.rms.si, 72.98578067e-9, 1e-15);
+  EXPECT_TRUE(across.done());
+  EXPECT_NEAR(laid(0.0, 40e-9, 187.0).match.rms.si, across.match.rms.si, 1e-15) << "either way round";
+  EXPECT_EQ(laid(0.0, 0.0, 25.0).touched, 0U) << "beyond the pads at both ends";
+  EXPECT_EQ(laid(120e-9, 0.0, 0.0).touched, 1U) << "too far to one side";
+  EXPECT_FALSE(laid(120e-9, 0.0, 0.0).done());
+  EXPECT_EQ(laid(0.0, 0.0, 90.0).touched, 0U);
+  const Pad pad{.middle = {}, .half_size = {physics::Length(1e-7), physics::Length(1e-8)}};
+  const auto crosses = [&](double x_m, double y_m, double degrees) {
+    return touches(
+        pad, {{physics::Length(x_m), physics::Length(y_m)}, physics::half_turn(degrees * std::numbers::pi / 180.0)},
+        physics::Length(1e-6));
+  };
+  EXPECT_TRUE(crosses(0.0, 0.0, 45.0)) << "its ends are far outside";
+  EXPECT_TRUE(crosses(0.0, 0.49e-6, 90.0));
+  EXPECT_FALSE(crosses(0.0, 0.52e-6, 90.0));
+  EXPECT_FALSE(crosses(0.0, 0.02e-6, 0.0));
 }
 
 }  // namespace pattern_task_test

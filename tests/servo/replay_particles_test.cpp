@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
 #include "core/whole_file.h"
+#include "physics/manipulation/half_turn.h"
 #include "servo/recorded_servo.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
@@ -166,6 +168,57 @@ TEST(ReplayOfParticles, RefusesAFileWhoseParticlesCannotBe) {
   const auto no_pages = load_session(path);
   ASSERT_FALSE(no_pages);
   EXPECT_THAT(no_pages.error().message, HasSubstr("its particles are damaged"));
+}
+
+// A rod across the path of the tip, off its middle.
+scene::SharedModel model_with_a_rod() {
+  scene::SharedModel model = test::model_with_particles();
+  model.particles = test::particles_at({{0.0, 30e-9}}, test::constant_species(3e-9, 0.5));
+  model.particles.length_m[0] = 200e-9;
+  model.particles.angle_rad[0] = 1.5;
+  return model;
+}
+
+TEST(ReplayOfParticles, KeepsTheDirectionsOfRods) {
+  Recording recording(model_with_a_rod());
+  recording.choose(test::kMica, ScaleMode::Particles);
+  push_through(recording);
+  recording.choose(test::kGold, ScaleMode::Particles);
+  push_through(recording, 0.001);
+  ASSERT_EQ(recording.sessions.size(), 2U);
+  EXPECT_GE(count(recording.sessions[0], EventKind::ParticleGave), 1U);
+  for (const RecordedSession& session : recording.sessions) {
+    const scene::ParticlePose& pose = session.particles->pages[0].poses[0];
+    EXPECT_EQ(pose.rod, 1U);
+    EXPECT_EQ(scene::digest_of(session.particles->pages, 1), session.samples.front().push.digest);
+    expect_same(session);
+    // another direction is another digest, and another replay
+    RecordedSession turned = session;
+    scene::set_turn(turned.particles->pages[0].poses[0], physics::half_turn(1.4));
+    EXPECT_NE(scene::digest_of(turned.particles->pages, 1), session.samples.front().push.digest);
+  }
+  const scene::ParticlePose& last = recording.sessions[1].particles->pages[0].poses[0];
+  EXPECT_GT(std::abs(physics::angle_rad(scene::turn_of(last)) - 1.5), 0.05) << "the first push has turned it";
+
+  const support::ScratchFolder folder;
+  const std::string path = folder.file("rod.afms");
+  const RecordedSession& session = recording.sessions[1];
+  ASSERT_TRUE(save_session(session, path));
+  EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x08");
+  const auto loaded = load_session(path);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->particles->set, session.particles->set);
+  EXPECT_EQ(loaded->particles->pages, session.particles->pages);
+  expect_same(*loaded);
+
+  RecordedSession damaged = session;
+  damaged.particles->pages[0].poses[0].rod = 0;
+  ASSERT_TRUE(save_session(damaged, path));
+  EXPECT_THAT(load_session(path).error().message, HasSubstr("the poses of its rods are impossible"));
+  damaged = session;
+  damaged.particles->set.angle_rad[0] = std::nan("");
+  ASSERT_TRUE(save_session(damaged, path));
+  EXPECT_FALSE(load_session(path));
 }
 
 }  // namespace replay_particles_test

@@ -25,6 +25,8 @@ constexpr double kRingRadius = 1.3, kRingThickness = 0.09;  // in radii of the p
 constexpr double kFootprintRadius = 0.7, kFootprintThickness = 0.05, kDotRadius = 0.13;
 constexpr double kCrossReach = 0.6, kCrossHalfWidth = 0.06, kCrossHeight = 0.03;
 constexpr int kDotRings = 6, kDotSectors = 10;
+constexpr int kRodSectors = 20, kRodEndRings = 6, kRodSideRings = 10;
+constexpr double kPadHeight = 0.08;    // in radii of the particle
 constexpr double kBandWidth = 0.42;    // half width of the dark band, sine of the latitude
 constexpr double kCapLatitude = 0.86;  // sine of the latitude of the cap's edge
 constexpr Srgb kPlain{255, 255, 255}, kBand{92, 62, 40}, kCap{150, 205, 235};
@@ -138,6 +140,26 @@ scene::Scene particle_target() {
 scene::Scene particle_sphere() {
   return one_mesh("sphere", {.name = "particle", .metallic = 0.0F, .roughness = 0.4F},
                   ball(kSphereRings, kSphereSectors, 1.0, color_at));
+}
+
+scene::Scene particle_rod(double length) {
+  const int rows = 2 * kRodEndRings + kRodSideRings;
+  scene::Primitive rod = rolled(rows, kRodSectors, [&](double row, double column) {
+    const double at = row * rows, side = std::clamp((at - kRodEndRings) / kRodSideRings, 0.0, 1.0);
+    const double end =
+        at <= kRodEndRings ? at / kRodEndRings - 1.0 : std::max(0.0, at - kRodEndRings - kRodSideRings) / kRodEndRings;
+    const double latitude = 0.5 * std::numbers::pi * end;
+    const glm::dvec3 normal = around(column, std::cos(latitude), std::sin(latitude));
+    const glm::dvec3 place = normal + glm::dvec3(0, 0, length * (side - 0.5));
+    return Point{{place.z, place.x, place.y}, {normal.z, normal.x, normal.y}, linear_colour(end > 0.0 ? kCap : kPlain)};
+  });
+  return one_mesh("rod", {.name = "rod", .metallic = 0.0F, .roughness = 0.4F}, std::move(rod));
+}
+
+scene::Scene particle_pad(double width, double height) {
+  return one_mesh("pad",
+                  {.name = "electrode", .base_color = {0.80F, 0.62F, 0.25F, 1.0F}, .metallic = 0.5F, .roughness = 0.4F},
+                  slab({width, height, 2.0 * kPadHeight}, glm::dvec3(0.0)));
 }
 
 scene::Scene particle_ring() {

@@ -123,6 +123,7 @@ class ParticleRows {
         known ? Force(now_.push.threshold_n) : physics::sliding_threshold(kind, kind.law, Force(0.0));
     add(Phrase::PushThreshold, force_text(threshold, phrases_),
         phrases_.text<Phrase::PushLaw>(formula_of(kind.law, phrases_)));
+    if (physics::is_rod(kind)) return;  // measured alone
     const ParticleLaw other = scene::other_law(kind.law);
     const Force other_threshold = physics::sliding_threshold(kind, other, Force(0.0));
     if (!(other_threshold.si > 0.0)) return;  // the file lacks its parameters
@@ -171,6 +172,9 @@ std::string subtitle(const ParticlesNow& now, const Phrases& phrases) {
     if (pattern->done()) {
       return now.score.state == scene::TaskState::Running ? phrases.text<Phrase::PatternFits>(off, pushes)
                                                           : phrases.text<Phrase::PatternDone>(off, pushes);
+    }
+    if (pattern->pads > 0) {  // the distance does not decide
+      return phrases.text<Phrase::ParticlesTakeBack>(medium, pushes);
     }
     const std::string allowed = quantity_text(pattern->allowed, physics::kLengthUnits, phrases);
     return phrases.text<Phrase::PatternOff>(off, allowed, pushes);

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "exhibit/models/model_builder.h"
@@ -41,20 +42,28 @@ constexpr std::array<glm::vec3, 8> kSpeciesColors{{{0.83F, 0.56F, 0.15F},
                                                    {0.45F, 0.30F, 0.55F},
                                                    {0.25F, 0.25F, 0.28F}}};
 
-// Places, as the servo has them, and radii of the particles.
+// Places, as the servo has them, and sizes of the particles.
 struct Placed {
   std::size_t species = 0;
-  double radius_m = 0, x_m = 0, y_m = 0;
+  double radius_m = 0, half_m = 0, x_m = 0, y_m = 0, angle_rad = 0;
 };
 std::vector<Placed> placed(const scene::ParticleSet& set) {
   const auto shared = std::make_unique<const scene::SharedParticles>(scene::shared_particles(set));
   std::vector<Placed> all;
   for (std::uint32_t i = 0; i < shared->count; ++i) {
     const scene::SharedParticle& particle = shared->particles[i];
-    all.push_back({particle.species, shared->species[particle.species].radius_m, particle.x_m, particle.y_m});
+    all.push_back({.species = particle.species,
+                   .radius_m = shared->species[particle.species].radius_m,
+                   .half_m = 0.5 * shared->length_m[particle.species],
+                   .x_m = particle.x_m,
+                   .y_m = particle.y_m,
+                   .angle_rad = shared->angle_rad[i]});
   }
   return all;
 }
+
+// Way from the middle of a rod to its front end, over half its length.
+glm::dvec2 axis_of(const physics::HalfTurn& turn) { return {turn.w * turn.w - turn.z * turn.z, 2.0 * turn.w * turn.z}; }
 
 // On the sample, in layout units.
 render::MeshCopy mark_at(const glm::dvec2& place, double size) {
@@ -66,8 +75,13 @@ render::MeshCopy mark_at(const glm::dvec2& place, double size) {
 double StageParticles::stroke_m(const scene::ParticleSet& set) {
   const std::vector<Placed> particles = placed(set);
   double reach_m = 0.0;
-  for (const auto& [species, radius_m, x_m, y_m] : particles) {
-    reach_m = std::max({reach_m, std::abs(x_m) + radius_m, std::abs(y_m) + radius_m});
+  for (const Placed& p : particles) {
+    const double size_m = p.half_m + p.radius_m;
+    reach_m = std::max({reach_m, std::abs(p.x_m) + size_m, std::abs(p.y_m) + size_m});
+  }
+  for (const scene::Pad& pad : scene::shared_pads(set)) {
+    reach_m = std::max(
+        {reach_m, std::abs(pad.middle.x.si) + pad.half_size.x.si, std::abs(pad.middle.y.si) + pad.half_size.y.si});
   }
   const double layout_per_m = std::min(kDrawnReach / reach_m, kDrawnDiameter / (2.0 * scene::median_radius(set).si));
   return kStrokeHeight / layout_per_m;
@@ -77,17 +91,29 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
                                scene::NodeIndex sample)
     : tip_radius_m_(set.setup.tip.radius.si) {
   const std::vector<Placed> particles = placed(set);
-  for (const auto& [species, radius_m, x_m, y_m] : particles) {
-    particles_.push_back(
-        {.radius_m = radius_m, .start_m = {x_m, y_m}, .color = kSpeciesColors.at(species % kSpeciesColors.size())});
+  double half_m = 0.0;  // half length of the rods of a pattern
+  for (const Placed& p : particles) {
+    const physics::HalfTurn turn = physics::half_turn(p.angle_rad);
+    particles_.push_back({.species = p.species,
+                          .radius_m = p.radius_m,
+                          .half_m = p.half_m,
+                          .start_m = {p.x_m, p.y_m},
+                          .start_turn = {0.0, 0.0, turn.z, turn.w},
+                          .color = kSpeciesColors.at(p.species % kSpeciesColors.size())});
+    half_m = std::max(half_m, p.half_m);
   }
-  for (const auto& target : scene::shared_targets(set)) target_places_m_.push_back({target.x.si, target.y.si});
+  for (const auto& [position, turn] : scene::shared_targets(set)) {
+    const glm::dvec2 middle_m(position.x.si, position.y.si), end_m = half_m * axis_of(turn);
+    target_places_m_.push_back(middle_m - end_m);
+    if (half_m > 0.0) target_places_m_.push_back(middle_m + end_m);
+  }
   target_size_m_ = scene::median_radius(set).si;
   build.part(particle_sphere(), "particles", sample);
   build.part(particle_target(), "targets", sample);
   build.part(particle_footprint(), "footprints", sample);
   build.part(particle_dot(), "ways", sample);
   build.part(particle_ring(), "touched-particle", sample);
+  add_rods_and_pads(set, build, sample);
   // up to the drawn lever
   const double drawn_radius = tip_radius_m_ * kStrokeHeight / stroke_m(set);
   build.part(particle_tip(set.setup.tip.half_angle_rad, kTipDrawnLength / drawn_radius), "true-tip", sample);
@@ -102,7 +128,37 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   if (build.error()) return;
   scene.nodes[spheres_].most_copies = scene.nodes[footprints_].most_copies = count;
   scene.nodes[dots_].most_copies = most_dots_ * count;
-  scene.nodes[targets_].most_copies = scene::kMostTargets;
+  scene.nodes[targets_].most_copies = 2 * scene::kMostTargets;
+  for (const auto& rod : rods_) {
+    if (rod) scene.nodes[*rod].most_copies = count;
+  }
+  for (const DrawnPad& pad : pads_) scene.nodes[pad.node].most_copies = 1;
+}
+
+void StageParticles::add_rods_and_pads(const scene::ParticleSet& set, ModelBuilder& build, scene::NodeIndex sample) {
+  for (std::size_t i = 0; i < set.setup.species.size(); ++i) {
+    const physics::ParticleSpecies& species = set.setup.species[i];
+    rods_.emplace_back();
+    if (!physics::is_rod(species)) continue;
+    const std::string name = "rods-" + std::to_string(i);
+    build.part(particle_rod(species.length / species.contact.tip_radius), name, sample);
+    rods_.back() = build.node(name + "/rod");
+  }
+  for (const scene::Pad& pad : scene::shared_pads(set)) {
+    const std::string name = "pads-" + std::to_string(pads_.size());
+    const physics::Length unit = scene::median_radius(set);
+    build.part(particle_pad(2.0 * (pad.half_size.x / unit), 2.0 * (pad.half_size.y / unit)), name, sample);
+    pads_.push_back({build.node(name + "/pad"), {pad.middle.x.si, pad.middle.y.si}});
+  }
+}
+
+std::vector<scene::NodeIndex> StageParticles::nodes() const {
+  std::vector<scene::NodeIndex> all{spheres_, targets_, footprints_, dots_, tip_};
+  for (const auto& rod : rods_) {
+    if (rod) all.push_back(*rod);
+  }
+  for (const DrawnPad& pad : pads_) all.push_back(pad.node);
+  return all;
 }
 
 std::optional<dvec3> StageParticles::apex_m(const ParticlesNow* now) {
@@ -119,13 +175,23 @@ void StageParticles::place(const ParticlesNow* now, double layout_per_m, const d
   if (!particle) return;
   const auto pose = pose_of(*now, *particle);
   const auto& [start_x, start_y] = particles_[*particle].start_m;
-  const dvec3 foot = layout_per_m * dvec3(pose ? pose->x_m : start_x, pose ? pose->y_m : start_y, 0.0);
+  const glm::dvec2 foot_m = pose ? touched_m(particles_[*particle], *pose, *now) : glm::dvec2(start_x, start_y);
+  const dvec3 foot = layout_per_m * dvec3(foot_m, 0.0);
   local[ring_] = glm::scale(glm::translate(dmat4(1.0), foot), dvec3(layout_per_m * particles_[*particle].radius_m));
 }
 
+// The point of a rod's axis that is nearest to the tip.
+glm::dvec2 StageParticles::touched_m(const Particle& particle, const scene::ParticlePose& pose,
+                                     const ParticlesNow& now) const {
+  const glm::dvec2 middle_m(pose.x_m, pose.y_m), axis = axis_of(scene::turn_of(pose));
+  const double place_m = glm::dot(glm::dvec2(now.push.apex_m[0], now.push.apex_m[1]) - middle_m, axis);
+  return middle_m + std::clamp(place_m, -particle.half_m, particle.half_m) * axis;
+}
+
 void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, render::FrameState& frame) const {
-  render::MeshCopies all{.node = spheres_, .copies = {}};
-  all.copies.reserve(particles_.size());
+  render::MeshCopies spheres{.node = spheres_, .copies = {}};
+  std::vector<render::MeshCopies> rods(rods_.size());
+  spheres.copies.reserve(particles_.size());
   const auto pushed = now == nullptr ? std::nullopt : touched(*now, particles_.size());
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const Particle& particle = particles_[i];
@@ -135,22 +201,33 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
     copy.place =
         glm::vec3(layout_per_m * dvec3(pose ? pose->x_m : start_x, pose ? pose->y_m : start_y, particle.radius_m));
     copy.scale = static_cast<float>(layout_per_m * particle.radius_m);
+    copy.turn = glm::vec4(particle.start_turn);
     if (pose) {
       const auto& [w, x, y, z] = pose->orientation;
       copy.turn = glm::vec4(glm::dvec4(x, y, z, w));
     }
     copy.tint = glm::vec4(pushed == i ? kTouched * particle.color : particle.color, 1.0F);
-    all.copies.push_back(copy);
+    (particle.half_m > 0.0 ? rods[particle.species] : spheres).copies.push_back(copy);
   }
-  frame.copies.push_back(std::move(all));
-  if (!target_places_m_.empty()) {
-    render::MeshCopies targets{.node = targets_, .copies = {}};
-    for (const glm::dvec2& place_m : target_places_m_) {
-      targets.copies.push_back(mark_at(layout_per_m * place_m, layout_per_m * target_size_m_));
-    }
-    frame.copies.push_back(std::move(targets));
+  if (!spheres.copies.empty()) frame.copies.push_back(std::move(spheres));
+  for (std::size_t i = 0; i < rods.size(); ++i) {
+    if (rods[i].copies.empty()) continue;
+    rods[i].node = rods_[i].value();
+    frame.copies.push_back(std::move(rods[i]));
   }
+  add_targets(layout_per_m, frame);
   if (now != nullptr) add_marks(*now, layout_per_m, frame);
+}
+
+void StageParticles::add_targets(double layout_per_m, render::FrameState& frame) const {
+  render::MeshCopies targets{.node = targets_, .copies = {}};
+  for (const glm::dvec2& place_m : target_places_m_) {
+    targets.copies.push_back(mark_at(layout_per_m * place_m, layout_per_m * target_size_m_));
+  }
+  if (!targets.copies.empty()) frame.copies.push_back(std::move(targets));
+  for (const auto& [node, middle_m] : pads_) {
+    frame.copies.push_back({.node = node, .copies = {mark_at(layout_per_m * middle_m, layout_per_m * target_size_m_)}});
+  }
 }
 
 // From where each particle lay at the start to where it lies: known on every machine without its path.

@@ -6,7 +6,7 @@
 
 namespace afm::exhibit {
 
-ParticleTask::ParticleTask(const scene::ParticleSet& set) : set_(set), task_(set, scene::shared_targets(set)) {}
+ParticleTask::ParticleTask(const scene::ParticleSet& set) : set_(set), task_(set, scene::shared_pattern_of(set)) {}
 
 void ParticleTask::add(const scene::TipSample& sample) {
   const auto& [x_m, y_m] = sample.surface.xy_m;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/state/particles_now.h"
 
+#include "physics/manipulation/pushed_particles.h"
 #include "scene/samples/pattern_state.h"
 
 namespace afm::exhibit {
 
-std::optional<std::vector<physics::Sideways<physics::Length>>> places_of(const ParticlesNow& now) {
-  std::vector<physics::Sideways<physics::Length>> places;
+std::optional<std::vector<physics::ParticlePlace>> places_of(const ParticlesNow& now) {
+  std::vector<physics::ParticlePlace> places;
   for (std::size_t i = 0; i < now.set->particles.size(); ++i) {
     const auto pose = pose_of(now, i);
     if (!pose) return std::nullopt;
-    places.push_back({physics::Length(pose->x_m), physics::Length(pose->y_m)});
+    places.push_back({{physics::Length(pose->x_m), physics::Length(pose->y_m)}, scene::turn_of(*pose)});
   }
   return places;
 }
@@ -19,7 +20,7 @@ std::optional<scene::PatternState> pattern_of(const ParticlesNow& now) {
   const scene::ParticleSet& set = *now.set;
   if (set.targets.empty()) return std::nullopt;
   const auto places = places_of(now);
-  return places ? scene::pattern_state(set, scene::shared_targets(set), *places) : std::nullopt;
+  return places ? scene::pattern_state(set, scene::shared_pattern_of(set), *places) : std::nullopt;
 }
 
 }  // namespace afm::exhibit

@@ -79,6 +79,7 @@ class FeltParticles {
   void change(std::uint32_t particle, const scene::ParticlePose& now) noexcept;
   void account(const physics::PushTick& tick) noexcept;
   void note_events(const physics::PushTick& tick, std::uint64_t yields_before, ParticlePush& step) noexcept;
+  bool is_rod(std::size_t particle) const noexcept;
   scene::ParticlePose& pose(std::size_t particle) noexcept;
 
   ParticleScale scale_;

@@ -21,6 +21,10 @@ physics::LeverBase base_at(const glm::dvec3& at_m) { return {{Length(at_m.x), Le
 
 glm::dvec2 flat(const physics::Sideways<Length>& place) { return {place.x.si, place.y.si}; }
 
+physics::ParticlePlace place_of(const scene::ParticlePose& pose) {
+  return {{Length(pose.x_m), Length(pose.y_m)}, scene::turn_of(pose)};
+}
+
 // Orientation after rolling by a way much shorter than the radius.
 std::array<double, 4> rolled(const std::array<double, 4>& orientation, const glm::dvec2& way_m, double radius_m) {
   // the tangent of half the angle, about z x way
@@ -49,6 +53,10 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
     const Length radius = species.contact.tip_radius;
     const physics::TipGrip grip{setup_.tip_friction, 1.5 * std::numbers::pi * species.tip_adhesion *
                                                          physics::effective_radius(setup_.tip, radius, true)};
+    if (physics::is_rod(species)) {  // measured alone
+      other_threshold_n_.push_back(0.0);
+      continue;
+    }
     species.law = scene::other_law(species.law);
     const double other_n = physics::push_balance(species, grip, sine, cosine).lateral.si;
     const bool known =
@@ -58,6 +66,7 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
   changed_.reserve(pages_.size());
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     pose(i) = {.x_m = particles_.position(i).x.si, .y_m = particles_.position(i).y.si};
+    if (is_rod(i)) scene::set_turn(pose(i), particles_.turn(i));
   }
   digest_ = scene::digest_of(pages_, particles_.size());
   start_ = pages_;
@@ -65,16 +74,23 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
 
 void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
   if (pages.size() != pages_.size()) throw std::invalid_argument("the pages are those of other particles");
-  std::vector<physics::Sideways<Length>> places;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const scene::ParticlePose& there = pages[i / scene::kPosesPerPage].poses[i % scene::kPosesPerPage];
-    places.push_back({Length(there.x_m), Length(there.y_m)});
+    if ((there.rod != 0) != is_rod(i)) throw std::invalid_argument("the pages are those of other particles");
+  }
+  std::vector<physics::ParticlePlace> places;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    places.push_back(place_of(pages[i / scene::kPosesPerPage].poses[i % scene::kPosesPerPage]));
   }
   particles_.put(places, base_at({0.0, 0.0, scale_.clear_z_m}));
   std::copy(pages.begin(), pages.end(), pages_.begin());
   digest_ = scene::digest_of(pages_, particles_.size());
   strokes_ = StrokeHistory(particles_.size());
   lift();
+}
+
+bool FeltParticles::is_rod(std::size_t particle) const noexcept {
+  return physics::is_rod(setup_.species[particles_.species(particle)]);
 }
 
 scene::ParticlePose& FeltParticles::pose(std::size_t particle) noexcept {
@@ -111,7 +127,7 @@ bool FeltParticles::put_back() noexcept {
 
 // hold_over() follows before the tip meets a particle again.
 void FeltParticles::put(std::uint32_t particle, const scene::ParticlePose& there) noexcept {
-  particles_.put(particle, {Length(there.x_m), Length(there.y_m)});
+  particles_.put(particle, place_of(there));
   change(particle, there);
 }
 
@@ -163,6 +179,7 @@ void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
     moved.moved = tick.state == physics::PushState::Slides || tick.state == physics::PushState::Rolls
                       ? tick.state
                       : physics::PushState::Several;
+    if (is_rod(i)) scene::set_turn(moved, particles_.turn(i));
     if (moved.moved == physics::PushState::Rolls) {
       const double radius_m = setup_.species[particles_.species(i)].contact.tip_radius.si;
       moved.orientation = rolled(moved.orientation, way_m, radius_m);

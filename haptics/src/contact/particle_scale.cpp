@@ -45,10 +45,11 @@ double hand_m_per_m(const scene::SharedParticles& particles, double diameter_m, 
   double left_m = HUGE_VAL, right_m = -HUGE_VAL, front_m = HUGE_VAL, back_m = -HUGE_VAL;
   for (std::uint32_t i = 0; i < particles.count; ++i) {
     const scene::SharedParticle& particle = particles.particles[i];
-    left_m = std::min(left_m, particle.x_m);
-    right_m = std::max(right_m, particle.x_m);
-    front_m = std::min(front_m, particle.y_m);
-    back_m = std::max(back_m, particle.y_m);
+    const double half_m = 0.5 * particles.length_m.at(particle.species);  // reach of a rod, whichever way it turns
+    left_m = std::min(left_m, particle.x_m - half_m);
+    right_m = std::max(right_m, particle.x_m + half_m);
+    front_m = std::min(front_m, particle.y_m - half_m);
+    back_m = std::max(back_m, particle.y_m + half_m);
   }
   // on a table, the sample's y is the device's -z
   return std::min(

@@ -12,12 +12,12 @@ void HeapContacts::begin(const Apex& base, const Apex& apex) noexcept {
   count_ = pair_count_ = near_count_ = 0;
 }
 
-bool HeapContacts::add(const Sphere& sphere) noexcept {
+bool HeapContacts::add(const Body& body) noexcept {
   if (count_ == kMostActive) return false;
-  if (sphere.near_tip) near_[near_count_++] = count_;
+  if (body.near_tip) near_[near_count_++] = count_;
   link_count_[count_] = 0;
   mover_[count_] = kMostActive;
-  spheres_[count_++] = sphere;
+  bodies_[count_++] = body;
   return true;
 }
 
@@ -34,16 +34,16 @@ bool HeapContacts::add(const Pair& pair) noexcept {
 
 std::size_t HeapContacts::find(std::size_t particle) const noexcept {
   std::size_t i = 0;
-  while (i < count_ && spheres_[i].particle != particle) ++i;
+  while (i < count_ && bodies_[i].particle != particle) ++i;
   return i;
 }
 
 void HeapContacts::find_contacts() noexcept {
-  for (const std::size_t i : near_tip()) tips_[i] = contact_at(i, spheres_[i].at, apex_);
+  for (const std::size_t i : near_tip()) tips_[i] = contact_at(i, bodies_[i].place(), apex_);
   for (std::size_t p = 0; p < pair_count_; ++p) {
-    const Pair& pair = pairs_[p];
-    const Flat& second = pair.second == kMostActive ? pair.stays : spheres_[pair.second].at;
-    apart_m_[p] = distance_between(spheres_[pair.first].at, second);
+    const Body& first = bodies_[pairs_[p].first];
+    const Nearest nearest = nearest_of(pairs_[p], first.outline(first.place()), second_of(pairs_[p]));
+    apart_m_[p] = distance_between(nearest.first, nearest.second);
   }
 }
 
@@ -65,7 +65,11 @@ double HeapContacts::stored() const noexcept {
 double HeapContacts::friction() const noexcept {
   double lost_j = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
-    if (spheres_[i].moved()) lost_j += spheres_[i].moving_n * distance_between(spheres_[i].at, spheres_[i].start);
+    const Body& body = bodies_[i];
+    if (!body.moved()) continue;
+    const double way_m =
+        body.is_rod() ? mean_way(body.motion_to(body.place())).way : distance_between(body.at, body.start);
+    lost_j += body.moving_n * way_m;
   }
   return lost_j;
 }
@@ -75,13 +79,50 @@ void HeapContacts::choose(std::span<const std::size_t> movers) noexcept {
   for (std::size_t m = 0; m < movers.size(); ++m) mover_[movers[m]] = m;
 }
 
-HeapContacts::TipContact HeapContacts::contact_at(std::size_t i, const Flat& at, const Apex& apex) const noexcept {
-  const double x = at.x - apex.x, y = at.y - apex.y, away_m = std::sqrt(x * x + y * y);
-  return {x, y, away_m, spheres_[i].profile->overlap(away_m, apex.height)};
+HeapContacts::Place HeapContacts::Body::place_at(const Flat& there, double turned_there_m) const {
+  if (!is_rod()) return {there, 0.0, axis};
+  return {there, turned_there_m, turned(start_axis, half_tangent(turned_there_m, half_m))};
 }
 
-Flat HeapContacts::place_of(std::size_t i, const Step& step) const noexcept {
-  return mover_[i] == kMostActive ? spheres_[i].at : step.to[mover_[i]];
+RodVector HeapContacts::Body::motion_to(const Place& there) const {
+  const double x = there.at.x - start.x, y = there.at.y - start.y;
+  return {x * start_axis.x + y * start_axis.y, y * start_axis.x - x * start_axis.y, there.turned_m};
+}
+
+HeapContacts::TipContact HeapContacts::contact_at(std::size_t i, const Place& at, const Apex& apex) const noexcept {
+  const Flat point = nearest_on(bodies_[i].outline(at), {apex.x, apex.y});
+  const double x = point.x - apex.x, y = point.y - apex.y, away_m = std::sqrt(x * x + y * y);
+  return {x, y, away_m, bodies_[i].profile->overlap(away_m, apex.height)};
+}
+
+HeapContacts::Place HeapContacts::place_of(std::size_t i, const Step& step) const noexcept {
+  return mover_[i] == kMostActive ? bodies_[i].place() : step.to[mover_[i]];
+}
+
+Outline HeapContacts::second_of(const Pair& pair) const noexcept {
+  if (pair.second == kMostActive) return pair.stays;
+  const Body& second = bodies_[pair.second];
+  return second.outline(second.place());
+}
+
+HeapContacts::Nearest HeapContacts::nearest_of(const Pair& pair, const Outline& first, const Outline& second) noexcept {
+  if (pair.first_end != 0) {
+    const Flat end = along(first, pair.first_end * first.half_m);
+    return {end, nearest_on(second, end)};
+  }
+  if (pair.second_end != 0) {
+    const Flat end = along(second, pair.second_end * second.half_m);
+    return {nearest_on(first, end), end};
+  }
+  return {nearest_on(first, second.at), nearest_on(second, first.at)};  // one of them is a sphere
+}
+
+// Derivative with a rod's turn of the way of a point of it along a unit vector.
+double HeapContacts::turning_of(const Body& body, const Flat& point, double ux, double uy) noexcept {
+  if (!body.is_rod()) return 0.0;
+  const double tangent = half_tangent(body.turned_m, body.half_m);
+  const double arm = ((point.x - body.at.x) * body.axis.x + (point.y - body.at.y) * body.axis.y) / body.half_m;
+  return arm / (1.0 + tangent * tangent) * (uy * body.axis.x - ux * body.axis.y);
 }
 
 bool HeapContacts::counts_to(std::size_t i, std::size_t p) const noexcept {
@@ -94,12 +135,12 @@ double HeapContacts::change_of(const Step& step) noexcept {
   double change_j = step.moves_apex ? lever_change(apex) : 0.0;
   for (const std::size_t i : near_tip()) {
     if (!step.moves_apex && mover_[i] == kMostActive) continue;
-    const Flat to = place_of(i, step);
+    const Place to = place_of(i, step);
     tips_then_[i] = contact_at(i, to, apex);
     change_j += tip_change(i, to, apex);
   }
   for (std::size_t m = 0; m < step.count; ++m) {
-    const std::size_t i = step.spheres[m];
+    const std::size_t i = step.movers[m];
     change_j += friction_change(i, step.to[m]);
     for (const std::size_t p : pairs_of(i)) {
       if (counts_to(i, p)) change_j += pair_change(p, step);
@@ -114,8 +155,10 @@ void HeapContacts::take(const Step& step) noexcept {
   }
   if (step.moves_apex) apex_ = step.apex;
   for (std::size_t m = 0; m < step.count; ++m) {
-    const std::size_t i = step.spheres[m];
-    spheres_[i].at = step.to[m];
+    const std::size_t i = step.movers[m];
+    bodies_[i].at = step.to[m].at;
+    bodies_[i].turned_m = step.to[m].turned_m;
+    bodies_[i].axis = step.to[m].axis;
     for (const std::size_t p : pairs_of(i)) {
       if (counts_to(i, p)) apart_m_[p] = apart_then_m_[p];
     }
@@ -130,14 +173,16 @@ double HeapContacts::lever_change(const Apex& to) const noexcept {
 }
 
 // By a difference where both contacts are on the same side of the tip.
-double HeapContacts::tip_change(std::size_t i, const Flat& to, const Apex& apex) const noexcept {
+double HeapContacts::tip_change(std::size_t i, const Place& to, const Apex& apex) const noexcept {
   const TipContact &was = tips_[i], &now = tips_then_[i];
   const double depth0 = was.overlap.depth_m, depth1 = now.overlap.depth_m, k = 0.5 * springs_.contact.si;
   if (depth0 <= 0.0) return depth1 <= 0.0 ? 0.0 : k * depth1 * depth1;
   if (depth1 <= 0.0) return -k * depth0 * depth0;
-  const TipProfile& profile = *spheres_[i].profile;
+  const TipProfile& profile = *bodies_[i].profile;
   const double flank = profile.flank_sine(), rise = apex.height - apex_.height;
-  const double dx = (to.x - spheres_[i].at.x) - (apex.x - apex_.x), dy = (to.y - spheres_[i].at.y) - (apex.y - apex_.y);
+  const bool rod = bodies_[i].is_rod();
+  const double dx = rod ? now.x - was.x : (to.at.x - bodies_[i].at.x) - (apex.x - apex_.x);
+  const double dy = rod ? now.y - was.y : (to.at.y - bodies_[i].at.y) - (apex.y - apex_.y);
   const double squares = dx * (was.x + now.x) + dy * (was.y + now.y);
   double change = depth1 - depth0;
   if (was.overlap.sine == flank && now.overlap.sine == flank) {
@@ -150,20 +195,27 @@ double HeapContacts::tip_change(std::size_t i, const Flat& to, const Apex& apex)
   return k * change * (depth0 + depth1);
 }
 
-double HeapContacts::friction_change(std::size_t i, const Flat& to) const noexcept {
-  const Sphere& sphere = spheres_[i];
-  const double x0 = sphere.at.x - sphere.start.x, y0 = sphere.at.y - sphere.start.y;
-  const double x1 = to.x - sphere.start.x, y1 = to.y - sphere.start.y;
+double HeapContacts::friction_change(std::size_t i, const Place& there) const noexcept {
+  const Body& body = bodies_[i];
+  if (body.is_rod()) {
+    return body.moving_n * (mean_way(body.motion_to(there)).way - mean_way(body.motion_to(body.place())).way);
+  }
+  const Flat& to = there.at;
+  const double x0 = body.at.x - body.start.x, y0 = body.at.y - body.start.y;
+  const double x1 = to.x - body.start.x, y1 = to.y - body.start.y;
   const double ways = std::sqrt(x0 * x0 + y0 * y0) + std::sqrt(x1 * x1 + y1 * y1);
   if (!(ways > 0.0)) return 0.0;
-  return sphere.moving_n * ((to.x - sphere.at.x) * (x0 + x1) + (to.y - sphere.at.y) * (y0 + y1)) / ways;
+  return body.moving_n * ((to.x - body.at.x) * (x0 + x1) + (to.y - body.at.y) * (y0 + y1)) / ways;
 }
 
 double HeapContacts::pair_change(std::size_t p, const Step& step) noexcept {
   const Pair& pair = pairs_[p];
   const bool stays = pair.second == kMostActive;
-  const Flat &a0 = spheres_[pair.first].at, &b0 = stays ? pair.stays : spheres_[pair.second].at;
-  const Flat a1 = place_of(pair.first, step), b1 = stays ? pair.stays : place_of(pair.second, step);
+  const Body& first = bodies_[pair.first];
+  const Nearest was = nearest_of(pair, first.outline(first.place()), second_of(pair));
+  const Nearest now = nearest_of(pair, first.outline(place_of(pair.first, step)),
+                                 stays ? pair.stays : bodies_[pair.second].outline(place_of(pair.second, step)));
+  const Flat &a0 = was.first, &b0 = was.second, &a1 = now.first, &b1 = now.second;
   const double apart0 = apart_m_[p], apart1 = apart_then_m_[p] = distance_between(a1, b1);
   const double depth0 = std::max(0.0, pair.distance_m - apart0), depth1 = std::max(0.0, pair.distance_m - apart1);
   if (!(depth0 + depth1 > 0.0)) return 0.0;
@@ -177,24 +229,31 @@ double HeapContacts::pair_change(std::size_t p, const Step& step) noexcept {
 }
 
 HeapContacts::Normal HeapContacts::normal_of(std::size_t i) const noexcept {
-  const Sphere& sphere = spheres_[i];
-  if (!sphere.near_tip) return {};
+  const Body& body = bodies_[i];
+  if (!body.near_tip) return {};
   const TipContact& tip = tips_[i];
   const double ux = tip.away_m > 0.0 ? tip.x / tip.away_m : 1.0, uy = tip.away_m > 0.0 ? tip.y / tip.away_m : 0.0;
-  const bool ball = tip.overlap.sine > sphere.profile->flank_sine();
+  const bool ball = tip.overlap.sine > body.profile->flank_sine();
   return {.overlap_m = tip.overlap.depth_m,
           .towards = {ux * tip.overlap.cosine, uy * tip.overlap.cosine, -tip.overlap.sine},
-          .apart_m = std::max(1e-30, ball ? sphere.profile->reach_sum_m() - tip.overlap.depth_m : tip.away_m),
-          .ball = ball};
+          .apart_m = std::max(1e-30, ball ? body.profile->reach_sum_m() - tip.overlap.depth_m : tip.away_m),
+          .ball = ball,
+          .turning = -turning_of(body, {tip.x + apex_.x, tip.y + apex_.y}, ux, uy) * tip.overlap.cosine};
 }
 
 HeapContacts::Touch HeapContacts::touch_of(std::size_t p) const noexcept {
   const Pair& pair = pairs_[p];
   const double apart = apart_m_[p], depth = pair.distance_m - apart;
   if (!(apart > 0.0)) return {};
-  const Flat& first = spheres_[pair.first].at;
-  const Flat& second = pair.second == kMostActive ? pair.stays : spheres_[pair.second].at;
-  return {.overlap_m = depth, .apart_m = apart, .u = {(first.x - second.x) / apart, (first.y - second.y) / apart}};
+  const Body& body = bodies_[pair.first];
+  const auto [first, second] = nearest_of(pair, body.outline(body.place()), second_of(pair));
+  const double ux = (first.x - second.x) / apart, uy = (first.y - second.y) / apart;
+  const bool stays = pair.second == kMostActive;
+  return {.overlap_m = depth,
+          .apart_m = apart,
+          .u = {ux, uy},
+          .turning_first = turning_of(body, first, ux, uy),
+          .turning_second = stays ? 0.0 : -turning_of(bodies_[pair.second], second, ux, uy)};
 }
 
 }  // namespace afm::physics

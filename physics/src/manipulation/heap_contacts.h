@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <span>
 
+#include "line_friction.h"
 #include "lone_push.h"
+#include "outline.h"
 #include "physics/manipulation/push_figures.h"
 #include "physics/manipulation/tip_contact.h"
 
@@ -16,77 +18,99 @@ struct Apex {
   double x = 0.0, y = 0.0, height = 0.0;  // SI
 };
 
-// The tip among several spheres during one sub-step, at a fixed base. Knows what touches, and the energy of the heap:
+// The tip among several bodies, spheres and rods, during one sub-step, at a fixed base. Knows what touches, and the
+// energy of the heap:
 //
 //   E + R = 1/2 k_l |x_t - X|^2 + 1/2 k_c (h - Z)^2 + sum 1/2 k_n overlap^2 + sum f_k |moved|        (M16)
 //
+// The way of a rod is the mean of its points' (line_friction.h), in its frame at the start of the sub-step.
 // A step's change of it is summed over the moved parts alone. Does not allocate.
 class HeapContacts {
  public:
   static constexpr std::size_t kMostActive = 16;
-  static constexpr std::size_t kMostLinks = 24;  // pairs of a sphere
+  static constexpr std::size_t kMostLinks = 24;  // pairs of a body
   static constexpr std::size_t kMostPairs = 256;
 
-  struct Sphere {
+  // Place of a body. A rod has turned about its middle: its front end has gone across by `turned_m` more than that.
+  struct Place {
+    Flat at;
+    double turned_m = 0.0;
+    Flat axis{1.0, 0.0};
+  };
+
+  struct Body {
     std::size_t particle = 0;
     const TipProfile* profile = nullptr;
     Flat start, at;
-    double rest_n = 0.0;    // friction that it needs to begin
+    double rest_n = 0.0;    // friction that it needs to begin; of a rod, sideways
     double moving_n = 0.0;  // f_k
     bool pinned = false;
     bool near_tip = false;  // the tip may touch it
-    bool moved() const { return at.x != start.x || at.y != start.y; }
+    double half_m = 0.0;    // half length of a rod; 0: a sphere
+    Flat start_axis{1.0, 0.0}, axis{1.0, 0.0};
+    double turned_m = 0.0;
+
+    bool is_rod() const { return half_m > 0.0; }
+    bool moved() const { return at.x != start.x || at.y != start.y || turned_m != 0.0; }
+    Place place() const { return {at, turned_m, axis}; }
+    Outline outline(const Place& there) const { return {there.at, there.axis, half_m}; }
+    Place place_at(const Flat& there, double turned_there_m) const;  // axis by the turn
+    RodVector motion_to(const Place& there) const;                   // from the start, in the frame of the start
   };
 
-  // Two spheres that touch at `distance_m`; one of them may be no part of the heap and stay where it is.
+  // Two bodies that touch at `distance_m`; one of them may be no part of the heap and stay where it is. Two rods touch
+  // where an end of one meets the other: one pair for each end, +1 or -1, of first or second.
   struct Pair {
     std::size_t first = 0;
     std::size_t second = kMostActive;  // kMostActive: it stays
-    Flat stays;
+    Outline stays;
     double distance_m = 0.0;
+    int first_end = 0, second_end = 0;
   };
 
-  // Tip and sphere.
+  // Tip and body.
   struct Normal {
     double overlap_m = -1.0;          // positive: they touch
     std::array<double, 3> towards{};  // gradient of the overlap with the apex
     double apart_m = 1.0;             // radius of curvature of the overlap
     bool ball = false;                // the cap: curved along the vertical as well
+    double turning = 0.0;             // derivative of the overlap with the turn of a rod
   };
 
-  // Two spheres.
+  // Two bodies.
   struct Touch {
-    double overlap_m = -1.0;    // positive: they touch
-    double apart_m = 1.0;       // distance of the centres
-    std::array<double, 2> u{};  // from the second to the first
+    double overlap_m = -1.0;                           // positive: they touch
+    double apart_m = 1.0;                              // distance of the nearest points of their axes
+    std::array<double, 2> u{};                         // from the second to the first
+    double turning_first = 0.0, turning_second = 0.0;  // derivatives of the distance with the turns of rods
   };
 
-  // Proposed places of the apex, of spheres, or of both.
+  // Proposed places of the apex, of bodies, or of both.
   struct Step {
     Apex apex;
     bool moves_apex = false;
     std::size_t count = 0;
-    std::array<std::size_t, kMostActive> spheres{};
-    std::array<Flat, kMostActive> to{};
+    std::array<std::size_t, kMostActive> movers{};
+    std::array<Place, kMostActive> to{};
   };
 
   explicit HeapContacts(const PushSprings& springs) noexcept : springs_(springs) {}
 
-  // Begins a sub-step without spheres.
+  // Begins a sub-step without bodies.
   void begin(const Apex& base, const Apex& apex) noexcept;
-  bool add(const Sphere& sphere) noexcept;  // false: full
-  bool add(const Pair& pair) noexcept;      // after its spheres; false: full
+  bool add(const Body& body) noexcept;  // false: full
+  bool add(const Pair& pair) noexcept;  // after its bodies; false: full
 
-  // Number of the sphere of this particle; size() if there is none.
+  // Number of the body of this particle; size() if there is none.
   std::size_t find(std::size_t particle) const noexcept;
 
-  // Looks for contacts where all parts are. Call it after the spheres and pairs, before anything below.
+  // Looks for contacts where all parts are. Call it after the bodies and pairs, before anything below.
   void find_contacts() noexcept;
 
   double stored() const noexcept;    // E
   double friction() const noexcept;  // R
 
-  // The spheres that the following steps move, in their order.
+  // The bodies that the following steps move, in their order.
   void choose(std::span<const std::size_t> movers) noexcept;
 
   // Change of E + R by a step of the chosen movers.
@@ -94,51 +118,62 @@ class HeapContacts {
   // Takes the step whose change was asked last.
   void take(const Step& step) noexcept;
 
-  Normal normal_of(std::size_t sphere) const noexcept;  // a gap if the tip is not near
+  Normal normal_of(std::size_t body) const noexcept;  // a gap if the tip is not near
   Touch touch_of(std::size_t pair) const noexcept;
 
   // Contacts after the step whose change was asked last. Valid only for what it moves.
   bool touches_then(std::size_t pair) const noexcept { return apart_then_m_[pair] < pairs_[pair].distance_m; }
-  bool tip_touches_then(std::size_t sphere) const noexcept { return tips_then_[sphere].overlap.depth_m > 0.0; }
+  bool tip_touches_then(std::size_t body) const noexcept { return tips_then_[body].overlap.depth_m > 0.0; }
 
   const PushSprings& springs() const noexcept { return springs_; }
   const Apex& base() const noexcept { return base_; }
   const Apex& apex() const noexcept { return apex_; }
   std::size_t size() const noexcept { return count_; }
-  const Sphere& sphere(std::size_t i) const noexcept { return spheres_[i]; }
+  const Body& body(std::size_t i) const noexcept { return bodies_[i]; }
   std::span<const std::size_t> near_tip() const noexcept { return {near_.data(), near_count_}; }
   const Pair& pair(std::size_t p) const noexcept { return pairs_[p]; }
-  std::size_t pair_count() const noexcept { return pair_count_; }
-  std::span<const std::uint16_t> pairs_of(std::size_t sphere) const noexcept {
-    return {links_[sphere].data(), link_count_[sphere]};
+  bool has_rod(std::size_t p) const noexcept {
+    return bodies_[pairs_[p].first].is_rod() || second_of(pairs_[p]).half_m > 0.0;
   }
-  // Number of a sphere among those that were chosen; kMostActive if it was not.
-  std::size_t mover(std::size_t sphere) const noexcept { return sphere < kMostActive ? mover_[sphere] : kMostActive; }
-  // Whether a pair counts to this mover: once, if both of its spheres move.
-  bool counts_to(std::size_t sphere, std::size_t pair) const noexcept;
+  std::size_t pair_count() const noexcept { return pair_count_; }
+  std::span<const std::uint16_t> pairs_of(std::size_t body) const noexcept {
+    return {links_[body].data(), link_count_[body]};
+  }
+  // Number of a body among those that were chosen; kMostActive if it was not.
+  std::size_t mover(std::size_t body) const noexcept { return body < kMostActive ? mover_[body] : kMostActive; }
+  // Whether a pair counts to this mover: once, if both of its bodies move.
+  bool counts_to(std::size_t body, std::size_t pair) const noexcept;
 
  private:
-  // Tip and sphere, seen from the apex.
+  // Tip and nearest point of a body's axis, seen from the apex.
   struct TipContact {
     double x = 0.0, y = 0.0, away_m = 0.0;
     Overlap overlap;
   };
 
-  TipContact contact_at(std::size_t sphere, const Flat& at, const Apex& apex) const noexcept;
-  Flat place_of(std::size_t sphere, const Step& step) const noexcept;
+  // The points of two axes that are nearest to each other, as far as the pair goes.
+  struct Nearest {
+    Flat first, second;
+  };
+
+  TipContact contact_at(std::size_t body, const Place& at, const Apex& apex) const noexcept;
+  Place place_of(std::size_t body, const Step& step) const noexcept;
+  Outline second_of(const Pair& pair) const noexcept;
+  static Nearest nearest_of(const Pair& pair, const Outline& first, const Outline& second) noexcept;
+  static double turning_of(const Body& body, const Flat& point, double ux, double uy) noexcept;
   double lever_change(const Apex& to) const noexcept;
-  double tip_change(std::size_t sphere, const Flat& to, const Apex& apex) const noexcept;
-  double friction_change(std::size_t sphere, const Flat& to) const noexcept;
+  double tip_change(std::size_t body, const Place& to, const Apex& apex) const noexcept;
+  double friction_change(std::size_t body, const Place& to) const noexcept;
   double pair_change(std::size_t pair, const Step& step) noexcept;
 
   PushSprings springs_;
   Apex base_, apex_;
-  std::array<Sphere, kMostActive> spheres_{};
+  std::array<Body, kMostActive> bodies_{};
   std::array<Pair, kMostPairs> pairs_{};
   std::array<std::size_t, kMostActive> near_{};
   std::array<TipContact, kMostActive> tips_{}, tips_then_{};                // now, and after the step asked last
   std::array<double, kMostPairs> apart_m_{}, apart_then_m_{};               // distances of pairs, now and then
-  std::array<std::array<std::uint16_t, kMostLinks>, kMostActive> links_{};  // pairs of a sphere
+  std::array<std::array<std::uint16_t, kMostLinks>, kMostActive> links_{};  // pairs of a body
   std::array<std::size_t, kMostActive> link_count_{};
   std::array<std::size_t, kMostActive> mover_{};
   std::size_t count_ = 0, pair_count_ = 0, near_count_ = 0;

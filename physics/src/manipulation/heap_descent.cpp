@@ -5,14 +5,19 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "definite_solution.h"
+#include "heap_system.h"
+#include "rod_steps.h"
 
 namespace afm::physics {
 namespace {
 
 using Step = HeapContacts::Step;
-using Sphere = HeapContacts::Sphere;
+using Body = HeapContacts::Body;
+using Place = HeapContacts::Place;
+using System = HeapSystem;
 using Normal = HeapContacts::Normal;
 using Touch = HeapContacts::Touch;
 
@@ -23,18 +28,6 @@ constexpr int kMostAttempts = 3;         // solutions for one Newton step, each 
 constexpr double kSolvingShare = 0.02;   // work of a solution per cube of its size
 constexpr int kNewtonSteps = 3;          // in a round, and of the tip at the start
 constexpr double kRestRounding = 1e-12;  // share by which a force must exceed a threshold
-constexpr std::size_t kMostUnknowns = 3 + 2 * HeapContacts::kMostActive;
-
-// Gradient and stiffness of E + R over the apex and the movers: three unknowns, then two for each.
-struct System {
-  explicit System(std::size_t movers) noexcept : size(3 + 2 * movers) {
-    for (std::size_t i = 0; i < size; ++i) std::fill_n(stiffness[i].begin(), size, 0.0);
-  }
-
-  std::size_t size;
-  std::array<double, kMostUnknowns> gradient{};
-  std::array<std::array<double, kMostUnknowns>, kMostUnknowns> stiffness;  // size x size are set
-};
 
 using Move = std::array<double, kMostUnknowns>;
 
@@ -48,11 +41,9 @@ class Descent {
  private:
   Flat pull_on(std::size_t i, double& spring) const noexcept;
   bool settle(std::size_t i) noexcept;
+  bool settle_rod(std::size_t i) noexcept;
   bool sweep() noexcept;
   bool touches(std::size_t i) const noexcept;
-  void add_tip(System& s, std::size_t i, bool curved) const noexcept;
-  void add_pair(System& s, std::size_t p, bool curved) const noexcept;
-  void add_friction(System& s, std::size_t i) const noexcept;
   void assemble(System& s, const Step& movers, bool curved, bool foreseen) const noexcept;
   bool solve(const Step& movers, bool foreseen, Move& move) noexcept;
   void propose(Step& step, const Move& move, double share) const noexcept;
@@ -67,15 +58,16 @@ class Descent {
   double farthest(const Step& step) const noexcept;
   bool newton() noexcept;
   bool take_if_lower(const Step& step, double change_j) noexcept;
-  std::size_t row_of(std::size_t sphere) const noexcept;
+  std::size_t row_of(std::size_t body) const noexcept;
 
   HeapContacts& heap_;
   Apex start_;
   double reach_m_;
   double& work_;
-  double gained_j_ = 0.0;  // in this round
-  double tiny_j_ = 0.0;    // gain of a round that does not count
-  std::size_t links_ = 0;  // contacts of the parts that a Newton step moves
+  double gained_j_ = 0.0;                                          // in this round
+  std::array<std::size_t, HeapContacts::kMostActive + 1> rows_{};  // first row of each mover, and the end
+  double tiny_j_ = 0.0;                                            // gain of a round that does not count
+  std::size_t links_ = 0;                                          // contacts of the parts that a Newton step moves
   std::array<bool, HeapContacts::kMostActive> tip_foreseen_{};
   std::array<bool, HeapContacts::kMostPairs> pair_foreseen_{};
   bool at_limit_ = false;  // a part has moved by reach_m_
@@ -111,30 +103,54 @@ Flat Descent::pull_on(std::size_t i, double& spring) const noexcept {
 
 // One proximal step of a sphere, which decides whether it moves. Returns whether it was taken.
 bool Descent::settle(std::size_t i) noexcept {
-  const Sphere& sphere = heap_.sphere(i);
-  if (sphere.pinned) return false;
+  const Body& body = heap_.body(i);
+  if (body.pinned) return false;
+  if (body.is_rod()) return settle_rod(i);
   double spring = 0.0;
   const Flat force = pull_on(i, spring);
   const double size = std::sqrt(force.x * force.x + force.y * force.y);
-  if (!sphere.moved() && size <= sphere.rest_n * (1.0 + kRestRounding)) return false;
+  if (!body.moved() && size <= body.rest_n * (1.0 + kRestRounding)) return false;
   if (!(spring > 0.0)) spring = heap_.springs().contact.si;  // friction alone: back to where it started
-  const double f = sphere.moving_n;
-  const Flat was = sphere.at, start = sphere.start;
+  const double f = body.moving_n;
+  const Flat was = body.at, start = body.start;
   const double zx = was.x + force.x / spring - start.x, zy = was.y + force.y / spring - start.y;
   const double way = std::sqrt(zx * zx + zy * zy);
   const double share = way * spring > f ? 1.0 - f / (spring * way) : 0.0;
   Step step;
   step.count = 1;
-  step.spheres[0] = i;
-  heap_.choose({step.spheres.data(), 1});
+  step.movers[0] = i;
+  heap_.choose({step.movers.data(), 1});
   double length = 1.0;
   for (int halving = 0; halving < kMostHalvings; ++halving, length *= 0.5) {
-    Flat& to = step.to[0];
+    Flat& to = step.to[0].at;
     to = {was.x + length * (start.x + share * zx - was.x), was.y + length * (start.y + share * zy - was.y)};
     if (length == 1.0 && share == 0.0) to = start;
     if (distance_between(to, start) > reach_m_) continue;
     work_ -= static_cast<double>(heap_.pairs_of(i).size());
     if (take_if_lower(step, heap_.change_of(step))) return true;
+  }
+  return false;
+}
+
+bool Descent::settle_rod(std::size_t i) noexcept {
+  const Body& rod = heap_.body(i);
+  work_ -= static_cast<double>(heap_.pairs_of(i).size());
+  const std::optional<Place> proposed = rod_step(heap_, i);
+  if (!proposed) return false;
+  Step step;
+  step.count = 1;
+  step.movers[0] = i;
+  heap_.choose({step.movers.data(), 1});
+  const Place was = rod.place(), start = rod.place_at(rod.start, 0.0);
+  Flat way{proposed->at.x - was.at.x, proposed->at.y - was.at.y};
+  double turn_m = proposed->turned_m - was.turned_m;
+  step.to[0] = *proposed;
+  for (int halving = 0; halving < kMostHalvings; ++halving) {
+    work_ -= static_cast<double>(heap_.pairs_of(i).size());
+    if (way_between(step.to[0], start) <= reach_m_ && take_if_lower(step, heap_.change_of(step))) return true;
+    way = {0.5 * way.x, 0.5 * way.y};
+    turn_m *= 0.5;
+    step.to[0] = rod.place_at({was.at.x + way.x, was.at.y + way.y}, was.turned_m + turn_m);
   }
   return false;
 }
@@ -152,72 +168,10 @@ bool Descent::sweep() noexcept {
   return any;
 }
 
-// First row of a sphere in the system; 0: it does not move.
-std::size_t Descent::row_of(std::size_t sphere) const noexcept {
-  const std::size_t mover = heap_.mover(sphere);
-  return mover == HeapContacts::kMostActive ? 0 : 3 + 2 * mover;
-}
-
-void Descent::add_tip(System& s, std::size_t i, bool curved) const noexcept {
-  const Normal normal = heap_.normal_of(i);
-  const double k = heap_.springs().contact.si, force = k * normal.overlap_m;
-  const std::size_t row = row_of(i);
-  const auto& d = normal.towards;
-  // d overlap/d apex = d, against the sphere: -d; curvature -(1 - dd')/r, on the flank in the plane alone
-  const double away = std::sqrt(d[0] * d[0] + d[1] * d[1]);
-  const std::array<double, 3> u{away > 0.0 ? d[0] / away : 1.0, away > 0.0 ? d[1] / away : 0.0, 0.0};
-  for (std::size_t a = 0; a < 3; ++a) {
-    for (std::size_t b = 0; b < 3; ++b) {
-      double value = k * d[a] * d[b];
-      if (curved) {
-        const double same = a == b ? 1.0 : 0.0;
-        if (normal.ball) value -= force * (same - d[a] * d[b]) / normal.apart_m;
-        if (!normal.ball && a < 2 && b < 2) value -= force * away * (same - u[a] * u[b]) / normal.apart_m;
-      }
-      s.stiffness[a][b] += value;
-      if (row == 0) continue;
-      if (b < 2) s.stiffness[a][row + b] -= value;
-      if (a < 2) s.stiffness[row + a][b] -= value;
-      if (a < 2 && b < 2) s.stiffness[row + a][row + b] += value;
-    }
-    s.gradient[a] += force * d[a];
-    if (row != 0 && a < 2) s.gradient[row + a] -= force * d[a];
-  }
-}
-
-void Descent::add_pair(System& s, std::size_t pair, bool curved) const noexcept {
-  const Touch touch = heap_.touch_of(pair);
-  const double k = heap_.springs().contact.si, force = k * touch.overlap_m;
-  const std::size_t p = row_of(heap_.pair(pair).first), q = row_of(heap_.pair(pair).second);
-  const auto& u = touch.u;
-  for (std::size_t a = 0; a < 2; ++a) {
-    for (std::size_t b = 0; b < 2; ++b) {
-      double value = k * u[a] * u[b];
-      if (curved) value -= force * ((a == b ? 1.0 : 0.0) - u[a] * u[b]) / touch.apart_m;
-      if (p != 0) s.stiffness[p + a][p + b] += value;
-      if (q != 0) s.stiffness[q + a][q + b] += value;
-      if (p != 0 && q != 0) {
-        s.stiffness[p + a][q + b] -= value;
-        s.stiffness[q + a][p + b] -= value;
-      }
-    }
-    if (p != 0) s.gradient[p + a] -= force * u[a];
-    if (q != 0) s.gradient[q + a] += force * u[a];
-  }
-}
-
-void Descent::add_friction(System& s, std::size_t i) const noexcept {
-  const Sphere& sphere = heap_.sphere(i);
-  const std::size_t row = row_of(i);
-  const double x = sphere.at.x - sphere.start.x, y = sphere.at.y - sphere.start.y;
-  const double way = std::sqrt(x * x + y * y);
-  const std::array<double, 2> u{x / way, y / way};
-  for (std::size_t a = 0; a < 2; ++a) {
-    s.gradient[row + a] += sphere.moving_n * u[a];
-    for (std::size_t b = 0; b < 2; ++b) {
-      s.stiffness[row + a][row + b] += sphere.moving_n / way * ((a == b ? 1.0 : 0.0) - u[a] * u[b]);
-    }
-  }
+// First row of a body in the system; 0: it does not move.
+std::size_t Descent::row_of(std::size_t body) const noexcept {
+  const std::size_t mover = heap_.mover(body);
+  return mover == HeapContacts::kMostActive ? 0 : rows_[mover];
 }
 
 void Descent::assemble(System& s, const Step& movers, bool curved, bool foreseen) const noexcept {
@@ -229,17 +183,22 @@ void Descent::assemble(System& s, const Step& movers, bool curved, bool foreseen
   s.stiffness[0][0] = s.stiffness[1][1] = k_l;
   s.stiffness[2][2] = k_c;
   for (const std::size_t i : heap_.near_tip()) {
-    if (tip_counts(i, foreseen)) add_tip(s, i, curved);
+    if (!tip_counts(i, foreseen)) continue;
+    const std::size_t row = row_of(i);
+    heap_.body(i).is_rod() ? add_rod_tip(s, heap_, i, row) : add_sphere_tip(s, heap_, i, row, curved);
   }
   for (std::size_t m = 0; m < movers.count; ++m) {
-    const std::size_t i = movers.spheres[m];
-    add_friction(s, i);
+    const std::size_t i = movers.movers[m];
+    const Body& body = heap_.body(i);
+    body.is_rod() ? add_rod_friction(s, body, rows_[m]) : add_sphere_friction(s, body, rows_[m]);
     for (const std::size_t p : heap_.pairs_of(i)) {
-      if (heap_.counts_to(i, p) && pair_counts(p, foreseen)) add_pair(s, p, curved);
+      if (!heap_.counts_to(i, p) || !pair_counts(p, foreseen)) continue;
+      const std::size_t first = row_of(heap_.pair(p).first), second = row_of(heap_.pair(p).second);
+      heap_.has_rod(p) ? add_rod_pair(s, heap_, p, first, second) : add_sphere_pair(s, heap_, p, first, second, curved);
     }
   }
   if (!curved) {
-    // a sphere that nothing touches has no stiffness along its way
+    // a body that nothing touches has no stiffness along its way
     for (std::size_t i = 3; i < s.size; ++i) s.stiffness[i][i] += kLeastStiffness * heap_.springs().contact.si;
   }
   // an apex that the lever presses on the sample stays there
@@ -254,18 +213,19 @@ bool Descent::within_reach(const Step& step) const noexcept {
   const double x = step.apex.x - start_.x, y = step.apex.y - start_.y, z = step.apex.height - start_.height;
   if (!(x * x + y * y + z * z <= reach_m_ * reach_m_)) return false;
   for (std::size_t m = 0; m < step.count; ++m) {
-    if (!(distance_between(step.to[m], heap_.sphere(step.spheres[m]).start) <= reach_m_)) return false;
+    const Body& body = heap_.body(step.movers[m]);
+    if (!(way_between(step.to[m], {.at = body.start}) <= reach_m_)) return false;
   }
   return true;
 }
 
 // Solves for the Newton step from the contacts of now, or from those foreseen. False if there is none.
 bool Descent::solve(const Step& movers, bool foreseen, Move& move) noexcept {
-  const auto size = static_cast<double>(3 + 2 * movers.count);
+  const auto size = static_cast<double>(rows_[movers.count]);
   for (const bool curved : {true, false}) {
     if (!curved && work_ <= 0.0) return false;
     work_ -= static_cast<double>(links_) + kSolvingShare * size * size * size;
-    System system(movers.count);
+    System system(rows_[movers.count]);
     assemble(system, movers, curved, foreseen);
     if (!solve_definite(system.size, system.stiffness, system.gradient, move)) continue;
     // what a step gains is half of what its gradient promises
@@ -276,16 +236,16 @@ bool Descent::solve(const Step& movers, bool foreseen, Move& move) noexcept {
   return false;
 }
 
-// Proposes a share of a move. Friction has a kink where a sphere started: one that would go back past it stops there.
+// Proposes a share of a move. Friction has a kink where a body started: one that would go back past it stops there.
 void Descent::propose(Step& step, const Move& move, double share) const noexcept {
   const Apex& was = heap_.apex();
   step.apex = {was.x + share * move[0], was.y + share * move[1], std::max(0.0, was.height + share * move[2])};
   for (std::size_t m = 0; m < step.count; ++m) {
-    const Sphere& sphere = heap_.sphere(step.spheres[m]);
-    const Flat &old = sphere.at, &start = sphere.start;
-    Flat& to = step.to[m];
-    to = {old.x + share * move[3 + 2 * m], old.y + share * move[4 + 2 * m]};
-    if ((to.x - start.x) * (old.x - start.x) + (to.y - start.y) * (old.y - start.y) <= 0.0) to = start;
+    const Body& body = heap_.body(step.movers[m]);
+    const std::size_t row = rows_[m];
+    const Flat to{body.at.x + share * move[row], body.at.y + share * move[row + 1]};
+    step.to[m] = body.place_at(to, body.is_rod() ? body.turned_m + share * move[row + 2] : 0.0);
+    if (goes_back(body, step.to[m])) step.to[m] = body.place_at(body.start, 0.0);
   }
 }
 
@@ -299,7 +259,7 @@ bool Descent::foresee(const Step& step, bool foreseen) noexcept {
   for (const std::size_t i : heap_.near_tip())
     mark(tip_foreseen_[i], tip_counts(i, foreseen), heap_.tip_touches_then(i));
   for (std::size_t m = 0; m < step.count; ++m) {
-    const std::size_t i = step.spheres[m];
+    const std::size_t i = step.movers[m];
     for (const std::size_t p : heap_.pairs_of(i)) {
       if (heap_.counts_to(i, p)) mark(pair_foreseen_[p], pair_counts(p, foreseen), heap_.touches_then(p));
     }
@@ -313,23 +273,25 @@ double Descent::farthest(const Step& step) const noexcept {
   const double x = step.apex.x - was.x, y = step.apex.y - was.y, z = step.apex.height - was.height;
   double longest_m = std::max(1e-30, std::sqrt(x * x + y * y + z * z));
   for (std::size_t m = 0; m < step.count; ++m) {
-    longest_m = std::max(longest_m, distance_between(step.to[m], heap_.sphere(step.spheres[m]).at));
+    longest_m = std::max(longest_m, way_between(step.to[m], heap_.body(step.movers[m]).place()));
   }
   return longest_m;
 }
 
-// One Newton step of the apex, and of the spheres that move. Taken only if it lowers the sum. A step that would close
+// One Newton step of the apex, and of the bodies that move. Taken only if it lowers the sum. A step that would close
 // or open contacts is tried again with those that it ends in, and then in parts.
 bool Descent::newton() noexcept {
   Step step;
   step.moves_apex = true;
+  rows_[0] = 3;
   links_ = heap_.near_tip().size();
   for (std::size_t i = 0; i < heap_.size(); ++i) {
-    if (!heap_.sphere(i).moved() || !touches(i)) continue;
-    step.spheres[step.count++] = i;
+    if (!heap_.body(i).moved() || !touches(i)) continue;
+    rows_[step.count + 1] = rows_[step.count] + unknowns_of(heap_.body(i));
+    step.movers[step.count++] = i;
     links_ += heap_.pairs_of(i).size();
   }
-  heap_.choose({step.spheres.data(), step.count});
+  heap_.choose({step.movers.data(), step.count});
   Move first{}, move{};
   bool inside = false;
   for (int attempt = 0; attempt < kMostAttempts && (attempt == 0 || work_ > 0.0); ++attempt) {
@@ -363,7 +325,7 @@ bool Descent::newton() noexcept {
 
 bool Descent::run() noexcept {
   tiny_j_ = kTinyGain * heap_.stored();
-  // no sphere moves yet: these are steps of the tip alone
+  // no body moves yet: these are steps of the tip alone
   for (int i = 0; i < kNewtonSteps && newton(); ++i) continue;
   while (work_ > 0.0 && !at_limit_) {
     gained_j_ = 0.0;

@@ -77,9 +77,15 @@ PushBalance roll(const ParticleSpecies& species, const TipGrip& grip, double sin
 
 void validate(const ParticleSpecies& s) {
   require_range("radius", s.contact.tip_radius, Length(1e-9), Length(1e-5), kLengthUnits);
-  require_range("reduced_modulus", s.contact.reduced_modulus, Pressure(1e5), Pressure(1e13), kPressureUnits);
-  require_range("work_of_adhesion", s.contact.work_of_adhesion, SurfaceEnergy(1e-6), SurfaceEnergy(10.0),
-                kSurfaceEnergyUnits);
+  require_range("length", s.length, is_rod(s) ? s.contact.tip_radius : Length(0.0), Length(1e-4), kLengthUnits);
+  if (is_rod(s) && s.law != ParticleLaw::Measured) {
+    throw UnphysicalValue("law", "the friction of a rod is measured: its law cannot be another");
+  }
+  if (!is_rod(s)) {
+    require_range("reduced_modulus", s.contact.reduced_modulus, Pressure(1e5), Pressure(1e13), kPressureUnits);
+    require_range("work_of_adhesion", s.contact.work_of_adhesion, SurfaceEnergy(1e-6), SurfaceEnergy(10.0),
+                  kSurfaceEnergyUnits);
+  }
   const bool shears = s.law == ParticleLaw::ContactArea || s.law == ParticleLaw::Both;
   require_range("shear_strength", s.shear_strength, Pressure(shears ? 1.0 : 0.0), Pressure(1e11), kPressureUnits);
   require_range("coefficient", s.coefficient, s.law == ParticleLaw::Amontons ? 1e-6 : 0.0, 10.0, kPlainNumber);
@@ -87,7 +93,8 @@ void validate(const ParticleSpecies& s) {
                 Force(1e-4), kForceUnits);
   require_range("kinetic_ratio", s.kinetic_ratio, 1e-3, 1.0, kPlainNumber);
   require_range("ageing", s.ageing, Time(0.0), Time(1e6), kTimeUnits);
-  require_range("rolling_distance", s.rolling_distance, Length(0.0), s.contact.tip_radius, kLengthUnits);
+  require_range("rolling_distance", s.rolling_distance, Length(0.0), is_rod(s) ? Length(0.0) : s.contact.tip_radius,
+                kLengthUnits);
   require_range("tip_adhesion", s.tip_adhesion, SurfaceEnergy(0.0), SurfaceEnergy(10.0), kSurfaceEnergyUnits);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "heap_descent.h"
+#include "line_friction.h"
 
 namespace afm::physics {
 namespace {
@@ -25,12 +26,13 @@ PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<Placed
                                 const LeverBase& start)
     : setup_(setup), heap_(setup.springs) {
   validate(setup, particles);
-  double smallest_m = HUGE_VAL, reach_m = 0.0, touching_m = 0.0;
+  double smallest_m = HUGE_VAL, reach_m = 0.0, touching_m = 0.0, longest_half_m = 0.0;
   for (const ParticleSpecies& species : setup_.species) {
     contacts_.emplace_back(species, setup_.tip, setup_.springs, setup_.tip_friction);
     smallest_m = std::min(smallest_m, species.contact.tip_radius.si);
     reach_m = std::max(reach_m, contacts_.back().profile().reach_m());
     touching_m = std::max(touching_m, 2.0 * species.contact.tip_radius.si);
+    longest_half_m = std::max(longest_half_m, 0.5 * species.length.si);
   }
   reach_m_ = kReachShare * smallest_m;
   heap_reach_m_ = kHeapReachShare * smallest_m;
@@ -43,6 +45,7 @@ PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<Placed
   for (const PlacedParticle& particle : particles) {
     x_.push_back(particle.position.x.si);
     y_.push_back(particle.position.y.si);
+    turns_.push_back(half_turn(particle.angle_rad));
     species_.push_back(particle.species);
     pinned_.push_back(particle.pinned);
   }
@@ -51,7 +54,7 @@ PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<Placed
   moves_.assign(x_.size(), false);
   clear_m_ = clear_height(setup_).si;
   pressed_.assign(x_.size(), {});
-  grid_ = std::make_unique<ParticleGrid>(x_, y_, std::max(reach_m, touching_m) + 3.0 * reach_m_);
+  grid_ = std::make_unique<ParticleGrid>(x_, y_, std::max(reach_m, touching_m) + 3.0 * reach_m_ + 2.0 * longest_half_m);
   base_ = {start.position.x.si, start.position.y.si, start.z.si};
   apex_ = {base_.x, base_.y, std::max(0.0, base_.height)};
   tick_.stored = tick_.given = Energy(stored_everywhere());
@@ -91,7 +94,7 @@ void PushedParticles::Ticker::advance(const Apex& to) noexcept {
   }
 }
 
-// The spheres that the apex may touch within its reach. False: there are too many.
+// The particles that the apex may touch within its reach. False: there are too many.
 bool PushedParticles::Ticker::find_near() noexcept {
   near_.clear();
   bool fits = true;
@@ -99,7 +102,9 @@ bool PushedParticles::Ticker::find_near() noexcept {
   grid_->near(x, y, [&](std::size_t i) {
     const double diameter_m = 2.0 * setup_.species[species_[i]].contact.tip_radius.si;
     const double most_m = contacts_[species_[i]].profile().reach_m() + reach_m_;
-    if (lowest_m > diameter_m || length_of(x_[i] - x, y_[i] - y) > most_m) return;
+    if (lowest_m > diameter_m) return;
+    const Flat nearest = nearest_on(outline(i), {x, y});
+    if (length_of(nearest.x - x, nearest.y - y) > most_m) return;
     fits = near_.add(i) && fits;
   });
   std::sort(near_.begin(), near_.end());
@@ -144,7 +149,9 @@ double PushedParticles::Ticker::work_j(const Apex& base0, const Apex& apex0, con
 }
 
 double PushedParticles::Ticker::tip_contact_j(std::size_t i, const Flat& at, const Apex& apex) const noexcept {
-  const double away_m = length_of(at.x - apex.x, at.y - apex.y);
+  Outline there = outline(i);
+  there.at = at;
+  const double away_m = distance_between(nearest_on(there, {apex.x, apex.y}), {apex.x, apex.y});
   const double depth_m = contacts_[species_[i]].profile().overlap(away_m, apex.height).depth_m;
   return depth_m > 0.0 ? 0.5 * setup_.springs.contact.si * depth_m * depth_m : 0.0;
 }
@@ -153,13 +160,37 @@ double PushedParticles::Ticker::touching_m(std::size_t i, std::size_t j) const n
   return touching_m_[species_[i] * contacts_.size() + species_[j]];
 }
 
+Outline PushedParticles::Ticker::outline(std::size_t i) const noexcept {
+  const double half = half_m(i);
+  return {{x_[i], y_[i]}, half > 0.0 ? axis_of(turns_[i]) : Flat{1.0, 0.0}, half};
+}
+
+double PushedParticles::Ticker::apart_m(std::size_t i, std::size_t j) const noexcept {
+  return distance_between(outline(i), outline(j));
+}
+
+double PushedParticles::Ticker::pair_j(std::size_t i, std::size_t j) const noexcept {
+  const auto energy_j = [&](double distance_m) {
+    const double depth_m = touching_m(i, j) - distance_m;
+    return depth_m > 0.0 ? 0.5 * setup_.springs.contact.si * depth_m * depth_m : 0.0;
+  };
+  const Outline a = outline(i), b = outline(j);
+  if (!(a.half_m > 0.0 && b.half_m > 0.0)) return energy_j(distance_between(a, b));
+  double sum_j = 0.0;
+  for (const double end : {-1.0, 1.0}) {
+    const Flat of_a = along(a, end * a.half_m), of_b = along(b, end * b.half_m);
+    sum_j += energy_j(distance_between(of_a, nearest_on(b, of_a)));
+    sum_j += energy_j(distance_between(of_b, nearest_on(a, of_b)));
+  }
+  return sum_j;
+}
+
 double PushedParticles::Ticker::stored_everywhere() const noexcept {
   double energy_j = lever_j(base_, apex_);
   for (std::size_t i = 0; i < x_.size(); ++i) {
     energy_j += tip_contact_j(i, {x_[i], y_[i]}, apex_);
     grid_->near(x_[i], y_[i], [&](std::size_t j) {
-      const double depth_m = touching_m(i, j) - length_of(x_[i] - x_[j], y_[i] - y_[j]);
-      if (j < i && depth_m > 0.0) energy_j += 0.5 * setup_.springs.contact.si * depth_m * depth_m;
+      if (j < i) energy_j += pair_j(i, j);
     });
   }
   return energy_j;
@@ -196,7 +227,7 @@ double PushedParticles::Ticker::rest_threshold(std::size_t i, double rest_n, dou
 bool PushedParticles::Ticker::is_alone(std::size_t i) const noexcept {
   bool alone = !pinned_[i];
   grid_->near(x_[i], y_[i], [&](std::size_t j) {
-    if (j != i && length_of(x_[i] - x_[j], y_[i] - y_[j]) < touching_m(i, j) + 2.0 * reach_m_) alone = false;
+    if (j != i && apart_m(i, j) < touching_m(i, j) + 2.0 * reach_m_) alone = false;
   });
   return alone;
 }
@@ -211,10 +242,22 @@ bool PushedParticles::Ticker::passes(std::size_t i, const Apex& to) const noexce
   return length_of(x - nearest * dx, y - nearest * dy) >= touch.base_m;
 }
 
+// Force at which a particle gives to the tip over that at which it would move sideways as a whole: below 1 for a rod
+// that the tip turns.
+double PushedParticles::Ticker::share_of_push(std::size_t i) const noexcept {
+  const Outline rod = outline(i);
+  const Flat apex{apex_.x, apex_.y}, point = nearest_on(rod, apex);
+  const double x = point.x - apex.x, y = point.y - apex.y, away_m = length_of(x, y);
+  if (!(rod.half_m > 0.0 && away_m > 0.0) || !(pressed_[i].normal_n > 0.0)) return 1.0;
+  const double across = (y * rod.axis.x - x * rod.axis.y) / away_m;
+  const double place = place_beside(rod, apex) / rod.half_m;
+  return 1.0 / driven_motion({(x * rod.axis.x + y * rod.axis.y) / away_m, across, place * across}).force;
+}
+
 // One sphere without neighbours, in closed form: the base rises or sinks first, then goes along. False if what happens
 // is not known in closed form, goes too far for one sub-step, or would raise stored energy plus friction.
 bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept {
-  if (!is_alone(i)) return false;
+  if (half_m(i) > 0.0 || !is_alone(i)) return false;
   LoneContact& contact = contacts_[species_[i]];
   const Flat was{x_[i], y_[i]};
   const double away_m = length_of(was.x - base_.x, was.y - base_.y);
@@ -255,13 +298,14 @@ bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept 
   tick_.yields += path.yields - std::min<std::uint64_t>(path.yields, 1);
   base_ = to;
   apex_ = apex;
-  if (path.moved) place(i, path.particle);
+  if (path.moved) place(i, path.particle, turns_[i]);
   return true;
 }
 
-void PushedParticles::Ticker::place(std::size_t i, const Flat& at) noexcept {
+void PushedParticles::Ticker::place(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept {
   x_[i] = at.x;
   y_[i] = at.y;
+  turns_[i] = turn;
   moved_at_s_[i] = tick_end_s_;
   grid_->move(i, at.x, at.y);
   if (moves_[i]) return;
@@ -275,9 +319,10 @@ void PushedParticles::Ticker::gave(double at_n, double goes_on_n) noexcept {
   tick_.goes_on_at = Force(goes_on_n);
 }
 
-void PushedParticles::Ticker::put(std::size_t i, const Flat& at) noexcept {
+void PushedParticles::Ticker::put(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept {
   x_[i] = at.x;
   y_[i] = at.y;
+  turns_[i] = turn;
   grid_->move(i, at.x, at.y);
 }
 
@@ -302,8 +347,9 @@ void PushedParticles::Ticker::press() noexcept {
   for (const std::size_t i : touched_) pressed_[i] = {};
   touched_.clear();
   for (const std::size_t i : near_) {
+    const Flat nearest = nearest_on(outline(i), {apex_.x, apex_.y});
     const Overlap overlap =
-        contacts_[species_[i]].profile().overlap(length_of(x_[i] - apex_.x, y_[i] - apex_.y), apex_.height);
+        contacts_[species_[i]].profile().overlap(length_of(nearest.x - apex_.x, nearest.y - apex_.y), apex_.height);
     if (!(overlap.depth_m > 0.0)) continue;
     pressed_[i] = {setup_.springs.contact.si * overlap.depth_m, overlap.sine, overlap.cosine};
     touched_.add(i);
@@ -335,10 +381,10 @@ void PushedParticles::Ticker::publish() noexcept {
   if (touched_.size() > 1 || moved_.size() > 1) {
     tick_.state = PushState::Several;
   } else {
-    if (is_alone(i)) thresholds = contact.thresholds(base_.height);
+    if (!is_rod(setup_.species[species_[i]]) && is_alone(i)) thresholds = contact.thresholds(base_.height);
     tick_.state = !moves ? PushState::Holds : thresholds.mode == PushMode::Rolls ? PushState::Rolls : PushState::Slides;
   }
-  tick_.threshold = Force(rest_threshold(i, thresholds.rest_n, thresholds.moving_n));
+  tick_.threshold = Force(rest_threshold(i, thresholds.rest_n, thresholds.moving_n) * share_of_push(i));
 }
 
 }  // namespace afm::physics

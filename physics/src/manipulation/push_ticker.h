@@ -11,6 +11,7 @@
 
 #include "heap_contacts.h"
 #include "lone_push.h"
+#include "outline.h"
 #include "particle_grid.h"
 #include "physics/manipulation/pushed_particles.h"
 
@@ -23,15 +24,18 @@ class PushedParticles::Ticker {
 
   const PushTick& tick(const LeverBase& asked, double elapsed_s) noexcept;
   void hold_over(const LeverBase& base) noexcept;
-  void put(std::size_t i, const Flat& at) noexcept;
+  void put(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept;
   std::span<const std::uint32_t> moved() const noexcept { return moved_; }
   const PushTick& last() const noexcept { return tick_; }
   std::size_t size() const noexcept { return x_.size(); }
   Flat position(std::size_t i) const { return {x_.at(i), y_.at(i)}; }
+  HalfTurn turn(std::size_t i) const { return turns_.at(i); }
+  Outline outline(std::size_t i) const noexcept;
+  double half_m(std::size_t i) const noexcept { return 0.5 * setup_.species[species_[i]].length.si; }
   std::size_t species(std::size_t i) const { return species_.at(i); }
 
  private:
-  // Short list of spheres.
+  // Short list of particles.
   class Few {
    public:
     bool add(std::size_t sphere) noexcept {  // false: full
@@ -59,20 +63,25 @@ class PushedParticles::Ticker {
   bool find_near() noexcept;
   bool within_reach(const Apex& apex) const noexcept;
   bool free_step(const Apex& to) noexcept;
+  double apart_m(std::size_t i, std::size_t j) const noexcept;
+  bool is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept;
   bool passes(std::size_t i, const Apex& to) const noexcept;
   bool lone_step(const Apex& to, std::size_t i) noexcept;
   void heap_step(const Apex& to) noexcept;
   bool gather(const Apex& to) noexcept;
   bool gather_pairs_of(std::size_t place) noexcept;
+  bool add_pairs(std::size_t first, std::size_t second, std::size_t particle) noexcept;
   bool is_alone(std::size_t i) const noexcept;
-  bool add_sphere(std::size_t i, bool near_tip) noexcept;
+  bool add_body(std::size_t i, bool near_tip) noexcept;
   double lever_j(const Apex& base, const Apex& apex) const noexcept;
   double work_j(const Apex& base0, const Apex& apex0, const Apex& base1, const Apex& apex1) const noexcept;
   double tip_contact_j(std::size_t i, const Flat& at, const Apex& apex) const noexcept;
+  double pair_j(std::size_t i, std::size_t j) const noexcept;
   double stored_everywhere() const noexcept;
   double touching_m(std::size_t i, std::size_t j) const noexcept;
   double rest_threshold(std::size_t i, double rest_n, double moving_n) const noexcept;
-  void place(std::size_t i, const Flat& at) noexcept;
+  double share_of_push(std::size_t i) const noexcept;
+  void place(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept;
   void gave(double at_n, double goes_on_n) noexcept;
   void press() noexcept;
   void publish() noexcept;
@@ -81,6 +90,7 @@ class PushedParticles::Ticker {
   std::vector<LoneContact> contacts_;  // contact of each species
   std::vector<double> touching_m_;     // distance at which two species touch, by rows
   std::vector<double> x_, y_;
+  std::vector<HalfTurn> turns_;     // direction of each rod
   std::vector<double> moved_at_s_;  // end of the tick in which it moved last
   std::vector<std::size_t> species_;
   std::vector<bool> pinned_;
@@ -90,7 +100,7 @@ class PushedParticles::Ticker {
   Apex base_, apex_;
   double reach_m_ = 0.0, heap_reach_m_ = 0.0, sub_step_m_ = 0.0, clear_m_ = 0.0;
   double time_s_ = 0.0, tick_end_s_ = 0.0;
-  Few near_, touched_;                // spheres near the tip, and those that it presses
+  Few near_, touched_;                // particles near the tip, and those that it presses
   Few restless_;                      // unsettled heap
   std::vector<std::uint32_t> moved_;  // in this tick
   std::vector<bool> moves_;           // part of moved_

@@ -1,39 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "heap_descent.h"
 #include "push_ticker.h"
 
-// A sub-step among several spheres.
+// A sub-step among several particles, or with a rod.
 namespace afm::physics {
 
-bool PushedParticles::Ticker::add_sphere(std::size_t i, bool near_tip) noexcept {
+bool PushedParticles::Ticker::add_body(std::size_t i, bool near_tip) noexcept {
   const LoneContact& contact = contacts_[species_[i]];
   const Pressed& pressed = pressed_[i];
   const LoneThresholds thresholds = contact.under_load(pressed.normal_n, pressed.sine, pressed.cosine);
-  return heap_.add(HeapContacts::Sphere{.particle = i,
-                                        .profile = &contact.profile(),
-                                        .start = {x_[i], y_[i]},
-                                        .at = {x_[i], y_[i]},
-                                        .rest_n = rest_threshold(i, thresholds.rest_n, thresholds.moving_n),
-                                        .moving_n = thresholds.moving_n,
-                                        .pinned = pinned_[i],
-                                        .near_tip = near_tip});
+  const Outline there = outline(i);
+  return heap_.add(HeapContacts::Body{.particle = i,
+                                      .profile = &contact.profile(),
+                                      .start = {x_[i], y_[i]},
+                                      .at = {x_[i], y_[i]},
+                                      .rest_n = rest_threshold(i, thresholds.rest_n, thresholds.moving_n),
+                                      .moving_n = thresholds.moving_n,
+                                      .pinned = pinned_[i],
+                                      .near_tip = near_tip,
+                                      .half_m = there.half_m,
+                                      .start_axis = there.axis,
+                                      .axis = there.axis});
 }
 
-// The neighbours of a sphere of the descent, as spheres of it too while there is room.
+// Whether two particles are farther apart than `most_m`.
+bool PushedParticles::Ticker::is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept {
+  if (half_m(i) > 0.0 || half_m(j) > 0.0) return apart_m(i, j) > most_m;
+  const double x = x_[i] - x_[j], y = y_[i] - y_[j];
+  return x * x + y * y > most_m * most_m;
+}
+
+// `second` is kMostActive for a particle that stays.
+bool PushedParticles::Ticker::add_pairs(std::size_t first, std::size_t second, std::size_t particle) noexcept {
+  HeapContacts::Pair pair{.first = first,
+                          .second = second,
+                          .stays = outline(particle),
+                          .distance_m = touching_m(heap_.body(first).particle, particle)};
+  if (!(heap_.body(first).is_rod() && pair.stays.half_m > 0.0)) return heap_.add(pair);
+  bool fits = true;
+  for (const auto& [of_first, of_second] : {std::pair{-1, 0}, std::pair{1, 0}, std::pair{0, -1}, std::pair{0, 1}}) {
+    pair.first_end = of_first;
+    pair.second_end = of_second;
+    fits = heap_.add(pair) && fits;
+  }
+  return fits;
+}
+
+// The neighbours of a body of the descent, as bodies of it too while there is room.
 bool PushedParticles::Ticker::gather_pairs_of(std::size_t first) noexcept {
-  const std::size_t i = heap_.sphere(first).particle;
+  const std::size_t i = heap_.body(first).particle;
   bool fits = true;
   grid_->near(x_[i], y_[i], [&](std::size_t j) {
-    const double touching = touching_m(i, j), most_m = touching + 2.0 * heap_reach_m_;
-    const double x = x_[i] - x_[j], y = y_[i] - y_[j];
-    if (j == i || x * x + y * y > most_m * most_m) return;
+    if (j == i || is_beyond(i, j, touching_m(i, j) + 2.0 * heap_reach_m_)) return;
     std::size_t second = heap_.find(j);
-    if (second == heap_.size() && !add_sphere(j, false)) second = HeapContacts::kMostActive;
+    if (second == heap_.size() && !add_body(j, false)) second = HeapContacts::kMostActive;
     if (second < first) return;  // known from the other side
-    fits = heap_.add(HeapContacts::Pair{first, second, {x_[j], y_[j]}, touching}) && fits;
+    fits = add_pairs(first, second, j) && fits;
   });
   return fits;
 }
@@ -42,12 +68,12 @@ bool PushedParticles::Ticker::gather(const Apex& to) noexcept {
   heap_.begin(to, apex_);
   if (!find_near()) return false;
   bool fits = true;
-  for (const std::size_t i : near_) fits = add_sphere(i, true) && fits;
-  // spheres near the tip and their neighbours first, then those of an unsettled heap while there is room
+  for (const std::size_t i : near_) fits = add_body(i, true) && fits;
+  // particles near the tip and their neighbours first, then those of an unsettled heap while there is room
   std::size_t n = 0;
   for (; n < near_.size(); ++n) fits = gather_pairs_of(n) && fits;
   for (const std::size_t i : restless_) {
-    if (heap_.find(i) == heap_.size()) add_sphere(i, false);
+    if (heap_.find(i) == heap_.size()) add_body(i, false);
   }
   for (; n < heap_.size(); ++n) fits = gather_pairs_of(n) && fits;
   heap_.find_contacts();
@@ -76,13 +102,15 @@ void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
   apex_ = heap_.apex();
   restless_.clear();
   for (std::size_t n = 0; n < heap_.size() && !at_rest; ++n) {
-    if (!heap_.sphere(n).pinned) restless_.add(heap_.sphere(n).particle);
+    if (!heap_.body(n).pinned) restless_.add(heap_.body(n).particle);
   }
   for (std::size_t n = 0; n < heap_.size(); ++n) {
-    const HeapContacts::Sphere& sphere = heap_.sphere(n);
-    if (!sphere.moved()) continue;
-    if (sphere.rest_n > sphere.moving_n) gave(sphere.rest_n, sphere.moving_n);
-    place(sphere.particle, sphere.at);
+    const HeapContacts::Body& body = heap_.body(n);
+    if (!body.moved()) continue;
+    const double pushed = share_of_push(body.particle);
+    if (body.rest_n > body.moving_n) gave(body.rest_n * pushed, body.moving_n * pushed);
+    const HalfTurn& turn = turns_[body.particle];
+    place(body.particle, body.at, body.is_rod() ? turned(turn, half_tangent(body.turned_m, body.half_m)) : turn);
   }
 }
 

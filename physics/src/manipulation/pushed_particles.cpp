@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "outline.h"
 #include "physics/quantity_text.h"
 #include "push_ticker.h"
 #include "require_range.h"
@@ -16,6 +17,13 @@ namespace {
 
 constexpr double kClearShare = 1.02;      // share of the largest diameter
 constexpr double kOverlapAllowed = 1e-6;  // share of the touching distance, at the start
+constexpr double kUnitTurn = 1e-9;        // by which the square of a turn may differ from 1
+
+Outline outline_of(const PushSetup& setup, const PlacedParticle& particle) {
+  return {{particle.position.x.si, particle.position.y.si},
+          axis_of(half_turn(particle.angle_rad)),
+          0.5 * setup.species[particle.species].length.si};
+}
 
 }  // namespace
 
@@ -57,16 +65,21 @@ void validate(const PushSetup& setup, const std::vector<PlacedParticle>& particl
     if (a.species >= setup.species.size()) {
       throw std::invalid_argument("particle " + std::to_string(i) + " is of an unknown species");
     }
+    if (!std::isfinite(a.angle_rad))
+      throw std::invalid_argument("the angle of particle " + std::to_string(i) + " is not finite");
     for (std::size_t j = 0; j < i; ++j) {
       const PlacedParticle& b = particles[j];
       const double touching_m =
           touching_distance(setup.species[a.species].contact.tip_radius, setup.species[b.species].contact.tip_radius)
               .si;
-      const double apart_m = magnitude(a.position - b.position).si;
+      const Outline of_a = outline_of(setup, a), of_b = outline_of(setup, b);
+      const double apart_m = cross(of_a, of_b) ? 0.0 : distance_between(of_a, of_b);
       if (!(apart_m >= touching_m * (1.0 - kOverlapAllowed))) {
+        const std::string what = of_a.half_m > 0.0 || of_b.half_m > 0.0 ? "axes" : "centres";
         throw std::invalid_argument("particles " + std::to_string(j) + " and " + std::to_string(i) +
-                                    " overlap: their centres are " + format_quantity(Length(apart_m), kLengthUnits) +
-                                    " apart and touch at " + format_quantity(Length(touching_m), kLengthUnits));
+                                    " overlap: their " + what + " are " +
+                                    format_quantity(Length(apart_m), kLengthUnits) + " apart and touch at " +
+                                    format_quantity(Length(touching_m), kLengthUnits));
       }
     }
   }
@@ -85,22 +98,25 @@ const PushTick& PushedParticles::move_to(const LeverBase& base, Time elapsed) no
 
 void PushedParticles::hold_over(const LeverBase& base) noexcept { ticker_->hold_over(base); }
 
-void PushedParticles::put(const std::vector<Sideways<Length>>& places, const LeverBase& base) {
+void PushedParticles::put(const std::vector<ParticlePlace>& places, const LeverBase& base) {
   if (places.size() != size()) {
     throw std::invalid_argument(std::to_string(places.size()) + " places are given for " + std::to_string(size()) +
                                 " particles");
   }
-  for (const Sideways<Length>& place : places) {
-    if (!std::isfinite(place.x.si) || !std::isfinite(place.y.si)) {
+  for (const auto& [position, turn] : places) {
+    if (!std::isfinite(position.x.si) || !std::isfinite(position.y.si)) {
       throw std::invalid_argument("the place of a particle is not finite");
+    }
+    if (!(std::abs(turn.w * turn.w + turn.z * turn.z - 1.0) <= kUnitTurn)) {
+      throw std::invalid_argument("the turn of a particle is not of unit length");
     }
   }
   for (std::size_t i = 0; i < places.size(); ++i) put(i, places[i]);
   ticker_->hold_over(base);
 }
 
-void PushedParticles::put(std::size_t particle, const Sideways<Length>& place) noexcept {
-  ticker_->put(particle, {place.x.si, place.y.si});
+void PushedParticles::put(std::size_t particle, const ParticlePlace& place) noexcept {
+  ticker_->put(particle, {place.position.x.si, place.position.y.si}, place.turn);
 }
 
 std::span<const std::uint32_t> PushedParticles::moved() const noexcept { return ticker_->moved(); }
@@ -110,6 +126,13 @@ std::size_t PushedParticles::size() const noexcept { return ticker_->size(); }
 
 Sideways<Length> PushedParticles::position(std::size_t particle) const noexcept {
   const Flat at = ticker_->position(particle);
+  return {Length(at.x), Length(at.y)};
+}
+
+HalfTurn PushedParticles::turn(std::size_t particle) const noexcept { return ticker_->turn(particle); }
+
+Sideways<Length> PushedParticles::nearest(std::size_t particle, const Sideways<Length>& to) const noexcept {
+  const Flat at = nearest_on(ticker_->outline(particle), {to.x.si, to.y.si});
   return {Length(at.x), Length(at.y)};
 }
 

@@ -8,7 +8,7 @@
 namespace afm::physics {
 namespace {
 
-// A tip whose axis is within this share of a particle's radius of its centre has climbed onto it.
+// A tip whose axis is within this share of a particle's radius of its axis has climbed onto it.
 constexpr double kOnTopShare = 0.5;
 // A base that leaves a particle by more than this against the direction to it goes back; otherwise it goes past.
 constexpr double kBackwards = -0.5;
@@ -52,15 +52,15 @@ void TipMeeting::stay(const PushTick& tick, const PushedParticles& particles, bo
     contact_.felt = true;
     events.add({EventKind::ParticleTouched, Force(0.0), lateral});
   }
-  const Sideways<Length> centre = particles.position(tick.particle);
-  const bool on_top = length_m(tick.apex.position - centre) < kOnTopShare * radius_[species].si;
+  const Sideways<Length> under = particles.nearest(tick.particle, tick.apex.position);
+  const bool on_top = length_m(tick.apex.position - under) < kOnTopShare * radius_[species].si;
   if (contact_.felt && contact_.from_side && !contact_.ridden && on_top && tick.base.z < crest_[species]) {
     contact_.ridden = true;
     events.add({EventKind::ParticleRiddenOver, contact_.largest, lateral});
   }
   contact_.lateral = lateral;
   contact_.largest = std::max(contact_.largest, lateral);
-  const Sideways<Length> towards = centre - tick.base.position;
+  const Sideways<Length> towards = particles.nearest(tick.particle, tick.base.position) - tick.base.position;
   const double away_m = length_m(towards);
   contact_.towards_x = away_m > 0.0 ? towards.x.si / away_m : 0.0;
   contact_.towards_y = away_m > 0.0 ? towards.y.si / away_m : 0.0;

@@ -5,16 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
-#include "core/check.h"
+#include "particle_field.h"
 #include "physics/contact_parameters.h"
 #include "physics/elasticity.h"
+#include "physics/manipulation/rod.h"
 #include "scene/config/toml_file.h"
 #include "scene/config/toml_table.h"
-#include "scene/samples/particle_files.h"
 #include "sourced_values.h"
 
 namespace afm::scene {
@@ -25,6 +26,7 @@ using physics::Length;
 constexpr std::size_t kMostMoves = 1000;
 constexpr Length kWidestPlace{1e-4}, kHighestPlace{1e-5};
 constexpr double kRounding = 1e-6;
+constexpr double kWidestAngle = 360.0;  // degrees
 constexpr physics::Velocity kSlowestHand{1e-11}, kFastestHand{1e-4};
 
 // A key of a table for a field that physics refuses.
@@ -54,7 +56,44 @@ physics::LeverBase base(const TomlTable& table) {
   return {{place(table, "x", kWidestPlace), place(table, "y", kWidestPlace)}, place(table, "z", kHighestPlace)};
 }
 
+// A rod's friction is given per length, and its stiffness limits how long it may be: it is pushed as a rigid body.
+physics::ParticleSpecies read_rods(const TomlTable& table, SpeciesEntry& entry) {
+  table.allow_only({"name", "radius", "length", "particle_modulus", "friction_per_length", "kinetic_ratio", "ageing"});
+  entry.name = table.text("name");
+  SourcedValues values(table);
+  physics::ParticleSpecies species;
+  species.law = physics::ParticleLaw::Measured;
+  species.contact.tip_radius = values.quantity("radius", physics::kLengthUnits);
+  species.length = values.quantity("length", physics::kLengthUnits);
+  const physics::Pressure modulus = values.quantity("particle_modulus", physics::kPressureUnits);
+  const physics::Stiffness friction = values.quantity("friction_per_length", physics::kStiffnessUnits);
+  species.measured_threshold = friction * species.length;
+  species.kinetic_ratio = values.number("kinetic_ratio");
+  species.ageing = values.quantity("ageing", physics::kTimeUnits);
+  const auto refuse_unless_positive = [&](std::string_view key, double value) {
+    if (!(value > 0.0 && std::isfinite(value))) table.refuse(key, "it must be positive");
+  };
+  refuse_unless_positive("length", species.length.si);
+  refuse_unless_positive("particle_modulus", modulus.si);
+  refuse_unless_positive("friction_per_length", friction.si);
+  try {
+    physics::validate(species);
+  } catch (const physics::UnphysicalValue& error) {
+    table.refuse(error.field() == "measured_threshold" ? "friction_per_length" : error.field(), error.what());
+  }
+  const Length longest = physics::longest_rigid_rod(friction, modulus, species.contact.tip_radius);
+  if (species.length > longest) {
+    table.refuse("length",
+                 fmt::format("a rod longer than {} bends under its own friction by more than {:g} of its "
+                             "length, and is pushed as if it were rigid: make it shorter or thicker",
+                             physics::format_quantity(longest, physics::kLengthUnits, 3), physics::kRigidShare));
+  }
+  entry.sources = values.take_sources();
+  return species;
+}
+
 physics::ParticleSpecies read_species(const TomlTable& table, SpeciesEntry& entry) {
+  if (table.has("length")) return read_rods(table, entry);
   table.allow_only({"name", "radius", "particle_modulus", "particle_poisson_ratio", "sample_modulus",
                     "sample_poisson_ratio", "work_of_adhesion", "law", "shear_strength", "coefficient",
                     "measured_threshold", "kinetic_ratio", "ageing", "rolling_distance", "tip_adhesion"});
@@ -114,14 +153,23 @@ void check_setup(const ParticleSet& set, const TomlTable& top, const TomlTable& 
     if (field == "tip_friction") tip.refuse("friction", error.what());
     if (field == "radius") {
       top.refuse("species",
-                 std::string(error.what()) + ": radii must be at least half the tip's and half the largest sphere's");
+                 std::string(error.what()) + ": radii must be at least half the tip's and half the largest particle's");
     }
     lever.refuse(field, error.what());
   }
 }
 
+// Of a rod, from x; required.
+double read_angle(const TomlTable& table, bool rod) {
+  if (!rod) {
+    if (table.has("angle_deg")) table.refuse("angle_deg", "only a rod has an angle, and this is a sphere");
+    return 0.0;
+  }
+  return table.number("angle_deg", -kWidestAngle, kWidestAngle) * std::numbers::pi / 180.0;
+}
+
 physics::PlacedParticle read_particle(const TomlTable& table, const ParticleSet& set) {
-  table.allow_only({"species", "x", "y", "pinned"});
+  table.allow_only({"species", "x", "y", "pinned", "angle_deg"});
   physics::PlacedParticle particle;
   const std::string name = table.has("species") || set.species.size() > 1 ? table.text("species") : set.species[0].name;
   const auto at =
@@ -134,6 +182,7 @@ physics::PlacedParticle read_particle(const TomlTable& table, const ParticleSet&
   particle.species = static_cast<std::size_t>(at - set.species.begin());
   particle.position = {place(table, "x", kWidestPlace), place(table, "y", kWidestPlace)};
   particle.pinned = table.has("pinned") && table.flag("pinned");
+  particle.angle_rad = read_angle(table, physics::is_rod(set.setup.species[particle.species]));
   return particle;
 }
 
@@ -148,25 +197,10 @@ HandMove read_move(const TomlTable& table) {
   return move;
 }
 
-// Smallest rectangle along x and y that has all the centres.
-struct Field {
-  physics::Sideways<Length> least, most;
-
-  physics::Sideways<Length> middle() const { return (least + most) * 0.5; }
-  bool holds(const physics::Sideways<Length>& place) const {
-    return place.x >= least.x && place.x <= most.x && place.y >= least.y && place.y <= most.y;
-  }
-};
-
-Field field_of(const std::vector<physics::PlacedParticle>& particles) {
-  if (particles.empty()) return {};
-  Field field{particles.front().position, particles.front().position};
-  for (const physics::PlacedParticle& particle : particles) {
-    const physics::Sideways<Length>& place = particle.position;
-    field.least = {std::min(field.least.x, place.x), std::min(field.least.y, place.y)};
-    field.most = {std::max(field.most.x, place.x), std::max(field.most.y, place.y)};
-  }
-  return field;
+bool has_movable(const ParticleSet& set, bool rods) {
+  return std::any_of(set.particles.begin(), set.particles.end(), [&](const physics::PlacedParticle& p) {
+    return !p.pinned && physics::is_rod(set.setup.species[p.species]) == rods;
+  });
 }
 
 // The places of a pattern: within the field of the particles, over which the hand reaches, and no nearer to
@@ -179,26 +213,51 @@ void read_targets(const TomlTable& top, ParticleSet& set) {
     smallest = std::min(smallest, species.contact.tip_radius);
   }
   const Length touching = physics::touching_distance(smallest, smallest);
-  const Field field = field_of(set.particles);
+  const ParticleField field = field_of(set);
+  const bool rods = has_movable(set, true);
+  if (rods && has_movable(set, false)) {
+    top.refuse("target", "a pattern is one of spheres or one of rods, and both can be moved: pin one kind");
+  }
   for (const TomlTable& table : top.tables("target", kMostTargets)) {
-    table.allow_only({"x", "y"});
+    table.allow_only({"x", "y", "angle_deg"});
     const physics::Sideways<Length> target{place(table, "x", kWidestPlace), place(table, "y", kWidestPlace)};
+    const physics::HalfTurn turn = physics::half_turn(read_angle(table, rods));
     if (set.targets.size() == movable) {
       table.refuse("x", fmt::format("there are more targets than the {} particles that can be moved", movable));
     }
     if (!field.holds(target)) table.refuse("x", "the target is outside the rectangle of the particles");
     for (std::size_t i = 0; i < set.targets.size(); ++i) {
-      if (physics::magnitude(set.targets[i] - target) >= (1.0 - kRounding) * touching) continue;
+      if (physics::magnitude(set.targets[i].position - target) >= (1.0 - kRounding) * touching) continue;
       table.refuse("x", fmt::format("the target is nearer to target {} than two particles that touch, {}", i + 1,
                                     physics::format_quantity(touching, physics::kLengthUnits)));
     }
-    set.targets.push_back(target);
+    set.targets.push_back({target, turn});
+  }
+}
+
+void read_pads(const TomlTable& top, ParticleSet& set) {
+  if (!has_movable(set, true) || set.targets.empty()) {
+    top.refuse("pad", "pads need a rod that can be moved, and a target for it");
+  }
+  for (const TomlTable& table : top.tables("pad", kMostPads)) {
+    table.allow_only({"x", "y", "width", "height"});
+    Pad pad{.middle = {place(table, "x", kWidestPlace), place(table, "y", kWidestPlace)}, .half_size = {}};
+    for (const auto& [key, half] : {std::pair{"width", &pad.half_size.x}, std::pair{"height", &pad.half_size.y}}) {
+      const Length size = table.quantity(key, physics::kLengthUnits);
+      if (!(size > Length(0.0) && size <= kWidestPlace)) {
+        table.refuse(
+            key, fmt::format("{} is not positive and at most {}", physics::format_quantity(size, physics::kLengthUnits),
+                             physics::format_quantity(kWidestPlace, physics::kLengthUnits)));
+      }
+      *half = 0.5 * size;
+    }
+    set.pads.push_back(pad);
   }
 }
 
 ParticleSet read_set(const toml::table& root) {
   const TomlTable top(root);
-  top.allow_only({"title", "medium", "note", "tip", "lever", "species", "particle", "target", "start", "move"});
+  top.allow_only({"title", "medium", "note", "tip", "lever", "species", "particle", "target", "pad", "start", "move"});
   ParticleSet set;
   set.title = top.text("title");
   set.medium = top.text("medium");
@@ -232,6 +291,7 @@ ParticleSet read_set(const toml::table& root) {
     top.refuse("particle", error.what());
   }
   if (top.has("target")) read_targets(top, set);
+  if (top.has("pad")) read_pads(top, set);
   const TomlTable start = top.table("start", "[start]");
   start.allow_only({"x", "y", "z"});
   set.start = base(start);
@@ -240,77 +300,6 @@ ParticleSet read_set(const toml::table& root) {
 }
 
 }  // namespace
-
-SharedParticles shared_particles(const ParticleSet& set) {
-  AFM_CHECK(set.species.size() <= kMaxSpecies && set.setup.species.size() == set.species.size() &&
-            set.particles.size() <= kMaxParticles);
-  SharedParticles shared;
-  shared.pusher.tip_radius_m = set.setup.tip.radius.si;
-  shared.pusher.half_angle_rad = set.setup.tip.half_angle_rad;
-  shared.pusher.tip_friction = set.setup.tip_friction;
-  shared.pusher.lateral_spring_n_per_m = set.setup.springs.lateral.si;
-  shared.pusher.normal_spring_n_per_m = set.setup.springs.normal.si;
-  shared.pusher.contact_stiffness_n_per_m = set.setup.springs.contact.si;
-  for (const physics::ParticleSpecies& species : set.setup.species) {
-    shared.species.at(shared.species_count) = {.name = to_name(set.species[shared.species_count].name),
-                                               .radius_m = species.contact.tip_radius.si,
-                                               .reduced_modulus_pa = species.contact.reduced_modulus.si,
-                                               .work_of_adhesion_j_per_m2 = species.contact.work_of_adhesion.si,
-                                               .shear_strength_pa = species.shear_strength.si,
-                                               .coefficient = species.coefficient,
-                                               .measured_threshold_n = species.measured_threshold.si,
-                                               .kinetic_ratio = species.kinetic_ratio,
-                                               .ageing_s = species.ageing.si,
-                                               .rolling_distance_m = species.rolling_distance.si,
-                                               .tip_adhesion_j_per_m2 = species.tip_adhesion.si,
-                                               .law = species.law};
-    ++shared.species_count;
-  }
-  const physics::Sideways<Length> middle = field_of(set.particles).middle();
-  for (const physics::PlacedParticle& particle : set.particles) {
-    shared.particles.at(shared.count++) = {.x_m = (particle.position - middle).x.si,
-                                           .y_m = (particle.position - middle).y.si,
-                                           .species = static_cast<std::uint32_t>(particle.species),
-                                           .pinned = particle.pinned ? 1U : 0U};
-  }
-  return shared;
-}
-
-std::vector<physics::Sideways<Length>> shared_targets(const ParticleSet& set) {
-  std::vector<physics::Sideways<Length>> targets = set.targets;
-  const physics::Sideways<Length> middle = field_of(set.particles).middle();
-  for (physics::Sideways<Length>& target : targets) target = target - middle;
-  return targets;
-}
-
-Length median_radius(const ParticleSet& set) {
-  AFM_CHECK(!set.particles.empty());
-  std::vector<Length> radii;
-  radii.reserve(set.particles.size());
-  for (const physics::PlacedParticle& p : set.particles) {
-    radii.push_back(set.setup.species[p.species].contact.tip_radius);
-  }
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  return *middle;
-}
-
-ParticleSet recorded_set(const SharedParticles& recorded, const std::string& assets_dir) {
-  for (const std::string& name : particle_sets(assets_dir)) {
-    const auto path = particle_file(name, assets_dir);
-    auto set = path ? load_particle_set(*path) : tl::unexpected(path.error());
-    if (set && *std::make_unique<const SharedParticles>(shared_particles(*set)) == recorded) return std::move(*set);
-  }
-  ParticleSet set;
-  set.title = "Recorded particles";
-  set.medium = "air";
-  set.setup = push_setup(recorded);
-  set.particles = start_places(recorded);
-  for (std::uint32_t i = 0; i < recorded.species_count; ++i) {
-    set.species.push_back({.name = recorded.species[i].name.data(), .sources = {}});
-  }
-  return set;
-}
 
 core::Result<ParticleSet> load_particle_set(const std::string& path) {
   return read_toml("particle file", path, read_set);

@@ -9,16 +9,14 @@
 
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/quantity_text.h"
-#include "scene/samples/pattern_state.h"
 #include "scene/shared/particle_blocks.h"
 
 namespace afm::scene {
 
 using physics::EventKind;
-using Place = physics::Sideways<physics::Length>;
 
-PatternTask::PatternTask(const ParticleSet& set, std::vector<Place> targets)
-    : set_(set), targets_(std::move(targets)), clear_z_m_(physics::clear_height(set.setup).si) {}
+PatternTask::PatternTask(const ParticleSet& set, Pattern pattern)
+    : set_(set), pattern_(std::move(pattern)), clear_z_m_(physics::clear_height(set.setup).si) {}
 
 void PatternTask::add(EventKind event) {
   const bool runs = task_.score.state == TaskState::Running;
@@ -91,9 +89,9 @@ std::optional<std::uint64_t> PatternTask::unjudged() const {
   return rests ? std::optional(last_->places) : std::nullopt;
 }
 
-void PatternTask::judge(std::span<const Place> places) {
+void PatternTask::judge(std::span<const physics::ParticlePlace> places) {
   rest_->judged = true;
-  const auto pattern = pattern_state(set_, targets_, places);
+  const auto pattern = pattern_state(set_, pattern_, places);
   if (!pattern || !pattern->done()) return;
   task_.score = rest_->score;
   task_.score.state = TaskState::Done;

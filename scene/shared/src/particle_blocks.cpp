@@ -34,7 +34,8 @@ physics::ParticleSpecies species_of(const SharedSpecies& shared) {
           .kinetic_ratio = shared.kinetic_ratio,
           .ageing = physics::Time(shared.ageing_s),
           .rolling_distance = physics::Length(shared.rolling_distance_m),
-          .tip_adhesion = physics::SurfaceEnergy(shared.tip_adhesion_j_per_m2)};
+          .tip_adhesion = physics::SurfaceEnergy(shared.tip_adhesion_j_per_m2),
+          .length = {}};
 }
 
 // splitmix64 (Steele, Lea & Flood 2014).
@@ -59,23 +60,41 @@ physics::PushSetup push_setup(const SharedParticles& particles) {
   setup.tip_friction = pusher.tip_friction;
   const auto end = particles.species.begin() + std::min(particles.species_count, kMaxSpecies);
   std::transform(particles.species.begin(), end, std::back_inserter(setup.species), species_of);
+  for (std::size_t i = 0; i < setup.species.size(); ++i)
+    setup.species[i].length = physics::Length(particles.length_m[i]);
   return setup;
 }
 
 std::vector<physics::PlacedParticle> start_places(const SharedParticles& particles) {
   std::vector<physics::PlacedParticle> places;
-  const auto end = particles.particles.begin() + std::min(particles.count, kMaxParticles);
-  std::transform(particles.particles.begin(), end, std::back_inserter(places), [](const SharedParticle& particle) {
-    return physics::PlacedParticle{.species = particle.species,
-                                   .position = {physics::Length(particle.x_m), physics::Length(particle.y_m)},
-                                   .pinned = particle.pinned != 0};
-  });
+  for (std::uint32_t i = 0; i < std::min(particles.count, kMaxParticles); ++i) {
+    const SharedParticle& particle = particles.particles[i];
+    places.push_back({.species = particle.species,
+                      .position = {physics::Length(particle.x_m), physics::Length(particle.y_m)},
+                      .pinned = particle.pinned != 0,
+                      .angle_rad = particles.angle_rad[i]});
+  }
   return places;
 }
 
+bool has_rods(const SharedParticles& particles) {
+  return std::any_of(particles.length_m.begin(), particles.length_m.end(),
+                     [](double length_m) { return length_m != 0.0; });
+}
+
+physics::HalfTurn turn_of(const ParticlePose& pose) noexcept {
+  return pose.rod != 0 ? physics::HalfTurn{pose.orientation[0], pose.orientation[3]} : physics::HalfTurn{};
+}
+
+void set_turn(ParticlePose& pose, const physics::HalfTurn& turn) noexcept {
+  pose.rod = 1;
+  pose.orientation = {turn.w, 0.0, 0.0, turn.z};
+}
+
 std::uint64_t place_mark(std::size_t particle, const ParticlePose& pose) noexcept {
-  const std::uint64_t x = std::bit_cast<std::uint64_t>(pose.x_m), y = std::bit_cast<std::uint64_t>(pose.y_m);
-  return mixed(particle + mixed(x + mixed(y)));
+  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  const std::uint64_t turn = pose.rod != 0 ? mixed(bits(pose.orientation[0]) + mixed(bits(pose.orientation[3]))) : 0;
+  return mixed(particle + mixed(bits(pose.x_m) + mixed(bits(pose.y_m) + turn)));
 }
 
 std::uint64_t digest_of(std::span<const ParticlePage> pages, std::size_t count) noexcept {

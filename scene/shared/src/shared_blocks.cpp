@@ -295,7 +295,7 @@ bool is_valid(const TipEvent& event, const SharedModel& model) {
 
 bool is_valid(const ParticlePage& page) {
   return std::all_of(page.poses.begin(), page.poses.end(),
-                     [](const ParticlePose& pose) { return is_field_valid(pose); });
+                     [](const ParticlePose& pose) { return is_field_valid(pose) && pose.rod <= 1; });
 }
 
 bool is_valid(const TipPush& push, const SharedModel& model) {

@@ -37,6 +37,18 @@ std::string bytes_of(const RecordedParticles& particles) {
   return bytes;
 }
 
+std::string rods_of(const scene::SharedParticles& set) {
+  std::string bytes;
+  put_all(bytes, std::span(set.length_m).first(set.species_count));
+  put_all(bytes, std::span(set.angle_rad).first(set.count));
+  return bytes;
+}
+
+std::uint32_t version_of(const RecordedSession& session) {
+  if (!session.particles) return kSessionVersion;
+  return scene::has_rods(session.particles->set) ? kVersionWithRods : kVersionWithParticles;
+}
+
 }  // namespace
 
 bool read_particles(std::string_view payload, RecordedParticles& particles) {
@@ -57,13 +69,25 @@ bool read_particles(std::string_view payload, RecordedParticles& particles) {
                      [](const scene::ParticlePage& page) { return scene::is_valid(page); });
 }
 
+bool read_rods(std::string_view payload, RecordedParticles& particles) {
+  std::vector<double> lengths_m, angles_rad;
+  scene::SharedParticles& set = particles.set;
+  if (!take_all(payload, lengths_m) || !take_all(payload, angles_rad) || !payload.empty() ||
+      lengths_m.size() != set.species_count || angles_rad.size() != set.count) {
+    return false;
+  }
+  std::copy(lengths_m.begin(), lengths_m.end(), set.length_m.begin());
+  std::copy(angles_rad.begin(), angles_rad.end(), set.angle_rad.begin());
+  return scene::has_rods(set);
+}
+
 std::size_t sample_bytes_of(const RecordedSession& session) {
   return session.particles ? sizeof(scene::TipSample) : kSampleBytesWithoutPush;
 }
 
 void SessionEncoder::head(const RecordedSession& session) {
   std::string start(kSessionMagic);
-  put(start, session.particles ? kVersionWithParticles : kSessionVersion);
+  put(start, version_of(session));
   add(start);
   sample_bytes_ = sample_bytes_of(session);
   chunk(kHeadChunk, text_of(header_of(session)));
@@ -79,6 +103,7 @@ void SessionEncoder::head(const RecordedSession& session) {
     chunk(kTopographyChunk, topography);
   }
   if (session.particles) chunk(kParticlesChunk, bytes_of(*session.particles));
+  if (version_of(session) == kVersionWithRods) chunk(kRodsChunk, rods_of(session.particles->set));
 }
 
 void SessionEncoder::part(const RecordedSession& session) {

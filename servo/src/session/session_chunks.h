@@ -10,20 +10,23 @@
 #include "core/fnv1a.h"
 #include "servo/session_file.h"
 
-// Session file of version 6, or 7 with particles: "AFMS", the version, then chunks. A chunk consists of a name of four
-// letters and the size of its payload in 32 bits, the checksum of these, the payload, and its checksum. A checksum is
-// the 64-bit FNV-1a of all bytes from the beginning of the file up to it, so that no chunk can be altered, left out or
-// exchanged. A file that ends inside a chunk was cut; all chunks before it are intact.
+// Session file of version 6, 7 with particles, or 8 with rods among them: "AFMS", the version, then chunks. A chunk
+// consists of a name of four letters and the size of its payload in 32 bits, the checksum of these, the payload, and
+// its checksum. A checksum is the 64-bit FNV-1a of all bytes from the beginning of the file up to it, so that no chunk
+// can be altered, left out or exchanged. A file that ends inside a chunk was cut; all chunks before it are intact.
 namespace afm::servo {
 
 inline constexpr std::string_view kSessionMagic = "AFMS";
 inline constexpr std::uint32_t kSessionVersion = 6;
 inline constexpr std::uint32_t kVersionWithParticles = 7;  // samples end with the push, and a chunk has the particles
 
+inline constexpr std::uint32_t kVersionWithRods = 8;  // a chunk has the rods, too
+
 inline constexpr std::string_view kHeadChunk = "HEAD";        // header_of() as JSON
 inline constexpr std::string_view kSurfaceChunk = "SURF";     // one SharedHeightField, if the sample has one
 inline constexpr std::string_view kTopographyChunk = "TOPO";  // size, spacing and heights, if it has a topography
 inline constexpr std::string_view kParticlesChunk = "PRTC";   // RecordedParticles, if there are any
+inline constexpr std::string_view kRodsChunk = "RODS";        // their lengths and first angles, after the particles
 inline constexpr std::string_view kPartChunk = "PART";  // samples and events up to one moment, and frames of the wall
 inline constexpr std::string_view kEndChunk = "DONE";   // end of the file, without a payload
 
@@ -53,6 +56,9 @@ class SessionEncoder {
 
 // Reads a kParticlesChunk; false if it is damaged. The set itself is checked with its scene.
 bool read_particles(std::string_view payload, RecordedParticles& particles);
+
+// Reads a kRodsChunk for particles that have been read; false if it is damaged.
+bool read_rods(std::string_view payload, RecordedParticles& particles);
 
 // Size of a sample in a file of this session.
 std::size_t sample_bytes_of(const RecordedSession& session);

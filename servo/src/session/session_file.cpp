@@ -2,8 +2,10 @@
 #include "servo/session_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -30,6 +32,7 @@ using scene::TipSample;
 constexpr std::uint32_t kVersionOf010 = 3;  // written by TouchAFM 0.1.0
 constexpr double kFarthestM = 1e6;
 constexpr double kUnitWithin = 1e-3;
+constexpr double kUnitTurnWithin = 1e-9;
 constexpr double kMostOrders = 9.0;
 constexpr const char* kRecordAgain = "; record it again";
 
@@ -100,8 +103,9 @@ std::string read_part(std::string_view payload, RecordedSession& session, nlohma
   return {};
 }
 
-// Reads version 6 or 7; returns an error message, or nothing.
-std::string read_chunks(std::string_view file, bool with_particles, RecordedSession& session) {
+// Reads version 6, 7 or 8; returns an error message, or nothing.
+std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
+  const bool with_particles = version != kSessionVersion;
   SessionDecoder decoder(file);
   nlohmann::json last_frame;
   for (bool first = true;; first = false) {
@@ -124,8 +128,12 @@ std::string read_chunks(std::string_view file, bool with_particles, RecordedSess
       if (!read_topography(payload, session.topography)) return "its topography is damaged";
     } else if (with_particles && decoder.name() == kParticlesChunk) {
       if (!read_particles(payload, session.particles.emplace())) return "its particles are damaged";
+    } else if (version == kVersionWithRods && decoder.name() == kRodsChunk) {
+      if (!session.particles || !read_rods(payload, *session.particles)) return "its rods are damaged";
     } else if (decoder.name() == kPartChunk) {
-      if (with_particles != session.particles.has_value()) return "its parts are out of order";
+      const bool with_rods = session.particles && scene::has_rods(session.particles->set);
+      if (with_particles != session.particles.has_value() || with_rods != (version == kVersionWithRods))
+        return "its parts are out of order";
       if (std::string wrong = read_part(payload, session, last_frame); !wrong.empty()) return wrong;
     } else if (decoder.name() == kEndChunk) {
       session.complete = true;
@@ -156,9 +164,22 @@ bool can_be_a_name(const std::string& name) {
   return !name.empty() && name.size() < scene::kNameLength && core::printable_line(name) == name;
 }
 
+// The poses of rods, and of nothing else, turn about the vertical alone.
+bool can_be(const RecordedParticles& particles) {
+  for (std::uint32_t i = 0; i < particles.set.count; ++i) {
+    const scene::ParticlePose& pose = particles.pages[scene::page_of(i)].poses[i % scene::kPosesPerPage];
+    const bool rod = particles.set.length_m[particles.set.particles[i].species] > 0.0;
+    const auto& [w, x, y, z] = pose.orientation;
+    if ((pose.rod != 0) != rod) return false;
+    if (rod && (x != 0.0 || y != 0.0 || !(std::abs(w * w + z * z - 1.0) < kUnitTurnWithin))) return false;
+  }
+  return true;
+}
+
 // Checks a session that was read; returns an error message, or nothing.
 std::string what_cannot_be(const RecordedSession& session) {
   if (const auto valid = scene::validate(*model_of(session)); !valid) return valid.error().message;
+  if (session.particles && !can_be(*session.particles)) return "the poses of its rods are impossible";
   if (!scene::is_valid(session.topography, session.topography.size())) return "its topography is not a grid of heights";
   if (!scene::is_valid(session.device)) return "the limits of its device are impossible";
   if (!(session.rate_hz > 0 && std::isfinite(session.hand_m_per_m) && std::isfinite(session.hand_n_per_n))) {
@@ -244,14 +265,14 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  if (version != kVersionOf010 && version != kSessionVersion && version != kVersionWithParticles) {
-    return bad(fmt::format("its version is {}; this program reads versions {}, {} and {}", version, kVersionOf010,
-                           kSessionVersion, kVersionWithParticles));
+  constexpr std::array kVersions{kVersionOf010, kSessionVersion, kVersionWithParticles, kVersionWithRods};
+  if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
+    return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }
   RecordedSession session;
   try {
-    const std::string wrong = version == kVersionOf010 ? read_records(*file, session)
-                                                       : read_chunks(*file, version == kVersionWithParticles, session);
+    const std::string wrong =
+        version == kVersionOf010 ? read_records(*file, session) : read_chunks(*file, version, session);
     if (!wrong.empty()) return bad(wrong);
   } catch (const nlohmann::json::exception& error) {
     return bad(fmt::format("its header is damaged ({})", error.what()));

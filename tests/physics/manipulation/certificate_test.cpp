@@ -27,13 +27,30 @@ struct Crowd {
   std::size_t particles;
   double spacing;  // over the diameter
   double share_of_ticks;
+  double rods = 0.0;  // share of the particles
 };
 
 constexpr Crowd kCrowds[] = {{"one", 1, 2.0, 0.4},
                              {"twenty", 20, 1.6, 0.3},
                              {"two hundred", 200, 1.3, 0.2},
                              {"jammed", 400, 1.0, 0.05},
-                             {"two thousand", 2000, 1.25, 0.05}};
+                             {"two thousand", 2000, 1.25, 0.05},
+                             {"one rod", 1, 2.6, 0.1, 1.0},
+                             {"rods", 9, 2.3, 0.1, 1.0},
+                             {"rods among spheres", 25, 2.1, 0.1, 0.3}};
+constexpr Length kRodLength{120e-9};
+
+ParticleSpecies random_rod(std::mt19937_64& random) {
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  ParticleSpecies rod;
+  rod.law = ParticleLaw::Measured;
+  rod.contact.tip_radius = Length(uniform(25e-9, 40e-9));
+  rod.length = kRodLength;
+  rod.measured_threshold = Force(std::exp(uniform(std::log(1e-10), std::log(3e-8))));
+  rod.kinetic_ratio = uniform(0.2, 1.0);
+  rod.ageing = Time(uniform(0.0, 1.0) < 0.3 ? 0.0 : 0.1);
+  return rod;
+}
 
 PushSetup random_setup(std::mt19937_64& random) {
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
@@ -55,6 +72,37 @@ PushSetup random_setup(std::mt19937_64& random) {
   return setup;
 }
 
+struct Point {
+  double x = 0.0, y = 0.0;
+};
+
+double apart(const Point& a, const Point& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+// The point of a particle's axis at a share of the half length from its middle, and the one nearest to another point.
+Point point_of(const PushSetup& setup, const PushedParticles& particles, std::size_t i, double share) {
+  const double half = 0.5 * setup.species[particles.species(i)].length.si, angle = angle_rad(particles.turn(i));
+  return {particles.position(i).x.si + share * half * std::cos(angle),
+          particles.position(i).y.si + share * half * std::sin(angle)};
+}
+Point nearest_to(const PushSetup& setup, const PushedParticles& particles, std::size_t i, const Point& to) {
+  const Point a = point_of(setup, particles, i, -1.0), b = point_of(setup, particles, i, 1.0);
+  const double x = b.x - a.x, y = b.y - a.y, squares = x * x + y * y;
+  const double share = squares > 0.0 ? std::clamp(((to.x - a.x) * x + (to.y - a.y) * y) / squares, 0.0, 1.0) : 0.0;
+  return {a.x + share * x, a.y + share * y};
+}
+
+// Distances at which two particles press each other: two rods do where an end of one meets the other.
+std::vector<double> distances(const PushSetup& setup, const PushedParticles& particles, std::size_t i, std::size_t j) {
+  const auto is_rod_at = [&](std::size_t k) { return is_rod(setup.species[particles.species(k)]); };
+  const auto of_point = [&](std::size_t k, double share, std::size_t other) {
+    const Point point = point_of(setup, particles, k, share);
+    return apart(point, nearest_to(setup, particles, other, point));
+  };
+  if (!is_rod_at(i)) return {of_point(i, 0.0, j)};
+  if (!is_rod_at(j)) return {of_point(j, 0.0, i)};
+  return {of_point(i, -1.0, j), of_point(i, 1.0, j), of_point(j, -1.0, i), of_point(j, 1.0, i)};
+}
+
 // Energy of lever and contacts from the published state alone, by formulas of this test.
 double energy_of(const PushSetup& setup, const PushedParticles& particles, const PushTick& tick) {
   const auto square = [](double x) { return x * x; };
@@ -65,15 +113,17 @@ double energy_of(const PushSetup& setup, const PushedParticles& particles, const
   const double k = setup.springs.contact.si, theta = setup.tip.half_angle_rad, cap = setup.tip.radius.si;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const double radius = setup.species[particles.species(i)].contact.tip_radius.si;
-    const double away = magnitude(particles.position(i) - tick.apex.position).si;
+    const Point apex{tick.apex.position.x.si, tick.apex.position.y.si};
+    const double away = apart(apex, nearest_to(setup, particles, i, apex));
     const double down = tick.apex.z.si + cap - radius;
     const double gap = std::atan2(down, away) < theta ? away * std::cos(theta) + down * std::sin(theta) - cap - radius
                                                       : std::hypot(away, down) - cap - radius;
     energy += 0.5 * k * square(std::min(0.0, gap));
     for (std::size_t j = 0; j < i; ++j) {
       const double other = setup.species[particles.species(j)].contact.tip_radius.si;
-      const double apart = magnitude(particles.position(i) - particles.position(j)).si;
-      energy += 0.5 * k * square(std::min(0.0, apart - 2.0 * std::sqrt(radius * other)));
+      for (const double distance : distances(setup, particles, i, j)) {
+        energy += 0.5 * k * square(std::min(0.0, distance - 2.0 * std::sqrt(radius * other)));
+      }
     }
   }
   return energy;
@@ -114,7 +164,8 @@ class StrayingHand {
 
 void expect_certified(const Crowd& crowd, std::uint64_t seed, int ticks, long& touched) {
   std::mt19937_64 random(seed);
-  const PushSetup setup = random_setup(random);
+  PushSetup setup = random_setup(random);
+  if (crowd.rods > 0.0) setup.species.push_back(random_rod(random));
   const double pitch = 100e-9 * crowd.spacing;
   const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(crowd.particles))));
   std::vector<PlacedParticle> placed;
@@ -124,6 +175,9 @@ void expect_certified(const Crowd& crowd, std::uint64_t seed, int ticks, long& t
     placed.push_back({std::uniform_int_distribution<std::size_t>(0, 1)(random),
                       {Length((column - middle) * pitch), Length((row - middle) * pitch)},
                       std::uniform_int_distribution(0, 19)(random) == 0});
+    if (crowd.rods == 0.0 || std::uniform_real_distribution(0.0, 1.0)(random) > crowd.rods) continue;
+    placed.back().species = 2;
+    placed.back().angle_rad = std::uniform_real_distribution(0.0, 6.3)(random);
   }
   PushedParticles particles(setup, placed, base_at(0.0, 0.0, 120e-9));
   StrayingHand hand(random, std::min(400e-9, 150e-9 + 0.5 * pitch * static_cast<double>(side)));

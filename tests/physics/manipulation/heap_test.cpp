@@ -104,8 +104,8 @@ TEST(Heap, LeavesNothingButItsPlacesOnceTheTipIsHeldOverIt) {
     pushed.move_to(base_at(-215e-9 + 2e-9 * i, 3e-9, 5e-9), Time(1e-3));
   }
   ASSERT_GT(pushed.last().exhausted, 0U) << "the heap is at rest";
-  std::vector<Sideways<Length>> places;
-  for (std::size_t i = 0; i < pushed.size(); ++i) places.push_back(pushed.position(i));
+  std::vector<ParticlePlace> places;
+  for (std::size_t i = 0; i < pushed.size(); ++i) places.push_back({pushed.position(i), pushed.turn(i)});
   const LeverBase over = base_at(-215e-9, 3e-9, 60e-9);
   pushed.hold_over(over);
   PushedParticles fresh(setup, hexagon(), over);

@@ -24,6 +24,9 @@ inline std::vector<scene::ParticlePage> start_pages(const scene::ParticleSet& se
     scene::ParticlePose& pose = pages[scene::page_of(i)].poses[i % scene::kPosesPerPage];
     pose.x_m = shared->particles[i].x_m;
     pose.y_m = shared->particles[i].y_m;
+    if (shared->length_m[shared->particles[i].species] > 0.0) {
+      scene::set_turn(pose, physics::half_turn(shared->angle_rad[i]));
+    }
   }
   return pages;
 }
@@ -32,7 +35,7 @@ inline std::vector<scene::ParticlePage> start_pages(const scene::ParticleSet& se
 inline std::vector<scene::ParticlePage> formed_pages(const scene::ParticleSet& set) {
   std::vector<scene::ParticlePage> pages = start_pages(set);
   std::uint32_t particle = 0;
-  for (const auto& target : scene::shared_targets(set)) {
+  for (const auto& [target, turn] : scene::shared_targets(set)) {
     while (set.particles.at(particle).pinned) ++particle;
     scene::ParticlePose& pose = pages[scene::page_of(particle)].poses[particle % scene::kPosesPerPage];
     pose.x_m = target.x.si + 0.9 * scene::median_radius(set).si;

@@ -12,6 +12,12 @@ scene::Scene particle_ground(double side_m);
 // Particle of radius 1 around the origin, with bands that show how it lies: node "sphere".
 scene::Scene particle_sphere();
 
+// Rod of radius 1 along x around the origin, with round ends beyond its length and the front one coloured: node "rod".
+scene::Scene particle_rod(double length);
+
+// Flat pad of that size around the origin, on the sample: node "pad".
+scene::Scene particle_pad(double width, double height);
+
 // Ring around a particle of radius 1 that rests on z = 0: node "ring".
 scene::Scene particle_ring();
 

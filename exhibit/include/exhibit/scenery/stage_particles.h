@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
 #include <vector>
 
@@ -17,9 +19,10 @@ namespace afm::exhibit {
 
 class ModelBuilder;
 
-// Particles on the drawn sample: copies of one mesh, a ring around the touched one, a footprint where each one that has
-// moved lay at the start, with dots from there to where it lies, a cross on each place of the pattern, and the tip at
-// its true size. Const after creation.
+// Particles on the drawn sample: copies of a mesh for spheres and of one for each species of rods, a ring around the
+// touched one, a footprint where each one that has moved lay at the start, with dots from there to where it lies, a
+// cross on each place of the pattern, for a rod on each of its ends, the pads, and the tip at its true size. Const
+// after creation.
 class StageParticles {
  public:
   // Stroke at which a set is drawn: that of the largest picture in which all its particles lie on the sample.
@@ -39,7 +42,7 @@ class StageParticles {
   void add_copies(const ParticlesNow* now, double layout_per_m, render::FrameState& frame) const;
 
   // All but the ring.
-  std::vector<scene::NodeIndex> nodes() const { return {spheres_, targets_, footprints_, dots_, tip_}; }
+  std::vector<scene::NodeIndex> nodes() const;
   scene::NodeIndex tip() const { return tip_; }
   scene::NodeIndex ring() const { return ring_; }
 
@@ -48,11 +51,22 @@ class StageParticles {
 
  private:
   struct Particle {
+    std::size_t species = 0;
     double radius_m = 0;
+    double half_m = 0;  // half length of a rod; 0: a sphere
     std::array<double, 2> start_m{};
-    glm::vec3 color{1.0F};  // linear
+    glm::dvec4 start_turn{0.0, 0.0, 0.0, 1.0};  // unit quaternion, w last
+    glm::vec3 color{1.0F};                      // linear
   };
 
+  struct DrawnPad {
+    scene::NodeIndex node = 0;
+    glm::dvec2 middle_m{0.0};
+  };
+
+  void add_rods_and_pads(const scene::ParticleSet& set, ModelBuilder& build, scene::NodeIndex sample);
+  void add_targets(double layout_per_m, render::FrameState& frame) const;
+  glm::dvec2 touched_m(const Particle& particle, const scene::ParticlePose& pose, const ParticlesNow& now) const;
   void add_marks(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const;
 
   std::vector<Particle> particles_;
@@ -60,6 +74,8 @@ class StageParticles {
   double tip_radius_m_ = 0;
   std::vector<glm::dvec2> target_places_m_;
   double target_size_m_ = 0;
+  std::vector<std::optional<scene::NodeIndex>> rods_;  // node of each species of rods
+  std::vector<DrawnPad> pads_;
   scene::NodeIndex spheres_ = 0, targets_ = 0, footprints_ = 0, dots_ = 0, ring_ = 0, tip_ = 0;
 };
 

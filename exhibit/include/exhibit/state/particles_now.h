@@ -6,9 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "physics/friction/sideways.h"
 #include "scene/shared/particle_blocks.h"
 #include "scene/shared/task_score.h"
+
+namespace afm::physics {
+struct ParticlePlace;
+}
 
 namespace afm::scene {
 struct ParticleSet;
@@ -39,7 +42,7 @@ inline std::optional<std::size_t> touched(const ParticlesNow& now, std::size_t c
 }
 
 // Places of all particles; nothing before the servo has said where they are.
-std::optional<std::vector<physics::Sideways<physics::Length>>> places_of(const ParticlesNow& now);
+std::optional<std::vector<physics::ParticlePlace>> places_of(const ParticlesNow& now);
 
 // Nothing if the set has no pattern, or before the servo has said where the particles are.
 std::optional<scene::PatternState> pattern_of(const ParticlesNow& now);

@@ -15,18 +15,22 @@
 // The contact of sphere and sample is that of JKR. Any thread; nothing allocates unless it throws.
 namespace afm::physics {
 
-// One kind of sphere on one sample. A parameter that the law does not use may be zero.
+// One kind of sphere or rod on one sample. A parameter that the law does not use may be zero; a rod needs no modulus
+// and no work of adhesion, and its law is ParticleLaw::Measured.
 struct ParticleSpecies {
-  AdhesiveContact contact;  // its tip_radius is that of the sphere, R_p
+  AdhesiveContact contact;  // its tip_radius is that of the sphere or rod, R_p
   ParticleLaw law = ParticleLaw::ContactArea;
   Pressure shear_strength;     // tau
   double coefficient = 0.0;    // mu
-  Force measured_threshold;    // f_s of ParticleLaw::Measured
+  Force measured_threshold;    // f_s of ParticleLaw::Measured; of a rod, to move it sideways as a whole
   double kinetic_ratio = 0.5;  // r_k = f_k/f_s, above 0 and at most 1
   Time ageing;                 // t_a; 0: a resting sphere has f_s at once
   Length rolling_distance;     // xi; 0: the sphere slides and never rolls
   SurfaceEnergy tip_adhesion;  // W_t, between sphere and tip
+  Length length;               // length of a rod's axis, which rests on the sample; 0: a sphere
 };
+
+inline bool is_rod(const ParticleSpecies& species) noexcept { return species.length.si > 0.0; }
 
 // Throws UnphysicalValue with the name of the member unless every value is within its range, and the law has the
 // parameters that it needs.

@@ -13,12 +13,19 @@ namespace afm::physics {
 // Particles on the places of a pattern, one on each.
 struct PatternMatch {
   std::vector<std::size_t> particles;  // nearest to each target, in all
-  Length rms;                          // root of the mean square distance of the targets from them
+  Length rms;  // root of the mean square distance of the targets from them; of rods, of the ends
 };
 
-// The assignment with the least sum of squared distances. There are at least as many particles as targets; without
-// targets the match is empty. Takes targets^2 x particles steps. Source: shortest augmenting paths of Jonker &
-// Volgenant, Computing 38 (1987) 325.
-PatternMatch match_pattern(std::span<const Sideways<Length>> targets, std::span<const Sideways<Length>> particles);
+// Direction and length of rods in a pattern.
+struct PatternRods {
+  std::span<const Sideways<double>> targets;    // unit vector along each target
+  std::span<const Sideways<Length>> particles;  // from the middle of each particle to an end
+};
+
+// The assignment with the least sum of squared distances. A rod may lie either way round. There are at least as many
+// particles as targets; without targets the match is empty. Takes targets^2 x particles steps. Source: shortest
+// augmenting paths of Jonker & Volgenant, Computing 38 (1987) 325.
+PatternMatch match_pattern(std::span<const Sideways<Length>> targets, std::span<const Sideways<Length>> particles,
+                           const PatternRods& rods = {});
 
 }  // namespace afm::physics

@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "physics/friction/sideways.h"
+#include "physics/manipulation/half_turn.h"
 #include "physics/manipulation/particle_friction.h"
 #include "physics/manipulation/push_figures.h"
 #include "physics/manipulation/push_state.h"
 #include "physics/manipulation/tip_contact.h"
 #include "physics/units.h"
 
-// Spheres on a flat sample, pushed by the tip of a lever: quasi-static, without mass or velocity (docs/physics.md,
-// "Particles"; docs/decisions/0019).
+// Spheres and rods on a flat sample, pushed by the tip of a lever: quasi-static, without mass or velocity
+// (docs/physics.md, "Particles" and "Rods"; docs/decisions/0019, 0022).
 namespace afm::physics {
 
 struct PushSetup {
@@ -29,6 +30,15 @@ struct PlacedParticle {
   std::size_t species = 0;
   Sideways<Length> position;  // centre
   bool pinned = false;        // never moves
+  double angle_rad = 0.0;     // angle of a rod's axis from x
+};
+
+// Place of a particle. A sphere ignores the turn.
+struct ParticlePlace {
+  Sideways<Length> position;
+  HalfTurn turn;
+
+  bool operator==(const ParticlePlace&) const = default;
 };
 
 // Throws UnphysicalValue with the field tip_radius, half_angle, lateral_spring, normal_spring, contact_stiffness,
@@ -40,10 +50,10 @@ void validate(const PushSetup& setup);
 // above.
 void validate(const PushSetup& setup, const std::vector<PlacedParticle>& particles);
 
-// Height of an apex that touches no sphere.
+// Height of an apex that touches no particle.
 Length clear_height(const PushSetup& setup) noexcept;
 
-// Distance of the centres of two spheres on the sample that touch, 2 sqrt(R_a R_b).
+// Distance of the centres of two spheres, or of the axes of two rods, on the sample that touch, 2 sqrt(R_a R_b).
 Length touching_distance(Length radius_a, Length radius_b) noexcept;
 
 // Position of the apex on an unbent lever. z = 0 is the sample; below it, the lever presses.
@@ -94,24 +104,27 @@ class PushedParticles {
   // Moves the base on a straight line. A base that is not finite is ignored.
   const PushTick& move_to(const LeverBase& base, Time elapsed) noexcept;
 
-  // Takes the tip off all spheres and holds it over the place, so high that it touches none: base.z is at least
-  // clear_height(setup). Every sphere then counts as fully rested, and given, work, lost and stored start at zero. What
-  // follows depends on the positions of the spheres alone.
+  // Takes the tip off all particles and holds it over the place, so high that it touches none: base.z is at least
+  // clear_height(setup). Every particle then counts as fully rested, and given, work, lost and stored start at zero.
+  // What follows depends on the places of the particles alone.
   void hold_over(const LeverBase& base) noexcept;
 
-  // Puts every sphere at a place, for a tip held over them; spheres that touch may overlap a little. Then calls
-  // hold_over(). Throws std::invalid_argument unless there is a finite place for each.
-  void put(const std::vector<Sideways<Length>>& places, const LeverBase& base);
+  // Puts every particle at a place, for a tip held over them; particles that touch may overlap a little. Then calls
+  // hold_over(). Throws std::invalid_argument unless there is a finite place for each, with a unit turn.
+  void put(const std::vector<ParticlePlace>& places, const LeverBase& base);
 
-  // Puts one sphere at a finite place, which is that of no other. Call hold_over() before the next tick.
-  void put(std::size_t particle, const Sideways<Length>& place) noexcept;
+  // Puts one particle at a finite place, which is that of no other. Call hold_over() before the next tick.
+  void put(std::size_t particle, const ParticlePlace& place) noexcept;
 
-  // Spheres that the last tick moved, each once.
+  // Particles that the last tick moved, each once.
   std::span<const std::uint32_t> moved() const noexcept;
 
   const PushTick& last() const noexcept;
   std::size_t size() const noexcept;
   Sideways<Length> position(std::size_t particle) const noexcept;
+  HalfTurn turn(std::size_t particle) const noexcept;  // constant for a sphere
+  // Point of a rod's axis that is nearest to a place; the centre of a sphere.
+  Sideways<Length> nearest(std::size_t particle, const Sideways<Length>& to) const noexcept;
   std::size_t species(std::size_t particle) const noexcept;
 
  private:

@@ -26,6 +26,12 @@ struct SpeciesEntry {
   std::vector<SourcedValue> sources;
 };
 
+// An electrode on the sample, flat, that a rod is to touch: a rectangle along x and y.
+struct Pad {
+  physics::Sideways<physics::Length> middle;
+  physics::Sideways<physics::Length> half_size;
+};
+
 // Particles on a sample, the tip that pushes them, and a hand that moves it.
 struct ParticleSet {
   std::string title;
@@ -34,13 +40,15 @@ struct ParticleSet {
   physics::PushSetup setup;
   std::vector<SpeciesEntry> species;  // names of setup.species, in order
   std::vector<physics::PlacedParticle> particles;
-  std::vector<physics::Sideways<physics::Length>> targets;  // pattern that the particles are to become; may be empty
+  std::vector<physics::ParticlePlace> targets;  // pattern that the particles are to become; may be empty
+  std::vector<Pad> pads;                        // to be bridged by a rod; may be empty
   physics::LeverBase start;
   std::vector<HandMove> moves;
   std::vector<SourcedValue> sources;  // sources of tip and lever
 };
 
 inline constexpr std::size_t kMostTargets = 32;
+inline constexpr std::size_t kMostPads = 8;
 
 // Reads a particle file (TOML, assets/particles; docs/manual.md lists its keys). The error names file, line, key and
 // reason.
@@ -50,8 +58,9 @@ core::Result<ParticleSet> load_particle_set(const std::string& path);
 // A set that was loaded has no more species and particles than that can hold.
 SharedParticles shared_particles(const ParticleSet& set);
 
-// The targets in the same frame.
-std::vector<physics::Sideways<physics::Length>> shared_targets(const ParticleSet& set);
+// Targets and pads in the same frame.
+std::vector<physics::ParticlePlace> shared_targets(const ParticleSet& set);
+std::vector<Pad> shared_pads(const ParticleSet& set);
 
 // Median radius of the particles. A pattern is done when they are no farther from it (physics::PatternMatch).
 physics::Length median_radius(const ParticleSet& set);

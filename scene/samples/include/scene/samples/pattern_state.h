@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "physics/manipulation/pattern.h"
 #include "scene/samples/particle_set.h"
@@ -13,14 +14,27 @@ namespace afm::scene {
 struct PatternState {
   physics::PatternMatch match;  // numbers of particles in the set
   physics::Length allowed;      // largest root mean square distance of a pattern that is done
+  std::size_t pads = 0;         // pads of the set
+  std::size_t touched = 0;      // the most that one rod touches
 
-  bool done() const { return match.rms <= allowed; }
+  // With pads, a pattern is done when a rod touches them all, however far it is from its target.
+  bool done() const { return pads > 0 ? touched == pads : match.rms <= allowed; }
 };
 
-// Particles that are pinned stay out. `targets` are the set's and `places` those of all its particles, in one frame.
-// Nothing without targets, or if there are more of them than particles that can be moved.
-std::optional<PatternState> pattern_state(const ParticleSet& set,
-                                          std::span<const physics::Sideways<physics::Length>> targets,
-                                          std::span<const physics::Sideways<physics::Length>> places);
+// Targets and pads of a set, in the frame of its particles' places.
+struct Pattern {
+  std::vector<physics::ParticlePlace> targets;
+  std::vector<Pad> pads;
+};
+Pattern pattern_of(const ParticleSet& set);         // in the frame of the file
+Pattern shared_pattern_of(const ParticleSet& set);  // in that of a shared scene
+
+// Particles that are pinned stay out. `places` are those of all particles, in the frame of the pattern. Nothing without
+// targets, or if there are more of them than particles that can be moved.
+std::optional<PatternState> pattern_state(const ParticleSet& set, const Pattern& pattern,
+                                          std::span<const physics::ParticlePlace> places);
+
+// Whether the axis of a rod passes over a pad.
+bool touches(const Pad& pad, const physics::ParticlePlace& rod, physics::Length length);
 
 }  // namespace afm::scene

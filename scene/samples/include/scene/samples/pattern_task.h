@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "physics/contact_phase.h"
-#include "physics/friction/sideways.h"
-#include "physics/units.h"
+#include "physics/manipulation/pushed_particles.h"
 #include "scene/samples/particle_set.h"
+#include "scene/samples/pattern_state.h"
 #include "scene/shared/task_score.h"
 
 namespace afm::scene {
@@ -36,8 +36,8 @@ class PatternTask {
  public:
   static constexpr std::int64_t kRestNs = 500'000'000;
 
-  // `set` has targets and must outlive the object; `targets` are its targets in the frame of the ticks.
-  PatternTask(const ParticleSet& set, std::vector<physics::Sideways<physics::Length>> targets);
+  // `set` has targets and must outlive the object; `pattern` is its pattern in the frame of the ticks.
+  PatternTask(const ParticleSet& set, Pattern pattern);
 
   // Call in order of time, with the events of a tick before the tick. Other events than those of particles are ignored.
   void add(physics::EventKind event);
@@ -49,7 +49,7 @@ class PatternTask {
 
   // Ends the task with its score at the end of the rest, if the pattern is done. `places` are those of all particles of
   // the set. Only while there is something unjudged().
-  void judge(std::span<const physics::Sideways<physics::Length>> places);
+  void judge(std::span<const physics::ParticlePlace> places);
 
   const TaskScore& score() const { return task_.score; }
 
@@ -71,7 +71,7 @@ class PatternTask {
   void count_work(const TaskTick& tick);
 
   const ParticleSet& set_;
-  std::vector<physics::Sideways<physics::Length>> targets_;
+  Pattern pattern_;
   double clear_z_m_;
   Task task_;
   std::vector<Task> earlier_;  // tasks that ended because all particles were put back, which can be taken back

@@ -12,9 +12,10 @@
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/name.h"
 
-// Blocks of the spheres that a tip pushes over the sample (docs/physics.md, "Particles"). Places are in the sample's
-// frame, in metres of the nanoworld; the spheres rest on its plane z = 0.
+// Blocks of the spheres and rods that a tip pushes over the sample (docs/physics.md, "Particles"). Places are in the
+// sample's frame, in metres of the nanoworld; the particles rest on its plane z = 0.
 namespace afm::physics {
+struct HalfTurn;
 struct PlacedParticle;
 struct PushSetup;
 }  // namespace afm::physics
@@ -124,9 +125,15 @@ struct SharedParticles {
   SharedPusher pusher{};
   std::array<SharedSpecies, kMaxSpecies> species{};
   std::array<SharedParticle, kMaxParticles> particles{};
+  // of rods alone; sessions keep them apart, so that those without rods stay as they were
+  std::array<double, kMaxSpecies> length_m{};     // length of a species' axis; 0: spheres
+  std::array<double, kMaxParticles> angle_rad{};  // angle of a rod's axis from x
 
   bool operator==(const SharedParticles&) const = default;
 };
+
+// True if a species is one of rods.
+bool has_rods(const SharedParticles& particles);
 
 // The same for the physics; `particles` is valid (validate in scene/shared/shared_segment.h).
 physics::PushSetup push_setup(const SharedParticles& particles);
@@ -137,9 +144,9 @@ std::vector<physics::PlacedParticle> start_places(const SharedParticles& particl
 struct ParticlePose {
   double x_m = 0;  // centre
   double y_m = 0;
-  std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: sample's frame from sphere
+  std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: sample's frame from particle
   physics::PushState moved = physics::PushState::Free;    // latest motion: Slides, Rolls or Several; Free: none yet
-  std::uint32_t padding = 0;
+  std::uint32_t rod = 0;                                  // 1: along x of its frame, turns about the vertical alone
 
   bool operator==(const ParticlePose&) const = default;
 };
@@ -150,7 +157,7 @@ constexpr void for_each_field(Visit&& visit, Record&... pose) {
   visit("y_m", pose.y_m...);
   visit("orientation_wxyz", pose.orientation...);
   visit("moved", pose.moved...);
-  visit("padding", pose.padding...);
+  visit("rod", pose.rod...);
 }
 static_assert(all_fields_described<ParticlePose>());
 
@@ -162,8 +169,13 @@ struct ParticlePage {
   bool operator==(const ParticlePage&) const = default;
 };
 
+// Direction of a rod, as the physics has it, and back; of a sphere that of the x axis.
+physics::HalfTurn turn_of(const ParticlePose& pose) noexcept;
+void set_turn(ParticlePose& pose, const physics::HalfTurn& turn) noexcept;  // makes it the pose of a rod
+
 // Mark of a particle at its place; the digest of a set is the sum of the marks of all its particles, modulo 2^64, so
-// that a change of one place changes one mark. Bit for bit: -0.0 differs from 0.0.
+// that a change of one place changes one mark. Bit for bit: -0.0 differs from 0.0. The direction of a rod counts, the
+// orientation of a sphere does not.
 std::uint64_t place_mark(std::size_t particle, const ParticlePose& pose) noexcept;
 
 // Digest of the first `count` particles of these pages, which has as many or more.

@@ -18,7 +18,7 @@
 namespace afm::scene {
 
 // Increase whenever the meaning of a block changes; changes of a block's size are detected automatically.
-inline constexpr std::uint32_t kSegmentVersion = 9;
+inline constexpr std::uint32_t kSegmentVersion = 10;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;

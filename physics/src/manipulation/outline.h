@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "lone_push.h"
+#include "physics/manipulation/half_turn.h"
+
+namespace afm::physics {
+
+// Axis of a rod on the sample, seen from above, or the centre of a sphere. The body is everything within a radius of
+// it, so that a tip meets a rod as it meets a sphere at the nearest point of the axis.
+struct Outline {
+  Flat at;              // middle
+  Flat axis{1.0, 0.0};  // unit vector towards the front end
+  double half_m = 0.0;  // half length; 0: a sphere
+};
+
+inline Flat along(const Outline& o, double way_m) noexcept {
+  return {o.at.x + way_m * o.axis.x, o.at.y + way_m * o.axis.y};
+}
+
+// Place of the nearest point of the axis, from the middle.
+inline double place_beside(const Outline& o, const Flat& point) noexcept {
+  const double way_m = (point.x - o.at.x) * o.axis.x + (point.y - o.at.y) * o.axis.y;
+  return std::clamp(way_m, -o.half_m, o.half_m);
+}
+
+inline Flat nearest_on(const Outline& o, const Flat& point) noexcept {
+  return o.half_m > 0.0 ? along(o, place_beside(o, point)) : o.at;
+}
+
+// Two axes cross.
+inline bool cross(const Outline& a, const Outline& b) noexcept {
+  if (!(a.half_m > 0.0 && b.half_m > 0.0)) return false;
+  const auto side = [](const Outline& o, const Flat& p) {
+    return o.axis.x * (p.y - o.at.y) - o.axis.y * (p.x - o.at.x);
+  };
+  const auto apart = [&](const Outline& o, const Outline& other) {
+    return side(o, along(other, -other.half_m)) * side(o, along(other, other.half_m)) > 0.0;
+  };
+  return !apart(a, b) && !apart(b, a);
+}
+
+// Distance of two axes that do not cross.
+inline double distance_between(const Outline& a, const Outline& b) noexcept {
+  if (!(b.half_m > 0.0)) return distance_between(nearest_on(a, b.at), b.at);
+  if (!(a.half_m > 0.0)) return distance_between(a.at, nearest_on(b, a.at));
+  double least_m = HUGE_VAL;
+  for (const double end : {-1.0, 1.0}) {
+    const Flat of_a = along(a, end * a.half_m), of_b = along(b, end * b.half_m);
+    least_m =
+        std::min({least_m, distance_between(of_a, nearest_on(b, of_a)), distance_between(of_b, nearest_on(a, of_b))});
+  }
+  return least_m;
+}
+
+inline Flat axis_of(const HalfTurn& turn) noexcept {
+  return {turn.w * turn.w - turn.z * turn.z, 2.0 * turn.w * turn.z};
+}
+
+// Tangent of half the angle by which a rod turns whose ends move across by `turned_m`.
+inline double half_tangent(double turned_m, double half_m) noexcept { return 0.5 * turned_m / half_m; }
+
+inline HalfTurn turned(const HalfTurn& turn, double tangent) noexcept {
+  const double w = turn.w - turn.z * tangent, z = turn.z + turn.w * tangent, size = std::sqrt(w * w + z * z);
+  return {w / size, z / size};
+}
+
+inline Flat turned(const Flat& axis, double tangent) noexcept {
+  const double scale = 1.0 / (1.0 + tangent * tangent);
+  const double cosine = (1.0 - tangent * tangent) * scale, sine = 2.0 * tangent * scale;
+  return {cosine * axis.x - sine * axis.y, sine * axis.x + cosine * axis.y};
+}
+
+}  // namespace afm::physics

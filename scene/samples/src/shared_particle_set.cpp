@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "core/check.h"
+#include "particle_field.h"
+#include "scene/samples/particle_files.h"
+#include "scene/samples/particle_set.h"
+
+// A set for a shared scene, and back.
+namespace afm::scene {
+
+using physics::Length;
+
+ParticleField field_of(const ParticleSet& set) {
+  if (set.particles.empty()) return {};
+  ParticleField field{set.particles.front().position, set.particles.front().position};
+  for (const physics::PlacedParticle& particle : set.particles) {
+    const physics::Sideways<Length>& place = particle.position;
+    const Length half = 0.5 * set.setup.species[particle.species].length;
+    field.least = {std::min(field.least.x, place.x - half), std::min(field.least.y, place.y - half)};
+    field.most = {std::max(field.most.x, place.x + half), std::max(field.most.y, place.y + half)};
+  }
+  return field;
+}
+
+SharedParticles shared_particles(const ParticleSet& set) {
+  AFM_CHECK(set.species.size() <= kMaxSpecies && set.setup.species.size() == set.species.size() &&
+            set.particles.size() <= kMaxParticles);
+  SharedParticles shared;
+  shared.pusher.tip_radius_m = set.setup.tip.radius.si;
+  shared.pusher.half_angle_rad = set.setup.tip.half_angle_rad;
+  shared.pusher.tip_friction = set.setup.tip_friction;
+  shared.pusher.lateral_spring_n_per_m = set.setup.springs.lateral.si;
+  shared.pusher.normal_spring_n_per_m = set.setup.springs.normal.si;
+  shared.pusher.contact_stiffness_n_per_m = set.setup.springs.contact.si;
+  for (const physics::ParticleSpecies& species : set.setup.species) {
+    shared.species.at(shared.species_count) = {.name = to_name(set.species[shared.species_count].name),
+                                               .radius_m = species.contact.tip_radius.si,
+                                               .reduced_modulus_pa = species.contact.reduced_modulus.si,
+                                               .work_of_adhesion_j_per_m2 = species.contact.work_of_adhesion.si,
+                                               .shear_strength_pa = species.shear_strength.si,
+                                               .coefficient = species.coefficient,
+                                               .measured_threshold_n = species.measured_threshold.si,
+                                               .kinetic_ratio = species.kinetic_ratio,
+                                               .ageing_s = species.ageing.si,
+                                               .rolling_distance_m = species.rolling_distance.si,
+                                               .tip_adhesion_j_per_m2 = species.tip_adhesion.si,
+                                               .law = species.law};
+    shared.length_m.at(shared.species_count) = species.length.si;
+    ++shared.species_count;
+  }
+  const physics::Sideways<Length> middle = field_of(set).middle();
+  for (const physics::PlacedParticle& particle : set.particles) {
+    shared.angle_rad.at(shared.count) = particle.angle_rad;
+    shared.particles.at(shared.count++) = {.x_m = (particle.position - middle).x.si,
+                                           .y_m = (particle.position - middle).y.si,
+                                           .species = static_cast<std::uint32_t>(particle.species),
+                                           .pinned = particle.pinned ? 1U : 0U};
+  }
+  return shared;
+}
+
+std::vector<physics::ParticlePlace> shared_targets(const ParticleSet& set) {
+  std::vector<physics::ParticlePlace> targets = set.targets;
+  const physics::Sideways<Length> middle = field_of(set).middle();
+  for (physics::ParticlePlace& target : targets) target.position = target.position - middle;
+  return targets;
+}
+
+std::vector<Pad> shared_pads(const ParticleSet& set) {
+  std::vector<Pad> pads = set.pads;
+  const physics::Sideways<Length> middle = field_of(set).middle();
+  for (Pad& pad : pads) pad.middle = pad.middle - middle;
+  return pads;
+}
+
+Length median_radius(const ParticleSet& set) {
+  AFM_CHECK(!set.particles.empty());
+  std::vector<Length> radii;
+  radii.reserve(set.particles.size());
+  for (const physics::PlacedParticle& p : set.particles) {
+    radii.push_back(set.setup.species[p.species].contact.tip_radius);
+  }
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
+}
+
+ParticleSet recorded_set(const SharedParticles& recorded, const std::string& assets_dir) {
+  for (const std::string& name : particle_sets(assets_dir)) {
+    const auto path = particle_file(name, assets_dir);
+    auto set = path ? load_particle_set(*path) : tl::unexpected(path.error());
+    if (set && *std::make_unique<const SharedParticles>(shared_particles(*set)) == recorded) return std::move(*set);
+  }
+  ParticleSet set;
+  set.title = "Recorded particles";
+  set.medium = "air";
+  set.setup = push_setup(recorded);
+  set.particles = start_places(recorded);
+  for (std::uint32_t i = 0; i < recorded.species_count; ++i) {
+    set.species.push_back({.name = recorded.species[i].name.data(), .sources = {}});
+  }
+  return set;
+}
+
+}  // namespace afm::scene
