@@ -194,16 +194,18 @@ core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const 
   if (std::isfinite(options.most_depth_m) && !curve.features.contact_point) {
     return refused("--most-depth counts from the contact point, and it has none; leave it out");
   }
-  fits::FitSetup setup{.indenter = indenter_of(options),
-                       .poisson = options.poisson,
-                       .spring_n_per_m = spring->si,
-                       .pull_off_n = curve.features.adhesion ? std::fmax(-curve.features.adhesion->force.si, 0.0) : 0.0,
-                       .zero_n = curve.features.baseline.level.si,
-                       .against = options.against,
-                       .tilt = options.tilt,
-                       .white = options.white,
-                       .starts = {},
-                       .uncertainties = options.uncertainties};
+  fits::FitSetup setup{
+      .indenter = indenter_of(options),
+      .poisson = options.poisson,
+      .spring_n_per_m = spring->si,
+      .pull_off_n = curve.features.adhesion ? std::fmax(-curve.features.adhesion->force.si, 0.0) : 0.0,
+      .pull_off_z_m = curve.features.pull_off ? std::optional(curve.features.pull_off->z.si) : std::nullopt,
+      .zero_n = curve.features.baseline.level.si,
+      .against = options.against,
+      .tilt = options.tilt,
+      .white = options.white,
+      .starts = {},
+      .uncertainties = options.uncertainties};
   for (const auto& estimate : curve.features.contact_estimates) {
     if (estimate) setup.starts.push_back(estimate->si);
   }

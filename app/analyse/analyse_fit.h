@@ -57,10 +57,4 @@ curves::SvgLine fit_line(const curves::AnalysedCurve& curve, const fits::Elastic
 // A doubt with its figure and limit, and which law to try.
 std::string doubt_text(const fits::Found& found);
 
-// Relative standard deviations of the results by all uncertainties of what the fit was given; 0 if none was given.
-struct SystematicShares {
-  double modulus = 0, work = 0;
-};
-SystematicShares systematic_shares(const fits::ElasticFit& fit);
-
 }  // namespace afm::app

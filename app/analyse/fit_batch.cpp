@@ -88,7 +88,7 @@ std::string adhesion_cells(const fits::ElasticFit& fit) {
   };
   const bool adheres = fit.adhesion.has_value(), erred = !fit.systematic.empty();
   const fits::Adhesion adhesion = fit.adhesion.value_or(fits::Adhesion{});
-  const SystematicShares shares = systematic_shares(fit);
+  const fits::SystematicShares shares = fits::sum_of_shares(fit.systematic);
   return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", adheres ? fits::row_of(fit.shape).name : "",
                      given(adheres, adhesion.work_j_per_m2), given(adheres, adhesion.work_interval.low),
                      given(adheres, adhesion.work_interval.high), given(adheres, adhesion.pull_off_n),

@@ -59,6 +59,7 @@ void adhesion_lines(const fits::ElasticFit& fit, const Line& line) {
   line("  95 % from", adhesion.work_interval.low > 0.0 ? work_text(adhesion.work_interval.low) : "not found");
   line("  to", std::isfinite(adhesion.work_interval.high) ? work_text(adhesion.work_interval.high) : "not found");
   line("pull-off", force_text(adhesion.pull_off_n));
+  line("  at", length_text(adhesion.pull_off_z_m));
   line("Tabor parameter", fmt::format("{:.{}g}", adhesion.tabor, kDigits));
   line("law", std::string(fits::row_of(fit.shape).name));
   if (adhesion.rounds > 0) {
@@ -68,7 +69,7 @@ void adhesion_lines(const fits::ElasticFit& fit, const Line& line) {
 }
 
 void systematic_lines(const fits::ElasticFit& fit, const Line& line) {
-  const SystematicShares sum = systematic_shares(fit);
+  const fits::SystematicShares sum = fits::sum_of_shares(fit.systematic);
   // a refit may have failed
   const bool found = std::isfinite(sum.modulus) && std::isfinite(sum.work);
   line("systematic of E", found ? pressure_text(sum.modulus * fit.modulus_pa) : "not found");
@@ -98,10 +99,11 @@ FitJson adhesion_json(const fits::ElasticFit& fit) {
            {adhesion.work_interval.low > 0.0 ? FitJson(adhesion.work_interval.low) : FitJson(),
             finite_json(adhesion.work_interval.high)}},
           {"pull_off_N", adhesion.pull_off_n},
+          {"pull_off_z_m", adhesion.pull_off_z_m},
           {"tabor", adhesion.tabor}};
 }
 
-FitJson systematic_json(const fits::ElasticFit& fit, const SystematicShares& sum) {
+FitJson systematic_json(const fits::ElasticFit& fit, const fits::SystematicShares& sum) {
   if (fit.systematic.empty()) return {};
   FitJson parts = FitJson::array();
   for (const fits::Systematic& each : fit.systematic) {
@@ -118,18 +120,9 @@ FitJson systematic_json(const fits::ElasticFit& fit, const SystematicShares& sum
 }  // namespace
 
 std::string doubt_text(const fits::Found& found) {
-  return fmt::format("{} {:.3g} (limit {:g}{})", fits::kDoubts.at(static_cast<std::size_t>(found.doubt)).name,
-                     found.figure, found.limit,
+  const fits::DoubtRow& row = fits::row_of(found.doubt);
+  return fmt::format("{} {:.3g} (limit {:g}{})", row.name, found.figure, row.limit,
                      found.advised ? fmt::format("; try --fit {}", fits::row_of(*found.advised).name) : "");
-}
-
-SystematicShares systematic_shares(const fits::ElasticFit& fit) {
-  SystematicShares sum;
-  for (const fits::Systematic& each : fit.systematic) {
-    sum.modulus = std::hypot(sum.modulus, each.modulus_share);
-    sum.work = std::hypot(sum.work, each.work_share);
-  }
-  return sum;
 }
 
 std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options) {
@@ -191,7 +184,7 @@ FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
                  {"reduced_modulus_Pa", fit.reduced_modulus_pa},
                  {"atomic_distance_m", shape.is_adhesive ? FitJson(atomic_distance_of(options)) : FitJson()},
                  {"adhesion", adhesion_json(fit)},
-                 {"systematic", systematic_json(fit, systematic_shares(fit))},
+                 {"systematic", systematic_json(fit, fits::sum_of_shares(fit.systematic))},
                  {"contact_m", fit.contact_z_m},
                  {"level_N", fit.level_n},
                  {"tilt_N_per_m", options.tilt ? FitJson(fit.tilt_n_per_m) : FitJson()},
@@ -206,9 +199,9 @@ FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
                  {"trust", fits::name_of(fit.trust)}};
   result["doubts"] = FitJson::array();
   for (const fits::Found& found : fit.doubts) {
-    result["doubts"].push_back({{"reason", fits::kDoubts.at(static_cast<std::size_t>(found.doubt)).name},
-                                {"figure", found.figure},
-                                {"limit", found.limit},
+    result["doubts"].push_back({{"reason", fits::row_of(found.doubt).name},
+                                {"figure", finite_json(found.figure)},
+                                {"limit", fits::row_of(found.doubt).limit},
                                 {"advised", found.advised ? FitJson(fits::row_of(*found.advised).name) : FitJson()}});
   }
   return result;

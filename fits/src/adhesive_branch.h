@@ -30,6 +30,9 @@ class AdhesiveBranch {
   // Hardest pull of a soft lever, a magnitude: 2 pi W R for DMT, 3/2 pi W R for JKR.
   double pull_off_n() const;
 
+  // Way at the fold, where the lever jumps off; negative.
+  double let_go_way_m() const { return way_m(point(lambda_, fold_)); }
+
  private:
   struct Point {
     double load, indentation;    // in Maugis' units

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,8 +15,7 @@ namespace afm::fits {
 
 namespace {
 
-// Tabor's parameter at the borders of law_of_tabor().
-constexpr double kMostDmt = 0.1, kLeastJkr = 5.0;
+using Side = DoubtRow::Side;
 
 // Greatest force above the baseline.
 double greatest_push_n(std::span<const Sample> samples, const ElasticFit& fit) {
@@ -78,60 +78,91 @@ class Judge {
   void judge(ElasticFit& fit) {
     // the pull of a tip that sticks depends on the sample, too
     const double push_n = std::max(greatest_push_n(samples_, fit), fit.adhesion ? fit.adhesion->pull_off_n : 0.0);
-    const bool pushed = fit.in_contact > 0 && push_n > 0.0 && push_n >= 5.0 * fit.noise_n;
-    add(fit, Doubt::NeverPushed, fit.noise_n > 0.0 ? push_n / fit.noise_n : 0.0, 5.0, !pushed);
+    add(fit, Doubt::NeverPushed, fit.in_contact > 0 && push_n > 0.0 ? push_n / fit.noise_n : 0.0);
     const Standing standing = standing_of(samples_, std::max(1e-9 * push_n, 0.5 * fit.noise_n));
-    const double longest = std::max(4.0, 5.0 * standing.usually);
-    add(fit, Doubt::Saturated, standing.at_greatest, longest, standing.at_greatest > longest);
-    const double stiffer = fit.reduced_modulus_pa * push_of(setup_.indenter, fit.depth_m).slope / setup_.spring_n_per_m;
-    add(fit, Doubt::LeverTooSoft, stiffer, 20.0, stiffer > 20.0);
-    const double factor = fit.modulus_interval_pa.high / fit.modulus_interval_pa.low;
-    add(fit, Doubt::Unknown, factor, 10.0, !(factor < 10.0));
-    add(fit, Doubt::FewPoints, static_cast<double>(fit.in_contact), 50.0, fit.in_contact < 50);
-    const double noise_depth_m = fit.noise_n / setup_.spring_n_per_m;
-    add(fit, Doubt::Shallow, fit.depth_m / noise_depth_m, 3.0, fit.depth_m < 3.0 * noise_depth_m);
+    add(fit, Doubt::Saturated, standing.at_greatest / standing.usually);
+    const double contact_n_per_m = fit.reduced_modulus_pa * push_of(setup_.indenter, fit.depth_m).slope;
+    add(fit, Doubt::LeverTooSoft, contact_n_per_m / setup_.spring_n_per_m);
+    add(fit, Doubt::Unknown, fit.modulus_interval_pa.high / fit.modulus_interval_pa.low);
+    add(fit, Doubt::FewPoints, static_cast<double>(fit.in_contact));
+    add(fit, Doubt::Shallow, fit.depth_m * setup_.spring_n_per_m / fit.noise_n);
     if (!fit.adhesion) judge_adhesion(fit, push_n);
-    const double strain = layer_strain(setup_.indenter, fit.depth_m);
-    add(fit, Doubt::BeyondLayer, strain, 1.0, strain > 1.0);
-    if (fit.rms_n > kRounding * push_n) {
-      judge_level(fit);
-      // steps larger than the noise make runs of their own
-      const bool digitised = smallest_step_n(samples_) > fit.noise_n;
-      add(fit, Doubt::NotRandom, fit.runs_p, 0.01, fit.runs_p < 0.01 && !digitised);
+    add(fit, Doubt::BeyondLayer, layer_strain(setup_.indenter, fit.depth_m));
+    if (fit.rms_n > kRounding * push_n) judge_residuals(fit);
+    add(fit, Doubt::ShortBaseline, 1.0 - static_cast<double>(fit.in_contact) / static_cast<double>(fit.points));
+    if (fit.adhesion) {
+      judge_pull_off(fit);
+      judge_law(fit);
     }
-    const double outside = 1.0 - static_cast<double>(fit.in_contact) / static_cast<double>(fit.points);
-    add(fit, Doubt::ShortBaseline, outside, 0.1, outside < 0.1);
-    if (fit.adhesion) judge_law(fit);
     for (const Found& found : fit.doubts) {
-      const bool fatal = kDoubts.at(static_cast<std::size_t>(found.doubt)).fatal;
-      fit.trust = fatal || fit.trust == Trust::No ? Trust::No : Trust::Doubtful;
+      fit.trust = row_of(found.doubt).fatal || fit.trust == Trust::No ? Trust::No : Trust::Doubtful;
     }
   }
 
  private:
-  static void add(ElasticFit& fit, Doubt doubt, double figure, double limit, bool found) {
-    if (found) fit.doubts.push_back({doubt, figure, limit, std::nullopt});
+  // A figure that is not a number is doubtful.
+  static void add(ElasticFit& fit, Doubt doubt, double figure, std::optional<Shape> advised = std::nullopt) {
+    const DoubtRow& row = row_of(doubt);
+    const bool within = row.side == Side::Above ? figure <= row.limit : figure >= row.limit;
+    if (!within) fit.doubts.push_back({doubt, figure, advised});
   }
 
   // Advises the law of Tabor's parameter, with this modulus and the work of adhesion between those of JKR and DMT.
   void judge_adhesion(ElasticFit& fit, double push_n) const {
-    if (!(setup_.pull_off_n > 0.05 * push_n)) return;
-    Found found{Doubt::Adhesive, setup_.pull_off_n / push_n, 0.05, std::nullopt};
     const Indenter& indenter = setup_.indenter;
-    if (indenter.radius_m > 0.0 && indenter.layer_m == 0.0) {
+    std::optional<Shape> advised;
+    if (setup_.pull_off_n > 0.0 && indenter.radius_m > 0.0 && indenter.layer_m == 0.0) {
       const physics::Length radius(indenter.radius_m);
       const physics::SurfaceEnergy work(setup_.pull_off_n / (1.75 * std::numbers::pi * indenter.radius_m));
-      found.advised =
+      advised =
           law_of_tabor(tabor_of({radius, physics::Pressure(fit.reduced_modulus_pa), work}, indenter.atomic_distance_m));
     }
-    fit.doubts.push_back(found);
+    add(fit, Doubt::Adhesive, setup_.pull_off_n > 0.0 ? setup_.pull_off_n / push_n : 0.0, advised);
   }
 
   void judge_law(ElasticFit& fit) const {
     const double tabor = fit.adhesion->tabor;
-    const Shape law = law_of_tabor(tabor);
-    if (law == fit.shape || fit.shape == Shape::Maugis) return;
-    fit.doubts.push_back({Doubt::OtherLaw, tabor, fit.shape == Shape::Dmt ? kMostDmt : kLeastJkr, law});
+    if (fit.shape == Shape::Dmt) add(fit, Doubt::BeyondDmt, tabor, law_of_tabor(tabor));
+    if (fit.shape == Shape::Jkr) add(fit, Doubt::BelowJkr, tabor, law_of_tabor(tabor));
+  }
+
+  // The noise moves the hardest of many pulls, and the place at which a lever lets go.
+  void judge_pull_off(ElasticFit& fit) const {
+    constexpr double kMoved = 4.0;  // standard deviations
+    const double moved_n = kMoved * fit.noise_n, moved_m = moved_n / setup_.spring_n_per_m;
+    const double off_n = std::abs(fit.adhesion->pull_off_n - setup_.pull_off_n);
+    add(fit, Doubt::PullOffForce, std::max(off_n - moved_n, 0.0) / setup_.pull_off_n);
+    if (!setup_.pull_off_z_m) return;
+    const double off_m = std::abs(fit.adhesion->pull_off_z_m - *setup_.pull_off_z_m);
+    const double way_m = std::abs(fit.adhesion->pull_off_z_m - fit.contact_z_m);
+    add(fit, Doubt::PullOffPlace, std::max(off_m - moved_m, 0.0) / way_m);
+  }
+
+  void judge_residuals(ElasticFit& fit) {
+    judge_level(fit);
+    const double step_n = smallest_step_n(samples_);
+    // steps larger than the noise make runs of their own
+    if (step_n <= fit.noise_n) add(fit, Doubt::NotRandom, fit.runs_p);
+    const double rounding_n = step_n / std::sqrt(12.0);
+    add(fit, Doubt::Misfit, fit.rms_n / std::max(most_noise_n(fit), rounding_n));
+  }
+
+  // Noise before contact, three standard deviations of its estimate larger: points that are correlated by rho from one
+  // to the next count as (1 - rho^2)/(1 + rho^2) independent ones.
+  double most_noise_n(const ElasticFit& fit) const {
+    constexpr double kChance = 3.0, kMostCorrelated = 0.999;
+    const std::vector<double> residuals = problem_.residuals(ended_.unknowns);
+    const std::vector<CurveProblem::Bent> bent = problem_.all_bent(ended_.unknowns);
+    std::vector<double> free;
+    for (std::size_t t = 0; t < residuals.size(); ++t) {
+      if (!bent[t].touches) free.push_back(residuals[t]);
+    }
+    if (free.size() < kFewest || !(fit.noise_n > 0.0)) return fit.noise_n;
+    const double squares = std::inner_product(free.begin(), free.end(), free.begin(), 0.0);
+    const double products = std::inner_product(free.begin() + 1, free.end(), free.begin(), 0.0);
+    const double rho = std::clamp(products / squares, 0.0, kMostCorrelated);
+    const double independent = static_cast<double>(free.size()) * (1.0 - rho * rho) / (1.0 + rho * rho);
+    return fit.noise_n * (1.0 + kChance / std::sqrt(2.0 * independent));
   }
 
   // The modulus of half the depth, by the same noise; it may differ by three of its standard deviations.
@@ -152,8 +183,7 @@ class Judge {
     if (!is_usable(ended.unknowns, ended.squares)) return;
     fit.half_depth_modulus_pa = std::exp(ended.unknowns[kModulus]) * (fit.modulus_pa / fit.reduced_modulus_pa);
     const double apart = std::abs(ended.unknowns[kModulus] - ended_.unknowns[kModulus]);
-    const double deviation = deviation_of(kModulus, half, ended);
-    add(fit, Doubt::NotLevel, apart / deviation, 3.0, apart > 3.0 * deviation);
+    add(fit, Doubt::NotLevel, apart / deviation_of(kModulus, half, ended));
   }
 
   std::span<const Sample> samples_;
@@ -164,20 +194,33 @@ class Judge {
 
 }  // namespace
 
-const std::array<DoubtRow, 12> kDoubts{{
-    {Doubt::NeverPushed, true, "the sample is hardly pushed: greatest push over the noise"},
-    {Doubt::Saturated, true, "the greatest force is that of several points: the detector's end"},
-    {Doubt::LeverTooSoft, false, "the lever bends instead of the sample: contact stiffness over the lever's"},
-    {Doubt::Unknown, true, "the interval spans a large factor"},
-    {Doubt::FewPoints, false, "few points in contact"},
-    {Doubt::Shallow, false, "depth over that of the noise"},
-    {Doubt::Adhesive, false, "the tip sticks, and the shape does not: hardest pull over the greatest push"},
-    {Doubt::BeyondLayer, false, "deeper than the layer's formula allows: strain over its limit"},
-    {Doubt::NotLevel, false, "the modulus depends on the depth: half the depth differs, in standard deviations"},
-    {Doubt::NotRandom, false, "the curve has another shape: probability of the residuals' runs"},
-    {Doubt::ShortBaseline, false, "little recorded before contact: share of the points"},
-    {Doubt::OtherLaw, false, "Tabor's parameter is that of another law of adhesion"},
+const std::array<DoubtRow, 16> kDoubts{{
+    {Doubt::NeverPushed, true, Side::Below, 5.0, "the sample is hardly pushed: greatest push over the noise"},
+    {Doubt::Saturated, true, Side::Above, 5.0,
+     "the greatest force lasts: the detector's end; points of it over those of a usual force"},
+    {Doubt::LeverTooSoft, false, Side::Above, 20.0,
+     "the lever bends instead of the sample: contact stiffness over the lever's"},
+    {Doubt::Unknown, true, Side::Above, 10.0, "the interval spans a large factor"},
+    {Doubt::FewPoints, false, Side::Below, 50.0, "few points in contact"},
+    {Doubt::Shallow, false, Side::Below, 3.0, "depth over that of the noise"},
+    {Doubt::Adhesive, false, Side::Above, 0.05,
+     "the tip sticks, and the shape does not: hardest pull over the greatest push"},
+    {Doubt::BeyondLayer, false, Side::Above, 1.0, "deeper than the layer's formula allows: strain over its limit"},
+    {Doubt::NotLevel, false, Side::Above, 3.0,
+     "the modulus depends on the depth: half the depth differs, in standard deviations"},
+    {Doubt::NotRandom, false, Side::Below, 0.01, "the curve has another shape: probability of the residuals' runs"},
+    {Doubt::Misfit, false, Side::Above, 1.5,
+     "the model leaves the curve: rms of residuals over the largest likely noise"},
+    {Doubt::ShortBaseline, false, Side::Below, 0.1, "little recorded before contact: share of the points"},
+    {Doubt::PullOffForce, false, Side::Above, 0.2,
+     "the model pulls off with another force: difference over the recorded one"},
+    {Doubt::PullOffPlace, false, Side::Above, 0.25,
+     "the model pulls off elsewhere: difference over its way from the contact point"},
+    {Doubt::BeyondDmt, false, Side::Above, 0.1, "Tabor's parameter is above that of DMT"},
+    {Doubt::BelowJkr, false, Side::Below, 5.0, "Tabor's parameter is below that of JKR"},
 }};
+
+const DoubtRow& row_of(Doubt doubt) { return kDoubts.at(static_cast<std::size_t>(doubt)); }
 
 std::string_view name_of(Trust trust) {
   switch (trust) {

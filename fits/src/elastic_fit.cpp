@@ -207,8 +207,9 @@ Adhesion adhesion_of(const Minimum& best, const CurveProblem& problem, const Fit
   const physics::AdhesiveContact contact{physics::Length(indenter.radius_m),
                                          physics::Pressure(std::exp(unknowns[kModulus])),
                                          physics::SurfaceEnergy(adhesion.work_j_per_m2)};
-  adhesion.pull_off_n =
-      AdhesiveBranch(indenter.shape, contact, indenter.atomic_distance_m, setup.spring_n_per_m).pull_off_n();
+  const AdhesiveBranch branch(indenter.shape, contact, indenter.atomic_distance_m, setup.spring_n_per_m);
+  adhesion.pull_off_n = branch.pull_off_n();
+  adhesion.pull_off_z_m = unknowns[kContact] - branch.let_go_way_m();
   adhesion.tabor = tabor_of(contact, indenter.atomic_distance_m);
   return adhesion;
 }

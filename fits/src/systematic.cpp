@@ -81,10 +81,11 @@ std::vector<Systematic> systematic_of(std::span<const Sample> samples, const Fit
       usable = usable && again;
       results[i] = again.value_or(Results{});
     }
-    const double way = std::log(factors[1] / factors[0]) / uncertainty.share;
     const double unknown = std::numeric_limits<double>::quiet_NaN();
-    all.push_back({uncertainty, usable ? std::abs(results[1].modulus - results[0].modulus) / way : unknown,
-                   usable ? std::abs(results[1].work - results[0].work) / way : unknown});
+    const auto share = [&](double Results::* result) {
+      return usable ? error_share(uncertainty.share, factors, {results[0].*result, results[1].*result}) : unknown;
+    };
+    all.push_back({uncertainty, share(&Results::modulus), share(&Results::work)});
   }
   return all;
 }

@@ -12,11 +12,12 @@
 
 namespace afm::fits {
 
-const std::array<SpectrumDoubtRow, 4> kSpectrumDoubts{
+const std::array<SpectrumDoubtRow, 5> kSpectrumDoubts{
     {{SpectrumDoubt::OtherShape, "it is not one oscillator on a constant floor; chi square of neighbours"},
      {SpectrumDoubt::TooCoarse, "few points in the width of the resonance"},
      {SpectrumDoubt::Unknown, "the area is hardly known; its relative standard deviation"},
-     {SpectrumDoubt::FewerAverages, "the scatter is that of fewer averages; share of those given"}}};
+     {SpectrumDoubt::FewerAverages, "the scatter is that of fewer averages; share of those given"},
+     {SpectrumDoubt::Correlated, "neighbours are correlated more than by a window; growth of the variances"}}};
 
 namespace {
 
@@ -141,6 +142,7 @@ void judge_spectrum(std::span<const SpectrumPoint> spectrum, std::span<const dou
                     std::optional<double> given, ThermalFit& fit) {
   constexpr double kMostChiSquare = 39.25 / static_cast<double>(kGroups);  // 0.999 quantile
   constexpr double kFewestInWidth = 4.0, kMostDeviation = 0.1, kUsualScatter = 0.25, kChance = 4.0;
+  constexpr double kMostCorrelated = 2.5;  // a Hann window: 1.94
   const auto doubt = [&fit](bool found, SpectrumDoubt which, double figure, double limit) {
     if (found) fit.doubts.push_back({which, figure, limit});
   };
@@ -154,6 +156,7 @@ void judge_spectrum(std::span<const SpectrumPoint> spectrum, std::span<const dou
   }));
   doubt(in_width < kFewestInWidth, SpectrumDoubt::TooCoarse, in_width, kFewestInWidth);
   doubt(!(fit.area_deviation <= kMostDeviation), SpectrumDoubt::Unknown, fit.area_deviation, kMostDeviation);
+  doubt(fit.neighbour_factor > kMostCorrelated, SpectrumDoubt::Correlated, fit.neighbour_factor, kMostCorrelated);
   if (!given || !fit.seen_averages) return;
   const double chance = std::sqrt((2.0 + 6.0 / *given) / static_cast<double>(spectrum.size()));
   const double share = *fit.seen_averages / *given, limit = 1.0 / (1.0 + std::max(kUsualScatter, kChance * chance));

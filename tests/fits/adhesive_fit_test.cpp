@@ -80,6 +80,15 @@ class Curve {
 
   const std::vector<Sample>& samples() const { return samples_; }
 
+  // Highest base at which the tip sticks.
+  double last_sticking_m() const {
+    double highest_m = -deepest_m_;
+    for (const Sample& sample : samples_) {
+      if (sample.sticks) highest_m = std::max(highest_m, sample.z_m);
+    }
+    return highest_m;
+  }
+
   FitSetup setup(Shape law) const {
     FitSetup setup;
     setup.indenter = {.shape = law, .radius_m = set_.radius_m, .atomic_distance_m = set_.z0_m};
@@ -270,9 +279,34 @@ TEST(AdhesiveFit, OfAnotherLawThanTaborsIsDoubtful) {
   const Curve curve(Shape::Jkr, {}, 1e-6, 400);
   const ElasticFit fit = fitted(curve.samples(), curve.setup(Shape::Dmt));
   const auto found = std::find_if(fit.doubts.begin(), fit.doubts.end(),
-                                  [](const Found& each) { return each.doubt == Doubt::OtherLaw; });
+                                  [](const Found& each) { return each.doubt == Doubt::BeyondDmt; });
   ASSERT_NE(found, fit.doubts.end());
   EXPECT_EQ(found->advised, Shape::Jkr);
+}
+
+// A pull-off that was recorded harder, or farther out, than that of the law that fits the contact: another bond held.
+TEST(AdhesiveFit, WithAnotherPullOffThanTheRecordedOneIsDoubtful) {
+  const auto has = [](const ElasticFit& fit, Doubt doubt) {
+    return std::any_of(fit.doubts.begin(), fit.doubts.end(), [&](const Found& found) { return found.doubt == doubt; });
+  };
+  for (const Shape law : {Shape::Jkr, Shape::Maugis}) {
+    const Curve curve(law, {}, 1e-6, 400);
+    FitSetup setup = curve.setup(law);
+    setup.pull_off_z_m = curve.last_sticking_m();
+    std::mt19937_64 random(5);
+    const std::vector<Sample> samples = with_noise(curve.samples(), 2e-9, 0.9, random);
+    const ElasticFit good = fitted(samples, setup);
+    EXPECT_TRUE(good.doubts.empty()) << row_of(law).name << ": " << good.doubts.size();
+    EXPECT_NEAR(good.adhesion->pull_off_z_m, *setup.pull_off_z_m, 0.1 * *setup.pull_off_z_m);
+
+    FitSetup farther(setup);
+    farther.pull_off_z_m = 1.5 * *setup.pull_off_z_m;
+    EXPECT_TRUE(has(fitted(samples, farther), Doubt::PullOffPlace));
+    EXPECT_EQ(fitted(samples, farther).trust, Trust::Doubtful);
+    FitSetup harder(setup);
+    harder.pull_off_n = 1.5 * setup.pull_off_n;
+    EXPECT_TRUE(has(fitted(samples, harder), Doubt::PullOffForce));
+  }
 }
 
 // A stiffer lever bends as far under forces that are larger: all of the contact scales.

@@ -191,6 +191,41 @@ TEST(ElasticFit, SaysWhyAModulusIsDoubtful) {
   EXPECT_TRUE(has(fitted(Curves(4).approach(thin, 4e3, Noise::White), setup_of(thin)), Doubt::BeyondLayer));
 }
 
+// A cone on a sphere's curve: a filter that takes the misfit for noise leaves residuals that look random.
+TEST(ElasticFit, ThatLeavesTheCurveIsDoubtful) {
+  const Indenter sphere = indenter(Shape::Sphere), cone = indenter(Shape::Cone);
+  for (const double reduced_pa : {400.0, 4e3, 40e3}) {
+    const ElasticFit fit = fitted(Curves(8).approach(sphere, reduced_pa, Noise::White), setup_of(cone));
+    EXPECT_TRUE(has(fit, Doubt::Misfit)) << reduced_pa << ": " << fit.rms_n << " beside " << fit.noise_n;
+    EXPECT_EQ(fit.trust, Trust::Doubtful) << reduced_pa;
+  }
+}
+
+// Whatever the noise, and with a tenth of the points before contact.
+TEST(ElasticFit, OfItsOwnShapeDoesNotLeaveTheCurve) {
+  const Indenter tip = indenter(Shape::Paraboloid);
+  for (const double reduced_pa : {4e3, 120e3}) {
+    for (const Noise noise : {Noise::White, Noise::LowPass, Noise::Waves, Noise::Steps}) {
+      Curves source(7);
+      for (int i = 0; i < support::draws(100); ++i) {
+        std::vector<Sample> samples = source.approach(tip, reduced_pa, noise);
+        if (i % 2 == 1) samples.erase(samples.begin(), samples.begin() + 500);
+        const ElasticFit fit = fitted(samples, setup_of(tip));
+        EXPECT_FALSE(has(fit, Doubt::Misfit))
+            << reduced_pa << " Pa, noise " << static_cast<int>(noise) << ": " << fit.rms_n << " beside " << fit.noise_n;
+      }
+    }
+  }
+}
+
+// Each row's limit and side are its own, and its place that of the doubt.
+TEST(ElasticFit, HasItsDoubtsInOneTable) {
+  for (std::size_t i = 0; i < kDoubts.size(); ++i) {
+    EXPECT_EQ(kDoubts[i].doubt, static_cast<Doubt>(i));
+    EXPECT_GT(kDoubts[i].limit, 0.0) << kDoubts[i].name;
+  }
+}
+
 // Forces in steps as large as twice the noise, and so many points that each step lasts.
 TEST(ElasticFit, OfADigitisedCurveIsTrusted) {
   const Indenter tip = indenter(Shape::Sphere);

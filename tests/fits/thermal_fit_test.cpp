@@ -167,6 +167,7 @@ TEST(CoverageOfAThermalFit, HoldsBehindAWindow) {
     seen.pop_back();
     const ThermalFit fit = fitted(seen);
     EXPECT_GT(fit.neighbour_factor, 1.4);
+    EXPECT_FALSE(has(fit, SpectrumDoubt::Correlated)) << fit.neighbour_factor;
     if (fit.area.low <= truth.area && truth.area <= fit.area.high) ++held;
   }
   const double covered = static_cast<double>(held) / spectra;
@@ -190,6 +191,17 @@ TEST(ThermalFit, SaysWhyAnAreaIsDoubtful) {
 
   const Spectrum weak = averaged(exact({70e3, 20.0, 1.2e-5, 4e-9}, 50e3, 90e3, 500), 5.0, random);
   EXPECT_TRUE(has(fitted(weak), SpectrumDoubt::Unknown));
+
+  // a spectrum that was interpolated to four times as many points
+  Spectrum dense;
+  for (std::size_t i = 0; i + 1 < good.size(); ++i) {
+    for (const double share : {0.0, 0.25, 0.5, 0.75}) {
+      dense.push_back({std::lerp(good[i].frequency_hz, good[i + 1].frequency_hz, share),
+                       std::lerp(good[i].density, good[i + 1].density, share)});
+    }
+  }
+  EXPECT_TRUE(has(fitted(dense), SpectrumDoubt::Correlated));
+  EXPECT_FALSE(has(fitted(good), SpectrumDoubt::Correlated));
 
   std::string why;
   const auto fewer = fit_thermal(good, 500.0, why);

@@ -38,10 +38,11 @@ struct Sample {
 
 struct FitSetup {
   Indenter indenter;
-  double poisson = 0.5;       // Poisson's ratio of the sample, 0 to 0.5
-  double spring_n_per_m = 0;  // stiffness of the lever, positive
-  double pull_off_n = 0;      // hardest pull of the retract, a magnitude; 0: unknown, or none
-  double zero_n = 0;          // force of the free lever, for the tip position alone
+  double poisson = 0.5;                  // Poisson's ratio of the sample, 0 to 0.5
+  double spring_n_per_m = 0;             // stiffness of the lever, positive
+  double pull_off_n = 0;                 // hardest pull of the retract, a magnitude; 0: unknown, or none
+  std::optional<double> pull_off_z_m{};  // height of the base at which the recorded tip lets go
+  double zero_n = 0;                     // force of the free lever, for the tip position alone
   Against against = Against::Z;
   bool tilt = false;           // also fits a slope of the baseline
   bool white = false;          // takes the noise as white: ordinary least squares, as in nanite and AtomicJ
@@ -49,36 +50,46 @@ struct FitSetup {
   std::vector<Uncertainty> uncertainties{};  // errors in what the fit is given
 };
 
-// Reasons not to trust a modulus.
+// Reasons not to trust a modulus, in the order of kDoubts.
 enum class Doubt {
-  NeverPushed,    // the sample is never pushed by five times the noise
-  Saturated,      // the greatest force is that of several points: the detector's end
-  LeverTooSoft,   // the contact is over 20 times as stiff as the lever: it bends instead of the sample
-  Unknown,        // the interval spans more than a factor of 10
-  FewPoints,      // fewer than 50 points in contact
-  Shallow,        // depth below three times the noise's
-  Adhesive,       // the retract pulls by more than a twentieth of the push: the modulus comes out too large
-  BeyondLayer,    // deeper than the layer's formula allows
-  NotLevel,       // the modulus depends on the depth
-  NotRandom,      // residuals in runs: the curve has another shape
-  ShortBaseline,  // less than a tenth of the points before contact
-  OtherLaw,       // Tabor's parameter is that of another law of adhesion
+  NeverPushed,
+  Saturated,
+  LeverTooSoft,
+  Unknown,
+  FewPoints,
+  Shallow,
+  Adhesive,
+  BeyondLayer,
+  NotLevel,
+  NotRandom,
+  Misfit,
+  ShortBaseline,
+  PullOffForce,
+  PullOffPlace,
+  BeyondDmt,
+  BelowJkr,
 };
 
+// What a doubt compares.
 struct DoubtRow {
+  enum class Side { Above, Below };
+
   Doubt doubt;
-  bool fatal;             // the modulus means nothing
-  std::string_view name;  // in reports
+  bool fatal;  // the modulus means nothing
+  Side side;   // side of the limit on which a figure is doubtful
+  double limit;
+  std::string_view name;  // with the figure, in reports
 };
-extern const std::array<DoubtRow, 12> kDoubts;
+extern const std::array<DoubtRow, 16> kDoubts;
+
+const DoubtRow& row_of(Doubt doubt);
 
 enum class Trust { Trusted, Doubtful, No };
 std::string_view name_of(Trust trust);
 
 struct Found {
   Doubt doubt;
-  double figure;                 // compared value, in the unit of the limit
-  double limit;                  // limit of the figure
+  double figure;                 // compared with the limit of its row
   std::optional<Shape> advised;  // law of adhesion to try instead
 };
 
@@ -86,7 +97,8 @@ struct Found {
 struct Adhesion {
   double work_j_per_m2 = 0;  // work of adhesion
   Interval work_interval;    // J/m^2
-  double pull_off_n = 0;     // the model's, for a soft lever; a magnitude
+  double pull_off_n = 0;     // the model's hardest pull; a magnitude
+  double pull_off_z_m = 0;   // height of the base at which the model's tip lets go of this lever
   double tabor = 0;          // Tabor's parameter, for the setup's atomic distance
   std::size_t rounds = 0;    // fits of Shape::Auto until the law stayed; 0: the law was given
 };

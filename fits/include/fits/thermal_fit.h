@@ -34,17 +34,18 @@ double density_at(const Oscillator& oscillator, double frequency_hz);
 
 // Reasons not to trust an area.
 enum class SpectrumDoubt {
-  OtherShape,    // groups of neighbours are off by more than chance
-  TooCoarse,     // fewer than four points in the width f0/Q
-  Unknown,       // the area's standard deviation is over a tenth
-  FewerAverages  // the scatter is that of fewer averages than were given
+  OtherShape,     // groups of neighbours are off by more than chance
+  TooCoarse,      // fewer than four points in the width f0/Q
+  Unknown,        // the area's standard deviation is over a tenth
+  FewerAverages,  // the scatter is that of fewer averages than were given
+  Correlated      // neighbours are correlated more than a window does it
 };
 
 struct SpectrumDoubtRow {
   SpectrumDoubt doubt;
   std::string_view name;  // in reports
 };
-extern const std::array<SpectrumDoubtRow, 4> kSpectrumDoubts;
+extern const std::array<SpectrumDoubtRow, 5> kSpectrumDoubts;
 
 struct FoundInSpectrum {
   SpectrumDoubt doubt;

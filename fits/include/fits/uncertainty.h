@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string_view>
 
 namespace afm::fits {
@@ -33,11 +34,24 @@ struct Uncertainty {
   double share = 0;
 };
 
+// Share of a result's relative deviation, to first order: `relative` is the input's, `logarithms` are those of the
+// result where the input is multiplied by either of `factors`.
+double error_share(double relative, const std::array<double, 2>& factors, const std::array<double, 2>& logarithms);
+
+// Relative deviation by independent shares, which add in squares.
+double sum_of_shares(std::span<const double> shares);
+
 // What it makes of the results, to first order: relative standard deviations. The interval of the noise is apart.
 struct Systematic {
   Uncertainty uncertainty;
   double modulus_share = 0;
   double work_share = 0;  // 0 without a law of adhesion
 };
+
+// Relative standard deviations of the results by all uncertainties; 0 without any, not a number where a share is none.
+struct SystematicShares {
+  double modulus = 0, work = 0;
+};
+SystematicShares sum_of_shares(std::span<const Systematic> systematic);
 
 }  // namespace afm::fits
