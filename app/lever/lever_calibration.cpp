@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 
 #include "app/options/uncertainty_option.h"
 #include "curves/curve_report.h"
+#include "fits/uncertainty.h"
 #include "physics/flexural_modes.h"
 #include "physics/sader.h"
 #include "physics/units.h"
@@ -20,6 +22,8 @@ namespace afm::app {
 namespace {
 
 using core::wrong_usage;
+
+constexpr double kRoomTemperature_k = 298.15;
 
 // (L2) k_B T/(s^2 A), s the sensitivity, 1 for a spectrum in metres.
 double uncorrected_k(const LeverInputs& in) {
@@ -52,24 +56,25 @@ double gci_k(const LeverInputs& in) {
 
 using Formula = std::function<double(const LeverInputs&)>;
 
-// Effect of one input's uncertainty on the logarithm of a result, by a central difference.
+// Share of one input's uncertainty in a result, by a central difference.
 double share_of(const InputUncertainty& uncertainty, const LeverInputs& in, const Formula& formula) {
   constexpr double kStep = 1e-5;
+  constexpr std::array kFactors{1.0 - kStep, 1.0 + kStep};
   const double relative = uncertainty.is_share ? uncertainty.value : uncertainty.value / *in[uncertainty.input];
   const auto log_at = [&](double factor) {
     LeverInputs moved(in);
     *moved[uncertainty.input] *= factor;
     return std::log(formula(moved));
   };
-  return relative * (log_at(1.0 + kStep) - log_at(1.0 - kStep)) / (2.0 * kStep);
+  return fits::error_share(relative, kFactors, {log_at(kFactors[0]), log_at(kFactors[1])});
 }
 
 CalibratedConstant calibrated(const LeverInputs& in, const std::vector<InputUncertainty>& uncertainties,
                               const Formula& formula) {
-  CalibratedConstant result{formula(in), 0.0};
-  for (const InputUncertainty& each : uncertainties) {
-    result.relative_uncertainty = std::hypot(result.relative_uncertainty, share_of(each, in, formula));
-  }
+  CalibratedConstant result{.k_n_per_m = formula(in)};
+  result.shares.reserve(uncertainties.size());
+  for (const InputUncertainty& each : uncertainties) result.shares.push_back(share_of(each, in, formula));
+  result.relative_uncertainty = fits::sum_of_shares(result.shares);
   return result;
 }
 
@@ -172,7 +177,7 @@ ThermalConstant thermal_constant(const LeverOptions& options, const LeverCalibra
       return k * *moved[LeverInput::Sensitivity] /
              (moved[LeverInput::ContactStiffness] ? 1.0 + k / *moved[LeverInput::ContactStiffness] : 1.0);
     };
-    thermal.force_by_sensitivity = std::abs(share_of(each, in, force));
+    thermal.force_by_sensitivity = share_of(each, in, force);
   }
   return thermal;
 }
@@ -231,6 +236,57 @@ void find_sensitivity(LeverCalibration& result) {
   }
 }
 
+// An option, what it acts on, and whether that is there.
+struct Acting {
+  std::string_view option;
+  bool is_given, acts;
+  std::string_view on;
+};
+
+// WrongUsage for an option that acts on nothing.
+core::Result<void> check_acting(const LeverOptions& options, const LeverCalibration& result) {
+  const LeverInputs& given = options.inputs;
+  const bool has_k = result.spring_constant_n_per_m().has_value();
+  const bool is_calibrated = result.thermal || result.sader || result.gci;
+  const bool rigid = !given[LeverInput::ContactStiffness];
+  const bool has_resonance = has_k && result.inputs[LeverInput::Resonance] && result.inputs[LeverInput::QualityFactor];
+  const std::array inputs{
+      Acting{"--sensitivity", given[LeverInput::Sensitivity].has_value(), result.thermal || (has_k && !rigid),
+             "a spectrum in volts (--thermal), or the correction by --contact-stiffness"},
+      Acting{"--contact-stiffness", !rigid, result.inputs[LeverInput::Sensitivity] && has_k,
+             "a sensitivity (--sensitivity or --sensitivity-from) with a spring constant"},
+      Acting{"--temperature", given[LeverInput::Temperature].has_value(), has_k, "a spring constant"},
+      Acting{"--resonance", given[LeverInput::Resonance].has_value(), has_resonance,
+             "a spring constant, together with --quality-factor"},
+      Acting{"--quality-factor", given[LeverInput::QualityFactor].has_value(), has_resonance,
+             "a spring constant, together with --resonance"},
+      Acting{"--tilt", given[LeverInput::Tilt].has_value(), is_calibrated,
+             "a spring constant that is calibrated by --thermal, --sader or --gci"},
+      Acting{"--bandwidth", options.bandwidth_hz.has_value(), has_resonance,
+             "a spring constant with resonance and quality factor"}};
+  for (const Acting& each : inputs) {
+    if (each.is_given && !each.acts) {
+      return wrong_usage(
+          fmt::format("{} acts on nothing here; it needs {}. Leave it out, or give that", each.option, each.on));
+    }
+  }
+  return {};
+}
+
+// WrongUsage for an uncertainty without a share in any constant.
+core::Result<void> check_shares(const LeverOptions& options, const LeverCalibration& result) {
+  for (std::size_t i = 0; i < options.uncertainties.size(); ++i) {
+    const auto has = [i](const CalibratedConstant& constant) { return constant.shares[i] > 0.0; };
+    if ((result.thermal && has(result.thermal->corrected)) || (result.sader && has(*result.sader)) ||
+        (result.gci && has(*result.gci))) {
+      continue;
+    }
+    return wrong_usage(fmt::format("--uncertainty {}: no spring constant is computed from it here; leave it out",
+                                   row_of(options.uncertainties[i].input).name));
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<double> LeverCalibration::spring_constant_n_per_m() const {
@@ -243,6 +299,7 @@ std::optional<double> LeverCalibration::spring_constant_n_per_m() const {
 core::Result<LeverCalibration> calibrate(const LeverOptions& options) {
   LeverCalibration result;
   result.inputs = options.inputs;
+  if (!result.inputs[LeverInput::Temperature]) result.inputs[LeverInput::Temperature] = kRoomTemperature_k;
   if (!options.curve.empty()) {
     if (result.inputs[LeverInput::Sensitivity]) return wrong_usage("--sensitivity and --sensitivity-from: choose one");
     const auto found = sensitivity_of(options.curve, options.curve_reading);
@@ -256,6 +313,8 @@ core::Result<LeverCalibration> calibrate(const LeverOptions& options) {
   if (result.inputs[LeverInput::SpringConstant] && (result.thermal || result.sader || result.gci)) {
     return wrong_usage("--spring-constant is for a lever whose constant is known; leave it out to calibrate one");
   }
+  if (const auto checked = check_acting(options, result); !checked) return tl::unexpected(checked.error());
+  if (const auto checked = check_shares(options, result); !checked) return tl::unexpected(checked.error());
   find_sensitivity(result);
   return result;
 }

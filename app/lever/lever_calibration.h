@@ -39,6 +39,7 @@ struct LeverOptions {
 struct CalibratedConstant {
   double k_n_per_m = 0;
   double relative_uncertainty = 0;
+  std::vector<double> shares{};  // one for each uncertainty of the options
 };
 
 struct ThermalConstant {
@@ -67,8 +68,8 @@ struct LeverCalibration {
   std::optional<double> spring_constant_n_per_m() const;
 };
 
-// Reads the files and computes whatever the options determine. WrongUsage if they lack an input; BadInputFile for files
-// that are none, or without a resonance or a contact.
+// Reads the files and computes whatever the options determine. WrongUsage if they lack an input, or if one, or an
+// uncertainty, acts on nothing; BadInputFile for files that are none, or without a resonance or a contact.
 core::Result<LeverCalibration> calibrate(const LeverOptions& options);
 
 }  // namespace afm::app

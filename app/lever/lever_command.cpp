@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,13 +36,12 @@ constexpr std::array kFluids{FluidRow{"air", {physics::Density(1.18), physics::V
                              FluidRow{"water", {physics::Density(997.0), physics::Viscosity(8.90e-4)}}};
 
 constexpr QuantityRange<physics::Frequency> kBandwidths{physics::Frequency(1e-3), physics::Frequency(1e8)};
-constexpr double kRoomTemperature = 298.15;
 constexpr int kHighestMode = 10;
 
 // Options of the command beyond those of a calibration.
 struct LeverCommand {
   LeverOptions lever;
-  physics::Fluid fluid = kFluids[0].fluid;
+  std::optional<physics::Fluid> fluid;
   std::vector<std::string> uncertainty_texts;  // "sensitivity=3%"
   bool json = false;
   std::string out;
@@ -143,10 +143,13 @@ core::Result<void> calibrate_lever(LeverCommand command) {
     return wrong_usage("nothing to calibrate by; give --thermal, --sader, --gci or --sensitivity-from");
   }
   if (const auto read = read_uncertainties(command.uncertainty_texts, options); !read) return read;
-  if (!in[LeverInput::Temperature]) in[LeverInput::Temperature] = kRoomTemperature;
+  if (command.fluid && in[LeverInput::Density] && in[LeverInput::Viscosity]) {
+    return wrong_usage("--fluid acts on nothing beside --density and --viscosity; leave it out");
+  }
   if (options.sader) {
-    if (!in[LeverInput::Density]) in[LeverInput::Density] = command.fluid.density.si;
-    if (!in[LeverInput::Viscosity]) in[LeverInput::Viscosity] = command.fluid.viscosity.si;
+    const physics::Fluid fluid = command.fluid.value_or(kFluids[0].fluid);
+    if (!in[LeverInput::Density]) in[LeverInput::Density] = fluid.density.si;
+    if (!in[LeverInput::Viscosity]) in[LeverInput::Viscosity] = fluid.viscosity.si;
   }
   if (!command.out.empty()) {
     const auto writable = core::check_writable(command.out);

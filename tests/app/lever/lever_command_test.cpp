@@ -173,7 +173,6 @@ TEST_F(Lever, HasTheConstantOfTheGlobalCalibrationInitiative) {
 
 TEST_F(Lever, HasTheSensitivityOfAContactSlope) {
   LeverOptions options;
-  options.inputs[LeverInput::Temperature] = 298.15;
   // a hard sample, on which the lever bends as its base moves, read with 1.25 times the true sensitivity
   curves::RecordedCurve curve;
   for (int i = 0; i <= 200; ++i) {
@@ -206,6 +205,46 @@ TEST_F(Lever, SaysWhatIsMissing) {
   options.high_hz = 60e3;
   EXPECT_EQ(calibrate(options).error().category, core::ErrorCategory::BadInputFile);
   EXPECT_THAT(calibrate(options).error().message, HasSubstr("--range"));
+}
+
+// An option that acts on nothing is refused by its name, and so is an uncertainty without a share.
+TEST_F(Lever, RefusesWhatActsOnNothing) {
+  LeverOptions gci;
+  gci.inputs[LeverInput::GciCoefficient] = 1e-9;
+  gci.inputs[LeverInput::Resonance] = 70e3;
+  gci.inputs[LeverInput::QualityFactor] = 150.0;
+  ASSERT_TRUE(calibrate(gci));
+  const auto refusal = [](const LeverOptions& options) {
+    const auto result = calibrate(options);
+    return result ? std::string() : result.error().message;
+  };
+  LeverOptions options = gci;
+  options.inputs[LeverInput::Sensitivity] = 60e-9;
+  EXPECT_THAT(refusal(options), HasSubstr("--sensitivity acts on nothing"));
+  options.inputs[LeverInput::ContactStiffness] = 30.0;
+  EXPECT_EQ(refusal(options), "");
+  options.inputs[LeverInput::Sensitivity] = {};
+  EXPECT_THAT(refusal(options), HasSubstr("--contact-stiffness acts on nothing"));
+
+  // neither the sensitivity nor the temperature is in A Q f^1.3
+  options = gci;
+  options.uncertainties = {{LeverInput::QualityFactor, 0.1, true}, {LeverInput::Temperature, 1.0, false}};
+  EXPECT_THAT(refusal(options), HasSubstr("--uncertainty temperature"));
+  options = tuned();
+  options.uncertainties = {{LeverInput::Resonance, 0.1, true}};
+  EXPECT_THAT(refusal(options), HasSubstr("--uncertainty resonance"));
+
+  // a known spring constant is not turned, and a higher mode has no quality factor of the first
+  options = tuned();
+  options.inputs[LeverInput::Sensitivity] = {};
+  options.inputs[LeverInput::SpringConstant] = 0.1;
+  EXPECT_EQ(refusal(options), "");
+  options.inputs[LeverInput::Tilt] = 0.2;
+  EXPECT_THAT(refusal(options), HasSubstr("--tilt acts on nothing"));
+  options = tuned();
+  options.mode = 2;
+  options.bandwidth_hz = 1e3;
+  EXPECT_THAT(refusal(options), HasSubstr("--bandwidth acts on nothing"));
 }
 
 TEST_F(Lever, OfAHigherModeGivesNoResonanceToSaderAndGci) {
