@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/whole_file.h"
+#include "curves/curve_file.h"
 #include "physics/contact.h"
 #include "scene/samples/material_library.h"
 #include "servo/session_file.h"
@@ -120,7 +121,10 @@ TEST_F(Demo, LeavesCurvesAndSessionsOfEveryMaterial) {
     const std::string csv = core::read_file(folder_->file(std::string("curve-") + name + ".csv")).value();
     EXPECT_THAT(csv, HasSubstr("# hamaker_J: "));
     EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
-              session->samples.size() + session->events.size() + 15U);
+              session->samples.size() + session->events.size() + 17U);
+    const auto curve = curves::parse_curve(csv, name);
+    ASSERT_TRUE(curve) << curve.error().message;
+    EXPECT_EQ(curve->metadata.curve_id, name);
   }
 }
 

@@ -52,6 +52,7 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
       throw CurveError(
           fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), names.size()));
     }
+    if (fields[branch].empty()) continue;  // a session's way to the cycle, or back
     if (fields[branch] != "approach" && fields[branch] != "retract") {
       throw CurveError(fmt::format("line {}: branch is \"{}\", neither approach nor retract", lines.number(),
                                    fields[branch].substr(0, 40)));

@@ -9,7 +9,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/percentiles.h"
 #include "core/version.h"
@@ -214,6 +216,25 @@ std::string servo_html(const scene::ServoTiming& servo, std::uint64_t lost_sampl
       std::to_string(servo.missed), std::to_string(lost_samples))));
 }
 
+// The cycle of a session, from the highest base before the lowest one to the highest after it; what comes before and
+// after is the hand's way there and back.
+struct RecordedCycle {
+  std::size_t begin = 0, lowest = 0, end = 0;
+
+  std::string_view branch_of(std::size_t sample) const {
+    if (sample < begin || sample > end) return "";
+    return sample <= lowest ? "approach" : "retract";
+  }
+};
+
+RecordedCycle cycle_of(const std::vector<scene::TipSample>& samples) {
+  const auto lower = [](const scene::TipSample& a, const scene::TipSample& b) { return a.tip.z_m < b.tip.z_m; };
+  const auto lowest = std::min_element(samples.begin(), samples.end(), lower);
+  const auto place = [&](auto found) { return static_cast<std::size_t>(found - samples.begin()); };
+  return {place(std::max_element(samples.begin(), lowest, lower)), place(lowest),
+          lowest == samples.end() ? 0 : place(std::max_element(lowest, samples.end(), lower))};
+}
+
 }  // namespace
 
 nlohmann::json summary_json(const DemoResult& result) {
@@ -266,10 +287,13 @@ std::string report_html(const DemoResult& result, const std::vector<ReportPictur
 
 std::string session_csv(const servo::RecordedSession& session) {
   const scene::SharedContact& m = session.parameters;
+  const RecordedCycle cycle = cycle_of(session.samples);
   fmt::memory_buffer csv;
   const auto out = std::back_inserter(csv);
-  fmt::format_to(out, "# TouchAFM {}: one approach-retract cycle as the servo recorded it\n", core::kVersion);
-  fmt::format_to(out, "# material: {}\n# model: {}\n", session.material, curves::law_name(m));
+  fmt::format_to(out, "# TouchAFM force-displacement curve, as the servo recorded it\n# software: TouchAFM {}\n",
+                 core::kVersion);
+  fmt::format_to(out, "# material: {}\n# model: {}\n# samples: {}\n", session.material, curves::law_name(m),
+                 session.samples.empty() ? 0 : cycle.end - cycle.begin + 1);
   for (const physics::ContactField& field : physics::kContactFields) {
     fmt::format_to(out, "# {}: {}\n", field.json_key, field.get(m.contact));
   }
@@ -279,7 +303,10 @@ std::string session_csv(const servo::RecordedSession& session) {
   }
   fmt::format_to(out, "# servo_rate_Hz: {}\n# hand_m_per_m: {}\n# hand_N_per_N: {}\n", session.rate_hz,
                  session.hand_m_per_m, session.hand_n_per_n);
-  fmt::format_to(out, "# force on the tip, positive away from the sample; Z is the piezo displacement\n");
+  fmt::format_to(
+      out,
+      "# signs: force on the tip, positive away from the sample; Z is the piezo displacement; rows without a "
+      "branch are no part of the cycle\n");
   for (const scene::TipEvent& e : session.events) {
     fmt::format_to(out, "# event: {} at t_s={:.9f} z_m={:.12e} force_before_N={:.12e} force_after_N={:.12e}\n",
                    physics::name_of(e.kind), session.seconds_since_start(e.time_ns), e.z_m, e.force_before_n,
@@ -287,12 +314,13 @@ std::string session_csv(const servo::RecordedSession& session) {
   }
   fmt::format_to(out,
                  "time_s,z_m,force_N,tip_height_m,deflection_m,sample_deformation_m,hand_height_m,hand_force_N,servo_"
-                 "state,phase\n");
-  for (const scene::TipSample& s : session.samples) {
-    fmt::format_to(out, "{:.6f},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{},{}\n",
+                 "state,phase,branch\n");
+  for (std::size_t i = 0; i < session.samples.size(); ++i) {
+    const scene::TipSample& s = session.samples[i];
+    fmt::format_to(out, "{:.6f},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{},{},{}\n",
                    session.seconds_since_start(s.time_ns), s.tip.z_m, s.tip.force_n, s.tip.height_m, s.tip.deflection_m,
                    s.tip.sample_deformation_m, s.hand_height_m, s.hand_force_n,
-                   static_cast<std::uint32_t>(s.servo_state), static_cast<std::uint32_t>(s.phase));
+                   static_cast<std::uint32_t>(s.servo_state), static_cast<std::uint32_t>(s.phase), cycle.branch_of(i));
   }
   return fmt::to_string(csv);
 }

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "curves/curve_file.h"
 #include "support/phrases.h"
 
 namespace afm::exhibit {
@@ -54,6 +56,40 @@ TEST(Report, GivesNoFiguresOfASnapInThatWasNotRecorded) {
   EXPECT_TRUE(json["error_vs_calculation"]["z_jtc"].is_null()) << json;
   EXPECT_TRUE(json["error_vs_calculation"]["f_attr"].is_null()) << json;
   EXPECT_EQ(json["error_vs_calculation"]["f_ad"], 0.0);
+}
+
+// The hand lifts the tip, goes down and up again, and comes back a little; the file is a curve like any other.
+TEST(SessionCsv, IsReadAsACurve) {
+  servo::RecordedSession session;
+  session.material = "gold";
+  session.parameters.contact.spring_constant = physics::Stiffness(0.5);
+  constexpr int kLift = 100, kWay = 1000, kBack = 50;
+  constexpr double kStepNm = 0.05, kTopNm = 40.0;
+  const auto add = [&session](double z_nm) {
+    scene::TipSample sample;
+    sample.time_ns = static_cast<std::int64_t>(session.samples.size()) * 1'000'000;
+    sample.tip.z_m = z_nm * 1e-9;
+    sample.tip.force_n = std::fmax(0.0, -0.2 * sample.tip.z_m);
+    session.samples.push_back(sample);
+  };
+  for (int i = 0; i < kLift; ++i) add(kTopNm - kStepNm * (kLift - i));
+  for (int i = 0; i <= kWay; ++i) add(kTopNm - kStepNm * i);
+  for (int i = 1; i <= kWay; ++i) add(kTopNm - kStepNm * (kWay - i));
+  for (int i = 1; i <= kBack; ++i) add(kTopNm - kStepNm * i);
+  const std::string csv = session_csv(session);
+  EXPECT_EQ(count(csv, "\n"), count(csv, "# ") + 1 + session.samples.size());
+  const auto curve = curves::parse_curve(csv, "curve-gold.csv");
+  ASSERT_TRUE(curve) << curve.error().message;
+  EXPECT_EQ(curve->points.size(), 2U * kWay + 1U);
+  EXPECT_NEAR(curve->points.front().z.si, kTopNm * 1e-9, 1e-15);
+  EXPECT_NEAR(curve->points.back().z.si, kTopNm * 1e-9, 1e-15);
+  EXPECT_EQ(curve->points[kWay].branch, physics::Branch::Approach);
+  EXPECT_EQ(curve->points[kWay + 1].branch, physics::Branch::Retract);
+  EXPECT_EQ(curve->metadata.spring_constant, physics::Stiffness(0.5));
+  EXPECT_EQ(curve->metadata.curve_id, "gold");
+  // a file that ends early is noticed
+  EXPECT_FALSE(curves::parse_curve(csv.substr(0, csv.rfind('\n', csv.size() * 3 / 4) + 1), "curve-gold.csv"));
+  EXPECT_FALSE(curves::parse_curve(session_csv(servo::RecordedSession{}), "curve-none.csv"));
 }
 
 // A browser of 400 pixels: the page keeps its width, and what is wider is moved inside its own box.
