@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "physics/dynamic_law.h"
 #include "physics/law_tables.h"
 
 namespace afm::physics {
@@ -28,19 +28,8 @@ constexpr Length kLargestDeflection = 0.1_mm;
 std::shared_ptr<const DynamicModel::Setup> DynamicModel::build(Law law, const ContactParameters& contact,
                                                                const LeverDynamics& lever, const LawOptions& options,
                                                                std::uint64_t seed) {
-  if (!has_dynamics(law)) {
-    std::string others;
-    for (const Law other : laws_with(&LawTraits::dynamic)) {
-      others += (others.empty() ? "" : ", ") + std::string(name_of(other));
-    }
-    throw std::invalid_argument("the law " + std::string(name_of(law)) + " has no dynamics: take one of " + others);
-  }
-  if (traits_of(law).modulus != ModulusUse::Unused && std::isinf(contact.reduced_modulus.si)) {
-    throw UnphysicalValue("reduced_modulus", "a rigid contact has no dynamics: give it a finite reduced modulus");
-  }
+  const auto grips = fixed_grips_tables(law, contact, options);
   validate(lever);
-  ContactParameters fixed_grips = contact;
-  fixed_grips.spring_constant = Stiffness(std::numeric_limits<double>::infinity());
 
   Setup setup;
   setup.law = law;
@@ -50,8 +39,7 @@ std::shared_ptr<const DynamicModel::Setup> DynamicModel::build(Law law, const Co
   const auto resting = build_law_tables(law, contact, options);
   setup.figures = resting->figures;
   setup.contact_gap = resting->contact_gap;
-  setup.surface = std::make_shared<const TipForce>(*build_law_tables(law, fixed_grips, options),
-                                                   largest_load(contact, setup.figures));
+  setup.surface = std::make_shared<const TipForce>(*grips, largest_load(contact, setup.figures));
   setup.free_above = std::max(
       {setup.surface->release_height(), setup.figures.tip_height_before_jtc, setup.figures.tip_height_before_joc});
   return std::make_shared<const Setup>(setup);

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "physics/tapping/driven_lever.h"
+#include "physics/tapping/tap_surface.h"
+#include "physics/units.h"
+
+namespace afm::physics {
+
+// Amplitude and phase of a swing, as in physics/tapping/driven_lever.h.
+struct TapState {
+  Length amplitude;    // A, zero-to-peak
+  double phase = 0.0;  // phi, rad
+};
+
+// A swing that repeats itself at one height of the base.
+struct RestingTap {
+  TapState state;
+  Length deflection;  // x0, mean
+  SwingAverages averages;
+  bool stable = false;
+};
+
+// The slow motion of amplitude and phase, averaged over a swing (Bogoliubov & Mitropolsky 1961; with the virial V and
+// the energy E lost in the sample per swing, San Paulo & Garcia 2001, 2002), time in 1/w0:
+//
+//   A' = -A/2Q + (a/2r) sin(phi) - E/(2 pi k r A)
+//   phi' = (r^2 - 1)/2r + (a/2rA) cos(phi) + V/(r k A^2)
+//
+// V and E are those of a harmonic swing shifted as its lowest point is (SwingAverages). Good for Q of 100 and more,
+// where A is accurate to some 0.1 %; below kLeastQuality it misses the higher harmonics: integrate directly
+// (physics/tapping/tapping_oscillator.h).
+//
+// One thread. Only the constructor and resting_at() allocate.
+class AveragedFlow {
+ public:
+  static constexpr double kLeastQuality = 100.0;
+
+  AveragedFlow(std::shared_ptr<const TapSurface> surface, const DrivenLever& lever);
+
+  // One step of the midpoint rule over the angle w0 dt with the base at `z`; keep it below 0.1 * 2Q.
+  void step(TapState& state, Length z, double angle) noexcept;
+
+  // The step of step() that is a tenth of the relaxation.
+  double longest_step() const noexcept { return 0.2 * lever_.quality_factor; }
+
+  // Lets a swing come to rest at `z`, on its own branch or, if that has ended, where the flow takes it. Stops after 400
+  // relaxations.
+  RestingTap settle(const TapState& from, Length z) noexcept;
+
+  // Moves a resting swing to the one on the same stable branch at `z`, by Newton's method. Returns false, and changes
+  // nothing, if there is none nearby.
+  bool follow(TapState& state, Length z) noexcept;
+
+  // A resting swing in full.
+  RestingTap describe(const TapState& state, Length z) noexcept;
+
+  // Every resting swing at `z`, the smallest amplitude first, stable or not.
+  std::vector<RestingTap> resting_at(Length z);
+
+  const DrivenLever& lever() const noexcept { return lever_; }
+
+ private:
+  struct Rate {
+    double amplitude, phase;  // per w0 t
+  };
+  // Of the swing with its shift, which is searched from that of the previous call.
+  const SwingAverages& averages_at(double amplitude, double z) noexcept;
+  Rate rate(const TapState& state, double z) noexcept;
+  // The flow about a swing, to first order.
+  struct Linear {
+    Rate rate;
+    double amplitude_by_amplitude, amplitude_by_phase, phase_by_amplitude, phase_by_phase;
+
+    double determinant() const {
+      return amplitude_by_amplitude * phase_by_phase - amplitude_by_phase * phase_by_amplitude;
+    }
+    bool stable() const { return amplitude_by_amplitude + phase_by_phase < 0.0 && determinant() > 0.0; }
+  };
+  Linear linear(const TapState& state, double z) noexcept;
+  // By how much a swing misses sin^2 + cos^2 = 1 for the phase that would hold it: negative if the drive is stronger
+  // than needed, zero at rest.
+  double imbalance(double amplitude, double z) noexcept;
+  // The imbalance of the swing with this lowest height.
+  struct Sample {
+    double lowest, imbalance;
+  };
+  Sample sample_at(double lowest, double z) noexcept;
+  std::vector<Sample> samples_at(double z);  // from the highest down
+  RestingTap root_between(Sample one, Sample other, double z) noexcept;
+  Sample turn_between(const Sample& left, const Sample& middle, const Sample& right, double z) noexcept;
+  double amplitude_at_lowest(double lowest, double z) noexcept;
+  double sine_of_rest(double amplitude) const noexcept;
+  double cosine_of_rest(double amplitude) const noexcept;
+
+  std::shared_ptr<const TapSurface> surface_;
+  DrivenLever lever_;
+  double k_, a_, r_, q_;
+  double shift_ = 0.0;  // of the lowest point in the previous swing
+  SwingAverages averages_;
+};
+
+}  // namespace afm::physics

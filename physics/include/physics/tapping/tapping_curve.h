@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "physics/force_curve.h"
+#include "physics/tapping/averaged_flow.h"
+#include "physics/tapping/tapping_oscillator.h"
+#include "physics/units.h"
+
+namespace afm::physics {
+
+// How the swing is computed: averaged over a swing, for Q of at least AveragedFlow::kLeastQuality, or integrated
+// directly.
+enum class TapMethod { Averaged, Direct };
+
+// The path of the base: down, and up again. Without a speed it waits at each step until the swing is at rest, and
+// averaged swings change branch exactly at the folds. It begins with the free swing, and waits at both ends.
+struct TapPath {
+  SweepPlan plan;
+  std::optional<Velocity> speed;
+};
+
+// One row of the curve.
+struct TapPoint {
+  Length z;
+  Branch branch = Branch::Approach;
+  TapState state;
+  Length deflection;       // x0, mean
+  SwingAverages averages;  // energy lost: true
+  Energy cleveland;        // energy lost, inferred from amplitude and phase
+};
+
+// A change between the states: a fold where one ends, or where the phase of a moving tip passes that of the free lever.
+struct TapJump {
+  Branch branch = Branch::Approach;
+  Length z;         // where it happens; for direct integration with steps, between both rows
+  Length z_before;  // of the row or fold before it
+  Length z_after;   // of the row or fold after it
+  TapState before;
+  TapState after;
+};
+
+// A stable state beside the path at some heights.
+struct TapIsland {
+  Length lowest_z, highest_z;  // of the sampled heights
+  Length z;                    // of the example, in the middle
+  RestingTap example;
+};
+
+struct TappingCurve {
+  std::vector<TapPoint> points;  // approach, then retract; a fold is two points at its z
+  std::vector<TapJump> jumps;
+  std::vector<TapIsland> islands;  // only if averaged
+  Energy work_on_hand;             // by the mean force over the loop; positive: the drive feeds the hand
+  Area reduction_loop;  // loop integral of A0 - A over Z: negative if a push by it takes energy from the hand
+};
+
+// Throws std::invalid_argument as sample_count() does, for averaging below its least Q, for a speed that is not
+// positive and finite, and for a path of more than kLongestTapPath swings or steps of the flow. Allocates. Any thread.
+inline constexpr double kLongestTapPath = 3e7;
+TappingCurve record_tapping_curve(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
+                                  const TapPath& path, TapMethod method);
+
+}  // namespace afm::physics

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/tapping/averaged_flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace afm::physics {
+namespace {
+
+constexpr double kLeastAmplitude = 1e-15;  // m; below it the phase has no meaning
+constexpr double kShiftError = 1e-17;      // m
+
+}  // namespace
+
+AveragedFlow::AveragedFlow(std::shared_ptr<const TapSurface> surface, const DrivenLever& lever)
+    : surface_(std::move(surface)),
+      lever_(lever),
+      k_(lever.spring_constant.si),
+      a_(lever.base_amplitude.si),
+      r_(lever.ratio),
+      q_(lever.quality_factor) {}
+
+const SwingAverages& AveragedFlow::averages_at(double amplitude, double z) noexcept {
+  constexpr int kMostSteps = 60;
+  // secant steps on <F G>/k - x
+  double x = shift_, before = 0.0, missing_before = 0.0;
+  for (int i = 0; i < kMostSteps; ++i) {
+    averages_ = surface_->averages({Length(amplitude), Length(z + x), lever_.angular_drive()});
+    const double missing = averages_.shift_at_lowest.si / k_ - x;
+    shift_ = x;
+    if (std::abs(missing) < kShiftError + 1e-7 * std::abs(x)) break;
+    double slope = i == 0 ? -1.0 : (missing - missing_before) / (x - before);
+    if (!(slope < -0.2)) slope = -1.0;
+    before = std::exchange(x, x - missing / slope);
+    missing_before = missing;
+  }
+  return averages_;
+}
+
+AveragedFlow::Rate AveragedFlow::rate(const TapState& state, double z) noexcept {
+  const double amplitude = std::max(state.amplitude.si, kLeastAmplitude);
+  const SwingAverages& swing = averages_at(amplitude, z);
+  return {-amplitude / (2.0 * q_) + a_ / (2.0 * r_) * std::sin(state.phase) -
+              swing.lost.si / (2.0 * std::numbers::pi * k_ * r_ * amplitude),
+          (r_ * r_ - 1.0) / (2.0 * r_) + a_ / (2.0 * r_ * amplitude) * std::cos(state.phase) +
+              swing.virial.si / (r_ * k_ * amplitude * amplitude)};
+}
+
+void AveragedFlow::step(TapState& state, Length z, double angle) noexcept {
+  const Rate first = rate(state, z.si);
+  const TapState middle{Length(state.amplitude.si + 0.5 * angle * first.amplitude),
+                        state.phase + 0.5 * angle * first.phase};
+  const Rate second = rate(middle, z.si);
+  state.amplitude = Length(std::max(kLeastAmplitude, state.amplitude.si + angle * second.amplitude));
+  state.phase += angle * second.phase;
+}
+
+// The phase that holds a resting swing whose averages were computed last.
+double AveragedFlow::sine_of_rest(double amplitude) const noexcept {
+  return r_ * amplitude / (q_ * a_) + averages_.lost.si / (std::numbers::pi * k_ * a_ * amplitude);
+}
+double AveragedFlow::cosine_of_rest(double amplitude) const noexcept {
+  return (1.0 - r_ * r_ - 2.0 * averages_.virial.si / (k_ * amplitude * amplitude)) * amplitude / a_;
+}
+
+double AveragedFlow::imbalance(double amplitude, double z) noexcept {
+  averages_at(amplitude, z);
+  const double sine = sine_of_rest(amplitude), cosine = cosine_of_rest(amplitude);
+  return sine * sine + cosine * cosine - 1.0;
+}
+
+RestingTap AveragedFlow::describe(const TapState& state, Length z) noexcept {
+  RestingTap tap{.state = state, .deflection = {}, .averages = {}, .stable = linear(state, z.si).stable()};
+  tap.averages = averages_at(state.amplitude.si, z.si);
+  tap.deflection = tap.averages.mean / lever_.spring_constant;
+  return tap;
+}
+
+AveragedFlow::Linear AveragedFlow::linear(const TapState& state, double z) noexcept {
+  const double amplitude = std::max(state.amplitude.si, kLeastAmplitude), length = 1e-6 * amplitude;
+  const Rate here = rate(state, z);
+  const Rate longer = rate({Length(amplitude + length), state.phase}, z);
+  const Rate shorter = rate({Length(amplitude - length), state.phase}, z);
+  return {.rate = here,
+          .amplitude_by_amplitude = (longer.amplitude - shorter.amplitude) / (2.0 * length),
+          .amplitude_by_phase = a_ / (2.0 * r_) * std::cos(state.phase),
+          .phase_by_amplitude = (longer.phase - shorter.phase) / (2.0 * length),
+          .phase_by_phase = -a_ / (2.0 * r_ * amplitude) * std::sin(state.phase)};
+}
+
+bool AveragedFlow::follow(TapState& state, Length z) noexcept {
+  constexpr int kMostSteps = 12;
+  constexpr double kFarthest = 0.05;  // in phase, and in amplitude as a share of it: beyond lies another branch
+  TapState next = state;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Linear at = linear(next, z.si);
+    const double determinant = at.determinant();
+    const double da = (at.amplitude_by_phase * at.rate.phase - at.phase_by_phase * at.rate.amplitude) / determinant;
+    const double dp =
+        (at.phase_by_amplitude * at.rate.amplitude - at.amplitude_by_amplitude * at.rate.phase) / determinant;
+    next.amplitude = next.amplitude + Length(da);
+    next.phase += dp;
+    const bool near = std::abs(next.phase - state.phase) < kFarthest &&
+                      std::abs((next.amplitude - state.amplitude).si) < kFarthest * state.amplitude.si;
+    if (!near || !at.stable()) return false;
+    if (std::abs(da) < 1e-10 * next.amplitude.si && std::abs(dp) < 1e-10) {
+      state = next;
+      return true;
+    }
+  }
+  return false;
+}
+
+RestingTap AveragedFlow::settle(const TapState& from, Length z) noexcept {
+  constexpr int kMostSteps = 4000;
+  TapState state = from;
+  if (!follow(state, z)) {
+    const double angle = longest_step();
+    for (int i = 0; i < kMostSteps; ++i) {
+      const TapState before = state;
+      step(state, z, angle);
+      const double moved =
+          std::abs((state.amplitude - before.amplitude).si) / state.amplitude.si + std::abs(state.phase - before.phase);
+      if (moved < 1e-4 && i % 20 == 19 && follow(state, z)) break;
+      if (moved < 1e-12) break;
+    }
+  }
+  return describe(state, z);
+}
+
+double AveragedFlow::amplitude_at_lowest(double lowest, double z) noexcept {
+  // A = Z + x - lowest with the shift x of that swing
+  for (int i = 0; i < 40; ++i) {
+    const double amplitude = std::max(kLeastAmplitude, z + shift_ - lowest);
+    averages_ = surface_->averages({Length(amplitude), Length(lowest + amplitude), lever_.angular_drive()});
+    const double shift = averages_.shift_at_lowest.si / k_;
+    const bool done = std::abs(shift - shift_) < 1e-14;
+    shift_ = shift;
+    if (done) break;
+  }
+  return z + shift_ - lowest;
+}
+
+AveragedFlow::Sample AveragedFlow::sample_at(double lowest, double z) noexcept {
+  const double amplitude = amplitude_at_lowest(lowest, z);
+  return {lowest, amplitude <= kLeastAmplitude ? -1.0 : imbalance(amplitude, z)};
+}
+
+std::vector<AveragedFlow::Sample> AveragedFlow::samples_at(double z) {
+  constexpr double kFinest = 4e-12, kGrowth = 1.12;  // m; dense where contact begins
+  constexpr double kHopeless = 30.0;                 // imbalance of a push far beyond what the drive sustains
+  const double contact = surface_->contact_height().si;
+  std::vector<double> heights;
+  for (double d = kFinest; contact + d < z; d *= kGrowth) heights.push_back(contact + d);
+  std::reverse(heights.begin(), heights.end());
+  heights.push_back(contact);
+  std::vector<Sample> samples;
+  shift_ = 0.0;
+  for (const double lowest : heights) samples.push_back(sample_at(lowest, z));
+  const double deepest = std::max(z, 4.0 * lever_.free_amplitude.si);
+  for (double d = kFinest; d < deepest; d *= kGrowth) {
+    samples.push_back(sample_at(contact - d, z));
+    if (averages_.virial.si < 0.0 && samples.back().imbalance > kHopeless) break;
+  }
+  return samples;
+}
+
+RestingTap AveragedFlow::root_between(Sample one, Sample other, double z) noexcept {
+  for (int i = 0; i < 80 && std::abs(one.lowest - other.lowest) > 1e-20; ++i) {
+    // false position, halved where it stalls
+    double at = 0.5 * (one.lowest + other.lowest);
+    if (i % 3 != 2) {
+      at = one.lowest - one.imbalance * (other.lowest - one.lowest) / (other.imbalance - one.imbalance);
+    }
+    const Sample middle = sample_at(at, z);
+    if (middle.imbalance == 0.0) {
+      one = middle;
+      break;
+    }
+    ((middle.imbalance < 0.0) == (one.imbalance < 0.0) ? one : other) = middle;
+  }
+  const double amplitude = std::max(kLeastAmplitude, amplitude_at_lowest(one.lowest, z));
+  averages_at(amplitude, z);
+  return describe({Length(amplitude), std::atan2(sine_of_rest(amplitude), cosine_of_rest(amplitude))}, Length(z));
+}
+
+// A sample with the other sign between two of the same, by golden section; the middle one itself if there is none.
+AveragedFlow::Sample AveragedFlow::turn_between(const Sample& left, const Sample& middle, const Sample& right,
+                                                double z) noexcept {
+  const double sign = middle.imbalance < 0.0 ? -1.0 : 1.0;
+  const bool bends_back = sign * middle.imbalance < sign * left.imbalance &&
+                          sign * middle.imbalance <= sign * right.imbalance && sign * right.imbalance > 0.0;
+  if (!bends_back) return middle;
+  double from = left.lowest, to = right.lowest;
+  Sample turn = middle;
+  for (int i = 0; i < 40 && sign * turn.imbalance > 0.0; ++i) {
+    const Sample a = sample_at(to - 0.618 * (to - from), z), b = sample_at(from + 0.618 * (to - from), z);
+    const bool first_half = sign * a.imbalance < sign * b.imbalance;
+    (first_half ? to : from) = first_half ? b.lowest : a.lowest;
+    turn = first_half ? a : b;
+  }
+  return turn;
+}
+
+std::vector<RestingTap> AveragedFlow::resting_at(Length z) {
+  const std::vector<Sample> samples = samples_at(z.si);
+  const auto differ = [](const Sample& a, const Sample& b) { return (a.imbalance < 0.0) != (b.imbalance < 0.0); };
+  std::vector<RestingTap> taps;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (differ(samples[i - 1], samples[i])) {
+      taps.push_back(root_between(samples[i - 1], samples[i], z.si));
+    } else if (i + 1 < samples.size()) {
+      // two roots between neighbours
+      const Sample turn = turn_between(samples[i - 1], samples[i], samples[i + 1], z.si);
+      if (!differ(turn, samples[i])) continue;
+      taps.push_back(root_between(samples[i - 1], turn, z.si));
+      taps.push_back(root_between(turn, samples[i + 1], z.si));
+    }
+  }
+  std::sort(taps.begin(), taps.end(),
+            [](const RestingTap& a, const RestingTap& b) { return a.state.amplitude < b.state.amplitude; });
+  return taps;
+}
+
+}  // namespace afm::physics

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace afm::physics {
+
+// Sums over a part of a swing whose height is bottom + 2 A sin^2(angle/2).
+struct SwingSums {
+  double force = 0.0;    // integral of F, N
+  double cosine = 0.0;   // integral of F cos(angle)
+  double work = 0.0;     // integral of F sin(angle)
+  double viscous = 0.0;  // integral of sqrt(delta) sin^2(angle), sqrt(m)
+  double shift = 0.0;    // integral of F times the lever's response at angle 0 without the first harmonic, N
+
+  SwingSums operator+(const SwingSums& other) const {
+    return {force + other.force, cosine + other.cosine, work + other.work, viscous + other.viscous,
+            shift + other.shift};
+  }
+};
+
+// Gauss-Legendre with 12 nodes on (0, 1): node and weight of one half; the other is its mirror image (Abramowitz &
+// Stegun 25.4.30).
+struct GaussNode {
+  double x, weight;
+};
+inline constexpr std::array<GaussNode, 6> kGauss12{{{0.1252334085114689, 0.2491470458134028},
+                                                    {0.3678314989981802, 0.2334925365383548},
+                                                    {0.5873179542866175, 0.2031674267230659},
+                                                    {0.7699026741943047, 0.1600783285433462},
+                                                    {0.9041172563704749, 0.1069393259953184},
+                                                    {0.9815606342467192, 0.0471753363865118}}};
+
+template <class Add>
+void gauss12(double from, double to, const Add& add) {
+  const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+  for (const GaussNode& node : kGauss12) {
+    add(middle - half * node.x, half * node.weight);
+    add(middle + half * node.x, half * node.weight);
+  }
+}
+
+// A swing over a force that is analytic above `steep`, below which it varies fast.
+struct SwingGeometry {
+  double amplitude, bottom;
+  double zero_of_indentation;
+
+  double height(double angle) const {
+    const double s = std::sin(0.5 * angle);
+    return bottom + 2.0 * amplitude * s * s;
+  }
+  double angle(double height) const {
+    const double share = (height - bottom) / (2.0 * amplitude);
+    return 2.0 * std::asin(std::sqrt(std::clamp(share, 0.0, 1.0)));
+  }
+
+  template <class ForceAt>
+  void add(double angle, double weight, const ForceAt& force_at, SwingSums& sums) const {
+    const double s = std::sin(0.5 * angle), sine_squared = 4.0 * s * s * (1.0 - s * s);
+    const double h = bottom + 2.0 * amplitude * s * s;
+    const double force = weight * force_at(h);
+    sums.force += force;
+    sums.cosine += force * (1.0 - 2.0 * s * s);
+    const double sine = std::sqrt(sine_squared);
+    sums.work += force * sine;
+    sums.shift += force * ((std::numbers::pi - angle) * sine - 0.5 * (1.0 - 2.0 * s * s));
+    if (h < zero_of_indentation) sums.viscous += weight * std::sqrt(zero_of_indentation - h) * sine_squared;
+  }
+
+  // In contact, between two angles. At the upper end the force may vary like the root of the distance, which the
+  // quadratic change of variable makes smooth.
+  template <class ForceAt>
+  SwingSums in_contact(double from, double to, const ForceAt& force_at) const {
+    SwingSums sums;
+    if (to <= from) return sums;
+    const auto add_mapped = [&](double u, double weight) {
+      add(from + (to - from) * u * (2.0 - u), weight * 2.0 * (to - from) * (1.0 - u), force_at, sums);
+    };
+    gauss12(0.0, 0.5, add_mapped);
+    gauss12(0.5, 1.0, add_mapped);
+    return sums;
+  }
+
+  // Above contact, between two angles: pieces on which the distance from `pole`, below all heights, grows by a factor
+  // of four, so that each converges in the same way however near the tip comes.
+  template <class ForceAt>
+  SwingSums above_contact(double from, double to, double pole, const ForceAt& force_at) const {
+    SwingSums sums;
+    for (double left = from; left < to;) {
+      const double right = std::min(to, angle(pole + 4.0 * (height(left) - pole)));
+      const double end = right > left ? right : to;
+      gauss12(left, end, [&](double at, double weight) { add(at, weight, force_at, sums); });
+      left = end;
+    }
+    return sums;
+  }
+};
+
+}  // namespace afm::physics

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tapping/tap_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace afm::physics {
+namespace {
+
+// From rest at one height to rest at another, along the branch as far as it goes.
+void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, TapState& state, TappingCurve& curve) {
+  constexpr double kFoldError = 1e-18;   // m
+  constexpr double kBeyondFold = 2e-12;  // m, from where the flow leaves the fold's neighbourhood in finite time
+  const double way = to.si - from.si;
+  double at = from.si, step = way;
+  while (at != to.si) {
+    const double next = std::abs(to.si - at) <= std::abs(step) ? to.si : at + step;
+    if (flow.follow(state, Length(next))) {
+      at = next;
+      step *= 2.0;
+      continue;
+    }
+    step *= 0.5;
+    if (std::abs(step) > kFoldError) continue;
+    const Length fold(at), beyond(at + std::copysign(kBeyondFold, way));
+    const TapState landed = flow.settle(state, beyond).state;
+    TapState after = landed;
+    flow.follow(after, fold);
+    add_tap_point(curve, flow.lever(), branch, fold, flow.describe(state, fold));
+    add_tap_point(curve, flow.lever(), branch, fold, flow.describe(after, fold));
+    curve.jumps.push_back({branch, fold, fold, fold, state, after});
+    state = landed;
+    at = beyond.si;
+    step = to.si - at;
+    if (step * way <= 0.0) {  // a fold within the last picometres
+      state = flow.settle(state, to).state;
+      return;
+    }
+  }
+}
+
+// The height at which the phase passes that of the free lever for the first time, with the states about one relaxation
+// before and after.
+class PhaseWatch {
+ public:
+  PhaseWatch(const DrivenLever& lever, Branch branch) : lever_(lever), branch_(branch) {}
+
+  void see(Length z, double phase) {
+    const double excess = phase - lever_.free_phase;
+    // down it falls, up it rises
+    const bool passed = branch_ == Branch::Approach ? last_ > 0.0 && excess <= 0.0 : last_ < 0.0 && excess >= 0.0;
+    if (passed && !crossed_) crossed_ = z + (last_z_ - z) * (excess / (excess - last_));
+    last_ = excess;
+    last_z_ = z;
+  }
+
+  void report(TappingCurve& curve, std::size_t first_point, Length travel) const {
+    if (!crossed_) return;
+    const auto nearest = [&](Length z) {
+      return *std::min_element(curve.points.begin() + static_cast<std::ptrdiff_t>(first_point), curve.points.end(),
+                               [z](const TapPoint& a, const TapPoint& b) { return abs(a.z - z) < abs(b.z - z); });
+    };
+    const Length back = branch_ == Branch::Approach ? travel : -travel;
+    const TapPoint before = nearest(*crossed_ + back), after = nearest(*crossed_ - back);
+    curve.jumps.push_back({branch_, *crossed_, before.z, after.z, before.state, after.state});
+  }
+
+ private:
+  DrivenLever lever_;
+  Branch branch_;
+  double last_ = 0.0;
+  Length last_z_;
+  std::optional<Length> crossed_;
+};
+
+// Whether two resting swings a step apart lie on different branches.
+bool jumped(const TapState& before, const TapState& after, const DrivenLever& lever, Length step) {
+  constexpr double kTurn = 10.0 * std::numbers::pi / 180.0;
+  const bool passed = (before.phase > lever.free_phase) != (after.phase > lever.free_phase);
+  return passed && std::abs(after.phase - before.phase) > kTurn &&
+         abs(after.amplitude - before.amplitude + step) > 0.01 * lever.free_amplitude;
+}
+
+}  // namespace
+
+void add_tap_point(TappingCurve& curve, const DrivenLever& lever, Branch branch, Length z, const RestingTap& tap) {
+  curve.points.push_back({z, branch, tap.state, tap.deflection, tap.averages,
+                          cleveland_energy(lever, tap.state.amplitude, tap.state.phase)});
+}
+
+void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& state, TappingCurve& curve) {
+  const auto& [branch, heights] = direction;
+  for (std::size_t i = branch == Branch::Approach ? 0 : 1; i < heights.size(); ++i) {
+    if (i > 0) move_at_rest(flow, branch, heights[i - 1], heights[i], state, curve);
+    add_tap_point(curve, flow.lever(), branch, heights[i], flow.describe(state, heights[i]));
+  }
+}
+
+void walk_slowly(TappingOscillator& tip, const TapDirection& direction, TappingCurve& curve) {
+  const auto& [branch, heights] = direction;
+  for (std::size_t i = branch == Branch::Approach ? 0 : 1; i < heights.size(); ++i) {
+    tip.set_base(heights[i]);
+    const RestingTap tap = resting_tap(tip.settle());
+    if (i > 0) {
+      const TapPoint before = curve.points.back();
+      const Length step = before.z - heights[i];
+      if (jumped(before.state, tap.state, tip.lever(), step)) {
+        curve.jumps.push_back({branch, 0.5 * (before.z + heights[i]), before.z, heights[i], before.state, tap.state});
+      }
+    }
+    add_tap_point(curve, tip.lever(), branch, heights[i], tap);
+  }
+}
+
+void walk_moving(AveragedFlow& flow, const TapDirection& direction, Velocity speed, TapState& state,
+                 TappingCurve& curve) {
+  const auto& [branch, heights] = direction;
+  const double w0 = flow.lever().angular_resonance();
+  PhaseWatch watch(flow.lever(), branch);
+  state = flow.settle(state, heights.front()).state;
+  if (branch == Branch::Approach) {
+    add_tap_point(curve, flow.lever(), branch, heights.front(), flow.describe(state, heights.front()));
+  }
+  const std::size_t first = curve.points.size() - 1;
+  for (std::size_t i = 1; i < heights.size(); ++i) {
+    const Length from = heights[i - 1], way = heights[i] - from;
+    const double angle = std::abs(way.si) / speed.si * w0;
+    const double steps = std::ceil(angle / flow.longest_step());
+    for (double n = 0.0; n < steps; n += 1.0) {
+      flow.step(state, from + way * ((n + 0.5) / steps), angle / steps);
+      watch.see(from + way * ((n + 1.0) / steps), state.phase);
+    }
+    add_tap_point(curve, flow.lever(), branch, heights[i], flow.describe(state, heights[i]));
+  }
+  watch.report(curve, first, speed * flow.lever().relaxation());
+}
+
+void walk_moving(TappingOscillator& tip, const TapDirection& direction, Velocity speed, TappingCurve& curve) {
+  const auto& [branch, heights] = direction;
+  PhaseWatch watch(tip.lever(), branch);
+  tip.set_base(heights.front());
+  RestingTap tap = resting_tap(tip.settle());
+  if (branch == Branch::Approach) add_tap_point(curve, tip.lever(), branch, heights.front(), tap);
+  const std::size_t first = curve.points.size() - 1;
+  const double sign = branch == Branch::Approach ? -1.0 : 1.0;
+  tip.move_base(sign * speed * Time(2.0 * std::numbers::pi / tip.lever().angular_drive()));
+  for (std::size_t i = 1; i < heights.size(); ++i) {
+    while (sign * (heights[i] - tip.base()).si > 0.0) {
+      tap = resting_tap(tip.swing());
+      watch.see(tip.base(), tap.state.phase);
+    }
+    add_tap_point(curve, tip.lever(), branch, heights[i], tap);
+  }
+  tip.move_base(Length());
+  watch.report(curve, first, speed * tip.lever().relaxation());
+}
+
+}  // namespace afm::physics
