@@ -156,6 +156,19 @@ core::Result<void> write_sweep(const CurveOptions& options, const curves::Contac
       options.out);
 }
 
+core::Result<void> write_tapping(const CurveOptions& options, const std::string& format) {
+  if (!options.sweeps.empty()) {
+    return wrong_usage(
+        fmt::format("--sweep computes events of contact mode; remove it or --mode {}", options.tapping.mode));
+  }
+  if (!options.overlay.empty()) {
+    return wrong_usage(fmt::format("--overlay has no effect on --mode {}; remove it", options.tapping.mode));
+  }
+  const auto text = tapping_text(options.tapping, options.contact, options.path, format);
+  if (!text) return tl::unexpected(text.error());
+  return write_text(*text, options.out);
+}
+
 // Sets each swept value to the sweep's first, so that the user need not give it as well.
 ContactOptions with_swept_values(ContactOptions contact, const std::vector<std::string>& sweeps) {
   for (const std::string& sweep : sweeps) {
@@ -173,6 +186,8 @@ ContactOptions with_swept_values(ContactOptions contact, const std::vector<std::
 core::Result<void> write_curve_command(const CurveOptions& options) {
   const auto format = output_format(options);
   if (!format) return tl::unexpected(format.error());
+  if (const auto checked = check_tapping_options(options.tapping); !checked) return tl::unexpected(checked.error());
+  if (options.tapping.mode != "contact") return write_tapping(options, *format);
   const auto setup = contact_setup(with_swept_values(options.contact, options.sweeps));
   if (!setup) return tl::unexpected(setup.error());
   return options.sweeps.empty() ? write_curve(options, *setup, *format) : write_sweep(options, *setup, *format);
@@ -188,6 +203,7 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
                   "a name that touchafm material lists; without it, give every parameter that the model needs")
       .type_name("MATERIAL");
   add_contact_options(command, options->contact, context);
+  add_tapping_options(command, options->tapping);
   const Option from =
       command
           .add_option("--from", options->path.from,
@@ -204,7 +220,10 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
                                       "default: 0.01nm, or 1/20000 of a longer path")
                           .type_name("LENGTH");
   command
-      .add_option("--speed", options->path.speed, "speed of the base (dynamic models): m/s, mm/s, um/s; default: 1um/s")
+      .add_option(
+          "--speed", options->path.speed,
+          "speed of the base: m/s, mm/s, um/s; dynamic models: 1um/s by default; tapping: by default at rest at "
+          "each height")
       .type_name("VELOCITY");
   command
       .add_option("--seed", options->path.seed,
@@ -235,6 +254,9 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
   command.footer(
       "Each parameter overrides that of the material or the probe.\n"
       "example: touchafm curve --material mica --spring-constant 0.2N/m --from 20nm --to -5nm --out mica.csv\n"
+      "example: touchafm curve --mode tapping --free-amplitude 20nm --resonance 300kHz --quality-factor 400 --model "
+      "dmt "
+      "--spring-constant 40N/m --tip-radius 20nm --hamaker 64zJ --contact-gap 0.165nm --reduced-modulus 1.5GPa --json\n"
       "example: touchafm curve --material pdms-air --sweep spring-constant=0.01N/m:100N/m:50:log --out sweep.csv");
   command.when_chosen([options] { return write_curve_command(*options); });
 }

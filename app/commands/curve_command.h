@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/options/contact_options.h"
+#include "app/tapping/tapping_command.h"
 #include "core/result.h"
 #include "curves/curve_run.h"
 
@@ -14,6 +15,7 @@ namespace afm::app {
 struct CurveOptions {
   ContactOptions contact;
   curves::PathOptions path;
+  TappingChoice tapping;
   std::vector<std::string> sweeps;  // "key=from:to:count"
   bool json = false;
   // csv, json, svg or a word of curves::writable_formats(); empty: by the file extension of `out`, else csv

@@ -9,6 +9,7 @@
 
 #include "app/options/angle_units.h"
 #include "app/options/quantity_option.h"
+#include "curves/viscosity_units.h"
 #include "physics/quantity_text.h"
 
 // Numbers from which a spring constant is calibrated. Each is an option of `touchafm lever` and may have an
@@ -47,8 +48,6 @@ namespace lever_units {
 inline constexpr std::array kSensitivities{physics::Unit{"um/V", 1e6, true}, physics::Unit{"\u00b5m/V", 1e6, false},
                                            physics::Unit{"\u03bcm/V", 1e6, false}, physics::Unit{"nm/V", 1e9, true},
                                            physics::Unit{"pm/V", 1e12, true}};
-inline constexpr std::array kViscosities{physics::Unit{"Pa*s", 1.0, true}, physics::Unit{"mPa*s", 1e3, true},
-                                         physics::Unit{"uPa*s", 1e6, true}};
 // 1000^1.3: coefficients are usual for frequencies in kilohertz, too
 inline constexpr std::array kGciCoefficients{physics::Unit{"N/m/kHz^1.3", 7943.282347242815, true},
                                              physics::Unit{"N/m/Hz^1.3", 1.0, true}};
@@ -118,7 +117,7 @@ inline const std::array kLeverInputs{
                   "density of the fluid instead of --fluid's"},
     LeverInputRow{LeverInput::Viscosity,
                   "viscosity",
-                  {"a viscosity", lever_units::kViscosities},
+                  {"a viscosity", curves::kViscosityUnits},
                   {1e-7, 1e3},
                   "--sader",
                   "viscosity of the fluid instead of --fluid's"},

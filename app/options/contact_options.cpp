@@ -140,11 +140,12 @@ core::Result<scene::ProbeLibrary> load_probes(const ContactOptions& options) {
 }
 
 core::Result<curves::ContactSetup> contact_setup(const ContactOptions& options) {
-  const auto model = curves::ModelName::parse(options.model);
+  auto model = curves::ModelName::parse(options.model);
   if (!model) {
     return wrong_usage(
         fmt::format("unknown model \"{}\"; choose {}", options.model, curves::known_models(curves::ModelUse::Curve)));
   }
+  model->driven = options.driven;
   const auto material = base_material(options, *model);
   if (!material) return tl::unexpected(material.error());
   curves::ContactSetup setup{*material, {}, *model};

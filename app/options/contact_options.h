@@ -22,6 +22,7 @@ struct ContactOptions {
   std::string model = "auto";
   std::map<std::string, std::string, std::less<>> values;  // keyed by the option's name without dashes
   bool exact_sphere = false;
+  bool driven = false;  // a drive swings the lever (curves::ModelName)
 };
 
 // Adds --materials, --probes, --probe, --model and one option per number. `options` must outlive the parsing of

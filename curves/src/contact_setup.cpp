@@ -220,7 +220,8 @@ const ContactParameter* find_contact_parameter(std::string_view option) {
 bool acts(const ContactParameter& parameter, const ModelName& model) {
   const std::string_view option = parameter.option;
   // for a moving lever only
-  if (option == "resonance" || option == "quality-factor" || option == "temperature") return model.dynamic;
+  if (option == "resonance" || option == "quality-factor") return model.dynamic || model.driven;
+  if (option == "temperature") return model.dynamic;
   if (model.automatic) return true;
   const LawTraits& law = physics::traits_of(model.law);
   if (option == "hamaker") return law.van_der_waals;

@@ -21,6 +21,7 @@ struct ModelName {
   bool automatic = false;       // selects the law that suits the contact
   bool direction_rule = false;  // selects the law by the paper's flow chart
   bool dynamic = false;         // includes the lever's mass, damping and thermal noise
+  bool driven = false;          // a drive swings the lever, as in tapping: its resonance and damping act, not its noise
   physics::Law law = physics::Law::Paper;
 
   static std::optional<ModelName> parse(std::string_view text);

@@ -28,6 +28,13 @@ RecordedCurve recorded_curve(const CurveRun& run);
 // The numbers that act as {"tip_radius_m": ...}; null for a number that JSON cannot represent.
 nlohmann::ordered_json parameters_json(const ContactSetup& setup);
 
+// First keys of a curve's JSON: the model, the basis for its choice, and the position on the adhesion map.
+nlohmann::ordered_json law_json(const ContactSetup& setup, const std::string& model,
+                                const std::optional<physics::LawChoice>& place);
+
+// Its last keys: the sources of the numbers that act, and which of them are estimated.
+void add_sources(nlohmann::ordered_json& result, const ContactSetup& setup);
+
 // The events as in section 4 of the design, the basis for the choice of the law, and the sources. Null for a jump that
 // did not happen in the sweep, for the energy of an open loop, and for infinity.
 nlohmann::ordered_json curve_json(const CurveRun& run);

@@ -83,15 +83,6 @@ std::vector<scene::SourcedValue> acting_sources(const ContactSetup& setup) {
 
 json finite_or_null(double value) { return std::isfinite(value) ? json(value + 0.0) : json(); }
 
-json law_json(const CurveRun& run) {
-  json result{{"model", run.model}, {"model_requested", run.setup.model.text}};
-  result["law_because"] = run.place && run.setup.model.automatic ? json(run.place->reason) : json();
-  result["tabor_parameter"] = run.place ? json(run.place->tabor) : json();
-  result["maugis_lambda"] = run.place ? json(run.place->maugis) : json();
-  result["regime"] = run.place ? json(physics::name_of(run.place->regime)) : json();
-  return result;
-}
-
 json snap_in_json(const CurveRun& run) {
   const auto* event = find_event(run.curve, EventKind::JumpToContact);
   if (event == nullptr) return nullptr;
@@ -207,8 +198,27 @@ nlohmann::ordered_json parameters_json(const ContactSetup& setup) {
   return result;
 }
 
+nlohmann::ordered_json law_json(const ContactSetup& setup, const std::string& model,
+                                const std::optional<physics::LawChoice>& place) {
+  json result{{"model", model}, {"model_requested", setup.model.text}};
+  result["law_because"] = place && setup.model.automatic ? json(place->reason) : json();
+  result["tabor_parameter"] = place ? json(place->tabor) : json();
+  result["maugis_lambda"] = place ? json(place->maugis) : json();
+  result["regime"] = place ? json(physics::name_of(place->regime)) : json();
+  return result;
+}
+
+void add_sources(nlohmann::ordered_json& result, const ContactSetup& setup) {
+  json& sources = result["sources"] = json::object();
+  json& estimated = result["estimated"] = json::array();
+  for (const scene::SourcedValue& source : acting_sources(setup)) {
+    sources[source.key] = {{"value", source.value}, {"source", source.source}, {"estimated", source.estimated}};
+    if (source.estimated) estimated.push_back(source.key);
+  }
+}
+
 nlohmann::ordered_json curve_json(const CurveRun& run) {
-  json result = law_json(run);
+  json result = law_json(run.setup, run.model, run.place);
   json& parameters = result["parameters"] = parameters_json(run.setup);
   parameters["from_m"] = run.plan.from.si;
   parameters["to_m"] = run.plan.to.si;
@@ -223,12 +233,7 @@ nlohmann::ordered_json curve_json(const CurveRun& run) {
   result["loop_energy_J"] = energy ? json(energy->si + 0.0) : json();
   result["critical_stiffness_N_per_m"] = finite_or_null(run.figures.critical_stiffness.si);
   if (run.motion) result["slow_motion"] = run.motion->slow_motion;
-  json& sources = result["sources"] = json::object();
-  json& estimated = result["estimated"] = json::array();
-  for (const scene::SourcedValue& source : acting_sources(run.setup)) {
-    sources[source.key] = {{"value", source.value}, {"source", source.source}, {"estimated", source.estimated}};
-    if (source.estimated) estimated.push_back(source.key);
-  }
+  add_sources(result, run.setup);
   return result;
 }
 

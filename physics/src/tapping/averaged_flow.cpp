@@ -23,7 +23,7 @@ AveragedFlow::AveragedFlow(std::shared_ptr<const TapSurface> surface, const Driv
       q_(lever.quality_factor) {}
 
 const SwingAverages& AveragedFlow::averages_at(double amplitude, double z) noexcept {
-  constexpr int kMostSteps = 60;
+  constexpr int kMostSteps = 12;
   // secant steps on <F G>/k - x
   double x = shift_, before = 0.0, missing_before = 0.0;
   for (int i = 0; i < kMostSteps; ++i) {
@@ -113,26 +113,30 @@ bool AveragedFlow::follow(TapState& state, Length z) noexcept {
   return false;
 }
 
-RestingTap AveragedFlow::settle(const TapState& from, Length z) noexcept {
-  constexpr int kMostSteps = 4000;
+RestingTap AveragedFlow::settle(const TapState& from, Length z) {
+  constexpr int kMostSteps = 300, kBetweenTries = 20;
   TapState state = from;
-  if (!follow(state, z)) {
-    const double angle = longest_step();
-    for (int i = 0; i < kMostSteps; ++i) {
-      const TapState before = state;
-      step(state, z, angle);
-      const double moved =
-          std::abs((state.amplitude - before.amplitude).si) / state.amplitude.si + std::abs(state.phase - before.phase);
-      if (moved < 1e-4 && i % 20 == 19 && follow(state, z)) break;
-      if (moved < 1e-12) break;
-    }
+  if (follow(state, z)) return describe(state, z);
+  for (int i = 1; i <= kMostSteps; ++i) {
+    step(state, z, longest_step());
+    if (i % kBetweenTries == 0 && follow(state, z)) return describe(state, z);
   }
-  return describe(state, z);
+  // a contact too stiff for the steps of the flow, or a law with a step at contact, about which the swing hovers
+  RestingTap nearest = describe(state, z);
+  double least = HUGE_VAL;
+  for (const RestingTap& tap : resting_at(z)) {
+    const double distance = std::abs(tap.state.phase - state.phase) +
+                            std::abs((tap.state.amplitude - state.amplitude).si) / lever_.free_amplitude.si;
+    if (!tap.stable || distance >= least) continue;
+    least = distance;
+    nearest = tap;
+  }
+  return nearest;
 }
 
 double AveragedFlow::amplitude_at_lowest(double lowest, double z) noexcept {
   // A = Z + x - lowest with the shift x of that swing
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 16; ++i) {
     const double amplitude = std::max(kLeastAmplitude, z + shift_ - lowest);
     averages_ = surface_->averages({Length(amplitude), Length(lowest + amplitude), lever_.angular_drive()});
     const double shift = averages_.shift_at_lowest.si / k_;

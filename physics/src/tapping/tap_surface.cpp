@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 #include "physics/dynamic_law.h"
 #include "physics/force_laws.h"
@@ -81,9 +83,13 @@ TapSurface::TapSurface(Law law, const ContactParameters& contact, const LawOptio
       grips_(fixed_grips_tables(law, contact, options)),
       law_(force_law(law, contact, options)),
       viscous_si_(viscosity.si * std::sqrt(contact.tip_radius.si)) {
+  if (traits_of(law).modulus == ModulusUse::Unused) {
+    throw std::invalid_argument("the law " + std::string(name_of(law)) +
+                                " is that of rigid bodies, on which no swing can be averaged: take one of hertz, dmt, "
+                                "jkr, maugis");
+  }
   if (!(viscosity.si >= 0.0 && viscosity.si <= 1e6)) {
-    throw UnphysicalValue("viscosity",
-                          "viscosity " + std::to_string(viscosity.si) + " Pa s is not within 0 to 1e6 Pa s");
+    throw UnphysicalValue("viscosity", "the viscosity is not within 0 to 1e6 Pa*s");
   }
 }
 

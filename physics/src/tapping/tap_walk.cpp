@@ -14,6 +14,11 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
   constexpr double kFoldError = 1e-18;   // m
   constexpr double kBeyondFold = 2e-12;  // m, from where the flow leaves the fold's neighbourhood in finite time
   const double way = to.si - from.si;
+  TapState here = state;
+  if (!flow.follow(here, from)) {  // not at rest: a swing that hovers where contact begins
+    state = flow.settle(state, to).state;
+    return;
+  }
   double at = from.si, step = way;
   while (at != to.si) {
     const double next = std::abs(to.si - at) <= std::abs(step) ? to.si : at + step;
@@ -34,7 +39,8 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
     state = landed;
     at = beyond.si;
     step = to.si - at;
-    if (step * way <= 0.0) {  // a fold within the last picometres
+    here = landed;
+    if (step * way <= 0.0 || !flow.follow(here, beyond)) {  // a fold within the last picometres, or no rest beyond it
       state = flow.settle(state, to).state;
       return;
     }

@@ -38,7 +38,8 @@ TEST(DrivenLever, RefusesWhatNoInstrumentHas) {
   EXPECT_THROW((void)(TappedSample{.a0_nm = std::nan("")}.lever()), UnphysicalValue);
   EXPECT_THROW((void)(TappedSample{.ratio = 2.0}.lever()), UnphysicalValue);
   EXPECT_THROW((void)(TappedSample{.q = 0.1}.lever()), UnphysicalValue);
-  EXPECT_THROW((void)(TappedSample{.k = 40.0}.surface(Law::Paper)), std::invalid_argument);
+  EXPECT_THROW((void)(TappedSample{}.surface(Law::Paper)), std::invalid_argument);
+  EXPECT_THROW((void)(TappedSample{}.surface(Law::LennardJones)), std::invalid_argument);
   EXPECT_THROW((void)(TappedSample{.eta_w0_mpa = -1.0}.surface()), UnphysicalValue);
 }
 

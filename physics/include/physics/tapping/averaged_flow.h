@@ -34,7 +34,7 @@ struct RestingTap {
 // where A is accurate to some 0.1 %; below kLeastQuality it misses the higher harmonics: integrate directly
 // (physics/tapping/tapping_oscillator.h).
 //
-// One thread. Only the constructor and resting_at() allocate.
+// One thread. Only the constructor, resting_at() and settle() allocate.
 class AveragedFlow {
  public:
   static constexpr double kLeastQuality = 100.0;
@@ -47,9 +47,9 @@ class AveragedFlow {
   // The step of step() that is a tenth of the relaxation.
   double longest_step() const noexcept { return 0.2 * lever_.quality_factor; }
 
-  // Lets a swing come to rest at `z`, on its own branch or, if that has ended, where the flow takes it. Stops after 400
-  // relaxations.
-  RestingTap settle(const TapState& from, Length z) noexcept;
+  // Lets a swing come to rest at `z`, on its own branch or, if that has ended, where the flow takes it. If it does not
+  // rest within 30 relaxations, takes the nearest stable swing, or the last one if there is none. May allocate.
+  RestingTap settle(const TapState& from, Length z);
 
   // Moves a resting swing to the one on the same stable branch at `z`, by Newton's method. Returns false, and changes
   // nothing, if there is none nearby.

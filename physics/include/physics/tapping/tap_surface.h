@@ -42,8 +42,8 @@ struct SwingAverages {
 // Constant after construction; any thread. Only the constructor allocates.
 class TapSurface {
  public:
-  // Throws std::invalid_argument (UnphysicalValue if one field is the cause) for a law without dynamics, as
-  // build_law_tables() does, for a rigid contact, and unless the viscosity is within 0 to 1e6 Pa s.
+  // Throws std::invalid_argument (UnphysicalValue if one field is the cause) for a law without dynamics or of rigid
+  // bodies, as build_law_tables() does, for a rigid contact, and unless the viscosity is within 0 to 1e6 Pa s.
   TapSurface(Law law, const ContactParameters& contact, const LawOptions& options = {},
              Viscosity viscosity = Viscosity());
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "curves/contact_setup.h"
+#include "curves/curve_run.h"
+#include "physics/adhesion_map.h"
+#include "physics/tapping/frequency_shift.h"
+#include "physics/tapping/tapping_curve.h"
+
+namespace afm::curves {
+
+// Numbers of a vibrating lever, as typed; empty: not given.
+struct TappingOptions {
+  std::string free_amplitude{};  // tapping: needed
+  std::string amplitude{};       // fm: needed
+  std::string drive{};           // tapping; empty: at the resonance
+  std::string viscosity{};       // of the contact; empty: none
+  std::string method{};          // tapping: averaged or direct; empty: by the quality factor
+  std::string at{};              // a single height instead of a path
+};
+
+// One resting swing at a height.
+struct TapStateRow {
+  std::string start;  // direct integration: "free swing" or "rest"; averaged: empty
+  physics::RestingTap tap;
+  physics::Energy cleveland;
+  std::optional<physics::DirectSwing> swing;  // direct integration
+};
+
+// A tapping curve, or the states at one height, with all inputs.
+struct TappingRun {
+  ContactSetup setup;
+  std::string model;  // "dmt"
+  std::optional<physics::LawChoice> place;
+  physics::DrivenLever lever;
+  physics::Viscosity viscosity;
+  physics::TapMethod method = physics::TapMethod::Averaged;
+  physics::TapPath path;
+  physics::TappingCurve curve;
+  std::optional<physics::Length> at;
+  std::vector<TapStateRow> states;  // with `at`
+};
+
+// A curve of the frequency shift at constant amplitude, or its value at one height.
+struct FrequencyShiftRun {
+  ContactSetup setup;
+  std::string model;
+  std::optional<physics::LawChoice> place;
+  physics::Length amplitude;
+  physics::Viscosity viscosity;
+  physics::SweepPlan plan;
+  physics::FrequencyShiftCurve curve;  // one point if `at` is given
+  std::optional<physics::Length> at;
+};
+
+// The work of adhesion for which DMT and Maugis-Dugdale have this distance a0 of two bodies in contact: that at which
+// the van der Waals attraction is F_ad (physics/van_der_waals.h). UnphysicalValue's text as WrongUsage.
+core::Result<physics::SurfaceEnergy> work_of_adhesion_for(const ContactSetup& setup, physics::Length contact_gap);
+
+// Both take setups whose model is `driven`. WrongUsage for malformed texts and values, for a law that gives no force as
+// a function of the height, and for a path that is too long to compute.
+core::Result<TappingRun> run_tapping(const ContactSetup& setup, const PathOptions& path, const TappingOptions& options);
+core::Result<FrequencyShiftRun> run_frequency_shift(const ContactSetup& setup, const PathOptions& path,
+                                                    const TappingOptions& options);
+
+}  // namespace afm::curves

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves/tapping/tapping_run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
+#include <tuple>
+#include <variant>
+
+#include "curves/viscosity_units.h"
+#include "physics/quantity_text.h"
+#include "physics/van_der_waals.h"
+
+namespace afm::curves {
+namespace {
+
+using core::wrong_usage;
+
+constexpr double kDefaultRows = 400.0;
+
+template <class Q>
+core::Result<Q> read_quantity(const char* option, const std::string& text, const physics::UnitList<Q>& units) {
+  const auto parsed = physics::parse_quantity(text, units);
+  if (!parsed.value) return wrong_usage(fmt::format("{}: {}", option, parsed.error));
+  return *parsed.value;
+}
+
+// The quantity, or the default if the text is empty.
+template <class Q>
+core::Result<Q> read_quantity_or(const char* option, const std::string& text, const physics::UnitList<Q>& units,
+                                 Q fallback) {
+  if (text.empty()) return fallback;
+  return read_quantity(option, text, units);
+}
+
+core::Result<physics::Viscosity> read_viscosity(const std::string& text) {
+  if (text.empty()) return physics::Viscosity();
+  const auto parsed = physics::parse_si(text, "a viscosity", kViscosityUnits, physics::Infinity::Refused);
+  if (const auto* error = std::get_if<std::string>(&parsed)) return wrong_usage("--viscosity: " + *error);
+  return physics::Viscosity(std::get<double>(parsed));
+}
+
+core::Result<physics::SweepPlan> read_plan(const PathOptions& path, physics::Length from, physics::Length to) {
+  physics::SweepPlan plan;
+  const auto start = read_quantity_or("--from", path.from, physics::kLengthUnits, from);
+  if (!start) return tl::unexpected(start.error());
+  const auto end = read_quantity_or("--to", path.to, physics::kLengthUnits, to);
+  if (!end) return tl::unexpected(end.error());
+  plan.from = *start;
+  plan.to = *end;
+  const auto step = read_quantity_or("--step", path.step, physics::kLengthUnits, (plan.from - plan.to) / kDefaultRows);
+  if (!step) return tl::unexpected(step.error());
+  plan.step = *step;
+  return plan;
+}
+
+core::Result<physics::TapMethod> read_method(const std::string& text, const physics::DrivenLever& lever) {
+  const bool averages = lever.quality_factor >= physics::AveragedFlow::kLeastQuality;
+  if (text.empty()) return averages ? physics::TapMethod::Averaged : physics::TapMethod::Direct;
+  if (text == "direct") return physics::TapMethod::Direct;
+  if (averages) return physics::TapMethod::Averaged;
+  return wrong_usage(fmt::format("--method averaged needs a quality factor of at least {:g}, not {:g}; take direct",
+                                 physics::AveragedFlow::kLeastQuality, lever.quality_factor));
+}
+
+// Both starts by direct integration, or all states of the averaged flow.
+std::vector<TapStateRow> states_at(const std::shared_ptr<const physics::TapSurface>& surface,
+                                   const physics::DrivenLever& lever, physics::TapMethod method, physics::Length z) {
+  std::vector<TapStateRow> rows;
+  const auto add = [&](const char* start, const physics::RestingTap& tap,
+                       std::optional<physics::DirectSwing> swing = std::nullopt) {
+    rows.push_back({start, tap, physics::cleveland_energy(lever, tap.state.amplitude, tap.state.phase), swing});
+  };
+  const auto add_direct = [&](const char* start, const physics::DirectSwing& swing) {
+    add(start, physics::resting_tap(swing), swing);
+  };
+  if (method == physics::TapMethod::Averaged) {
+    physics::AveragedFlow flow(surface, lever);
+    for (const physics::RestingTap& tap : flow.resting_at(z)) add("", tap);
+    return rows;
+  }
+  physics::TappingOscillator tip(surface, lever);
+  tip.place(z, {lever.free_amplitude, lever.free_phase});
+  add_direct("free swing", tip.settle());
+  tip.place(z, {});
+  add_direct("rest", tip.settle());
+  return rows;
+}
+
+core::Result<void> compute(const PathOptions& path, const TappingOptions& options, TappingRun& run) {
+  const auto& contact = run.setup.material.contact;
+  const auto amplitude = read_quantity("--free-amplitude", options.free_amplitude, physics::kLengthUnits);
+  if (!amplitude) return tl::unexpected(amplitude.error());
+  const auto drive =
+      read_quantity_or("--drive", options.drive, physics::kFrequencyUnits, run.setup.material.lever.resonance);
+  if (!drive) return tl::unexpected(drive.error());
+  run.lever = physics::driven_lever(contact.spring_constant, run.setup.material.lever, {*amplitude, *drive});
+  const auto method = read_method(options.method, run.lever);
+  if (!method) return tl::unexpected(method.error());
+  run.method = *method;
+  const auto surface =
+      std::make_shared<const physics::TapSurface>(run.setup.law(), contact, run.setup.law_options, run.viscosity);
+  if (!options.at.empty()) {
+    const auto at = read_quantity("--at", options.at, physics::kLengthUnits);
+    if (!at) return tl::unexpected(at.error());
+    run.at = *at;
+    run.states = states_at(surface, run.lever, run.method, *at);
+    return {};
+  }
+  const physics::Length a0 = run.lever.free_amplitude;
+  const auto plan = read_plan(path, a0 + std::max(physics::Length(2e-9), 0.1 * a0), 0.1 * a0);
+  if (!plan) return tl::unexpected(plan.error());
+  run.path.plan = *plan;
+  if (!path.speed.empty()) {
+    const auto speed = read_quantity("--speed", path.speed, physics::kVelocityUnits);
+    if (!speed) return tl::unexpected(speed.error());
+    run.path.speed = *speed;
+  }
+  run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method);
+  return {};
+}
+
+core::Result<void> compute(const PathOptions& path, const TappingOptions& options, FrequencyShiftRun& run) {
+  const auto& [contact, lever] = std::tie(run.setup.material.contact, run.setup.material.lever);
+  const auto amplitude = read_quantity("--amplitude", options.amplitude, physics::kLengthUnits);
+  if (!amplitude) return tl::unexpected(amplitude.error());
+  run.amplitude = *amplitude;
+  const physics::TapSurface surface(run.setup.law(), contact, run.setup.law_options, run.viscosity);
+  if (!options.at.empty()) {
+    const auto at = read_quantity("--at", options.at, physics::kLengthUnits);
+    if (!at) return tl::unexpected(at.error());
+    run.at = *at;
+    run.curve.points = {physics::frequency_shift_at(surface, lever.resonance, *amplitude, *at)};
+    return {};
+  }
+  const auto plan = read_plan(path, *amplitude + physics::Length(5e-9), *amplitude - physics::Length(1e-9));
+  if (!plan) return tl::unexpected(plan.error());
+  run.plan = *plan;
+  run.curve = physics::record_frequency_shift(surface, lever.resonance, *amplitude, *plan);
+  return {};
+}
+
+// What both modes share: model, checks and the viscosity; then the mode's computation.
+template <class Run>
+core::Result<Run> computed(const ContactSetup& setup, const PathOptions& path, const TappingOptions& options) {
+  Run run{};
+  run.setup = setup;
+  const auto viscosity = read_viscosity(options.viscosity);
+  if (!viscosity) return tl::unexpected(viscosity.error());
+  run.viscosity = *viscosity;
+  try {
+    physics::validate(setup.material.contact);
+    run.place = setup.place();
+    run.model = setup.used_model();
+    if (const auto done = compute(path, options, run); !done) return tl::unexpected(done.error());
+  } catch (const std::invalid_argument& error) {
+    return wrong_usage(error.what());
+  }
+  return run;
+}
+
+}  // namespace
+
+core::Result<physics::SurfaceEnergy> work_of_adhesion_for(const ContactSetup& setup, physics::Length contact_gap) {
+  const physics::ContactParameters& contact = setup.material.contact;
+  // the range of an atomic distance, downwards to where no sphere is smaller
+  if (!(contact_gap >= physics::Length(1e-11) && contact_gap <= physics::Length(5e-9))) {
+    return wrong_usage(fmt::format("--contact-gap: {} is not within 10 pm to 5 nm",
+                                   physics::format_quantity(contact_gap, physics::kLengthUnits)));
+  }
+  const physics::VanDerWaals attraction(contact.hamaker, contact.tip_radius, setup.law_options);
+  return -attraction.force(contact_gap) / (2.0 * std::numbers::pi * contact.tip_radius);
+}
+
+core::Result<TappingRun> run_tapping(const ContactSetup& setup, const PathOptions& path,
+                                     const TappingOptions& options) {
+  return computed<TappingRun>(setup, path, options);
+}
+
+core::Result<FrequencyShiftRun> run_frequency_shift(const ContactSetup& setup, const PathOptions& path,
+                                                    const TappingOptions& options) {
+  return computed<FrequencyShiftRun>(setup, path, options);
+}
+
+}  // namespace afm::curves
