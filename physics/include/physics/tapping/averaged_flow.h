@@ -99,7 +99,7 @@ class AveragedFlow {
   std::shared_ptr<const TapSurface> surface_;
   DrivenLever lever_;
   double k_, a_, r_, q_;
-  double shift_ = 0.0;  // of the lowest point in the previous swing
+  double shift_ = 0.0;  // shift of the lowest point in the previous swing
   SwingAverages averages_;
 };
 

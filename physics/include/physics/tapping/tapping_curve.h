@@ -36,17 +36,17 @@ struct TapPoint {
 // A change between the states: a fold where one ends, or where the phase of a moving tip passes that of the free lever.
 struct TapJump {
   Branch branch = Branch::Approach;
-  Length z;         // where it happens; for direct integration with steps, between both rows
-  Length z_before;  // of the row or fold before it
-  Length z_after;   // of the row or fold after it
+  Length z;         // place; for direct integration with steps, between both rows
+  Length z_before;  // the row or fold before it
+  Length z_after;   // the row or fold after it
   TapState before;
   TapState after;
 };
 
 // A stable state beside the path at some heights.
 struct TapIsland {
-  Length lowest_z, highest_z;  // of the sampled heights
-  Length z;                    // of the example, in the middle
+  Length lowest_z, highest_z;  // range of the sampled heights
+  Length z;                    // height of the example, in the middle
   RestingTap example;
 };
 

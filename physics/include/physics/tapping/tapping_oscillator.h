@@ -85,7 +85,7 @@ class TappingOscillator {
   std::shared_ptr<const TipForce> force_at_;
   DrivenLever lever_;
   std::size_t steps_ = 0;
-  std::vector<double> cosine_, sine_;    // of the drive's angle at each fine step of a swing
+  std::vector<double> cosine_, sine_;    // cosine and sine of the drive's angle at each fine step of a swing
   std::vector<double> free_x_, free_v_;  // p and p'
   double mass_;
   double near_;  // height below which steps are fine
