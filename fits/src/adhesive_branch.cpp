@@ -85,7 +85,7 @@ double AdhesiveBranch::solve(double way, double near) const {
 }
 
 AdhesiveBranch::Held AdhesiveBranch::at(double way, double& near) const {
-  const bool beyond = way < way_m(point(lambda_, fold_));
+  const bool beyond = way < fold_way_m();
   near = beyond ? fold_ : solve(way, near);
   const Point here = point(lambda_, near);
   // derivatives by the logarithm of lambda at one s, by central differences; the other laws do not depend on it

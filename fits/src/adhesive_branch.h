@@ -27,6 +27,9 @@ class AdhesiveBranch {
 
   double fold() const { return fold_; }
 
+  // Way at the fold, the least of the branch; negative.
+  double fold_way_m() const { return way_m(point(lambda_, fold_)); }
+
   // Hardest pull of a soft lever, a magnitude: 2 pi W R for DMT, 3/2 pi W R for JKR.
   double pull_off_n() const;
 

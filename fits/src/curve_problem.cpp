@@ -8,6 +8,7 @@
 #include "adhesive_branch.h"
 #include "correlated_noise.h"
 #include "least_squares.h"
+#include "series.h"
 
 namespace afm::fits {
 
@@ -21,11 +22,8 @@ CurveProblem::CurveProblem(std::span<const Sample> samples, const FitSetup& setu
   origin_m_ = z_m_.front();
 }
 
-// Lever and contact in series (F7): d + F(d)/k = z_c - Z, by Newton's method; F is convex, so that it comes from deeper
-// from its second step on. Against the tip (F8): d = z_c - (Z + F_measured/k).
+// In series with the lever, or against the tip (F8): d = z_c - (Z + F_measured/k).
 CurveProblem::Bent CurveProblem::bent(const Unknowns& unknowns, std::size_t sample) const {
-  constexpr int kMostSteps = 60;
-  constexpr double kClose = 1e-7;  // the error of a step is the square
   const double modulus_pa = std::exp(unknowns[kModulus]), spring = setup_.spring_n_per_m;
   const double measured_n = force_n_[sample] - setup_.zero_n;
   if (setup_.against == Against::Tip) {
@@ -36,19 +34,8 @@ CurveProblem::Bent CurveProblem::bent(const Unknowns& unknowns, std::size_t samp
   }
   const double way_m = unknowns[kContact] - z_m_[sample];
   if (!(way_m > 0.0)) return {};
-  const double level_n = unknowns[kLevel];
-  double depth_m = std::clamp(way_m - (force_n_[sample] - level_n) / spring, 0.01 * way_m, way_m);
-  Push push;
-  for (int step = 0; step < kMostSteps; ++step) {
-    push = push_of(setup_.indenter, depth_m);
-    const double off_m = depth_m + modulus_pa * push.force / spring - way_m;
-    const double next_m = depth_m - off_m / (1.0 + modulus_pa * push.slope / spring);
-    const double change_m = next_m - depth_m;
-    depth_m = next_m > 0.0 ? std::min(next_m, way_m) : 0.5 * depth_m;
-    if (std::abs(change_m) > kClose * depth_m) continue;
-    push.force += push.slope * change_m;
-    break;
-  }
+  const double near_m = way_m - (force_n_[sample] - unknowns[kLevel]) / spring;
+  const auto [depth_m, push] = in_series(setup_.indenter, modulus_pa, spring, way_m, near_m);
   const double softer = 1.0 / (1.0 + modulus_pa * push.slope / spring);
   const double force_n = modulus_pa * push.force;
   return {true, depth_m, force_n, force_n * softer, modulus_pa * push.slope * softer, 0.0};
