@@ -5,6 +5,7 @@
 #include <sys/file.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -38,6 +39,15 @@ void remove_abandoned(const std::string& path) {
   }
 }
 
+// Without replacing; on a file system that cannot refuse by itself, after a look. Returns 0 or errno.
+int move_to_new(const std::string& from, const std::string& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return errno;
+  std::error_code unknown;
+  if (fs::exists(fs::symlink_status(to, unknown))) return EEXIST;
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
 }  // namespace
 
 Result<OutputFolder> OutputFolder::open(const std::string& path) {
@@ -54,6 +64,7 @@ Result<OutputFolder> OutputFolder::open(const std::string& path) {
   // inside the folder, so that commit() moves within one file system; with an unpredictable name, so that nobody can
   // prepare a link there
   std::string staging = path + "/" + kUnfinished + "XXXXXX";
+  const Uninterrupted until_it_is_registered;
   if (::mkdtemp(staging.data()) == nullptr) return failed(system_error(errno));
   auto lock = locked(staging);
   if (!lock) return failed("another program is using " + staging);
@@ -97,6 +108,28 @@ Result<void> OutputFolder::commit() {
     return failure(ErrorCategory::Failed, "cannot move the results into " + path_ + ": " + error.message());
   }
   return {};
+}
+
+Result<void> OutputFolder::commit_new() {
+  const Uninterrupted all_or_none;
+  std::error_code error;
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(staging_, error)) {
+    names.push_back(entry.path().filename().string());
+  }
+  int failed = error.value();
+  std::size_t moved = 0;
+  while (failed == 0 && moved < names.size()) {
+    failed = move_to_new(staged(names[moved]), path_ + "/" + names[moved]);
+    if (failed == 0) ++moved;
+  }
+  if (failed == 0) return {};
+  for (std::size_t i = 0; i < moved; ++i) ::rename((path_ + "/" + names[i]).c_str(), staged(names[i]).c_str());
+  if (failed == EEXIST) {
+    return wrong_usage("cannot write " + path_ + "/" + names[moved] +
+                       ": it exists already; remove it, or choose another with --out");
+  }
+  return failure(ErrorCategory::Failed, "cannot move the results into " + path_ + ": " + system_error(failed));
 }
 
 }  // namespace afm::core

@@ -78,8 +78,10 @@ void put_column(hid_t group, const char* name, const char* unit, hid_t file_type
                 const std::vector<T>& values) {
   const hsize_t count = values.size();
   const Handle space = must(H5Screate_simple(1, &count, nullptr), "make a space");
+  const Handle made = must(H5Pcreate(H5P_DATASET_CREATE), "prepare a data set");
+  must_do(H5Pset_obj_track_times(made.get(), false), "leave the time out");
   const Handle column =
-      must(H5Dcreate2(group, name, file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "make a data set");
+      must(H5Dcreate2(group, name, file_type, space.get(), H5P_DEFAULT, made.get(), H5P_DEFAULT), "make a data set");
   must_do(H5Dwrite(column.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "write a data set");
   put_attribute(column.get(), "unit", std::string(unit));
 }
@@ -270,15 +272,17 @@ RecordedCurve Hdf5Curves::curve(std::size_t index) const {
   return curve;
 }
 
-std::string hdf5_bytes(const RecordedCurve& curve) {
+std::string hdf5_bytes(std::span<const RecordedCurve> curves) {
   const Handle access = access_to_memory();
   const Handle file = must(H5Fcreate("curve", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), "make a file");
   put_attribute(file.get(), "software", std::string("TouchAFM"));
   put_attribute(file.get(), "software version", std::string(core::kVersion));
-  put_parameters(file.get(), curve.metadata);
-  {
-    const Handle group = must(H5Gcreate2(file.get(), "0", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "make a group");
-    put_curve(group.get(), curve);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (i == 0) put_parameters(file.get(), curves[i].metadata);
+    const std::string name = std::to_string(i);
+    const Handle group =
+        must(H5Gcreate2(file.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "make a group");
+    put_curve(group.get(), curves[i]);
   }
   must_do(H5Fflush(file.get(), H5F_SCOPE_LOCAL), "finish a file");
   const ssize_t size = H5Fget_file_image(file.get(), nullptr, 0);

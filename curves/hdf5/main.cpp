@@ -5,7 +5,7 @@
 // touchafm-hdf5 read INDEX          reads an .h5 from stdin, writes its curve as afmformats .tab to stdout
 // touchafm-hdf5 count               writes the number of its curves
 // touchafm-hdf5 stream FIRST STEP   writes every STEP-th curve from FIRST on, each as a message of a ConfinedStream
-// touchafm-hdf5 write               reads a .tab, writes an .h5
+// touchafm-hdf5 write               reads .tabs, each ended by a NUL, writes an .h5
 //
 // Exit codes are those of confined/confined_child.h; a fault of the file is reported on stdout.
 #include <unistd.h>
@@ -17,6 +17,7 @@
 #include <exception>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "confined/confined_child.h"
 #include "confined/confinement.h"
@@ -46,6 +47,16 @@ std::size_t number_of(std::string_view text) {
   return number;
 }
 
+std::vector<curves::RecordedCurve> read_tabs(std::string_view bytes) {
+  std::vector<curves::RecordedCurve> read;
+  while (!bytes.empty()) {
+    const std::size_t end = std::min(bytes.find('\0'), bytes.size());
+    read.push_back(curves::read_tab(bytes.substr(0, end)));
+    bytes.remove_prefix(std::min(end + 1, bytes.size()));
+  }
+  return read;
+}
+
 void stream(const curves::Hdf5Curves& file, std::size_t first, std::size_t step) {
   const std::size_t count = file.size();
   for (std::size_t i = first; i < count; i += step) {
@@ -61,7 +72,7 @@ void stream(const curves::Hdf5Curves& file, std::size_t first, std::size_t step)
 std::string converted(std::string_view how, std::size_t first, std::size_t step) {
   const std::string bytes = read_stdin();
   curves::confine_this_process((how == "stream" ? curves::kStreamTime : curves::kMapTime).processor_time);
-  if (how == "write") return curves::hdf5_bytes(curves::read_tab(bytes));
+  if (how == "write") return curves::hdf5_bytes(read_tabs(bytes));
   const curves::Hdf5Curves file(bytes);
   if (how == "count") {
     const std::size_t count = file.size();

@@ -54,6 +54,35 @@ TEST(OutputFolder, ReplacesItsOwnFilesAndKeepsTheOthers) {
   EXPECT_EQ(entries(scratch.path()), 2U);
 }
 
+TEST(OutputFolder, OfNewFilesReplacesNoneAndThenShowsNone) {
+  const support::ScratchFolder scratch;
+  scratch.write("b.txt", "old");
+  {
+    auto out = OutputFolder::open(scratch.path());
+    ASSERT_TRUE(out.has_value());
+    for (const char* name : {"a.txt", "b.txt", "c.txt"}) ASSERT_TRUE(out->write(name, "new").has_value());
+    const auto committed = out->commit_new();
+    ASSERT_FALSE(committed.has_value());
+    EXPECT_EQ(committed.error().category, ErrorCategory::WrongUsage);
+    EXPECT_THAT(committed.error().message, testing::HasSubstr("b.txt: it exists already"));
+  }
+  EXPECT_EQ(read_file(scratch.file("b.txt")).value(), "old");
+  EXPECT_EQ(entries(scratch.path()), 1U) << "neither what came before it nor what comes after";
+}
+
+TEST(OutputFolder, OfNewFilesShowsAll) {
+  const support::ScratchFolder scratch;
+  {
+    auto out = OutputFolder::open(scratch.path());
+    ASSERT_TRUE(out.has_value());
+    for (const char* name : {"a.txt", "b.txt"}) ASSERT_TRUE(out->write(name, name).has_value());
+    ASSERT_TRUE(out->commit_new().has_value());
+  }
+  EXPECT_EQ(read_file(scratch.file("a.txt")).value(), "a.txt");
+  EXPECT_EQ(read_file(scratch.file("b.txt")).value(), "b.txt");
+  EXPECT_EQ(entries(scratch.path()), 2U);
+}
+
 TEST(OutputFolder, ClearsWhatAKilledRunHasLeft) {
   const support::ScratchFolder scratch;
   fs::create_directory(scratch.file(".unfinished-a1b2c3"));

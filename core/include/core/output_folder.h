@@ -31,6 +31,10 @@ class OutputFolder {
   // Moves every staged file into the folder. Replaces older files of the same names and keeps all others.
   Result<void> commit();
 
+  // The same where no file is replaced: WrongUsage if one of the names exists. A failure moves back what was moved, so
+  // that all files appear or none.
+  Result<void> commit_new();
+
  private:
   OutputFolder(std::string path, std::string staging, FileDescriptor lock);
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 
 #include "core/result.h"
@@ -14,6 +15,10 @@ namespace afm::curves {
 // Curves of a file: one of most formats, several of an .h5 and of JPK's maps. Known files that cannot hold several are
 // not opened. BadInputFile as load_curve().
 core::Result<std::size_t> curve_count(const std::string& path, const CurveReading& reading = {});
+
+// Contents of a file with one curve or more; only .h5 holds several. Errors as of curve_bytes(), and WrongUsage for a
+// format that cannot hold so many.
+core::Result<std::string> series_bytes(CurveFormat format, std::span<const RecordedCurve> curves);
 
 // Every `step`-th curve from `first` on, so that several threads can share a file.
 struct SeriesPart {

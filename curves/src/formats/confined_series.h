@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "bytes/text_table.h"
@@ -23,6 +24,7 @@ struct SeriesRow {
   // A message a curve, as afmformats .tab.
   std::unique_ptr<ConfinedStream> (*stream)(const std::string& path, const SeriesPart& part,
                                             const CurveReading& reading);
+  std::string (*write)(std::span<const RecordedCurve> curves);  // null: read only
 };
 
 // The number that a child says; it must not be believed unchecked.
@@ -57,7 +59,8 @@ constexpr SeriesRow series_of() {
                   }
                 },
                 kNotSurvived);
-          }};
+          },
+          nullptr};
 }
 
 }  // namespace afm::curves

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -57,8 +58,10 @@ std::unique_ptr<ConfinedStream> stream_hdf5(const std::string& path, const Serie
       kHdf5Program, std::vector{std::string("stream"), std::to_string(part.first), std::to_string(part.step)}, *bytes,
       kNotSurvived);
 }
-std::string hdf5_bytes(const RecordedCurve& curve) {
-  return from_confined_program(kHdf5Program, {"write"}, tab_bytes(curve), "HDF5 could not make it");
+std::string hdf5_bytes(std::span<const RecordedCurve> curves) {
+  std::string tabs;
+  for (const RecordedCurve& curve : curves) tabs.append(tab_bytes(curve)).push_back('\0');
+  return from_confined_program(kHdf5Program, {"write"}, tabs, "HDF5 could not make it", kMapTime);
 }
 
 RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
@@ -71,7 +74,7 @@ RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
   return curve;
 }
 
-constexpr SeriesRow kHdf5Series{count_hdf5, stream_hdf5}, kJpkSeries = series_of<JpkArchive>();
+constexpr SeriesRow kHdf5Series{count_hdf5, stream_hdf5, hdf5_bytes}, kJpkSeries = series_of<JpkArchive>();
 
 enum class Reader { Ours, Foreign };  // Foreign: formats of other programs, read in a confined child
 
@@ -100,7 +103,8 @@ constexpr FormatTable kCurves{
         CurveRow{CurveFormat::Tab, "afmformats .tab", "tab", begins_as_tab, Reader::Ours, nullptr,
                  [](std::string_view b, const CurveReading&) { return read_tab(b); }, tab_bytes},
         CurveRow{CurveFormat::Hdf5, ".h5", "h5", [](std::string_view b) { return b.starts_with("\x89HDF\r\n\x1a\n"); },
-                 Reader::Ours, &kHdf5Series, read_hdf5, hdf5_bytes, true},
+                 Reader::Ours, &kHdf5Series, read_hdf5,
+                 [](const RecordedCurve& curve) { return hdf5_bytes({&curve, 1}); }, true},
         CurveRow{CurveFormat::JpkForce, "JPK .jpk-force, .jpk-force-map or .jpk-qi-data", "",
                  [](std::string_view b) { return b.starts_with("PK\x03\x04"); }, Reader::Foreign, &kJpkSeries, read_jpk,
                  nullptr},
@@ -295,6 +299,21 @@ core::Result<std::string> curve_bytes(CurveFormat format, const RecordedCurve& c
     return row.write(curve);
   } catch (const std::runtime_error& error) {
     return core::failure(core::ErrorCategory::Failed, fmt::format("cannot write the curve: {}", error.what()));
+  }
+}
+
+core::Result<std::string> series_bytes(CurveFormat format, std::span<const RecordedCurve> curves) {
+  if (curves.size() == 1) return curve_bytes(format, curves.front());
+  const CurveRow& row = kCurves.rows[core::index_of(format)];
+  if (row.series == nullptr || row.series->write == nullptr) {
+    return core::failure(core::ErrorCategory::WrongUsage,
+                         fmt::format("cannot write {} curves: {} holds one alone; name a file that ends in .h5",
+                                     curves.size(), row.files));
+  }
+  try {
+    return row.series->write(curves);
+  } catch (const std::runtime_error& error) {
+    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot write the curves: {}", error.what()));
   }
 }
 

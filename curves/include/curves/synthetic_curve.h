@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "curves/recorded_curve.h"
+#include "curves/synthetic_setup.h"
+
+// Curves as an instrument would record them, whose truth is known (docs/generate.md). The same set-up gives the same
+// bytes on every machine with the same mathematical library. Any thread; allocates.
+namespace afm::curves {
+
+// Curves of one file, and their truth: JSON in SI with the unit in each key. The curves themselves do not have it.
+struct SyntheticFile {
+  std::vector<RecordedCurve> curves;
+  std::string truth;
+};
+
+// Points of all curves of a file.
+inline constexpr std::size_t kMostSyntheticPoints = 2'000'000;
+
+// `count` curves that differ in their noise. `setup` is of apply(). WrongUsage, with the option to change, for a tip
+// that goes deeper than its law holds, a base that begins where the tip still sticks, and more than
+// kMostSyntheticPoints.
+core::Result<SyntheticFile> synthetic_curves(const SyntheticSetup& setup, std::size_t count);
+
+// Shapes of a field over a map.
+enum class FieldShape { Uniform, Step, Gradient, Islands };
+struct FieldShapeRow {
+  FieldShape shape;
+  std::string_view name;
+  std::string_view meaning;
+};
+inline constexpr std::array kFieldShapes{
+    FieldShapeRow{FieldShape::Uniform, "uniform", "the same everywhere"},
+    FieldShapeRow{FieldShape::Step, "step", "the second value in the right half"},
+    FieldShapeRow{FieldShape::Gradient, "gradient", "from the left column to the second value in the right one"},
+    FieldShapeRow{FieldShape::Islands, "islands", "the second value in five discs, whose places follow from the seed"}};
+
+struct SyntheticMap {
+  MapGrid grid;
+  FieldShape shape = FieldShape::Uniform;
+  double second_modulus_pa = 0, second_work_j_per_m2 = 0;  // zero: as the first
+};
+
+// A curve a pixel, the bottom row first and each from the left. WrongUsage as synthetic_curves(), and for second values
+// that the shape or the law does not use.
+core::Result<SyntheticFile> synthetic_map(const SyntheticSetup& setup, const SyntheticMap& map);
+
+}  // namespace afm::curves

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "core/result.h"
+#include "fits/indenter.h"
+#include "physics/quantity_text.h"
+
+namespace afm::curves {
+
+// What a synthetic curve is made from, in SI. Numbers are those of kSyntheticFields; zero: none, or not used.
+struct SyntheticSetup {
+  fits::Shape shape = fits::Shape::Paraboloid;  // not Auto
+  fits::Base base = fits::Base::Bonded;         // of an exact layer
+  std::uint32_t seed = 1;
+  std::size_t points = 1000;  // of each branch
+  double modulus_pa = 0;      // Young's
+  double poisson = 0.5;
+  double radius_m = 0, half_angle_rad = 0, layer_m = 0;
+  double work_j_per_m2 = 0;
+  double atomic_distance_m = fits::Indenter{}.atomic_distance_m;
+  double spring_n_per_m = 0;
+  double most_force_n = 0;         // true force at which the base turns
+  double contact_m = 0;            // height of the base at which the approach meets the sample
+  double clearance_m = 0;          // height above it at which the curve begins; zero: chosen
+  double speed_m_per_s = 1e-6;     // of the base
+  double sensitivity_m_per_v = 0;  // of the optical lever
+  double noise_n = 0;              // rms of the force
+  double noise_memory = 0;         // correlation of the noise from point to point
+  double bits = 0;                 // of the digitiser, whose range is kDetectorRangeV; zero: not digitised
+  double level_n = 0;              // baseline at the first point
+  double tilt_n_per_m = 0;         // of the baseline
+  double drift_m_per_s = 0;        // of the sample, upwards
+  double wave_n = 0;               // amplitude of a wave of interference
+  double wave_period_m = 0;        // in the height of the base
+};
+
+inline constexpr double kDetectorRangeV = 10.0;  // either way
+inline constexpr std::size_t kFewestSyntheticPoints = 50;
+
+// Use of a number by a set-up.
+enum class FieldUse { Required, Optional, None };
+
+// Description of one number for options, checks and truths.
+struct SyntheticField {
+  std::string_view option;    // without its dashes
+  std::string_view json_key;  // with its unit
+  std::string_view help;
+  double smallest, largest;  // SI, both legal
+  const physics::Units* units;
+  double SyntheticSetup::* member;
+  FieldUse (*use)(const SyntheticSetup& setup);
+};
+
+inline constexpr std::size_t kSyntheticFieldCount = 21;
+extern const std::array<SyntheticField, kSyntheticFieldCount> kSyntheticFields;
+
+// A number that a person gave.
+struct GivenNumber {
+  const SyntheticField* field;
+  double si;
+};
+
+// Sets the numbers and checks all of the set-up. WrongUsage, naming the option, for a number that is missing or not
+// used, and for what the law does not know.
+core::Result<void> apply(std::span<const GivenNumber> given, SyntheticSetup& setup);
+
+}  // namespace afm::curves
