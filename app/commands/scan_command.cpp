@@ -20,6 +20,7 @@
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
 #include "core/log.h"
+#include "core/version.h"
 #include "core/whole_file.h"
 #include "curves/image_file.h"
 #include "curves/image_output.h"
@@ -35,6 +36,8 @@ using core::wrong_usage;
 using physics::ScanImage;
 
 constexpr int kFewestPixels = 2;
+constexpr const char* kNoMaterial =
+    "--material is required, such as mica or gold; or name a sample of your own with --sample";
 constexpr std::size_t kManyLines = 1024;  // scans with at least this many lines take seconds and report progress
 
 struct DirectionName {
@@ -50,6 +53,7 @@ struct Scan {
   physics::ScanSettings settings;
   std::map<physics::ScanArtefact, std::size_t> lines_with;
   double time_s = 0;
+  physics::Scanner::Surface surface{};
 };
 
 physics::ScanSettings settings_of(const ScanOptions& options, const curves::ContactSetup& setup,
@@ -109,6 +113,7 @@ core::Result<Scan> take_scan(const ScanOptions& options) {
 
   Scan scan;
   scan.settings = settings_of(options, *setup, *surface);
+  scan.surface = surface->height_m;
   physics::ScanArea area;
   const double drawn_m = std::min(surface->width_m, surface->depth_m);
   area.width = area.height = options.size.si > 0.0 ? options.size : physics::Length(drawn_m);
@@ -155,7 +160,7 @@ nlohmann::json json_of(const physics::ImageChannel& channel) {
           {"rms", std::sqrt(square)}, {"min", *least},        {"max", *most}};
 }
 
-std::string json_text(const Scan& scan) {
+nlohmann::json json_of(const Scan& scan) {
   nlohmann::json settings, channels = nlohmann::json::array(), artefacts = nlohmann::json::object(), metadata;
   for (const physics::ScanField& field : physics::kScanFields) {
     settings[std::string(field.json_key)] = field.get(scan.settings);
@@ -174,9 +179,23 @@ std::string json_text(const Scan& scan) {
                         {"settings", settings},
                         {"metadata", metadata},
                         {"channels", channels},
-                        {"lines_with", artefacts}}
-             .dump(2) +
-         "\n";
+                        {"lines_with", artefacts}};
+}
+
+// The same grid without artefacts: at time zero, so that drift is one.
+ScanImage true_image_of(const Scan& scan) {
+  ScanImage image(scan.image);
+  image.channels = {{"Height without artefacts", "m", {}}};
+  for (std::size_t row = 0; row < image.rows; ++row) {
+    const double y_m =
+        image.y_offset_m - (static_cast<double>(row) + 0.5) * image.height_m / static_cast<double>(image.rows);
+    for (std::size_t column = 0; column < image.columns; ++column) {
+      const double x_m =
+          image.x_offset_m + (static_cast<double>(column) + 0.5) * image.width_m / static_cast<double>(image.columns);
+      image.channels.front().values.push_back(scan.surface(x_m, y_m));
+    }
+  }
+  return image;
 }
 
 core::Result<void> keep_channel(const std::string& name, ScanImage& image) {
@@ -193,7 +212,7 @@ core::Result<void> keep_channel(const std::string& name, ScanImage& image) {
 
 core::Result<void> check(const ScanOptions& options) {
   if (options.contact.material.empty()) {
-    return wrong_usage("--material is required, such as mica or gold; or name a sample of your own with --sample");
+    return wrong_usage(kNoMaterial);
   }
   if (options.out.empty() && options.picture.empty() && !options.json) {
     return wrong_usage("the image would be lost; name a file with --out, or add --json for its figures");
@@ -226,7 +245,20 @@ core::Result<void> write_scan_command(const ScanOptions& options) {
         core::write_file(options.out, one_channel ? curves::gsf_bytes(scan->image, 0) : curves::gwy_bytes(scan->image));
     if (!written) return written;
   }
-  return options.json ? write_stdout(json_text(*scan)) : core::Result<void>{};
+  return options.json ? write_stdout(json_of(*scan).dump(2) + "\n") : core::Result<void>{};
+}
+
+core::Result<TrueScan> scan_with_truth(const ScanOptions& options) {
+  if (options.contact.material.empty()) return wrong_usage(kNoMaterial);
+  const auto scan = take_scan(options);
+  if (!scan) return tl::unexpected(scan.error());
+  nlohmann::json truth = json_of(*scan);
+  truth["kind"] = "image";
+  truth["software"] = "TouchAFM";
+  truth["software_version"] = core::kVersion;
+  truth["seed"] = options.seed;
+  truth["surface"] = std::filesystem::path(options.out).filename().string() + ".truth.gwy";
+  return TrueScan{curves::gwy_bytes(scan->image), curves::gwy_bytes(true_image_of(*scan)), truth.dump(2) + "\n"};
 }
 
 namespace {
@@ -295,9 +327,6 @@ Option add_tip_options(OptionList& command, ScanOptions& options) {
 }
 
 void add_output_options(OptionList& command, ScanOptions& options) {
-  command.add_option("--seed", options.seed, "seed of the noise; the same seed gives the same image")
-      .show_default()
-      .type_name("NUMBER");
   command.add_flag("--show-truth", options.show_truth,
                    "add what the image reveals: the sample as far as the tip reached it, where that is certain, and "
                    "the tip that the image alone gives away");
@@ -320,21 +349,34 @@ void add_output_options(OptionList& command, ScanOptions& options) {
 
 }  // namespace
 
+Option add_scan_options(OptionList& command, ScanOptions& options, const CommandContext& context) {
+  command
+      .add_option("--material", options.contact.material,
+                  "mica, gold or any other of touchafm material; with --sample, it supplies lever, tip and adhesion; "
+                  "default there: mica")
+      .type_name("MATERIAL");
+  add_own_sample_options(command, options);
+  add_area_options(command, options);
+  add_setting_options(command, options);
+  Option tip = add_tip_options(command, options);
+  add_contact_options(command, options.contact, context);
+  command.add_option("--seed", options.seed, "seed of the noise; the same seed gives the same image")
+      .show_default()
+      .type_name("NUMBER");
+  return tip;
+}
+
+void complete(ScanOptions& options, bool tip_is_given) {
+  options.sample.is_traced = !tip_is_given;
+  if (options.contact.material.empty() && !options.sample.file.empty()) options.contact.material = "mica";
+}
+
 void add_scan_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
       "scan", "take an image of a sample with the virtual microscope, with its artefacts, as .gwy or .gsf");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<ScanOptions>();
-  command
-      .add_option("--material", options->contact.material,
-                  "mica, gold or any other of touchafm material; with --sample, it supplies lever, tip and adhesion; "
-                  "default there: mica")
-      .type_name("MATERIAL");
-  add_own_sample_options(command, *options);
-  add_area_options(command, *options);
-  add_setting_options(command, *options);
-  const Option tip = add_tip_options(command, *options);
-  add_contact_options(command, options->contact, context);
+  const Option tip = add_scan_options(command, *options, context);
   add_output_options(command, *options);
   command.footer(
       "Lever, tip and adhesion are the material's; each parameter overrides its own.\n"
@@ -342,8 +384,7 @@ void add_scan_command(OptionList& program, const CommandContext& context) {
       "example: touchafm scan --material gold --rate 20Hz --integral-gain 200/s --picture blurred.png --json\n"
       "example: touchafm scan --sample grating.gwy --tip cone --tip-radius 20nm --rate 1Hz --out image.gwy");
   command.when_chosen([options, tip] {
-    options->sample.is_traced = !tip.given();
-    if (options->contact.material.empty() && !options->sample.file.empty()) options->contact.material = "mica";
+    complete(*options, tip.given());
     return write_scan_command(*options);
   });
 }

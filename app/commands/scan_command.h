@@ -37,4 +37,17 @@ struct ScanOptions {
 // Scans, then writes. Each file is written completely or not at all.
 core::Result<void> write_scan_command(const ScanOptions& options);
 
+// Adds all options but those of the output; returns --tip. `options` must outlive the parsing of `command`.
+Option add_scan_options(OptionList& command, ScanOptions& options, const CommandContext& context);
+
+// What follows from the others once all are parsed.
+void complete(ScanOptions& options, bool tip_is_given);
+
+// An image, the surface that the apex would trace without any artefact, on its grid, both as .gwy; and in JSON the
+// settings, the seed and the lines with each artefact.
+struct TrueScan {
+  std::string image, true_image, truth;
+};
+core::Result<TrueScan> scan_with_truth(const ScanOptions& options);
+
 }  // namespace afm::app

@@ -27,6 +27,7 @@ struct CommandContext {
   COMMAND(lesson)                     \
   COMMAND(curve)                      \
   COMMAND(scan)                       \
+  COMMAND(generate)                   \
   COMMAND(analyse)                    \
   COMMAND(lever)                      \
   COMMAND(material)                   \
