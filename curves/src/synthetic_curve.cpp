@@ -134,7 +134,7 @@ void describe(const SyntheticSetup& setup, CurveMetadata& metadata) {
 }
 
 constexpr double kFreeShare = 3.0;     // clearance over the way of the pull-off
-constexpr double kLongestWayM = 1e-3;  // of a base, up or down
+constexpr double kLongestWayM = 1e-3;  // way of a base, up or down
 
 core::Result<Made> one_curve(const SyntheticSetup& setup, const fits::Indenter& indenter, std::uint64_t seed) {
   const double reduced_pa = setup.modulus_pa / (1.0 - setup.poisson * setup.poisson);

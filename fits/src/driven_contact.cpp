@@ -12,8 +12,8 @@ namespace afm::fits {
 struct DrivenContact::Law {
   Indenter indenter;
   double modulus_pa, spring_n_per_m;
-  std::optional<AdhesiveBranch> sticking{};  // of a law of adhesion
-  double near = 0;                           // where the last search ended: parameter of the branch, or depth in m
+  std::optional<AdhesiveBranch> sticking{};  // branch of a law of adhesion
+  double near = 0;                           // end of the last search: parameter of the branch, or depth in m
 };
 
 DrivenContact::DrivenContact(const Indenter& indenter, double reduced_modulus_pa, double work_j_per_m2,

@@ -16,9 +16,9 @@ namespace afm::curves {
 // What a synthetic curve is made from, in SI. Numbers are those of kSyntheticFields; zero: none, or not used.
 struct SyntheticSetup {
   fits::Shape shape = fits::Shape::Paraboloid;  // not Auto
-  fits::Base base = fits::Base::Bonded;         // of an exact layer
+  fits::Base base = fits::Base::Bonded;         // support of an exact layer
   std::uint32_t seed = 1;
-  std::size_t points = 1000;  // of each branch
+  std::size_t points = 1000;  // number in each branch
   double modulus_pa = 0;      // Young's
   double poisson = 0.5;
   double radius_m = 0, half_angle_rad = 0, layer_m = 0;
@@ -28,14 +28,14 @@ struct SyntheticSetup {
   double most_force_n = 0;         // true force at which the base turns
   double contact_m = 0;            // height of the base at which the approach meets the sample
   double clearance_m = 0;          // height above it at which the curve begins; zero: chosen
-  double speed_m_per_s = 1e-6;     // of the base
-  double sensitivity_m_per_v = 0;  // of the optical lever
+  double speed_m_per_s = 1e-6;     // velocity of the base
+  double sensitivity_m_per_v = 0;  // deflection per volt of the optical lever
   double noise_n = 0;              // rms of the force
   double noise_memory = 0;         // correlation of the noise from point to point
-  double bits = 0;                 // of the digitiser, whose range is kDetectorRangeV; zero: not digitised
+  double bits = 0;                 // resolution of the digitiser over kDetectorRangeV
   double level_n = 0;              // baseline at the first point
-  double tilt_n_per_m = 0;         // of the baseline
-  double drift_m_per_s = 0;        // of the sample, upwards
+  double tilt_n_per_m = 0;         // slope of the baseline
+  double drift_m_per_s = 0;        // velocity of the sample, upwards
   double wave_n = 0;               // amplitude of a wave of interference
   double wave_period_m = 0;        // in the height of the base
 };

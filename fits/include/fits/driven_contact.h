@@ -21,7 +21,7 @@ class DrivenContact {
   DrivenContact& operator=(DrivenContact&&) = delete;
 
   struct State {
-    double depth_m = 0, force_n = 0;  // of the tip; a pull is negative
+    double depth_m = 0, force_n = 0;  // depth of the tip; force of the lever, a pull is negative
   };
   // Quickest for a way near that of the call before.
   State approaching(double way_m) { return way_m > 0.0 ? touching(way_m) : State{}; }
