@@ -72,6 +72,7 @@ install(FILES ${CMAKE_SOURCE_DIR}/cmake/debian/copyright ${reference}/changelog.
         ${docs}/manual.md ${docs}/physics.md ${docs}/curves.md ${docs}/generate.md ${docs}/gltf.md ${docs}/host-tuning.md ${docs}/glossary.md
         ${docs}/tutorial.md ${docs}/teaching.md ${docs}/teaching.de.md ${docs}/worksheet.md ${docs}/worksheet.de.md ${docs}/museum.md
         ${docs}/troubleshooting.md ${docs}/comparison.md ${docs}/adding-a-material.md ${docs}/adding-a-wand.md DESTINATION ${documents})
+install(DIRECTORY ${docs}/manual DESTINATION ${documents})
 install(DIRECTORY ${docs}/pictures DESTINATION ${documents} PATTERN *.webp EXCLUDE) # the animation is the README's
 foreach(example guidance materials.toml particles probes.toml walls wands)
   file(MAKE_DIRECTORY ${reference}/examples)

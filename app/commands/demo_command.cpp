@@ -317,9 +317,8 @@ core::Result<void> run_demo(const DemoOptions& options, const std::string& progr
 core::Result<void> read_model(const std::string& text, DemoOptions& options) {
   const auto model = curves::ModelName::parse(text);
   if (!model || model->direction_rule) {
-    return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("cannot feel model \"{}\"; choose {} (paper-rule works only for curves)", text,
-                                     curves::known_models(curves::ModelUse::Device)));
+    return core::wrong_usage(fmt::format("cannot feel model \"{}\"; choose {} (paper-rule works only for curves)", text,
+                                         curves::known_models(curves::ModelUse::Device)));
   }
   options.model = *model;
   return {};
@@ -369,9 +368,8 @@ void add_demo_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
       "demo", "run the demonstration: feel and draw one full cycle on every sample, without hardware or display");
   command.footer(
-      "Writes to DIR: report.html (open it), fig5a.png to fig5e.png (side-by-side stereo), summary.json, and, for "
-      "every\n"
-      "material, curve-NAME.csv and session-NAME.afms.\n\n"
+      "Writes to DIR: report.html (open it), fig5a.png to fig5e.png (side-by-side stereo), summary.json,\n"
+      "and, for every material, curve-NAME.csv and session-NAME.afms.\n\n"
       "example: touchafm demo --out out\n"
       "         touchafm demo --out fast --hand-speed 200mm/s --eye-width 1440\n"
       "         touchafm demo --out lever --material mica --model dmt --vary spring-constant=0.1N/m:0.4N/m:3");

@@ -36,7 +36,7 @@ struct KeyOwners {
 // A key of the live window, or a run of consecutive keys with the same action and a number each.
 struct LiveKey {
   render::Key key;
-  const char* name;      // as printed in docs/manual.md; the wall translates it
+  const char* name;      // as printed in docs/manual/demonstrate.md; the wall translates it
   exhibit::Phrase text;  // text on the list of keys; neighbours with the same text share a line; Keys: not listed
   void (*press)(KeyOwners& owners, std::size_t number);  // 0: the run's first key; null: MouseHand's
   std::optional<exhibit::Phrase> mouse{};                // mouse action with the same effect

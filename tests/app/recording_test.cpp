@@ -70,7 +70,7 @@ TEST_F(RecordingTest, OfAKilledProgramLacksTheLastSecondAtMostAndReplays) {
   const auto session = servo::load_session(kept());
   ASSERT_TRUE(session) << session.error().message;
   EXPECT_FALSE(session->complete);
-  // twice the second that docs/manual.md promises, for a machine that stalls
+  // twice the second that docs/manual/demonstrate.md promises, for a machine that stalls
   EXPECT_LT(static_cast<double>(killed_ns - session->samples.back().time_ns) * 1e-9, 2.0);
   const auto replayed = support::run_program(support::touchafm() + " replay " + kept());
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err;

@@ -127,7 +127,7 @@ TEST(ScanCommand, HasNoStepFarBesideTheSample) {
 }
 
 TEST(ScanCommand, ShowsInTheManualsFirstExampleOnlyWhatTheSampleHas) {
-  const std::string manual = core::read_file(support::source("docs/manual.md")).value();
+  const std::string manual = core::read_file(support::source("docs/manual/measure.md")).value();
   const std::string example = "touchafm scan --material mica --size ";
   const std::size_t first = manual.find(example);
   ASSERT_NE(first, std::string::npos);

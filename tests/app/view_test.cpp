@@ -36,7 +36,7 @@ using ::testing::Not;
 
 constexpr int kWidth = 640, kHeight = 480;
 constexpr double kHandPerPixel =
-    0.085 / 0.30 / kHeight;  // hand travel of a drag, docs/manual.md: 85 mm on 0.30 of the wall
+    0.085 / 0.30 / kHeight;  // hand travel of a drag, docs/manual/demonstrate.md: 85 mm on 0.30 of the wall
 
 class ViewTest : public ::testing::Test {
  protected:

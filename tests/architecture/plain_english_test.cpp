@@ -187,6 +187,9 @@ TEST(PlainEnglish, IsWhatTheDocumentsAndTheWallUse) {
         "docs/troubleshooting.md", "docs/comparison.md", "ARCHITECTURE.md", "CONTRIBUTING.md"}) {
     append(faults, faults_of_page(page));
   }
+  const auto chapters = files_below("docs/manual", {".md"});
+  EXPECT_GE(chapters.size(), 8U);
+  for (const auto& path : chapters) append(faults, faults_of_page(in_tree(path)));
   const auto guidance = files_below("assets/guidance", {".toml"});
   EXPECT_GE(guidance.size(), 2U);
   for (const auto& path : guidance) append(faults, faults_of_page(in_tree(path)));

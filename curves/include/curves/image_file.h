@@ -9,7 +9,7 @@
 #include "core/result.h"
 #include "physics/imaging/scan_image.h"
 
-// Reading of image files of AFM programs. docs/manual.md, "Bring your own surface", describes the contents of each
+// Reading of image files of AFM programs. docs/manual/measure.md, "Bring your own surface", describes the contents of each
 // format.
 namespace afm::curves {
 

@@ -32,7 +32,7 @@ struct ContextOptions {
   Validation validation = Validation::Off;
   Presentation presentation = Presentation::None;
   std::string gpu{};                  // name of the device, or a part that no other has; empty: the best device
-  HeadsetRuntime* runtime = nullptr;  // of the headset that shows the pictures: it chooses the device, `gpu` is empty
+  HeadsetRuntime* runtime = nullptr;  // a headset shows the pictures: it chooses the device, and `gpu` is empty
 };
 
 // The Vulkan instance, the chosen device and its queue. Prefers a discrete GPU, then an integrated or virtual one, and

@@ -68,7 +68,7 @@ std::string trimmed(const std::string& text) {
 }
 
 std::vector<ManualRow> rows_of_the_manual() {
-  const std::string manual = core::read_file(support::source("docs/manual.md")).value();
+  const std::string manual = core::read_file(support::source("docs/manual/teach.md")).value();
   std::size_t line = manual.find("| press, on the row | artefact |");
   std::vector<ManualRow> rows;
   if (line == std::string::npos) return rows;

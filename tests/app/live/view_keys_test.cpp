@@ -18,11 +18,11 @@ namespace view_keys_test {
 
 // The first column of the manual's table of keys.
 std::vector<std::string> manual_keys() {
-  const auto manual = core::read_file(support::source("docs/manual.md"));
+  const auto manual = core::read_file(support::source("docs/manual/demonstrate.md"));
   EXPECT_TRUE(manual.has_value());
   const std::string head = "| key | mouse | what |\n|---|---|---|\n";
   const std::size_t table = manual->find(head);
-  EXPECT_NE(table, std::string::npos) << "docs/manual.md lacks the table " << head;
+  EXPECT_NE(table, std::string::npos) << "docs/manual/demonstrate.md lacks the table " << head;
   if (table == std::string::npos) return {};
   std::istringstream lines(manual->substr(table + head.size()));
   std::vector<std::string> keys;
@@ -41,7 +41,7 @@ TEST(LiveKeys, AreThoseOfTheManual) {
 }
 
 TEST(LiveKeys, OfAKioskAreThoseOfTheManual) {
-  const auto manual = core::read_file(support::source("docs/manual.md"));
+  const auto manual = core::read_file(support::source("docs/manual/demonstrate.md"));
   ASSERT_TRUE(manual.has_value());
   std::string one_line = *manual;
   std::replace(one_line.begin(), one_line.end(), '\n', ' ');

@@ -50,7 +50,7 @@ struct ParticleSet {
 inline constexpr std::size_t kMostTargets = 32;
 inline constexpr std::size_t kMostPads = 8;
 
-// Reads a particle file (TOML, assets/particles; docs/manual.md lists its keys). The error names file, line, key and
+// Reads a particle file (TOML, assets/particles; docs/manual/particles.md lists its keys). The error names file, line, key and
 // reason.
 core::Result<ParticleSet> load_particle_set(const std::string& path);
 
