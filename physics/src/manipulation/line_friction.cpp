@@ -13,7 +13,7 @@ namespace {
 constexpr double kSmallTurn = 0.1;
 // Smallest way along the axis, as a share of the motion, with which the closed form is evaluated.
 constexpr double kLeastAlong = 1e-14;
-constexpr int kMostSteps = 40, kMostHalvings = 40;
+constexpr int kPivotSteps = 40, kStepHalvings = 40;
 constexpr double kFlat = 1e-6;  // curvature over which a step of driven_motion() counts
 
 struct Node {
@@ -133,7 +133,7 @@ DrivenMotion driven_motion(const RodVector& load) noexcept {
   // lengths in units of 1/size: motion = normal + c u + d v
   RodVector motion = normal;
   MeanWay at = mean_way(motion);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kPivotSteps; ++step) {
     const RodMatrix h = mean_way_curvature(motion);
     const auto form = [&h](const RodVector& a, const RodVector& b) {
       double sum = 0.0;
@@ -149,7 +149,7 @@ DrivenMotion driven_motion(const RodVector& load) noexcept {
     du /= far;
     dv /= far;
     bool gains = false;
-    for (int halving = 0; halving < kMostHalvings && !gains; ++halving, du *= 0.5, dv *= 0.5) {
+    for (int halving = 0; halving < kStepHalvings && !gains; ++halving, du *= 0.5, dv *= 0.5) {
       RodVector next = motion;
       for (std::size_t i = 0; i < 3; ++i) next[i] += du * u[i] + dv * v[i];
       const MeanWay there = mean_way(next);

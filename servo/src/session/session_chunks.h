@@ -19,8 +19,7 @@ namespace afm::servo {
 inline constexpr std::string_view kSessionMagic = "AFMS";
 inline constexpr std::uint32_t kSessionVersion = 6;
 inline constexpr std::uint32_t kVersionWithParticles = 7;  // samples end with the push, and a chunk has the particles
-
-inline constexpr std::uint32_t kVersionWithRods = 8;  // a chunk has the rods, too
+inline constexpr std::uint32_t kVersionWithRods = 8;       // a chunk has the rods, too
 
 inline constexpr std::string_view kHeadChunk = "HEAD";        // header_of() as JSON
 inline constexpr std::string_view kSurfaceChunk = "SURF";     // one SharedHeightField, if the sample has one
