@@ -24,7 +24,8 @@ namespace view_particles_test {
 using testing::HasSubstr;
 
 constexpr int kWidth = 640, kHeight = 480;
-constexpr double kHandPerPixel = 0.085 / 0.30 / kHeight;  // docs/manual/demonstrate.md: a drag over 0.30 of the wall is 85 mm
+constexpr double kHandPerPixel =
+    0.085 / 0.30 / kHeight;  // docs/manual/demonstrate.md: a drag over 0.30 of the wall is 85 mm
 
 // The gold of the built-in set, in a row along the way of the mouse.
 std::string three_in_a_row() {

@@ -9,8 +9,8 @@
 #include "core/result.h"
 #include "physics/imaging/scan_image.h"
 
-// Reading of image files of AFM programs. docs/manual/measure.md, "Bring your own surface", describes the contents of each
-// format.
+// Reading of image files of AFM programs. docs/manual/measure.md, "Bring your own surface", describes the contents of
+// each format.
 namespace afm::curves {
 
 enum class ImageFormat {

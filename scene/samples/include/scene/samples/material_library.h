@@ -59,8 +59,8 @@ struct MaterialLibrary {
 // The samples of Liu & Peng, the first ones in the built-in file.
 inline const std::array<std::string, 3> kPaperMaterials{"mica", "gold", "si3n4"};
 
-// Reads a material file (TOML, assets/materials.toml; docs/manual/measure.md lists its keys). Errors that name file, line and
-// key: an unreadable file, an unknown or missing key, a wrong type and an unphysical value.
+// Reads a material file (TOML, assets/materials.toml; docs/manual/measure.md lists its keys). Errors that name file,
+// line and key: an unreadable file, an unknown or missing key, a wrong type and an unphysical value.
 core::Result<MaterialLibrary> load_materials(const std::string& path);
 
 // Several files, each added to the previous ones.

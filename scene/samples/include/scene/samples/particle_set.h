@@ -50,8 +50,8 @@ struct ParticleSet {
 inline constexpr std::size_t kMostTargets = 32;
 inline constexpr std::size_t kMostPads = 8;
 
-// Reads a particle file (TOML, assets/particles; docs/manual/particles.md lists its keys). The error names file, line, key and
-// reason.
+// Reads a particle file (TOML, assets/particles; docs/manual/particles.md lists its keys). The error names file, line,
+// key and reason.
 core::Result<ParticleSet> load_particle_set(const std::string& path);
 
 // The same set for a shared scene: its middle is the origin of the sample, where a hand is in the middle of its device.

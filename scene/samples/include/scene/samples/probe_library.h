@@ -43,9 +43,9 @@ struct ProbeLibrary {
   void add(ProbeLibrary other);
 };
 
-// Reads a probe file (TOML, assets/probes.toml; docs/manual/measure.md lists its keys). A missing spring constant is computed
-// from the geometry (physics/cantilever.h), as is a missing resonance of a rectangular lever. Fails as load_materials()
-// does.
+// Reads a probe file (TOML, assets/probes.toml; docs/manual/measure.md lists its keys). A missing spring constant is
+// computed from the geometry (physics/cantilever.h), as is a missing resonance of a rectangular lever. Fails as
+// load_materials() does.
 core::Result<ProbeLibrary> load_probes(const std::string& path);
 
 // Several files, each added to the previous ones.
