@@ -262,9 +262,11 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
   return whole.dump() + "\n";
 }
 
+const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
+
 std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions& options, const Played& played) {
-  std::string text = fmt::format("{}, in {}: {} particles, {:g} s at {:g} Hz\n", set.title, set.medium,
-                                 set.particles.size(), played.seconds, options.rate.si);
+  std::string text = fmt::format("{}, in {}: {} particle{}, {:g} s at {:g} Hz\n", set.title, set.medium,
+                                 set.particles.size(), plural(set.particles.size()), played.seconds, options.rate.si);
   for (std::size_t i = 0; i < set.species.size(); ++i) text += species_figures_text(set, i);
   text += "\nmove       state     particle   force on the lever sideways   friction and slips\n";
   for (std::size_t i = 0; i < played.ends.size(); ++i) {
@@ -285,8 +287,9 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
                         rod ? fmt::format(" at {:.1f} deg", physics::angle_rad(turn) * 180.0 / std::numbers::pi) : "");
   }
   if (const auto pattern = scene::pattern_state(set, scene::pattern_of(set), played.at)) {
-    text += fmt::format("\npattern of {} targets: {}, {} off in the root mean square, {}\n", set.targets.size(),
-                        pattern->done() ? "done" : "not done", format_quantity(pattern->match.rms, kLengthUnits, 4),
+    text += fmt::format("\npattern of {} target{}: {}, {} off in the root mean square, {}\n", set.targets.size(),
+                        plural(set.targets.size()), pattern->done() ? "done" : "not done",
+                        format_quantity(pattern->match.rms, kLengthUnits, 4),
                         pattern->pads > 0 ? fmt::format("{} of {} pads touched", pattern->touched, pattern->pads)
                                           : format_quantity(pattern->allowed, kLengthUnits, 4) + " allowed");
     if (played.score.state != scene::TaskState::NotBegun) {
