@@ -181,6 +181,22 @@ ContactOptions with_swept_values(ContactOptions contact, const std::vector<std::
   return contact;
 }
 
+void add_output_options(OptionList& command, CurveOptions& options) {
+  command.add_flag("--json", options.json, "print the events in SI units as JSON instead of the samples");
+  command
+      .add_option("--format", options.format,
+                  fmt::format("{}, or for other programs {}; default: from the ending of --out, otherwise csv",
+                              fmt::join(kOwnFormats, ", "), fmt::join(file_format_words(), ", ")))
+      .one_of(format_words())
+      .type_name("FORMAT");
+  command
+      .add_option("--overlay", options.overlay,
+                  "measured curve to draw over the model, with --format svg; its contact point is aligned with the "
+                  "model's and its baseline with zero; stderr reports both shifts")
+      .type_name("FILE");
+  command.add_option("--out", options.out, "write to FILE instead of stdout").writable_file().type_name("FILE");
+}
+
 }  // namespace
 
 core::Result<void> write_curve_command(const CurveOptions& options) {
@@ -238,19 +254,7 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
       .excludes(step)
       .one_value_each()
       .type_name("KEY=FROM:TO:COUNT");
-  command.add_flag("--json", options->json, "print the events in SI units as JSON instead of the samples");
-  command
-      .add_option("--format", options->format,
-                  fmt::format("{}, or for other programs {}; default: from the ending of --out, otherwise csv",
-                              fmt::join(kOwnFormats, ", "), fmt::join(file_format_words(), ", ")))
-      .one_of(format_words())
-      .type_name("FORMAT");
-  command
-      .add_option("--overlay", options->overlay,
-                  "measured curve to draw over the model, with --format svg; its contact point is aligned with the "
-                  "model's and its baseline with zero; stderr reports both shifts")
-      .type_name("FILE");
-  command.add_option("--out", options->out, "write to FILE instead of stdout").writable_file().type_name("FILE");
+  add_output_options(command, *options);
   command.footer(
       "Each parameter overrides that of the material or the probe.\n"
       "example: touchafm curve --material mica --spring-constant 0.2N/m --from 20nm --to -5nm --out mica.csv\n"

@@ -33,6 +33,14 @@ void log_start(const render::RendererOptions& drawing, double budget_ms, const s
                              awake.x_server().said, awake.session().said));
 }
 
+core::Result<render::Context> open_context(const DisplayOptions& options, render::HeadsetRuntime* runtime) {
+  haptics::favour_drawing();  // before the driver starts its threads
+  return render::Context::open({.validation = options.validate ? render::Validation::On : render::Validation::Off,
+                                .presentation = render::Presentation::Window,
+                                .gpu = options.picture.gpu,
+                                .runtime = runtime});
+}
+
 }  // namespace
 
 ViewDisplay::ViewDisplay() = default;
@@ -99,13 +107,7 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
     if (!window) return tl::unexpected(window.error());
     display->instructor_window_ = std::move(*window);
   }
-  // before the driver starts its threads
-  haptics::favour_drawing();
-  auto context =
-      render::Context::open({.validation = options.validate ? render::Validation::On : render::Validation::Off,
-                             .presentation = render::Presentation::Window,
-                             .gpu = options.picture.gpu,
-                             .runtime = runtime});
+  auto context = open_context(options, runtime);
   if (!context) return tl::unexpected(context.error());
   display->context_ = std::move(*context);
   render::RendererOptions drawing =

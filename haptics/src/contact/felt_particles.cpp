@@ -79,6 +79,7 @@ void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
     if ((there.rod != 0) != is_rod(i)) throw std::invalid_argument("the pages are those of other particles");
   }
   std::vector<physics::ParticlePlace> places;
+  places.reserve(particles_.size());
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     places.push_back(place_of(pages[i / scene::kPosesPerPage].poses[i % scene::kPosesPerPage]));
   }

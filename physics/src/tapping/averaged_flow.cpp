@@ -161,6 +161,7 @@ std::vector<AveragedFlow::Sample> AveragedFlow::samples_at(double z) {
   std::reverse(heights.begin(), heights.end());
   heights.push_back(contact);
   std::vector<Sample> samples;
+  samples.reserve(heights.size());
   shift_ = 0.0;
   for (const double lowest : heights) samples.push_back(sample_at(lowest, z));
   const double deepest = std::max(z, 4.0 * lever_.free_amplitude.si);

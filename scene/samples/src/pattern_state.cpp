@@ -75,6 +75,7 @@ std::optional<PatternState> pattern_state(const ParticleSet& set, const Pattern&
   }
   if (movable.size() < pattern.targets.size()) return std::nullopt;
   std::vector<physics::Sideways<double>> axes;
+  axes.reserve(pattern.targets.size());
   for (const ParticlePlace& target : pattern.targets) axes.push_back(axis_of(target));
   const physics::PatternRods directions = rods ? physics::PatternRods{axes, ends} : physics::PatternRods{};
   state.match = physics::match_pattern(positions_of(pattern.targets), movable, directions);
