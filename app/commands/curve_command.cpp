@@ -258,9 +258,9 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
   command.footer(
       "Each parameter overrides that of the material or the probe.\n"
       "example: touchafm curve --material mica --spring-constant 0.2N/m --from 20nm --to -5nm --out mica.csv\n"
-      "example: touchafm curve --mode tapping --free-amplitude 20nm --resonance 300kHz --quality-factor 400 --model "
-      "dmt "
-      "--spring-constant 40N/m --tip-radius 20nm --hamaker 64zJ --contact-gap 0.165nm --reduced-modulus 1.5GPa --json\n"
+      "example: touchafm curve --mode tapping --free-amplitude 20nm --resonance 300kHz --quality-factor 400 "
+      "--model dmt --spring-constant 40N/m --tip-radius 20nm --hamaker 64zJ --contact-gap 0.165nm --reduced-modulus "
+      "1.5GPa --json\n"
       "example: touchafm curve --material pdms-air --sweep spring-constant=0.01N/m:100N/m:50:log --out sweep.csv");
   command.when_chosen([options] { return write_curve_command(*options); });
 }

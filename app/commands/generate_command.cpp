@@ -190,9 +190,8 @@ void add_generate_command(OptionList& program, const CommandContext& context) {
   add_map_options(map, *map_options);
   add_out(map, map_options->out, "the map to FILE, .h5 of afmformats");
   map.footer(
-      "example: touchafm generate map --pixels 16x16 --field islands --modulus 2kPa --second-modulus 20kPa --radius "
-      "5um "
-      "--spring-constant 0.05N/m --most-force 1nN --noise 15pN --points 300 --out cells.h5");
+      "example: touchafm generate map --pixels 16x16 --field islands --modulus 2kPa --second-modulus 20kPa "
+      "--radius 5um --spring-constant 0.05N/m --most-force 1nN --noise 15pN --points 300 --out cells.h5");
   map.when_chosen([map_options] { return generate_curves(*map_options, true); });
 
   OptionList image = generate.add_command("image", "an image of touchafm scan, with the surface without artefacts");

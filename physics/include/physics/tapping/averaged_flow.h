@@ -47,8 +47,8 @@ class AveragedFlow {
   // The step of step() that is a tenth of the relaxation.
   double longest_step() const noexcept { return 0.2 * lever_.quality_factor; }
 
-  // Lets a swing come to rest at `z`, on its own branch or, if that has ended, where the flow takes it. If it does not
-  // rest within 30 relaxations, takes the nearest stable swing, or the last one if there is none. May allocate.
+  // Follows a swing until it rests at `z`: on its branch, or where the flow leads if the branch has ended. If it does
+  // not rest within 30 relaxations, returns the nearest stable swing, or the last one if there is none. May allocate.
   RestingTap settle(const TapState& from, Length z);
 
   // Moves a resting swing to the one on the same stable branch at `z`, by Newton's method. Returns false, and changes

@@ -35,8 +35,8 @@ struct SwingAverages {
   double contact_share = 0.0;  // share of the swing in which the tip is in contact
 };
 
-// The sample under a tip that swings: a law of fixed grips with the latch of its own hysteresis, and optionally the
-// viscosity of a Kelvin-Voigt contact, F = -eta sqrt(R delta) h' for an indentation delta (Garcia et al. 2006; Garcia &
+// The sample under a tip that swings: a law of fixed grips, including its hysteresis, and optionally the viscosity of a
+// Kelvin-Voigt contact, F = -eta sqrt(R delta) h' for an indentation delta (Garcia et al. 2006; Garcia &
 // San Paulo 1999 for the rest of the contact).
 //
 // Constant after construction; any thread. Only the constructor allocates.
