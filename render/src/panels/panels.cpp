@@ -94,7 +94,12 @@ void reserve(const Device& device, Buffer& buffer, const char* name, std::size_t
 
 }  // namespace
 
-void Panels::ContextDeleter::operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
+// A frame that an exception cut short leaves the atlas locked, and Dear ImGui lets no locked atlas go.
+void Panels::ContextDeleter::operator()(ImGuiContext* context) const {
+  ImGui::SetCurrentContext(context);
+  ImGui::GetIO().Fonts->Locked = false;
+  ImGui::DestroyContext(context);
+}
 
 Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout,
                const RendererOptions& options)
