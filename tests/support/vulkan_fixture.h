@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <stdexcept>
 
@@ -10,10 +11,11 @@
 
 namespace afm::test {
 
-// A Vulkan device with validation and synchronisation validation. Any message fails the test; so does a missing device.
+// A Vulkan device with validation and synchronisation validation: one for all tests of a program, because opening it
+// takes longer than most of their pictures. Any message fails the test; so does a missing device.
 class VulkanTest : public testing::Test {
  protected:
-  VulkanTest() : context_(open()) {}
+  VulkanTest() : context_(shared()) {}
   ~VulkanTest() override {
     for (const auto& message : context_.take_validation_messages()) {
       ADD_FAILURE() << message;
@@ -37,10 +39,22 @@ class VulkanTest : public testing::Test {
     return {renderer.read_eye(scene::Eye::Left), renderer.read_eye(scene::Eye::Right)};
   }
 
-  render::Context context_;
+  render::Context& context_;
 
  private:
+  static render::Context& shared() {
+    static render::Context context = open();
+    return context;
+  }
+
+  // Each test makes and drops pictures of the same sizes: memory that the allocator keeps needs no new pages.
+  static void keep_freed_memory() {
+    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  }
+
   static render::Context open() {
+    keep_freed_memory();
     auto context = render::Context::open({.validation = render::Validation::On});
     if (!context) {
       throw std::runtime_error(context.error().message);
