@@ -48,8 +48,9 @@ target_compile_options(afm_build_flags INTERFACE
   # what an attacker of a parser, or a mistake, would have to get past; measured: no tick is longer
   -fstack-protector-strong -D_GLIBCXX_ASSERTIONS ${AFM_CONTROL_FLOW_PROTECTION}
   $<$<CONFIG:Release>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=2>
-  # both let ccache keep what is compiled with a precompiled header
-  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess> "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>"
+  # lets ccache keep what is compiled with a precompiled header; clang's contain the path of a clone, so that nothing compiled with
+  # them serves another, and the presets of clang have none
+  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
   # clang blames us for what libstdc++ 12 does within std::stable_sort; g++ still reports what is deprecated in our own lines
   $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
   # memory is there: cleaning it up while compiling takes a twelfth of the time
@@ -128,7 +129,8 @@ endfunction()
 
 # afm_module(NAME [COLD] PUBLIC ... PRIVATE ... [PRECOMPILED ...] [ALONE source that is not compiled together with others ...])
 # A folder is a static library afm::NAME of all that lies in its include/ and src/. Only include/ is exported, so that including a
-# module that is not linked fails; every public header is compiled alone by the target all_verify_interface_header_sets.
+# module that is not linked fails; every public header is compiled alone by the target all_verify_interface_header_sets. Headers are
+# precompiled by names in <>: the path of one in quotes would be that of a clone, and the compiler's cache useless to every other.
 function(afm_module name)
   cmake_parse_arguments(PARSE_ARGV 1 M "COLD" "" "PUBLIC;PRIVATE;PRECOMPILED;ALONE")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/*.cpp)
@@ -138,6 +140,9 @@ function(afm_module name)
   target_sources(afm_${name} PUBLIC FILE_SET HEADERS BASE_DIRS include FILES ${headers})
   target_include_directories(afm_${name} PRIVATE src)
   target_link_libraries(afm_${name} PUBLIC ${M_PUBLIC} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:afm_build_flags>)
+  if("${M_PRECOMPILED}" MATCHES "(^|;)[^<]")
+    message(FATAL_ERROR "afm_module(${name}): PRECOMPILED takes headers in <>: ${M_PRECOMPILED}")
+  endif()
   if(M_PRECOMPILED)
     target_precompile_headers(afm_${name} PRIVATE ${AFM_PRECOMPILED_HEADERS} ${M_PRECOMPILED})
   elseif(M_COLD)

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -213,12 +214,13 @@ TEST(CommandLine, DrawsATestPatternOfTheSizeThatWasAskedForInEveryMode) {
   const support::ScratchFolder folder;
   const std::string out = folder.file("pattern.png");
   const std::string pattern = "wall " + kWalls + "powerwall.toml --test-pattern --out " + out;
-  for (const char* mode : {"mono", "side-by-side", "top-bottom", "row", "anaglyph-amber-blue"}) {
-    for (const auto& [text, size] : {std::pair("64x48", std::array{64U, 48U}), std::pair("1x1", std::array{1U, 1U})}) {
-      const ProgramResult result = touchafm(pattern + " --stereo " + mode + " --size " + text);
-      ASSERT_EQ(result.exit_code, 0) << mode << result.err;
-      EXPECT_EQ(png_size(out), size) << mode;
-    }
+  for (const auto& [mode, width, height] :
+       {std::tuple("mono", 64U, 48U), std::tuple("side-by-side", 1U, 1U), std::tuple("top-bottom", 64U, 48U),
+        std::tuple("row", 1U, 1U), std::tuple("anaglyph-amber-blue", 64U, 48U)}) {
+    const ProgramResult result =
+        touchafm(pattern + " --stereo " + mode + " --size " + std::to_string(width) + "x" + std::to_string(height));
+    ASSERT_EQ(result.exit_code, 0) << mode << result.err;
+    EXPECT_EQ(png_size(out), (std::array{width, height})) << mode;
   }
   ASSERT_EQ(touchafm(pattern + " --stereo dual --size 64x48").exit_code, 0);
   EXPECT_EQ(png_size(folder.file("pattern-left.png")), (std::array{64U, 48U}));
