@@ -44,12 +44,18 @@ file(CONFIGURE OUTPUT ${reference}/changelog.Debian CONTENT "touchafm (${PROJECT
  -- ${maintainer}  ${release_time}
 ")
 afm_compressed(${reference}/changelog.Debian ${reference}/changelog.Debian.gz)
+file(READ ${reference}/changelog.Debian changelog)
+file(CONFIGURE OUTPUT ${reference}/python3/changelog.Debian CONTENT "python3-${changelog}")
+afm_compressed(${reference}/python3/changelog.Debian ${reference}/python3/changelog.Debian.gz)
 add_custom_target(reference
-  DEPENDS ${reference}/touchafm.1.gz ${reference}/touchafm.bash ${reference}/changelog.gz ${reference}/changelog.Debian.gz)
+  DEPENDS ${reference}/touchafm.1.gz ${reference}/touchafm.bash ${reference}/changelog.gz ${reference}/changelog.Debian.gz ${reference}/python3/changelog.Debian.gz)
 
 # What `cmake --install` needs; it does not build everything first.
 add_custom_target(installed DEPENDS touchafm touchafm-bench touchafm-guard touchafm-hdf5 touchafm-servo reference)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+if(AFM_PYTHON)
+  add_dependencies(installed touchafm_python)
+endif()
 
 set(libexec libexec/touchafm)
 install(TARGETS touchafm touchafm-bench touchafm-guard touchafm-hdf5 touchafm-servo DESTINATION ${libexec})
@@ -80,6 +86,15 @@ foreach(example guidance materials.toml particles probes.toml walls wands)
   install(FILES ${reference}/examples/${example} DESTINATION ${documents}/examples)
 endforeach()
 
+if(AFM_PYTHON)
+  set(module_documents share/doc/python3-touchafm)
+  install(TARGETS touchafm_python DESTINATION ${AFM_PYTHON_FOLDER}/touchafm COMPONENT python)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/touchafm DESTINATION ${AFM_PYTHON_FOLDER} COMPONENT python PATTERN __pycache__ EXCLUDE)
+  install(FILES ${CMAKE_SOURCE_DIR}/cmake/debian/copyright ${reference}/changelog.gz ${reference}/python3/changelog.Debian.gz ${docs}/python.md
+          DESTINATION ${module_documents} COMPONENT python)
+  install(DIRECTORY ${docs}/examples DESTINATION ${module_documents} COMPONENT python PATTERN __pycache__ EXCLUDE)
+endif()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME touchafm)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -91,8 +106,9 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE ${package_release})
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${maintainer}")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "virtual atomic force microscope to feel and see")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "One hand moves the tip of an atomic force microscope, with a force-feedback
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each description begins with its summary
+set(CPACK_DEBIAN_UNSPECIFIED_DESCRIPTION "virtual atomic force microscope to feel and see
+One hand moves the tip of an atomic force microscope, with a force-feedback
 device or a mouse. A window or a powerwall shows cantilever, sample and force
 curve in stereo. The tip snaps onto the surface, is pressed, and is torn off.
 
@@ -101,8 +117,28 @@ computes curves of any tip, lever and sample, and analyses measured ones.")
 # The libraries that the programs are linked with, from their files. Opened while they run: libvulkan1, and what GLFW 3.3 opens
 # to know monitors and pointers, and depends on in Debian 13 alone.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_DEPENDS
     "libvulkan1, libx11-xcb1, libxcursor1, libxi6, libxinerama1, libxrandr2, fonts-inter, fonts-dejavu-core")
 # a GPU's own driver will do; SDL2 is for gamepads and sound, espeak-ng for speech, OpenXR's loader for headsets
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd, libsdl2-2.0-0, espeak-ng, libopenxr-loader1")
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd, libsdl2-2.0-0, espeak-ng, libopenxr-loader1")
+
+# Two packages: everything that has no component, and the Python module.
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_COMPONENTS_ALL Unspecified)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME touchafm)
+if(AFM_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-touchafm)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${next_minor}), python3-numpy, \
+touchafm (= ${PROJECT_VERSION}-${package_release})")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/debian/python3-touchafm/postinst
+      ${CMAKE_SOURCE_DIR}/cmake/debian/python3-touchafm/prerm)
+  set(CPACK_DEBIAN_PYTHON_DESCRIPTION "virtual atomic force microscope for Python
+Laws of force, approach-retract cycles, readers of curves, fits with intervals,
+tapping curves, sessions, and curves whose truth is known, as numpy arrays.
+The same numbers as the program touchafm prints, without a display.")
+endif()
 include(CPack)

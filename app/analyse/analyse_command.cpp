@@ -17,6 +17,7 @@
 
 #include "app/analyse/analyse_image.h"
 #include "app/analyse/fit_batch.h"
+#include "app/analyse/fit_options.h"
 #include "app/options/command.h"
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
@@ -102,7 +103,7 @@ core::Result<FileKind> kind_of(const std::string& file) {
 // An option that applies to only one kind of file.
 struct OptionOfKind {
   Option option;
-  const char* name;
+  std::string name;
   FileKind kind;
 };
 
@@ -180,7 +181,7 @@ void add_reading_options(OptionList& command, curves::CurveReading& reading, con
 // The options write into `options` while the parser lives.
 std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions& options) {
   std::vector<OptionOfKind> added;
-  const auto for_curves = [&added](const char* name, const Option& option) {
+  const auto for_curves = [&added](const std::string& name, const Option& option) {
     added.push_back({option, name, FileKind::Curve});
   };
   for_curves("--beside", command

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "app/analyse/analyse_fit.h"
 #include "core/result.h"
 #include "curves/curve_file.h"
+#include "curves/fitting/curve_fit.h"
 #include "physics/imaging/levelling.h"
 
 namespace afm::app {
@@ -19,7 +19,7 @@ struct AnalyseOptions {
   std::string beside;                                    // second curve for comparison, measured or computed
   bool json = false;
   std::string out;  // SVG of the curve, in addition to the text
-  FitOptions fit;
+  curves::FitOptions fit;
   std::string channel;  // name of an image's channel
   physics::Levelling levelling = physics::Levelling::Plane;
 };

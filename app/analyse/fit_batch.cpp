@@ -16,7 +16,6 @@
 #include <system_error>
 #include <utility>
 
-#include "app/analyse/analyse_fit.h"
 #include "app/analyse/fit_maps.h"
 #include "app/analyse/fit_pool.h"
 #include "app/options/standard_output.h"
@@ -50,13 +49,13 @@ constexpr const char* kColumns =
 std::string reasons(const fits::ElasticFit& fit) {
   std::string text;
   for (const fits::Found& found : fit.doubts) {
-    text += (text.empty() ? "" : "; ") + doubt_text(found);
+    text += (text.empty() ? "" : "; ") + curves::doubt_text(found);
   }
   return text;
 }
 
 // A size that the shape lacks is an empty cell.
-std::string sizes(const FitOptions& options) {
+std::string sizes(const curves::FitOptions& options) {
   const fits::ShapeRow& shape = fits::row_of(*options.shape);
   const auto cell = [](bool has, double value) { return has ? fmt::format("{}", value) : std::string(); };
   const std::string_view base = shape.is_exact ? fits::kBases.at(static_cast<std::size_t>(options.base)).name : "";
@@ -96,7 +95,8 @@ std::string adhesion_cells(const fits::ElasticFit& fit) {
                      given(adheres && erred, shares.work * adhesion.work_j_per_m2));
 }
 
-std::string row_of(const std::string& file, std::size_t index, const FittedCurve& fitted, const FitOptions& options) {
+std::string row_of(const std::string& file, std::size_t index, const FittedCurve& fitted,
+                   const curves::FitOptions& options) {
   const std::string name = core::printable_line(file);
   if (!fitted.fit) {
     constexpr std::size_t kNumbers = 16, kAdhesionCells = 8;

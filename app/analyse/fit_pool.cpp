@@ -9,7 +9,6 @@
 #include <exception>
 #include <utility>
 
-#include "app/analyse/analyse_fit.h"
 #include "core/interruption.h"
 #include "curves/curve_report.h"
 

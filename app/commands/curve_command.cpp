@@ -170,7 +170,7 @@ core::Result<void> write_tapping(const CurveOptions& options, const std::string&
 }
 
 // Sets each swept value to the sweep's first, so that the user need not give it as well.
-ContactOptions with_swept_values(ContactOptions contact, const std::vector<std::string>& sweeps) {
+curves::ContactOptions with_swept_values(curves::ContactOptions contact, const std::vector<std::string>& sweeps) {
   for (const std::string& sweep : sweeps) {
     const std::size_t equals = sweep.find('='), colon = sweep.find(':');
     if (!contact.material.empty() || equals == std::string::npos || colon == std::string::npos || colon < equals)

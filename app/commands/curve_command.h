@@ -13,9 +13,9 @@ namespace afm::app {
 
 // Options of `touchafm curve`; empty text: not given.
 struct CurveOptions {
-  ContactOptions contact;
+  curves::ContactOptions contact;
   curves::PathOptions path;
-  TappingChoice tapping;
+  curves::TappingChoice tapping;
   std::vector<std::string> sweeps;  // "key=from:to:count"
   bool json = false;
   // csv, json, svg or a word of curves::writable_formats(); empty: by the file extension of `out`, else csv

@@ -66,7 +66,7 @@ core::Result<std::shared_ptr<const physics::LawTables>> tables_of(const curves::
 }
 
 // One line for every known material and probe, with its main values.
-core::Result<std::string> material_list(const ContactOptions& options) {
+core::Result<std::string> material_list(const curves::ContactOptions& options) {
   const auto materials = load_materials(options);
   if (!materials) return tl::unexpected(materials.error());
   const auto probes = load_probes(options);
@@ -140,7 +140,7 @@ core::Result<std::string> material_map(const curves::ContactSetup& setup) {
 }
 
 struct MaterialOptions {
-  ContactOptions contact;
+  curves::ContactOptions contact;
   std::string map;  // an SVG file, or empty
 };
 

@@ -13,7 +13,6 @@
 #include <numbers>
 #include <utility>
 
-#include "app/options/angle_units.h"
 #include "app/options/command.h"
 #include "app/options/enum_option.h"
 #include "app/options/levelling_option.h"
@@ -22,6 +21,7 @@
 #include "core/log.h"
 #include "core/version.h"
 #include "core/whole_file.h"
+#include "curves/angle_units.h"
 #include "curves/image_file.h"
 #include "curves/image_output.h"
 #include "exhibit/scan/image_picture.h"
@@ -94,7 +94,7 @@ void describe(const ScanOptions& options, const curves::ContactSetup& setup, con
   metadata.emplace_back("Tip", physics::name_of(tip.kind));
   metadata.emplace_back("Tip radius", physics::format_quantity(tip.radius, physics::kLengthUnits));
   if (tip.kind != physics::TipKind::Paraboloid && tip.kind != physics::TipKind::Sphere) {
-    metadata.emplace_back("Tip half angle", physics::format_si(tip.half_angle_rad, kAngleUnits.units));
+    metadata.emplace_back("Tip half angle", physics::format_si(tip.half_angle_rad, curves::kAngleUnits.units));
   }
   for (const physics::ScanField& field : physics::kScanFields) {
     metadata.emplace_back(words(field.name), field.text(field.get(scan.settings)));
@@ -321,7 +321,8 @@ Option add_tip_options(OptionList& command, ScanOptions& options) {
                                  "shape of the tip; its radius is --tip-radius; default: paraboloid, as it is felt");
   si_option(
       command, "--tip-angle", [&options](double rad) { options.tip.half_angle_rad = rad; },
-      {kAngleUnits.sort, kAngleUnits.units, QuantityRange<double>{std::numbers::pi / 180.0, std::numbers::pi * 0.45}},
+      {curves::kAngleUnits.sort, curves::kAngleUnits.units,
+       QuantityRange<double>{std::numbers::pi / 180.0, std::numbers::pi * 0.45}},
       "half angle of a cone or a pyramid, between axis and face; default: 17.189 deg");
   return tip;
 }

@@ -17,7 +17,7 @@ namespace afm::app {
 
 // Options of `touchafm scan`; empty text and zero: not given.
 struct ScanOptions {
-  ContactOptions contact;
+  curves::ContactOptions contact;
   exhibit::OwnSample sample;
   physics::Length size;  // zero: the size of the drawn sample
   std::size_t pixels = 256;

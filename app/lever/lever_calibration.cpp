@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/options/uncertainty_option.h"
 #include "curves/curve_report.h"
+#include "curves/uncertainty_text.h"
 #include "fits/uncertainty.h"
 #include "physics/flexural_modes.h"
 #include "physics/sader.h"
@@ -148,9 +148,9 @@ core::Result<void> check_uncertainties(const LeverOptions& options, const LeverI
     const LeverInputRow& row = row_of(each.input);
     if (!in[each.input])
       return wrong_usage(fmt::format("--uncertainty {}: nothing here is computed from it", row.name));
-    if (!each.is_share && each.value > kMostUncertainty * *in[each.input]) {
-      return wrong_usage(
-          fmt::format("--uncertainty {}: it is more than {:g} % of the value", row.name, 100.0 * kMostUncertainty));
+    if (!each.is_share && each.value > curves::kMostUncertainty * *in[each.input]) {
+      return wrong_usage(fmt::format("--uncertainty {}: it is more than {:g} % of the value", row.name,
+                                     100.0 * curves::kMostUncertainty));
     }
   }
   return {};

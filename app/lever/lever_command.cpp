@@ -19,6 +19,7 @@
 #include "app/options/standard_output.h"
 #include "app/options/uncertainty_option.h"
 #include "core/whole_file.h"
+#include "curves/uncertainty_text.h"
 #include "physics/sader.h"
 
 namespace afm::app {
@@ -74,16 +75,16 @@ std::string uncertain_names() {
 }
 
 core::Result<void> read_uncertainties(const std::vector<std::string>& texts, LeverOptions& options) {
-  std::vector<UncertainKey> keys;
+  std::vector<curves::UncertainKey> keys;
   std::vector<LeverInput> inputs;
   for (const LeverInputRow& row : kLeverInputs) {
     if (!may_be_uncertain(row.input)) continue;
     keys.push_back({row.name, row.units.units});
     inputs.push_back(row.input);
   }
-  const auto parsed = parse_uncertainties(texts, keys);
+  const auto parsed = curves::parse_uncertainties(texts, keys);
   if (!parsed) return tl::unexpected(parsed.error());
-  for (const KeyUncertainty& each : *parsed) {
+  for (const curves::KeyUncertainty& each : *parsed) {
     options.uncertainties.push_back({inputs[each.key], each.value, each.is_share});
   }
   return {};

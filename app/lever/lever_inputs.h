@@ -7,8 +7,8 @@
 #include <optional>
 #include <string_view>
 
-#include "app/options/angle_units.h"
 #include "app/options/quantity_option.h"
+#include "curves/angle_units.h"
 #include "curves/viscosity_units.h"
 #include "physics/quantity_text.h"
 
@@ -129,7 +129,7 @@ inline const std::array kLeverInputs{
                   "coefficient A of the lever's type in k = A Q f^1.3 (Global Calibration Initiative)"},
     LeverInputRow{LeverInput::Tilt,
                   "tilt",
-                  kAngleUnits,
+                  curves::kAngleUnits,
                   {0.0, 80.0 * std::numbers::pi / 180.0},
                   "",
                   "angle between lever and sample: also print k/cos^2, for forces along the sample's normal"},

@@ -1,40 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
-#include <string>
-#include <vector>
-
 #include "app/options/command.h"
-#include "core/result.h"
-#include "curves/contact_setup.h"
-#include "scene/samples/probe_library.h"
+#include "curves/contact_options.h"
 
 namespace afm::app {
 
-// Contact options of the command line, as typed; empty text: not given.
-struct ContactOptions {
-  std::string assets_dir;                   // holds materials.toml and probes.toml
-  std::vector<std::string> material_files;  // user's files, added to the built-in ones
-  std::vector<std::string> probe_files;     // user's files, added to the built-in ones
-  std::string material;                     // empty: all numbers that the model needs must be given
-  std::string probe;                        // empty: the material's lever and tip
-  std::string model = "auto";
-  std::map<std::string, std::string, std::less<>> values;  // keyed by the option's name without dashes
-  bool exact_sphere = false;
-  bool driven = false;  // a drive swings the lever (curves::ModelName)
-};
-
 // Adds --materials, --probes, --probe, --model and one option per number. `options` must outlive the parsing of
 // `command`.
-void add_contact_options(OptionList& command, ContactOptions& options, const CommandContext& context);
-
-// Loads the built-in and the user's materials. A user's material replaces a built-in one of the same name.
-core::Result<scene::MaterialLibrary> load_materials(const ContactOptions& options);
-core::Result<scene::ProbeLibrary> load_probes(const ContactOptions& options);
-
-// Loads the material, adds the probe and applies the overrides. WrongUsage, naming the option, for an unknown name, a
-// number that is malformed or has no effect in the model, and a missing number if no material is named.
-core::Result<curves::ContactSetup> contact_setup(const ContactOptions& options);
+void add_contact_options(OptionList& command, curves::ContactOptions& options, const CommandContext& context);
 
 }  // namespace afm::app

@@ -3,27 +3,17 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "app/options/command_line.h"
+#include "curves/quantity_domain.h"
 #include "physics/quantity_text.h"
 
 namespace afm::app {
 
-// Both ends are legal.
-template <class Q>
-struct QuantityRange {
-  Q least, most;
-};
-
-// Units of one physical quantity, and its range of legal values in SI.
-struct QuantityDomain {
-  std::string_view sort;  // "a length"
-  std::span<const physics::Unit> units;
-  std::optional<QuantityRange<double>> range{};
-};
+using curves::QuantityDomain;
+using curves::QuantityRange;
 
 // Placeholder for a value of this sort in the help: "LENGTH".
 std::string type_word(std::string_view sort);

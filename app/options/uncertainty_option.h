@@ -1,39 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/options/command_line.h"
-#include "core/result.h"
-#include "physics/quantity_text.h"
 
-// --uncertainty KEY=VALUE, once for each key.
 namespace afm::app {
-
-inline constexpr double kMostUncertainty = 0.5;  // share beyond which the first order is not enough
-
-struct UncertainKey {
-  std::string_view name;
-  std::span<const physics::Unit> units;  // accepted beside per cent
-};
-
-// Positive standard uncertainty: a share of up to kMostUncertainty, or in SI.
-struct KeyUncertainty {
-  std::size_t key;  // place in the caller's list
-  double value;
-  bool is_share;
-};
 
 // Adds --uncertainty, which collects its values into `texts`. `example` is of the form "radius=5%".
 Option uncertainty_option(OptionList& command, std::vector<std::string>& texts, std::string_view example,
                           const std::string& description);
-
-// WrongUsage for an unknown key, a key that is given twice, or a value that is out of its range or has no unit.
-core::Result<std::vector<KeyUncertainty>> parse_uncertainties(const std::vector<std::string>& texts,
-                                                              std::span<const UncertainKey> keys);
 
 }  // namespace afm::app

@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "curves/svg_plot.h"
+#include "curves/tapping/driven_setup.h"
 #include "curves/tapping/tapping_output.h"
-#include "physics/law.h"
-#include "physics/quantity_text.h"
 
 namespace afm::app {
 namespace {
@@ -22,88 +21,40 @@ using core::wrong_usage;
 // One option of the vibrating modes.
 struct TappingOption {
   const char* name;
-  std::string& (*text)(TappingChoice& choice);
+  std::string& (*text)(curves::TappingChoice& choice);
   bool tapping, fm;  // modes in which it has an effect
   const char* type;
   const char* help;
 };
 
 const std::array kOptions{
-    TappingOption{"--free-amplitude", [](TappingChoice& c) -> std::string& { return c.numbers.free_amplitude; }, true,
-                  false, "LENGTH",
+    TappingOption{"--free-amplitude", [](curves::TappingChoice& c) -> std::string& { return c.numbers.free_amplitude; },
+                  true, false, "LENGTH",
                   "tapping: free amplitude A0 at the drive frequency, zero-to-peak, 10 pm to 10 um, in m, mm, um, nm "
                   "or pm"},
-    TappingOption{"--drive", [](TappingChoice& c) -> std::string& { return c.numbers.drive; }, true, false, "FREQUENCY",
+    TappingOption{"--drive", [](curves::TappingChoice& c) -> std::string& { return c.numbers.drive; }, true, false,
+                  "FREQUENCY",
                   "tapping: frequency of the drive, 0.5 to 1.5 times the resonance, in MHz, kHz or Hz; default: at the "
                   "resonance"},
-    TappingOption{"--method", [](TappingChoice& c) -> std::string& { return c.numbers.method; }, true, false, "METHOD",
+    TappingOption{"--method", [](curves::TappingChoice& c) -> std::string& { return c.numbers.method; }, true, false,
+                  "METHOD",
                   "tapping: averaged over a swing (quality factor of at least 100), or direct integration; default: "
                   "averaged where it can be"},
-    TappingOption{"--amplitude", [](TappingChoice& c) -> std::string& { return c.numbers.amplitude; }, false, true,
-                  "LENGTH", "fm: amplitude that is kept, zero-to-peak, 1 pm to 10 um, in m, mm, um, nm or pm"},
-    TappingOption{"--contact-gap", [](TappingChoice& c) -> std::string& { return c.contact_gap; }, true, true, "LENGTH",
+    TappingOption{"--amplitude", [](curves::TappingChoice& c) -> std::string& { return c.numbers.amplitude; }, false,
+                  true, "LENGTH", "fm: amplitude that is kept, zero-to-peak, 1 pm to 10 um, in m, mm, um, nm or pm"},
+    TappingOption{"--contact-gap", [](curves::TappingChoice& c) -> std::string& { return c.contact_gap; }, true, true,
+                  "LENGTH",
                   "tapping and fm: distance a0 of bodies in contact, 10 pm to 5 nm, instead of --work-of-adhesion, for "
                   "models dmt and maugis: the attraction at a0 is the pull-off force"},
-    TappingOption{"--viscosity", [](TappingChoice& c) -> std::string& { return c.numbers.viscosity; }, true, true,
-                  "VISCOSITY",
+    TappingOption{"--viscosity", [](curves::TappingChoice& c) -> std::string& { return c.numbers.viscosity; }, true,
+                  true, "VISCOSITY",
                   "tapping and fm: viscosity of a Kelvin-Voigt contact, 0 to 1e6 Pa*s, in Pa*s, mPa*s or uPa*s; "
                   "default: 0Pa*s"},
     TappingOption{
-        "--at", [](TappingChoice& c) -> std::string& { return c.numbers.at; }, true, true, "LENGTH",
+        "--at", [](curves::TappingChoice& c) -> std::string& { return c.numbers.at; }, true, true, "LENGTH",
         "tapping and fm: all states at this height of the base instead of a path; by direct integration those "
         "reached from the free swing and from rest"},
 };
-
-// Options of the contact for a lever that swings, or the reason why the model cannot be tapped on.
-core::Result<ContactOptions> driven_contact(const TappingChoice& choice, ContactOptions contact) {
-  const bool automatic = contact.model == "auto";
-  const auto law = physics::law_of(contact.model);
-  if (contact.model == "paper-rule" || (law && !physics::has_dynamics(*law))) {
-    return wrong_usage(
-        fmt::format("--mode {} needs the force as a function of the tip's height, which model {} does not give; choose "
-                    "auto, hertz, dmt, jkr or maugis",
-                    choice.mode, contact.model));
-  }
-  if (!automatic && !law && curves::ModelName::parse(contact.model)) {
-    return wrong_usage(fmt::format("--mode {} swings the lever by itself; write --model {}", choice.mode,
-                                   contact.model.substr(contact.model.find('-') + 1)));
-  }
-  contact.driven = true;
-  if (choice.contact_gap.empty()) return contact;
-  if (law && (!physics::traits_of(*law).van_der_waals || !physics::traits_of(*law).adhesion)) {
-    return wrong_usage(fmt::format("--contact-gap has no effect on model {}; remove it", contact.model));
-  }
-  std::string& work = contact.values["work-of-adhesion"];
-  if (!work.empty()) return wrong_usage("--contact-gap and --work-of-adhesion exclude each other; remove one");
-  work = "1mJ/m2";  // replaced when the Hamaker constant is known
-  return contact;
-}
-
-core::Result<curves::ContactSetup> driven_setup(const TappingChoice& choice, const ContactOptions& contact) {
-  const auto options = driven_contact(choice, contact);
-  if (!options) return tl::unexpected(options.error());
-  auto setup = contact_setup(*options);
-  if (!setup || choice.contact_gap.empty()) return setup;
-  const auto gap = physics::parse_quantity(choice.contact_gap, physics::kLengthUnits);
-  if (!gap.value) return wrong_usage("--contact-gap: " + gap.error);
-  const auto work = curves::work_of_adhesion_for(*setup, *gap.value);
-  if (!work) return tl::unexpected(work.error());
-  curves::override_parameter(*setup, *curves::find_contact_parameter("work-of-adhesion"), work->si,
-                             physics::format_quantity(*work, physics::kSurfaceEnergyUnits),
-                             fmt::format("--contact-gap {} on the command line", choice.contact_gap));
-  return setup;
-}
-
-core::Result<void> check_path(const TappingChoice& choice, const curves::PathOptions& path) {
-  if (!path.seed.empty()) return wrong_usage(fmt::format("--seed has no effect on --mode {}; remove it", choice.mode));
-  if (choice.mode == "fm" && !path.speed.empty()) return wrong_usage("--speed has no effect on --mode fm; remove it");
-  if (choice.numbers.at.empty()) return {};
-  for (const auto& [name, text] :
-       {std::pair{"from", &path.from}, {"to", &path.to}, {"step", &path.step}, {"speed", &path.speed}}) {
-    if (!text->empty()) return wrong_usage(fmt::format("--{} has no effect with --at; remove one", name));
-  }
-  return {};
-}
 
 template <class Run>
 core::Result<std::string> text_of_run(const Run& run, const std::string& format, std::string (*csv)(const Run&),
@@ -117,7 +68,7 @@ core::Result<std::string> text_of_run(const Run& run, const std::string& format,
 
 }  // namespace
 
-void add_tapping_options(OptionList& command, TappingChoice& choice) {
+void add_tapping_options(OptionList& command, curves::TappingChoice& choice) {
   command
       .add_option("--mode", choice.mode,
                   "contact; tapping, driven with a constant swing: amplitude and phase; fm, with a constant amplitude: "
@@ -132,8 +83,8 @@ void add_tapping_options(OptionList& command, TappingChoice& choice) {
   }
 }
 
-core::Result<void> check_tapping_options(const TappingChoice& choice) {
-  TappingChoice given = choice;
+core::Result<void> check_tapping_options(const curves::TappingChoice& choice) {
+  curves::TappingChoice given = choice;
   for (const TappingOption& option : kOptions) {
     if (option.text(given).empty()) continue;
     if ((choice.mode == "tapping" && option.tapping) || (choice.mode == "fm" && option.fm)) continue;
@@ -147,13 +98,13 @@ core::Result<void> check_tapping_options(const TappingChoice& choice) {
   return {};
 }
 
-core::Result<std::string> tapping_text(const TappingChoice& choice, const ContactOptions& contact,
+core::Result<std::string> tapping_text(const curves::TappingChoice& choice, const curves::ContactOptions& contact,
                                        const curves::PathOptions& path, const std::string& format) {
   if (format != "csv" && format != "json" && format != "svg") {
     return wrong_usage(fmt::format("--mode {} is written as csv, json or svg, not {}", choice.mode, format));
   }
-  if (const auto checked = check_path(choice, path); !checked) return tl::unexpected(checked.error());
-  const auto setup = driven_setup(choice, contact);
+  if (const auto checked = curves::check_path(choice, path); !checked) return tl::unexpected(checked.error());
+  const auto setup = curves::driven_setup(choice, contact);
   if (!setup) return tl::unexpected(setup.error());
   if (choice.mode == "fm") {
     const auto run = curves::run_frequency_shift(*setup, path, choice.numbers);

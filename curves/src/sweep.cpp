@@ -113,15 +113,15 @@ ContactSetup at_point(ContactSetup setup, const std::vector<SweepAxis>& axes, co
   return setup;
 }
 
-// Runs work(i) for every i below `count` on all cores.
+// Runs work(i) for every i below `count` on all cores, until it is asked to stop.
 template <class Work>
-void over_all_cores(std::uint64_t count, const Work& work) {
+void over_all_cores(std::uint64_t count, const std::stop_token& stop, const Work& work) {
   std::atomic<std::uint64_t> next{0}, done{0};
   std::mutex mutex;
   std::condition_variable changed;
   unsigned running = std::max(1U, std::thread::hardware_concurrency());
   const auto run = [&] {
-    for (std::uint64_t i; (i = next.fetch_add(1)) < count; done.fetch_add(1)) work(i);
+    for (std::uint64_t i; !stop.stop_requested() && (i = next.fetch_add(1)) < count; done.fetch_add(1)) work(i);
     const std::lock_guard lock(mutex);
     --running;
     changed.notify_one();
@@ -138,6 +138,7 @@ void over_all_cores(std::uint64_t count, const Work& work) {
 }  // namespace
 
 double SweepAxis::value(std::uint64_t index) const {
+  if (!values.empty()) return values[index];
   if (index + 1 == count) return to;
   const double share = static_cast<double>(index) / static_cast<double>(count - 1);
   return logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
@@ -180,7 +181,7 @@ core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelNam
 }
 
 core::Result<std::vector<SweepRow>> run_sweep(const ContactSetup& setup, const std::vector<SweepAxis>& axes,
-                                              const PathOptions& path) {
+                                              const PathOptions& path, const std::stop_token& stop) {
   std::uint64_t count = 1;
   for (const SweepAxis& axis : axes) count *= axis.count;  // at most the square of the largest
   if (count > kLargestParameterSweep) {
@@ -189,12 +190,13 @@ core::Result<std::vector<SweepRow>> run_sweep(const ContactSetup& setup, const s
   }
   std::vector<SweepRow> rows(count);
   const std::uint64_t fastest = axes.back().count;
-  over_all_cores(count, [&](std::uint64_t i) {
+  over_all_cores(count, stop, [&](std::uint64_t i) {
     std::array<double, 2> at{axes.front().value(axes.size() == 1 ? i : i / fastest), 0.0};
     if (axes.size() == 2) at[1] = axes[1].value(i % fastest);
     rows[i] = sweep_row(at_point(setup, axes, at), path);
     rows[i].at = at;
   });
+  if (stop.stop_requested()) return core::failure(core::ErrorCategory::Failed, "interrupted: the sweep is not whole");
   const bool none = std::all_of(rows.begin(), rows.end(), [](const SweepRow& row) { return !row.refusal.empty(); });
   if (none) {
     return core::failure(core::ErrorCategory::WrongUsage,

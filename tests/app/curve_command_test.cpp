@@ -22,21 +22,21 @@ namespace curve_command_test {
 using testing::HasSubstr;
 using testing::Not;
 
-ContactOptions contact_of(const char* material, const char* model) {
-  ContactOptions options;
+curves::ContactOptions contact_of(const char* material, const char* model) {
+  curves::ContactOptions options;
   options.assets_dir = support::source("assets");
   options.material = material;
   options.model = model;
   return options;
 }
 
-core::Result<curves::CurveRun> run_of(const ContactOptions& contact, const curves::PathOptions& path = {}) {
+core::Result<curves::CurveRun> run_of(const curves::ContactOptions& contact, const curves::PathOptions& path = {}) {
   const auto setup = contact_setup(contact);
   if (!setup) return tl::unexpected(setup.error());
   return curves::run_curve(*setup, path);
 }
 
-nlohmann::ordered_json json_of(const ContactOptions& contact, const curves::PathOptions& path = {}) {
+nlohmann::ordered_json json_of(const curves::ContactOptions& contact, const curves::PathOptions& path = {}) {
   const auto run = run_of(contact, path);
   if (!run) {
     ADD_FAILURE() << run.error().message;
@@ -45,7 +45,7 @@ nlohmann::ordered_json json_of(const ContactOptions& contact, const curves::Path
   return curves::curve_json(*run);
 }
 
-std::string refusal(const ContactOptions& contact, const curves::PathOptions& path = {}) {
+std::string refusal(const curves::ContactOptions& contact, const curves::PathOptions& path = {}) {
   const auto run = run_of(contact, path);
   if (run) return "accepted";
   EXPECT_EQ(run.error().category, core::ErrorCategory::WrongUsage);
@@ -54,8 +54,8 @@ std::string refusal(const ContactOptions& contact, const curves::PathOptions& pa
 }
 
 // R = 50 nm, W = 50 mJ/m2, E* = 1 GPa: the contact of the JKR cases in docs/physics.md.
-ContactOptions soft_contact(const char* model) {
-  ContactOptions options = contact_of("", model);
+curves::ContactOptions soft_contact(const char* model) {
+  curves::ContactOptions options = contact_of("", model);
   options.values["tip-radius"] = "50nm";
   options.values["spring-constant"] = "0.1N/m";
   options.values["work-of-adhesion"] = "50mJ/m2";
@@ -144,7 +144,7 @@ TEST(CurveJson, LeavesOutWhatTheSweepDidNotReach) {
 }
 
 TEST(CurveJson, HasNoJumpsWhereTheLeverIsTooStiff) {
-  ContactOptions contact = contact_of("mica", "dmt");
+  curves::ContactOptions contact = contact_of("mica", "dmt");
   contact.values["spring-constant"] = "10N/m";
   const auto json = json_of(contact);
   EXPECT_TRUE(json["snap_in"].is_null());
@@ -153,7 +153,7 @@ TEST(CurveJson, HasNoJumpsWhereTheLeverIsTooStiff) {
 }
 
 TEST(CurveCsv, HasAHeaderWithEveryParameterAndEqualRows) {
-  ContactOptions contact = contact_of("mica", "paper");
+  curves::ContactOptions contact = contact_of("mica", "paper");
   contact.values["spring-constant"] = "0.2N/m";
   const auto run = run_of(contact, {.step = "1nm"});
   ASSERT_TRUE(run.has_value()) << run.error().message;
@@ -181,7 +181,7 @@ TEST(CurveCsv, HasAHeaderWithEveryParameterAndEqualRows) {
 }
 
 TEST(CurveCommand, OverridesTheMaterialsNumbers) {
-  ContactOptions contact = contact_of("mica", "paper");
+  curves::ContactOptions contact = contact_of("mica", "paper");
   contact.values["work-of-adhesion"] = "8.912mJ/m2";
   contact.values["sample-stiffness"] = "0.1N/m";
   const auto json = json_of(contact);
@@ -190,7 +190,7 @@ TEST(CurveCommand, OverridesTheMaterialsNumbers) {
 }
 
 TEST(CurveCommand, PutsAProbeUnderTheMaterialAndOverridesOnTop) {
-  ContactOptions contact = contact_of("mica-air", "auto");
+  curves::ContactOptions contact = contact_of("mica-air", "auto");
   contact.probe = "ppp-contr";
   auto json = json_of(contact);
   EXPECT_EQ(json["parameters"]["tip_radius_m"], 7e-9);
@@ -208,7 +208,7 @@ TEST(CurveCommand, NeedsNoMaterialWhereEveryNumberIsGiven) {
   EXPECT_NEAR(json["pull_off"]["force_N"].get<double>() / unit, -1.49997, 2e-5);
   EXPECT_EQ(json["parameters"]["material"], "none");
 
-  ContactOptions missing = soft_contact("auto");
+  curves::ContactOptions missing = soft_contact("auto");
   EXPECT_EQ(refusal(missing), "model auto without --material also needs --hamaker");
   missing.values["tip-radius"] = "";
   EXPECT_EQ(refusal(missing), "model auto without --material also needs --tip-radius, --hamaker");
@@ -228,7 +228,7 @@ TEST(CurveCommand, KnowsEveryModel) {
 }
 
 TEST(CurveCommand, MovesAMassWithTheDynamicModels) {
-  ContactOptions contact = contact_of("mica", "dynamic-dmt");
+  curves::ContactOptions contact = contact_of("mica", "dynamic-dmt");
   contact.values["temperature"] = "0K";
   const auto json = json_of(contact, {.step = "0.1nm", .speed = "1um/s"});
   EXPECT_EQ(json["model"], "dynamic-dmt");
@@ -243,7 +243,7 @@ TEST(CurveCommand, MovesAMassWithTheDynamicModels) {
 
 TEST(CurveCommand, RefusesANumberThatDoesNotAct) {
   const auto with = [](const char* model, const char* option, const char* value) {
-    ContactOptions contact = contact_of("mica", model);
+    curves::ContactOptions contact = contact_of("mica", model);
     contact.values[option] = value;
     return contact;
   };
@@ -251,7 +251,7 @@ TEST(CurveCommand, RefusesANumberThatDoesNotAct) {
   EXPECT_THAT(refusal(with("dmt", "quality-factor", "3")), HasSubstr("--quality-factor has no effect"));
   EXPECT_THAT(refusal(with("paper", "humidity", "40%")), HasSubstr("--humidity has no effect"));
   EXPECT_THAT(refusal(contact_of("mica", "dmt"), {.speed = "1um/s"}), HasSubstr("--speed has no effect"));
-  ContactOptions exact = contact_of("mica", "jkr");
+  curves::ContactOptions exact = contact_of("mica", "jkr");
   exact.exact_sphere = true;
   EXPECT_THAT(refusal(exact), HasSubstr("--exact-sphere has no effect"));
 }
@@ -259,7 +259,7 @@ TEST(CurveCommand, RefusesANumberThatDoesNotAct) {
 TEST(CurveCommand, RefusesWhatCannotBe) {
   EXPECT_THAT(refusal(contact_of("butter", "auto")), HasSubstr("choose mica, gold, si3n4"));
   const auto with = [](const char* option, const char* value) {
-    ContactOptions contact = contact_of("mica", "dmt");
+    curves::ContactOptions contact = contact_of("mica", "dmt");
     contact.values[option] = value;
     return contact;
   };
@@ -270,7 +270,7 @@ TEST(CurveCommand, RefusesWhatCannotBe) {
   EXPECT_THAT(refusal(with("hamaker", "nanzJ")), HasSubstr("--hamaker: cannot read \"nanzJ\""));
   EXPECT_THAT(refusal(contact_of("mica", "paper"), {.step = "0.00001pm"}), HasSubstr("more than 10000000 samples"));
   EXPECT_THAT(refusal(contact_of("mica", "paper"), {.from = "1nm"}), HasSubstr("below jump-to-contact at 2.3975 nm"));
-  ContactOptions fast = contact_of("mica", "dynamic-dmt");
+  curves::ContactOptions fast = contact_of("mica", "dynamic-dmt");
   EXPECT_THAT(refusal(fast, {.speed = "0um/s"}), HasSubstr("--speed: 0um/s is not positive"));
 }
 

@@ -13,6 +13,7 @@
 #include "app/options/quantity_option.h"
 #include "app/options/sound_options.h"
 #include "app/options/uncertainty_option.h"
+#include "curves/uncertainty_text.h"
 #include "exhibit/sound/synthesizer.h"
 
 namespace afm::app {
@@ -178,8 +179,9 @@ TEST_F(OptionsTest, UncertaintiesAreCollectedAndHaveAKeyEach) {
   std::vector<std::string> texts;
   uncertainty_option(command_, texts, "radius=5%", "what is uncertain");
   ASSERT_TRUE(parse({"--uncertainty", "radius=5%", "--uncertainty", "temperature=2K"}));
-  const std::array keys{UncertainKey{"temperature", physics::kTemperatureUnits.units}, UncertainKey{"radius", {}}};
-  const auto found = parse_uncertainties(texts, keys);
+  const std::array keys{curves::UncertainKey{"temperature", physics::kTemperatureUnits.units},
+                        curves::UncertainKey{"radius", {}}};
+  const auto found = curves::parse_uncertainties(texts, keys);
   ASSERT_TRUE(found) << found.error().message;
   ASSERT_EQ(found->size(), 2U);
   EXPECT_EQ(found->at(0).key, 1U);
@@ -190,9 +192,9 @@ TEST_F(OptionsTest, UncertaintiesAreCollectedAndHaveAKeyEach) {
   EXPECT_DOUBLE_EQ(found->at(1).value, 2.0);
   for (const char* wrong : {"radius", "radius=5", "radius=0%", "radius=-1%", "radius=51%", "radius=nan%", "radius=1nm",
                             "temperature=2C", "temperature=0K", "tip=5%", "=5%", ""}) {
-    EXPECT_FALSE(parse_uncertainties({wrong}, keys)) << wrong;
+    EXPECT_FALSE(curves::parse_uncertainties({wrong}, keys)) << wrong;
   }
-  EXPECT_FALSE(parse_uncertainties({"radius=5%", "radius=6%"}, keys));
+  EXPECT_FALSE(curves::parse_uncertainties({"radius=5%", "radius=6%"}, keys));
 }
 
 }  // namespace options_test

@@ -27,6 +27,7 @@ set(arrows_exhibit core physics scene/config scene/shared scene/display scene/sa
                    study cluster)
 set(arrows_app core physics scene/config scene/shared scene/display scene/samples scene/graph scene/gltf haptics input render servo curves
                study fits cluster exhibit)
+set(arrows_python core physics scene/shared scene/samples servo curves fits)
 
 set(libraries_core tl)
 set(libraries_physics "")
@@ -45,8 +46,9 @@ set(libraries_study fmt nlohmann tl boost)
 set(libraries_fits cminpack)
 set(libraries_cluster fmt tl dds)
 set(libraries_exhibit glm fmt nlohmann tl toml\\+\\+ SDL2)
+set(libraries_python fmt nlohmann pybind11)
 set(libraries_app glm fmt CLI nlohmann tl benchmark systemd)
-set(known_libraries "openxr|glm|fmt|toml\\+\\+|draco|meshoptimizer|turbojpeg|nlohmann|tl|vulkan|GLFW|imgui|png|CLI|hidapi|SDL2|gtest|gmock|benchmark|hdf5|unzip|boost|pugixml|tiny_gltf|dds|systemd|xcb|cminpack")
+set(known_libraries "openxr|glm|fmt|toml\\+\\+|draco|meshoptimizer|turbojpeg|nlohmann|tl|vulkan|GLFW|imgui|png|CLI|hidapi|SDL2|gtest|gmock|benchmark|hdf5|unzip|boost|pugixml|tiny_gltf|dds|systemd|xcb|cminpack|pybind11")
 
 set(scanned 0)
 set(faults "")

@@ -23,7 +23,7 @@ using testing::Not;
 
 // A law with the lever's dynamics, so that every parameter acts.
 CurveRun dynamic_run() {
-  app::ContactOptions options;
+  curves::ContactOptions options;
   options.assets_dir = support::source("assets");
   options.material = "mica";
   options.model = "dynamic-maugis";
@@ -37,7 +37,7 @@ CurveRun dynamic_run() {
   path.step = "0.1nm";
   path.speed = "30um/s";
   path.seed = "77";
-  auto run = run_curve(app::contact_setup(options).value(), path);
+  auto run = run_curve(curves::contact_setup(options).value(), path);
   EXPECT_TRUE(run.has_value()) << run.error().message;
   return *std::move(run);
 }
@@ -110,7 +110,7 @@ TEST(ParametersInCsv, AreAllReadBackAndPrinted) {
 }
 
 CurveRun run_of_events(const char* model, const char* step, bool events_only) {
-  app::ContactOptions options;
+  curves::ContactOptions options;
   options.assets_dir = support::source("assets");
   options.material = "mica";
   options.model = model;
@@ -119,7 +119,7 @@ CurveRun run_of_events(const char* model, const char* step, bool events_only) {
   path.to = "-5nm";
   path.step = step;
   path.events_only = events_only;
-  auto run = run_curve(app::contact_setup(options).value(), path);
+  auto run = run_curve(curves::contact_setup(options).value(), path);
   EXPECT_TRUE(run.has_value()) << run.error().message;
   return run ? *std::move(run) : CurveRun{};
 }

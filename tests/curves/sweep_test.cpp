@@ -18,11 +18,11 @@ namespace sweep_test {
 using testing::HasSubstr;
 
 ContactSetup setup_of(const char* material, const char* model) {
-  app::ContactOptions options;
+  curves::ContactOptions options;
   options.assets_dir = support::source("assets");
   options.material = material;
   options.model = model;
-  return app::contact_setup(options).value();
+  return curves::contact_setup(options).value();
 }
 
 SweepAxis axis(const std::string& text, const char* model = "dmt") {

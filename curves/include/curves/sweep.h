@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,14 @@
 
 namespace afm::curves {
 
-// A parameter with `count` values from `from` to `to`, both included.
+// A parameter with `count` values from `from` to `to`, both included, or with any values.
 struct SweepAxis {
   const ContactParameter* parameter = nullptr;
   double from = 0.0;  // SI
   double to = 0.0;    // SI
   std::uint64_t count = 0;
   bool logarithmic = false;
+  std::vector<double> values{};  // SI, `count` of them; empty: by the four above
 
   double value(std::uint64_t index) const;
 };
@@ -50,9 +52,9 @@ struct SweepRow {
 
 // Computes every point of one axis or of the grid of two, the last axis running fastest, on all cores. The rows are
 // always in the grid's order. Dynamic models record a curve at each point, with the path's step and speed. Logs its
-// progress if it takes longer than a second. Fails if no point has a curve.
+// progress if it takes longer than a second. Fails if no point has a curve, and once `stop` is requested.
 core::Result<std::vector<SweepRow>> run_sweep(const ContactSetup& setup, const std::vector<SweepAxis>& axes,
-                                              const PathOptions& path);
+                                              const PathOptions& path, const std::stop_token& stop = {});
 
 // CSV in SI: a # header with every number that is not swept, then one line per point.
 std::string sweep_csv(const ContactSetup& setup, const std::vector<SweepAxis>& axes, const std::vector<SweepRow>& rows);

@@ -27,6 +27,7 @@
 
 #include "confined/confinement.h"
 #include "core/file_descriptor.h"
+#include "core/own_folder.h"
 #include "core/system_error.h"
 #include "core/write_all.h"
 #include "curves/curve_error.h"
@@ -146,9 +147,11 @@ std::string result_of(const ChildWork& work, const std::string& on_death, std::c
 
 // Path of the program with that name.
 std::string find_program(const std::string& name) {
-  std::error_code error;
-  const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  for (const std::filesystem::path& folder : {here, here.parent_path() / "bin"}) {
+  const std::filesystem::path here = core::own_folder();
+  // the Python module lies in PREFIX/lib/python3/dist-packages/touchafm, of a build as of an installation
+  const std::filesystem::path prefix = here / "../../../..";
+  for (const std::filesystem::path& folder :
+       {here, here.parent_path() / "bin", prefix / "libexec/touchafm", prefix / "bin"}) {
     if (::access((folder / name).c_str(), X_OK) == 0) return folder / name;
   }
   throw std::runtime_error(fmt::format("{} is missing beside touchafm: build it, or install TouchAFM again", name));

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <utility>
 
 #include "bytes/text_table.h"
 #include "core/version.h"
@@ -209,12 +210,14 @@ nlohmann::ordered_json law_json(const ContactSetup& setup, const std::string& mo
 }
 
 void add_sources(nlohmann::ordered_json& result, const ContactSetup& setup) {
-  json& sources = result["sources"] = json::object();
-  json& estimated = result["estimated"] = json::array();
+  // apart from the result, whose elements move when it grows
+  json sources = json::object(), estimated = json::array();
   for (const scene::SourcedValue& source : acting_sources(setup)) {
     sources[source.key] = {{"value", source.value}, {"source", source.source}, {"estimated", source.estimated}};
     if (source.estimated) estimated.push_back(source.key);
   }
+  result["sources"] = std::move(sources);
+  result["estimated"] = std::move(estimated);
 }
 
 nlohmann::ordered_json curve_json(const CurveRun& run) {

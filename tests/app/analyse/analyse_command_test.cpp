@@ -155,7 +155,7 @@ TEST(AnalyseCommand, ReadsASensitivityThatIsADeflectionPerVolt) {
 TEST(FitOfACurve, HasEveryNumberWithItsUnitInTextAndJson) {
   const auto curve = curves::analysed("gel.tab", test::hertz_curve());
   ASSERT_TRUE(curve.has_value());
-  FitOptions options;
+  curves::FitOptions options;
   options.shape = fits::Shape::Paraboloid;
   options.radius_m = test::kHertzRadiusM;
   ASSERT_TRUE(prepare(options));
@@ -184,7 +184,7 @@ TEST(FitOfACurve, OfAPartHasThatPartsModulus) {
   }
   const auto curve = curves::analysed("gel.tab", recorded);
   ASSERT_TRUE(curve.has_value());
-  FitOptions options;
+  curves::FitOptions options;
   options.shape = fits::Shape::Paraboloid;
   options.radius_m = test::kHertzRadiusM;
   EXPECT_GT(fit_of(*curve, options)->modulus_pa, 1.1 * test::kHertzModulusPa);
@@ -204,7 +204,7 @@ TEST(FitOfACurve, OfAPartHasThatPartsModulus) {
 TEST(FitOfACurve, HasTheSystematicPartApart) {
   const auto curve = curves::analysed("gel.tab", test::hertz_curve());
   ASSERT_TRUE(curve.has_value());
-  FitOptions options;
+  curves::FitOptions options;
   options.shape = fits::Shape::Paraboloid;
   options.radius_m = test::kHertzRadiusM;
   options.uncertainty_texts = {"spring-constant=8%", "radius=12%"};
@@ -263,7 +263,7 @@ TEST(FitOfACurve, WithAdhesionHasBothBranches) {
   }
   const auto curve = curves::analysed("pdms.tab", recorded);
   ASSERT_TRUE(curve.has_value());
-  FitOptions options;
+  curves::FitOptions options;
   options.shape = fits::Shape::Auto;
   options.radius_m = kRadius;
   ASSERT_TRUE(prepare(options));
@@ -285,12 +285,12 @@ TEST(FitOfACurve, WithAdhesionHasBothBranches) {
 }
 
 TEST(FitOfACurve, IsRefusedWithoutWhatItNeeds) {
-  const auto refusal = [](FitOptions options) {
+  const auto refusal = [](curves::FitOptions options) {
     const auto checked = prepare(options);
     EXPECT_FALSE(checked);
     return checked ? "accepted" : checked.error().message;
   };
-  FitOptions options;
+  curves::FitOptions options;
   options.radius_m = 1e-6;
   EXPECT_THAT(refusal(options), HasSubstr("without --fit"));
   options.shape = fits::Shape::Cone;

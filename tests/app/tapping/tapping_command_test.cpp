@@ -14,8 +14,8 @@ namespace tapping_command_test {
 
 using testing::HasSubstr;
 
-ContactOptions tapped(const char* model = "dmt") {
-  ContactOptions options;
+curves::ContactOptions tapped(const char* model = "dmt") {
+  curves::ContactOptions options;
   options.assets_dir = support::source("assets");
   options.model = model;
   options.values["tip-radius"] = "20nm";
@@ -27,20 +27,20 @@ ContactOptions tapped(const char* model = "dmt") {
   return options;
 }
 
-TappingChoice tapping() {
-  TappingChoice choice;
+curves::TappingChoice tapping() {
+  curves::TappingChoice choice;
   choice.mode = "tapping";
   choice.numbers.free_amplitude = "20nm";
   choice.contact_gap = "0.165nm";
   return choice;
 }
 
-nlohmann::json json_of(const TappingChoice& choice) {
+nlohmann::json json_of(const curves::TappingChoice& choice) {
   const auto text = tapping_text(choice, tapped(), {}, "json");
   return text ? nlohmann::json::parse(*text) : nlohmann::json(text.error().message);
 }
 
-std::string refusal(const TappingChoice& choice, const ContactOptions& contact = tapped(),
+std::string refusal(const curves::TappingChoice& choice, const curves::ContactOptions& contact = tapped(),
                     const curves::PathOptions& path = {}, const std::string& format = "csv") {
   if (const auto checked = check_tapping_options(choice); !checked) return checked.error().message;
   const auto text = tapping_text(choice, contact, path, format);
@@ -60,7 +60,7 @@ TEST(TappingCommand, PrintsJumpsLoopsAndConventions) {
 }
 
 TEST(TappingCommand, PrintsEveryStateAtAHeight) {
-  TappingChoice choice = tapping();
+  curves::TappingChoice choice = tapping();
   choice.numbers.at = "17.4149nm";
   const auto json = json_of(choice);
   ASSERT_EQ(json["states"].size(), 3u);
@@ -68,10 +68,10 @@ TEST(TappingCommand, PrintsEveryStateAtAHeight) {
 }
 
 TEST(TappingCommand, RefusesOptionsWithoutEffect) {
-  TappingChoice contact;
+  curves::TappingChoice contact;
   contact.numbers.free_amplitude = "20nm";
   EXPECT_THAT(refusal(contact), HasSubstr("--free-amplitude has no effect on --mode contact"));
-  TappingChoice fm = tapping();
+  curves::TappingChoice fm = tapping();
   fm.mode = "fm";
   EXPECT_THAT(refusal(fm), HasSubstr("--free-amplitude has no effect on --mode fm"));
   EXPECT_THAT(refusal(tapping(), tapped(), {.seed = "3"}), HasSubstr("--seed has no effect"));
@@ -86,7 +86,7 @@ TEST(TappingCommand, RefusesLawsThatGiveNoForceOfAHeight) {
 }
 
 TEST(TappingCommand, RefusesUnphysicalNumbersWithTheirRange) {
-  TappingChoice choice = tapping();
+  curves::TappingChoice choice = tapping();
   choice.numbers.free_amplitude = "1m";
   EXPECT_EQ(refusal(choice), "free amplitude 1 m is not within 10 pm to 10 um");
   choice = tapping();

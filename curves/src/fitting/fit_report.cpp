@@ -8,13 +8,13 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/analyse/analyse_fit.h"
-#include "app/analyse/fit_points.h"
-#include "app/options/angle_units.h"
+#include "curves/angle_units.h"
+#include "curves/fitting/curve_fit.h"
 #include "curves/plot_units.h"
+#include "fitting/fit_points.h"
 #include "physics/quantity_text.h"
 
-namespace afm::app {
+namespace afm::curves {
 
 namespace {
 
@@ -207,8 +207,8 @@ FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
   return result;
 }
 
-curves::SvgLine fit_line(const curves::AnalysedCurve& curve, const fits::ElasticFit& fit, const FitOptions& options) {
-  curves::SvgLine line{"fit", std::string(curves::distinct_color(2)), curves::LineStyle::Solid, {}};
+SvgLine fit_line(const AnalysedCurve& curve, const fits::ElasticFit& fit, const FitOptions& options) {
+  SvgLine line{"fit", std::string(distinct_color(2)), LineStyle::Solid, {}};
   const double zero_m = curve.features.contact_point.value_or(physics::Length()).si;
   const std::vector<std::size_t> places = fit_points(curve, options).places;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -216,10 +216,10 @@ curves::SvgLine fit_line(const curves::AnalysedCurve& curve, const fits::Elastic
     constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
     if (i > 0 && places[i] != places[i - 1] + 1) line.points.push_back({kBreak, kBreak});
     const physics::CurvePoint& point = curve.curve.points[places[i]];
-    line.points.push_back({(point.z.si - zero_m) * curves::kNmPerM,
-                           (fit.model_n[i] - curve.features.baseline.at(point.z).si) * curves::kNnPerN});
+    line.points.push_back(
+        {(point.z.si - zero_m) * kNmPerM, (fit.model_n[i] - curve.features.baseline.at(point.z).si) * kNnPerN});
   }
   return line;
 }
 
-}  // namespace afm::app
+}  // namespace afm::curves

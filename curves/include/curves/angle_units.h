@@ -6,9 +6,9 @@
 
 #include "physics/quantity_text.h"
 
-namespace afm::app {
+namespace afm::curves {
 
 inline constexpr std::array kAngles{physics::Unit{"deg", 180.0 / std::numbers::pi, true}};
 inline constexpr physics::Units kAngleUnits{"an angle", kAngles};
 
-}  // namespace afm::app
+}  // namespace afm::curves

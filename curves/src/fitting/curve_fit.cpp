@@ -1,32 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/analyse/analyse_fit.h"
+#include "curves/fitting/curve_fit.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <string_view>
-#include <vector>
+#include <utility>
 
-#include "app/analyse/fit_points.h"
-#include "app/options/angle_units.h"
-#include "app/options/enum_option.h"
-#include "app/options/quantity_option.h"
-#include "app/options/uncertainty_option.h"
+#include "curves/angle_units.h"
+#include "curves/uncertainty_text.h"
+#include "fitting/fit_points.h"
 #include "physics/quantity_text.h"
 
-namespace afm::app {
+namespace afm::curves {
 
 namespace {
 
-constexpr QuantityRange<physics::Length> kRadii{physics::Length(1e-10), physics::Length(1e-3)};
-constexpr QuantityRange<physics::Force> kMostForces{physics::Force(1e-13), physics::Force(1e-1)};
-constexpr QuantityRange<physics::Length> kLayers{physics::Length(1e-10), physics::Length(1e-1)};
-constexpr QuantityRange<double> kHalfAngles{std::numbers::pi / 180.0, std::numbers::pi * 0.49};
-constexpr double kLeastPoisson = 0.0, kMostPoisson = 0.5;
-constexpr QuantityRange<physics::Length> kAtomicDistances{physics::Length(0.05e-9), physics::Length(5e-9)};
+QuantityDomain domain(const physics::Units& units, double least, double most) {
+  return {units.sort, units.units, QuantityRange<double>{least, most}};
+}
+
+constexpr double kLeastAngle = std::numbers::pi / 180.0, kMostAngle = std::numbers::pi * 0.49;
 
 // An option that a shape needs, or cannot use.
 struct Size {
@@ -79,75 +75,33 @@ fits::Indenter indenter_of(const FitOptions& options) {
   return indenter;
 }
 
-// Sizes of tip and layer.
-template <class Add>
-void add_size_options(OptionList& command, FitOptions& options, const Add& add) {
-  add("--radius", quantity_option(
-                      command, "--radius", [&options](physics::Length radius) { options.radius_m = radius.si; },
-                      physics::kLengthUnits, "of --fit: radius of the tip", std::optional(kRadii)));
-  add("--half-angle", si_option(
-                          command, "--half-angle", [&options](double rad) { options.half_angle_rad = rad; },
-                          {kAngleUnits.sort, kAngleUnits.units, kHalfAngles},
-                          "of --fit: angle between the axis of the tip and its edge (cone) or face (pyramid)"));
-  add("--layer",
-      quantity_option(
-          command, "--layer", [&options](physics::Length layer) { options.layer_m = layer.si; }, physics::kLengthUnits,
-          "of --fit: thickness of the sample on a rigid base", std::optional(kLayers)));
-  add("--base",
-      enum_option(command, "--base", options.base, "a base", fits::kBases, &fits::BaseName::name, &fits::BaseName::base,
-                  "of --fit layer-exact-...: how the layer lies on it; default: bonded"));
-}
-
 }  // namespace
 
-std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& options) {
-  std::string shapes;
-  for (const fits::ShapeRow& row : fits::kShapes) shapes += fmt::format("\n  {}: {}", row.name, row.meaning);
-  std::vector<NamedOption> added;
-  const auto add = [&added](const char* name, const Option& option) { added.push_back({option, name}); };
-  add("--fit",
-      enum_option(command, "--fit", options.shape, "a shape of the tip", fits::kShapes, &fits::ShapeRow::name,
-                  &fits::ShapeRow::shape,
-                  "fit the elastic modulus to the approach, or with the work of adhesion to both branches:" + shapes));
-  add_size_options(command, options, add);
-  add("--poisson",
-      si_option(
-          command, "--poisson", [&options](double ratio) { options.poisson = ratio; },
-          {physics::kPlainNumber.sort, physics::kPlainNumber.units, QuantityRange<double>{kLeastPoisson, kMostPoisson}},
-          "of --fit: Poisson's ratio of the sample; default: 0.5"));
-  add("--atomic-distance",
-      quantity_option(
-          command, "--atomic-distance",
-          [&options](physics::Length distance) { options.atomic_distance_m = distance.si; }, physics::kLengthUnits,
-          "of --fit dmt, jkr, maugis or auto: equilibrium distance z0 of the surfaces, for Maugis' stress and Tabor's "
-          "parameter; default: 0.3nm",
-          std::optional(kAtomicDistances)));
-  add("--uncertainty",
-      uncertainty_option(command, options.uncertainty_texts, "radius=5%",
-                         "of --fit: relative standard deviation of what the fit is given, such as "
-                         "radius=5%, for the systematic part of the results, apart from the interval; "
-                         "repeatable; keys: spring-constant, sensitivity, radius, half-angle, layer, poisson"));
-  add("--against",
-      enum_option(command, "--against", options.against, "a variable", fits::kAgainst, &fits::AgainstName::name,
-                  &fits::AgainstName::against,
-                  "of --fit: z, the height of the lever's base, or tip, the tip position of nanite and AtomicJ; "
-                  "default: z"));
-  add("--most-force",
-      quantity_option(
-          command, "--most-force", [&options](physics::Force force) { options.most_force_n = force.si; },
-          physics::kForceUnits, "of --fit: leave out what comes after a greater force above the baseline",
-          std::optional(kMostForces)));
-  add("--most-depth", quantity_option(
-                          command, "--most-depth",
-                          [&options](physics::Length depth) { options.most_depth_m = depth.si; }, physics::kLengthUnits,
-                          "of --fit: leave out what comes after a greater depth below the contact point of the "
-                          "analysis (--contact-point)",
-                          std::optional(kRadii)));
-  add("--tilt", command.add_flag("--tilt", options.tilt, "of --fit: also fit a tilt of the baseline"));
-  add("--white-noise", command.add_flag("--white-noise", options.white,
-                                        "of --fit: assume white noise, as nanite and AtomicJ do; its interval is "
-                                        "too narrow where it is not"));
-  return added;
+std::span<const FitNumber> fit_numbers() {
+  static const std::array kNumbers{
+      FitNumber{"radius", domain(physics::kLengthUnits, 1e-10, 1e-3), "of --fit: radius of the tip",
+                [](FitOptions& options, double si) { options.radius_m = si; }},
+      FitNumber{"half-angle", domain(kAngleUnits, kLeastAngle, kMostAngle),
+                "of --fit: angle between the axis of the tip and its edge (cone) or face (pyramid)",
+                [](FitOptions& options, double si) { options.half_angle_rad = si; }},
+      FitNumber{"layer", domain(physics::kLengthUnits, 1e-10, 1e-1),
+                "of --fit: thickness of the sample on a rigid base",
+                [](FitOptions& options, double si) { options.layer_m = si; }},
+      FitNumber{"poisson", domain(physics::kPlainNumber, 0.0, 0.5),
+                "of --fit: Poisson's ratio of the sample; default: 0.5",
+                [](FitOptions& options, double si) { options.poisson = si; }},
+      FitNumber{"atomic-distance", domain(physics::kLengthUnits, 0.05e-9, 5e-9),
+                "of --fit dmt, jkr, maugis or auto: equilibrium distance z0 of the surfaces, for Maugis' stress and "
+                "Tabor's parameter; default: 0.3nm",
+                [](FitOptions& options, double si) { options.atomic_distance_m = si; }},
+      FitNumber{"most-force", domain(physics::kForceUnits, 1e-13, 1e-1),
+                "of --fit: leave out what comes after a greater force above the baseline",
+                [](FitOptions& options, double si) { options.most_force_n = si; }},
+      FitNumber{"most-depth", domain(physics::kLengthUnits, 1e-10, 1e-3),
+                "of --fit: leave out what comes after a greater depth below the contact point of the analysis "
+                "(--contact-point)",
+                [](FitOptions& options, double si) { options.most_depth_m = si; }}};
+  return kNumbers;
 }
 
 core::Result<void> prepare(FitOptions& options) {
@@ -185,7 +139,7 @@ core::Result<void> prepare(FitOptions& options) {
   return {};
 }
 
-core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const FitOptions& options) {
+core::Result<fits::ElasticFit> fit_of(const AnalysedCurve& curve, const FitOptions& options) {
   const auto refused = [&](const std::string& why) {
     return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot fit {}: {}", curve.name, why));
   };
@@ -215,4 +169,4 @@ core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const 
   return std::move(*fit);
 }
 
-}  // namespace afm::app
+}  // namespace afm::curves

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/analyse/fit_points.h"
+#include "fitting/fit_points.h"
 
 #include <cmath>
 #include <limits>
 
-namespace afm::app {
+namespace afm::curves {
 
 namespace {
 
@@ -12,7 +12,7 @@ using physics::Branch;
 
 // Whether a point is beyond a limit. The depth counts from the contact point of the analysis, not of the fit: that one
 // moves with what is left out, on a sample that stiffens further and further.
-bool is_beyond(const curves::AnalysedCurve& curve, const physics::CurvePoint& point, const FitOptions& options) {
+bool is_beyond(const AnalysedCurve& curve, const physics::CurvePoint& point, const FitOptions& options) {
   const physics::CurveFeatures& features = curve.features;
   const double force_n = (point.force - features.baseline.at(point.z)).si;
   const double bent_m = force_n / curve.curve.metadata.spring_constant->si;
@@ -31,7 +31,7 @@ struct Doubtful {
 // The approach sticks from the strongest pull of its jump on, without a jump from the contact point on. The retract
 // sticks up to a twentieth of its way from the contact point to the pull-off before the latter, where a lever that
 // trembles lets go early. Above the pull-off nothing sticks; there the lever rings for as long as its jump.
-Doubtful doubtful_heights(const curves::AnalysedCurve& curve) {
+Doubtful doubtful_heights(const AnalysedCurve& curve) {
   constexpr double kLeftOut = 0.05;
   const physics::CurveFeatures& features = curve.features;
   Doubtful heights;
@@ -54,7 +54,7 @@ Doubtful doubtful_heights(const curves::AnalysedCurve& curve) {
   return heights;
 }
 
-FitPoints adhesive_points(const curves::AnalysedCurve& curve, const FitOptions& options) {
+FitPoints adhesive_points(const AnalysedCurve& curve, const FitOptions& options) {
   const Doubtful heights = doubtful_heights(curve);
   FitPoints found;
   const std::vector<physics::CurvePoint>& points = curve.curve.points;
@@ -70,7 +70,7 @@ FitPoints adhesive_points(const curves::AnalysedCurve& curve, const FitOptions& 
   return found;
 }
 
-FitPoints approach_points(const curves::AnalysedCurve& curve, const FitOptions& options) {
+FitPoints approach_points(const AnalysedCurve& curve, const FitOptions& options) {
   FitPoints found;
   const std::vector<physics::CurvePoint>& points = curve.curve.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -84,8 +84,8 @@ FitPoints approach_points(const curves::AnalysedCurve& curve, const FitOptions& 
 
 }  // namespace
 
-FitPoints fit_points(const curves::AnalysedCurve& curve, const FitOptions& options) {
+FitPoints fit_points(const AnalysedCurve& curve, const FitOptions& options) {
   return fits::row_of(*options.shape).is_adhesive ? adhesive_points(curve, options) : approach_points(curve, options);
 }
 
-}  // namespace afm::app
+}  // namespace afm::curves

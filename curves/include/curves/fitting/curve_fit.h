@@ -5,15 +5,17 @@
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "app/options/command.h"
 #include "core/result.h"
 #include "curves/curve_report.h"
+#include "curves/quantity_domain.h"
 #include "fits/elastic_fit.h"
 
-namespace afm::app {
+namespace afm::curves {
 
 // Options of a fit; sizes of zero: not given.
 struct FitOptions {
@@ -34,12 +36,14 @@ struct FitOptions {
   std::shared_ptr<const fits::LayerTable> table{};  // set by prepare() for an exact layer
 };
 
-// Adds --fit and its options, which write into `options` while the parser lives. Returns them with their names.
-struct NamedOption {
-  Option option;
-  const char* name;
+// A number that a user gives to a fit.
+struct FitNumber {
+  std::string_view name;  // option on the command line without dashes
+  QuantityDomain domain;
+  std::string_view help;
+  void (*set)(FitOptions& options, double si);
 };
-std::vector<NamedOption> add_fit_options(OptionList& command, FitOptions& options);
+std::span<const FitNumber> fit_numbers();
 
 // Computes the table of an exact layer and reads the uncertainties. WrongUsage if one of these cannot be read, and if
 // the shape lacks a size, or has one that it does not need.
@@ -47,14 +51,14 @@ core::Result<void> prepare(FitOptions& options);
 
 // Fits the approach of a curve, or both branches to a law of adhesion. `options` is prepared and wants a fit.
 // BadInputFile, naming the curve, if it has no spring constant or nothing fits.
-core::Result<fits::ElasticFit> fit_of(const curves::AnalysedCurve& curve, const FitOptions& options);
+core::Result<fits::ElasticFit> fit_of(const AnalysedCurve& curve, const FitOptions& options);
 
 // Lines for the report, the same in SI, and the model for the plot.
 std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options);
 nlohmann::ordered_json fit_json(const fits::ElasticFit& fit, const FitOptions& options);
-curves::SvgLine fit_line(const curves::AnalysedCurve& curve, const fits::ElasticFit& fit, const FitOptions& options);
+SvgLine fit_line(const AnalysedCurve& curve, const fits::ElasticFit& fit, const FitOptions& options);
 
 // A doubt with its figure and limit, and which law to try.
 std::string doubt_text(const fits::Found& found);
 
-}  // namespace afm::app
+}  // namespace afm::curves

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "app/analyse/analyse_fit.h"
 #include "curves/curve_report.h"
+#include "curves/fitting/curve_fit.h"
 #include "fits/elastic_fit.h"
 
-namespace afm::app {
+namespace afm::curves {
 
 // Points of a curve that a fit uses, and their places in it.
 struct FitPoints {
@@ -18,6 +18,6 @@ struct FitPoints {
 
 // Without adhesion the approach, up to the first point beyond a limit of `options`. With it, of both branches those
 // that surely stick and those that are surely free (docs/fits.md). The curve has a spring constant.
-FitPoints fit_points(const curves::AnalysedCurve& curve, const FitOptions& options);
+FitPoints fit_points(const AnalysedCurve& curve, const FitOptions& options);
 
-}  // namespace afm::app
+}  // namespace afm::curves

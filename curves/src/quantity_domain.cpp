@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "curves/quantity_domain.h"
+
+#include <algorithm>
+
+namespace afm::curves {
+namespace {
+
+// "5mm/s": as typed, in one word.
+std::string in_one_word(double si, const QuantityDomain& domain) {
+  std::string text = physics::format_si(si, domain.units, 4);
+  std::erase(text, ' ');
+  return text;
+}
+
+}  // namespace
+
+std::string legal_values(const QuantityDomain& domain) {
+  if (domain.range) return in_one_word(domain.range->least, domain) + " to " + in_one_word(domain.range->most, domain);
+  return physics::list_units(domain.units);
+}
+
+std::string refusal(double si, std::string_view text, const QuantityDomain& domain) {
+  if (!domain.range || (si >= domain.range->least && si <= domain.range->most)) return {};
+  return std::string(text) + " is outside " + legal_values(domain);
+}
+
+std::variant<double, std::string> parse_si(std::string_view text, const QuantityDomain& domain) {
+  auto parsed = physics::parse_si(text, domain.sort, domain.units, physics::Infinity::Refused);
+  const double* si = std::get_if<double>(&parsed);
+  if (si == nullptr) return parsed;
+  if (std::string why = refusal(*si, text, domain); !why.empty()) return why;
+  return parsed;
+}
+
+}  // namespace afm::curves

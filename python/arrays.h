@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <type_traits>
+#include <vector>
+
+namespace afm::python {
+
+// What a caller may give for an array: any shape, stride and type of number. It is converted to float64 once.
+using GivenArray = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+
+// Read-only view of one member of each row: no copy. `owner` keeps the rows alive.
+template <class Row, class Member>
+pybind11::array column(pybind11::handle owner, const std::vector<Row>& rows, const Member& member) {
+  using Value = std::decay_t<decltype(member(rows.front()))>;
+  pybind11::array_t<Value> view({static_cast<pybind11::ssize_t>(rows.size())},
+                                {static_cast<pybind11::ssize_t>(sizeof(Row))},
+                                rows.empty() ? nullptr : &member(rows.front()), owner);
+  view.attr("setflags")(pybind11::arg("write") = false);
+  return view;
+}
+
+// Read-only array with values that are computed for it.
+template <class Rows, class Value>
+pybind11::array computed(const Rows& rows, const Value& value) {
+  using Element = std::decay_t<decltype(value(*std::begin(rows)))>;
+  pybind11::array_t<Element> values(static_cast<pybind11::ssize_t>(std::size(rows)));
+  Element* out = values.mutable_data();
+  for (const auto& row : rows) *out++ = value(row);
+  values.attr("setflags")(pybind11::arg("write") = false);
+  return values;
+}
+
+// Applies a function to each number: an array of the same shape, or a float for a scalar.
+template <class Function>
+pybind11::object each(const GivenArray& given, const Function& function) {
+  pybind11::array_t<double> result(std::vector<pybind11::ssize_t>(given.shape(), given.shape() + given.ndim()));
+  const auto count = static_cast<std::size_t>(given.size());
+  const double* in = given.data();
+  double* out = result.mutable_data();
+  constexpr std::size_t kUnwatched = 1'000'000;  // points between two looks for Ctrl-C
+  for (std::size_t begin = 0; begin < count; begin += kUnwatched) {
+    {
+      const pybind11::gil_scoped_release free;
+      const std::size_t end = std::min(count, begin + kUnwatched);
+      for (std::size_t i = begin; i < end; ++i) out[i] = function(in[i]);
+    }
+    if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+  }
+  if (given.ndim() == 0) return pybind11::float_(*out);
+  return result;
+}
+
+}  // namespace afm::python

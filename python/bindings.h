@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+// Parts of the module touchafm._core, in the order in which they are added: each uses the types of those before it.
+namespace afm::python {
+
+void add_errors(pybind11::module_& module);
+void add_contacts(pybind11::module_& module);  // materials, probes, contacts, laws
+void add_cycles(pybind11::module_& module);    // cycles, sweeps, the paper's tables
+void add_files(pybind11::module_& module);     // curves and images of files
+void add_fits(pybind11::module_& module);      // analysis and fits
+void add_tapping(pybind11::module_& module);
+void add_synthetic(pybind11::module_& module);  // curves with their truth
+void add_sessions(pybind11::module_& module);
+
+}  // namespace afm::python

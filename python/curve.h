@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "curves/recorded_curve.h"
+
+namespace afm::python {
+
+// touchafm.Curve: a curve of a file, of arrays or made up, and its name in messages. Immutable.
+struct Curve {
+  std::string name;
+  curves::RecordedCurve recorded;
+};
+
+}  // namespace afm::python

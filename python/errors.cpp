@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "python/errors.h"
+
+#include <stdexcept>
+
+#include "python/bindings.h"
+
+namespace afm::python {
+
+namespace py = pybind11;
+
+void add_errors(py::module_& module) {
+  static py::handle file_error;  // a type of the module, which Python never unloads
+  file_error = py::exception<Refusal>(module, "FileError", PyExc_OSError).release();
+  file_error.attr("__doc__") = "A file cannot be read, understood or written; the message names it and says why.";
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Refusal& refusal) {
+      const bool usage = refusal.category() == core::ErrorCategory::WrongUsage;
+      PyErr_SetString(usage ? PyExc_ValueError : file_error.ptr(), refusal.what());
+    }
+  });
+}
+
+}  // namespace afm::python

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "python/numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace afm::python {
+
+namespace py = pybind11;
+
+std::string typed(std::optional<double> si, std::string_view unit) {
+  return si ? fmt::format("{} {}", *si, unit) : std::string();
+}
+
+std::string keyword_of(std::string_view option) {
+  std::string keyword(option);
+  std::replace(keyword.begin(), keyword.end(), '-', '_');
+  return keyword;
+}
+
+std::map<std::string, double, std::less<>> numbers_of(const py::kwargs& given) {
+  std::map<std::string, double, std::less<>> numbers;
+  for (const auto& [key, value] : given) {
+    if (value.is_none()) continue;
+    auto option = key.cast<std::string>();
+    const double number = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+    std::replace(option.begin(), option.end(), '_', '-');
+    numbers[option] = number;
+  }
+  return numbers;
+}
+
+void unknown_keyword(std::string_view function, std::string_view keyword) {
+  throw py::type_error(fmt::format("{}() got an unexpected keyword argument '{}'", function, keyword));
+}
+
+}  // namespace afm::python

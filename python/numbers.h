@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace afm::python {
+
+// A number in SI as a person would type it, with all digits: "5e-08 m". Empty without one.
+std::string typed(std::optional<double> si, std::string_view unit);
+
+// "tip_radius" for --tip-radius.
+std::string keyword_of(std::string_view option);
+
+// The numbers among keyword arguments, by the names of options without dashes. None is as if it were not given.
+// TypeError for a value that is no number.
+std::map<std::string, double, std::less<>> numbers_of(const pybind11::kwargs& given);
+
+// TypeError as Python's own for a keyword that a function does not have.
+[[noreturn]] void unknown_keyword(std::string_view function, std::string_view keyword);
+
+}  // namespace afm::python

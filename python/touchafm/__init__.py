@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A virtual atomic force microscope whose truth is known: the library of TouchAFM.
+
+Every number is in SI, and every force on the tip is positive away from the sample. Results are immutable; their arrays are
+read-only views or copies in float64. as_dict() of a result is the JSON that the command touchafm prints, to the last digit.
+
+An argument that the command would refuse raises ValueError with the command's words. A file that cannot be read, understood
+or written raises FileError, an OSError. Long work releases Python's lock, and Ctrl-C ends it within 0.2 s.
+"""
+
+from ._core import (
+    Analysis,
+    Contact,
+    Curve,
+    Cycle,
+    Event,
+    Figures,
+    FileError,
+    Fit,
+    Law,
+    Session,
+    Sweep,
+    Tapping,
+    __version__,
+    analyse,
+    cycle,
+    fit,
+    generate,
+    law,
+    materials,
+    paper_tables,
+    probes,
+    read,
+    read_image,
+    session,
+    sweep,
+    tapping,
+)
+
+__all__ = [
+    "Analysis",
+    "Contact",
+    "Curve",
+    "Cycle",
+    "Event",
+    "Figures",
+    "FileError",
+    "Fit",
+    "Law",
+    "Session",
+    "Sweep",
+    "Tapping",
+    "analyse",
+    "cycle",
+    "fit",
+    "generate",
+    "law",
+    "materials",
+    "paper_tables",
+    "probes",
+    "read",
+    "read_image",
+    "session",
+    "sweep",
+    "tapping",
+]
+
+for _each in __all__:
+    globals()[_each].__module__ = __name__
+del _each

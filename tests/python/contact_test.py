@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Contacts, laws, cycles, sweeps and tapping: the numbers, refusals and JSON of the command."""
+
+import pickle
+import unittest
+
+import numpy as np
+
+import touchafm
+from command import error_of, json_of, without_sources
+
+MICA = {"tip_radius": 50e-9, "spring_constant": 0.1, "hamaker": 24.5e-21, "work_of_adhesion": 4.456e-3}
+
+
+class Contact(unittest.TestCase):
+    def test_has_the_papers_jump_to_contact(self):
+        mica = touchafm.Contact(law="paper", **MICA)
+        self.assertAlmostEqual(mica.figures.z_jtc / 2.397523487e-09, 1.0, delta=1e-9)
+        self.assertEqual(touchafm.Contact.material("mica", law="paper").figures.z_jtc, mica.figures.z_jtc)
+
+    def test_refuses_with_the_words_of_the_command(self):
+        with self.assertRaises(ValueError) as refused:
+            touchafm.Contact.material("mica", tip_radius=-1e-9)
+        self.assertEqual(str(refused.exception), error_of("curve", "--material", "mica", "--tip-radius=-1nm"))
+        with self.assertRaises(ValueError) as refused:
+            touchafm.Contact.material("butter")
+        self.assertEqual(str(refused.exception), error_of("curve", "--material", "butter"))
+        with self.assertRaises(ValueError) as refused:
+            touchafm.Contact.material("mica", law="hertz", hamaker=1e-20)
+        expected = error_of("curve", "--material", "mica", "--model", "hertz", "--hamaker", "10zJ")
+        self.assertEqual(str(refused.exception), expected)
+        with self.assertRaises(ValueError) as refused:
+            touchafm.Contact(tip_radius=1e-9)
+        self.assertIn("--spring-constant", str(refused.exception))
+
+    def test_refuses_what_is_no_number_and_unknown_names(self):
+        for wrong in (float("nan"), float("inf"), 0.0, 1e300):
+            with self.assertRaises(ValueError):
+                touchafm.Contact.material("mica", tip_radius=wrong)
+        with self.assertRaises(TypeError):
+            touchafm.Contact.material("mica", tip_radius="50nm")
+        with self.assertRaises(TypeError):
+            touchafm.Contact.material("mica", colour=3.0)
+        with self.assertRaises(touchafm.FileError):
+            touchafm.Contact(material="mica", material_files=["/nowhere.toml"])
+
+    def test_knows_the_materials_of_the_command(self):
+        self.assertEqual(touchafm.materials()[:3], ["mica", "gold", "si3n4"])
+        self.assertIn("mlct-c", touchafm.probes())
+        self.assertEqual(touchafm.Contact.material("mica", probe="mlct-c").spring_constant, 0.01)
+
+    def test_cannot_be_changed(self):
+        mica = touchafm.Contact.material("mica")
+        with self.assertRaises(AttributeError):
+            mica.tip_radius = 1e-9
+        with self.assertRaises(ValueError):
+            touchafm.cycle(mica).force[0] = 1.0
+
+    def test_is_pickled_by_what_was_given(self):
+        mica = touchafm.Contact.material("mica", tip_radius=20e-9, law="jkr")
+        again = pickle.loads(pickle.dumps(mica))
+        self.assertEqual(again.as_dict(), mica.as_dict())
+        self.assertEqual(again.law, "jkr")
+
+
+class Law(unittest.TestCase):
+    def setUp(self):
+        self.law = touchafm.law("dmt", touchafm.Contact.material("mica"))
+
+    def test_takes_any_array_and_gives_its_shape(self):
+        z = np.linspace(-5e-9, 20e-9, 3000).astype(np.float32).reshape(30, 100)[::3, ::2]
+        self.assertFalse(z.flags["C_CONTIGUOUS"])
+        force = self.law.force(z, branch="attached")
+        self.assertEqual(force.shape, z.shape)
+        self.assertEqual(force.dtype, np.float64)
+        np.testing.assert_array_equal(force, self.law.force(np.array(z, dtype=np.float64), branch="attached"))
+        self.assertEqual(self.law.force(np.zeros((0, 3))).shape, (0, 3))
+
+    def test_gives_a_float_for_a_float(self):
+        self.assertIsInstance(self.law.force(3e-9), float)
+
+    def test_ends_in_its_jumps(self):
+        figures = self.law.figures
+        self.assertEqual(self.law.force(figures.z_jtc), figures.force_before_jtc)
+        self.assertEqual(self.law.force(figures.z_joc, branch="attached"), figures.force_before_joc)
+
+    def test_refuses_other_branches_and_laws(self):
+        for wrong in (lambda: self.law.force(1e-9, branch="middle"), lambda: touchafm.law("newton", self.law.contact),
+                      lambda: touchafm.law("dynamic-dmt", self.law.contact)):
+            with self.assertRaises(ValueError):
+                wrong()
+
+
+class Cycle(unittest.TestCase):
+    def test_is_the_json_of_the_command(self):
+        for law in ("auto", "paper", "jkr", "maugis", "hao", "lj", "paper-rule", "dynamic-dmt"):
+            with self.subTest(law):
+                cycle = touchafm.cycle(touchafm.Contact.material("mica"), law)
+                self.assertEqual(cycle.as_dict(), json_of("curve", "--material", "mica", "--model", law, "--json"))
+
+    def test_is_the_json_of_the_command_with_other_numbers(self):
+        contact = touchafm.Contact.material("gold", tip_radius=20e-9, humidity=0.07, reduced_modulus=1.5e9)
+        cycle = touchafm.cycle(contact, z_from=40e-9, z_to=-3e-9, step=0.05e-9)
+        expected = json_of("curve", "--material", "gold", "--tip-radius", "20nm", "--humidity", "7%", "--reduced-modulus",
+                           "1.5GPa", "--from", "40nm", "--to=-3nm", "--step", "0.05nm", "--json")
+        self.assertEqual(without_sources(cycle.as_dict()), without_sources(expected))
+
+    def test_has_arrays_in_si(self):
+        cycle = touchafm.cycle(touchafm.Contact.material("mica"), "paper")
+        self.assertEqual(len(cycle), len(cycle.force))
+        self.assertEqual(cycle.force.min(), cycle.pull_off.force)
+        self.assertEqual(cycle.z[cycle.approach].min(), cycle.z.min())
+        self.assertEqual([event.kind for event in cycle.events], ["jump-to-contact", "jump-off-contact"])
+        area = -np.trapz(cycle.force, cycle.z)
+        self.assertAlmostEqual(area / cycle.loop_energy, 1.0, delta=1e-3)
+
+    def test_outlives_nothing_that_its_arrays_need(self):
+        force = touchafm.cycle(touchafm.Contact.material("mica")).force
+        self.assertTrue(np.isfinite(force).all())
+
+    def test_refuses_with_the_words_of_the_command(self):
+        mica = touchafm.Contact.material("mica")
+        with self.assertRaises(ValueError) as refused:
+            touchafm.cycle(mica, speed=1e-6)
+        self.assertEqual(str(refused.exception), error_of("curve", "--material", "mica", "--speed", "1um/s"))
+        for wrong in ({"step": 0.0}, {"step": float("nan")}, {"z_to": 1.0}, {"law": "newton"}, {"z_from": float("inf")}):
+            with self.assertRaises(ValueError, msg=wrong):
+                touchafm.cycle(mica, **wrong)
+
+
+class Sweep(unittest.TestCase):
+    def test_is_the_json_of_the_command(self):
+        mica = touchafm.Contact.material("mica")
+        sweep = touchafm.sweep(mica, "dmt", spring_constant=np.linspace(0.05, 0.25, 5))
+        expected = json_of("curve", "--material", "mica", "--model", "dmt", "--sweep", "spring-constant=0.05N/m:0.25N/m:5",
+                           "--json")
+        self.assertEqual(sweep.as_dict(), expected)
+
+    def test_has_the_shape_of_its_grid(self):
+        sweep = touchafm.sweep(touchafm.Contact.material("mica"), tip_radius=[1e-8, 2e-8], spring_constant=[0.1, 0.2, 0.4])
+        self.assertEqual(sweep.pull_off_force.shape, (2, 3))
+        self.assertEqual(len(sweep.laws), 6)
+        single = touchafm.cycle(touchafm.Contact.material("mica", tip_radius=2e-8, spring_constant=0.4))
+        self.assertEqual(sweep.pull_off_z[1, 2], single.pull_off.z)
+
+    def test_refuses_what_it_cannot_vary(self):
+        mica = touchafm.Contact.material("mica")
+        for wrong in ({}, {"tip_radius": []}, {"tip_radius": [-1.0]}, {"temperature": [300.0]}, {"tip_radius": [float("nan")]}):
+            with self.assertRaises(ValueError, msg=wrong):
+                touchafm.sweep(mica, **wrong)
+        with self.assertRaises(TypeError):
+            touchafm.sweep(mica, colour=[1.0])
+
+
+class Tapping(unittest.TestCase):
+    SET_UP = {"law": "dmt", "spring_constant": 40.0, "tip_radius": 20e-9, "hamaker": 64e-21, "reduced_modulus": 1.5e9,
+              "resonance": 300e3, "quality_factor": 400.0}
+    COMMAND = ("curve", "--mode", "tapping", "--free-amplitude", "20nm", "--resonance", "300kHz", "--quality-factor", "400",
+               "--model", "dmt", "--spring-constant", "40N/m", "--tip-radius", "20nm", "--hamaker", "64zJ", "--contact-gap",
+               "0.165nm", "--reduced-modulus", "1.5GPa", "--json")
+
+    def contact(self):
+        given = {key: value for key, value in self.SET_UP.items() if key not in ("resonance", "quality_factor")}
+        return touchafm.Contact(work_of_adhesion=1e-3, **given)
+
+    def tapping(self, **given):
+        return touchafm.tapping(self.contact(), free_amplitude=20e-9, resonance=300e3, quality_factor=400.0,
+                                contact_gap=0.165e-9, **given)
+
+    def test_is_the_json_of_the_command(self):
+        tapping = self.tapping()
+        self.assertEqual(without_sources(tapping.as_dict()), without_sources(json_of(*self.COMMAND)))
+        self.assertGreater(tapping.amplitude.max(), 19e-9)
+        at = self.tapping(at=17.4 / 1e9)  # as a typed 17.4nm is read
+        self.assertEqual(without_sources(at.as_dict()), without_sources(json_of(*self.COMMAND, "--at", "17.4nm")))
+
+    def test_refuses_what_has_no_effect(self):
+        with self.assertRaises(ValueError):
+            self.tapping(at=17.4e-9, z_from=1e-8)
+        with self.assertRaises(ValueError):
+            self.tapping(method="guess")
+
+
+class Paper(unittest.TestCase):
+    def test_has_tables_1_and_2(self):
+        tables = touchafm.paper_tables()
+        self.assertEqual(tables["table1"]["mica"]["Z_jtc_m"]["exact"], touchafm.Contact.material("mica", law="paper").figures.z_jtc)
+        self.assertEqual(sorted(tables), ["table1", "table2"])
+
+
+class Import(unittest.TestCase):
+    def test_loads_no_window_system(self):
+        with open("/proc/self/maps", encoding="utf-8") as maps:
+            loaded = maps.read()
+        for library in ("libvulkan", "libglfw", "libX11", "libxcb", "libhdf5"):
+            self.assertNotIn(library, loaded)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Curves of files and arrays, their analysis and fits: the numbers, refusals and JSON of the command."""
+
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+
+import touchafm
+from command import error_of, json_of, touchafm as command
+
+GEL = {"tip_radius": 5e-6, "modulus": 3e3, "spring_constant": 0.05, "most_force": 1e-9, "noise": 15e-12}
+GEL_COMMAND = ("--radius", "5um", "--modulus", "3kPa", "--spring-constant", "0.05N/m", "--most-force", "1nN", "--noise", "15pN")
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def made(self, name, *options):
+        path = self.folder / name
+        result = command("generate", "curve", *GEL_COMMAND, *options, "--out", str(path))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return path
+
+
+class Reading(Files):
+    def test_gives_every_curve_of_a_file(self):
+        curves = touchafm.read(self.made("gels.h5", "--count", "3", "--points", "100"))
+        self.assertEqual(len(curves), 3)
+        self.assertEqual([len(curve) for curve in curves], [200, 200, 200])
+        self.assertEqual(curves[0].metadata["spring_constant"], 0.05)
+        self.assertEqual(int(curves[0].approach.sum()), 100)
+
+    def test_takes_another_calibration(self):
+        path = self.made("gel.tab")
+        plain, stiff = touchafm.read(path)[0], touchafm.read(path, spring_constant=0.1)[0]
+        np.testing.assert_allclose(stiff.force, 2.0 * plain.force, rtol=1e-12)
+        for wrong in (0.0, -1.0, float("nan"), float("inf")):
+            with self.assertRaises(ValueError):
+                touchafm.read(path, spring_constant=wrong)
+
+    def test_refuses_with_the_words_of_the_command(self):
+        broken = self.folder / "broken.tab"
+        broken.write_bytes(self.made("gel.tab").read_bytes()[:5000])
+        for path in (self.folder / "nothing.tab", broken):
+            with self.assertRaises(touchafm.FileError) as refused:
+                touchafm.read(path)
+            self.assertEqual(str(refused.exception), error_of("analyse", str(path)))
+        self.assertTrue(issubclass(touchafm.FileError, OSError))
+
+    def test_reads_an_image(self):
+        path = self.folder / "mica.gwy"
+        result = command("generate", "image", "--material", "mica", "--size", "40nm", "--pixels", "16", "--rate", "20Hz",
+                         "--out", str(path))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        image = touchafm.read_image(path)
+        values, unit = image["channels"][image["chosen"]]
+        self.assertEqual((values.shape, unit), ((16, 16), "m"))
+        self.assertAlmostEqual(image["width"], 40e-9)
+
+
+class Curves(Files):
+    def test_are_written_and_read_back(self):
+        curve = touchafm.generate(points=100, **GEL)[0][0]
+        for ending in ("tab", "h5"):
+            path = self.folder / f"curve.{ending}"
+            curve.write(path, format=ending)
+            again = touchafm.read(path)[0]
+            np.testing.assert_allclose(again.force, curve.force, rtol=1e-9, atol=1e-20)
+        with self.assertRaises(ValueError):
+            curve.write(self.folder / "curve.doc", format="doc")
+        with self.assertRaises(OSError):
+            curve.write("/nowhere/curve.tab", format="tab")
+
+    def test_are_made_of_arrays(self):
+        z = np.linspace(1e-6, 0.0, 50, dtype=np.float32)
+        curve = touchafm.Curve(z=np.concatenate([z, z[::-1]]), force=np.zeros(100), approach=np.arange(100) < 50,
+                               spring_constant=0.1, name="mine")
+        self.assertEqual((len(curve), curve.name), (100, "mine"))
+        with self.assertRaises(ValueError):
+            touchafm.Curve(z=z, force=z[1:], approach=z > 0)
+        with self.assertRaises(ValueError):
+            touchafm.Curve(z=z * np.nan, force=z, approach=z > 0)
+        with self.assertRaises(ValueError):
+            touchafm.Curve(z=z, force=z, approach=np.arange(50) > 10)
+
+    def test_are_those_of_the_command_for_a_seed(self):
+        made, truth = touchafm.generate("paraboloid", seed=7, points=100, **GEL)
+        read = touchafm.read(self.made("gel.h5", "--seed", "7", "--points", "100"))
+        np.testing.assert_allclose(made[0].force, read[0].force, rtol=1e-12)
+        self.assertEqual(truth["parameters"]["modulus_Pa"], 3e3)
+        for wrong in ({"points": 1}, {"count": 0}, {"base": "sliding"}, {"half_angle": 0.3}, {"noise": -1.0}):
+            with self.assertRaises(ValueError, msg=wrong):
+                touchafm.generate(**{**GEL, **wrong})
+
+
+class Fits(Files):
+    def test_are_the_json_of_the_command(self):
+        gel = self.made("gel.h5", "--noise-memory", "0.9")
+        sticky = self.made("sticky.h5", "--law", "jkr", "--work-of-adhesion", "0.1mJ/m2")
+        for path, model in ((gel, "sphere"), (gel, "paraboloid"), (sticky, "jkr"), (sticky, "auto")):
+            with self.subTest(model):
+                expected = json_of("analyse", str(path), "--fit", model, "--radius", "5um", "--uncertainty",
+                                   "spring-constant=7%", "--json")
+                analysis = touchafm.analyse(touchafm.read(path)[0])
+                fit = touchafm.fit(analysis, model=model, tip_radius=5e-6, uncertainties={"spring_constant": 0.07})
+                self.assertEqual(fit.as_dict(), expected.pop("fit"))
+                self.assertEqual(analysis.as_dict(), expected)
+                self.assertEqual(fit.E, fit.as_dict()["modulus_Pa"])
+
+    def test_hold_the_truth_in_their_interval(self):
+        curves, truth = touchafm.generate(count=20, **GEL)
+        held = 0
+        for curve in curves:
+            low, high = touchafm.fit(curve, model="paraboloid", tip_radius=5e-6).E_interval
+            held += low < truth["parameters"]["modulus_Pa"] < high
+        self.assertGreaterEqual(held, 16)  # of 20 with a chance of 0.95 each: fewer in one of 400 runs of other seeds
+
+    def test_refuse_with_the_words_of_the_command(self):
+        path = self.made("gel.h5")
+        curve = touchafm.read(path)[0]
+        for given, options in (({}, ()), ({"tip_radius": 5e-6, "layer": 1e-6}, ("--radius", "5um", "--layer", "1um"))):
+            with self.assertRaises(ValueError) as refused:
+                touchafm.fit(curve, model="sphere", **given)
+            self.assertEqual(str(refused.exception), error_of("analyse", str(path), "--fit", "sphere", *options))
+        for wrong in ({"tip_radius": 1.0}, {"tip_radius": float("nan")}, {"tip_radius": 5e-6, "poisson": 0.7}):
+            with self.assertRaises(ValueError, msg=wrong):
+                touchafm.fit(curve, model="sphere", **wrong)
+        with self.assertRaises(ValueError):
+            touchafm.fit(curve, model="cube")
+        with self.assertRaises(TypeError):
+            touchafm.fit(curve, model="sphere", radius=5e-6)
+        flat = touchafm.Curve(z=np.linspace(1e-6, 0, 100), force=np.zeros(100), approach=np.ones(100))
+        with self.assertRaises(touchafm.FileError):
+            touchafm.fit(flat, model="sphere", tip_radius=5e-6)
+
+
+class Sessions(Files):
+    def test_give_what_the_hand_felt(self):
+        corpus = pathlib.Path(__file__).parent.parent / "fuzz" / "corpus" / "session"
+        session = touchafm.session(corpus / "friction-and-scan.afms")
+        self.assertEqual(len(session.time), len(session))
+        self.assertEqual(len(session.hand_force), len(session))
+        self.assertTrue(np.isfinite(session.force).all())
+        with self.assertRaises(touchafm.FileError):
+            touchafm.session(corpus / "count-too-large.afms")
+
+
+if __name__ == "__main__":
+    unittest.main()
