@@ -44,6 +44,19 @@ std::vector<MarkerLabel> labels_of(const render::ForcePanel& panel) {
   return labels;
 }
 
+// A pressed tip has its cursor in the upper left corner.
+TEST(ForcePanel, HasItsCaptionBesideTheCursorAndNotBelowIt) {
+  const auto cursor = [](float x, float y) { return LabelBox{{x - 19.0F, y - 19.0F}, {x + 19.0F, y + 19.0F}}; };
+  for (float x = kPlot.from.x; x < kPlot.from.x + 200.0F; x += 10.0F) {
+    const LabelBox pressed = cursor(x, kPlot.from.y);
+    const LabelBox caption = render::moved_right_of(pressed, kCaption);
+    EXPECT_FALSE(render::overlap(pressed, caption)) << x;
+    EXPECT_FLOAT_EQ(caption.from.y, kCaption.from.y);
+    EXPECT_LE(caption.to.x, kPlot.to.x);
+  }
+  EXPECT_EQ(render::moved_right_of(cursor(300.0F, 600.0F), kCaption).from, kCaption.from) << "a free tip's is far away";
+}
+
 TEST(ForcePanel, NoLabelCoversAnotherForAnyMaterialOfTheLibrary) {
   const std::string assets = support::source("assets");
   const scene::MaterialLibrary library = scene::load_materials(assets + "/materials.toml").value();

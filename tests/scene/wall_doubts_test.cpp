@@ -108,6 +108,50 @@ TEST(WallDoubts, NameTheUnitOfCornersOrHeadAlone) {
   EXPECT_THAT(Written().scaled(1e3, 1.0).refusal(), HasSubstr("corners in millimetres and sweet_spot in metres"));
 }
 
+// Several units may fit; the one that was written is among those named, of a desk, a television and a powerwall.
+TEST(WallDoubts, HaveTheWrittenUnitAmongThoseThatTheyName) {
+  const Written television{{-0.5, 0.9, 0}, {0.5, 0.9, 0}, {-0.5, 1.4625, 0}, {0, 1.2, 1.5}, {}, {}, {}};
+  const Written powerwall{{-3, 0.3, 0}, {3, 0.3, 0}, {-3, 3.7, 0}, {0, 1.7, 4}, {}, {}, {}};
+  const auto said = [](const Written& written) {
+    const auto wall = written.wall();
+    return wall ? fmt::format("{}", fmt::join(doubts_of(*wall), "\n")) : wall.error().message;
+  };
+  constexpr double kFeet = 1.0 / 0.3048, kInches = 1.0 / 0.0254;
+  for (const Written& written : {television, powerwall, desk()}) {
+    for (const auto& [per_m, unit] : {std::pair{1e3, "millimetres"}, {1e2, "centimetres"}, {kInches, "inches"}}) {
+      EXPECT_THAT(said(written.scaled(per_m, per_m)), HasSubstr(fmt::format("as {}, the screen", unit)));
+      EXPECT_THAT(said(written.scaled(1.0, per_m)), HasSubstr(fmt::format("sweet_spot in {}, the head", unit)));
+      EXPECT_THAT(said(written.scaled(per_m, 1.0)), HasSubstr(fmt::format("corners in {} and sweet_spot in", unit)));
+    }
+  }
+  EXPECT_THAT(said(television.scaled(kFeet, kFeet)), HasSubstr("as feet, the screen would be 1.00 m x 0.56 m"));
+  EXPECT_THAT(said(powerwall.scaled(10.0, 1.0)),
+              HasSubstr("4000 mm in front of screen \"wall\", which is 60.00 m wide: "
+                        "lengths are in metres: with the corners in"));
+}
+
+TEST(WallDoubts, NameTheUnitOfALeftHandedRoom) {
+  Written unity = Written().scaled(1e3, 1e3);
+  unity.head.z = -unity.head.z;
+  EXPECT_THAT(unity.refusal(), HasSubstr("as millimetres, the screen would be 3.20 m x 1.80 m with the head 2.40 m "
+                                         "behind it"));
+}
+
+TEST(WallDoubts, NameTheTurnOfTheAxisThatPointsUp) {
+  Written x_up;
+  for (glm::dvec3* point : {&x_up.lower_left, &x_up.lower_right, &x_up.upper_left, &x_up.head}) {
+    *point = {point->y, -point->x, point->z};
+  }
+  EXPECT_THAT(x_up.doubts(),
+              ElementsAre(HasSubstr("if +x points up in your room, write each point x, y, z as [-y, x, z]")));
+  Written x_down;
+  for (glm::dvec3* point : {&x_down.lower_left, &x_down.lower_right, &x_down.upper_left, &x_down.head}) {
+    *point = {-point->y, point->x, point->z};
+  }
+  EXPECT_THAT(x_down.doubts(),
+              ElementsAre(HasSubstr("if -x points up in your room, write each point x, y, z as [y, -x, z]")));
+}
+
 TEST(WallDoubts, AreSaidOfEveryViewer) {
   Written two;
   two.viewers = "[[viewer]]\nname = \"second\"\nipd = \"60 mm\"\nsweet_spot = [0, 1650, 2400]\n";

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "panels/panel_painting.h"
@@ -14,6 +15,7 @@ constexpr float kColumn = 1.0F;  // a third of a pixel at 960 pixels on a wall o
 constexpr float kRetractWidth = 7.0F;
 constexpr float kApproachWidth = 4.5F;
 constexpr float kFadedAlpha = 0.50F;
+constexpr float kCursorRadius = 19.0F;
 
 // Position of the axes on the canvas, and their ranges.
 struct Plot {
@@ -124,17 +126,24 @@ void paint_axes(Canvas& canvas, const Plot& plot, double place_step, double forc
   }
 }
 
-// Box of the caption of the force axis.
-LabelBox force_caption(const Canvas& canvas, const Plot& plot, const PlotWords& words) {
+// Centre of the cursor, at the edge if it lies outside.
+std::optional<glm::vec2> cursor_place(const Plot& plot, const ForcePanel& panel) {
+  if (!panel.cursor || !std::isfinite(panel.cursor->place_nm) || !std::isfinite(panel.cursor->force_nn)) return {};
+  return glm::clamp(plot.place(*panel.cursor), plot.top_left, plot.bottom_right);
+}
+
+// Box of the caption of the force axis, in the corner where the cursor of a pressed tip lies.
+LabelBox force_caption(const Canvas& canvas, const Plot& plot, const ForcePanel& panel) {
   const glm::vec2 place = plot.top_left + glm::vec2(8.0F, -2.0F);
-  const glm::vec2 size(canvas.text_width_mm(TextStyle::Body, words.force_axis) + 16.0F,
+  const glm::vec2 size(canvas.text_width_mm(TextStyle::Body, panel.words.force_axis) + 16.0F,
                        text_height_mm(TextStyle::Body) + 6.0F);
-  return {place, place + size};
+  const LabelBox corner{place, place + size};
+  const auto cursor = cursor_place(plot, panel);
+  return cursor ? moved_right_of({*cursor - kCursorRadius, *cursor + kCursorRadius}, corner) : corner;
 }
 
 // Draws the captions of both axes, over the curves.
-void paint_captions(Canvas& canvas, const Plot& plot, const PlotWords& words) {
-  const LabelBox force = force_caption(canvas, plot, words);
+void paint_captions(Canvas& canvas, const Plot& plot, const LabelBox& force, const PlotWords& words) {
   canvas.rectangle(force.from, force.to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
   canvas.text(force.from + glm::vec2(8.0F, 1.0F), TextStyle::Body, palette::kInk, words.force_axis);
   // in the middle: the sample hides the panel's right corner
@@ -169,7 +178,7 @@ bool in_range(const Plot& plot, const PlotMarker& marker) {
 }
 
 // Draws all lines first, so that none crosses a label.
-void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarker>& markers, const PlotWords& words) {
+void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarker>& markers, const LabelBox& caption) {
   const Color line_color{palette::kInk.srgb, 0.60F};
   std::vector<MarkerLabel>& labels = canvas.memory().labels;
   labels.clear();
@@ -190,7 +199,7 @@ void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarke
          {canvas.text_width_mm(TextStyle::Small, marker.label) + 12.0F, text_height_mm(TextStyle::Small) + 6.0F}});
   }
   std::vector<LabelBox>& boxes = canvas.memory().boxes;
-  boxes.assign(1, force_caption(canvas, plot, words));
+  boxes.assign(1, caption);
   place_labels(labels, {plot.top_left, plot.bottom_right}, boxes);
   auto box = boxes.begin() + 1;
   for (const PlotMarker& marker : markers) {
@@ -203,13 +212,8 @@ void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarke
   }
 }
 
-void paint_cursor(Canvas& canvas, const Plot& plot, const PlotPoint& cursor) {
-  if (!std::isfinite(cursor.place_nm) || !std::isfinite(cursor.force_nn)) {
-    return;
-  }
-  glm::vec2 place = plot.place(cursor);
-  place = glm::clamp(place, plot.top_left, plot.bottom_right);
-  canvas.disc(place, 19.0F, palette::kPlate);
+void paint_cursor(Canvas& canvas, const glm::vec2& place) {
+  canvas.disc(place, kCursorRadius, palette::kPlate);
   canvas.disc(place, 16.0F, palette::kInk);
   canvas.disc(place, 9.5F, palette::kOrange);
 }
@@ -235,7 +239,8 @@ void paint(Canvas& canvas, const ForcePanel& panel) {
   paint_axes(canvas, plot, place_step, force_step, mark);
 
   // markers before the curves, so that no label hides measured data
-  paint_markers(canvas, plot, panel.markers, panel.words);
+  const LabelBox caption = force_caption(canvas, plot, panel);
+  paint_markers(canvas, plot, panel.markers, caption);
   canvas.push_clip(plot.top_left, plot.bottom_right);
   for (const auto& curve : panel.curves) {
     if (curve.faded) {
@@ -248,10 +253,8 @@ void paint(Canvas& canvas, const ForcePanel& panel) {
     }
   }
   canvas.pop_clip();
-  paint_captions(canvas, plot, panel.words);
-  if (panel.cursor) {
-    paint_cursor(canvas, plot, *panel.cursor);
-  }
+  paint_captions(canvas, plot, caption, panel.words);
+  if (const auto place = cursor_place(plot, panel)) paint_cursor(canvas, *place);
 }
 
 }  // namespace afm::render

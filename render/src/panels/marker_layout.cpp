@@ -35,6 +35,12 @@ bool overlap(const LabelBox& a, const LabelBox& b) {
   return a.from.x < b.to.x && b.from.x < a.to.x && a.from.y < b.to.y && b.from.y < a.to.y;
 }
 
+LabelBox moved_right_of(const LabelBox& obstacle, const LabelBox& box) {
+  if (!overlap(obstacle, box)) return box;
+  const float by = obstacle.to.x + kApart - box.from.x;
+  return {{box.from.x + by, box.from.y}, {box.to.x + by, box.to.y}};
+}
+
 void place_labels(std::span<const MarkerLabel> labels, const LabelBox& plot, std::vector<LabelBox>& taken) {
   for (const MarkerLabel& label : labels) {
     std::optional<LabelBox> first, free;

@@ -17,6 +17,9 @@ struct LabelBox {
 
 bool overlap(const LabelBox& a, const LabelBox& b);
 
+// The box, to the right of the obstacle if they overlap.
+LabelBox moved_right_of(const LabelBox& obstacle, const LabelBox& box);
+
 struct MarkerLabel {
   PlotMarker::Kind kind = PlotMarker::Kind::VerticalLine;
   float line = 0;  // x of a vertical line, y of a horizontal one

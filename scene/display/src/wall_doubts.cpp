@@ -19,25 +19,32 @@ namespace {
 
 constexpr double kLongestEdgeM = 60.0;     // the largest screens of open-air stages
 constexpr double kFarthestHeadM = 60.0;    // a wall of 3 m fills three degrees there
-constexpr double kLeastWidths = 0.1;       // least distance of the head, in widths of the screen
 constexpr double kSmallestExtentM = 0.03;  // a watch
 constexpr double kFlat = 0.95;             // sine of 72 degrees: floors, ceilings and tables within 18 degrees
 constexpr double kUpright = 0.866;         // cosine of 30 degrees
 constexpr double kFacing = 0.26;           // cosine of 75 degrees between the lines of the eyes and of the screen
 constexpr double kBelowFloorM = 0.5;       // origin of a room at the height of a seat
 constexpr double kMostDark = 0.2;          // share of a projector outside its mesh
+constexpr std::string_view kCheckUnit = "lengths are in metres: check the unit";
 constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);
 
 glm::dvec3 right_of(const Screen& screen) { return glm::normalize(screen.lower_right - screen.lower_left); }
 glm::dvec3 up_of(const Screen& screen) { return glm::cross(screen.normal(), right_of(screen)); }
 bool is_flat(const Screen& screen) { return std::abs(screen.normal().y) > kFlat; }
 
-std::string axis_of(const glm::dvec3& direction) {
+// Axis that is nearest to the direction, and the turn that makes it the room's +y.
+struct UpwardAxis {
+  std::string_view name, turned;
+};
+UpwardAxis upward_axis(const glm::dvec3& direction) {
+  constexpr std::array<std::array<UpwardAxis, 2>, 3> kAxes{{{{{"+x", "[-y, x, z]"}, {"-x", "[y, -x, z]"}}},
+                                                            {{{"+y", "[x, y, z]"}, {"-y", "[-x, -y, z]"}}},
+                                                            {{{"+z", "[x, z, -y]"}, {"-z", "[x, -z, y]"}}}}};
   int axis = 0;
   for (int i = 1; i < 3; ++i) {
     if (std::abs(direction[i]) > std::abs(direction[axis])) axis = i;
   }
-  return fmt::format("{}{}", direction[axis] < 0.0 ? '-' : '+', "xyz"[axis]);
+  return kAxes.at(static_cast<std::size_t>(axis)).at(direction[axis] < 0.0 ? 1 : 0);
 }
 
 std::string list_of(const std::vector<const Screen*>& screens) {
@@ -88,11 +95,12 @@ std::vector<std::string> doubts_of_upright(const Wall& wall) {
         list_of(upside_down)));
   }
   if (!turned.empty()) {
+    const UpwardAxis up = upward_axis(up_of(*turned.front()));
     doubts.push_back(fmt::format(
         "{}: the upper edge points along {}, but +y points up in the room, so the picture lies on its back or its "
-        "side: if z points up in your room, write each point x, y, z as [x, z, -y]; otherwise give the corners as a "
+        "side: if {} points up in your room, write each point x, y, z as {}; otherwise give the corners as a "
         "viewer in front of the screen sees them",
-        list_of(turned), axis_of(up_of(*turned.front()))));
+        list_of(turned), up.name, up.name, up.turned));
   }
   return doubts;
 }
@@ -168,22 +176,27 @@ void doubt_turn(const Wall& wall, const Viewer& viewer, std::vector<std::string>
                                turn_that_fits(wall, viewer)));
 }
 
+std::string unit_or(const Wall& wall, const Viewer& viewer, std::string_view otherwise) {
+  const std::string unit = unit_that_fits(wall, viewer);
+  return unit.empty() ? std::string(otherwise) : unit;
+}
+
 void doubt_distance(const Wall& wall, const Viewer& viewer, std::vector<std::string>& doubts) {
   const glm::dvec3& head_m = viewer.sweet_spot.position_m;
   const WallLengths lengths = lengths_of(wall, viewer);
   if (too_far(lengths)) {
     doubts.push_back(fmt::format("{}: the head is {:.2f} m in front of a wall whose diagonal is {:.2f} m; {}",
-                                 who(viewer), lengths.distance_m, lengths.extent_m, unit_that_fits(wall, viewer)));
+                                 who(viewer), lengths.distance_m, lengths.extent_m, unit_or(wall, viewer, kCheckUnit)));
   } else if (too_high(lengths)) {
     doubts.push_back(fmt::format("{}: the head is {:.2f} m above the floor; {}", who(viewer), lengths.head_height_m,
-                                 unit_that_fits(wall, viewer)));
+                                 unit_or(wall, viewer, kCheckUnit)));
   }
   for (const Screen& screen : wall.screens) {
     const double distance_m = glm::dot(head_m - screen.lower_left, screen.normal());
     if (is_flat(screen) || distance_m >= kLeastWidths * screen.width_m()) continue;
-    doubts.push_back(fmt::format(
-        "{}: the head is {:.0f} mm in front of screen \"{}\", which is {:.2f} m wide: check sweet_spot and the corners",
-        who(viewer), distance_m * 1e3, screen.name, screen.width_m()));
+    doubts.push_back(fmt::format("{}: the head is {:.0f} mm in front of screen \"{}\", which is {:.2f} m wide: {}",
+                                 who(viewer), distance_m * 1e3, screen.name, screen.width_m(),
+                                 unit_or(wall, viewer, "check sweet_spot and the corners")));
   }
 }
 
@@ -255,7 +268,7 @@ std::optional<ImpossibleLength> impossible_length(const Wall& wall) {
     if (std::max(screen.width_m(), screen.height_m()) <= kLongestEdgeM) continue;
     return ImpossibleLength{.index = i,
                             .what = fmt::format("the screen would be {:.0f} m x {:.0f} m; {}", screen.width_m(),
-                                                screen.height_m(), unit_that_fits(wall, wall.viewers.front()))};
+                                                screen.height_m(), unit_or(wall, wall.viewers.front(), kCheckUnit))};
   }
   for (std::size_t i = 0; i < wall.viewers.size(); ++i) {
     const WallLengths lengths = lengths_of(wall, wall.viewers[i]);
@@ -264,7 +277,7 @@ std::optional<ImpossibleLength> impossible_length(const Wall& wall) {
         .of_viewer = true,
         .index = i,
         .what = fmt::format("the head would be {:.0f} m in front of a screen {:.2f} m wide; {}", lengths.distance_m,
-                            wall.screens.front().width_m(), unit_that_fits(wall, wall.viewers[i]))};
+                            wall.screens.front().width_m(), unit_or(wall, wall.viewers[i], kCheckUnit))};
   }
   return std::nullopt;
 }

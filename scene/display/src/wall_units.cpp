@@ -34,7 +34,9 @@ constexpr std::array kOtherUnits{LengthUnit{"millimetres", 1e-3, 0.0}, LengthUni
                                  LengthUnit{"inches", 0.0254, 0.0}, LengthUnit{"feet", 0.3048, 0.0},
                                  LengthUnit{"decimetres", 0.1, 5.0}};
 constexpr double kPenaltyOfOneInMetres = 0.7, kPenaltyOfTwoUnits = 2.5;
+constexpr double kPenaltyOfAnOddHead = 6.0;  // behind a screen or very high: axes that are wrong, too
 constexpr double kNearlyAsGood = 3.0;
+constexpr std::size_t kMostReadings = 3;
 
 std::array<glm::dvec3, 4> corners_of(const Screen& screen) {
   return {screen.lower_left, screen.lower_right, screen.upper_left,
@@ -48,6 +50,7 @@ struct Reading {
   double penalty = std::numeric_limits<double>::infinity();
 
   bool in_one_unit() const { return screens.m == head.m; }
+  bool in_two_other_units() const { return !in_one_unit() && screens.m != kMetres.m && head.m != kMetres.m; }
 };
 
 double from_usual(double length_m, double usual_m) { return std::abs(std::log(length_m / usual_m)); }
@@ -62,21 +65,26 @@ Reading read_in(const Wall& wall, Viewer viewer, const LengthUnit& screens, cons
   reading.width_m = scaled.screens.front().width_m();
   reading.height_m = scaled.screens.front().height_m();
   const WallLengths& lengths = reading.lengths;
+  const double distance_m = std::abs(lengths.distance_m);
   const bool possible = lengths.extent_m >= kLeastExtentM && lengths.extent_m <= kMostExtentM &&
-                        lengths.distance_m >= kLeastDistanceM && !too_far(lengths) && !too_high(lengths);
+                        distance_m >= std::max(kLeastDistanceM, kLeastWidths * reading.width_m) &&
+                        distance_m <= kMostExtents * lengths.extent_m;
   if (!possible) return reading;
-  const bool one_in_metres = screens.m == kMetres.m || head.m == kMetres.m;
   reading.penalty =
-      screens.penalty + from_usual(lengths.extent_m, kUsualExtentM) + from_usual(lengths.distance_m, kUsualDistanceM);
-  if (!reading.in_one_unit())
-    reading.penalty += head.penalty + (one_in_metres ? kPenaltyOfOneInMetres : kPenaltyOfTwoUnits);
+      screens.penalty + from_usual(lengths.extent_m, kUsualExtentM) + from_usual(distance_m, kUsualDistanceM);
+  if (!reading.in_one_unit()) {
+    reading.penalty += head.penalty + (reading.in_two_other_units() ? kPenaltyOfTwoUnits : kPenaltyOfOneInMetres);
+  }
+  if (lengths.distance_m < 0.0 || too_high(lengths)) reading.penalty += kPenaltyOfAnOddHead;
   if (lengths.head_height_m > 0.0) reading.penalty += from_usual(lengths.head_height_m, kUsualHeightM);
   return reading;
 }
 
 std::string described(const Reading& reading) {
   const std::string screen = fmt::format("{:.2f} m x {:.2f} m", reading.width_m, reading.height_m);
-  const std::string head = fmt::format("{:.2f} m in front of it", reading.lengths.distance_m);
+  const double distance_m = reading.lengths.distance_m;
+  const std::string head =
+      fmt::format("{:.2f} m {} it", std::abs(distance_m), distance_m < 0.0 ? "behind" : "in front of");
   if (reading.in_one_unit()) {
     return fmt::format("as {}, the screen would be {} with the head {}", reading.screens.name, screen, head);
   }
@@ -122,13 +130,13 @@ std::string unit_that_fits(const Wall& wall, const Viewer& viewer) {
     }
   }
   std::sort(readings.begin(), readings.end(), [](const Reading& a, const Reading& b) { return a.penalty < b.penalty; });
-  const Reading& best = readings.front();
-  if (!std::isfinite(best.penalty)) return "lengths are in metres: check the unit";
-  std::string text = "lengths are in metres: " + described(best);
-  if (!best.in_one_unit()) return text;
-  for (const Reading& next : readings) {
-    if (&next == &best || !next.in_one_unit() || next.penalty > best.penalty + kNearlyAsGood) continue;
-    return text + "; " + described(next);
+  const double worst = readings.front().penalty + kNearlyAsGood;
+  std::string text;
+  std::size_t named = 0;
+  for (const Reading& reading : readings) {
+    if (named == kMostReadings || !std::isfinite(reading.penalty) || reading.penalty > worst) break;
+    if (named > 0 && reading.in_two_other_units()) continue;
+    text += (named++ == 0 ? "lengths are in metres: " : "; ") + described(reading);
   }
   return text;
 }

@@ -20,8 +20,11 @@ bool too_far(const WallLengths& lengths);
 // Higher than the eyes of a standing person on any usual platform.
 bool too_high(const WallLengths& lengths);
 
-// Names the unit in which the wall or the viewer's place may be written, such as "; read as millimetres, ..."; or only
-// asks to check it.
+// Least distance of a head from an upright screen, in widths of the screen.
+constexpr double kLeastWidths = 0.1;
+
+// Names the units in which the wall or the viewer's place may be written, the likeliest first, such as "lengths are in
+// metres: as millimetres, ..."; empty if none fits.
 std::string unit_that_fits(const Wall& wall, const Viewer& viewer);
 
 }  // namespace afm::scene
