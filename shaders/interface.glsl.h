@@ -64,12 +64,15 @@ struct FrameBlock {
   mat4 clip_from_room[2];
   vec4 eye_position[2];   // xyz; w: 0 left, 1 right
   mat4 shadow_from_room;  // to the shadow map's clip space, depth 0 nearest to the light
-  vec4 light_direction;   // xyz: unit vector to the key light
+  vec4 light_direction;   // xyz: unit vector to the key light; w: strength of the map's shadow
   vec4 light_side;        // xyz: unit, horizontal, across the light's direction
   vec4 light_radiance;    // rgb, linear; a: metres that one texel of the shadow map covers
   vec4 target_size;       // width, height of an eye image in pixels, and their reciprocals
   vec4 contact;           // xyz: contact of tip and sample; w: 1 / radius of the shade there; far away without one
   vec4 contact_ring;      // rgb: linear radiance, 0 without a ring; a: its radius in radii of the shade
+  vec4 cone_apex;         // xyz: lowest point of the cone that shades; w: radius of its rounded end
+  vec4 cone_axis;         // xyz: unit, into the cone; w: growth of the radius along it
+  vec4 cone_reach;        // x: height; y: strength, 0 without a cone
   vec4 fog;               // x: begin, y: 1 / (end - begin), 0 without a range; z: veil; w: 1 with a range
   vec4 screen[3];         // xyz: direction from between the eyes to the upper left corner of the eye images, and the
                           // vectors from there to the upper right and to the lower left corner
@@ -89,8 +92,8 @@ struct DrawBlock {
   vec4 normal_column[3];  // xyz: columns of the normal matrix, scaled so that the longest has length 1
   vec4 base_color;        // linear
   vec4 emissive;          // rgb: linear radiance; a: highlight, 0 or 1
-  vec4 surface;           // metallic, roughness, unlit (0 or 1), unused
-  vec4 bend;              // 1 / length, end deflection, both in the node's units; 0, 0: not bent; unused, unused
+  vec4 surface;           // metallic, roughness, unlit (0 or 1), 1: nothing casts a shadow on it
+  vec4 bend;              // 1 / length, end deflection, in the node's units; 0, 0: not bent; z: 1 with an outline
 };
 
 // push constants of a panel: the rectangle in the room

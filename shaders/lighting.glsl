@@ -15,12 +15,12 @@ struct Surface {
 // Effect of roughness on the softboxes: a wider lobe sees a wider, dimmer rectangle.
 struct Lobe {
   float border;  // half the width of a rectangle's soft edge
-  vec3 spread;   // brightness of the key's, the rim's and the fill's rectangle
+  vec3 spread;   // brightness of the key's, the rim's and the back's rectangle
 };
 
 const vec2 kKeyHalfSize = vec2(0.75, 0.42);
 const vec2 kRimHalfSize = vec2(0.22, 1.10);
-const vec2 kFillHalfSize = vec2(0.50, 0.80);
+const vec2 kBackHalfSize = vec2(1.10, 0.20);
 
 float spread_of(vec2 half_size, float border) {
   vec2 wider = max(half_size, vec2(border));
@@ -30,7 +30,7 @@ float spread_of(vec2 half_size, float border) {
 Lobe lobe_of(float roughness) {
   float border = AFM_LOBE_BORDER(roughness);
   return Lobe(border, vec3(spread_of(kKeyHalfSize, border), spread_of(kRimHalfSize, border),
-                           spread_of(kFillHalfSize, border)));
+                           spread_of(kBackHalfSize, border)));
 }
 
 // Distant rectangle of light, upright about its axis: its brightness in `direction`.
@@ -43,13 +43,13 @@ float softbox(vec3 direction, vec3 axis, vec3 side, vec2 half_size, float border
   return facing > 0.05 ? inside.x * inside.y : 0.0;
 }
 
-const vec3 kFillAxis = vec3(0.7346, 0.1130, 0.6690);
+const vec3 kBackAxis = vec3(-0.2140, 0.4708, -0.8559);
 const vec3 kRimAxis = vec3(0.5298, 0.3974, -0.7492);
-const vec3 kFillSide = vec3(0.6733, 0.0, -0.7394);  // normalize(cross(up, axis)), as Key::side
+const vec3 kBackSide = vec3(-0.9701, 0.0, 0.2425);  // normalize(cross(up, axis)), as Key::side
 const vec3 kRimSide = vec3(-0.8165, 0.0, -0.5774);
 const vec3 kKeyTint = vec3(1.00, 0.94, 0.85);
 const vec3 kRimTint = vec3(0.88, 0.94, 1.00);
-const vec3 kFillTint = vec3(1.00, 0.97, 0.93);
+const vec3 kBackTint = vec3(1.00, 0.97, 0.92);
 
 // Key light and its softbox: position, and the share visible from the surface. A shadow also blocks most of the
 // softbox, which gives depth to shadowed areas.
@@ -63,11 +63,11 @@ struct Key {
 vec3 studio_radiance(vec3 direction, Key key, float roughness, Lobe lobe) {
   float blur = 0.10 + 0.8 * roughness;
   vec3 sky = mix(vec3(0.78, 0.72, 0.66), vec3(0.20, 0.22, 0.26), smoothstep(-0.1, 0.75, direction.y));
-  vec3 radiance = mix(vec3(0.090, 0.078, 0.066), sky, smoothstep(-blur, blur, direction.y));
+  vec3 radiance = mix(vec3(0.120, 0.104, 0.088), sky, smoothstep(-blur, blur, direction.y));
   radiance += kKeyTint * ((0.6 + 2.6 * key.visibility) * lobe.spread.x *
                           softbox(direction, key.axis, key.side, kKeyHalfSize, lobe.border));
   radiance += kRimTint * (1.5 * lobe.spread.y * softbox(direction, kRimAxis, kRimSide, kRimHalfSize, lobe.border));
-  radiance += kFillTint * (0.45 * lobe.spread.z * softbox(direction, kFillAxis, kFillSide, kFillHalfSize, lobe.border));
+  radiance += kBackTint * (1.0 * lobe.spread.z * softbox(direction, kBackAxis, kBackSide, kBackHalfSize, lobe.border));
   return radiance;
 }
 
@@ -77,9 +77,9 @@ vec3 studio_irradiance(vec3 normal, Key key) {
   vec3 light = mix(vec3(0.055, 0.053, 0.052), vec3(0.195, 0.205, 0.225), 0.5 + 0.5 * normal.y);
   float toward_key = 0.5 + 0.5 * dot(normal, key.axis);
   float toward_rim = 0.5 + 0.5 * dot(normal, kRimAxis);
-  float toward_fill = 0.5 + 0.5 * dot(normal, kFillAxis);
+  float toward_back = 0.5 + 0.5 * dot(normal, kBackAxis);
   return light + kKeyTint * (0.10 + 0.20 * key.visibility) * toward_key * toward_key +
-         kRimTint * 0.13 * toward_rim * toward_rim + kFillTint * 0.06 * toward_fill * toward_fill;
+         kRimTint * 0.13 * toward_rim * toward_rim + kBackTint * 0.06 * toward_back * toward_back;
 }
 
 // Directional albedo of GGX by B. Karis's fit ("Physically Based Shading on Mobile", 2014) of D. Lazarov's.

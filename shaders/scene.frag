@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl.h"
 #include "background.glsl"
+#include "cone_shade.glsl"
 #include "contact.glsl"
 #include "lighting.glsl"
 #include "tone.glsl"
@@ -30,6 +31,9 @@ vec3 shadow_place;
 #include "shadow_place.glsl"
 #include "shading.glsl"
 
+// Outline: cosines to the eye between which it grows to its depth.
+const float kOutlineBegin = 0.12, kOutlineEnd = 0.48, kOutlineDepth = 0.85;
+
 void main() {
   vec3 front = normalize(room_normal);
   vec3 normal = gl_FrontFacing ? front : -front;
@@ -40,7 +44,15 @@ void main() {
   } else {
     bool has_back = (kVariant & AFM_FEATURE_DOUBLE_SIDED) != 0u;
     shadow_place = has_back ? place_in_shadow_map(room_position, normal) : front_shadow_place;
-    shown = shaded(room_position, s, Lobe(lobe.x, lobe.yzw), key_light_visibility());
+    float visible = key_light_visibility();
+    if ((kVariant & AFM_FEATURE_FOG) != 0u) {
+      visible = mix(1.0, visible, frame.light_direction.w) * past_cone(frame, room_position);
+    }
+    shown = shaded(room_position, s, Lobe(lobe.x, lobe.yzw), visible);
+    if ((kVariant & AFM_FEATURE_FOG) != 0u) {
+      float turned = 1.0 - smoothstep(kOutlineBegin, kOutlineEnd, dot(s.normal, s.to_eye));
+      shown *= 1.0 - draw.bend.z * kOutlineDepth * turned;
+    }
   }
 
   // fully fogged pixels show the background

@@ -103,6 +103,18 @@ void add_level_band(Surface& surface, const std::vector<V3>& above, double botto
   surface.add_triangle(low_left, low_right, last);
 }
 
+// What the ground below hides of the light: the foot of a cut face is darker.
+void shade_towards_foot(Surface& surface) {
+  double low = 0, high = 0;
+  for (const SurfaceVertex& vertex : surface.vertices) {
+    low = std::min(low, vertex.position.z);
+    high = std::max(high, vertex.position.z);
+  }
+  for (SurfaceVertex& vertex : surface.vertices) {
+    vertex.color = vertex.color * mix(0.48, 1, smooth_step(0, 0.85, (vertex.position.z - low) / (high - low)));
+  }
+}
+
 }  // namespace
 
 Surface walls_of(const HeightField& field, const std::vector<WallBand>& bands) {
@@ -135,6 +147,7 @@ Surface walls_of(const HeightField& field, const std::vector<WallBand>& bands) {
       }
     }
   }
+  shade_towards_foot(surface);
   return surface;
 }
 

@@ -15,11 +15,11 @@ constexpr int kRings = 10;
 
 double gaussian(double x, double y) { return 1 / ((1 + x * x + y * y) * (1 + x * x + y * y)); }
 
-// Shade of the stage's foot and of the plate above it, and of what stands on the shelf.
+// The soft shade of the stage's foot, and of the plate above it away from the key light: the floor takes no other.
 double shade(double x, double z) {
-  const double foot = gaussian(x / 0.30, (z + 0.12) / 0.30);
-  const double plate = gaussian(x / 0.75, (z + 0.05) / 0.6);
-  return (1 - 0.75 * foot) * (1 - 0.45 * plate);
+  const double foot = gaussian(x / 0.34, (z + 0.12) / 0.32);
+  const double plate = gaussian((x - 0.22) / 1.05, (z + 0.22) / 0.75);
+  return (1 - 0.7 * foot) * (1 - 0.72 * plate);
 }
 
 double visible(double x, double z) {

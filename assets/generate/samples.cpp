@@ -48,7 +48,7 @@ Model mica() {
   };
   const HeightField field(90, 40 * kNm / 90, [&](double x, double y) { return layers(x, y) * kLayer; });
 
-  const V3 even{0.80, 0.80, 0.80}, odd{0.58, 0.60, 0.62};
+  const V3 even{0.84, 0.85, 0.87}, odd{0.74, 0.76, 0.80};
   std::vector<WallBand> bands;
   for (int layer = 2; layer > -9; --layer) {
     bands.push_back({layer * kLayer, (layer - 1) * kLayer, layer % 2 == 0 ? even : odd});

@@ -16,10 +16,28 @@ MaterialSpec anodised() {
   return {.name = "anodised", .base_color = {0.055, 0.060, 0.072}, .metallic = 0.5, .roughness = 0.36};
 }
 
-// A low plate on a slim post, so that the sample is what one sees.
+// A low plate on a slim post, so that the sample is what one sees. Its top is in the sample's shade.
 Surface plate() {
+  constexpr double kCorner = 0.9 * kMm, kBevel = 0.09 * kMm, kSeat = 0.2;
+  const auto outline = [](double in) {
+    const V2 half = kPlateHalf - V2{in, in};
+    return rounded_rectangle(half * -1.0, half, kCorner - in, kRound);
+  };
   Surface surface;
-  add_prism(surface, rounded_rectangle(kPlateHalf * -1.0, kPlateHalf, 0.9 * kMm, kRound), -kPlateHeight, 0, 0.09 * kMm);
+  add_prism(surface, outline(0), -kPlateHeight, -0.02 * kMm, kBevel);
+  Surface top;
+  const std::vector<Outline> rings{outline(kBevel), outline(0.3 * kMm), outline(0.55 * kMm), outline(0.85 * kMm)};
+  top.add_grid(rings.size(), rings.front().size() + 1, [&](std::size_t row, std::size_t column) {
+    const OutlinePoint& point = rings[row][column % rings[row].size()];
+    const double lit =
+        mix(1, kSeat, smooth_step(0, 1, static_cast<double>(row) / static_cast<double>(rings.size() - 1)));
+    return SurfaceVertex{{point.position.x, point.position.y, 0}, {0, 0, 1}, {lit, lit, lit}};
+  });
+  Surface seat;
+  add_cap(seat, rings.back(), 0, Facing::Up);
+  seat.paint({kSeat, kSeat, kSeat});
+  add_placed(surface, top, {});
+  add_placed(surface, seat, {});
   return surface;
 }
 
@@ -49,11 +67,13 @@ Surface foot() {
 }  // namespace
 
 Model stage() {
+  MaterialSpec shaded = anodised();
+  shaded.vertex_colors = true;
   Model model{"stage", {}};
   model.nodes.push_back({.name = "stand", .placement = kYUpFromZUp});
   model.nodes.push_back({.name = "stage",
                          .parent = 0,
-                         .parts = {{plate(), anodised()}, {trim(), steel()}},
+                         .parts = {{plate(), shaded}, {trim(), steel()}},
                          .extras = {{"plate_width_m", 2 * kPlateHalf.x}, {"plate_depth_m", 2 * kPlateHalf.y}}});
   model.nodes.push_back({.name = "post", .parent = 0, .parts = {{post(), steel()}}});
   model.nodes.push_back({.name = "foot", .parent = 0, .parts = {{foot(), anodised()}}});

@@ -42,12 +42,31 @@ NodeSpec label() {
           .extras = {{"width_m", kWidth - 3 * kCm}, {"height_m", std::sqrt(dot(reach, reach)) - 1.6 * kCm}}};
 }
 
+// The soft shade of the plinth on what it stands on: from its foot outwards.
+NodeSpec shade() {
+  constexpr double kLift = 0.2 * kCm, kReach = 11 * kCm, kDarkest = 0.62;
+  constexpr std::size_t kRings = 6;
+  const Outline foot = rounded_rectangle({-kWidth / 2, -kDepth / 2}, {kWidth / 2, kDepth / 2}, 2 * kCm, 2);
+  Surface surface;
+  surface.add_grid(kRings + 1, foot.size() + 1, [&](std::size_t row, std::size_t column) {
+    const double out = 1 - static_cast<double>(row) / kRings;  // 1 far from the foot
+    const OutlinePoint& point = foot[column % foot.size()];
+    const V2 place = point.position + point.normal * (out * kReach - 1 * kCm);
+    return SurfaceVertex{{place.x, kLift, -place.y}, {0, 1, 0}, {0, 0, 0}, kDarkest * (1 - out) * (1 - out)};
+  });
+  return {.name = "shade",
+          .parent = 0,
+          .parts = {{std::move(surface),
+                     {.name = "shade", .roughness = 1, .fading = true, .unlit = true, .vertex_colors = true}}}};
+}
+
 Model swatch(std::string name, Surface sample, MaterialSpec material) {
   Model model{std::move(name), {}};
   model.nodes.push_back({.name = "swatch",
                          .parts = {{std::move(sample), std::move(material)}, {plinth(), plinth_material()}},
                          .extras = {{"width_m", kWidth}, {"depth_m", kDepth}, {"plinth_height_m", kPlinthHeight}}});
   model.nodes.push_back(label());
+  model.nodes.push_back(shade());
   return model;
 }
 
@@ -96,6 +115,12 @@ Surface ingot() {
                  {inset(rim, bevel), height, 0, 1}});
   add_cap(bar, inset(foot, bevel * 0.5), 0, Facing::Down);
   add_cap(bar, inset(rim, bevel), height, Facing::Up);
+
+  // what lies below takes the light from the foot; gold seen in gold is redder
+  for (SurfaceVertex& vertex : bar.vertices) {
+    const double lit = mix(0.34, 1, smooth_step(0, 0.75 * height, vertex.position.z));
+    vertex.color = {lit, lit * mix(0.8, 1, lit), lit * mix(0.6, 1, lit)};
+  }
   return bar;
 }
 
@@ -108,8 +133,9 @@ Model gold() {
   add_placed(pile, bar, upright(0, kPlinthHeight, kTopMiddle + 3.9 * kCm));
   const V3 along{0.96, 0, -0.28};  // turned by 16 degrees
   add_placed(pile, bar, {{0, kPlinthHeight + height, kTopMiddle}, along, {-0.28, 0, -0.96}, {0, 1, 0}});
-  return swatch("swatch-gold", std::move(pile),
-                {.name = "gold", .base_color = {1.0, 0.72, 0.28}, .metallic = 1, .roughness = 0.24});
+  return swatch(
+      "swatch-gold", std::move(pile),
+      {.name = "gold", .base_color = {1.0, 0.72, 0.28}, .metallic = 1, .roughness = 0.24, .vertex_colors = true});
 }
 
 void add_arc(Outline& outline, V2 center, double radius, V2 from, V2 to, int halvings) {

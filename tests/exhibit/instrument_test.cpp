@@ -130,7 +130,7 @@ TEST_F(InstrumentTest, TheMarksOfTheUnbentLeverPassBesideTheTipAndOverTheSample)
     const double z_m = share * z_joc(0);
     const render::FrameState state = frame({.material = 0, .tip = {.z_m = z_m, .deflection_m = z_m}});
     const glm::dmat4 sample_from_room = glm::inverse(state.room_from_node[node("sample")]);
-    for (const char* mark : {"marks/unbent", "marks/bend"}) {
+    for (const char* mark : {"marks/unbent", "marks/push", "marks/pull", "marks/push-head", "marks/pull-head"}) {
       const glm::dmat4 sample_from_mark = sample_from_room * state.room_from_node[node(mark)];
       if (glm::length(glm::dvec3(sample_from_mark[2])) == 0.0) continue;  // not drawn
       ++shown;
@@ -142,6 +142,27 @@ TEST_F(InstrumentTest, TheMarksOfTheUnbentLeverPassBesideTheTipAndOverTheSample)
     }
   }
   EXPECT_GT(shown, 40);
+}
+
+TEST_F(InstrumentTest, TheArrowOfTheForcePointsAsTheForceActsAndIsAsLongAsTheBend) {
+  const auto arrow = [&](double deflection_m, const std::string& name) {
+    const render::FrameState state = frame({.material = 0, .tip = {.z_m = 5e-9, .deflection_m = deflection_m}});
+    const glm::dmat4 sample_from_room = glm::inverse(state.room_from_node[node("sample")]);
+    const auto along = [&](const std::string& part) {
+      const glm::dmat4 sample_from_part = sample_from_room * state.room_from_node[node("marks/" + part)];
+      return sample_from_part[2].z;
+    };
+    return along(name) + along(name + "-head");
+  };
+  for (const double bent_m : {2e-9, 4e-9}) {
+    // a positive deflection is towards the sample
+    EXPECT_LT(arrow(bent_m, "pull"), 0.0);
+    EXPECT_EQ(arrow(bent_m, "push"), 0.0);
+    EXPECT_GT(arrow(-bent_m, "push"), 0.0);
+    EXPECT_EQ(arrow(-bent_m, "pull"), 0.0);
+  }
+  EXPECT_NEAR(arrow(4e-9, "pull") / arrow(2e-9, "pull"), 2.0, 0.1);
+  for (const char* name : {"push", "pull"}) EXPECT_EQ(arrow(0.0, name), 0.0) << name;
 }
 
 }  // namespace instrument_test

@@ -76,6 +76,30 @@ TEST_F(JourneyTest, NamesAKnownThingOfTheScaleBesideTheTip) {
   for (const double orders : {0.0, 2.0, 4.0, 5.6, 9.0}) EXPECT_EQ(frame(orders).labels.size(), 1U) << orders;
 }
 
+// What the map of the shadows covers is 3.4 layout units wide: at the scales of the tip it would end in the air.
+TEST_F(JourneyTest, FadesFromTheShadowsOfTrianglesToTheTipsSoftShade) {
+  double share = 1.0;
+  for (double orders = 0.0; orders <= kJourneyOrders; orders += 0.05) {
+    const render::FrameState state = frame(orders);
+    if (orders < 7.0) {
+      EXPECT_FLOAT_EQ(state.key_light.map_share + state.cone.share, 1.0F) << orders;
+    }
+    EXPECT_LE(static_cast<double>(state.key_light.map_share), share) << orders;
+    EXPECT_LT(share - static_cast<double>(state.key_light.map_share), 0.2) << orders;
+    share = static_cast<double>(state.key_light.map_share);
+    // it stands on the contact point
+    const glm::dvec3 contact(state.room_from_node[node("journey-frame")][3]);
+    EXPECT_LT(glm::distance(glm::dvec3(state.cone.apex_m), contact), 0.71 * scene_.panel_millimetre_m() * 1000.0);
+  }
+  EXPECT_EQ(frame(4.0).cone.share, 0.0F);
+  EXPECT_EQ(frame(5.0).key_light.map_share, 0.0F);
+  EXPECT_NEAR(frame(8.0).cone.radius_m / frame(7.0).cone.radius_m, 10.0F, 1e-3F);
+  render::FrameState instrument;
+  scene_.update({.material = 0}, instrument);
+  EXPECT_EQ(instrument.key_light.map_share, 1.0F);
+  EXPECT_EQ(instrument.cone.share, 0.0F);
+}
+
 TEST_F(JourneyTest, ScalesByTheSameFactorOnEveryStepFromOneMetreToOneNanometre) {
   const auto scale = [&](double orders) {
     return glm::length(glm::dvec3(frame(orders).room_from_node[node("journey-frame")][0]));

@@ -123,5 +123,65 @@ TEST_F(ShadowTest, LeavesNoSpecksOnWhatShadowsItself) {
   }
 }
 
+// A floor below a ball: what needs no shadow of the map is as without a caster.
+TEST_F(ShadowTest, FallsNeitherOnWhatTakesNoneNorInAFrameWithoutOne) {
+  scene::Scene scene;
+  const std::uint32_t chalk = add_material(scene, {.name = "chalk", .metallic = 0.0F});
+  const auto wide = [](double y, double size) {
+    return glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, y, -0.5)) *
+           glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), glm::dvec3(1.0, 0.0, 0.0)) *
+           glm::scale(glm::dmat4(1.0), glm::dvec3(size, size, 1.0));
+  };
+  const scene::NodeIndex floor = add(scene, "floor", quad(chalk), wide(-0.6, 3.0));
+  const scene::NodeIndex lid = add(scene, "lid", quad(chalk), wide(0.9, 1.0));
+  render::FrameState frame = bare_frame(scene);
+  frame.key_light.direction_to_light = {0.1F, 1.0F, 0.1F};
+  const render::Image shadowed = draw(scene, frame, small(1)).left;
+  frame.visible.assign(scene.nodes.size(), 1);
+  frame.visible[lid] = 0;
+  const render::Image lit = draw(scene, frame, small(1)).left;
+  EXPECT_GT(difference(shadowed, lit, 8).share_beyond, 0.01);
+  frame.visible[lid] = 1;
+  frame.unshadowed = {floor};
+  EXPECT_EQ(draw(scene, frame, small(1)).left.rgba, lit.rgba);
+  frame.unshadowed.clear();
+  frame.key_light.map_share = 0.0F;
+  EXPECT_EQ(draw(scene, frame, small(1)).left.rgba, lit.rgba);
+}
+
+// The shade of a cone on its tip is a wedge that begins there and grows softer with the distance.
+TEST_F(ShadowTest, OfAConeIsASoftWedgeAwayFromTheLight) {
+  scene::Scene scene;
+  const std::uint32_t chalk = add_material(scene, {.name = "chalk", .metallic = 0.0F});
+  const glm::dvec3 contact(0.0, -0.5, -0.5);
+  add(scene, "floor", quad(chalk),
+      glm::translate(glm::dmat4(1.0), contact) *
+          glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), glm::dvec3(1.0, 0.0, 0.0)) *
+          glm::scale(glm::dmat4(1.0), glm::dvec3(4.0, 4.0, 1.0)));
+  render::FrameState frame = bare_frame(scene);
+  frame.key_light.direction_to_light = {-0.8F, 0.6F, 0.0F};
+  frame.fog.begin_m = 50.0F;
+  frame.fog.end_m = 60.0F;
+  const render::Image lit = draw(scene, frame, small(1)).left;
+  frame.cone = {.apex_m = glm::vec3(contact), .radius_m = 0.001F, .slope = 0.36F, .height_m = 30.0F, .share = 1.0F};
+  const render::Image shaded = draw(scene, frame, small(1)).left;
+  // share of the light at a place of the floor, from the picture
+  const auto darker = [&](double x, double z) {
+    const glm::dvec4 clip =
+        frame.eyes[0].projection * frame.eyes[0].view * glm::dvec4(contact + glm::dvec3(x, 0.0, z), 1.0);
+    const auto column = static_cast<std::size_t>((0.5 + 0.5 * clip.x / clip.w) * lit.width);
+    const auto row = static_cast<std::size_t>((0.5 + 0.5 * clip.y / clip.w) * lit.height);
+    const std::size_t at = 4 * (row * lit.width + column);
+    return static_cast<int>(lit.rgba.at(at)) - static_cast<int>(shaded.rgba.at(at));
+  };
+  for (const double away : {0.5, 0.7, 0.9}) {
+    EXPECT_GT(darker(away, 0.0), 20) << away;
+    EXPECT_LT(darker(-away, 0.0), 3) << away;
+    EXPECT_GT(darker(away, 0.0), darker(away, 0.7 * away)) << away;
+  }
+  frame.cone.share = 0.0F;
+  EXPECT_EQ(draw(scene, frame, small(1)).left.rgba, lit.rgba);
+}
+
 }  // namespace shadow_test
 }  // namespace afm::test

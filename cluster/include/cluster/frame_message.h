@@ -108,7 +108,7 @@ static_assert(scene::all_fields_described<ShownView>());
 // Other fields of exhibit::Moment.
 struct ShownMoment {
   static constexpr std::uint32_t kMostCenterpieces = 4, kNoCenterpiece = 1;  // kNoCenterpiece is used by films only
-  static constexpr double kLongestCueS = 0.5;
+  static constexpr double kLongestCueS = 1.0;
   static constexpr std::uint32_t kRetracting = 1, kWand = 2, kWandOriented = 4, kWandPlaced = 8, kWandConnected = 16,
                                  kCue = 32, kBlank = 64, kScan = 128, kTruth = 256, kStopped = 512, kByWand = 1024,
                                  kAllFlags = 2047;

@@ -40,7 +40,7 @@ inline constexpr std::size_t kMembers = count_members<std::remove_const_t<Record
 template <class Record>
 constexpr auto members_of(Record& record) {
   constexpr std::size_t kCount = kMembers<Record>;
-  static_assert(kCount >= 1 && kCount <= 13, "members_of() needs a case for so many members");
+  static_assert(kCount >= 1 && kCount <= 16, "members_of() needs a case for so many members");
   if constexpr (kCount == 1) {
     auto& [a] = record;
     return std::tie(a);
@@ -77,9 +77,18 @@ constexpr auto members_of(Record& record) {
   } else if constexpr (kCount == 12) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l] = record;
     return std::tie(a, b, c, d, e, f, g, h, i, j, k, l);
-  } else {
+  } else if constexpr (kCount == 13) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = record;
     return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m);
+  } else if constexpr (kCount == 14) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = record;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+  } else if constexpr (kCount == 15) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = record;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
+  } else {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = record;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
   }
 }
 

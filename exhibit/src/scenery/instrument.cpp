@@ -20,6 +20,7 @@ using glm::dvec3;
 Instrument::Instrument(ModelBuilder& build, scene::NodeIndex layout, scene::NodeIndex sample, const UserModels& own)
     : layout_(layout), sample_frame_(sample) {
   floor_ = build.model("room.glb", "room", layout_);
+  floor_surface_ = build.node("room/floor");
   stage_ = build.model_in_frame_of("stage", "stage.glb", "stage", sample_frame_);
   post_ = build.node("stage/post");
   foot_ = build.node("stage/foot");
@@ -100,8 +101,8 @@ void Instrument::place_probe(const scene::Scene& scene, const Setting& setting, 
   const auto in_frame = [&from_lever = frame_from_lever](double x, double z) {
     return dvec3(from_lever * glm::dvec4(x, kUnbentBeside, z + 0.5 * kLeverDrawnThickness, 1.0));
   };
-  marks.place_bend(in_frame(kLeverDrawnLength, lowest),
-                   in_frame(kLeverDrawnLength, lowest > 0.0 ? std::max(end, lowest) : end), local);
+  marks.place_force(in_frame(kLeverDrawnLength, lowest),
+                    in_frame(kLeverDrawnLength, lowest > 0.0 ? std::max(end, lowest) : end), local);
   if (lowest > 0.0) {
     marks.hide_unbent(local);
   } else {

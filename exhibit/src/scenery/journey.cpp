@@ -25,6 +25,16 @@ constexpr double kLowTiltRad = 0.12, kLowFromOrders = 6.0, kLowAtOrders = 7.5;
 constexpr double kBeyondFog = 20.0;     // in layout units; beyond the fog
 constexpr double kBelowPixel = 0.0015;  // size in layout units
 
+// Scales between which the tip's soft shade replaces the shadows of the triangles.
+constexpr double kMapToOrders = 4.25, kConeFromOrders = 4.85;
+// Among the atoms everything is in the tip's shade, which leaves them some light.
+constexpr double kLightFromOrders = 7.5, kShadeOfAtoms = 0.55;
+
+// The tip's end, metres (assets/generate/probe.cpp and journey.cpp). The slope is that of a cone between the pyramid's
+// faces, at 17.5 degrees, and its edges.
+constexpr double kTipRadius = 50e-9, kTipGap = 0.7e-9, kTipHeight = 6.2e-6, kTipSlope = 0.37;
+constexpr double kWidestShade = 0.4;  // layout units
+
 constexpr double kVeilS = 0.5, kTravelS = 20.0;
 constexpr double kWholeS = 2.0 * kVeilS + kTravelS;
 constexpr double kStepS = kTravelS / (kJourneyOrders + 1.0);  // time at each power of ten
@@ -76,6 +86,7 @@ void Journey::measure(const scene::Scene& scene, scene::NodeIndex first, std::op
       }
     }
     parts_.push_back(part);
+    if (scene.nodes[i].name.ends_with("atoms")) atoms_.push_back(i);
   }
 }
 
@@ -91,6 +102,24 @@ bool Journey::shows(scene::NodeIndex node, double orders, std::size_t ground) co
   if (part == parts_.end() || part->ground.value_or(ground) != ground) return false;
   const double scale = scale_of(orders);
   return part->nearest_m * scale < kBeyondFog && part->farthest_m * scale > kBelowPixel;
+}
+
+void Journey::shade(double orders, const dmat4& room_from_frame, double unit_m, render::FrameState& frame) const {
+  const double cone = eased((orders - kMapToOrders) / (kConeFromOrders - kMapToOrders));
+  const double close = eased((orders - kLightFromOrders) / (kJourneyOrders - kLightFromOrders));
+  frame.key_light.map_share = static_cast<float>(1.0 - cone);
+  const double per_m = glm::length(dvec3(room_from_frame[2]));
+  const dvec3 axis = dvec3(room_from_frame[2]) / per_m;
+  const dvec3 apex = dvec3(room_from_frame[3]) + kTipGap * dvec3(room_from_frame[2]);
+  frame.cone = {.apex_m = glm::vec3(apex),
+                .axis = glm::vec3(axis),
+                .radius_m = static_cast<float>(kTipRadius * per_m),
+                .slope = static_cast<float>(kTipSlope),
+                .height_m = static_cast<float>(kTipHeight * per_m),
+                .share = static_cast<float>(cone * (1.0 - (1.0 - kShadeOfAtoms) * close))};
+  const double radius = std::clamp(kTipRadius * per_m, kShadeRadius * unit_m, kWidestShade * unit_m);
+  frame.outlined = atoms_;
+  frame.contact = {.place_m = glm::vec3(apex), .shade_radius_m = static_cast<float>(cone * radius)};
 }
 
 std::optional<Journey::Companion> Journey::companion(double orders) const {

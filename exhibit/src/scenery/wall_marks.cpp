@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -45,14 +46,16 @@ ScaleBar scale_bar(double m_per_unit, double longest) {
 WallMarks::WallMarks(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout, scene::NodeIndex sample) {
   build.model("marks.glb", "marks", layout);
   ruler_ = build.node("marks/line");
-  bend_ = build.node("marks/bend");
+  push_ = {build.node("marks/push"), build.node("marks/push-head")};
+  pull_ = {build.node("marks/pull"), build.node("marks/pull-head")};
   if (build.error()) return;
   scene.nodes[ruler_].parent = layout;
-  scene.nodes[bend_].parent = sample;
+  for (const scene::NodeIndex node : {push_.line, push_.head, pull_.line, pull_.head})
+    scene.nodes[node].parent = sample;
   ruler_low_ = another(scene, ruler_, "marks/low", layout);
   ruler_high_ = another(scene, ruler_, "marks/high", layout);
   unbent_ = another(scene, ruler_, "marks/unbent", sample);
-  scan_line_ = another(scene, bend_, "marks/scan", sample);
+  scan_line_ = another(scene, push_.line, "marks/scan", sample);
 }
 
 void WallMarks::place_ruler(const ScaleBar& bar, std::vector<dmat4>& local) const {
@@ -73,9 +76,19 @@ void WallMarks::place_scan_line(const dvec3& from, const dvec3& to, std::vector<
   local[scan_line_] = stretched(from, to, kScanLineRadius);
 }
 
-void WallMarks::place_bend(const dvec3& unbent_end, const dvec3& end, std::vector<dmat4>& local) const {
-  const bool bent = glm::distance(unbent_end, end) > kSmallestBend;
-  local[bend_] = bent ? stretched(unbent_end, end, kBendRadius) : dmat4(0.0);
+void WallMarks::place_force(const dvec3& unbent_end, const dvec3& end, std::vector<dmat4>& local) const {
+  for (const scene::NodeIndex node : {push_.line, push_.head, pull_.line, pull_.head}) local[node] = dmat4(0.0);
+  const double length = glm::distance(unbent_end, end);
+  if (length <= kSmallestBend) return;
+  const Arrow& arrow = end.z > unbent_end.z ? push_ : pull_;
+  const double head = std::min(kForceHeadLength, 0.6 * length);
+  const dvec3 neck = end - (end - unbent_end) * (head / length);
+  local[arrow.line] = stretched(unbent_end, neck, kForceRadius);
+  local[arrow.head] = stretched(neck, end, kForceHeadRadius * head / kForceHeadLength);
+}
+
+std::vector<scene::NodeIndex> WallMarks::lever_nodes() const {
+  return {unbent_, push_.line, push_.head, pull_.line, pull_.head};
 }
 
 }  // namespace afm::exhibit

@@ -40,6 +40,17 @@ void place_fog(const WallPlaces& places, const WallState& state, render::FrameSt
   frame.fog.away = -glm::normalize(dvec3(places.room_from_layout()[2]));
 }
 
+void place_light(const WallPlaces& places, render::FrameState& frame) {
+  const dmat4& room_from_layout = places.room_from_layout();
+  frame.outlined.clear();
+  frame.cone = {};
+  frame.key_light.map_share = 1.0F;
+  frame.key_light.direction_to_light =
+      glm::vec3(glm::dmat3(room_from_layout) * glm::normalize(dvec3(-0.55, 0.75, 0.6)));
+  frame.key_light.shadow_center_m = glm::vec3(dvec3(room_from_layout * glm::dvec4(0.0, 0.0, -0.35, 1.0)));
+  frame.key_light.shadow_radius_m = static_cast<float>(1.7 * places.unit_m());
+}
+
 }  // namespace
 
 std::vector<dmat4> WallScene::local_transforms(const WallState& state, render::BeamBend& bend) const {
@@ -166,12 +177,12 @@ void WallScene::update(const WallState& state, render::FrameState& frame) const 
   place_marks(state, frame);
   place_height_bar(state, frame);
   place_fog(places_, state, frame);
-
-  const double unit_m = places_.unit_m();
-  frame.key_light.direction_to_light =
-      glm::vec3(glm::dmat3(places_.room_from_layout()) * glm::normalize(dvec3(-0.55, 0.75, 0.6)));
-  frame.key_light.shadow_center_m = glm::vec3(dvec3(places_.room_from_layout() * glm::dvec4(0.0, 0.0, -0.35, 1.0)));
-  frame.key_light.shadow_radius_m = static_cast<float>(1.7 * unit_m);
+  place_light(places_, frame);
+  // its colours contain the shade of what stands on it
+  frame.unshadowed.assign(1, instrument_.floor_surface());
+  if (state.centerpiece == Centerpiece::Journey) {
+    journey_.shade(state.journey_orders, frame.room_from_node[journey_.frame()], places_.unit_m(), frame);
+  }
 }
 
 // On the slanted face of each swatch's base.

@@ -51,6 +51,18 @@ struct KeyLight {
   glm::vec3 radiance{2.9F, 2.7F, 2.45F};
   glm::vec3 shadow_center_m{0.0F};  // the shadow covers a sphere of this centre and radius
   float shadow_radius_m = 2.5F;
+  float map_share = 1.0F;  // strength of the shadows of the scene's own triangles, 0: none, 1: whole
+};
+
+// Shade of a cone that stands on its rounded end: from arithmetic, with a soft edge at every scale, for a caster that
+// is far larger than what the shadow covers. In frames with fog or a fade.
+struct ConeShade {
+  glm::vec3 apex_m{0.0F};            // lowest point
+  glm::vec3 axis{0.0F, 1.0F, 0.0F};  // unit vector from there into the cone
+  float radius_m = 0.0F;             // radius of the rounded end
+  float slope = 0.0F;                // growth of the radius along the axis
+  float height_m = 0.0F;
+  float share = 0.0F;  // strength, 0: no shade
 };
 
 // Mark at the contact point: a soft shadow that deepens as the tip approaches and, briefly after a jump, a ring of
@@ -321,8 +333,11 @@ struct FrameState {
   std::vector<std::uint8_t> visible;          // one per scene node, 0 hides the node's own mesh
   std::vector<scene::NodeIndex> highlighted;  // pointed at or selected by the wand; glow with their children
   std::vector<BeamBend> bends;
-  std::vector<MeshCopies> copies;  // at most one entry per node
+  std::vector<MeshCopies> copies;            // at most one entry per node
+  std::vector<scene::NodeIndex> unshadowed;  // lit as if nothing cast a shadow: their colours include one
+  std::vector<scene::NodeIndex> outlined;    // darker where the surface turns away, in frames with fog
   KeyLight key_light;
+  ConeShade cone;
   ContactMark contact;
   Fog fog;
   std::vector<PlacedLight> lights;  // used only if the scene has lights

@@ -13,7 +13,7 @@ using glm::vec4;
 
 #include "interface.glsl.h"
 
-static_assert(sizeof(FrameBlock) == 400 + 16 * (1 + 4 * AFM_MOST_LIGHTS) &&
+static_assert(sizeof(FrameBlock) == 448 + 16 * (1 + 4 * AFM_MOST_LIGHTS) &&
               offsetof(FrameBlock, shadow_from_room) == 160);
 static_assert(sizeof(DrawBlock) == 176 && offsetof(DrawBlock, base_color) == 112);
 static_assert(sizeof(PanelBlock) == 48 && sizeof(CanvasBlock) == 16 && sizeof(ComposeBlock) == 112);

@@ -103,7 +103,7 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
       list.copies[i] = static_cast<std::uint32_t>(copies_of(frame, draw.node).size());
       if (list.copies[i] == 0) continue;
     }
-    if (draw.casts_shadow) {
+    if (draw.casts_shadow && frame.key_light.map_share > 0.0F) {
       list.shadow.push_back(i);
     }
     const auto& room_from_node = frame.room_from_node[draw.node];

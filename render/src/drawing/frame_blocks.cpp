@@ -27,6 +27,12 @@ void write_contact(const ContactMark& mark, FrameBlock& block) {
   block.contact_ring = glm::vec4(mark.ring_color, mark.ring_radius_m / mark.shade_radius_m);
 }
 
+void write_cone(const ConeShade& cone, FrameBlock& block) {
+  block.cone_apex = glm::vec4(cone.apex_m, cone.radius_m);
+  block.cone_axis = glm::vec4(cone.axis, cone.slope);
+  block.cone_reach = glm::vec4(cone.height_m, cone.share, 0.0F, 0.0F);
+}
+
 void write_fog(const Fog& fog, FrameBlock& block) {
   const bool ranged = fog.end_m > fog.begin_m;
   block.fog = glm::vec4(fog.begin_m, ranged ? 1.0F / (fog.end_m - fog.begin_m) : 0.0F, fog.fade, ranged ? 1.0F : 0.0F);
@@ -115,13 +121,14 @@ FrameBlock make_frame_block(const FrameState& frame, std::size_t first_eye, cons
   block.shadow_from_room = shadow_from_room(light);
   const glm::vec3 to_light = glm::normalize(light.direction_to_light);
   const bool overhead = std::abs(to_light.y) > 0.9999F;
-  block.light_direction = glm::vec4(to_light, 0.0F);
+  block.light_direction = glm::vec4(to_light, light.map_share);
   block.light_side = glm::vec4(
       overhead ? glm::vec3(1.0F, 0.0F, 0.0F) : glm::normalize(glm::cross(glm::vec3(0.0F, 1.0F, 0.0F), to_light)), 0.0F);
   block.light_radiance = glm::vec4(light.radiance, 2.0F * light.shadow_radius_m / static_cast<float>(kShadowMapSize));
   block.target_size = glm::vec4(size, 1.0F / size);
   write_screen(frame.eyes, block);
   write_contact(frame.contact, block);
+  write_cone(frame.cone, block);
   write_fog(frame.fog, block);
   write_lights(frame.lights, block);
   return block;
@@ -172,6 +179,9 @@ void write_draw_blocks(const FrameState& frame, const SceneGeometry& geometry, c
   for (std::size_t i = 0; i < draws.size(); ++i) {
     const auto node = draws[i].node;
     DrawBlock block = draws[i].block;
+    const auto flag = [node](const std::vector<scene::NodeIndex>& nodes) {
+      return std::find(nodes.begin(), nodes.end(), node) != nodes.end() ? 1.0F : 0.0F;
+    };
     const auto& room_from_node = frame.room_from_node[node];
     block.room_from_node = glm::mat4(room_from_node);
     const glm::mat3 normals(normal_matrix(room_from_node));
@@ -179,7 +189,9 @@ void write_draw_blocks(const FrameState& frame, const SceneGeometry& geometry, c
       block.normal_column[column] = glm::vec4(normals[column], 0.0F);
     }
     block.emissive.a = glowing[node] != 0 ? 1.0F : 0.0F;
+    block.surface.w = flag(frame.unshadowed);
     block.bend = bend_of(frame, node);
+    block.bend.z = flag(frame.outlined);
     std::memcpy(blocks + i * stride, &block, sizeof(block));
   }
 }

@@ -53,6 +53,7 @@ class Instrument {
   scene::NodeIndex optics() const { return optics_; }
   scene::NodeIndex stage() const { return stage_; }
   scene::NodeIndex floor() const { return floor_; }
+  scene::NodeIndex floor_surface() const { return floor_surface_; }
 
  private:
   // Pose of the lever in the sample's frame, layout units.
@@ -65,7 +66,7 @@ class Instrument {
   LeverPose lever_pose(const Setting& setting) const;
 
   scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, apex_{}, stage_{},
-      post_{}, foot_{}, floor_{};
+      post_{}, foot_{}, floor_{}, floor_surface_{};
   scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{};
   double lever_length_ = 0;  // glTF metres, clamp to tip axis
   double tip_length_ = 0;    // glTF metres, base to apex

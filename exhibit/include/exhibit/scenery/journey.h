@@ -9,6 +9,7 @@
 
 #include "exhibit/models/model_builder.h"
 #include "exhibit/words/phrases.h"
+#include "render/frame.h"
 #include "scene/graph/scene.h"
 
 namespace afm::exhibit {
@@ -37,6 +38,10 @@ class Journey {
   // Returns whether a node below the journey's frame needs drawing: not in the fog, and at least a pixel large.
   bool shows(scene::NodeIndex node, double orders, std::size_t ground) const;
 
+  // Sets the shadows: those of the triangles down to the lever, from there on the tip's soft one on the ground, whose
+  // length no shadow map covers. `unit_m` is a layout unit in the room.
+  void shade(double orders, const glm::dmat4& room_from_frame, double unit_m, render::FrameState& frame) const;
+
   // A familiar object next to the tip for comparison at this scale, with the place of its label, in the sample's axes
   // relative to the contact point, layout units.
   struct Companion {
@@ -57,6 +62,7 @@ class Journey {
 
   scene::NodeIndex frame_ = 0;
   std::vector<Part> parts_;
+  std::vector<scene::NodeIndex> atoms_;
   std::vector<std::string> grounds_;
 };
 

@@ -80,7 +80,9 @@ inline constexpr double kUnbentBeyond = 0.16;
 inline constexpr double kUnbentBeside = 0.09;  // distance to the right of the tip's axis
 inline constexpr double kUnbentLowest = 0.05;  // height above the sample, whose terraces rise behind the tip
 inline constexpr double kUnbentRadius = 0.0045;
-inline constexpr double kBendRadius = 0.008;
+// the arrow of the force, beside the lever
+inline constexpr double kForceRadius = 0.009;
+inline constexpr double kForceHeadLength = 0.065, kForceHeadRadius = 0.026;
 inline constexpr double kShadeRadius = 0.085;  // soft shade at the contact
 // the scan line, over the sample
 inline constexpr double kScanLineRadius = 0.004;

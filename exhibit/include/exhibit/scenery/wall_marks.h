@@ -37,19 +37,24 @@ class WallMarks {
   void place_unbent(const glm::dvec3& clamp, const glm::dvec3& end, std::vector<glm::dmat4>& local) const;
   void hide_unbent(std::vector<glm::dmat4>& local) const;
 
-  // Places the mark of the bend, from the unbent lever's end to the real one's.
-  void place_bend(const glm::dvec3& unbent_end, const glm::dvec3& end, std::vector<glm::dmat4>& local) const;
+  // Places the arrow of the force, from the unbent lever's end to the real one's: as long as the bend, which is
+  // proportional to the force, and one colour for a pull, another for a push.
+  void place_force(const glm::dvec3& unbent_end, const glm::dvec3& end, std::vector<glm::dmat4>& local) const;
 
   // Places the scan line over the sample, in layout units of the sample's frame.
   void place_scan_line(const glm::dvec3& from, const glm::dvec3& to, std::vector<glm::dmat4>& local) const;
 
   // Nodes to hide together: with the instrument, without a scan, and without a scale.
-  std::vector<scene::NodeIndex> lever_nodes() const { return {unbent_, bend_}; }
+  std::vector<scene::NodeIndex> lever_nodes() const;
   scene::NodeIndex scan_line_node() const { return scan_line_; }
   std::vector<scene::NodeIndex> ruler_nodes() const { return {ruler_, ruler_low_, ruler_high_}; }
 
  private:
-  scene::NodeIndex ruler_ = 0, ruler_low_ = 0, ruler_high_ = 0, unbent_ = 0, bend_ = 0, scan_line_ = 0;
+  struct Arrow {
+    scene::NodeIndex line = 0, head = 0;
+  };
+  scene::NodeIndex ruler_ = 0, ruler_low_ = 0, ruler_high_ = 0, unbent_ = 0, scan_line_ = 0;
+  Arrow push_, pull_;
 };
 
 }  // namespace afm::exhibit

@@ -11,7 +11,7 @@
 namespace afm::exhibit {
 
 // Time for which a jump is shown. A CPU device draws two frames a second, so a shorter cue might never be drawn.
-inline constexpr double kCueSeconds = 0.5;
+inline constexpr double kCueSeconds = 1.0;
 
 // A recent jump.
 struct JumpCue {
