@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <initializer_list>
 #include <memory>
 #include <vector>
 
 #include "haptics/contact_model.h"
 #include "haptics/passivity_observer.h"
+#include "haptics/safety.h"
 #include "haptics/simulated_device.h"
 #include "physics/measured_branches.h"
 #include "support/recorded_cycles.h"
@@ -56,11 +58,23 @@ class RecordedContact : public testing::TestWithParam<int> {
         return test::soft_sample();
       case 2:
         return test::no_adhesion();
+      case 3:
+        return test::pushes_beyond_pull_off();
       default:
         return test::lets_go_pressed();
     }
   }
 };
+
+// Else the force could never be turned on.
+TEST_P(RecordedContact, IsFaintWhereTheForceIsTurnedOn) {
+  const Felt sample = felt(curve());
+  const double release_m = sample.model->scaling().release_height_m();
+  for (double above_m = SafetyGovernor::kArmingMarginM; above_m < 0.02; above_m += 0.5e-3) {
+    const Touch here = sample.model->step({0.0, 0.0, release_m + above_m});
+    EXPECT_LT(glm::length(here.hand_force_n), SafetyGovernor::kArmingForceN) << 1e3 * above_m << " mm above";
+  }
+}
 
 // At 50 mm/s, turning at several depths and heights, one of them between snap-in and pull-off.
 TEST_P(RecordedContact, GivesAHandNoMoreThanItStores) {
@@ -110,7 +124,7 @@ TEST_P(RecordedContact, StaysBelowTheStiffnessThatAHandStands) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Recordings, RecordedContact, testing::Values(0, 1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Recordings, RecordedContact, testing::Range(0, 5));
 
 }  // namespace recorded_contact_test
 }  // namespace afm::haptics

@@ -90,4 +90,13 @@ inline std::vector<physics::CurvePoint> no_adhesion() {
   return recording(1e-6, -200e-9, down, up, 0.5e-9);
 }
 
+// A double layer or a brush pushes the tip beyond the place where the sample lets go.
+inline std::vector<physics::CurvePoint> pushes_beyond_pull_off() {
+  const auto down = [](double z) {
+    return 0.2e-9 * std::exp(-std::max(0.0, z) / 150e-9) + (z > 0 ? 0.0 : 4e-9 * std::pow(-z / 400e-9, 1.5));
+  };
+  const auto up = [&](double z) { return down(z) - (z > 60e-9 ? 0.0 : 1.5e-9 * std::min(1.0, (z + 400e-9) / 100e-9)); };
+  return recording(2e-6, -400e-9, down, up, 5e-12);
+}
+
 }  // namespace afm::test

@@ -24,7 +24,7 @@ struct CommonScale {
 // along the sample's normal; Z and forces on the tip as in physics/contact.h.
 //
 // The map of Z is linear, so that events keep their relative positions. The attraction fills a stroke: up to Z_joc, or
-// up to where the attraction before contact has fallen to kFaintShare of the strongest pull, if that is higher. Without
+// up to where the force before contact has fallen to kFaintShare of the strongest pull, if that is higher. Without
 // any attraction (Hertz), a push of 20 mm corresponds to a tenth of the tip's radius, the depth to which a contact law
 // is valid, on a stroke of 50 mm.
 //

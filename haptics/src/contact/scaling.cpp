@@ -35,14 +35,16 @@ using Branch = physics::BranchTable;
 
 double force_n(const Branch& branch, double z_m) { return branch.force(physics::Length(z_m)).si; }
 
-// Position above which the attraction before contact is below this magnitude, from Z_jtc upwards.
+// Position above which the force before contact is below this magnitude, from Z_jtc upwards. A recorded curve may push
+// there: by a double layer, a brush, or a wave of its baseline.
 double faint_above_m(const physics::LawTables& tables, double faint_n) {
-  const auto faint = [&](double z_m) { return !(force_n(tables.free, z_m) < -faint_n); };
+  const auto faint = [&](double z_m) { return !(std::abs(force_n(tables.free, z_m)) > faint_n); };
   double near_m = tables.figures.z_jtc.si;
   if (faint(near_m)) return near_m;
   double far_m = std::max(near_m, tables.contact.atomic_distance.si);
-  while (!faint(far_m)) far_m *= 2.0;
-  while (far_m - near_m > 1e-6 * far_m) {
+  while (!faint(far_m) && std::isfinite(far_m)) far_m *= 2.0;  // an infinite reach is refused
+  constexpr int kMostHalvings = 60;                            // it may cross zero
+  for (int i = 0; i < kMostHalvings && far_m - near_m > 1e-6 * std::abs(far_m); ++i) {
     const double middle_m = 0.5 * (near_m + far_m);
     (faint(middle_m) ? far_m : near_m) = middle_m;
   }
