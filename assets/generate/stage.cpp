@@ -24,7 +24,11 @@ Surface plate() {
     return rounded_rectangle(half * -1.0, half, kCorner - in, kRound);
   };
   Surface surface;
-  add_prism(surface, outline(0), -kPlateHeight, -0.02 * kMm, kBevel);
+  add_loft(surface, {{outline(kBevel), -kPlateHeight, 0, -1},
+                     {outline(0), kBevel - kPlateHeight, 1, 0},
+                     {outline(0), -kBevel, 1, 0},
+                     {outline(kBevel), 0, 0, 1}});
+  add_cap(surface, outline(kBevel), -kPlateHeight, Facing::Down);
   Surface top;
   const std::vector<Outline> rings{outline(kBevel), outline(0.3 * kMm), outline(0.55 * kMm), outline(0.85 * kMm)};
   top.add_grid(rings.size(), rings.front().size() + 1, [&](std::size_t row, std::size_t column) {

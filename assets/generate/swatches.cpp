@@ -44,7 +44,7 @@ NodeSpec label() {
 
 // The soft shade of the plinth on what it stands on: from its foot outwards.
 NodeSpec shade() {
-  constexpr double kLift = 0.2 * kCm, kReach = 11 * kCm, kDarkest = 0.62;
+  constexpr double kLift = 0.2 * kCm, kReach = 8 * kCm, kDarkest = 0.62;
   constexpr std::size_t kRings = 6;
   const Outline foot = rounded_rectangle({-kWidth / 2, -kDepth / 2}, {kWidth / 2, kDepth / 2}, 2 * kCm, 2);
   Surface surface;
