@@ -42,7 +42,7 @@ NodeSpec label() {
           .extras = {{"width_m", kWidth - 3 * kCm}, {"height_m", std::sqrt(dot(reach, reach)) - 1.6 * kCm}}};
 }
 
-// The soft shade of the plinth on what it stands on: from its foot outwards.
+// The soft shadow of the plinth on the floor, from its foot outwards.
 NodeSpec shade() {
   constexpr double kLift = 0.2 * kCm, kReach = 8 * kCm, kDarkest = 0.62;
   constexpr std::size_t kRings = 6;

@@ -178,7 +178,7 @@ void WallScene::update(const WallState& state, render::FrameState& frame) const 
   place_height_bar(state, frame);
   place_fog(places_, state, frame);
   place_light(places_, frame);
-  // its colours contain the shade of what stands on it
+  // the floor's shadows are painted in its colours
   frame.unshadowed.assign(1, instrument_.floor_surface());
   if (state.centerpiece == Centerpiece::Journey) {
     journey_.shade(state.journey_orders, frame.room_from_node[journey_.frame()], places_.unit_m(), frame);
