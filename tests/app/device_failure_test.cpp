@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a lost or hanging graphics device or a dead X server leads to a released hand and a complete session
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

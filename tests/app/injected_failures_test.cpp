@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a failed allocation or system call leads to one line of output, never to a partial file
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>

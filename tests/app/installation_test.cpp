@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The installed program, in a folder to which it was moved after it had been installed: what a package's user has.
+// Invariant: the installed program can be moved and contains no path of its sources
+// Invariant: man page and completion list every command and option
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

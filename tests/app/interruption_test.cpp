@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: SIGINT, SIGTERM and SIGHUP end every command within 500 ms and leave nothing half-written
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <signal.h>

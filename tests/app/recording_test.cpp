@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a killed program loses at most a second of its session; the frames of a session can be drawn again
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

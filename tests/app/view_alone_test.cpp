@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real window without a tracker and without staff, on an X server without a screen.
+// Invariant: a visitor's first press takes effect
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Particles in the real window, on an X server without a screen: pushed with the mouse, taken back, recorded, replayed.
+// Invariant: a person pushes a particle and takes the push back with keys and hand alone
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

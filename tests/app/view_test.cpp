@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the live window follows a hand through a cycle and survives resizing and a dead servo
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A class has one task: few fields, few functions, and few sources that define its members.
+// Invariant: a class has at most 30 fields, 40 functions and two sources that define them
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 # cmake -DROOT=... -P device_waits.cmake
 # The program waits until the graphics device is idle when the size of something changes and at the end, never in a frame:
 # all such waits stand here, by file and number.
+# Invariant: only resize and exit wait for an idle graphics device
 set(allowed
   "render/src/composition/corrections.cpp 1"     # many sizes of one warped window
   "render/src/device/device.cpp 2"               # the function, and wait_idle(), for what destroys

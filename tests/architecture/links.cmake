@@ -2,6 +2,7 @@
 # cmake -DROOT=... -P links.cmake
 # Every link between the documents leads to a file, and every #anchor to a heading, as forges name them: lower case, spaces
 # as hyphens, other punctuation dropped.
+# Invariant: every link of the documents leads to a file or a heading
 cmake_minimum_required(VERSION 3.25)
 
 # Sets `out` to the anchors of a document's headings, each between newlines.

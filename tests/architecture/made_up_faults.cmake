@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DBUILD=... -P made_up_faults.cmake: each rule below finds a fault in a small tree that has it, and none in the tree before.
+# Invariant: the rules for the sources find made-up faults
 cmake_minimum_required(VERSION 3.25)
 
 set(tree ${BUILD}/tests/architecture/made-up)

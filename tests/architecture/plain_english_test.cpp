@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Words that make a text read as if it had been translated occur nowhere in what a person reads.
+// Invariant: help, messages, documents and guidance use no word that makes a text read like a translation
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

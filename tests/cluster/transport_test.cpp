@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the frame loop and the heartbeat never call DDS, which one thread uses
 #include "transport.h"
 
 #include <gtest/gtest.h>

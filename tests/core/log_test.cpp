@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: no reader of the log delays a release
 #include "core/log.h"
 
 #include <fcntl.h>

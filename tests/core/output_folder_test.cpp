@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: results appear completely or not at all
 #include "core/output_folder.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: no text of a file or a device commands a terminal or adds a line to a log, a table or another file
 #include "core/printable.h"
 
 #include <gtest/gtest.h>

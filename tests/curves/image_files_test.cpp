@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The image files of four instruments' programs, put together here byte by byte from their published layouts.
+// Invariant: an image file of any of five programs is read as its layout has it, or refused in one line
 #include "curves/image_file.h"
 
 #include <gmock/gmock.h>

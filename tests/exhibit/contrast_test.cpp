@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Readability of the panels for people with low vision: contrast and size by WCAG 2.2 and XAUR.
+// Invariant: every text of the panels has a contrast of 4.5 before the brightest scene, 7 in high contrast
 #include <gtest/gtest.h>
 
 #include <algorithm>

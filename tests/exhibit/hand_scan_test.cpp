@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: an image that the hand takes is a function of the servo's samples; what it has not visited stays empty
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lever, its light and its marks, as the viewer of the paper's wall sees them.
+// Invariant: the light hits the lever's upper face at every bend; the lifted tip stays below the banner
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the journey of scale is continuous, and the contact point does not move
 #include "exhibit/scenery/journey.h"
 
 #include <gmock/gmock.h>

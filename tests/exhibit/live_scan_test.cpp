@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a scan on the wall is a function of its sample and what a session records of it
 #include "exhibit/scan/live_scan.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A simulated person pushes particles to their pattern through the servo's own code, in simulated time.
+// Invariant: the score of a task is the same live, at any frame rate, and in a replay
 #include "exhibit/state/particle_task.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: German has every phrase
 #include "exhibit/words/phrases.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: an instruction stays for at least 3 s unless the force changes or is off; every cycle ends with its line
 #include "exhibit/words/procedure.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the cause of each artefact is named in every language; `scan --json` names the same
 #include "exhibit/scan/scan_cause.h"
 
 #include <gtest/gtest.h>

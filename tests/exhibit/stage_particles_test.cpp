@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: particles lie where the servo has them, on every machine
 #include "exhibit/scenery/stage_particles.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the scene is on the screen that the viewer faces; panels fit on upright, wide, flat and cornered walls
 #include "exhibit/scenery/stage_place.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a measured surface is felt as it is drawn
 #include "exhibit/models/topography_model.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // That no word of wall or report stays in the code: in a language that gives every vowel an accent, none without one is
 // left.
+// Invariant: every word of wall and report is in the phrase files
 #include <gtest/gtest.h>
 
 #include <algorithm>

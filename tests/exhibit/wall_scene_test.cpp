@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the apex is drawn at its height however the lever bends; text is in the wall's plane
 #include "exhibit/scenery/wall_scene.h"
 
 #include <fmt/format.h>

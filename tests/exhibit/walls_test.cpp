@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: on every wall each panel and label is wholly visible and covers no other
+// Invariant: no preset demands more than one degree of disparity
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a fit finds the modulus of a computed curve to 1e-6 for every shape
 #include "fits/indenter.h"
 
 #include <gtest/gtest.h>

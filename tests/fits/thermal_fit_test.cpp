@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the 95 % interval of a thermal area holds it in 93 to 97 of 100 spectra for Q from 1.5 to 500, behind a
+// window too
+// Invariant: a spectrum that shows no resonance is refused
 #include "fits/thermal_fit.h"
 
 #include <gtest/gtest.h>

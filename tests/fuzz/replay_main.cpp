@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs every file of a corpus folder through a fuzz target in an ordinary build, so that neither rots. Of each kind of
 // file, by the end of its name, one must be good: a fuzzer that knows only what is refused gets no further.
+// Invariant: no file, report or packet crashes a parser
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a driver that never returns from opening a device ends the process that waits for it, before any force
 #include "haptics/device_registry.h"
 
 #include <gmock/gmock.h>

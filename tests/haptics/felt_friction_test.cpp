@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: one count of an encoder's noise gives at most one slip a lattice step
+// Invariant: without friction no bit of a force changes
 #include "haptics/felt_friction.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Particles under the hand: forces, events, energy and places.
+// Invariant: far from a particle no bit of a force changes
+// Invariant: a particle gives at f_s and goes on at f_k at any rate and speed; pushes give no more energy than they
+// store
 #include "haptics/felt_particles.h"
 
 #include <gmock/gmock.h>

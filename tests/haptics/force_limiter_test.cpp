@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: every force is finite and within the cap and the slew limit, whatever comes in
 #include "haptics/force_limiter.h"
 #include "support/deep.h"
 

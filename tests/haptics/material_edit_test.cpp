@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: an edit takes effect only when the force is off; an invalid one changes nothing
 #include "haptics/edit_builder.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the passivity observer detects exactly the laws that return more energy than they store
 #include "haptics/passivity_observer.h"
 
 #include <gtest/gtest.h>

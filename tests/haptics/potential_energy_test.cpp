@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a law returns no more energy than it stores
 #include "haptics/potential_energy.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a hand feels of a curve that an instrument recorded.
+// Invariant: a recorded curve is felt with the snap-in, pull-off and loop energy of its analysis within 1 %
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: no sequence of inputs brings the governor to a force beyond its limits
 #include <gtest/gtest.h>
 
 #include <cmath>

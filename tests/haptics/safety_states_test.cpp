@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the governor takes exactly the transitions of its diagram
 #include "haptics/safety_states.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: no force reaches a device except through `SafetyGovernor`: only it can make a `ForceCommand`
 #include "haptics/safety.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the force on a rough sample is continuous on a branch; its events are exact everywhere
 #include "haptics/sample_surface.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: on every scale a material stays within the device's cap and stiffness
 #include "haptics/scaling.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the force of an event does not depend on the hand's speed
 #include "haptics/servo_loop.h"
 
 #include <gmock/gmock.h>

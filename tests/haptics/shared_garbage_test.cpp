@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: invalid data in a shared block is refused
 #include <gtest/gtest.h>
 
 #include <algorithm>

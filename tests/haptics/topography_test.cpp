@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the force is the gradient of a potential, sideways too
 #include <gtest/gtest.h>
 
 #include <cmath>

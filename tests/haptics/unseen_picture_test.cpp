@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: while nobody sees the picture there is no force, and Turn-On gives none
 #include <gtest/gtest.h>
 
 #include "servo_bench.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a headset gets the renderer's eyes byte for byte, with the poses they were drawn for
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

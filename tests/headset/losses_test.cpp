@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: every way to lose a headset ends in a free hand within 350 ms and a program that finds it again
 #include <algorithm>
 
 #include "headset_fixture.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a runtime that keeps a frame does not keep the heartbeat
 #include "app/display/picture_age.h"
 
 #include <gtest/gtest.h>

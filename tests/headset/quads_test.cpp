@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a panel that nothing hides is shown from its texture; every other one stays in the eyes' pictures, and
+// none is in both
+// Invariant: the depth that a headset gets is the drawn distance
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

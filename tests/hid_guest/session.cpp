@@ -2,6 +2,7 @@
 // A whole session with a wand through a real kernel's hidraw and the real libhidapi: plug, choose gold, unplug in
 // mid-drag, plug again, navigate, home; and a mouse of the same maker is no wand. It runs in a virtual machine (see
 // run_guest.sh) and says "session passed" at its end.
+// Invariant: hidapi opens, loses and reopens a wand with a real kernel
 #include <chrono>
 #include <cmath>
 #include <cstdio>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: every tracker packet is parsed or refused
 #include "input/dtrack.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: every HID report is parsed or refused
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

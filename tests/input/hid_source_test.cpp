@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real libhidapi, udev's library and all, on devices that umockdev pretends to have. Run by umockdev-wrapper.
+// Invariant: hidapi opens, loses and reopens a wand
 #include "input/hid_source.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Wii Remote with a MotionPlus, byte by byte as WiiBrew and Linux' hid-wiimote describe them.
+// Invariant: a Wii Remote uses its MotionPlus, which is activated again whenever it is plugged in
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a grab and its reverse restore the scene to 1e-9; the scene is locked while the tip touches
 #include "input/navigation.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: frames that a tracker lost are logged
 #include "input/tracker_report.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the drawn beam has the shape of the physics
 #include "physics/cantilever.h"
 
 #include <gmock/gmock.h>

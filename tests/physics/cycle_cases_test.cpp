@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: each of the 272 reference cases of the physics is a test of the same name
 #include <gtest/gtest.h>
 
 #include <algorithm>

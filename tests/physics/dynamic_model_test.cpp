@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a dynamic model renders the lever's force and reports a jump once although the tip bounces
 #include "physics/dynamic_model.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the force of an event does not depend on the sample rate
 #include "physics/force_model.h"
 
 #include <gmock/gmock.h>

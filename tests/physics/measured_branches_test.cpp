@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: snap-in, pull-off and loop energy of a recorded curve as a law equal those of its analysis within 1 %
 #include "physics/measured_branches.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: an oscillating tip obeys equipartition, loses energy without noise, and stays bounded at any depth
 #include "physics/tip_oscillator.h"
 
 #include <gtest/gtest.h>

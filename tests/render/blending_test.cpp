@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: blended pictures add up to one within the rounding of 8 bits, in every mode
 #include <fmt/format.h>
 
 #include <algorithm>

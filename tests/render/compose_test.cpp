@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: every stereo mode decodes to both eyes; shader and arithmetic agree in every pixel
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a lost graphics device, a lost surface or lack of memory leads to one line of output
 #include "render/device_failure.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a steady frame allocates nothing
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <stdexcept>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: multiview equals two passes at every resolution and sample count
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <tuple>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: changing modes, sizes and panels for hours leaks no memory
 #include <dlfcn.h>
 #include <malloc.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: reordering a mesh for the vertex cache neither loses nor flips a triangle
 #include "drawing/mesh_order.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a graphics device without multiview draws the same bytes
 #include <gmock/gmock.h>
 
 #include <array>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: swapping the eyes swaps the pictures; multiview equals two passes byte for byte
 #include <algorithm>
 
 #include "support/pictures.h"

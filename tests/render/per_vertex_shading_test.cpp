@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: per-vertex shading of small triangles looks like per-pixel shading, and no frame recompiles its shader
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a frame draws only what differs from the last one, byte for byte as if all were drawn
+// (docs/decisions/0011)
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: no frame waits for the disk; no screenshot is lost; an error names its file
 #include "render/screenshot_queue.h"
 
 #include <fcntl.h>

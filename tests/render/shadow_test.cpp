@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the shadow map is redrawn only where a caster changed
+// Invariant: no shadow ends where the map does
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a point on the wall has zero parallax in the picture, nearer is crossed
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <vector>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a tiled wall shows the same picture as a single one
 #include <algorithm>
 #include <array>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a mesh that bends nothing shows the same bytes; no mesh changes a pixel's eye (docs/decisions/0013)
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: projectors that overlap add up to the picture of one; black is as bright beside an overlap as in it
 #include "scene/display/blend.h"
 
 #include <fmt/format.h>

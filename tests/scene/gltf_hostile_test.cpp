@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: tinygltf gets no path and no unchecked member; no stream allocates more than its limit
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the felt surface is the drawn one, vertex by vertex
 #include "scene/graph/height_field.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the models are byte for byte the output of their generator
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a simulated person with delay and tremor solves a task
 #include "scene/samples/pattern_task.h"
 
 #include <gtest/gtest.h>

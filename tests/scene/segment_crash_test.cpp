@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a shared block is complete or absent, whichever process is killed
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/prctl.h>

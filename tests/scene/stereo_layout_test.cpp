@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: interleaving counts from the screen, not the window
 #include "scene/display/stereo_layout.h"
 
 #include <gmock/gmock.h>

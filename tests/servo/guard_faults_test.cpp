@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: renderer, servo and watchdog may be killed, stopped or hung up in any order: who is left releases the
+// hand
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>

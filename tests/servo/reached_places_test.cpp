@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: places that particles reached outlive a servo
 #include "servo/reached_places.h"
 
 #include <gtest/gtest.h>

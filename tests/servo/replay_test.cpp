@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a session replays bit for bit, even if it was truncated
 #include "servo/replay.h"
 
 #include <gmock/gmock.h>

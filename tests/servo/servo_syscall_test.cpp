@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a servo tick's only system call is the sleep
 #include <gtest/gtest.h>
 #include <linux/audit.h>
 #include <linux/filter.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a servo survives its renderer and serves the next one without reopening its device
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>

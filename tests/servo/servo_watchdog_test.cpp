@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a servo that is stopped, killed or stuck in its driver leaves no force on a reachable device
 #include "servo/watchdog.h"
 
 #include <fcntl.h>

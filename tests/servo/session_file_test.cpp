@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: every number of a session file is checked before it is used
 #include "servo/session_file.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a study's files are read as their columns have it, or refused in one line with file and line
 #include "study/study_data.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a report prints no p without effect size and interval, and the same bytes for the same data
 #include "study/study_report.h"
 
 #include <gmock/gmock.h>

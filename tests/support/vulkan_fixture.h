@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: no frame of any test of pictures causes a validation or synchronisation message
 #pragma once
 
 #include <gtest/gtest.h>

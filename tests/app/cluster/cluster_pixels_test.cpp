@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is on the screens of a wall of several machines, pixel by pixel: all machines' pictures are those of one, and
 // change together.
+// Invariant: the machines of a wall show the same bytes, in every mode, and the same frames in the same order
 #include <gmock/gmock.h>
 #include <sys/mman.h>
 

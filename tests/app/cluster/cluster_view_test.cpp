@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Three programs on one machine: nodes come, one is killed and comes back, and the picture is one.
+// Invariant: a node that shows a wall survives any other description; it starts no servo and opens no haptic device
 #include <dirent.h>
 #include <gmock/gmock.h>
 

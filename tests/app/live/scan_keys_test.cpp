@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: each artefact of a scan can be produced and undone with the keys that the manual names
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The live wall on two monitors of a real X server: a projector for each eye, one by its monitor's name and one by its
 // place on the desktop, the right one with a keystone.
+// Invariant: each projector shows the image of its eye, with its own keystone, on its monitor
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

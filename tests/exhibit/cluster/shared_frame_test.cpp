@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A machine of a wall builds from a message the same frame as a single machine, to the last bit according to the digest
 // of everything that is drawn.
+// Invariant: the machines of a wall draw the same bytes from a message
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a killed lesson loses at most the running trial
 #include "exhibit/lesson/data_set.h"
 
 #include <fcntl.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a question is answered by the hand alone, and by nobody who has not moved
 #include "exhibit/lesson/hand_answer.h"
 
 #include <gtest/gtest.h>

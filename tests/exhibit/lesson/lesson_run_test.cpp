@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a lesson's criteria are decided by the servo's events
 #include "exhibit/lesson/lesson_run.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Staircases, orders and questionnaires against published numbers.
+// Invariant: staircases go through the published levels, and Williams designs are balanced
 #include "exhibit/lesson/staircase.h"
 
 #include <gtest/gtest.h>

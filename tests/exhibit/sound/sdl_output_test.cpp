@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a missing or lost sound card is one line
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: speech never waits for its program, which is ended when it hangs; the newest text wins
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a service that fails, stalls or sends nonsense leaves no force on the hand
 #include "devices/haply_device.h"
 
 #include <gmock/gmock.h>

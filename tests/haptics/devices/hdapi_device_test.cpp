@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a driver that fails leaves no force on the hand, on a stand-in that fails in every listed way
 #include "devices/hdapi_device.h"
 
 #include <gmock/gmock.h>

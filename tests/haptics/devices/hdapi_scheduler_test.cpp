@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: a driver that stalls or stops calling leaves no force on the hand
 #include <gmock/gmock.h>
 
 #include <chrono>

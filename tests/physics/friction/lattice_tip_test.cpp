@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: friction and its slips depend neither on the tick nor on the speed
 #include "physics/friction/lattice_tip.h"
 
 #include <gtest/gtest.h>

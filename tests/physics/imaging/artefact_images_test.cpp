@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: every artefact of a scan comes with its cause and goes with it, in the image itself
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: dilation and erosion are adjoint; what is certain is the sample; a blind tip is nowhere sharper than the
+// true one
 #include "physics/imaging/morphology.h"
 
 #include <gtest/gtest.h>

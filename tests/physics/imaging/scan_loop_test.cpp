@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: every artefact of a scan has its closed form at three rates of the feedback
 #include "physics/imaging/scanner.h"
 
 #include <gtest/gtest.h>

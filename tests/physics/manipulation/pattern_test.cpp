@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Invariant: the distance from a pattern is the least over every assignment of particles to its targets
 #include "physics/manipulation/pattern.h"
 
 #include <gtest/gtest.h>
