@@ -54,8 +54,9 @@ target_compile_options(afm_build_flags INTERFACE
   # what an attacker of a parser, or a mistake, would have to get past; measured: no tick is longer
   -fstack-protector-strong -D_GLIBCXX_ASSERTIONS ${AFM_CONTROL_FLOW_PROTECTION}
   $<$<CONFIG:Release>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=2>
-  # both let ccache keep what is compiled with a precompiled header; clang's contain the path of their clone, and serve no other
-  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess> "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>"
+  # lets ccache keep what is compiled with a precompiled header; clang's headers contain the path of their clone, so that nothing
+  # compiled with them would serve another one: its presets have none
+  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
   # clang blames us for what libstdc++ 12 does within std::stable_sort; g++ still reports what is deprecated in our own lines
   $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
   # memory is there: cleaning it up while compiling takes a twelfth of the time

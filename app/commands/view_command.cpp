@@ -310,6 +310,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
                               .materials = materials,
                               .windows = windows,
                               .picture = (*display)->picture(),
+                              .drawn_by = (*display)->context().device_name(),
                               .wand = **wand,
                               .clock = clock,
                               .start_servo = start_servo},

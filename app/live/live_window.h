@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "app/live/live_controls.h"
@@ -31,6 +32,7 @@ struct LiveWindowParts {
   const std::vector<curves::SampleModel>& materials;
   ViewWindows& windows;
   ViewPicture& picture;
+  std::string drawn_by;  // name of the graphics device
   ViewWand& wand;
   const core::Clock& clock;
   std::function<core::Result<std::unique_ptr<servo::ServoClient>>()> start_servo;

@@ -151,7 +151,7 @@ render::ControlPanel ViewPanels::control_panel(std::size_t material, const std::
                                                exhibit::ChangeState state) {
   render::ControlPanel panel = scan_ != nullptr
                                    ? exhibit::scan_panel(*scan_, title, phrases())
-                                   : exhibit::parameter_panel(edits_.of(material), title, state, phrases());
+                                   : exhibit::parameter_panel(edits_.of(material), title, state, phrases(), drawn_by_);
   if (marking_) panel.marked = std::min(marked_, panel.rows.size() - 1);
   return panel;
 }

@@ -50,6 +50,9 @@ class ViewPanels {
   // Replaces the parameters by the settings of a scan; null: does not. The scan must outlive the object.
   void set_scan(exhibit::LiveScan* scan) { scan_ = scan; }
 
+  // Name of the graphics device, a note of the parameters; empty, as at first: none.
+  void set_drawn_by(std::string device) { drawn_by_ = std::move(device); }
+
   // Friction history for the loop's panel; must outlive the object.
   void set_friction(const exhibit::FrictionHistory* friction) { friction_ = friction; }
 
@@ -121,6 +124,7 @@ class ViewPanels {
   KeyList key_list_;
   exhibit::LiveScan* scan_ = nullptr;
   const exhibit::FrictionHistory* friction_ = nullptr;
+  std::string drawn_by_;
   std::size_t marked_ = 0;
   bool marking_ = false;  // a key has marked a row
   bool hidden_ = false;

@@ -81,7 +81,8 @@ class ViewTest : public ::testing::Test {
     const curves::LiveParameters gold(
         curves::make_sample_model(curves::ContactSetup{stage_.materials.materials[1], {}, {}}).value());
     const auto box = render::control_box(
-        exhibit::parameter_panel(gold, "", exhibit::ChangeState::AsLoaded, stage_.phrases()), size, target);
+        exhibit::parameter_panel(gold, "", exhibit::ChangeState::AsLoaded, stage_.phrases(), "its device"), size,
+        target);
     const glm::dvec2 share = 0.5 * (box.from_mm + box.to_mm) / size;
     return pixel_of(panel.lower_left_m + share.x * panel.right_m + (1.0 - share.y) * panel.up_m);
   }

@@ -48,7 +48,8 @@ render::Banner full_banner(const Phrases& phrases, render::Banner banner) {
 render::ControlPanel full_parameters(const Stage& stage) {
   const curves::LiveParameters gold(
       curves::make_sample_model(curves::ContactSetup{stage.materials.materials[1], {}, {}}).value());
-  return parameter_panel(gold, stage.phrases().word("Silicon nitride"), ChangeState::Waiting, stage.phrases());
+  return parameter_panel(gold, stage.phrases().word("Silicon nitride"), ChangeState::Waiting, stage.phrases(),
+                         "NVIDIA GeForce RTX 4090 Laptop GPU");
 }
 
 LiveScan full_scan(const Stage& stage) {

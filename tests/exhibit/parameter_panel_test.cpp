@@ -37,8 +37,15 @@ TEST(ParameterPanel, TellsWhatFollowsFromTheParameters) {
   EXPECT_FALSE(panel.rows[1].changed);
 }
 
+TEST(ParameterPanel, NamesTheGraphicsDevice) {
+  const auto with = parameter_panel(mica(), "Mica", ChangeState::AsLoaded, test::english(), "llvmpipe");
+  EXPECT_EQ(with.notes.back(), "Drawn by llvmpipe");
+  const auto without = parameter_panel(mica(), "Mica", ChangeState::AsLoaded, test::english());
+  EXPECT_THAT(without.notes, testing::Not(Contains(HasSubstr("Drawn by"))));
+}
+
 TEST(ParameterPanel, EveryTargetIsHitInItsMiddleAndNoTwoOverlap) {
-  const auto panel = parameter_panel(mica(), "Mica", ChangeState::AsLoaded, test::english());
+  const auto panel = parameter_panel(mica(), "Mica", ChangeState::AsLoaded, test::english(), "llvmpipe");
   std::vector<Target> targets;
   for (std::size_t i = 0; i < panel.rows.size(); ++i) {
     targets.push_back({Target::Kind::Less, i});

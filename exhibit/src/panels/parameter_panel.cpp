@@ -75,7 +75,7 @@ double strongest_pull_n(const physics::ForceCurve& curve) {
 }  // namespace
 
 render::ControlPanel parameter_panel(const curves::LiveParameters& parameters, const std::string& title,
-                                     ChangeState state, const Phrases& phrases) {
+                                     ChangeState state, const Phrases& phrases, const std::string& drawn_by) {
   render::ControlPanel panel;
   panel.title = title;
   panel.status = parameters.refusal().empty() ? phrases[after(Phrase::ParametersLoaded, core::index_of(state))]
@@ -87,6 +87,7 @@ render::ControlPanel parameter_panel(const curves::LiveParameters& parameters, c
                           .changed = parameters.changed(row)});
   }
   panel.notes = notes(parameters, phrases);
+  if (!drawn_by.empty()) panel.notes.push_back(phrases.text<Phrase::NoteDrawnBy>(drawn_by));
   panel.buttons = {phrases[Phrase::ButtonReset], phrases[Phrase::ButtonClose]};
   return panel;
 }

@@ -16,8 +16,9 @@ enum class ChangeState { AsLoaded, Waiting, Applied, Refused };
 enum class PanelButton { Reset, Close };
 
 // A material's parameters and the values that follow from them, for the wall. `title` is in the language of the wall.
+// `drawn_by` is the name of the graphics device; empty: not shown.
 render::ControlPanel parameter_panel(const curves::LiveParameters& parameters, const std::string& title,
-                                     ChangeState state, const Phrases& phrases);
+                                     ChangeState state, const Phrases& phrases, const std::string& drawn_by = {});
 
 // Adds the predicted curve behind the felt ones, and sets axes and markers that fit it.
 void add_prediction(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel);

@@ -175,6 +175,7 @@
   PHRASE(NoteNoJump, "note-no-jump", "", kLine)                          \
   PHRASE(NoteTabor, "note-tabor", "tabor regime law", kLine)             \
   PHRASE(NoteNoHysteresis, "note-no-hysteresis", "k", kLine)             \
+  PHRASE(NoteDrawnBy, "note-drawn-by", "device", kLine)                  \
   PHRASE(ParametersLoaded, "parameters-loaded", "", kLine)               \
   PHRASE(ParametersWait, "parameters-wait", "", kLine)                   \
   PHRASE(ParametersApplied, "parameters-applied", "", kLine)             \
