@@ -14,8 +14,8 @@ constexpr double kTallestRow = 104.0;
 constexpr double kTargetWidth = 88.0;
 constexpr double kButtonWidth = 165.0;
 constexpr double kGap = 10.0;
-constexpr double kNoteHeight = 43.0;
-constexpr double kBelowNotes = 20.0;  // distance from the notes to the rounded edge
+constexpr double kNoteHeight = 41.0;
+constexpr double kBelowNotes = 16.0;  // distance from the notes to the rounded edge
 constexpr float kValueScale = 0.8F;
 
 // Distance between rows in the height that the notes leave.
