@@ -21,7 +21,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADER = "tests/mutants/mutant.h"
-FOLDERS = ["core", "physics", "scene", "haptics", "input", "render", "servo", "curves", "study", "fits", "cluster", "exhibit", "app"]
+FOLDERS = ["core", "physics", "scene", "haptics", "input", "render", "servo", "curves", "study", "fits", "cluster", "exhibit", "instrument", "app"]
 COUNTED_TWICE = ("haptics", "servo")
 ALSO_TESTED_IN = {"render": ["headset"], "app": ["headset"]}  # folders of tests alone
 MARKS = DRAWN = 4096  # as in mutant.h

@@ -34,6 +34,7 @@ struct CommandContext {
   COMMAND(particles)                  \
   COMMAND(paper)                      \
   COMMAND(study)                      \
+  COMMAND(serve)                      \
   COMMAND(render)                     \
   COMMAND(replay)                     \
   COMMAND(wall)                       \

@@ -28,8 +28,9 @@ set(arrows_fits physics)
 set(arrows_cluster core physics scene/shared scene/display)
 set(arrows_exhibit core physics scene/config scene/shared scene/display scene/samples scene/graph scene/gltf haptics input render servo curves
                    study cluster)
+set(arrows_instrument core physics curves fits exhibit)
 set(arrows_app core physics scene/config scene/shared scene/display scene/samples scene/graph scene/gltf haptics input render servo curves
-               study fits cluster exhibit)
+               study fits cluster exhibit instrument)
 set(arrows_python core physics scene/shared scene/samples servo curves fits)
 
 set(libraries_core tl)
@@ -49,6 +50,7 @@ set(libraries_study fmt nlohmann tl boost)
 set(libraries_fits cminpack)
 set(libraries_cluster fmt tl dds)
 set(libraries_exhibit glm fmt nlohmann tl toml\\+\\+ SDL2)
+set(libraries_instrument fmt nlohmann)
 set(libraries_python fmt nlohmann pybind11)
 set(libraries_app glm fmt CLI nlohmann tl benchmark systemd)
 set(known_libraries "openxr|glm|fmt|toml\\+\\+|draco|meshoptimizer|turbojpeg|nlohmann|tl|vulkan|GLFW|imgui|png|CLI|hidapi|SDL2|gtest|gmock|benchmark|hdf5|unzip|boost|pugixml|tiny_gltf|dds|systemd|xcb|cminpack|pybind11")

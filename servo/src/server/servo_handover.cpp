@@ -17,10 +17,10 @@
 
 #include "core/fnv1a.h"
 #include "core/system_error.h"
+#include "core/trusted_peer.h"
 #include "descriptor_letter.h"
 #include "haptics/servo_loop.h"
 #include "private_folder.h"
-#include "trusted_peer.h"
 
 namespace afm::servo {
 
@@ -123,7 +123,7 @@ HandoverPort::~HandoverPort() {
 HandoverPort::Answer HandoverPort::receive(int segment, const std::vector<std::string>& arguments,
                                            core::FileDescriptor& lifeline) const {
   const core::FileDescriptor visitor(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
-  if (!visitor.is_open() || !trusted_peer(visitor.get(), ::getuid())) return Answer::Nobody;
+  if (!visitor.is_open() || !core::trusted_peer(visitor.get(), ::getuid())) return Answer::Nobody;
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return Answer::Nobody;
   core::FileDescriptor ours(ends[0]);
@@ -167,7 +167,7 @@ std::optional<WaitingServo> visit_servo(const fs::path& path) {
     if (errno == ECONNREFUSED) ::unlink(path.c_str());  // left by a killed servo
     return std::nullopt;
   }
-  const auto servo = trusted_peer(socket.get(), ::getuid());
+  const auto servo = core::trusted_peer(socket.get(), ::getuid());
   if (!servo) return std::nullopt;
   core::FileDescriptor process(static_cast<int>(::syscall(SYS_pidfd_open, *servo, 0)));
   std::array<core::FileDescriptor, 2> descriptors;

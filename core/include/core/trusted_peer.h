@@ -5,9 +5,9 @@
 
 #include <optional>
 
-namespace afm::servo {
+namespace afm::core {
 
 // Process at the other end of a connected Unix socket, if it ran as `user` when it connected. Any thread.
 std::optional<pid_t> trusted_peer(int socket, uid_t user) noexcept;
 
-}  // namespace afm::servo
+}  // namespace afm::core

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trusted_peer.h"
+#include "core/trusted_peer.h"
 
 #include <sys/socket.h>
 
-namespace afm::servo {
+namespace afm::core {
 
 std::optional<pid_t> trusted_peer(int socket, uid_t user) noexcept {
   ucred peer{};
@@ -12,4 +12,4 @@ std::optional<pid_t> trusted_peer(int socket, uid_t user) noexcept {
   return known && peer.uid == user ? std::optional(peer.pid) : std::nullopt;
 }
 
-}  // namespace afm::servo
+}  // namespace afm::core

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "server/trusted_peer.h"
+#include "core/trusted_peer.h"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -9,13 +9,13 @@
 
 #include "core/file_descriptor.h"
 
-namespace afm::servo {
+namespace afm::core {
 namespace trusted_peer_test {
 
 TEST(TrustedPeer, IsAProcessOfTheUserAndOfNobodyElse) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()), 0);
-  const core::FileDescriptor here(ends[0]), there(ends[1]);
+  const FileDescriptor here(ends[0]), there(ends[1]);
   EXPECT_EQ(trusted_peer(here.get(), ::getuid()), ::getpid());
   EXPECT_EQ(trusted_peer(here.get(), ::getuid() + 1), std::nullopt);
 }
@@ -26,4 +26,4 @@ TEST(TrustedPeer, IsNobodyWhereThereIsNoSocket) {
 }
 
 }  // namespace trusted_peer_test
-}  // namespace afm::servo
+}  // namespace afm::core

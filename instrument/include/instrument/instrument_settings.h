@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "core/result.h"
+#include "curves/contact_options.h"
+#include "exhibit/scan/scan_surface.h"
+#include "physics/imaging/scan_settings.h"
+#include "physics/imaging/tip_shape.h"
+
+namespace afm::instrument {
+
+// What can go wrong on purpose; zero: it does not.
+struct Faults {
+  double force_noise_n = 0;        // rms of the white noise of each point of a curve
+  double detector_range_n = 0;     // a curve shows no force beyond it, either way; zero: unlimited
+  double blunting_force_n = 0;     // push beyond which the tip wears; zero: never
+  double blunting_m_per_n = 1.0;   // growth of its radius for each newton beyond, once a curve or line
+  double false_engagement = 0;     // probability that an approach stops above the sample
+  double tip_change = 0;           // probability that the tip grows or loses a second apex before a line
+  double second_apex_m = 20e-9;    // distance of that apex, along +x
+};
+
+// Everything that a client sets, in SI. The contact's numbers are those of the material unless they are given.
+struct InstrumentSettings {
+  curves::ContactOptions contact;
+  physics::TipShape tip;  // kind and half angle; its radius is the contact's
+  physics::ScanSettings scan;
+  double size_m = 0;  // width and height of an image; zero: those of the sample
+  std::size_t pixels = 64;
+  double free_amplitude_m = 20e-9;  // of a tapping curve, zero to peak
+  double drive_hz = 0;              // zero: at the resonance
+  double viscosity_pa_s = 0;        // of the contact
+  Faults faults;
+};
+
+// Widest image of a client: 1024 lines are answered within seconds.
+inline constexpr std::size_t kMostInstrumentPixels = 1024;
+
+// Settings as {"material": "mica", "line_rate_hz": 2.0, ...}: every key that change() takes, and its value now. A number
+// of the contact that is not given is the material's, or null if the material has none.
+nlohmann::ordered_json settings_json(const InstrumentSettings& settings, const curves::ContactSetup& setup);
+
+// Takes the values of an object over; null for a number of the contact: that of the material. WrongUsage, naming the key,
+// its range and unit, for an unknown key and for any other value, without a change.
+core::Result<void> change(const nlohmann::ordered_json& values, InstrumentSettings& settings);
+
+}  // namespace afm::instrument

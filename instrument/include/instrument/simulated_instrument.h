@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "curves/curve_run.h"
+#include "curves/tapping/tapping_run.h"
+#include "fits/thermal_fit.h"
+#include "instrument/instrument_settings.h"
+#include "physics/imaging/scanner.h"
+#include "physics/normal_generator.h"
+
+namespace afm::instrument {
+
+// An atomic force microscope in simulated time, whose truth is known. The same seed and the same calls give the same
+// results, bit for bit. Lengths in m of the sample's frame, z away from it; time in s. One thread; allocates.
+class SimulatedInstrument {
+ public:
+  // Fails as curves::contact_setup() and exhibit::scan_surface(). `sample`: instead of the one drawn for the material.
+  static core::Result<SimulatedInstrument> create(std::string assets_dir, std::uint64_t seed,
+                                                  exhibit::OwnSample sample = {});
+
+  // As if it were created with this seed.
+  core::Result<void> reset(std::uint64_t seed);
+
+  const InstrumentSettings& settings() const noexcept { return settings_; }
+  const curves::ContactSetup& setup() const noexcept { return setup_; }
+  // Fails, without a change, for numbers of which the contact's law or the scanner has no use.
+  core::Result<void> change(const InstrumentSettings& settings);
+
+  // Lowers the tip onto the sample until the setpoint is reached, or seems to be: Faults::false_engagement.
+  void approach(double speed_m_per_s);
+  void withdraw(double distance_m, double speed_m_per_s);
+  void move_to(double x_m, double y_m, double speed_m_per_s);
+  void wait(double time_s) noexcept;
+
+  struct Position {
+    double x_m = 0, y_m = 0;
+    double z_m = 0;        // lever's base, above the mean level of the sample
+    bool engaged = false;  // the feedback holds the setpoint, as far as the microscope can know
+    double time_s = 0;
+  };
+  const Position& position() const noexcept { return at_; }
+
+  struct CurveRequest {
+    std::optional<double> z_from_m, z_to_m;  // of the lever's base, zero at the surface; empty: as touchafm curve
+    std::size_t points = 500;                // of each branch, 2 to kMostCurvePoints; a jump adds two
+    double speed_m_per_s = 1e-6;
+  };
+  static constexpr std::size_t kMostCurvePoints = 100'000;
+
+  // A curve where the tip is; it is engaged or withdrawn again afterwards. `shown_n` is what the detector shows.
+  struct Curve {
+    curves::CurveRun run;
+    std::vector<double> shown_n;
+  };
+  core::Result<Curve> curve(const CurveRequest& request);
+
+  // Tapping curve of the contact as it is, without noise. Fails as curves::run_tapping().
+  core::Result<curves::TappingRun> tapping_curve(const std::optional<double>& z_from_m,
+                                                 const std::optional<double>& z_to_m, std::size_t points);
+
+  // Calls `taken` with each line and the time; the scan ends if it returns false. WrongUsage unless the tip is engaged.
+  using TakeLine = std::function<bool(const physics::ScanLine& line, double time_s)>;
+  core::Result<physics::ScanImage> scan(std::size_t lines, const TakeLine& taken);
+
+  // One-sided spectrum of the free lever's first mode, as a lever that was calibrated under an end load shows it, in
+  // m^2/Hz: the mean of `averages` periodograms (physics/flexural_modes.h, fits/thermal_fit.h).
+  std::vector<fits::SpectrumPoint> thermal(std::size_t points, double most_hz, std::size_t averages);
+
+  // What no microscope shows.
+  struct Truth {
+    double tip_radius_m = 0;   // as worn as it is
+    double tip_growth_m = 0;   // by wear since the start
+    bool touching = false;     // false after a false engagement
+    bool second_apex = false;  // a changed tip
+    double surface_m = 0;      // height of the sample below the tip, for its apex
+    double sample_x_m = 0, sample_y_m = 0;  // drift of the sample since the start
+    double highest_force_n = 0;             // strongest push so far
+  };
+  Truth truth() const;
+
+ private:
+  SimulatedInstrument(std::string assets_dir, exhibit::OwnSample sample);
+
+  core::Result<void> build(const InstrumentSettings& settings, double growth_m);
+  physics::TipShape tip_shape() const;
+  physics::ScanSettings scan_settings() const;
+  physics::Scanner::Surface surface_now() const;
+  double surface_below() const;
+  double uniform();
+  void pass(double time_s) noexcept;
+  core::Result<void> wear(double force_n);
+  core::Result<void> after_line(const physics::ScanLine& line, physics::Scanner& scanner);
+  curves::PathOptions path_of(const std::optional<double>& from, const std::optional<double>& to) const;
+
+  std::string assets_dir_;
+  exhibit::OwnSample sample_;
+  InstrumentSettings settings_;
+  curves::ContactSetup setup_;     // with the worn tip
+  exhibit::ScanSurface surface_;   // under the tip as it was at surface_radius_m_
+  double surface_radius_m_ = 0;
+  double growth_m_ = 0, drift_x_m_ = 0, drift_y_m_ = 0, highest_force_n_ = 0;
+  bool touching_ = false, second_apex_ = false;
+  Position at_;
+  std::mt19937_64 chance_;
+  physics::NormalGenerator noise_;
+};
+
+}  // namespace afm::instrument

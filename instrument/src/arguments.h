@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+namespace afm::instrument {
+
+// A request that is answered with its reason.
+struct RefusedRequest : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The members of a request. Each accessor checks sort and range, and throws RefusedRequest, as finish() does for a member
+// that no accessor asked for: a misspelled name must not act as its default.
+class Arguments {
+ public:
+  explicit Arguments(const nlohmann::ordered_json& object) : object_(object) {}
+
+  std::optional<double> number(const char* name, double smallest, double largest);
+  double number_or(const char* name, double usual, double smallest, double largest) {
+    return number(name, smallest, largest).value_or(usual);
+  }
+  std::size_t count_or(const char* name, std::size_t usual, std::size_t smallest, std::size_t largest);
+  std::optional<std::string> text(const char* name, std::size_t most_letters);
+  // Null if the request does not have it.
+  const nlohmann::ordered_json* member(const char* name);
+
+  void finish() const;
+
+ private:
+  const nlohmann::ordered_json& object_;
+  std::set<std::string> asked_{"id", "do"};
+};
+
+}  // namespace afm::instrument

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "instrument/instrument_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <span>
+#include <string_view>
+
+#include "curves/contact_setup.h"
+
+namespace afm::instrument {
+namespace {
+
+using core::wrong_usage;
+using Json = nlohmann::ordered_json;
+using Settings = InstrumentSettings;
+
+// A number that is neither the contact's nor a scan's.
+struct NumberRow {
+  std::string_view key;
+  double smallest, largest;  // SI, both allowed
+  double (*get)(const Settings& settings);
+  void (*set)(Settings& settings, double si);
+};
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+constexpr std::array kNumbers{
+    NumberRow{"tip_half_angle_rad", kDegree, 80.0 * kDegree, [](const Settings& s) { return s.tip.half_angle_rad; },
+              [](Settings& s, double si) { s.tip.half_angle_rad = si; }},
+    NumberRow{"size_m", 0.0, 1e-4, [](const Settings& s) { return s.size_m; },
+              [](Settings& s, double si) { s.size_m = si; }},
+    NumberRow{"free_amplitude_m", 1e-12, 1e-6, [](const Settings& s) { return s.free_amplitude_m; },
+              [](Settings& s, double si) { s.free_amplitude_m = si; }},
+    NumberRow{"drive_hz", 0.0, 1e8, [](const Settings& s) { return s.drive_hz; },
+              [](Settings& s, double si) { s.drive_hz = si; }},
+    NumberRow{"viscosity_pa_s", 0.0, 1e6, [](const Settings& s) { return s.viscosity_pa_s; },
+              [](Settings& s, double si) { s.viscosity_pa_s = si; }},
+    NumberRow{"force_noise_n", 0.0, 1e-3, [](const Settings& s) { return s.faults.force_noise_n; },
+              [](Settings& s, double si) { s.faults.force_noise_n = si; }},
+    NumberRow{"detector_range_n", 0.0, 1.0, [](const Settings& s) { return s.faults.detector_range_n; },
+              [](Settings& s, double si) { s.faults.detector_range_n = si; }},
+    NumberRow{"blunting_force_n", 0.0, 1.0, [](const Settings& s) { return s.faults.blunting_force_n; },
+              [](Settings& s, double si) { s.faults.blunting_force_n = si; }},
+    NumberRow{"blunting_m_per_n", 0.0, 1e3, [](const Settings& s) { return s.faults.blunting_m_per_n; },
+              [](Settings& s, double si) { s.faults.blunting_m_per_n = si; }},
+    NumberRow{"false_engagement", 0.0, 1.0, [](const Settings& s) { return s.faults.false_engagement; },
+              [](Settings& s, double si) { s.faults.false_engagement = si; }},
+    NumberRow{"tip_change", 0.0, 1.0, [](const Settings& s) { return s.faults.tip_change; },
+              [](Settings& s, double si) { s.faults.tip_change = si; }},
+    NumberRow{"second_apex_m", 1e-10, 1e-6, [](const Settings& s) { return s.faults.second_apex_m; },
+              [](Settings& s, double si) { s.faults.second_apex_m = si; }}};
+
+// Those of the contact, of the sample, and of Faults are set as such.
+bool is_of_scan_alone(const physics::ScanField& field) {
+  constexpr std::array<std::string_view, 5> kElsewhere{"spring_constant", "adhesion", "snap_in", "second_apex_distance",
+                                                       "second_apex_height"};
+  return std::find(kElsewhere.begin(), kElsewhere.end(), field.name) == kElsewhere.end();
+}
+
+core::Result<double> number_of(std::string_view key, const Json& value, double smallest, double largest) {
+  const double si = value.is_number() ? value.get<double>() : std::nan("");
+  if (!(si >= smallest && si <= largest)) {
+    return wrong_usage(
+        fmt::format("\"{}\": {} is no number from {} to {} in SI", key, value.dump(), smallest, largest));
+  }
+  return si;
+}
+
+core::Result<std::string> text_of(std::string_view key, const Json& value) {
+  constexpr std::size_t kMostLetters = 64;
+  if (!value.is_string() || value.get_ref<const std::string&>().size() > kMostLetters) {
+    return wrong_usage(fmt::format("\"{}\": give a text of at most {} letters", key, kMostLetters));
+  }
+  return value.get<std::string>();
+}
+
+core::Result<void> set_tip(const Json& value, Settings& settings) {
+  const auto name = text_of("tip", value);
+  if (!name) return tl::unexpected(name.error());
+  std::string known;
+  for (const physics::TipKindName& row : physics::kTipKinds) {
+    known += (known.empty() ? "" : ", ") + std::string(row.name);
+    if (row.name != *name) continue;
+    settings.tip.kind = row.kind;
+    return {};
+  }
+  return wrong_usage(fmt::format("\"tip\": there is no tip \"{}\"; choose {}", *name, known));
+}
+
+// The settings that are no numbers; empty if the key is none of them.
+std::optional<core::Result<void>> set_word(std::string_view key, const Json& value, Settings& settings) {
+  if (key == "tip") return set_tip(value, settings);
+  if (key == "feedback") {
+    if (!value.is_boolean()) return wrong_usage("\"feedback\": give true or false");
+    settings.scan.feedback = value.get<bool>() ? physics::Feedback::On : physics::Feedback::Off;
+    return core::Result<void>{};
+  }
+  if (key == "pixels") {
+    const auto pixels = number_of(key, value, 2.0, static_cast<double>(kMostInstrumentPixels));
+    if (!pixels) return tl::unexpected(pixels.error());
+    settings.pixels = static_cast<std::size_t>(*pixels);
+    return core::Result<void>{};
+  }
+  std::string* text = key == "material" ? &settings.contact.material : key == "law" ? &settings.contact.model : nullptr;
+  if (text == nullptr) return std::nullopt;
+  auto word = text_of(key, value);
+  if (!word) return tl::unexpected(word.error());
+  *text = std::move(*word);
+  return core::Result<void>{};
+}
+
+core::Result<void> set_value(const std::string& key, const Json& value, Settings& settings) {
+  if (const auto done = set_word(key, value, settings)) return *done;
+  for (const NumberRow& row : kNumbers) {
+    if (row.key != key) continue;
+    const auto si = number_of(key, value, row.smallest, row.largest);
+    if (!si) return tl::unexpected(si.error());
+    row.set(settings, *si);
+    return {};
+  }
+  for (const physics::ScanField& field : physics::kScanFields) {
+    if (field.json_key != key || !is_of_scan_alone(field)) continue;
+    const auto si = number_of(key, value, field.smallest, field.largest);
+    if (!si) return tl::unexpected(si.error());
+    field.set(settings.scan, *si);
+    return {};
+  }
+  for (const curves::ContactParameter& parameter : curves::contact_parameters()) {
+    if (parameter.json_key != key) continue;
+    const std::string option(parameter.option);
+    if (value.is_null()) {
+      settings.contact.si_values.erase(option);
+      return {};
+    }
+    // the contact itself knows which values make sense
+    const auto si = number_of(key, value, -1e30, 1e30);
+    if (!si) return tl::unexpected(si.error());
+    settings.contact.si_values[option] = *si;
+    return {};
+  }
+  return wrong_usage(fmt::format("there is no setting \"{}\"; \"get\" lists all of them", key));
+}
+
+}  // namespace
+
+Json settings_json(const Settings& settings, const curves::ContactSetup& setup) {
+  Json result{{"material", settings.contact.material},
+              {"law", settings.contact.model},
+              {"tip", physics::name_of(settings.tip.kind)},
+              {"pixels", settings.pixels},
+              {"feedback", settings.scan.feedback == physics::Feedback::On}};
+  for (const curves::ContactParameter& parameter : curves::contact_parameters()) {
+    const std::optional<double> si = parameter.get(setup);
+    result[std::string(parameter.json_key)] = si && std::isfinite(*si) ? Json(*si) : Json(nullptr);
+  }
+  for (const physics::ScanField& field : physics::kScanFields) {
+    if (is_of_scan_alone(field)) result[std::string(field.json_key)] = field.get(settings.scan);
+  }
+  for (const NumberRow& row : kNumbers) result[std::string(row.key)] = row.get(settings);
+  return result;
+}
+
+core::Result<void> change(const Json& values, Settings& settings) {
+  if (!values.is_object()) return wrong_usage("\"values\": give an object of settings, {\"material\": \"gold\"}");
+  Settings changed(settings);
+  for (const auto& [key, value] : values.items()) {
+    if (const auto set = set_value(key, value, changed); !set) return set;
+  }
+  settings = std::move(changed);
+  return {};
+}
+
+}  // namespace afm::instrument

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "instrument/json_door.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "arguments.h"
+#include "core/printable.h"
+#include "core/version.h"
+#include "core/whole_file.h"
+#include "curves/curve_output.h"
+#include "curves/curve_series.h"
+#include "curves/image_output.h"
+#include "curves/tapping/tapping_output.h"
+
+namespace afm::instrument {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kProtocol = 1;
+constexpr int kDeepestRequest = 8;
+constexpr double kMostPlaceM = 1e-3;          // of x, y and heights, either way
+constexpr double kUsualSpeedM = 1e-6;         // m/s
+constexpr double kLeastSpeedM = 1e-12, kMostSpeedM = 1.0;
+constexpr double kMostWaitS = 1e7;
+constexpr std::size_t kMostSpectrumPoints = 100'000, kMostSpectrumWork = 10'000'000;
+
+template <class T>
+T taken(core::Result<T> result) {
+  if (!result) throw RefusedRequest(result.error().message);
+  return std::move(*result);
+}
+void taken(const core::Result<void>& result) {
+  if (!result) throw RefusedRequest(result.error().message);
+}
+
+// No JSON library is asked to build what is nested without end.
+bool is_too_deep(std::string_view text) {
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (quoted && text[i] == '\\') {
+      ++i;
+    } else if (text[i] == '"') {
+      quoted = !quoted;
+    } else if (!quoted && (text[i] == '[' || text[i] == '{')) {
+      if (++depth > kDeepestRequest) return true;
+    } else if (!quoted && (text[i] == ']' || text[i] == '}')) {
+      --depth;
+    }
+  }
+  return false;
+}
+
+template <class Rows, class Value>
+Json column(const Rows& rows, const Value& value) {
+  Json numbers = Json::array();
+  for (const auto& row : rows) {
+    const double number = value(row);
+    numbers.push_back(std::isfinite(number) ? Json(number) : Json(nullptr));
+  }
+  return numbers;
+}
+
+Json numbers_of(const std::vector<double>& values) {
+  return column(values, [](double value) { return value; });
+}
+
+double speed_of(Arguments& arguments) {
+  return arguments.number_or("speed_m_per_s", kUsualSpeedM, kLeastSpeedM, kMostSpeedM);
+}
+
+Json position_json(const SimulatedInstrument& instrument) {
+  const SimulatedInstrument::Position& at = instrument.position();
+  return {{"x_m", at.x_m}, {"y_m", at.y_m}, {"z_m", at.z_m}, {"engaged", at.engaged}};
+}
+
+// A name within the folder and nothing else.
+std::string file_name_of(Arguments& arguments) {
+  constexpr std::size_t kMostLetters = 100;
+  const auto name = arguments.text("file", kMostLetters);
+  const bool plain = name && !name->empty() && name->front() != '.' && std::all_of(name->begin(), name->end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '_';
+  });
+  if (!plain) throw RefusedRequest("\"file\": give a name of letters, digits, \"-\", \"_\" and \".\"");
+  return *name;
+}
+
+}  // namespace
+
+// One function a verb: takes its arguments and returns the members of the answer.
+struct JsonDoor::Verbs {
+  struct Row {
+    std::string_view name;
+    std::string_view meaning;
+    Json (*run)(JsonDoor& door, Arguments& arguments, const Json& id, const Send& send);
+  };
+  static const std::array<Row, 14> kRows;
+
+  static Json hello(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    constexpr double kMostSeed = 9007199254740992.0;  // largest whole number that every JSON library keeps
+    const auto seed = arguments.number("seed", 0.0, kMostSeed);
+    arguments.finish();
+    if (seed) {
+      taken(door.instrument_.reset(static_cast<std::uint64_t>(*seed)));
+      door.image_.reset();
+      door.curve_.reset();
+    }
+    Json verbs = Json::object();
+    for (const Row& row : kRows) verbs[std::string(row.name)] = row.meaning;
+    return {{"software", "TouchAFM"}, {"software_version", core::kVersion}, {"protocol", kProtocol}, {"verbs", verbs}};
+  }
+
+  static Json get(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    arguments.finish();
+    Json answer = position_json(door.instrument_);
+    answer["values"] = settings_json(door.instrument_.settings(), door.instrument_.setup());
+    return answer;
+  }
+
+  static Json set(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    const Json* values = arguments.member("values");
+    arguments.finish();
+    if (values == nullptr) throw RefusedRequest("\"values\": give an object of settings, {\"material\": \"gold\"}");
+    InstrumentSettings settings(door.instrument_.settings());
+    taken(change(*values, settings));
+    taken(door.instrument_.change(settings));
+    return Json::object();
+  }
+
+  static Json approach(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    const double speed = speed_of(arguments);
+    arguments.finish();
+    door.instrument_.approach(speed);
+    return position_json(door.instrument_);
+  }
+
+  static Json withdraw(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    const double distance_m = arguments.number_or("distance_m", 1e-6, 0.0, kMostPlaceM), speed = speed_of(arguments);
+    arguments.finish();
+    door.instrument_.withdraw(distance_m, speed);
+    return position_json(door.instrument_);
+  }
+
+  static Json move(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    const SimulatedInstrument::Position& at = door.instrument_.position();
+    const double x_m = arguments.number_or("x_m", at.x_m, -kMostPlaceM, kMostPlaceM),
+                 y_m = arguments.number_or("y_m", at.y_m, -kMostPlaceM, kMostPlaceM), speed = speed_of(arguments);
+    arguments.finish();
+    door.instrument_.move_to(x_m, y_m, speed);
+    return position_json(door.instrument_);
+  }
+
+  static Json wait(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    const auto time_s = arguments.number("time_s", 0.0, kMostWaitS);
+    arguments.finish();
+    if (!time_s) throw RefusedRequest("\"time_s\": give the simulated time to wait, in seconds");
+    door.instrument_.wait(*time_s);
+    return Json::object();
+  }
+
+  static Json curve(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    const SimulatedInstrument::CurveRequest request{
+        .z_from_m = arguments.number("z_from_m", -kMostPlaceM, kMostPlaceM),
+        .z_to_m = arguments.number("z_to_m", -kMostPlaceM, kMostPlaceM),
+        .points = arguments.count_or("points", 500, 2, SimulatedInstrument::kMostCurvePoints),
+        .speed_m_per_s = speed_of(arguments)};
+    arguments.finish();
+    const SimulatedInstrument::Curve curve = taken(door.instrument_.curve(request));
+    const auto& samples = curve.run.curve.samples;
+    const auto turn = std::find_if(samples.begin(), samples.end(), [](const physics::CurveSample& sample) {
+      return sample.branch == physics::Branch::Retract;
+    });
+    // as a microscope would keep it: with what its detector shows, and without the numbers that it cannot know
+    curves::RecordedCurve recorded = curves::recorded_curve(curve.run);
+    recorded.metadata.parameters.clear();
+    for (std::size_t i = 0; i < recorded.points.size(); ++i) recorded.points[i].force = physics::Force(curve.shown_n.at(i));
+    door.curve_ = std::move(recorded);
+    return {{"z_m", column(samples, [](const physics::CurveSample& sample) { return sample.z.si; })},
+            {"force_n", numbers_of(curve.shown_n)},
+            {"approach_points", turn - samples.begin()},
+            {"spring_constant_n_per_m", curve.run.setup.material.contact.spring_constant.si}};
+  }
+
+  static Json tapping_curve(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    const auto from = arguments.number("z_from_m", -kMostPlaceM, kMostPlaceM);
+    const auto to = arguments.number("z_to_m", -kMostPlaceM, kMostPlaceM);
+    const std::size_t points = arguments.count_or("points", 400, 2, SimulatedInstrument::kMostCurvePoints);
+    arguments.finish();
+    const curves::TappingRun run = taken(door.instrument_.tapping_curve(from, to, points));
+    const auto& rows = run.curve.points;
+    using physics::TapPoint;
+    Json answer{{"z_m", column(rows, [](const TapPoint& row) { return row.z.si; })},
+                {"amplitude_m", column(rows, [](const TapPoint& row) { return row.state.amplitude.si; })},
+                {"phase_rad", column(rows, [](const TapPoint& row) { return row.state.phase; })},
+                {"approach_points", std::count_if(rows.begin(), rows.end(), [](const TapPoint& row) {
+                   return row.branch == physics::Branch::Approach;
+                 })}};
+    answer["figures"] = curves::tapping_json(run);
+    return answer;
+  }
+
+  static Json scan(JsonDoor& door, Arguments& arguments, const Json& id, const Send& send) {
+    const std::size_t pixels = door.instrument_.settings().pixels;
+    const std::size_t lines = arguments.count_or("lines", pixels, 1, kMostInstrumentPixels);
+    arguments.finish();
+    bool read = true;
+    physics::ScanImage image = taken(door.instrument_.scan(lines, [&](const physics::ScanLine& line, double time_s) {
+      const auto track = [](const physics::ScanTrack& pass) {
+        return Json{{"height_m", numbers_of(pass.height_m)},
+                    {"error_n", numbers_of(pass.error_n)},
+                    {"lateral_n", numbers_of(pass.lateral_n)}};
+      };
+      const Json text{{"id", id},
+                      {"line", line.row},
+                      {"time_s", time_s},
+                      {"trace", track(line.trace)},
+                      {"retrace", track(line.retrace)}};
+      read = send(text.dump());
+      return read;
+    }));
+    Json answer{{"columns", image.columns},       {"rows", image.rows},
+                {"width_m", image.width_m},       {"height_m", image.height_m},
+                {"x_offset_m", image.x_offset_m}, {"y_offset_m", image.y_offset_m}};
+    door.image_ = std::move(image);
+    return answer;
+  }
+
+  static Json thermal(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    const double resonance_hz = door.instrument_.setup().material.lever.resonance.si;
+    const std::size_t points = arguments.count_or("points", 2000, 20, kMostSpectrumPoints),
+                      averages = arguments.count_or("averages", 100, 1, kMostSpectrumWork / kMostSpectrumPoints);
+    const double most_hz = arguments.number_or("most_hz", 2.0 * resonance_hz, 1.0, 1e9);
+    arguments.finish();
+    const auto spectrum = door.instrument_.thermal(points, most_hz, averages);
+    return {{"frequency_hz", column(spectrum, [](const fits::SpectrumPoint& point) { return point.frequency_hz; })},
+            {"density_m2_per_hz", column(spectrum, [](const fits::SpectrumPoint& point) { return point.density; })},
+            {"averages", averages}};
+  }
+
+  static Json truth(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    arguments.finish();
+    const SimulatedInstrument::Truth truth = door.instrument_.truth();
+    return {{"tip_radius_m", truth.tip_radius_m},
+            {"tip_growth_m", truth.tip_growth_m},
+            {"touching", truth.touching},
+            {"second_apex", truth.second_apex},
+            {"surface_m", truth.surface_m},
+            {"sample_x_m", truth.sample_x_m},
+            {"sample_y_m", truth.sample_y_m},
+            {"highest_force_n", truth.highest_force_n},
+            {"contact", curves::parameters_json(door.instrument_.setup())}};
+  }
+
+  static Json save(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    const std::string name = file_name_of(arguments);
+    arguments.finish();
+    if (door.folder_.empty()) throw RefusedRequest("no folder was given; start touchafm serve with --out DIR");
+    const std::string path = (std::filesystem::path(door.folder_) / name).string();
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored)) throw RefusedRequest("there is already a file " + name);
+    if (const auto format = curves::image_format(name)) {
+      if (!door.image_) throw RefusedRequest("there is no image yet; \"scan\" first");
+      taken(core::write_file(path, *format == curves::ImageFormat::Gsf ? curves::gsf_bytes(*door.image_, 0)
+                                                                       : curves::gwy_bytes(*door.image_)));
+      return {{"file", name}};
+    }
+    for (const curves::WritableFormat& row : curves::writable_formats()) {
+      if (!name.ends_with("." + std::string(row.word))) continue;
+      if (!door.curve_) throw RefusedRequest("there is no curve yet; \"curve\" first");
+      taken(core::write_file(path, taken(curves::series_bytes(row.format, std::array{*door.curve_}))));
+      return {{"file", name}};
+    }
+    throw RefusedRequest("\"file\": name it .gwy or .gsf for the newest image, .h5 or .tab for the newest curve");
+  }
+
+  static Json quit(JsonDoor&, Arguments& arguments, const Json&, const Send&) {
+    arguments.finish();
+    return Json::object();
+  }
+
+  static const Row* find(std::string_view name) {
+    const auto found = std::find_if(kRows.begin(), kRows.end(), [name](const Row& row) { return row.name == name; });
+    return found == kRows.end() ? nullptr : &*found;
+  }
+};
+
+constexpr std::array<JsonDoor::Verbs::Row, 14> JsonDoor::Verbs::kRows{{
+    {"hello", "who answers; \"seed\" starts anew", &Verbs::hello},
+    {"get", "every setting and where the tip is", &Verbs::get},
+    {"set", "changes settings, all or none: \"values\"", &Verbs::set},
+    {"approach", "lowers the tip until the setpoint is reached: \"speed_m_per_s\"", &Verbs::approach},
+    {"withdraw", "lifts the tip: \"distance_m\", \"speed_m_per_s\"", &Verbs::withdraw},
+    {"move", "goes to another place: \"x_m\", \"y_m\", \"speed_m_per_s\"", &Verbs::move},
+    {"wait", "lets simulated time pass: \"time_s\"", &Verbs::wait},
+    {"curve", "a force curve: \"z_from_m\", \"z_to_m\", \"points\", \"speed_m_per_s\"", &Verbs::curve},
+    {"tapping_curve", "amplitude and phase over the height: \"z_from_m\", \"z_to_m\", \"points\"", &Verbs::tapping_curve},
+    {"scan", "an image around the tip, line by line: \"lines\"", &Verbs::scan},
+    {"thermal", "spectrum of the free lever: \"points\", \"most_hz\", \"averages\"", &Verbs::thermal},
+    {"truth", "what no microscope shows", &Verbs::truth},
+    {"save", "writes the newest image or curve: \"file\"", &Verbs::save},
+    {"quit", "ends the server", &Verbs::quit},
+}};
+
+JsonDoor::JsonDoor(SimulatedInstrument& instrument, std::string folder)
+    : instrument_(instrument), folder_(std::move(folder)) {}
+
+JsonDoor::Then JsonDoor::answer(std::string_view request, const Send& send) {
+  Json id = nullptr;
+  Then then = Then::GoOn;
+  const auto refuse = [&](const std::string& why) {
+    send(Json{{"id", id}, {"ok", false}, {"error", core::printable(why)}}.dump(-1, ' ', false,
+                                                                               Json::error_handler_t::replace));
+  };
+  try {
+    if (is_too_deep(request)) throw RefusedRequest("the request is nested too deep");
+    const Json parsed = Json::parse(request, nullptr, false);
+    if (!parsed.is_object()) throw RefusedRequest("a request is a JSON object on one line: {\"id\": 1, \"do\": \"hello\"}");
+    if (const auto found = parsed.find("id"); found != parsed.end()) {
+      if (!found->is_number() && !found->is_string() && !found->is_null()) {
+        throw RefusedRequest("\"id\": give a number or a text");
+      }
+      id = *found;
+    }
+    Arguments arguments(parsed);
+    const auto name = arguments.text("do", 32).value_or("");
+    const Verbs::Row* verb = Verbs::find(name);
+    if (verb == nullptr) throw RefusedRequest(fmt::format("there is no verb \"{}\"; \"hello\" lists them", name));
+    if (verb->run == &Verbs::quit) then = Then::Quit;
+    const Json members = verb->run(*this, arguments, id, send);
+    Json answer{{"id", id}, {"ok", true}, {"time_s", instrument_.position().time_s}};
+    answer.update(members);
+    send(answer.dump(-1, ' ', false, Json::error_handler_t::replace));
+  } catch (const RefusedRequest& refusal) {
+    then = Then::GoOn;
+    refuse(refusal.what());
+  } catch (const std::bad_alloc&) {
+    refuse("there is not enough memory for this");
+  } catch (const std::exception& error) {
+    refuse(error.what());
+  }
+  return then;
+}
+
+}  // namespace afm::instrument

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "instrument/simulated_instrument.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "curves/tapping/driven_setup.h"
+#include "physics/flexural_modes.h"
+#include "physics/thermal_noise.h"
+#include "physics/units.h"
+
+namespace afm::instrument {
+namespace {
+
+using core::wrong_usage;
+
+constexpr double kStartAboveM = 1e-6;       // height of the tip at the start
+constexpr double kFalseAboveM = 100e-9;     // highest false engagement above the sample
+constexpr double kGrowthThatIsSeen = 0.02;  // relative growth of the tip from which the image's surface is computed anew
+
+std::string metres(const std::optional<double>& si) { return si ? fmt::format("{} m", *si) : std::string(); }
+
+}  // namespace
+
+SimulatedInstrument::SimulatedInstrument(std::string assets_dir, exhibit::OwnSample sample)
+    : assets_dir_(std::move(assets_dir)), sample_(std::move(sample)), noise_(0) {}
+
+core::Result<SimulatedInstrument> SimulatedInstrument::create(std::string assets_dir, std::uint64_t seed,
+                                                              exhibit::OwnSample sample) {
+  SimulatedInstrument made(std::move(assets_dir), std::move(sample));
+  if (const auto ready = made.reset(seed); !ready) return tl::unexpected(ready.error());
+  return made;
+}
+
+core::Result<void> SimulatedInstrument::reset(std::uint64_t seed) {
+  InstrumentSettings settings;
+  settings.contact.assets_dir = assets_dir_;
+  settings.contact.material = "mica";
+  settings_ = {};
+  surface_radius_m_ = 0.0;
+  if (const auto built = build(settings, 0.0); !built) return built;
+  growth_m_ = drift_x_m_ = drift_y_m_ = highest_force_n_ = 0.0;
+  touching_ = second_apex_ = false;
+  at_ = {.z_m = kStartAboveM};
+  chance_.seed(seed);
+  noise_ = physics::NormalGenerator(seed);
+  return {};
+}
+
+core::Result<void> SimulatedInstrument::change(const InstrumentSettings& settings) {
+  physics::ScanSettings scan(settings.scan);
+  try {
+    physics::validate(scan);
+  } catch (const physics::UnphysicalValue& error) {
+    return wrong_usage(error.what());
+  }
+  return build(settings, growth_m_);
+}
+
+// Everything that follows from settings and the worn tip; on failure nothing has changed.
+core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings, double growth_m) {
+  curves::ContactOptions options(settings.contact);
+  auto setup = curves::contact_setup(options);
+  if (!setup) return tl::unexpected(setup.error());
+  if (growth_m > 0.0) {
+    options.si_values["tip-radius"] = setup->material.contact.tip_radius.si + growth_m;
+    setup = curves::contact_setup(options);
+    if (!setup) return tl::unexpected(setup.error());
+  }
+  const double radius_m = setup->material.contact.tip_radius.si;
+  const bool same = settings.contact.material == settings_.contact.material &&
+                    settings.contact.model == settings_.contact.model &&
+                    settings.contact.si_values == settings_.contact.si_values &&
+                    settings.tip.kind == settings_.tip.kind &&
+                    settings.tip.half_angle_rad == settings_.tip.half_angle_rad;
+  if (!same || std::abs(radius_m - surface_radius_m_) > kGrowthThatIsSeen * surface_radius_m_) {
+    physics::TipShape tip(settings.tip);
+    tip.radius = physics::Length(radius_m);
+    auto surface = exhibit::scan_surface(*setup, tip, assets_dir_, sample_);
+    if (!surface) return tl::unexpected(surface.error());
+    surface_ = std::move(*surface);
+    surface_radius_m_ = radius_m;
+  }
+  settings_ = settings;
+  setup_ = std::move(*setup);
+  growth_m_ = growth_m;
+  return {};
+}
+
+physics::ScanSettings SimulatedInstrument::scan_settings() const {
+  physics::ScanSettings scan(settings_.scan);
+  scan.spring_constant = setup_.material.contact.spring_constant;
+  scan.adhesion = physics::Force(surface_.pull_off_force_n);
+  scan.snap_in = physics::Length(surface_.snap_in_m);
+  scan.second_apex_distance = physics::Length(second_apex_ ? settings_.faults.second_apex_m : 0.0);
+  return scan;
+}
+
+// As the scanner sees it from now on: displaced by the drift so far; for a tip that engaged falsely, nothing.
+physics::Scanner::Surface SimulatedInstrument::surface_now() const {
+  if (!touching_) return [z_m = at_.z_m](double, double) { return z_m; };
+  return [height = surface_.height_m, x = drift_x_m_, y = drift_y_m_](double x_m, double y_m) {
+    return height(x_m - x, y_m - y);
+  };
+}
+
+double SimulatedInstrument::surface_below() const {
+  return surface_.height_m(at_.x_m - drift_x_m_, at_.y_m - drift_y_m_);
+}
+
+// From 0 to below 1, the same on every machine.
+double SimulatedInstrument::uniform() { return static_cast<double>(chance_() >> 11) * 0x1p-53; }
+
+void SimulatedInstrument::pass(double time_s) noexcept {
+  at_.time_s += time_s;
+  drift_x_m_ += time_s * settings_.scan.drift_x.si;
+  drift_y_m_ += time_s * settings_.scan.drift_y.si;
+}
+
+void SimulatedInstrument::wait(double time_s) noexcept { pass(time_s); }
+
+void SimulatedInstrument::approach(double speed_m_per_s) {
+  const bool false_alarm = uniform() < settings_.faults.false_engagement;
+  const double above_m = false_alarm ? kFalseAboveM * (1.0 - uniform()) : 0.0;
+  // the lever is bent by the setpoint; the sample is taken as rigid, as the scanner takes it
+  const double bend_m = settings_.scan.setpoint.si / setup_.material.contact.spring_constant.si;
+  const double z_m = surface_below() + above_m - (false_alarm ? 0.0 : bend_m);
+  pass(std::abs(at_.z_m - z_m) / speed_m_per_s);
+  at_.z_m = z_m;
+  at_.engaged = true;
+  touching_ = !false_alarm;
+}
+
+void SimulatedInstrument::withdraw(double distance_m, double speed_m_per_s) {
+  pass(distance_m / speed_m_per_s);
+  at_.z_m += distance_m;
+  at_.engaged = touching_ = false;
+}
+
+void SimulatedInstrument::move_to(double x_m, double y_m, double speed_m_per_s) {
+  const double before_m = surface_below();
+  pass(std::hypot(x_m - at_.x_m, y_m - at_.y_m) / speed_m_per_s);
+  at_.x_m = x_m;
+  at_.y_m = y_m;
+  if (touching_) at_.z_m += surface_below() - before_m;  // the feedback follows
+}
+
+core::Result<void> SimulatedInstrument::wear(double force_n) {
+  highest_force_n_ = std::max(highest_force_n_, force_n);
+  const Faults& faults = settings_.faults;
+  if (faults.blunting_force_n <= 0.0 || force_n <= faults.blunting_force_n) return {};
+  return build(settings_, growth_m_ + faults.blunting_m_per_n * (force_n - faults.blunting_force_n));
+}
+
+curves::PathOptions SimulatedInstrument::path_of(const std::optional<double>& from,
+                                                 const std::optional<double>& to) const {
+  return {.from = metres(from), .to = metres(to)};
+}
+
+core::Result<SimulatedInstrument::Curve> SimulatedInstrument::curve(const CurveRequest& request) {
+  curves::PathOptions path = path_of(request.z_from_m, request.z_to_m);
+  if (!request.z_from_m || !request.z_to_m) {
+    // the usual ends depend on the contact
+    curves::PathOptions events(path);
+    events.events_only = true;
+    const auto usual = curves::run_curve(setup_, events);
+    if (!usual) return tl::unexpected(usual.error());
+    path = path_of(usual->plan.from.si, usual->plan.to.si);
+  }
+  const auto from = physics::parse_quantity(path.from, physics::kLengthUnits).value;
+  const auto to = physics::parse_quantity(path.to, physics::kLengthUnits).value;
+  if (!from || !to || !(*from > *to)) {
+    return wrong_usage(fmt::format("the curve would go from {} to {}: begin above its end", path.from, path.to));
+  }
+  const double length_m = (*from - *to).si;
+  path.step = metres(length_m / static_cast<double>(request.points - 1) * (1.0 + 1e-12));
+  if (setup_.model.dynamic) {
+    path.speed = fmt::format("{} m/s", request.speed_m_per_s);
+    path.seed = std::to_string(chance_());
+  }
+  auto run = curves::run_curve(setup_, path);
+  if (!run) return tl::unexpected(run.error());
+  Curve result{std::move(*run), {}};
+  const Faults& faults = settings_.faults;
+  double highest_n = 0.0;
+  result.shown_n.reserve(result.run.curve.samples.size());
+  for (const physics::CurveSample& sample : result.run.curve.samples) {
+    highest_n = std::max(highest_n, sample.force.si);
+    double shown_n = sample.force.si;
+    if (faults.force_noise_n > 0.0) shown_n += faults.force_noise_n * noise_();
+    if (faults.detector_range_n > 0.0) shown_n = std::clamp(shown_n, -faults.detector_range_n, faults.detector_range_n);
+    result.shown_n.push_back(shown_n);
+  }
+  pass(2.0 * length_m / request.speed_m_per_s);
+  if (const auto worn = wear(highest_n); !worn) return tl::unexpected(worn.error());
+  return result;
+}
+
+core::Result<curves::TappingRun> SimulatedInstrument::tapping_curve(const std::optional<double>& z_from_m,
+                                                                    const std::optional<double>& z_to_m,
+                                                                    std::size_t points) {
+  curves::TappingChoice choice;
+  choice.mode = "tapping";
+  choice.numbers.free_amplitude = metres(settings_.free_amplitude_m);
+  if (settings_.drive_hz > 0.0) choice.numbers.drive = fmt::format("{} Hz", settings_.drive_hz);
+  if (settings_.viscosity_pa_s > 0.0) choice.numbers.viscosity = fmt::format("{} Pa*s", settings_.viscosity_pa_s);
+  curves::ContactOptions options(settings_.contact);
+  if (growth_m_ > 0.0) options.si_values["tip-radius"] = setup_.material.contact.tip_radius.si;
+  const auto setup = curves::driven_setup(choice, options);
+  if (!setup) return tl::unexpected(setup.error());
+  curves::PathOptions path = path_of(z_from_m, z_to_m);
+  if (z_from_m && z_to_m && *z_from_m > *z_to_m) {
+    path.step = metres((*z_from_m - *z_to_m) / static_cast<double>(points - 1) * (1.0 + 1e-12));
+  }
+  return curves::run_tapping(*setup, path, choice.numbers);
+}
+
+core::Result<void> SimulatedInstrument::after_line(const physics::ScanLine& line, physics::Scanner& scanner) {
+  const double grown_m = growth_m_, surface_radius_m = surface_radius_m_;
+  const bool had_second = second_apex_;
+  if (const auto worn = wear(std::max(line.trace.highest_force_n, line.retrace.highest_force_n)); !worn) {
+    return tl::unexpected(worn.error());
+  }
+  if (uniform() < settings_.faults.tip_change) second_apex_ = !second_apex_;
+  if (second_apex_ != had_second || growth_m_ != grown_m) scanner.change(scan_settings());
+  if (surface_radius_m_ != surface_radius_m) scanner.change_surface(surface_now());
+  return {};
+}
+
+core::Result<physics::ScanImage> SimulatedInstrument::scan(std::size_t lines, const TakeLine& taken) {
+  if (!at_.engaged) return wrong_usage("the tip is withdrawn; \"approach\" first");
+  const double drawn_m = std::min(surface_.width_m, surface_.depth_m);
+  physics::ScanArea area;
+  area.width = physics::Length(settings_.size_m > 0.0 ? settings_.size_m : drawn_m);
+  area.height = physics::Length(area.width.si * static_cast<double>(lines) / static_cast<double>(settings_.pixels));
+  area.x_centre = physics::Length(at_.x_m);
+  area.y_centre = physics::Length(at_.y_m);
+  area.columns = settings_.pixels;
+  area.rows = lines;
+  try {
+    physics::Scanner scanner(area, scan_settings(), surface_now(), chance_());
+    std::optional<core::Error> error;
+    physics::ScanImage image = physics::scan_frame(scanner, [&](const physics::ScanLine& line) {
+      const auto worn = after_line(line, scanner);
+      if (!worn) error = worn.error();
+      return !error && taken(line, at_.time_s + scanner.time().si);
+    });
+    pass(scanner.time().si);
+    if (error) return tl::unexpected(*error);
+    return image;
+  } catch (const physics::UnphysicalValue& error) {
+    return wrong_usage(error.what());
+  }
+}
+
+std::vector<fits::SpectrumPoint> SimulatedInstrument::thermal(std::size_t points, double most_hz,
+                                                              std::size_t averages) {
+  const physics::LeverDynamics& lever = setup_.material.lever;
+  const double rms_m = physics::thermal_deflection(setup_.material.contact.spring_constant, lever.temperature).si;
+  const fits::Oscillator mode{.resonance_hz = lever.resonance.si,
+                              .quality_factor = lever.quality_factor,
+                              .area = rms_m * rms_m * physics::virtual_thermal_share(1),
+                              .floor = 0.0};
+  std::vector<fits::SpectrumPoint> spectrum;
+  for (std::size_t i = 1; i <= points; ++i) {
+    const double frequency_hz = most_hz * static_cast<double>(i) / static_cast<double>(points);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < averages; ++k) sum -= std::log(1.0 - uniform());
+    spectrum.push_back({frequency_hz, fits::density_at(mode, frequency_hz) * sum / static_cast<double>(averages)});
+  }
+  // a periodogram takes one over the distance of its frequencies
+  pass(static_cast<double>(averages * points) / most_hz);
+  return spectrum;
+}
+
+SimulatedInstrument::Truth SimulatedInstrument::truth() const {
+  return {.tip_radius_m = setup_.material.contact.tip_radius.si,
+          .tip_growth_m = growth_m_,
+          .touching = touching_,
+          .second_apex = second_apex_,
+          .surface_m = surface_below(),
+          .sample_x_m = drift_x_m_,
+          .sample_y_m = drift_y_m_,
+          .highest_force_n = highest_force_n_};
+}
+
+}  // namespace afm::instrument

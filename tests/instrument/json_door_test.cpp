@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Invariant: whatever a client of `touchafm serve` sends, it is answered on one line, and a refused request changes nothing
+#include "instrument/json_door.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "curves/curve_file.h"
+#include "curves/image_file.h"
+#include "support/places.h"
+#include "support/scratch_folder.h"
+
+namespace afm::instrument {
+namespace json_door_test {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class JsonDoorTest : public testing::Test {
+ protected:
+  std::vector<std::string> lines_for(const std::string& request) {
+    std::vector<std::string> lines;
+    then_ = door_.answer(request, [&](std::string_view line) {
+      EXPECT_EQ(line.find('\n'), std::string_view::npos);
+      lines.emplace_back(line);
+      return true;
+    });
+    return lines;
+  }
+  json answer_to(const std::string& request) { return json::parse(lines_for(request).back()); }
+  std::string refusal_of(const std::string& request) {
+    const json answer = answer_to(request);
+    EXPECT_EQ(answer.at("ok"), false) << request;
+    return answer.value("error", "");
+  }
+
+  support::ScratchFolder folder_;
+  SimulatedInstrument instrument_ = std::move(SimulatedInstrument::create(support::source("assets"), 1)).value();
+  JsonDoor door_{instrument_, folder_.file("")};
+  JsonDoor::Then then_ = JsonDoor::Then::GoOn;
+};
+
+TEST_F(JsonDoorTest, SaysWhoItIsAndWhatItCanDo) {
+  const json answer = answer_to(R"({"id": "a", "do": "hello"})");
+  EXPECT_EQ(answer["id"], "a");
+  EXPECT_EQ(answer["ok"], true);
+  EXPECT_EQ(answer["software"], "TouchAFM");
+  EXPECT_EQ(answer["protocol"], 1);
+  EXPECT_EQ(answer["verbs"].size(), 14U);
+}
+
+TEST_F(JsonDoorTest, TakesBackEverySettingThatItLists) {
+  const json values = answer_to(R"({"do": "get"})")["values"];
+  EXPECT_GT(values.size(), 30U);
+  EXPECT_EQ(values["material"], "mica");
+  for (const auto& [key, value] : values.items()) {
+    // a number of the contact without effect in this law is refused as on the command line
+    const json answer = answer_to(json{{"do", "set"}, {"values", {{key, value}}}}.dump());
+    if (answer["ok"] == false) EXPECT_THAT(answer.value("error", ""), HasSubstr("no effect")) << key;
+  }
+}
+
+TEST_F(JsonDoorTest, ChangesAllSettingsOrNone) {
+  EXPECT_THAT(refusal_of(R"({"do": "set", "values": {"pixels": 32, "line_rate_hz": -1}})"), HasSubstr("line_rate_hz"));
+  EXPECT_EQ(answer_to(R"({"do": "get"})")["values"]["pixels"], 64);
+  EXPECT_THAT(refusal_of(R"({"do": "set", "values": {"pixels": 32, "material": "cheese"}})"), HasSubstr("cheese"));
+  EXPECT_EQ(answer_to(R"({"do": "get"})")["values"]["pixels"], 64);
+  EXPECT_EQ(answer_to(R"({"do": "set", "values": {"pixels": 32, "material": "gold"}})")["ok"], true);
+  EXPECT_EQ(answer_to(R"({"do": "get"})")["values"]["material"], "gold");
+}
+
+TEST_F(JsonDoorTest, StreamsAnImageLineByLine) {
+  EXPECT_THAT(refusal_of(R"({"do": "scan"})"), HasSubstr("approach"));
+  EXPECT_EQ(answer_to(R"({"do": "approach"})")["engaged"], true);
+  const std::vector<std::string> lines = lines_for(R"({"id": 7, "do": "scan", "lines": 5})");
+  ASSERT_EQ(lines.size(), 6U);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const json line = json::parse(lines[i]);
+    EXPECT_EQ(line["id"], 7);
+    EXPECT_EQ(line["line"], i);
+    EXPECT_EQ(line["trace"]["height_m"].size(), 64U);
+    EXPECT_EQ(line["retrace"]["lateral_n"].size(), 64U);
+  }
+  EXPECT_EQ(json::parse(lines.back())["rows"], 5);
+}
+
+TEST_F(JsonDoorTest, EndsAScanThatNobodyReads) {
+  answer_to(R"({"do": "approach"})");
+  int sent = 0;
+  door_.answer(R"({"do": "scan"})", [&](std::string_view) { return ++sent < 3; });
+  EXPECT_LE(sent, 4);
+}
+
+TEST_F(JsonDoorTest, GivesACurveWithItsBranches) {
+  const json answer = answer_to(R"({"do": "curve", "points": 100, "z_from_m": 3e-8, "z_to_m": -5e-9})");
+  EXPECT_EQ(answer["z_m"].size(), answer["force_n"].size());
+  EXPECT_GE(answer["approach_points"], 100);
+  EXPECT_LT(answer["z_m"][answer["approach_points"].get<std::size_t>() - 1], -4.9e-9);
+  EXPECT_EQ(answer.contains("work_of_adhesion"), false);
+}
+
+TEST_F(JsonDoorTest, GivesATappingCurve) {
+  answer_to(R"({"do": "set", "values": {"law": "dmt", "spring_constant_n_per_m": 40, "quality_factor": 400,
+                "resonance_hz": 300e3, "free_amplitude_m": 2e-8}})");
+  const json answer = answer_to(R"({"do": "tapping_curve", "z_from_m": 3e-8, "z_to_m": 1e-8, "points": 50})");
+  ASSERT_EQ(answer["ok"], true) << answer.dump();
+  EXPECT_EQ(answer["amplitude_m"].size(), answer["phase_rad"].size());
+  EXPECT_NEAR(answer["amplitude_m"][0].get<double>(), 2e-8, 1e-9);
+  EXPECT_TRUE(answer["figures"].contains("jumps"));
+}
+
+TEST_F(JsonDoorTest, SavesTheNewestImageAndCurve) {
+  EXPECT_THAT(refusal_of(R"({"do": "save", "file": "a.gwy"})"), HasSubstr("no image"));
+  answer_to(R"({"do": "approach"})");
+  lines_for(R"({"do": "scan", "lines": 4})");
+  answer_to(R"({"do": "curve", "points": 60})");
+  EXPECT_EQ(answer_to(R"({"do": "save", "file": "a.gwy"})")["ok"], true);
+  EXPECT_EQ(answer_to(R"({"do": "save", "file": "a.tab"})")["ok"], true);
+  EXPECT_TRUE(curves::load_image(folder_.file("a.gwy")));
+  const auto curve = curves::load_curve(folder_.file("a.tab"));
+  ASSERT_TRUE(curve);
+  EXPECT_TRUE(curve->metadata.parameters.empty()) << "the file has no truth";
+  EXPECT_THAT(refusal_of(R"({"do": "save", "file": "a.tab"})"), HasSubstr("already"));
+}
+
+TEST_F(JsonDoorTest, WritesNowhereElse) {
+  answer_to(R"({"do": "curve", "points": 10})");
+  for (const char* name : {"../a.tab", "/tmp/a.tab", ".a.tab", "a/b.tab", "", "a b.tab"}) {
+    EXPECT_THAT(refusal_of(json{{"do", "save"}, {"file", name}}.dump()), HasSubstr("give a name")) << name;
+  }
+  JsonDoor nowhere(instrument_, "");
+  std::string line;
+  nowhere.answer(R"({"do": "save", "file": "a.tab"})", [&](std::string_view text) {
+    line = text;
+    return true;
+  });
+  EXPECT_THAT(line, HasSubstr("--out"));
+}
+
+TEST_F(JsonDoorTest, RefusesWhatItDoesNotUnderstand) {
+  const std::string deep = R"({"do": )" + std::string(100'000, '[') + "}";
+  for (const std::string& request :
+       {std::string(), std::string("{"), std::string("[]"), std::string("7"), std::string(R"({"do": 7})"), deep,
+        std::string("\xff\xfe{}"), std::string(R"({"id": {"a": 1}, "do": "hello"})"), std::string(R"({"do": "fly"})"),
+        std::string(R"({"do": "wait"})"), std::string(R"({"do": "wait", "time_s": -1})"),
+        std::string(R"({"do": "wait", "time_s": 1e99})"), std::string(R"({"do": "wait", "time_s": "long"})"),
+        std::string(R"({"do": "curve", "points": 1.5})"), std::string(R"({"do": "curve", "point": 10})"),
+        std::string(R"({"do": "curve", "z_from_m": 1e-9, "z_to_m": 2e-9})"),
+        std::string(R"({"do": "set", "values": 3})"), std::string(R"({"do": "set", "values": {"colour": 3}})"),
+        std::string(R"({"do": "thermal", "points": 1e9})")}) {
+    EXPECT_NE(refusal_of(request), "") << request.substr(0, 80);
+    EXPECT_EQ(then_, JsonDoor::Then::GoOn);
+  }
+  EXPECT_EQ(answer_to(R"({"do": "hello"})")["ok"], true);
+}
+
+TEST_F(JsonDoorTest, EndsWhenAskedTo) {
+  EXPECT_EQ(answer_to(R"({"do": "quit"})")["ok"], true);
+  EXPECT_EQ(then_, JsonDoor::Then::Quit);
+}
+
+TEST_F(JsonDoorTest, GivesTheSameBytesForTheSameRequests) {
+  const auto run = [this] {
+    std::string bytes;
+    for (const char* request :
+         {R"({"do": "hello", "seed": 4})", R"({"do": "set", "values": {"noise_m": 1e-11, "force_noise_n": 1e-11}})",
+          R"({"do": "curve", "points": 30})", R"({"do": "approach"})", R"({"do": "scan", "lines": 3})",
+          R"({"do": "thermal", "points": 20, "averages": 2})", R"({"do": "truth"})"}) {
+      for (const std::string& line : lines_for(request)) bytes += line + "\n";
+    }
+    return bytes;
+  };
+  const std::string first = run();
+  EXPECT_EQ(first, run());
+}
+
+}  // namespace json_door_test
+}  // namespace afm::instrument

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Invariant: only processes of the same user enter the socket of `touchafm serve`, which has mode 0600 and is removed at the end
+#include "instrument/socket_server.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "core/write_all.h"
+#include "support/places.h"
+#include "support/scratch_folder.h"
+
+namespace afm::instrument {
+namespace socket_server_test {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+core::FileDescriptor connected_to(const std::string& path) {
+  core::FileDescriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::copy(path.begin(), path.end(), address.sun_path);
+  EXPECT_EQ(::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  return socket;
+}
+
+// Up to the end that the server makes.
+std::string rest_of(const core::FileDescriptor& socket) {
+  std::string text;
+  std::array<char, 4096> bytes;
+  for (ssize_t count = 0; (count = ::read(socket.get(), bytes.data(), bytes.size())) > 0;) {
+    text.append(bytes.data(), static_cast<std::size_t>(count));
+  }
+  return text;
+}
+
+class SocketServerTest : public testing::Test {
+ protected:
+  // Answers on a thread until "quit" or, with One, until the first client has left.
+  void start(SocketServer::Clients clients) {
+    auto server = SocketServer::listen(path_);
+    ASSERT_TRUE(server) << server.error().message;
+    thread_ = std::thread([this, clients, server = std::move(*server)]() mutable {
+      JsonDoor door(instrument_, "");
+      EXPECT_TRUE(server.run(door, clients));
+    });
+  }
+  void TearDown() override {
+    if (thread_.joinable()) thread_.join();
+  }
+
+  support::ScratchFolder folder_;
+  std::string path_ = folder_.file("afm.sock");
+  SimulatedInstrument instrument_ = std::move(SimulatedInstrument::create(support::source("assets"), 1)).value();
+  std::thread thread_;
+};
+
+TEST_F(SocketServerTest, AnswersEveryRequestOfAClientThatHasClosedItsHalf) {
+  start(SocketServer::Clients::One);
+  const core::FileDescriptor client = connected_to(path_);
+  EXPECT_EQ(core::write_all(client.get(), "{\"id\":1,\"do\":\"truth\"}\n{\"id\":2,\"do\":\"get\"}\n{\"id\":3"), 0);
+  ::shutdown(client.get(), SHUT_WR);
+  const std::string answers = rest_of(client);
+  EXPECT_EQ(std::count(answers.begin(), answers.end(), '\n'), 2) << "half a request is none";
+  EXPECT_THAT(answers, StartsWith("{\"id\":1,\"ok\":true"));
+}
+
+TEST_F(SocketServerTest, ServesOneClientAfterTheOther) {
+  start(SocketServer::Clients::Many);
+  for (int i = 0; i < 3; ++i) {
+    const core::FileDescriptor client = connected_to(path_);
+    EXPECT_EQ(core::write_all(client.get(), "{\"do\":\"wait\",\"time_s\":1}\n"), 0);
+    ::shutdown(client.get(), SHUT_WR);
+    EXPECT_THAT(rest_of(client), HasSubstr("\"time_s\":" + std::to_string(i + 1)));
+  }
+  const core::FileDescriptor client = connected_to(path_);
+  EXPECT_EQ(core::write_all(client.get(), "{\"do\":\"quit\"}\n"), 0);
+  EXPECT_THAT(rest_of(client), HasSubstr("\"ok\":true"));
+}
+
+TEST_F(SocketServerTest, GivesUpARequestWithoutEnd) {
+  start(SocketServer::Clients::One);
+  const core::FileDescriptor client = connected_to(path_);
+  const std::string much(kMostRequestBytes + 100'000, 'x');
+  core::write_all(client.get(), much);
+  EXPECT_THAT(rest_of(client), HasSubstr("more than 1048576 bytes"));
+}
+
+TEST_F(SocketServerTest, SurvivesAClientThatLeavesDuringAScan) {
+  start(SocketServer::Clients::Many);
+  {
+    const core::FileDescriptor client = connected_to(path_);
+    EXPECT_EQ(core::write_all(client.get(), "{\"do\":\"approach\"}\n{\"do\":\"scan\",\"lines\":1024}\n"), 0);
+  }
+  const core::FileDescriptor client = connected_to(path_);
+  EXPECT_EQ(core::write_all(client.get(), "{\"do\":\"quit\"}\n"), 0);
+  EXPECT_THAT(rest_of(client), HasSubstr("\"ok\":true"));
+}
+
+TEST_F(SocketServerTest, IsPrivateAndLeavesNothingBehind) {
+  {
+    const auto server = SocketServer::listen(path_);
+    ASSERT_TRUE(server);
+    struct stat facts{};
+    ASSERT_EQ(::lstat(path_.c_str(), &facts), 0);
+    EXPECT_EQ(facts.st_mode & 0777U, 0600U);
+    const auto second = SocketServer::listen(path_);
+    ASSERT_FALSE(second);
+    EXPECT_THAT(second.error().message, HasSubstr("already"));
+    EXPECT_TRUE(std::filesystem::exists(path_)) << "the second one must not remove it";
+  }
+  EXPECT_FALSE(std::filesystem::exists(path_));
+}
+
+TEST_F(SocketServerTest, ReplacesASocketThatNobodyListensOnAndNothingElse) {
+  {
+    const core::FileDescriptor left(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::copy(path_.begin(), path_.end(), address.sun_path);
+    ASSERT_EQ(::bind(left.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  }
+  EXPECT_TRUE(SocketServer::listen(path_));
+  const std::string file = folder_.write("file.sock", "mine");
+  EXPECT_FALSE(SocketServer::listen(file));
+  EXPECT_TRUE(std::filesystem::exists(file));
+  EXPECT_FALSE(SocketServer::listen(std::string(200, 'a')));
+  EXPECT_FALSE(SocketServer::listen(folder_.file("no/such/folder.sock")));
+}
+
+}  // namespace socket_server_test
+}  // namespace afm::instrument

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The client of a simulated microscope, on a server of its own."""
+
+import os
+import tempfile
+import time
+import unittest
+
+import numpy as np
+
+import touchafm
+from touchafm import serve
+
+
+class Serve(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.afm = serve.start(seed=7, out=self.folder.name)
+        self.addCleanup(self.afm.close)
+
+    def test_has_the_curve_of_the_library(self):
+        curve = self.afm.curve(z_from=20e-9, z_to=-5e-9, points=251)
+        cycle = touchafm.cycle(touchafm.Contact.material("mica"), z_from=20e-9, z_to=-5e-9, step=1e-10)
+        self.assertEqual(len(curve["z"]), len(cycle))
+        np.testing.assert_allclose(curve["force"], cycle.force, atol=1e-15)
+        np.testing.assert_array_equal(curve["approach"], cycle.approach)
+
+    def test_scans_and_saves(self):
+        self.afm.set(pixels=16, size_m=np.float64(20e-9))
+        self.assertTrue(self.afm.approach()["engaged"])
+        rows = []
+        image = self.afm.scan(on_line=lambda line: rows.append(line["line"]))
+        self.assertEqual(rows, list(range(16)))
+        self.assertEqual(image["Height"].shape, (16, 16))
+        self.assertFalse(np.isnan(image["Lateral force (retrace)"]).any())
+        self.afm.save("image.gwy")
+        saved = touchafm.read_image(os.path.join(self.folder.name, "image.gwy"))
+        np.testing.assert_allclose(saved["Height"], image["Height"], atol=1e-15)
+
+    def test_calibrates_the_lever(self):
+        frequency, density = self.afm.thermal(averages=200)
+        area = np.sum(density) * (frequency[1] - frequency[0])
+        k = 0.8174 * 1.380649e-23 * self.afm.truth()["contact"]["temperature_k"] / area
+        self.assertAlmostEqual(k, self.afm.get()["spring_constant_n_per_m"], delta=0.25 * k)
+
+    def test_says_why_it_refuses(self):
+        with self.assertRaisesRegex(serve.Refused, "approach"):
+            self.afm.scan()
+        with self.assertRaisesRegex(ValueError, "no setting \"colour\""):
+            self.afm.set(colour=3)
+
+    def test_has_a_thousand_curves_within_seconds(self):
+        begin = time.monotonic()
+        for _ in range(100):
+            self.afm.curve(points=500)
+        print(f"1000 curves of 2 x 500 points: {10 * (time.monotonic() - begin):.1f} s")
+
+    def test_says_that_a_server_has_left(self):
+        self.afm.quit()
+        with self.assertRaises(OSError):
+            serve.connect(os.path.join(self.folder.name, "none"))
+
+    def test_says_why_a_server_does_not_start(self):
+        with self.assertRaisesRegex(serve.Refused, "no such folder"):
+            serve.start(out=os.path.join(self.folder.name, "none"))
+
+
+if __name__ == "__main__":
+    unittest.main()
