@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "app/options/command.h"
 #include "core/log.h"
 #include "instrument/json_door.h"
-#include "instrument/socket_server.h"
+#include "instrument/listener.h"
+#include "instrument/nanonis_door.h"
 
 namespace afm::app {
 
@@ -19,6 +25,7 @@ struct ServeOptions {
   std::string sample;
   std::string out;
   std::uint64_t seed = 1;
+  std::optional<std::uint16_t> port;
   bool once = false;
 };
 
@@ -29,12 +36,30 @@ core::Result<void> serve(const ServeOptions& options, const std::string& assets_
   }
   auto made = instrument::SimulatedInstrument::create(assets_dir, options.seed, {.file = options.sample, .reading = {}});
   if (!made) return tl::unexpected(made.error());
-  auto server = instrument::SocketServer::listen(options.socket);
-  if (!server) return tl::unexpected(server.error());
-  core::log_line(fmt::format("a microscope in simulated time listens on {}; end it with Ctrl-C", options.socket));
-  instrument::JsonDoor door(*made, options.out);
-  using Clients = instrument::SocketServer::Clients;
-  return server->run(door, options.once ? Clients::One : Clients::Many);
+  if (options.socket.empty() && !options.port) {
+    return core::wrong_usage("nobody could enter; give --socket PATH, --nanonis PORT, or both");
+  }
+  instrument::JsonDoor json(*made, options.out);
+  instrument::NanonisDoor nanonis(*made);
+  std::vector<instrument::Listener> listeners;
+  listeners.reserve(2);
+  std::vector<instrument::OpenDoor> doors;
+  if (!options.socket.empty()) {
+    auto listener = instrument::Listener::on_socket(options.socket);
+    if (!listener) return tl::unexpected(listener.error());
+    listeners.push_back(std::move(*listener));
+    doors.push_back({&listeners.back(), &json});
+    core::log_line(fmt::format("a microscope in simulated time listens on {}; end it with Ctrl-C", options.socket));
+  }
+  if (options.port) {
+    auto listener = instrument::Listener::on_loopback(*options.port);
+    if (!listener) return tl::unexpected(listener.error());
+    core::log_line(fmt::format("it speaks Nanonis' protocol on port {} of 127.0.0.1", listener->port()));
+    listeners.push_back(std::move(*listener));
+    doors.push_back({&listeners.back(), &nanonis});
+    made->approach(instrument::NanonisDoor::kApproachSpeedM);  // these clients expect a tip in contact
+  }
+  return instrument::serve(doors, options.once);
 }
 
 }  // namespace
@@ -46,9 +71,23 @@ void add_serve_command(OptionList& program, const CommandContext& context) {
   const auto options = std::make_shared<ServeOptions>();
   command
       .add_option("--socket", options->socket,
-                  "Unix socket to create; only programs of the same user may enter, one after the other")
-      .required()
+                  "Unix socket to create, for requests in JSON; only programs of the same user may enter, one after the "
+                  "other")
       .type_name("PATH");
+  command
+      .add_parsed_option(
+          "--nanonis",
+          [options](const std::string& text) -> core::Result<void> {
+            unsigned port = 0;
+            const auto read = std::from_chars(text.data(), text.data() + text.size(), port);
+            if (read.ec != std::errc() || read.ptr != text.data() + text.size() || port > 65535) {
+              return core::wrong_usage("give a port from 1 to 65535, or 0 for any free one");
+            }
+            options->port = static_cast<std::uint16_t>(port);
+            return {};
+          },
+          "port of 127.0.0.1 for clients of Nanonis' protocol, which use 6501; default: none")
+      .type_name("PORT");
   command.add_option("--seed", options->seed, "seed of noise and chance; the same requests get the same bytes")
       .show_default()
       .type_name("NUMBER");

@@ -35,6 +35,10 @@ constexpr std::array kNumbers{
               [](Settings& s, double si) { s.tip.half_angle_rad = si; }},
     NumberRow{"size_m", 0.0, 1e-4, [](const Settings& s) { return s.size_m; },
               [](Settings& s, double si) { s.size_m = si; }},
+    NumberRow{"height_m", 0.0, 1e-4, [](const Settings& s) { return s.height_m; },
+              [](Settings& s, double si) { s.height_m = si; }},
+    NumberRow{"turn_rad", -std::numbers::pi, std::numbers::pi, [](const Settings& s) { return s.turn_rad; },
+              [](Settings& s, double si) { s.turn_rad = si; }},
     NumberRow{"free_amplitude_m", 1e-12, 1e-6, [](const Settings& s) { return s.free_amplitude_m; },
               [](Settings& s, double si) { s.free_amplitude_m = si; }},
     NumberRow{"drive_hz", 0.0, 1e8, [](const Settings& s) { return s.drive_hz; },
@@ -96,15 +100,18 @@ core::Result<void> set_tip(const Json& value, Settings& settings) {
 // The settings that are no numbers; empty if the key is none of them.
 std::optional<core::Result<void>> set_word(std::string_view key, const Json& value, Settings& settings) {
   if (key == "tip") return set_tip(value, settings);
-  if (key == "feedback") {
-    if (!value.is_boolean()) return wrong_usage("\"feedback\": give true or false");
-    settings.scan.feedback = value.get<bool>() ? physics::Feedback::On : physics::Feedback::Off;
+  if (key == "feedback" || key == "flat" || key == "upwards") {
+    if (!value.is_boolean()) return wrong_usage(fmt::format("\"{}\": give true or false", key));
+    const bool on = value.get<bool>();
+    if (key == "flat") settings.flat = on;
+    if (key == "upwards") settings.upwards = on;
+    if (key == "feedback") settings.scan.feedback = on ? physics::Feedback::On : physics::Feedback::Off;
     return core::Result<void>{};
   }
-  if (key == "pixels") {
-    const auto pixels = number_of(key, value, 2.0, static_cast<double>(kMostInstrumentPixels));
-    if (!pixels) return tl::unexpected(pixels.error());
-    settings.pixels = static_cast<std::size_t>(*pixels);
+  if (key == "pixels" || key == "lines") {
+    const auto count = number_of(key, value, key == "pixels" ? 2.0 : 0.0, static_cast<double>(kMostInstrumentPixels));
+    if (!count) return tl::unexpected(count.error());
+    (key == "pixels" ? settings.pixels : settings.lines) = static_cast<std::size_t>(*count);
     return core::Result<void>{};
   }
   std::string* text = key == "material" ? &settings.contact.material : key == "law" ? &settings.contact.model : nullptr;
@@ -153,7 +160,10 @@ Json settings_json(const Settings& settings, const curves::ContactSetup& setup) 
   Json result{{"material", settings.contact.material},
               {"law", settings.contact.model},
               {"tip", physics::name_of(settings.tip.kind)},
+              {"flat", settings.flat},
+              {"upwards", settings.upwards},
               {"pixels", settings.pixels},
+              {"lines", settings.lines},
               {"feedback", settings.scan.feedback == physics::Feedback::On}};
   for (const curves::ContactParameter& parameter : curves::contact_parameters()) {
     const std::optional<double> si = parameter.get(setup);

@@ -210,11 +210,9 @@ struct JsonDoor::Verbs {
   }
 
   static Json scan(JsonDoor& door, Arguments& arguments, const Json& id, const Send& send) {
-    const std::size_t pixels = door.instrument_.settings().pixels;
-    const std::size_t lines = arguments.count_or("lines", pixels, 1, kMostInstrumentPixels);
     arguments.finish();
     bool read = true;
-    physics::ScanImage image = taken(door.instrument_.scan(lines, [&](const physics::ScanLine& line, double time_s) {
+    physics::ScanImage image = taken(door.instrument_.scan([&](const physics::ScanLine& line, double time_s) {
       const auto track = [](const physics::ScanTrack& pass) {
         return Json{{"height_m", numbers_of(pass.height_m)},
                     {"error_n", numbers_of(pass.error_n)},
@@ -225,7 +223,7 @@ struct JsonDoor::Verbs {
                       {"time_s", time_s},
                       {"trace", track(line.trace)},
                       {"retrace", track(line.retrace)}};
-      read = send(text.dump());
+      read = send(text.dump() + "\n");
       return read;
     }));
     Json answer{{"columns", image.columns},       {"rows", image.rows},
@@ -304,7 +302,7 @@ constexpr std::array<JsonDoor::Verbs::Row, 14> JsonDoor::Verbs::kRows{{
     {"wait", "lets simulated time pass: \"time_s\"", &Verbs::wait},
     {"curve", "a force curve: \"z_from_m\", \"z_to_m\", \"points\", \"speed_m_per_s\"", &Verbs::curve},
     {"tapping_curve", "amplitude and phase over the height: \"z_from_m\", \"z_to_m\", \"points\"", &Verbs::tapping_curve},
-    {"scan", "an image around the tip, line by line: \"lines\"", &Verbs::scan},
+    {"scan", "an image around the tip, line by line", &Verbs::scan},
     {"thermal", "spectrum of the free lever: \"points\", \"most_hz\", \"averages\"", &Verbs::thermal},
     {"truth", "what no microscope shows", &Verbs::truth},
     {"save", "writes the newest image or curve: \"file\"", &Verbs::save},
@@ -314,12 +312,21 @@ constexpr std::array<JsonDoor::Verbs::Row, 14> JsonDoor::Verbs::kRows{{
 JsonDoor::JsonDoor(SimulatedInstrument& instrument, std::string folder)
     : instrument_(instrument), folder_(std::move(folder)) {}
 
-JsonDoor::Then JsonDoor::answer(std::string_view request, const Send& send) {
+std::optional<std::size_t> JsonDoor::request_size(std::string_view bytes) const {
+  const std::size_t end = bytes.find('\n');
+  return end == std::string_view::npos ? std::nullopt : std::optional(end + 1);
+}
+
+std::string_view JsonDoor::too_long() const {
+  return "{\"id\":null,\"ok\":false,\"error\":\"a request has more than 1 MiB\"}\n";
+}
+
+Door::Then JsonDoor::answer(std::string_view request, const Send& send) {
   Json id = nullptr;
   Then then = Then::GoOn;
+  const auto say = [&](const Json& answer) { send(answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"); };
   const auto refuse = [&](const std::string& why) {
-    send(Json{{"id", id}, {"ok", false}, {"error", core::printable(why)}}.dump(-1, ' ', false,
-                                                                               Json::error_handler_t::replace));
+    say({{"id", id}, {"ok", false}, {"error", core::printable(why)}});
   };
   try {
     if (is_too_deep(request)) throw RefusedRequest("the request is nested too deep");
@@ -339,7 +346,7 @@ JsonDoor::Then JsonDoor::answer(std::string_view request, const Send& send) {
     const Json members = verb->run(*this, arguments, id, send);
     Json answer{{"id", id}, {"ok", true}, {"time_s", instrument_.position().time_s}};
     answer.update(members);
-    send(answer.dump(-1, ' ', false, Json::error_handler_t::replace));
+    say(answer);
   } catch (const RefusedRequest& refusal) {
     then = Then::GoOn;
     refuse(refusal.what());

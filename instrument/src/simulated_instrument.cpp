@@ -102,13 +102,17 @@ physics::ScanSettings SimulatedInstrument::scan_settings() const {
 // As the scanner sees it from now on: displaced by the drift so far; for a tip that engaged falsely, nothing.
 physics::Scanner::Surface SimulatedInstrument::surface_now() const {
   if (!touching_) return [z_m = at_.z_m](double, double) { return z_m; };
-  return [height = surface_.height_m, x = drift_x_m_, y = drift_y_m_](double x_m, double y_m) {
-    return height(x_m - x, y_m - y);
+  if (settings_.flat) return [](double, double) { return 0.0; };
+  const double cosine = std::cos(settings_.turn_rad), sine = std::sin(settings_.turn_rad);
+  return [height = surface_.height_m, drift_x = drift_x_m_, drift_y = drift_y_m_, middle_x = at_.x_m,
+          middle_y = at_.y_m, cosine, sine](double x_m, double y_m) {
+    const double x = x_m - middle_x, y = y_m - middle_y;
+    return height(middle_x + cosine * x - sine * y - drift_x, middle_y + sine * x + cosine * y - drift_y);
   };
 }
 
 double SimulatedInstrument::surface_below() const {
-  return surface_.height_m(at_.x_m - drift_x_m_, at_.y_m - drift_y_m_);
+  return settings_.flat ? 0.0 : surface_.height_m(at_.x_m - drift_x_m_, at_.y_m - drift_y_m_);
 }
 
 // From 0 to below 1, the same on every machine.
@@ -230,18 +234,26 @@ core::Result<void> SimulatedInstrument::after_line(const physics::ScanLine& line
   return {};
 }
 
-core::Result<physics::ScanImage> SimulatedInstrument::scan(std::size_t lines, const TakeLine& taken) {
+SimulatedInstrument::Frame SimulatedInstrument::frame() const {
+  const double width_m = settings_.size_m > 0.0 ? settings_.size_m : std::min(surface_.width_m, surface_.depth_m);
+  const double square_m = width_m / static_cast<double>(settings_.pixels);
+  return {width_m, settings_.height_m > 0.0 ? settings_.height_m
+                                            : square_m * static_cast<double>(settings_.lines_or_pixels())};
+}
+
+core::Result<physics::ScanImage> SimulatedInstrument::scan(const TakeLine& taken) {
   if (!at_.engaged) return wrong_usage("the tip is withdrawn; \"approach\" first");
-  const double drawn_m = std::min(surface_.width_m, surface_.depth_m);
+  const Frame size = frame();
   physics::ScanArea area;
-  area.width = physics::Length(settings_.size_m > 0.0 ? settings_.size_m : drawn_m);
-  area.height = physics::Length(area.width.si * static_cast<double>(lines) / static_cast<double>(settings_.pixels));
+  area.width = physics::Length(size.width_m);
+  area.height = physics::Length(size.height_m);
   area.x_centre = physics::Length(at_.x_m);
   area.y_centre = physics::Length(at_.y_m);
   area.columns = settings_.pixels;
-  area.rows = lines;
+  area.rows = settings_.lines_or_pixels();
   try {
     physics::Scanner scanner(area, scan_settings(), surface_now(), chance_());
+    scanner.begin_frame(settings_.upwards ? physics::SlowDirection::Up : physics::SlowDirection::Down);
     std::optional<core::Error> error;
     physics::ScanImage image = physics::scan_frame(scanner, [&](const physics::ScanLine& line) {
       const auto worn = after_line(line, scanner);

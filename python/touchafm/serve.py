@@ -133,7 +133,7 @@ class Client:
             "figures": answer["figures"],
         }
 
-    def scan(self, lines=None, on_line=None):
+    def scan(self, on_line=None):
         """An image around the tip: a dict of its channels, row 0 on top, "Height" to "Lateral force (retrace)"."""
         rows = []
 
@@ -142,7 +142,7 @@ class Client:
             if on_line is not None:
                 on_line(line)
 
-        answer = self.request("scan", on_line=take, lines=lines)
+        answer = self.request("scan", on_line=take)
         image = {}
         for key, name in _CHANNELS.items():
             for side, ending in (("trace", ""), ("retrace", " (retrace)")):

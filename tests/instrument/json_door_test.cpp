@@ -27,8 +27,8 @@ class JsonDoorTest : public testing::Test {
   std::vector<std::string> lines_for(const std::string& request) {
     std::vector<std::string> lines;
     then_ = door_.answer(request, [&](std::string_view line) {
-      EXPECT_EQ(line.find('\n'), std::string_view::npos);
-      lines.emplace_back(line);
+      EXPECT_EQ(line.find('\n'), line.size() - 1);
+      lines.emplace_back(line.substr(0, line.size() - 1));
       return true;
     });
     return lines;
@@ -78,7 +78,8 @@ TEST_F(JsonDoorTest, ChangesAllSettingsOrNone) {
 TEST_F(JsonDoorTest, StreamsAnImageLineByLine) {
   EXPECT_THAT(refusal_of(R"({"do": "scan"})"), HasSubstr("approach"));
   EXPECT_EQ(answer_to(R"({"do": "approach"})")["engaged"], true);
-  const std::vector<std::string> lines = lines_for(R"({"id": 7, "do": "scan", "lines": 5})");
+  answer_to(R"({"do": "set", "values": {"lines": 5}})");
+  const std::vector<std::string> lines = lines_for(R"({"id": 7, "do": "scan"})");
   ASSERT_EQ(lines.size(), 6U);
   for (std::size_t i = 0; i < 5; ++i) {
     const json line = json::parse(lines[i]);
@@ -118,7 +119,7 @@ TEST_F(JsonDoorTest, GivesATappingCurve) {
 TEST_F(JsonDoorTest, SavesTheNewestImageAndCurve) {
   EXPECT_THAT(refusal_of(R"({"do": "save", "file": "a.gwy"})"), HasSubstr("no image"));
   answer_to(R"({"do": "approach"})");
-  lines_for(R"({"do": "scan", "lines": 4})");
+  lines_for(R"({"do": "scan"})");
   answer_to(R"({"do": "curve", "points": 60})");
   EXPECT_EQ(answer_to(R"({"do": "save", "file": "a.gwy"})")["ok"], true);
   EXPECT_EQ(answer_to(R"({"do": "save", "file": "a.tab"})")["ok"], true);
@@ -169,8 +170,8 @@ TEST_F(JsonDoorTest, GivesTheSameBytesForTheSameRequests) {
   const auto run = [this] {
     std::string bytes;
     for (const char* request :
-         {R"({"do": "hello", "seed": 4})", R"({"do": "set", "values": {"noise_m": 1e-11, "force_noise_n": 1e-11}})",
-          R"({"do": "curve", "points": 30})", R"({"do": "approach"})", R"({"do": "scan", "lines": 3})",
+         {R"({"do": "hello", "seed": 4})", R"({"do": "set", "values": {"pixels": 8, "noise_m": 1e-11, "force_noise_n": 1e-11}})",
+          R"({"do": "curve", "points": 30})", R"({"do": "approach"})", R"({"do": "scan"})",
           R"({"do": "thermal", "points": 20, "averages": 2})", R"({"do": "truth"})"}) {
       for (const std::string& line : lines_for(request)) bytes += line + "\n";
     }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,8 @@ void set(SimulatedInstrument& instrument, const std::function<void(InstrumentSet
 }
 
 std::vector<double> heights_of(SimulatedInstrument& instrument, std::size_t lines) {
-  auto image = instrument.scan(lines, [](const physics::ScanLine&, double) { return true; });
+  set(instrument, [lines](InstrumentSettings& settings) { settings.lines = lines; });
+  auto image = instrument.scan([](const physics::ScanLine&, double) { return true; });
   return image.value().channels.front().values;
 }
 
@@ -91,7 +93,7 @@ TEST(SimulatedInstrument, ImagesTheSampleThatItSaysIsTrue) {
   });
   instrument.approach(1e-6);
   EXPECT_TRUE(instrument.truth().touching);
-  auto image = instrument.scan(16, [](const physics::ScanLine&, double) { return true; }).value();
+  auto image = instrument.scan([](const physics::ScanLine&, double) { return true; }).value();
   for (const auto& [column, row] : {std::pair<std::size_t, std::size_t>{3, 5}, {12, 2}, {8, 15}}) {
     const double x_m = image.x_offset_m + (static_cast<double>(column) + 0.5) * image.width_m / 16.0,
                  y_m = image.y_offset_m - (static_cast<double>(row) + 0.5) * image.height_m / 16.0;
@@ -102,7 +104,7 @@ TEST(SimulatedInstrument, ImagesTheSampleThatItSaysIsTrue) {
 
 TEST(SimulatedInstrument, DoesNotScanBeforeTheApproach) {
   SimulatedInstrument instrument = instrument_with();
-  const auto image = instrument.scan(4, [](const physics::ScanLine&, double) { return true; });
+  const auto image = instrument.scan([](const physics::ScanLine&, double) { return true; });
   ASSERT_FALSE(image);
   EXPECT_THAT(image.error().message, HasSubstr("approach"));
 }
@@ -137,16 +139,42 @@ TEST(SimulatedInstrument, ATipWearsByTheForceBeyondItsLimit) {
 TEST(SimulatedInstrument, AChangedTipShowsASecondApex) {
   SimulatedInstrument instrument = instrument_with();
   set(instrument, [](InstrumentSettings& settings) {
-    settings.pixels = 64;
+    settings.lines = 4;
     settings.faults.tip_change = 1.0;
   });
   instrument.approach(1e-6);
   std::vector<bool> changed;
-  ASSERT_TRUE(instrument.scan(4, [&](const physics::ScanLine&, double) {
+  ASSERT_TRUE(instrument.scan([&](const physics::ScanLine&, double) {
     changed.push_back(instrument.truth().second_apex);
     return true;
   }));
   EXPECT_THAT(changed, testing::ElementsAre(true, false, true, false));
+}
+
+TEST(SimulatedInstrument, AnImageIsTurnedAboutItsMiddle) {
+  SimulatedInstrument instrument = instrument_with();
+  set(instrument, [](InstrumentSettings& settings) {
+    settings.pixels = 9;
+    settings.size_m = 18e-9;
+    settings.scan.line_rate = physics::Frequency(0.2);
+  });
+  instrument.approach(1e-6);
+  const std::vector<double> straight = heights_of(instrument, 9);
+  set(instrument, [](InstrumentSettings& settings) { settings.turn_rad = 0.5 * std::numbers::pi; });
+  const std::vector<double> turned = heights_of(instrument, 9);
+  // a quarter of a turn: the row from the left becomes the column from the bottom
+  for (std::size_t row = 0; row < 9; ++row) {
+    for (std::size_t column = 0; column < 9; ++column) {
+      EXPECT_NEAR(turned[row * 9 + column], straight[(8 - column) * 9 + 8 - (8 - row)], 20e-12) << row << ", " << column;
+    }
+  }
+}
+
+TEST(SimulatedInstrument, AFlatSampleIsFlat) {
+  SimulatedInstrument instrument = instrument_with();
+  set(instrument, [](InstrumentSettings& settings) { settings.flat = true; });
+  instrument.approach(1e-6);
+  for (const double height_m : heights_of(instrument, 8)) EXPECT_NEAR(height_m, 0.0, 1e-13);
 }
 
 TEST(SimulatedInstrument, ASampleThatDriftsIsElsewhereLater) {

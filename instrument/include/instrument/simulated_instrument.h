@@ -67,9 +67,15 @@ class SimulatedInstrument {
   core::Result<curves::TappingRun> tapping_curve(const std::optional<double>& z_from_m,
                                                  const std::optional<double>& z_to_m, std::size_t points);
 
-  // Calls `taken` with each line and the time; the scan ends if it returns false. WrongUsage unless the tip is engaged.
+  struct Frame {
+    double width_m, height_m;
+  };
+  Frame frame() const;  // of the next image
+
+  // An image around the tip. Calls `taken` with each line and the time; the scan ends if it returns false. WrongUsage unless
+  // the tip is engaged.
   using TakeLine = std::function<bool(const physics::ScanLine& line, double time_s)>;
-  core::Result<physics::ScanImage> scan(std::size_t lines, const TakeLine& taken);
+  core::Result<physics::ScanImage> scan(const TakeLine& taken);
 
   // One-sided spectrum of the free lever's first mode, as a lever that was calibrated under an end load shows it, in
   // m^2/Hz: the mean of `averages` periodograms (physics/flexural_modes.h, fits/thermal_fit.h).

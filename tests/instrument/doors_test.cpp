@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Invariant: only processes of the same user enter the socket of `touchafm serve`, which has mode 0600 and is removed at the end
-#include "instrument/socket_server.h"
+#include "instrument/listener.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,11 +17,13 @@
 #include <utility>
 
 #include "core/write_all.h"
+#include "instrument/json_door.h"
+#include "instrument/nanonis_door.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::instrument {
-namespace socket_server_test {
+namespace doors_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -45,15 +47,15 @@ std::string rest_of(const core::FileDescriptor& socket) {
   return text;
 }
 
-class SocketServerTest : public testing::Test {
+class DoorsTest : public testing::Test {
  protected:
-  // Answers on a thread until "quit" or, with One, until the first client has left.
-  void start(SocketServer::Clients clients) {
-    auto server = SocketServer::listen(path_);
-    ASSERT_TRUE(server) << server.error().message;
-    thread_ = std::thread([this, clients, server = std::move(*server)]() mutable {
+  // Answers on a thread until "quit" or, with `once`, until the first client has left.
+  void start(bool once) {
+    auto listener = Listener::on_socket(path_);
+    ASSERT_TRUE(listener) << listener.error().message;
+    thread_ = std::thread([this, once, listener = std::move(*listener)] {
       JsonDoor door(instrument_, "");
-      EXPECT_TRUE(server.run(door, clients));
+      EXPECT_TRUE(serve(std::array{OpenDoor{&listener, &door}}, once));
     });
   }
   void TearDown() override {
@@ -66,8 +68,8 @@ class SocketServerTest : public testing::Test {
   std::thread thread_;
 };
 
-TEST_F(SocketServerTest, AnswersEveryRequestOfAClientThatHasClosedItsHalf) {
-  start(SocketServer::Clients::One);
+TEST_F(DoorsTest, AnswersEveryRequestOfAClientThatHasClosedItsHalf) {
+  start(true);
   const core::FileDescriptor client = connected_to(path_);
   EXPECT_EQ(core::write_all(client.get(), "{\"id\":1,\"do\":\"truth\"}\n{\"id\":2,\"do\":\"get\"}\n{\"id\":3"), 0);
   ::shutdown(client.get(), SHUT_WR);
@@ -76,8 +78,8 @@ TEST_F(SocketServerTest, AnswersEveryRequestOfAClientThatHasClosedItsHalf) {
   EXPECT_THAT(answers, StartsWith("{\"id\":1,\"ok\":true"));
 }
 
-TEST_F(SocketServerTest, ServesOneClientAfterTheOther) {
-  start(SocketServer::Clients::Many);
+TEST_F(DoorsTest, ServesOneClientAfterTheOther) {
+  start(false);
   for (int i = 0; i < 3; ++i) {
     const core::FileDescriptor client = connected_to(path_);
     EXPECT_EQ(core::write_all(client.get(), "{\"do\":\"wait\",\"time_s\":1}\n"), 0);
@@ -89,33 +91,33 @@ TEST_F(SocketServerTest, ServesOneClientAfterTheOther) {
   EXPECT_THAT(rest_of(client), HasSubstr("\"ok\":true"));
 }
 
-TEST_F(SocketServerTest, GivesUpARequestWithoutEnd) {
-  start(SocketServer::Clients::One);
+TEST_F(DoorsTest, GivesUpARequestWithoutEnd) {
+  start(true);
   const core::FileDescriptor client = connected_to(path_);
-  const std::string much(kMostRequestBytes + 100'000, 'x');
+  const std::string much((std::size_t{1} << 20) + 200'000, 'x');
   core::write_all(client.get(), much);
-  EXPECT_THAT(rest_of(client), HasSubstr("more than 1048576 bytes"));
+  EXPECT_THAT(rest_of(client), HasSubstr("more than 1 MiB"));
 }
 
-TEST_F(SocketServerTest, SurvivesAClientThatLeavesDuringAScan) {
-  start(SocketServer::Clients::Many);
+TEST_F(DoorsTest, SurvivesAClientThatLeavesDuringAScan) {
+  start(false);
   {
     const core::FileDescriptor client = connected_to(path_);
-    EXPECT_EQ(core::write_all(client.get(), "{\"do\":\"approach\"}\n{\"do\":\"scan\",\"lines\":1024}\n"), 0);
+    EXPECT_EQ(core::write_all(client.get(), "{\"do\":\"approach\"}\n{\"do\":\"set\",\"values\":{\"lines\":1024}}\n{\"do\":\"scan\"}\n"), 0);
   }
   const core::FileDescriptor client = connected_to(path_);
   EXPECT_EQ(core::write_all(client.get(), "{\"do\":\"quit\"}\n"), 0);
   EXPECT_THAT(rest_of(client), HasSubstr("\"ok\":true"));
 }
 
-TEST_F(SocketServerTest, IsPrivateAndLeavesNothingBehind) {
+TEST_F(DoorsTest, IsPrivateAndLeavesNothingBehind) {
   {
-    const auto server = SocketServer::listen(path_);
+    const auto server = Listener::on_socket(path_);
     ASSERT_TRUE(server);
     struct stat facts{};
     ASSERT_EQ(::lstat(path_.c_str(), &facts), 0);
     EXPECT_EQ(facts.st_mode & 0777U, 0600U);
-    const auto second = SocketServer::listen(path_);
+    const auto second = Listener::on_socket(path_);
     ASSERT_FALSE(second);
     EXPECT_THAT(second.error().message, HasSubstr("already"));
     EXPECT_TRUE(std::filesystem::exists(path_)) << "the second one must not remove it";
@@ -123,7 +125,7 @@ TEST_F(SocketServerTest, IsPrivateAndLeavesNothingBehind) {
   EXPECT_FALSE(std::filesystem::exists(path_));
 }
 
-TEST_F(SocketServerTest, ReplacesASocketThatNobodyListensOnAndNothingElse) {
+TEST_F(DoorsTest, ReplacesASocketThatNobodyListensOnAndNothingElse) {
   {
     const core::FileDescriptor left(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
     sockaddr_un address{};
@@ -131,13 +133,13 @@ TEST_F(SocketServerTest, ReplacesASocketThatNobodyListensOnAndNothingElse) {
     std::copy(path_.begin(), path_.end(), address.sun_path);
     ASSERT_EQ(::bind(left.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
   }
-  EXPECT_TRUE(SocketServer::listen(path_));
+  EXPECT_TRUE(Listener::on_socket(path_));
   const std::string file = folder_.write("file.sock", "mine");
-  EXPECT_FALSE(SocketServer::listen(file));
+  EXPECT_FALSE(Listener::on_socket(file));
   EXPECT_TRUE(std::filesystem::exists(file));
-  EXPECT_FALSE(SocketServer::listen(std::string(200, 'a')));
-  EXPECT_FALSE(SocketServer::listen(folder_.file("no/such/folder.sock")));
+  EXPECT_FALSE(Listener::on_socket(std::string(200, 'a')));
+  EXPECT_FALSE(Listener::on_socket(folder_.file("no/such/folder.sock")));
 }
 
-}  // namespace socket_server_test
+}  // namespace doors_test
 }  // namespace afm::instrument

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+namespace afm::instrument {
+
+// A protocol by which a client controls an instrument. What comes is hostile input. One thread.
+class Door {
+ public:
+  Door() = default;
+  Door(const Door&) = delete;
+  Door& operator=(const Door&) = delete;
+  virtual ~Door() = default;
+
+  // Size of the first whole request at the beginning of `bytes`; empty: not all of it has come.
+  virtual std::optional<std::size_t> request_size(std::string_view bytes) const = 0;
+
+  // Limit of a request. A client that sends more without ending one is sent too_long() and given up.
+  virtual std::size_t most_request_bytes() const = 0;
+  virtual std::string_view too_long() const = 0;
+
+  // Sends bytes; false: nobody reads any more.
+  using Send = std::function<bool(std::string_view bytes)>;
+  enum class Then { GoOn, Quit };
+
+  // Answers one request of request_size() bytes, whatever it is.
+  virtual Then answer(std::string_view request, const Send& send) = 0;
+};
+
+}  // namespace afm::instrument

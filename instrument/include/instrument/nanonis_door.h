@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "instrument/door.h"
+#include "instrument/simulated_instrument.h"
+#include "physics/imaging/scan_image.h"
+
+namespace afm::instrument {
+
+// Nanonis' TCP protocol (SPECS, July 2021) as far as its clients use it to approach, scan and move: docs/serve.md lists the
+// functions. Any other function is answered with an error text. A scan is done as soon as it is started: simulated time
+// waits for nobody.
+class NanonisDoor final : public Door {
+ public:
+  static constexpr double kApproachSpeedM = 1e-6;  // m/s
+
+  // The instrument must outlive the object.
+  explicit NanonisDoor(SimulatedInstrument& instrument) : instrument_(instrument) {}
+
+  std::optional<std::size_t> request_size(std::string_view bytes) const override;
+  std::size_t most_request_bytes() const override { return std::size_t{1} << 16; }
+  std::string_view too_long() const override { return {}; }
+  Then answer(std::string_view request, const Send& send) override;
+
+ private:
+  struct Functions;
+
+  SimulatedInstrument& instrument_;
+  std::optional<physics::ScanImage> image_;  // newest
+  bool upwards_ = false;                     // direction of its scan
+  bool feedback_ = true;
+  float bias_v_ = 0;  // kept, without effect
+  double follow_speed_m_per_s_ = 1e-6;
+  std::uint32_t custom_speed_ = 0;
+  std::vector<std::int32_t> channels_{30};
+  float backward_line_s_ = 0, speed_ratio_ = 1;  // kept: a retrace takes as long as a trace
+  std::uint32_t continuous_ = 0, bouncing_ = 0, autosave_ = 0;
+  std::string series_, comment_;
+};
+
+}  // namespace afm::instrument
