@@ -34,7 +34,8 @@ core::Result<void> serve(const ServeOptions& options, const std::string& assets_
   if (!options.out.empty() && !std::filesystem::is_directory(options.out, error)) {
     return core::wrong_usage(fmt::format("--out {}: there is no such folder; create it first", options.out));
   }
-  auto made = instrument::SimulatedInstrument::create(assets_dir, options.seed, {.file = options.sample, .reading = {}});
+  auto made =
+      instrument::SimulatedInstrument::create(assets_dir, options.seed, {.file = options.sample, .reading = {}});
   if (!made) return tl::unexpected(made.error());
   if (options.socket.empty() && !options.port) {
     return core::wrong_usage("nobody could enter; give --socket PATH, --nanonis PORT, or both");
@@ -70,9 +71,10 @@ void add_serve_command(OptionList& program, const CommandContext& context) {
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<ServeOptions>();
   command
-      .add_option("--socket", options->socket,
-                  "Unix socket to create, for requests in JSON; only programs of the same user may enter, one after the "
-                  "other")
+      .add_option(
+          "--socket", options->socket,
+          "Unix socket to create, for requests in JSON; only programs of the same user may enter, one after the "
+          "other")
       .type_name("PATH");
   command
       .add_parsed_option(
@@ -92,8 +94,9 @@ void add_serve_command(OptionList& program, const CommandContext& context) {
       .show_default()
       .type_name("NUMBER");
   command
-      .add_option("--sample", options->sample,
-                  "your own sample instead of the material's: a glTF model with a node for the role surface, or an image")
+      .add_option(
+          "--sample", options->sample,
+          "your own sample instead of the material's: a glTF model with a node for the role surface, or an image")
       .type_name("FILE");
   command.add_option("--out", options->out, "folder in which clients may save images and curves; default: nowhere")
       .type_name("DIR");

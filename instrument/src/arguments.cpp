@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "refused_request.h"
+
 namespace afm::instrument {
 
 const nlohmann::ordered_json* Arguments::member(const char* name) {

@@ -5,18 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 
 namespace afm::instrument {
 
-// A request that is answered with its reason.
-struct RefusedRequest : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-// The members of a request. Each accessor checks sort and range, and throws RefusedRequest, as finish() does for a member
-// that no accessor asked for: a misspelled name must not act as its default.
+// The members of a request. Each accessor checks sort and range, and throws RefusedRequest, as finish() does for a
+// member that no accessor asked for: a misspelled name must not act as its default.
 class Arguments {
  public:
   explicit Arguments(const nlohmann::ordered_json& object) : object_(object) {}

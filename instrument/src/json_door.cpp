@@ -20,6 +20,7 @@
 #include "curves/curve_series.h"
 #include "curves/image_output.h"
 #include "curves/tapping/tapping_output.h"
+#include "refused_request.h"
 
 namespace afm::instrument {
 namespace {
@@ -28,20 +29,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kProtocol = 1;
 constexpr int kDeepestRequest = 8;
-constexpr double kMostPlaceM = 1e-3;          // of x, y and heights, either way
-constexpr double kUsualSpeedM = 1e-6;         // m/s
+constexpr double kUsualSpeedM = 1e-6;  // m/s
 constexpr double kLeastSpeedM = 1e-12, kMostSpeedM = 1.0;
 constexpr double kMostWaitS = 1e7;
 constexpr std::size_t kMostSpectrumPoints = 100'000, kMostSpectrumWork = 10'000'000;
-
-template <class T>
-T taken(core::Result<T> result) {
-  if (!result) throw RefusedRequest(result.error().message);
-  return std::move(*result);
-}
-void taken(const core::Result<void>& result) {
-  if (!result) throw RefusedRequest(result.error().message);
-}
 
 // No JSON library is asked to build what is nested without end.
 bool is_too_deep(std::string_view text) {
@@ -88,9 +79,11 @@ Json position_json(const SimulatedInstrument& instrument) {
 std::string file_name_of(Arguments& arguments) {
   constexpr std::size_t kMostLetters = 100;
   const auto name = arguments.text("file", kMostLetters);
-  const bool plain = name && !name->empty() && name->front() != '.' && std::all_of(name->begin(), name->end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '_';
-  });
+  const bool plain =
+      name && !name->empty() && name->front() != '.' && std::all_of(name->begin(), name->end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' ||
+               c == '_';
+      });
   if (!plain) throw RefusedRequest("\"file\": give a name of letters, digits, \"-\", \"_\" and \".\"");
   return *name;
 }
@@ -111,7 +104,7 @@ struct JsonDoor::Verbs {
     const auto seed = arguments.number("seed", 0.0, kMostSeed);
     arguments.finish();
     if (seed) {
-      taken(door.instrument_.reset(static_cast<std::uint64_t>(*seed)));
+      value_of(door.instrument_.reset(static_cast<std::uint64_t>(*seed)));
       door.image_.reset();
       door.curve_.reset();
     }
@@ -132,8 +125,8 @@ struct JsonDoor::Verbs {
     arguments.finish();
     if (values == nullptr) throw RefusedRequest("\"values\": give an object of settings, {\"material\": \"gold\"}");
     InstrumentSettings settings(door.instrument_.settings());
-    taken(change(*values, settings));
-    taken(door.instrument_.change(settings));
+    value_of(change(*values, settings));
+    value_of(door.instrument_.change(settings));
     return Json::object();
   }
 
@@ -175,7 +168,7 @@ struct JsonDoor::Verbs {
         .points = arguments.count_or("points", 500, 2, SimulatedInstrument::kMostCurvePoints),
         .speed_m_per_s = speed_of(arguments)};
     arguments.finish();
-    const SimulatedInstrument::Curve curve = taken(door.instrument_.curve(request));
+    const SimulatedInstrument::Curve curve = value_of(door.instrument_.curve(request));
     const auto& samples = curve.run.curve.samples;
     const auto turn = std::find_if(samples.begin(), samples.end(), [](const physics::CurveSample& sample) {
       return sample.branch == physics::Branch::Retract;
@@ -183,12 +176,13 @@ struct JsonDoor::Verbs {
     // as a microscope would keep it: with what its detector shows, and without the numbers that it cannot know
     curves::RecordedCurve recorded = curves::recorded_curve(curve.run);
     recorded.metadata.parameters.clear();
-    for (std::size_t i = 0; i < recorded.points.size(); ++i) recorded.points[i].force = physics::Force(curve.shown_n.at(i));
+    for (std::size_t i = 0; i < recorded.points.size(); ++i)
+      recorded.points[i].force = physics::Force(curve.shown_n.at(i));
     door.curve_ = std::move(recorded);
     return {{"z_m", column(samples, [](const physics::CurveSample& sample) { return sample.z.si; })},
-            {"force_n", numbers_of(curve.shown_n)},
+            {"force_N", numbers_of(curve.shown_n)},
             {"approach_points", turn - samples.begin()},
-            {"spring_constant_n_per_m", curve.run.setup.material.contact.spring_constant.si}};
+            {"spring_constant_N_per_m", curve.run.setup.material.contact.spring_constant.si}};
   }
 
   static Json tapping_curve(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
@@ -196,7 +190,7 @@ struct JsonDoor::Verbs {
     const auto to = arguments.number("z_to_m", -kMostPlaceM, kMostPlaceM);
     const std::size_t points = arguments.count_or("points", 400, 2, SimulatedInstrument::kMostCurvePoints);
     arguments.finish();
-    const curves::TappingRun run = taken(door.instrument_.tapping_curve(from, to, points));
+    const curves::TappingRun run = value_of(door.instrument_.tapping_curve(from, to, points));
     const auto& rows = run.curve.points;
     using physics::TapPoint;
     Json answer{{"z_m", column(rows, [](const TapPoint& row) { return row.z.si; })},
@@ -212,11 +206,11 @@ struct JsonDoor::Verbs {
   static Json scan(JsonDoor& door, Arguments& arguments, const Json& id, const Send& send) {
     arguments.finish();
     bool read = true;
-    physics::ScanImage image = taken(door.instrument_.scan([&](const physics::ScanLine& line, double time_s) {
+    physics::ScanImage image = value_of(door.instrument_.scan([&](const physics::ScanLine& line, double time_s) {
       const auto track = [](const physics::ScanTrack& pass) {
         return Json{{"height_m", numbers_of(pass.height_m)},
-                    {"error_n", numbers_of(pass.error_n)},
-                    {"lateral_n", numbers_of(pass.lateral_n)}};
+                    {"error_N", numbers_of(pass.error_n)},
+                    {"lateral_N", numbers_of(pass.lateral_n)}};
       };
       const Json text{{"id", id},
                       {"line", line.row},
@@ -236,12 +230,12 @@ struct JsonDoor::Verbs {
   static Json thermal(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
     const double resonance_hz = door.instrument_.setup().material.lever.resonance.si;
     const std::size_t points = arguments.count_or("points", 2000, 20, kMostSpectrumPoints),
-                      averages = arguments.count_or("averages", 100, 1, kMostSpectrumWork / kMostSpectrumPoints);
-    const double most_hz = arguments.number_or("most_hz", 2.0 * resonance_hz, 1.0, 1e9);
+                      averages = arguments.count_or("averages", 100, 1, kMostSpectrumWork / points);
+    const double most_hz = arguments.number_or("most_Hz", 2.0 * resonance_hz, 1.0, 1e9);
     arguments.finish();
     const auto spectrum = door.instrument_.thermal(points, most_hz, averages);
-    return {{"frequency_hz", column(spectrum, [](const fits::SpectrumPoint& point) { return point.frequency_hz; })},
-            {"density_m2_per_hz", column(spectrum, [](const fits::SpectrumPoint& point) { return point.density; })},
+    return {{"frequency_Hz", column(spectrum, [](const fits::SpectrumPoint& point) { return point.frequency_hz; })},
+            {"density_m2_per_Hz", column(spectrum, [](const fits::SpectrumPoint& point) { return point.density; })},
             {"averages", averages}};
   }
 
@@ -255,7 +249,7 @@ struct JsonDoor::Verbs {
             {"surface_m", truth.surface_m},
             {"sample_x_m", truth.sample_x_m},
             {"sample_y_m", truth.sample_y_m},
-            {"highest_force_n", truth.highest_force_n},
+            {"highest_force_N", truth.highest_force_n},
             {"contact", curves::parameters_json(door.instrument_.setup())}};
   }
 
@@ -268,14 +262,14 @@ struct JsonDoor::Verbs {
     if (std::filesystem::exists(path, ignored)) throw RefusedRequest("there is already a file " + name);
     if (const auto format = curves::image_format(name)) {
       if (!door.image_) throw RefusedRequest("there is no image yet; \"scan\" first");
-      taken(core::write_file(path, *format == curves::ImageFormat::Gsf ? curves::gsf_bytes(*door.image_, 0)
-                                                                       : curves::gwy_bytes(*door.image_)));
+      value_of(core::write_file(path, *format == curves::ImageFormat::Gsf ? curves::gsf_bytes(*door.image_, 0)
+                                                                          : curves::gwy_bytes(*door.image_)));
       return {{"file", name}};
     }
     for (const curves::WritableFormat& row : curves::writable_formats()) {
       if (!name.ends_with("." + std::string(row.word))) continue;
       if (!door.curve_) throw RefusedRequest("there is no curve yet; \"curve\" first");
-      taken(core::write_file(path, taken(curves::series_bytes(row.format, std::array{*door.curve_}))));
+      value_of(core::write_file(path, value_of(curves::series_bytes(row.format, std::array{*door.curve_}))));
       return {{"file", name}};
     }
     throw RefusedRequest("\"file\": name it .gwy or .gsf for the newest image, .h5 or .tab for the newest curve");
@@ -301,9 +295,10 @@ constexpr std::array<JsonDoor::Verbs::Row, 14> JsonDoor::Verbs::kRows{{
     {"move", "goes to another place: \"x_m\", \"y_m\", \"speed_m_per_s\"", &Verbs::move},
     {"wait", "lets simulated time pass: \"time_s\"", &Verbs::wait},
     {"curve", "a force curve: \"z_from_m\", \"z_to_m\", \"points\", \"speed_m_per_s\"", &Verbs::curve},
-    {"tapping_curve", "amplitude and phase over the height: \"z_from_m\", \"z_to_m\", \"points\"", &Verbs::tapping_curve},
+    {"tapping_curve", "amplitude and phase over the height: \"z_from_m\", \"z_to_m\", \"points\"",
+     &Verbs::tapping_curve},
     {"scan", "an image around the tip, line by line", &Verbs::scan},
-    {"thermal", "spectrum of the free lever: \"points\", \"most_hz\", \"averages\"", &Verbs::thermal},
+    {"thermal", "spectrum of the free lever: \"points\", \"most_Hz\", \"averages\"", &Verbs::thermal},
     {"truth", "what no microscope shows", &Verbs::truth},
     {"save", "writes the newest image or curve: \"file\"", &Verbs::save},
     {"quit", "ends the server", &Verbs::quit},
@@ -324,14 +319,17 @@ std::string_view JsonDoor::too_long() const {
 Door::Then JsonDoor::answer(std::string_view request, const Send& send) {
   Json id = nullptr;
   Then then = Then::GoOn;
-  const auto say = [&](const Json& answer) { send(answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"); };
+  const auto say = [&](const Json& answer) {
+    send(answer.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  };
   const auto refuse = [&](const std::string& why) {
     say({{"id", id}, {"ok", false}, {"error", core::printable(why)}});
   };
   try {
     if (is_too_deep(request)) throw RefusedRequest("the request is nested too deep");
     const Json parsed = Json::parse(request, nullptr, false);
-    if (!parsed.is_object()) throw RefusedRequest("a request is a JSON object on one line: {\"id\": 1, \"do\": \"hello\"}");
+    if (!parsed.is_object())
+      throw RefusedRequest("a request is a JSON object on one line: {\"id\": 1, \"do\": \"hello\"}");
     if (const auto found = parsed.find("id"); found != parsed.end()) {
       if (!found->is_number() && !found->is_string() && !found->is_null()) {
         throw RefusedRequest("\"id\": give a number or a text");

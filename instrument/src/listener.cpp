@@ -130,9 +130,9 @@ core::Result<Listener> Listener::on_loopback(std::uint16_t port) {
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  const bool open = socket.is_open() && ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &again, sizeof(again)) == 0 &&
-                    ::bind(socket.get(), as_address(address), sizeof(address)) == 0 &&
-                    ::listen(socket.get(), kWaitingClients) == 0;
+  const bool open =
+      socket.is_open() && ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &again, sizeof(again)) == 0 &&
+      ::bind(socket.get(), as_address(address), sizeof(address)) == 0 && ::listen(socket.get(), kWaitingClients) == 0;
   if (!open) return tl::unexpected(cannot_listen(fmt::format("port {} of 127.0.0.1", port), errno));
   return Listener(std::move(socket), nullptr);
 }

@@ -11,14 +11,14 @@
 #include <string_view>
 #include <type_traits>
 
-// Numbers and texts of Nanonis' TCP protocol: big-endian, a text after its size in four bytes (Nanonis TCP protocol, SPECS,
-// 2021).
+// Numbers and texts of Nanonis' TCP protocol: big-endian, a text after its size in four bytes (Nanonis TCP protocol,
+// SPECS, 2021).
 namespace afm::instrument {
 
 // An unsigned integer as wide as T.
 template <class T>
-using BitsOf = std::conditional_t<sizeof(T) == 8, std::uint64_t,
-                                  std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint16_t>>;
+using BitsOf =
+    std::conditional_t<sizeof(T) == 8, std::uint64_t, std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint16_t>>;
 
 template <class T>
 concept NanonisNumber = std::same_as<T, std::uint16_t> || std::same_as<T, std::int32_t> ||

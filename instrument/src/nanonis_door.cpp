@@ -8,18 +8,17 @@
 #include <cmath>
 #include <exception>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 
 #include "core/printable.h"
 #include "nanonis_bytes.h"
+#include "refused_request.h"
 
 namespace afm::instrument {
 namespace {
 
 constexpr std::size_t kNameBytes = 32, kHeaderBytes = 40;
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMostPlaceM = 1e-3;
+constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 constexpr double kWithdrawnM = 1e-6;
 constexpr double kMotorStepM = 100e-9;  // of the coarse motor, along z
 constexpr float kNoCurrent = 0.0F;
@@ -50,18 +49,9 @@ std::string name_of_signal(std::int32_t index) {
   return named != nullptr ? std::string(named->name) : fmt::format("Not used {}", index);
 }
 
-template <class T>
-T taken(core::Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().message);
-  return std::move(*result);
-}
-void taken(const core::Result<void>& result) {
-  if (!result) throw std::runtime_error(result.error().message);
-}
-
 double within(const char* what, double value, double smallest, double largest) {
   if (!(value >= smallest && value <= largest)) {
-    throw std::runtime_error(fmt::format("{}: {} is not within {} to {}", what, value, smallest, largest));
+    throw RefusedRequest(fmt::format("{}: {} is not within {} to {}", what, value, smallest, largest));
   }
   return value;
 }
@@ -73,7 +63,8 @@ struct NanonisDoor::Functions {
   using Run = void (*)(NanonisDoor& door, NanonisReader& in, NanonisWriter& out);
   struct Row {
     std::string_view name;
-    std::size_t blank;  // bytes of zeros in place of the results of a call that failed: clients look for the error behind them
+    std::size_t
+        blank;  // bytes of zeros in place of the results of a call that failed: clients look for the error behind them
     Run run;
   };
   static const std::array<Row, 38> kRows;
@@ -82,11 +73,11 @@ struct NanonisDoor::Functions {
   static void change(NanonisDoor& door, const Edit& edit) {
     InstrumentSettings settings(door.instrument_.settings());
     edit(settings);
-    taken(door.instrument_.change(settings));
+    value_of(door.instrument_.change(settings));
   }
 
   static float signal(const NanonisDoor& door, std::int32_t index) {
-    if (index < 0 || index >= kSignals) throw std::runtime_error(fmt::format("there is no signal {}", index));
+    if (index < 0 || index >= kSignals) throw RefusedRequest(fmt::format("there is no signal {}", index));
     const SimulatedInstrument::Position& at = door.instrument_.position();
     const double setpoint_n = door.instrument_.settings().scan.setpoint.si;
     switch (index) {
@@ -118,7 +109,7 @@ struct NanonisDoor::Functions {
   }
   static void vals_get(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
     const auto count = in.read<std::int32_t>();
-    if (count < 0 || count > kSignals) throw std::runtime_error(fmt::format("{} signals are too many", count));
+    if (count < 0 || count > kSignals) throw RefusedRequest(fmt::format("{} signals are too many", count));
     std::vector<std::int32_t> indexes;
     for (std::int32_t i = 0; i < count; ++i) indexes.push_back(in.read<std::int32_t>());
     in.read<std::uint32_t>();
@@ -145,15 +136,17 @@ struct NanonisDoor::Functions {
   }
   static void z_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
     const double z_m = within("z", in.read<float>(), -kMostPlaceM, kMostPlaceM);
-    if (door.feedback_) throw std::runtime_error("the Z controller is on; switch it off first");
+    if (door.feedback_) throw RefusedRequest("the Z controller is on; switch it off first");
     const double above_m = z_m - door.instrument_.position().z_m;
-    if (above_m < 0.0) throw std::runtime_error("this microscope lowers its tip by its Z controller alone");
+    if (above_m < 0.0) throw RefusedRequest("this microscope lowers its tip by its Z controller alone");
     door.instrument_.withdraw(above_m, kApproachSpeedM);
   }
   static void on_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
     out.add(std::uint32_t{door.feedback_ ? 1U : 0U});
   }
-  static void on_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) { switch_feedback(door, in.read<std::uint32_t>() != 0); }
+  static void on_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
+    switch_feedback(door, in.read<std::uint32_t>() != 0);
+  }
   static void switch_feedback(NanonisDoor& door, bool on) {
     change(door, [on](InstrumentSettings& settings) {
       settings.scan.feedback = on ? physics::Feedback::On : physics::Feedback::Off;
@@ -202,11 +195,11 @@ struct NanonisDoor::Functions {
     constexpr std::uint16_t kStart = 0, kLast = 3;
     const auto action = in.read<std::uint16_t>();
     const bool upwards = in.read<std::uint32_t>() != 0;
-    if (action > kLast) throw std::runtime_error(fmt::format("there is no scan action {}", action));
+    if (action > kLast) throw RefusedRequest(fmt::format("there is no scan action {}", action));
     if (action != kStart) return;  // whatever was started is done
     change(door, [upwards](InstrumentSettings& settings) { settings.upwards = upwards; });
     door.upwards_ = upwards;
-    door.image_ = taken(door.instrument_.scan([](const physics::ScanLine&, double) { return true; }));
+    door.image_ = value_of(door.instrument_.scan([](const physics::ScanLine&, double) { return true; }));
   }
   static void scan_status(NanonisDoor&, NanonisReader&, NanonisWriter& out) { out.add(std::uint32_t{0}); }
   static void scan_wait(NanonisDoor&, NanonisReader& in, NanonisWriter& out) {
@@ -218,7 +211,7 @@ struct NanonisDoor::Functions {
     const auto [width_m, height_m] = door.instrument_.frame();
     out.add(static_cast<float>(at.x_m)).add(static_cast<float>(at.y_m));
     out.add(static_cast<float>(width_m)).add(static_cast<float>(height_m));
-    out.add(static_cast<float>(door.instrument_.settings().turn_rad / kDegree));
+    out.add(static_cast<float>(door.instrument_.settings().turn_rad / kRadPerDegree));
   }
   static void frame_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
     const double x_m = within("x", in.read<float>(), -kMostPlaceM, kMostPlaceM),
@@ -229,7 +222,7 @@ struct NanonisDoor::Functions {
     change(door, [&](InstrumentSettings& settings) {
       settings.size_m = width_m;
       settings.height_m = height_m;
-      settings.turn_rad = std::remainder(angle, 360.0) * kDegree;
+      settings.turn_rad = std::remainder(angle, 360.0) * kRadPerDegree;
     });
     door.instrument_.move_to(x_m, y_m, door.follow_speed_m_per_s_);
   }
@@ -241,7 +234,7 @@ struct NanonisDoor::Functions {
   }
   static void buffer_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
     const auto count = in.read<std::int32_t>();
-    if (count < 0 || count > kSignals) throw std::runtime_error(fmt::format("{} channels are too many", count));
+    if (count < 0 || count > kSignals) throw RefusedRequest(fmt::format("{} channels are too many", count));
     std::vector<std::int32_t> channels;
     for (std::int32_t i = 0; i < count; ++i) channels.push_back(in.read<std::int32_t>());
     const auto pixels = in.read<std::int32_t>(), lines = in.read<std::int32_t>();
@@ -270,7 +263,9 @@ struct NanonisDoor::Functions {
   static void speed_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
     const auto [width_m, height_m] = door.instrument_.frame();
     const double forward_s = 0.5 / door.instrument_.settings().scan.line_rate.si;
-    const double backward_s = door.backward_line_s_ > 0.0F ? door.backward_line_s_ : forward_s;
+    const double ratio = double{door.speed_ratio_};
+    out.add(static_cast<float>(width_m / forward_s)).add(static_cast<float>(ratio * width_m / forward_s));
+    out.add(static_cast<float>(forward_s)).add(static_cast<float>(forward_s / ratio));
     constexpr std::uint16_t kConstantTime = 1;
     out.add(static_cast<float>(width_m / forward_s)).add(static_cast<float>(width_m / backward_s));
     out.add(static_cast<float>(forward_s)).add(static_cast<float>(backward_s));
@@ -280,28 +275,27 @@ struct NanonisDoor::Functions {
     const double speed = in.read<float>();
     in.read<float>();
     double forward_s = in.read<float>();
-    const auto backward_s = in.read<float>();
+    in.read<float>();
     constexpr std::uint16_t kKeepSpeed = 1;
     if (in.read<std::uint16_t>() == kKeepSpeed) forward_s = door.instrument_.frame().width_m / speed;
-    const auto ratio = in.read<float>();
+    const double ratio = within("ratio of the speeds", in.read<float>(), 1e-3, 1e3);
     within("forward line time", forward_s, 1e-5, 1e5);
     change(door, [forward_s](InstrumentSettings& settings) {
       settings.scan.line_rate = physics::Frequency(0.5 / forward_s);
     });
-    door.backward_line_s_ = std::isfinite(backward_s) ? backward_s : 0.0F;
-    door.speed_ratio_ = std::isfinite(ratio) ? ratio : 1.0F;
+    door.speed_ratio_ = static_cast<float>(ratio);
   }
   static void frame_data(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
     const auto index = in.read<std::int32_t>();
     const bool forward = in.read<std::uint32_t>() != 0;
-    if (!door.image_) throw std::runtime_error("there is no image yet; start a scan first");
+    if (!door.image_) throw RefusedRequest("there is no image yet; start a scan first");
     const Signal* signal = find_signal(index);
     const std::string wanted = (signal != nullptr ? std::string(signal->channel) : "") + (forward ? "" : " (retrace)");
     const auto& channels = door.image_->channels;
     const auto found = std::find_if(channels.begin(), channels.end(),
                                     [&](const physics::ImageChannel& channel) { return channel.name == wanted; });
     if (found == channels.end()) {
-      throw std::runtime_error(fmt::format("signal {} is not recorded; choose 30 (height), 1 or 2", index));
+      throw RefusedRequest(fmt::format("signal {} is not recorded; choose 30 (height), 1 or 2", index));
     }
     out.add_text(name_of_signal(index)).add_count(door.image_->rows).add_count(door.image_->columns);
     for (const double value : found->values) out.add(static_cast<float>(value));
@@ -339,8 +333,8 @@ struct NanonisDoor::Functions {
     const auto steps = in.read<std::uint16_t>();
     in.read<std::uint32_t>();
     in.read<std::uint32_t>();
-    if (direction > kLast) throw std::runtime_error(fmt::format("there is no direction {}", direction));
-    if (direction != kUp) throw std::runtime_error("the motor of this microscope only lifts the tip: Z+");
+    if (direction > kLast) throw RefusedRequest(fmt::format("there is no direction {}", direction));
+    if (direction != kUp) throw RefusedRequest("the motor of this microscope only lifts the tip: Z+");
     door.instrument_.withdraw(kMotorStepM * steps, kApproachSpeedM);
     door.feedback_ = false;
   }

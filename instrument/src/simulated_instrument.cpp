@@ -17,9 +17,10 @@ namespace {
 
 using core::wrong_usage;
 
-constexpr double kStartAboveM = 1e-6;       // height of the tip at the start
-constexpr double kFalseAboveM = 100e-9;     // highest false engagement above the sample
-constexpr double kGrowthThatIsSeen = 0.02;  // relative growth of the tip from which the image's surface is computed anew
+constexpr double kStartAboveM = 1e-6;    // height of the tip at the start
+constexpr double kFalseAboveM = 100e-9;  // highest false engagement above the sample
+constexpr double kGrowthThatIsSeen =
+    0.02;  // relative growth of the tip from which the image's surface is computed anew
 
 std::string metres(const std::optional<double>& si) { return si ? fmt::format("{} m", *si) : std::string(); }
 
@@ -71,11 +72,10 @@ core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings
     if (!setup) return tl::unexpected(setup.error());
   }
   const double radius_m = setup->material.contact.tip_radius.si;
-  const bool same = settings.contact.material == settings_.contact.material &&
-                    settings.contact.model == settings_.contact.model &&
-                    settings.contact.si_values == settings_.contact.si_values &&
-                    settings.tip.kind == settings_.tip.kind &&
-                    settings.tip.half_angle_rad == settings_.tip.half_angle_rad;
+  const bool same =
+      settings.contact.material == settings_.contact.material && settings.contact.model == settings_.contact.model &&
+      settings.contact.si_values == settings_.contact.si_values && settings.tip.kind == settings_.tip.kind &&
+      settings.tip.half_angle_rad == settings_.tip.half_angle_rad;
   if (!same || std::abs(radius_m - surface_radius_m_) > kGrowthThatIsSeen * surface_radius_m_) {
     physics::TipShape tip(settings.tip);
     tip.radius = physics::Length(radius_m);
@@ -237,8 +237,8 @@ core::Result<void> SimulatedInstrument::after_line(const physics::ScanLine& line
 SimulatedInstrument::Frame SimulatedInstrument::frame() const {
   const double width_m = settings_.size_m > 0.0 ? settings_.size_m : std::min(surface_.width_m, surface_.depth_m);
   const double square_m = width_m / static_cast<double>(settings_.pixels);
-  return {width_m, settings_.height_m > 0.0 ? settings_.height_m
-                                            : square_m * static_cast<double>(settings_.lines_or_pixels())};
+  return {width_m,
+          settings_.height_m > 0.0 ? settings_.height_m : square_m * static_cast<double>(settings_.lines_or_pixels())};
 }
 
 core::Result<physics::ScanImage> SimulatedInstrument::scan(const TakeLine& taken) {

@@ -2,7 +2,7 @@
 """A microscope in simulated time, controlled through the socket of `touchafm serve`.
 
     with touchafm.serve.start(seed=7) as afm:
-        afm.set(material="gold", line_rate_hz=5.0)
+        afm.set(material="gold", line_rate_Hz=5.0)
         afm.approach()
         image = afm.scan()
         image["Height"], afm.truth()["tip_radius_m"]
@@ -24,7 +24,7 @@ import numpy as np
 
 __all__ = ["Client", "Refused", "connect", "start"]
 
-_CHANNELS = {"height_m": "Height", "error_n": "Error", "lateral_n": "Lateral force"}
+_CHANNELS = {"height_m": "Height", "error_N": "Error", "lateral_N": "Lateral force"}
 
 
 class Refused(ValueError):
@@ -116,9 +116,9 @@ class Client:
         z = np.array(answer["z_m"])
         return {
             "z": z,
-            "force": np.array(answer["force_n"]),
+            "force": np.array(answer["force_N"]),
             "approach": np.arange(len(z)) < answer["approach_points"],
-            "spring_constant": answer["spring_constant_n_per_m"],
+            "spring_constant": answer["spring_constant_N_per_m"],
         }
 
     def tapping_curve(self, *, z_from=None, z_to=None, points=None):
@@ -152,10 +152,10 @@ class Client:
                 image[name + ending] = channel
         return image
 
-    def thermal(self, *, points=None, most_hz=None, averages=None):
+    def thermal(self, *, points=None, most_Hz=None, averages=None):
         """Spectrum of the free lever: frequencies in Hz, densities in m^2/Hz."""
-        answer = self.request("thermal", points=points, most_hz=most_hz, averages=averages)
-        return np.array(answer["frequency_hz"]), np.array(answer["density_m2_per_hz"])
+        answer = self.request("thermal", points=points, most_Hz=most_Hz, averages=averages)
+        return np.array(answer["frequency_Hz"]), np.array(answer["density_m2_per_Hz"])
 
     def truth(self):
         """What no microscope shows."""

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: whatever a client of `touchafm serve` sends, it is answered on one line, and a refused request changes nothing
+// Invariant: whatever a client of `touchafm serve` sends, it is answered on one line, and a refused request changes
+// nothing
 #include "instrument/json_door.h"
 
 #include <gmock/gmock.h>
@@ -62,12 +63,14 @@ TEST_F(JsonDoorTest, TakesBackEverySettingThatItLists) {
   for (const auto& [key, value] : values.items()) {
     // a number of the contact without effect in this law is refused as on the command line
     const json answer = answer_to(json{{"do", "set"}, {"values", {{key, value}}}}.dump());
-    if (answer["ok"] == false) EXPECT_THAT(answer.value("error", ""), HasSubstr("no effect")) << key;
+    if (answer["ok"] == false) {
+      EXPECT_THAT(answer.value("error", ""), HasSubstr("no effect")) << key;
+    }
   }
 }
 
 TEST_F(JsonDoorTest, ChangesAllSettingsOrNone) {
-  EXPECT_THAT(refusal_of(R"({"do": "set", "values": {"pixels": 32, "line_rate_hz": -1}})"), HasSubstr("line_rate_hz"));
+  EXPECT_THAT(refusal_of(R"({"do": "set", "values": {"pixels": 32, "line_rate_Hz": -1}})"), HasSubstr("line_rate_Hz"));
   EXPECT_EQ(answer_to(R"({"do": "get"})")["values"]["pixels"], 64);
   EXPECT_THAT(refusal_of(R"({"do": "set", "values": {"pixels": 32, "material": "cheese"}})"), HasSubstr("cheese"));
   EXPECT_EQ(answer_to(R"({"do": "get"})")["values"]["pixels"], 64);
@@ -86,7 +89,7 @@ TEST_F(JsonDoorTest, StreamsAnImageLineByLine) {
     EXPECT_EQ(line["id"], 7);
     EXPECT_EQ(line["line"], i);
     EXPECT_EQ(line["trace"]["height_m"].size(), 64U);
-    EXPECT_EQ(line["retrace"]["lateral_n"].size(), 64U);
+    EXPECT_EQ(line["retrace"]["lateral_N"].size(), 64U);
   }
   EXPECT_EQ(json::parse(lines.back())["rows"], 5);
 }
@@ -100,15 +103,15 @@ TEST_F(JsonDoorTest, EndsAScanThatNobodyReads) {
 
 TEST_F(JsonDoorTest, GivesACurveWithItsBranches) {
   const json answer = answer_to(R"({"do": "curve", "points": 100, "z_from_m": 3e-8, "z_to_m": -5e-9})");
-  EXPECT_EQ(answer["z_m"].size(), answer["force_n"].size());
+  EXPECT_EQ(answer["z_m"].size(), answer["force_N"].size());
   EXPECT_GE(answer["approach_points"], 100);
   EXPECT_LT(answer["z_m"][answer["approach_points"].get<std::size_t>() - 1], -4.9e-9);
   EXPECT_EQ(answer.contains("work_of_adhesion"), false);
 }
 
 TEST_F(JsonDoorTest, GivesATappingCurve) {
-  answer_to(R"({"do": "set", "values": {"law": "dmt", "spring_constant_n_per_m": 40, "quality_factor": 400,
-                "resonance_hz": 300e3, "free_amplitude_m": 2e-8}})");
+  answer_to(R"({"do": "set", "values": {"law": "dmt", "spring_constant_N_per_m": 40, "quality_factor": 400,
+                "resonance_Hz": 300e3, "free_amplitude_m": 2e-8}})");
   const json answer = answer_to(R"({"do": "tapping_curve", "z_from_m": 3e-8, "z_to_m": 1e-8, "points": 50})");
   ASSERT_EQ(answer["ok"], true) << answer.dump();
   EXPECT_EQ(answer["amplitude_m"].size(), answer["phase_rad"].size());
@@ -169,10 +172,10 @@ TEST_F(JsonDoorTest, EndsWhenAskedTo) {
 TEST_F(JsonDoorTest, GivesTheSameBytesForTheSameRequests) {
   const auto run = [this] {
     std::string bytes;
-    for (const char* request :
-         {R"({"do": "hello", "seed": 4})", R"({"do": "set", "values": {"pixels": 8, "noise_m": 1e-11, "force_noise_n": 1e-11}})",
-          R"({"do": "curve", "points": 30})", R"({"do": "approach"})", R"({"do": "scan"})",
-          R"({"do": "thermal", "points": 20, "averages": 2})", R"({"do": "truth"})"}) {
+    for (const char* request : {R"({"do": "hello", "seed": 4})",
+                                R"({"do": "set", "values": {"pixels": 8, "noise_m": 1e-11, "force_noise_N": 1e-11}})",
+                                R"({"do": "curve", "points": 30})", R"({"do": "approach"})", R"({"do": "scan"})",
+                                R"({"do": "thermal", "points": 20, "averages": 2})", R"({"do": "truth"})"}) {
       for (const std::string& line : lines_for(request)) bytes += line + "\n";
     }
     return bytes;

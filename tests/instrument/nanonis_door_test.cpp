@@ -23,7 +23,9 @@ using testing::HasSubstr;
 std::string request(std::string name, const NanonisWriter& body = {}, bool wanted = true) {
   name.resize(32, '\0');
   NanonisWriter rest;
-  rest.add_count(body.bytes().size()).add(std::uint16_t{wanted ? std::uint16_t{1} : std::uint16_t{0}}).add(std::uint16_t{0});
+  rest.add_count(body.bytes().size())
+      .add(std::uint16_t{wanted ? std::uint16_t{1} : std::uint16_t{0}})
+      .add(std::uint16_t{0});
   return name + rest.bytes() + body.bytes();
 }
 
@@ -52,10 +54,12 @@ class NanonisDoorTest : public testing::Test {
     EXPECT_EQ(in.read<std::uint32_t>(), 1U) << name;
     return std::string(in.text());
   }
-  void start_scan(std::uint32_t upwards = 0) { results_of("Scan.Action", NanonisWriter().add(std::uint16_t{0}).add(upwards)); }
+  void start_scan(std::uint32_t upwards = 0) {
+    results_of("Scan.Action", NanonisWriter().add(std::uint16_t{0}).add(upwards));
+  }
   std::vector<float> grab(std::int32_t channel, bool forward) {
-    const std::string results = results_of(
-        "Scan.FrameDataGrab", NanonisWriter().add(channel).add(std::uint32_t{forward ? 1U : 0U}));
+    const std::string results =
+        results_of("Scan.FrameDataGrab", NanonisWriter().add(channel).add(std::uint32_t{forward ? 1U : 0U}));
     NanonisReader in(results);
     in.text();
     const auto rows = in.read<std::int32_t>(), columns = in.read<std::int32_t>();
@@ -77,7 +81,7 @@ TEST_F(NanonisDoorTest, HasTheBytesOfTheProtocol) {
   EXPECT_EQ(asked.size(), 40U);
   const std::string bytes = bytes_for(asked);
   std::string expected = std::string("Bias.Get") + std::string(24, '\0');
-  expected += std::string("\0\0\0\x0c\0\0\0\0", 8);        // size of the body, unused
+  expected += std::string("\0\0\0\x0c\0\0\0\0", 8);             // size of the body, unused
   expected += std::string("\x3f\xc0\0\0\0\0\0\0\0\0\0\0", 12);  // 1.5, no error, no text
   EXPECT_EQ(bytes, expected);
 }
@@ -87,7 +91,7 @@ TEST_F(NanonisDoorTest, WaitsForAWholeRequest) {
   for (std::size_t size = 0; size < whole.size(); ++size) {
     const auto found = door_.request_size(std::string_view(whole).substr(0, size));
     EXPECT_EQ(found.has_value(), size >= 44) << size;
-    if (found) EXPECT_EQ(*found, 44U);
+    EXPECT_EQ(found.value_or(44U), 44U);
   }
 }
 
@@ -103,7 +107,8 @@ TEST_F(NanonisDoorTest, ScansAFlatSample) {
   ASSERT_TRUE(instrument_.change(settings));
   instrument_.approach(NanonisDoor::kApproachSpeedM);
   results_of("Scan.FrameSet", NanonisWriter().add(0.0F).add(0.0F).add(30e-9F).add(30e-9F).add(0.0F));
-  results_of("Scan.BufferSet", NanonisWriter().add_count(1).add(std::int32_t{30}).add(std::int32_t{64}).add(std::int32_t{64}));
+  results_of("Scan.BufferSet",
+             NanonisWriter().add_count(1).add(std::int32_t{30}).add(std::int32_t{64}).add(std::int32_t{64}));
   start_scan();
   const std::string waited = results_of("Scan.WaitEndOfScan", NanonisWriter().add(std::int32_t{-1}));
   EXPECT_EQ(waited, std::string(8, '\0')) << "in time, and without a file";
@@ -120,7 +125,8 @@ TEST_F(NanonisDoorTest, ShowsTheImageOfTheInstrument) {
   EXPECT_EQ(grab(30, true).size(), 256U);
   EXPECT_EQ(grab(1, false).size(), 256U);
   EXPECT_EQ(grab(2, true).size(), 256U);
-  NanonisReader frame(results_of("Scan.FrameGet"));
+  const std::string frame_bytes = results_of("Scan.FrameGet");
+  NanonisReader frame(frame_bytes);
   EXPECT_FLOAT_EQ(frame.read<float>(), 5e-9F);
   EXPECT_FLOAT_EQ(frame.read<float>(), -5e-9F);
   EXPECT_FLOAT_EQ(frame.read<float>(), 30e-9F);
@@ -129,7 +135,8 @@ TEST_F(NanonisDoorTest, ShowsTheImageOfTheInstrument) {
 }
 
 TEST_F(NanonisDoorTest, ApproachesAndWithdraws) {
-  EXPECT_THAT(error_of("Scan.Action", NanonisWriter().add(std::uint16_t{0}).add(std::uint32_t{0})), HasSubstr("approach"));
+  EXPECT_THAT(error_of("Scan.Action", NanonisWriter().add(std::uint16_t{0}).add(std::uint32_t{0})),
+              HasSubstr("approach"));
   results_of("AutoApproach.Open");
   results_of("AutoApproach.OnOffSet", NanonisWriter().add(std::uint16_t{1}));
   EXPECT_EQ(NanonisReader(results_of("AutoApproach.OnOffGet")).read<std::uint16_t>(), 0);
@@ -147,7 +154,8 @@ TEST_F(NanonisDoorTest, KeepsWhatIsSet) {
              NanonisWriter().add(0.0F).add(0.0F).add(0.05F).add(0.025F).add(std::uint16_t{2}).add(2.0F));
   EXPECT_NEAR(instrument_.settings().scan.line_rate.si, 10.0, 1e-5);
   results_of("FolMe.XYPosSet", NanonisWriter().add(3e-9).add(-4e-9).add(std::uint32_t{1}));
-  NanonisReader at(results_of("FolMe.XYPosGet", NanonisWriter().add(std::uint32_t{1})));
+  const std::string at_bytes = results_of("FolMe.XYPosGet", NanonisWriter().add(std::uint32_t{1}));
+  NanonisReader at(at_bytes);
   EXPECT_EQ(at.read<double>(), 3e-9);
   EXPECT_EQ(at.read<double>(), -4e-9);
   results_of("Scan.PropsSet", NanonisWriter()
@@ -156,7 +164,8 @@ TEST_F(NanonisDoorTest, KeepsWhatIsSet) {
                                   .add(std::uint32_t{0})
                                   .add_text("series")
                                   .add_text("words"));
-  NanonisReader properties(results_of("Scan.PropsGet"));
+  const std::string properties_bytes = results_of("Scan.PropsGet");
+  NanonisReader properties(properties_bytes);
   properties.read<std::uint32_t>();
   EXPECT_EQ(properties.read<std::uint32_t>(), 1U);
   properties.read<std::uint32_t>();
@@ -165,14 +174,16 @@ TEST_F(NanonisDoorTest, KeepsWhatIsSet) {
 }
 
 TEST_F(NanonisDoorTest, NamesItsSignals) {
-  NanonisReader names(results_of("Signals.NamesGet"));
+  const std::string names_bytes = results_of("Signals.NamesGet");
+  NanonisReader names(names_bytes);
   names.read<std::int32_t>();
   ASSERT_EQ(names.read<std::int32_t>(), 128);
   std::vector<std::string> all;
   for (int i = 0; i < 128; ++i) all.emplace_back(names.text());
   EXPECT_TRUE(names.is_at_end());
   EXPECT_EQ(all[30], "Z (m)");
-  NanonisReader slots(results_of("Signals.InSlotsGet"));
+  const std::string slots_bytes = results_of("Signals.InSlotsGet");
+  NanonisReader slots(slots_bytes);
   slots.read<std::int32_t>();
   EXPECT_EQ(slots.read<std::int32_t>(), 7);
 }

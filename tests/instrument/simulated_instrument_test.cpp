@@ -49,7 +49,7 @@ TEST(SimulatedInstrument, ShowsTheForceOfTheCurveThatTouchafmComputes) {
 
 TEST(SimulatedInstrument, HasTheNumberOfPointsThatWasAskedFor) {
   SimulatedInstrument instrument = instrument_with();
-  for (const std::size_t points : {2, 7, 500, 1024}) {
+  for (const std::size_t points : {2U, 7U, 500U, 1024U}) {
     const auto curve = instrument.curve({.points = points}).value();
     const auto& samples = curve.run.curve.samples;
     const auto approach = std::count_if(samples.begin(), samples.end(), [](const physics::CurveSample& sample) {
@@ -165,7 +165,8 @@ TEST(SimulatedInstrument, AnImageIsTurnedAboutItsMiddle) {
   // a quarter of a turn: the row from the left becomes the column from the bottom
   for (std::size_t row = 0; row < 9; ++row) {
     for (std::size_t column = 0; column < 9; ++column) {
-      EXPECT_NEAR(turned[row * 9 + column], straight[(8 - column) * 9 + 8 - (8 - row)], 20e-12) << row << ", " << column;
+      EXPECT_NEAR(turned[row * 9 + column], straight[(8 - column) * 9 + 8 - (8 - row)], 20e-12)
+          << row << ", " << column;
     }
   }
 }

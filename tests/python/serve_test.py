@@ -2,6 +2,8 @@
 """The client of a simulated microscope, on a server of its own."""
 
 import os
+import signal
+import subprocess
 import tempfile
 import time
 import unittest
@@ -36,13 +38,13 @@ class Serve(unittest.TestCase):
         self.assertFalse(np.isnan(image["Lateral force (retrace)"]).any())
         self.afm.save("image.gwy")
         saved = touchafm.read_image(os.path.join(self.folder.name, "image.gwy"))
-        np.testing.assert_allclose(saved["Height"], image["Height"], atol=1e-15)
+        np.testing.assert_allclose(saved["channels"]["Height"][0], image["Height"], atol=1e-15)
 
     def test_calibrates_the_lever(self):
         frequency, density = self.afm.thermal(averages=200)
         area = np.sum(density) * (frequency[1] - frequency[0])
-        k = 0.8174 * 1.380649e-23 * self.afm.truth()["contact"]["temperature_k"] / area
-        self.assertAlmostEqual(k, self.afm.get()["spring_constant_n_per_m"], delta=0.25 * k)
+        k = 0.8174 * 1.380649e-23 * self.afm.get()["temperature_K"] / area
+        self.assertAlmostEqual(k, self.afm.get()["spring_constant_N_per_m"], delta=0.25 * k)
 
     def test_says_why_it_refuses(self):
         with self.assertRaisesRegex(serve.Refused, "approach"):
@@ -50,11 +52,21 @@ class Serve(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no setting \"colour\""):
             self.afm.set(colour=3)
 
-    def test_has_a_thousand_curves_within_seconds(self):
+    def test_times_its_curves(self):
         begin = time.monotonic()
         for _ in range(100):
             self.afm.curve(points=500)
         print(f"1000 curves of 2 x 500 points: {10 * (time.monotonic() - begin):.1f} s")
+
+    def test_removes_its_socket_when_it_is_interrupted(self):
+        path = os.path.join(self.folder.name, "afm.sock")
+        server = subprocess.Popen([os.environ["TOUCHAFM"], "serve", "--socket", path], stderr=subprocess.PIPE, text=True)
+        self.assertIn("listens on", server.stderr.readline())
+        self.assertEqual(os.stat(path).st_mode & 0o777, 0o600)
+        server.send_signal(signal.SIGINT)
+        with server.stderr:
+            self.assertEqual(server.wait(timeout=10), 1)
+        self.assertFalse(os.path.exists(path))
 
     def test_says_that_a_server_has_left(self):
         self.afm.quit()

@@ -15,13 +15,13 @@ namespace afm::instrument {
 
 // What can go wrong on purpose; zero: it does not.
 struct Faults {
-  double force_noise_n = 0;        // rms of the white noise of each point of a curve
-  double detector_range_n = 0;     // a curve shows no force beyond it, either way; zero: unlimited
-  double blunting_force_n = 0;     // push beyond which the tip wears; zero: never
-  double blunting_m_per_n = 1.0;   // growth of its radius for each newton beyond, once a curve or line
-  double false_engagement = 0;     // probability that an approach stops above the sample
-  double tip_change = 0;           // probability that the tip grows or loses a second apex before a line
-  double second_apex_m = 20e-9;    // distance of that apex, along +x
+  double force_noise_n = 0;       // rms of the white noise of each point of a curve
+  double detector_range_n = 0;    // a curve shows no force beyond it, either way; zero: unlimited
+  double blunting_force_n = 0;    // push beyond which the tip wears; zero: never
+  double blunting_m_per_n = 1.0;  // growth of its radius for each newton beyond, once a curve or line
+  double false_engagement = 0;    // probability that an approach stops above the sample
+  double tip_change = 0;          // probability that the tip grows or loses a second apex before a line
+  double second_apex_m = 20e-9;   // distance of that apex, along +x
 };
 
 // Everything that a client sets, in SI. The contact's numbers are those of the material unless they are given.
@@ -34,8 +34,8 @@ struct InstrumentSettings {
   double height_m = 0;  // height of an image; zero: its pixels are squares
   double turn_rad = 0;  // of the image about its middle, counterclockwise
   std::size_t pixels = 64;
-  std::size_t lines = 0;  // zero: as many as pixels
-  bool upwards = false;   // the slow scan begins at the bottom
+  std::size_t lines = 0;            // zero: as many as pixels
+  bool upwards = false;             // the slow scan begins at the bottom
   double free_amplitude_m = 20e-9;  // of a tapping curve, zero to peak
   double drive_hz = 0;              // zero: at the resonance
   double viscosity_pa_s = 0;        // of the contact
@@ -47,12 +47,12 @@ struct InstrumentSettings {
 // Widest image of a client: 1024 lines are answered within seconds.
 inline constexpr std::size_t kMostInstrumentPixels = 1024;
 
-// Settings as {"material": "mica", "line_rate_hz": 2.0, ...}: every key that change() takes, and its value now. A number
-// of the contact that is not given is the material's, or null if the material has none.
+// Settings as {"material": "mica", "line_rate_hz": 2.0, ...}: every key that change() takes, and its value now. A
+// number of the contact that is not given is the material's, or null if the material has none.
 nlohmann::ordered_json settings_json(const InstrumentSettings& settings, const curves::ContactSetup& setup);
 
-// Takes the values of an object over; null for a number of the contact: that of the material. WrongUsage, naming the key,
-// its range and unit, for an unknown key and for any other value, without a change.
+// Takes the values of an object over; null for a number of the contact: that of the material. WrongUsage, naming the
+// key, its range and unit, for an unknown key and for any other value, without a change.
 core::Result<void> change(const nlohmann::ordered_json& values, InstrumentSettings& settings);
 
 }  // namespace afm::instrument

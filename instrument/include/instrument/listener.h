@@ -15,8 +15,8 @@ namespace afm::instrument {
 // Where clients of the same user connect; nobody else is let in. One thread.
 class Listener {
  public:
-  // A Unix socket of mode 0600, in place of one that nobody listens on any more; the destructor and an interruption remove
-  // it. WrongUsage for a path that is too long or taken.
+  // A Unix socket of mode 0600, in place of one that nobody listens on any more; the destructor and an interruption
+  // remove it. WrongUsage for a path that is too long or taken.
   static core::Result<Listener> on_socket(const std::string& path);
   // A TCP port of 127.0.0.1; zero: any free one. Fails for a port that is taken or not allowed.
   static core::Result<Listener> on_loopback(std::uint16_t port);
@@ -48,8 +48,8 @@ struct OpenDoor {
 
 inline constexpr int kPatienceS = 30;
 
-// Answers the clients of all doors, one at a time in each, until one asks to quit or, with `once`, has left. A client that
-// does not read its answers for kPatienceS is given up. Fails only if the system does not let it wait.
+// Answers the clients of all doors, one at a time in each, until one asks to quit or, with `once`, has left. A client
+// that does not read its answers for kPatienceS is given up. Fails only if the system does not let it wait.
 core::Result<void> serve(std::span<const OpenDoor> doors, bool once);
 
 }  // namespace afm::instrument

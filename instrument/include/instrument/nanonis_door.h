@@ -13,9 +13,9 @@
 
 namespace afm::instrument {
 
-// Nanonis' TCP protocol (SPECS, July 2021) as far as its clients use it to approach, scan and move: docs/serve.md lists the
-// functions. Any other function is answered with an error text. A scan is done as soon as it is started: simulated time
-// waits for nobody.
+// Nanonis' TCP protocol (SPECS, July 2021) as far as its clients use it to approach, scan and move: docs/serve.md lists
+// the functions. Any other function is answered with an error text. A scan is done as soon as it is started: simulated
+// time waits for nobody.
 class NanonisDoor final : public Door {
  public:
   static constexpr double kApproachSpeedM = 1e-6;  // m/s
@@ -39,7 +39,7 @@ class NanonisDoor final : public Door {
   double follow_speed_m_per_s_ = 1e-6;
   std::uint32_t custom_speed_ = 0;
   std::vector<std::int32_t> channels_{30};
-  float backward_line_s_ = 0, speed_ratio_ = 1;  // kept: a retrace takes as long as a trace
+  float speed_ratio_ = 1;  // of retrace and trace; kept: a retrace takes as long as a trace
   std::uint32_t continuous_ = 0, bouncing_ = 0, autosave_ = 0;
   std::string series_, comment_;
 };

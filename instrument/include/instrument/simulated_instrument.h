@@ -50,8 +50,8 @@ class SimulatedInstrument {
   const Position& position() const noexcept { return at_; }
 
   struct CurveRequest {
-    std::optional<double> z_from_m, z_to_m;  // of the lever's base, zero at the surface; empty: as touchafm curve
-    std::size_t points = 500;                // of each branch, 2 to kMostCurvePoints; a jump adds two
+    std::optional<double> z_from_m{}, z_to_m{};  // of the lever's base, zero at the surface; empty: as touchafm curve
+    std::size_t points = 500;                    // of each branch, 2 to kMostCurvePoints; a jump adds two
     double speed_m_per_s = 1e-6;
   };
   static constexpr std::size_t kMostCurvePoints = 100'000;
@@ -72,8 +72,8 @@ class SimulatedInstrument {
   };
   Frame frame() const;  // of the next image
 
-  // An image around the tip. Calls `taken` with each line and the time; the scan ends if it returns false. WrongUsage unless
-  // the tip is engaged.
+  // An image around the tip. Calls `taken` with each line and the time; the scan ends if it returns false. WrongUsage
+  // unless the tip is engaged.
   using TakeLine = std::function<bool(const physics::ScanLine& line, double time_s)>;
   core::Result<physics::ScanImage> scan(const TakeLine& taken);
 
@@ -83,11 +83,11 @@ class SimulatedInstrument {
 
   // What no microscope shows.
   struct Truth {
-    double tip_radius_m = 0;   // as worn as it is
-    double tip_growth_m = 0;   // by wear since the start
-    bool touching = false;     // false after a false engagement
-    bool second_apex = false;  // a changed tip
-    double surface_m = 0;      // height of the sample below the tip, for its apex
+    double tip_radius_m = 0;                // as worn as it is
+    double tip_growth_m = 0;                // by wear since the start
+    bool touching = false;                  // false after a false engagement
+    bool second_apex = false;               // a changed tip
+    double surface_m = 0;                   // height of the sample below the tip, for its apex
     double sample_x_m = 0, sample_y_m = 0;  // drift of the sample since the start
     double highest_force_n = 0;             // strongest push so far
   };
@@ -110,8 +110,8 @@ class SimulatedInstrument {
   std::string assets_dir_;
   exhibit::OwnSample sample_;
   InstrumentSettings settings_;
-  curves::ContactSetup setup_;     // with the worn tip
-  exhibit::ScanSurface surface_;   // under the tip as it was at surface_radius_m_
+  curves::ContactSetup setup_;    // with the worn tip
+  exhibit::ScanSurface surface_;  // under the tip as it was at surface_radius_m_
   double surface_radius_m_ = 0;
   double growth_m_ = 0, drift_x_m_ = 0, drift_y_m_ = 0, highest_force_n_ = 0;
   bool touching_ = false, second_apex_ = false;
