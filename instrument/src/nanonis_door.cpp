@@ -267,8 +267,6 @@ struct NanonisDoor::Functions {
     out.add(static_cast<float>(width_m / forward_s)).add(static_cast<float>(ratio * width_m / forward_s));
     out.add(static_cast<float>(forward_s)).add(static_cast<float>(forward_s / ratio));
     constexpr std::uint16_t kConstantTime = 1;
-    out.add(static_cast<float>(width_m / forward_s)).add(static_cast<float>(width_m / backward_s));
-    out.add(static_cast<float>(forward_s)).add(static_cast<float>(backward_s));
     out.add(kConstantTime).add(door.speed_ratio_);
   }
   static void speed_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
