@@ -15,6 +15,7 @@
 #include "instrument/json_door.h"
 #include "instrument/listener.h"
 #include "instrument/nanonis_door.h"
+#include "instrument/simulated_instrument.h"
 
 namespace afm::app {
 

@@ -19,7 +19,10 @@
 #include "curves/curve_output.h"
 #include "curves/curve_series.h"
 #include "curves/image_output.h"
+#include "curves/recorded_curve.h"
 #include "curves/tapping/tapping_output.h"
+#include "instrument/simulated_instrument.h"
+#include "physics/imaging/scan_image.h"
 #include "refused_request.h"
 
 namespace afm::instrument {
@@ -178,7 +181,7 @@ struct JsonDoor::Verbs {
     recorded.metadata.parameters.clear();
     for (std::size_t i = 0; i < recorded.points.size(); ++i)
       recorded.points[i].force = physics::Force(curve.shown_n.at(i));
-    door.curve_ = std::move(recorded);
+    door.curve_ = std::make_unique<const curves::RecordedCurve>(std::move(recorded));
     return {{"z_m", column(samples, [](const physics::CurveSample& sample) { return sample.z.si; })},
             {"force_N", numbers_of(curve.shown_n)},
             {"approach_points", turn - samples.begin()},
@@ -223,7 +226,7 @@ struct JsonDoor::Verbs {
     Json answer{{"columns", image.columns},       {"rows", image.rows},
                 {"width_m", image.width_m},       {"height_m", image.height_m},
                 {"x_offset_m", image.x_offset_m}, {"y_offset_m", image.y_offset_m}};
-    door.image_ = std::move(image);
+    door.image_ = std::make_unique<const physics::ScanImage>(std::move(image));
     return answer;
   }
 
@@ -306,6 +309,7 @@ constexpr std::array<JsonDoor::Verbs::Row, 14> JsonDoor::Verbs::kRows{{
 
 JsonDoor::JsonDoor(SimulatedInstrument& instrument, std::string folder)
     : instrument_(instrument), folder_(std::move(folder)) {}
+JsonDoor::~JsonDoor() = default;
 
 std::optional<std::size_t> JsonDoor::request_size(std::string_view bytes) const {
   const std::size_t end = bytes.find('\n');

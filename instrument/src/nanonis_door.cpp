@@ -11,7 +11,10 @@
 #include <utility>
 
 #include "core/printable.h"
+#include "instrument/simulated_instrument.h"
 #include "nanonis_bytes.h"
+#include "nanonis_signals.h"
+#include "physics/imaging/scan_image.h"
 #include "refused_request.h"
 
 namespace afm::instrument {
@@ -21,33 +24,6 @@ constexpr std::size_t kNameBytes = 32, kHeaderBytes = 40;
 constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 constexpr double kWithdrawnM = 1e-6;
 constexpr double kMotorStepM = 100e-9;  // of the coarse motor, along z
-constexpr float kNoCurrent = 0.0F;
-
-// Signals of a controller with 128 of them; those without a name are zero. Z is the thirtieth as in Nanonis.
-struct Signal {
-  std::int32_t index;
-  std::string_view name;
-  std::string_view channel;  // of the image; empty: none
-};
-constexpr std::int32_t kSignals = 128;
-constexpr std::array kNamed{Signal{0, "Current (A)", ""},
-                            Signal{1, "Normal force (N)", "Error"},
-                            Signal{2, "Lateral force (N)", "Lateral force"},
-                            Signal{24, "Bias (V)", ""},
-                            Signal{27, "X (m)", ""},
-                            Signal{28, "Y (m)", ""},
-                            Signal{30, "Z (m)", "Height"}};
-
-const Signal* find_signal(std::int32_t index) {
-  const auto found =
-      std::find_if(kNamed.begin(), kNamed.end(), [index](const Signal& signal) { return signal.index == index; });
-  return found == kNamed.end() ? nullptr : &*found;
-}
-
-std::string name_of_signal(std::int32_t index) {
-  const Signal* named = find_signal(index);
-  return named != nullptr ? std::string(named->name) : fmt::format("Not used {}", index);
-}
 
 double within(const char* what, double value, double smallest, double largest) {
   if (!(value >= smallest && value <= largest)) {
@@ -129,7 +105,7 @@ struct NanonisDoor::Functions {
     door.bias_v_ = static_cast<float>(within("bias", in.read<float>(), -10.0, 10.0));
   }
   static void bias_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) { out.add(door.bias_v_); }
-  static void current_get(NanonisDoor&, NanonisReader&, NanonisWriter& out) { out.add(kNoCurrent); }
+  static void current_get(NanonisDoor&, NanonisReader&, NanonisWriter& out) { out.add(0.0F); }
 
   static void z_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
     out.add(static_cast<float>(door.instrument_.position().z_m));
@@ -199,7 +175,8 @@ struct NanonisDoor::Functions {
     if (action != kStart) return;  // whatever was started is done
     change(door, [upwards](InstrumentSettings& settings) { settings.upwards = upwards; });
     door.upwards_ = upwards;
-    door.image_ = value_of(door.instrument_.scan([](const physics::ScanLine&, double) { return true; }));
+    door.image_ = std::make_unique<const physics::ScanImage>(
+        value_of(door.instrument_.scan([](const physics::ScanLine&, double) { return true; })));
   }
   static void scan_status(NanonisDoor&, NanonisReader&, NanonisWriter& out) { out.add(std::uint32_t{0}); }
   static void scan_wait(NanonisDoor&, NanonisReader& in, NanonisWriter& out) {
@@ -378,6 +355,9 @@ constexpr std::array<NanonisDoor::Functions::Row, 38> NanonisDoor::Functions::kR
     {"AutoApproach.OnOffSet", 0, &Functions::approach_set},
     {"Motor.StartMove", 0, &Functions::motor_move},
 }};
+
+NanonisDoor::NanonisDoor(SimulatedInstrument& instrument) : instrument_(instrument) {}
+NanonisDoor::~NanonisDoor() = default;
 
 std::optional<std::size_t> NanonisDoor::request_size(std::string_view bytes) const {
   if (bytes.size() < kHeaderBytes) return std::nullopt;

@@ -8,6 +8,7 @@
 
 #include "fuzz/accepted.h"
 #include "instrument/json_door.h"
+#include "instrument/simulated_instrument.h"
 #include "support/places.h"
 
 namespace {

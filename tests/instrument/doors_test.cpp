@@ -21,6 +21,7 @@
 
 #include "instrument/json_door.h"
 #include "instrument/nanonis_door.h"
+#include "instrument/simulated_instrument.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
 

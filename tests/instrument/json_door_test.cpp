@@ -14,6 +14,7 @@
 
 #include "curves/curve_file.h"
 #include "curves/image_file.h"
+#include "instrument/simulated_instrument.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "instrument/simulated_instrument.h"
 #include "nanonis_bytes.h"
 #include "support/places.h"
 

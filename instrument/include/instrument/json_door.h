@@ -2,22 +2,30 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "curves/recorded_curve.h"
 #include "instrument/door.h"
-#include "instrument/simulated_instrument.h"
-#include "physics/imaging/scan_image.h"
+
+namespace afm::curves {
+struct RecordedCurve;
+}
+namespace afm::physics {
+struct ScanImage;
+}
 
 namespace afm::instrument {
+
+class SimulatedInstrument;
 
 // Requests to an instrument and their answers, one JSON object a line (docs/serve.md).
 class JsonDoor final : public Door {
  public:
   // `folder` is where "save" writes; empty: nowhere. The instrument must outlive the object.
   JsonDoor(SimulatedInstrument& instrument, std::string folder);
+  ~JsonDoor() override;
 
   std::optional<std::size_t> request_size(std::string_view bytes) const override;
   std::size_t most_request_bytes() const override { return std::size_t{1} << 20; }
@@ -31,8 +39,8 @@ class JsonDoor final : public Door {
 
   SimulatedInstrument& instrument_;
   std::string folder_;
-  std::optional<physics::ScanImage> image_;     // newest, for "save"
-  std::optional<curves::RecordedCurve> curve_;  // newest, for "save"
+  std::unique_ptr<const physics::ScanImage> image_;     // newest, for "save"
+  std::unique_ptr<const curves::RecordedCurve> curve_;  // newest, for "save"
 };
 
 }  // namespace afm::instrument

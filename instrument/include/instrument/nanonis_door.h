@@ -2,16 +2,21 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "instrument/door.h"
-#include "instrument/simulated_instrument.h"
-#include "physics/imaging/scan_image.h"
+
+namespace afm::physics {
+struct ScanImage;
+}
 
 namespace afm::instrument {
+
+class SimulatedInstrument;
 
 // Nanonis' TCP protocol (SPECS, July 2021) as far as its clients use it to approach, scan and move: docs/serve.md lists
 // the functions. Any other function is answered with an error text. A scan is done as soon as it is started: simulated
@@ -21,7 +26,8 @@ class NanonisDoor final : public Door {
   static constexpr double kApproachSpeedM = 1e-6;  // m/s
 
   // The instrument must outlive the object.
-  explicit NanonisDoor(SimulatedInstrument& instrument) : instrument_(instrument) {}
+  explicit NanonisDoor(SimulatedInstrument& instrument);
+  ~NanonisDoor() override;
 
   std::optional<std::size_t> request_size(std::string_view bytes) const override;
   std::size_t most_request_bytes() const override { return std::size_t{1} << 16; }
@@ -32,8 +38,8 @@ class NanonisDoor final : public Door {
   struct Functions;
 
   SimulatedInstrument& instrument_;
-  std::optional<physics::ScanImage> image_;  // newest
-  bool upwards_ = false;                     // direction of its scan
+  std::unique_ptr<const physics::ScanImage> image_;  // newest
+  bool upwards_ = false;                             // direction of its scan
   bool feedback_ = true;
   float bias_v_ = 0;  // kept, without effect
   double follow_speed_m_per_s_ = 1e-6;
