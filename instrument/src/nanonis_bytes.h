@@ -58,6 +58,7 @@ class NanonisReader {
     }
     return std::bit_cast<T>(bits);
   }
+  double real() { return static_cast<double>(read<float>()); }
   std::string_view text() {
     const auto size = read<std::int32_t>();
     if (size < 0) throw std::out_of_range("a text has a negative size");

@@ -102,7 +102,7 @@ struct NanonisDoor::Functions {
   }
 
   static void bias_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
-    door.bias_v_ = static_cast<float>(within("bias", in.read<float>(), -10.0, 10.0));
+    door.bias_v_ = static_cast<float>(within("bias", in.real(), -10.0, 10.0));
   }
   static void bias_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) { out.add(door.bias_v_); }
   static void current_get(NanonisDoor&, NanonisReader&, NanonisWriter& out) { out.add(0.0F); }
@@ -111,7 +111,7 @@ struct NanonisDoor::Functions {
     out.add(static_cast<float>(door.instrument_.position().z_m));
   }
   static void z_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
-    const double z_m = within("z", in.read<float>(), -kMostPlaceM, kMostPlaceM);
+    const double z_m = within("z", in.real(), -kMostPlaceM, kMostPlaceM);
     if (door.feedback_) throw RefusedRequest("the Z controller is on; switch it off first");
     const double above_m = z_m - door.instrument_.position().z_m;
     if (above_m < 0.0) throw RefusedRequest("this microscope lowers its tip by its Z controller alone");
@@ -134,7 +134,7 @@ struct NanonisDoor::Functions {
     out.add(static_cast<float>(door.instrument_.settings().scan.setpoint.si));
   }
   static void setpoint_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
-    const double force_n = in.read<float>();
+    const double force_n = in.real();
     change(door, [force_n](InstrumentSettings& settings) { settings.scan.setpoint = physics::Force(force_n); });
   }
   // Nanonis' integral gain is the proportional one over a time constant; ours is in 1/s and without it
@@ -144,9 +144,9 @@ struct NanonisDoor::Functions {
     out.add(static_cast<float>(proportional)).add(static_cast<float>(1.0 / integral)).add(static_cast<float>(integral));
   }
   static void gain_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
-    const double proportional = in.read<float>();
-    in.read<float>();
-    const double integral = in.read<float>();
+    const double proportional = in.real();
+    in.real();
+    const double integral = in.real();
     change(door, [&](InstrumentSettings& settings) {
       settings.scan.proportional_gain = proportional;
       settings.scan.integral_gain = physics::Frequency(integral);
@@ -191,11 +191,10 @@ struct NanonisDoor::Functions {
     out.add(static_cast<float>(door.instrument_.settings().turn_rad / kRadPerDegree));
   }
   static void frame_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
-    const double x_m = within("x", in.read<float>(), -kMostPlaceM, kMostPlaceM),
-                 y_m = within("y", in.read<float>(), -kMostPlaceM, kMostPlaceM),
-                 width_m = within("width", in.read<float>(), 1e-10, 1e-4),
-                 height_m = within("height", in.read<float>(), 1e-10, 1e-4),
-                 angle = within("angle", in.read<float>(), -360.0, 360.0);
+    const double x_m = within("x", in.real(), -kMostPlaceM, kMostPlaceM),
+                 y_m = within("y", in.real(), -kMostPlaceM, kMostPlaceM),
+                 width_m = within("width", in.real(), 1e-10, 1e-4), height_m = within("height", in.real(), 1e-10, 1e-4),
+                 angle = within("angle", in.real(), -360.0, 360.0);
     change(door, [&](InstrumentSettings& settings) {
       settings.size_m = width_m;
       settings.height_m = height_m;
@@ -247,13 +246,13 @@ struct NanonisDoor::Functions {
     out.add(kConstantTime).add(door.speed_ratio_);
   }
   static void speed_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
-    const double speed = in.read<float>();
-    in.read<float>();
-    double forward_s = in.read<float>();
-    in.read<float>();
+    const double speed = in.real();
+    in.real();
+    double forward_s = in.real();
+    in.real();
     constexpr std::uint16_t kKeepSpeed = 1;
     if (in.read<std::uint16_t>() == kKeepSpeed) forward_s = door.instrument_.frame().width_m / speed;
-    const double ratio = within("ratio of the speeds", in.read<float>(), 1e-3, 1e3);
+    const double ratio = within("ratio of the speeds", in.real(), 1e-3, 1e3);
     within("forward line time", forward_s, 1e-5, 1e5);
     change(door, [forward_s](InstrumentSettings& settings) {
       settings.scan.line_rate = physics::Frequency(0.5 / forward_s);
@@ -291,7 +290,7 @@ struct NanonisDoor::Functions {
     out.add(static_cast<float>(door.follow_speed_m_per_s_)).add(door.custom_speed_);
   }
   static void follow_speed_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
-    const double speed = within("speed", in.read<float>(), 1e-12, 1.0);
+    const double speed = within("speed", in.real(), 1e-12, 1.0);
     const auto custom = in.read<std::uint32_t>();
     door.follow_speed_m_per_s_ = speed;
     door.custom_speed_ = custom;
