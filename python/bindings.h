@@ -12,6 +12,7 @@ void add_cycles(pybind11::module_& module);    // cycles, sweeps, the paper's ta
 void add_files(pybind11::module_& module);     // curves and images of files
 void add_fits(pybind11::module_& module);      // analysis and fits
 void add_tapping(pybind11::module_& module);
+void add_levers(pybind11::module_& module);     // calibration
 void add_synthetic(pybind11::module_& module);  // curves with their truth
 void add_sessions(pybind11::module_& module);
 

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, module) {
   add_files(module);
   add_fits(module);
   add_tapping(module);
+  add_levers(module);
   add_synthetic(module);
   add_sessions(module);
 }

@@ -11,16 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "app/lever/lever_calibration.h"
-#include "app/lever/lever_report.h"
 #include "app/options/command.h"
 #include "app/options/enum_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
 #include "app/options/uncertainty_option.h"
 #include "core/whole_file.h"
+#include "curves/lever/lever_calibration.h"
+#include "curves/lever/lever_output.h"
 #include "curves/uncertainty_text.h"
-#include "physics/sader.h"
 
 namespace afm::app {
 
@@ -28,13 +27,10 @@ namespace {
 
 using core::wrong_usage;
 
-struct FluidRow {
-  std::string_view name;
-  physics::Fluid fluid;
-};
-// At 25 degrees Celsius: air as in Sader's published program, water by IAPWS 2008.
-constexpr std::array kFluids{FluidRow{"air", {physics::Density(1.18), physics::Viscosity(1.86e-5)}},
-                             FluidRow{"water", {physics::Density(997.0), physics::Viscosity(8.90e-4)}}};
+using curves::LeverInput;
+using curves::LeverInputRow;
+using curves::LeverInputs;
+using curves::LeverOptions;
 
 constexpr QuantityRange<physics::Frequency> kBandwidths{physics::Frequency(1e-3), physics::Frequency(1e8)};
 constexpr int kHighestMode = 10;
@@ -42,7 +38,6 @@ constexpr int kHighestMode = 10;
 // Options of the command beyond those of a calibration.
 struct LeverCommand {
   LeverOptions lever;
-  std::optional<physics::Fluid> fluid;
   std::vector<std::string> uncertainty_texts;  // "sensitivity=3%"
   bool json = false;
   std::string out;
@@ -68,7 +63,7 @@ bool may_be_uncertain(LeverInput input) { return input != LeverInput::Tilt && in
 
 std::string uncertain_names() {
   std::string names;
-  for (const LeverInputRow& row : kLeverInputs) {
+  for (const LeverInputRow& row : curves::kLeverInputs) {
     if (may_be_uncertain(row.input)) names += (names.empty() ? "" : ", ") + std::string(row.name);
   }
   return names;
@@ -77,7 +72,7 @@ std::string uncertain_names() {
 core::Result<void> read_uncertainties(const std::vector<std::string>& texts, LeverOptions& options) {
   std::vector<curves::UncertainKey> keys;
   std::vector<LeverInput> inputs;
-  for (const LeverInputRow& row : kLeverInputs) {
+  for (const LeverInputRow& row : curves::kLeverInputs) {
     if (!may_be_uncertain(row.input)) continue;
     keys.push_back({row.name, row.units.units});
     inputs.push_back(row.input);
@@ -92,7 +87,7 @@ core::Result<void> read_uncertainties(const std::vector<std::string>& texts, Lev
 
 // Options by the table of inputs.
 void add_inputs(OptionList& command, const Option& thermal, const Option& sader, LeverInputs& inputs) {
-  for (const LeverInputRow& row : kLeverInputs) {
+  for (const LeverInputRow& row : curves::kLeverInputs) {
     if (row.help.empty()) continue;
     Option added = si_option(
         command, fmt::format("--{}", row.name), [&inputs, input = row.input](double si) { inputs[input] = si; },
@@ -139,29 +134,19 @@ Option add_thermal_options(OptionList& command, LeverOptions& options) {
 
 core::Result<void> calibrate_lever(LeverCommand command) {
   LeverOptions& options = command.lever;
-  LeverInputs& in = options.inputs;
-  if (options.thermal.empty() && options.curve.empty() && !options.sader && !in[LeverInput::GciCoefficient]) {
-    return wrong_usage("nothing to calibrate by; give --thermal, --sader, --gci or --sensitivity-from");
-  }
   if (const auto read = read_uncertainties(command.uncertainty_texts, options); !read) return read;
-  if (command.fluid && in[LeverInput::Density] && in[LeverInput::Viscosity]) {
-    return wrong_usage("--fluid acts on nothing beside --density and --viscosity; leave it out");
-  }
-  if (options.sader) {
-    const physics::Fluid fluid = command.fluid.value_or(kFluids[0].fluid);
-    if (!in[LeverInput::Density]) in[LeverInput::Density] = fluid.density.si;
-    if (!in[LeverInput::Viscosity]) in[LeverInput::Viscosity] = fluid.viscosity.si;
-  }
   if (!command.out.empty()) {
     const auto writable = core::check_writable(command.out);
     if (!writable) return wrong_usage("--out: " + writable.error().message);
   }
-  const auto result = calibrate(options);
+  const auto result = curves::calibrate(options);
   if (!result) return tl::unexpected(result.error());
   if (!command.out.empty()) {
-    if (const auto written = core::write_file(command.out, curves::svg(lever_plot(*result))); !written) return written;
+    if (const auto written = core::write_file(command.out, curves::svg(curves::lever_plot(*result))); !written)
+      return written;
   }
-  return write_stdout(command.json ? lever_json(options, *result).dump(2) + "\n" : lever_text(options, *result));
+  return write_stdout(command.json ? curves::lever_json(options, *result).dump(2) + "\n"
+                                   : curves::lever_text(options, *result));
 }
 
 }  // namespace
@@ -175,8 +160,8 @@ void add_lever_command(OptionList& program, const CommandContext&) {
   const Option thermal = add_thermal_options(command, lever);
   const Option sader =
       command.add_flag("--sader", lever.sader, "spring constant of a rectangular lever by Sader's method");
-  enum_option(command, "--fluid", options->fluid, "a fluid", kFluids, &FluidRow::name, &FluidRow::fluid,
-              "of --sader: fluid around the lever, at 25 degrees Celsius; default: air")
+  enum_option(command, "--fluid", lever.fluid, "a fluid", curves::kFluids, &curves::FluidRow::name,
+              &curves::FluidRow::fluid, "of --sader: fluid around the lever, at 25 degrees Celsius; default: air")
       .needs(sader);
   add_inputs(command, thermal, sader, lever.inputs);
   const Option curve =

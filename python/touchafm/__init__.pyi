@@ -268,6 +268,19 @@ class Tapping:
     def as_dict(self) -> dict[str, Any]: ...
     def __len__(self) -> int: ...
 
+class Lever:
+    @property
+    def k(self) -> Optional[float]: ...
+    @property
+    def k_interval(self) -> Optional[tuple[float, float]]: ...
+    @property
+    def sensitivity(self) -> Optional[float]: ...
+    @property
+    def resonance(self) -> Optional[float]: ...
+    @property
+    def quality_factor(self) -> Optional[float]: ...
+    def as_dict(self) -> dict[str, Any]: ...
+
 class Session:
     @property
     def material(self) -> str: ...
@@ -295,6 +308,32 @@ class Session:
     def events(self) -> list[dict[str, Any]]: ...
     def __len__(self) -> int: ...
 
+def lever(
+    *,
+    thermal: Optional[Union[_Path, tuple[_Numbers, _Numbers]]] = ...,
+    unit: Literal["m", "V"] = ...,
+    low: Optional[float] = ...,
+    high: Optional[float] = ...,
+    averages: Optional[float] = ...,
+    mode: int = ...,
+    sader: bool = ...,
+    fluid: Optional[Literal["air", "water"]] = ...,
+    sensitivity_from: Optional[_Path] = ...,
+    bandwidth: Optional[float] = ...,
+    sensitivity: Optional[float] = ...,
+    contact_stiffness: Optional[float] = ...,
+    temperature: Optional[float] = ...,
+    mode_factor: Optional[float] = ...,
+    spring_constant: Optional[float] = ...,
+    length: Optional[float] = ...,
+    width: Optional[float] = ...,
+    resonance: Optional[float] = ...,
+    quality_factor: Optional[float] = ...,
+    density: Optional[float] = ...,
+    viscosity: Optional[float] = ...,
+    gci: Optional[float] = ...,
+    tilt: Optional[float] = ...,
+) -> Lever: ...
 def materials() -> list[str]: ...
 def probes() -> list[str]: ...
 def law(name: str, contact: Contact) -> Law: ...

@@ -42,9 +42,11 @@ class Serve(unittest.TestCase):
 
     def test_calibrates_the_lever(self):
         frequency, density = self.afm.thermal(averages=200)
-        area = np.sum(density) * (frequency[1] - frequency[0])
-        k = 0.8174 * 1.380649e-23 * self.afm.get()["temperature_K"] / area
-        self.assertAlmostEqual(k, self.afm.get()["spring_constant_N_per_m"], delta=0.25 * k)
+        lever = touchafm.lever(thermal=(frequency, density), averages=200, temperature=self.afm.get()["temperature_K"])
+        truth = self.afm.get()["spring_constant_N_per_m"]
+        self.assertAlmostEqual(lever.k, truth, delta=0.02 * truth)
+        self.assertLess(lever.k_interval[0], truth)
+        self.assertGreater(lever.k_interval[1], truth)
 
     def test_says_why_it_refuses(self):
         with self.assertRaisesRegex(serve.Refused, "approach"):

@@ -9,13 +9,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "app/lever/lever_calibration.h"
-#include "app/lever/lever_report.h"
+#include "curves/lever/lever_calibration.h"
+#include "curves/lever/lever_output.h"
 #include "physics/flexural_modes.h"
 #include "support/scratch_folder.h"
 
-namespace afm::app {
-namespace lever_command_test {
+namespace afm::curves {
+namespace lever_calibration_test {
 
 using testing::HasSubstr;
 
@@ -265,5 +265,5 @@ TEST_F(Lever, DrawsSpectrumAndModelOnLogarithmicAxes) {
   EXPECT_NEAR(plot.lines[0].points[1000].y, plot.lines[1].points[1000].y, 1e-6 * plot.lines[1].points[1000].y);
 }
 
-}  // namespace lever_command_test
-}  // namespace afm::app
+}  // namespace lever_calibration_test
+}  // namespace afm::curves

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/lever/lever_calibration.h"
+#include "curves/lever/lever_calibration.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 #include "physics/sader.h"
 #include "physics/units.h"
 
-namespace afm::app {
+namespace afm::curves {
 
 namespace {
 
@@ -79,14 +79,15 @@ CalibratedConstant calibrated(const LeverInputs& in, const std::vector<InputUnce
 }
 
 core::Result<void> fit_spectrum(const LeverOptions& options, LeverCalibration& result) {
-  auto spectrum = curves::load_spectrum(options.thermal, options.reading);
+  auto spectrum =
+      options.spectrum ? core::Result<Spectrum>(*options.spectrum) : load_spectrum(options.thermal, options.reading);
   if (!spectrum) return tl::unexpected(spectrum.error());
-  std::erase_if(spectrum->rows, [&](const curves::SpectrumRow& row) {
+  std::erase_if(spectrum->rows, [&](const SpectrumRow& row) {
     return row.frequency_hz < options.low_hz || row.frequency_hz > options.high_hz;
   });
   std::vector<fits::SpectrumPoint> points;
   points.reserve(spectrum->rows.size());
-  for (const curves::SpectrumRow& row : spectrum->rows) points.push_back({row.frequency_hz, row.density});
+  for (const SpectrumRow& row : spectrum->rows) points.push_back({row.frequency_hz, row.density});
   std::string why;
   auto fit = fits::fit_thermal(points, options.averages, why);
   if (!fit) {
@@ -113,24 +114,24 @@ constexpr physics::Stiffness kAnyStiffness(1.0);
 constexpr double kAnySensitivity = 1e-7;
 
 // The sensitivity with which the contact slope is that of a rigid sample.
-core::Result<double> sensitivity_of(const std::string& file, curves::CurveReading reading) {
+core::Result<double> sensitivity_of(const std::string& file, CurveReading reading) {
   const auto refused = [&](const char* why) {
     return core::failure(core::ErrorCategory::BadInputFile,
                          fmt::format("cannot take a sensitivity from {}: {}", file, why));
   };
-  auto curve = curves::load_curve(file, reading);
+  auto curve = load_curve(file, reading);
   if (!curve) {
     reading.spring_constant = kAnyStiffness;
     reading.sensitivity_m_per_v = kAnySensitivity;
-    curve = curves::load_curve(file, reading);
+    curve = load_curve(file, reading);
   }
   if (!curve) return tl::unexpected(curve.error());
   const auto sensitivity = curve->metadata.sensitivity_m_per_v;
   const auto spring = curve->metadata.spring_constant;
   if (!sensitivity || !spring) return refused("it has forces alone, without their sensitivity and spring constant");
-  const auto analysed = curves::analysed(file, std::move(*curve));
-  if (!analysed) return tl::unexpected(analysed.error());
-  const auto slope = analysed->features.contact_slope;
+  const auto found = analysed(file, std::move(*curve));
+  if (!found) return tl::unexpected(found.error());
+  const auto slope = found->features.contact_slope;
   if (!slope || !(slope->si > 0.0)) return refused("it has no contact slope");
   return *sensitivity * (*spring / *slope);
 }
@@ -148,9 +149,9 @@ core::Result<void> check_uncertainties(const LeverOptions& options, const LeverI
     const LeverInputRow& row = row_of(each.input);
     if (!in[each.input])
       return wrong_usage(fmt::format("--uncertainty {}: nothing here is computed from it", row.name));
-    if (!each.is_share && each.value > curves::kMostUncertainty * *in[each.input]) {
-      return wrong_usage(fmt::format("--uncertainty {}: it is more than {:g} % of the value", row.name,
-                                     100.0 * curves::kMostUncertainty));
+    if (!each.is_share && each.value > kMostUncertainty * *in[each.input]) {
+      return wrong_usage(
+          fmt::format("--uncertainty {}: it is more than {:g} % of the value", row.name, 100.0 * kMostUncertainty));
     }
   }
   return {};
@@ -287,6 +288,17 @@ core::Result<void> check_shares(const LeverOptions& options, const LeverCalibrat
   return {};
 }
 
+core::Result<void> complete_fluid(const LeverOptions& options, LeverInputs& in) {
+  if (options.fluid && in[LeverInput::Density] && in[LeverInput::Viscosity]) {
+    return wrong_usage("--fluid acts on nothing beside --density and --viscosity; leave it out");
+  }
+  if (!options.sader) return {};
+  const physics::Fluid fluid = options.fluid.value_or(kFluids[0].fluid);
+  if (!in[LeverInput::Density]) in[LeverInput::Density] = fluid.density.si;
+  if (!in[LeverInput::Viscosity]) in[LeverInput::Viscosity] = fluid.viscosity.si;
+  return {};
+}
+
 }  // namespace
 
 std::optional<double> LeverCalibration::spring_constant_n_per_m() const {
@@ -297,8 +309,15 @@ std::optional<double> LeverCalibration::spring_constant_n_per_m() const {
 }
 
 core::Result<LeverCalibration> calibrate(const LeverOptions& options) {
+  if (options.thermal.empty() && options.curve.empty() && !options.sader &&
+      !options.inputs[LeverInput::GciCoefficient]) {
+    return wrong_usage("nothing to calibrate by; give --thermal, --sader, --gci or --sensitivity-from");
+  }
   LeverCalibration result;
   result.inputs = options.inputs;
+  if (const auto completed = complete_fluid(options, result.inputs); !completed) {
+    return tl::unexpected(completed.error());
+  }
   if (!result.inputs[LeverInput::Temperature]) result.inputs[LeverInput::Temperature] = kRoomTemperature_k;
   if (!options.curve.empty()) {
     if (result.inputs[LeverInput::Sensitivity]) return wrong_usage("--sensitivity and --sensitivity-from: choose one");
@@ -319,4 +338,4 @@ core::Result<LeverCalibration> calibrate(const LeverOptions& options) {
   return result;
 }
 
-}  // namespace afm::app
+}  // namespace afm::curves

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/lever/lever_report.h"
+#include "curves/lever/lever_output.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "physics/flexural_modes.h"
 #include "physics/thermal_noise.h"
 
-namespace afm::app {
+namespace afm::curves {
 
 namespace {
 
@@ -32,7 +32,7 @@ std::string sensitivity_text(double m_per_v) {
 }
 std::string percent_text(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
 
-class Lines {
+class LeverLines {
  public:
   void line(std::string_view title, std::string_view value) {
     fmt::format_to(std::back_inserter(text_), "{:<24}{:>18}\n", title, value);
@@ -49,7 +49,7 @@ class Lines {
 
 // A constant with its uncertainty, and that along the sample's normal.
 void constant_lines(const LeverOptions& options, const LeverInputs& in, const CalibratedConstant& constant,
-                    Lines& lines) {
+                    LeverLines& lines) {
   if (!options.uncertainties.empty())
     lines.line("  uncertainty of inputs", percent_text(constant.relative_uncertainty));
   if (!in[LeverInput::Tilt]) return;
@@ -57,7 +57,7 @@ void constant_lines(const LeverOptions& options, const LeverInputs& in, const Ca
   lines.line("  along the normal", stiffness_text(physics::tilted_spring_constant(k, *in[LeverInput::Tilt]).si));
 }
 
-void spectrum_lines(const LeverOptions& options, const LeverCalibration& result, Lines& lines) {
+void spectrum_lines(const LeverOptions& options, const LeverCalibration& result, LeverLines& lines) {
   const fits::ThermalFit& fit = *result.fit;
   const fits::Oscillator& oscillator = fit.oscillator;
   const char* const unit = result.spectrum->in_volts ? "V" : "m";
@@ -87,7 +87,7 @@ void spectrum_lines(const LeverOptions& options, const LeverCalibration& result,
   }
 }
 
-void thermal_lines(const LeverOptions& options, const LeverCalibration& result, Lines& lines) {
+void thermal_lines(const LeverOptions& options, const LeverCalibration& result, LeverLines& lines) {
   const LeverInputs& in = result.inputs;
   const ThermalConstant& thermal = *result.thermal;
   lines.title("spring constant by the thermal noise");
@@ -134,7 +134,7 @@ FreeNoise noise_of(const LeverOptions& options, const LeverCalibration& result) 
   return noise;
 }
 
-void noise_lines(const LeverOptions& options, const LeverCalibration& result, Lines& lines) {
+void noise_lines(const LeverOptions& options, const LeverCalibration& result, LeverLines& lines) {
   const FreeNoise noise = noise_of(options, result);
   lines.title("thermal noise of the free lever");
   lines.line("deflection, rms", format_quantity(noise.deflection, physics::kLengthUnits, 3));
@@ -210,7 +210,7 @@ LeverJson thermal_json(const LeverOptions& options, const LeverCalibration& resu
 }  // namespace
 
 std::string lever_text(const LeverOptions& options, const LeverCalibration& result) {
-  Lines lines;
+  LeverLines lines;
   const LeverInputs& in = result.inputs;
   if (result.fit) spectrum_lines(options, result, lines);
   if (result.sensitivity) {
@@ -263,24 +263,24 @@ LeverJson lever_json(const LeverOptions& options, const LeverCalibration& result
   return json;
 }
 
-curves::SvgPlot lever_plot(const LeverCalibration& result) {
+SvgPlot lever_plot(const LeverCalibration& result) {
   constexpr double kHzPerKhz = 1e3;
   const bool volts = result.spectrum->in_volts;
   const double squared = volts ? 1.0 : 1e18;
-  curves::SvgLine measured{"measured", std::string(curves::distinct_color(0)), curves::LineStyle::Solid, {}};
-  curves::SvgLine model{"oscillator and floor", std::string(curves::distinct_color(1)), curves::LineStyle::Solid, {}};
-  for (const curves::SpectrumRow& row : result.spectrum->rows) {
+  SvgLine measured{"measured", std::string(distinct_color(0)), LineStyle::Solid, {}};
+  SvgLine model{"oscillator and floor", std::string(distinct_color(1)), LineStyle::Solid, {}};
+  for (const SpectrumRow& row : result.spectrum->rows) {
     measured.points.push_back({row.frequency_hz / kHzPerKhz, row.density * squared});
     model.points.push_back(
         {row.frequency_hz / kHzPerKhz, fits::density_at(result.fit->oscillator, row.frequency_hz) * squared});
   }
-  curves::SvgPlot plot;
+  SvgPlot plot;
   plot.title = "Thermal noise of the free lever";
   plot.x_label = "frequency (kHz)";
   plot.y_label = volts ? "power density (V^2/Hz)" : "power density (nm^2/Hz)";
   plot.lines = {std::move(measured), std::move(model)};
-  plot.x_scale = plot.y_scale = curves::AxisScale::Logarithmic;
+  plot.x_scale = plot.y_scale = AxisScale::Logarithmic;
   return plot;
 }
 
-}  // namespace afm::app
+}  // namespace afm::curves

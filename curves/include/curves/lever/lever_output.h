@@ -4,14 +4,14 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "app/lever/lever_calibration.h"
+#include "curves/lever/lever_calibration.h"
 #include "curves/svg_plot.h"
 
-namespace afm::app {
+namespace afm::curves {
 
 // Lines with units; the same in SI, null for what was not asked for; the spectrum with its model on logarithmic axes.
 std::string lever_text(const LeverOptions& options, const LeverCalibration& result);
 nlohmann::ordered_json lever_json(const LeverOptions& options, const LeverCalibration& result);
-curves::SvgPlot lever_plot(const LeverCalibration& result);
+SvgPlot lever_plot(const LeverCalibration& result);
 
-}  // namespace afm::app
+}  // namespace afm::curves

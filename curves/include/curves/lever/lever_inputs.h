@@ -7,14 +7,14 @@
 #include <optional>
 #include <string_view>
 
-#include "app/options/quantity_option.h"
 #include "curves/angle_units.h"
+#include "curves/quantity_domain.h"
 #include "curves/viscosity_units.h"
 #include "physics/quantity_text.h"
 
 // Numbers from which a spring constant is calibrated. Each is an option of `touchafm lever` and may have an
 // uncertainty.
-namespace afm::app {
+namespace afm::curves {
 
 enum class LeverInput : std::size_t {
   Sensitivity,
@@ -117,7 +117,7 @@ inline const std::array kLeverInputs{
                   "density of the fluid instead of --fluid's"},
     LeverInputRow{LeverInput::Viscosity,
                   "viscosity",
-                  {"a viscosity", curves::kViscosityUnits},
+                  {"a viscosity", kViscosityUnits},
                   {1e-7, 1e3},
                   "--sader",
                   "viscosity of the fluid instead of --fluid's"},
@@ -129,7 +129,7 @@ inline const std::array kLeverInputs{
                   "coefficient A of the lever's type in k = A Q f^1.3 (Global Calibration Initiative)"},
     LeverInputRow{LeverInput::Tilt,
                   "tilt",
-                  curves::kAngleUnits,
+                  kAngleUnits,
                   {0.0, 80.0 * std::numbers::pi / 180.0},
                   "",
                   "angle between lever and sample: also print k/cos^2, for forces along the sample's normal"},
@@ -138,4 +138,4 @@ inline const std::array kLeverInputs{
 // The table has the order of the enum.
 inline const LeverInputRow& row_of(LeverInput input) { return kLeverInputs[static_cast<std::size_t>(input)]; }
 
-}  // namespace afm::app
+}  // namespace afm::curves

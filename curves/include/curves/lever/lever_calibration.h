@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "app/lever/lever_inputs.h"
 #include "core/result.h"
 #include "curves/curve_file.h"
+#include "curves/lever/lever_inputs.h"
 #include "curves/spectrum_file.h"
 #include "fits/thermal_fit.h"
+#include "physics/sader.h"
 
 // Calibration of a lever (docs/lever.md).
-namespace afm::app {
+namespace afm::curves {
+
+struct FluidRow {
+  std::string_view name;
+  physics::Fluid fluid;
+};
+// At 25 degrees Celsius: air as in Sader's published program, water by IAPWS 2008.
+inline constexpr std::array kFluids{FluidRow{"air", {physics::Density(1.18), physics::Viscosity(1.86e-5)}},
+                                    FluidRow{"water", {physics::Density(997.0), physics::Viscosity(8.90e-4)}}};
 
 // Standard uncertainty of an input: a share of its value, or in SI.
 struct InputUncertainty {
@@ -23,14 +34,16 @@ struct InputUncertainty {
 
 struct LeverOptions {
   LeverInputs inputs;
-  std::string thermal;  // file of a spectrum; empty: none
-  curves::SpectrumReading reading;
+  std::string thermal;               // file of a spectrum, or the name of `spectrum`; empty: none
+  std::optional<Spectrum> spectrum;  // instead of reading that file
+  SpectrumReading reading;
   double low_hz = 0.0, high_hz = 1e12;
   std::optional<double> averages;
   int mode = 1;
   bool sader = false;
-  std::string curve;  // file whose contact slope is the sensitivity; empty: none
-  curves::CurveReading curve_reading;
+  std::optional<physics::Fluid> fluid;  // of Sader's method; empty: air
+  std::string curve;                    // file whose contact slope is the sensitivity; empty: none
+  CurveReading curve_reading;
   std::optional<double> bandwidth_hz;
   std::vector<InputUncertainty> uncertainties;
 };
@@ -57,8 +70,8 @@ struct SensitivityFound {
 };
 
 struct LeverCalibration {
-  LeverInputs inputs;                        // completed by defaults, spectrum and curve
-  std::optional<curves::Spectrum> spectrum;  // its rows within the range
+  LeverInputs inputs;                // completed by defaults, spectrum and curve
+  std::optional<Spectrum> spectrum;  // its rows within the range
   std::optional<fits::ThermalFit> fit;
   std::optional<ThermalConstant> thermal;
   std::optional<CalibratedConstant> sader, gci;
@@ -72,4 +85,4 @@ struct LeverCalibration {
 // uncertainty, acts on nothing; BadInputFile for files that are none, or without a resonance or a contact.
 core::Result<LeverCalibration> calibrate(const LeverOptions& options);
 
-}  // namespace afm::app
+}  // namespace afm::curves

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The calibration of a lever: the command's numbers, from arrays and files."""
+
+import os
+import tempfile
+import unittest
+
+import numpy as np
+
+import touchafm
+from command import error_of, json_of
+
+RESONANCE, QUALITY, AREA, FLOOR = 70e3, 150.0, 1.2e-5, 1e-12
+
+
+def spectrum():
+    """A spectrum without scatter, V^2/Hz."""
+    frequency = np.linspace(50e3, 90e3, 2000)
+    ratio = frequency / RESONANCE
+    lorentz = 2 * AREA / (np.pi * RESONANCE * QUALITY) / ((1 - ratio**2) ** 2 + (ratio / QUALITY) ** 2)
+    return frequency, FLOOR + lorentz
+
+
+class Lever(unittest.TestCase):
+    def test_is_that_of_the_command(self):
+        frequency, density = spectrum()
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "spectrum.txt")
+            with open(file, "w", encoding="utf-8") as out:
+                out.write("Hz V2/Hz\n" + "".join(f"{f!r} {d!r}\n" for f, d in zip(frequency.tolist(), density.tolist())))
+            of_file = touchafm.lever(thermal=file, sensitivity=60e-9, averages=100)
+            command = json_of("lever", "--thermal", file, "--sensitivity", "60nm/V", "--averages", "100", "--json")
+        self.assertEqual(of_file.as_dict(), command)
+        of_arrays = touchafm.lever(thermal=(frequency, density), unit="V", sensitivity=60e-9, averages=100)
+        self.assertEqual(of_arrays.k, of_file.k)
+        # case K06
+        self.assertAlmostEqual(of_file.k, 0.8174 * 1.380649e-23 * 298.15 / (60e-9**2 * AREA), delta=1e-3 * of_file.k)
+        self.assertAlmostEqual(of_file.resonance, RESONANCE, delta=1.0)
+        self.assertAlmostEqual(of_file.quality_factor, QUALITY, delta=0.1)
+
+    def test_goes_without_a_spectrum(self):
+        lever = touchafm.lever(sader=True, length=120e-6, width=30e-6, resonance=70e3, quality_factor=150.0)
+        command = json_of("lever", "--sader", "--length", "120um", "--width", "30um", "--resonance", "70kHz",
+                          "--quality-factor", "150", "--json")
+        self.assertAlmostEqual(lever.k, command["sader"]["spring_constant_N_per_m"], delta=1e-9 * lever.k)
+        self.assertIsNone(lever.k_interval)
+        self.assertIn("N/m", repr(lever))
+
+    def test_refuses_with_the_words_of_the_command(self):
+        with self.assertRaises(ValueError) as refused:
+            touchafm.lever()
+        self.assertEqual(str(refused.exception), error_of("lever"))
+        for given in ({"thermal": ([1.0], [1.0, 2.0])}, {"sader": True, "length": -1.0}, {"sader": True, "fluid": "honey"},
+                      {"thermal": spectrum(), "unit": "nm"}, {"thermal": spectrum(), "mode": 0}):
+            with self.assertRaises(ValueError):
+                touchafm.lever(**given)
+        with self.assertRaises(touchafm.FileError):
+            touchafm.lever(thermal=([1.0, 2.0], [-1.0, 1.0]))
+        with self.assertRaises(TypeError):
+            touchafm.lever(sader=True, lenght=1e-4)
+
+
+if __name__ == "__main__":
+    unittest.main()
