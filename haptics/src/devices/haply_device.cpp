@@ -14,7 +14,7 @@
 #include "core/log.h"
 #include "devices/haply_link.h"
 #include "devices/haply_message.h"
-#include "devices/release_patience.h"
+#include "drivers/release_patience.h"
 #include "devices/waiting_states.h"
 
 namespace afm::haptics {

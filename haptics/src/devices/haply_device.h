@@ -11,7 +11,7 @@
 #include "core/clock.h"
 #include "core/latest_value.h"
 #include "core/result.h"
-#include "devices/driver_thread.h"
+#include "drivers/driver_thread.h"
 #include "haptics/device_registry.h"
 
 namespace afm::haptics {
