@@ -25,11 +25,14 @@ constexpr auto kSystemFolders =
                                      "/proc/", "/sys/", "/boot/", "/var/lib/", "/run/user/"});
 
 constexpr auto kModelWords = std::to_array<std::string_view>(
-    {"360",      "3d",      "controller", "desktop",  "device",    "dualsense", "dualshock", "falcon",      "gamepad",
-     "geomagic", "haply",   "hdapi",      "hd",       "inverse3",  "inverse3x", "joystick",  "logitech",    "mini",
-     "minverse", "mock",    "novint",     "nintendo", "omni",      "one",       "phantom",   "playstation", "premium",
-     "ps4",      "ps5",     "sensable",   "series",   "simulated", "sony",      "stylus",    "switch",      "touch",
-     "usb",      "virtual", "wireless",   "x",        "xbox"});
+    {"360",       "3d",          "controller", "delta.3",  "delta.6",  "desktop",        "device",
+     "dimension", "dualsense",   "dualshock",  "falcon",   "force",    "forcedimension", "gamepad",
+     "geomagic",  "haply",       "hd",         "hdapi",    "inverse3", "inverse3x",      "joystick",
+     "lambda.3",  "lambda.6",    "lambda.7",   "logitech", "mini",     "minverse",       "mock",
+     "nintendo",  "novint",      "omega.3",    "omega.6",  "omega.7",  "omni",           "one",
+     "phantom",   "playstation", "premium",    "ps4",      "ps5",      "sensable",       "series",
+     "sigma.3",   "sigma.7",     "simulated",  "sony",     "stylus",   "switch",         "touch",
+     "usb",       "virtual",     "wireless",   "x",        "xbox"});
 
 std::string lower(std::string_view text) {
   std::string small(text);
