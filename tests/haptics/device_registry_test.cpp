@@ -168,6 +168,15 @@ TEST_F(DeviceRegistry, EndsTheProcessWhereADriverDoesNotComeBack) {
   EXPECT_EXIT(std::ignore = open_device(*find_device_kind("hdapi"), mock, clock, {}, kPatience), code, message);
   EXPECT_EXIT(probe_devices(mock, kPatience), code, message);
   ::unsetenv("MOCK_HD_FAULT");
+
+  const Environment dhd = [](const std::string& variable) {
+    return variable == "TOUCHAFM_FD_LIBRARY" ? afm::support::mock_dhd() : std::string();
+  };
+  mock_dhd_reset();
+  ASSERT_EQ(::setenv("MOCK_DHD_FAULT", "hangs", 1), 0);
+  EXPECT_EXIT(std::ignore = open_device(*find_device_kind("forcedimension"), dhd, clock, {}, kPatience), code,
+              "forcedimension device: its driver did not answer within 0.2 s");
+  ::unsetenv("MOCK_DHD_FAULT");
 }
 
 TEST_F(DeviceRegistry, KnowsWhichHandNobodyHolds) {

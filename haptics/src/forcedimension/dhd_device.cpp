@@ -194,7 +194,9 @@ void DhdDevice::follow_force_mode(bool in_force_mode, int cause, std::int64_t no
   if (output_ != Output::On || now_ns - output_on_ns_ < kForceModeNs) return;
   const DhdHealth health = dhd_health_after_cause(cause);
   if (health == DhdHealth::ForceButtonOff || health == DhdHealth::DeadManReleased) {
+    // the device has done it already; the library must not hear that we do not want the force either
     switched_off_ = health;
+    output_ = Output::Off;
   } else {
     raise(health, 0, now_ns);
   }
@@ -241,6 +243,8 @@ void DhdDevice::switch_output(bool on, std::int64_t now_ns) noexcept {
 
 void DhdDevice::send_force(std::int64_t now_ns, std::int64_t elapsed_ns) noexcept {
   glm::dvec3 force_n = mailbox_.wanted_n(now_ns, elapsed_ns);
+  // what the user switches on again at the device is the last force that was set
+  if (switched_off_) dhd_.set_force(0, 0, 0, 0, 0, 0, 0, id_);
   if (output_ != Output::On) return;
   // the governor's cap once more, for no driver may exceed its profile
   const double length = glm::length(force_n);

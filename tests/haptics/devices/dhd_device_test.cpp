@@ -19,6 +19,7 @@ using afm::test::DhdBench;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* kSetForce = "dhdSetForceAndTorqueAndGripperForce";
 
@@ -215,8 +216,10 @@ TEST(DhdDevice, LeavesTheForceOffUntilTheUserSwitchesItOnAtTheDevice) {
     EXPECT_EQ(bench.felt(), 0.0);
     EXPECT_NE(bench.health(), DhdHealth::Ready);
     EXPECT_EQ(std::ranges::count(calls(), "force_on"), before);
+    EXPECT_THAT(calls(), Not(Contains("brakes_off")));
     EXPECT_THAT(bench.log, Contains(HasSubstr(said)));
     mock_dhd_press_force_button();
+    EXPECT_EQ(bench.felt(), 0.0);
     bench.run(11);
     EXPECT_EQ(bench.health(), DhdHealth::Ready);
     expect_rearming(bench);

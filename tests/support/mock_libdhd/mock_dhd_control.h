@@ -5,7 +5,8 @@
 // exports the functions of the interface and drives devices that exist only in memory; a test loads it as a user's
 // library is loaded and links it for these functions.
 //
-// A program that is started by a test is told by its environment: MOCK_DHD_FAULT is missing, hangs or reset.
+// A program that is started by a test is told by its environment: MOCK_DHD_FAULT is missing, hangs or reset;
+// MOCK_DHD_SCRIPT names a file for a PersonScript.
 extern "C" {
 
 // Everything as if the library had just been loaded: one omega.3 with the serial number 1234, calibrated, its force
@@ -42,7 +43,7 @@ void mock_dhd_set_failed(int on);
 // The device itself leaves force mode for this cause (1: its button, 2: velocity, 6: dead-man switch, 0: none).
 void mock_dhd_cut_force(int cause);
 
-// The user presses the force button: force mode, without any call.
+// The user presses the force button: force mode with the last force, without any call.
 void mock_dhd_press_force_button(void);
 
 // The cable is pulled: every call for the device fails from now on.

@@ -1,99 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <string_view>
 #include <thread>
 
-#include "mock_dhd_control.h"
+#include "mock_state.h"
 
-// The functions of Force Dimension's interface, and those of mock_dhd_control.h. No call allocates.
+// The functions of Force Dimension's interface. No call allocates.
+
+using namespace mock_dhd;
 
 namespace {
 
-// Numbers of the interface, written down a second time so that a slip in the program's own does not hide here.
-enum : int { kComError = 2, kNoDevice = 5, kExpertModeOff = 9 };
-enum : int { kPower = 0, kConnected = 1, kStarted = 2, kReset = 3, kIdle = 4, kForce = 5, kBrake = 6, kError = 9 };
-enum : int { kForceOffCause = 14, kStatusCount = 17, kOffByWatchdog = 3 };
-
-constexpr int kMostDevices = 4;
-constexpr char kFirstId = 3;  // no index
-constexpr double kMostForceN = 2.0 + 1e-9;
-
-enum class Mode { Brake, Idle, Force };
-
-struct Rule {
-  const char* function = nullptr;
-  int value = 0;
-  int error = 0;
-  int times = 0;
-};
-
-struct Mock {
-  int count = 1;
-  int type = 33;
-  const char* name = "omega.3";
-  int major = 3;
-  int minor = 17;
-  bool hangs = false;
-
-  std::array<bool, kMostDevices> open{};
-  std::array<double, 3> position_m{};
-  std::array<double, 3> told_m{};
-  bool still = false;
-  unsigned reads = 0;
-  int buttons = 0;
-  bool gripper = false;
-  bool emulates_button = false;
-
-  bool powered = true;
-  bool reset = false;
-  bool failed = false;
-  bool unplugged = false;
-  Mode mode = Mode::Brake;
-  int cause = 0;
-  std::array<double, 3> force_n{};
-  double max_force_n = -1;
-  bool gravity = false;
-
-  bool expert = false;
-  long long watchdog_ns = 0;
-  long long last_force_ns = 0;
-  bool uses_clock = false;
-  long long time_ns = 0;
-
-  std::array<Rule, 16> rules{};
-  std::array<const char*, 256> calls{};
-  unsigned call_count = 0;
-  const char* violation = nullptr;
-};
-
-Mock mock;
-std::mutex mutex;
-std::atomic<bool> blocked{false};
 thread_local int last_error = 0;
 
 void record(const char* call) {
   if (mock.call_count < mock.calls.size()) mock.calls[mock.call_count++] = call;
 }
 
-void forbid(const char* text) {
-  if (mock.violation == nullptr) mock.violation = text;
-}
-
 int fail(int error) {
   last_error = error;
   return -1;
-}
-
-long long now_ns() {
-  if (!mock.uses_clock) return mock.time_ns;
-  return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
 }
 
 // The rule of a test for this call, used up; null: none.
@@ -118,18 +49,23 @@ int begin(const char* function, char id) {
   return rule->value < 0 ? fail(rule->error) : rule->value;
 }
 
-// What the controller in the device does by itself.
-void run_watchdog() {
-  if (mock.mode != Mode::Force || mock.watchdog_ns == 0 || now_ns() - mock.last_force_ns <= mock.watchdog_ns) return;
-  mock.mode = Mode::Brake;
-  mock.cause = kOffByWatchdog;
-}
-
 void leave_reset() {
   if (mock.reset) forbid("a call ended the calibration");
 }
 
+// The script plays with the machine's clock.
+void play_script() {
+  if (mock.script.empty()) return;
+  const auto moment = mock.script.at(1e-9 * static_cast<double>(now_ns()));
+  for (unsigned axis = 0; axis < 3; ++axis) mock.position_m[axis] = 1e-3 * moment.position_mm[(axis + 2) % 3];
+  mock.buttons = moment.buttons;
+}
+
 void follow_environment() {
+  if (const char* file_name = std::getenv("MOCK_DHD_SCRIPT")) {
+    mock.uses_clock = true;
+    if (mock.script.empty() && !mock.script.load(file_name)) forbid("MOCK_DHD_SCRIPT names no script");
+  }
   const char* fault = std::getenv("MOCK_DHD_FAULT");
   if (fault == nullptr) return;
   mock.uses_clock = true;
@@ -247,6 +183,7 @@ int dhdGetPosition(double* x, double* y, double* z, char id) {
   const int result = begin("dhdGetPosition", id);
   if (result < 0) return result;
   if (!mock.powered) return fail(kComError);
+  play_script();
   if (result == 0) {
     mock.told_m = mock.position_m;
     if (!mock.still && ++mock.reads % 2 == 0) mock.told_m[1] += 1e-7;
@@ -347,143 +284,4 @@ int dhdSetMaxForce(double newtons, char id) {
   return result;
 }
 #endif
-
-void mock_dhd_reset(void) {
-  const std::lock_guard lock(mutex);
-  mock = Mock{};
-  blocked = false;
-}
-
-void mock_dhd_set_time(long long ns) {
-  const std::lock_guard lock(mutex);
-  mock.time_ns = ns;
-}
-
-void mock_dhd_use_clock(void) {
-  const std::lock_guard lock(mutex);
-  mock.uses_clock = true;
-}
-
-void mock_dhd_set_devices(int count, int type, const char* name) {
-  const std::lock_guard lock(mutex);
-  mock.count = std::min(count, kMostDevices);
-  mock.type = type;
-  mock.name = name;
-}
-
-void mock_dhd_set_version(int major, int minor) {
-  const std::lock_guard lock(mutex);
-  mock.major = major;
-  mock.minor = minor;
-}
-
-void mock_dhd_set_position(double x_m, double y_m, double z_m) {
-  const std::lock_guard lock(mutex);
-  mock.position_m = {x_m, y_m, z_m};
-}
-
-void mock_dhd_set_buttons(int mask) {
-  const std::lock_guard lock(mutex);
-  mock.buttons = mask;
-}
-
-void mock_dhd_set_gripper(int has_gripper) {
-  const std::lock_guard lock(mutex);
-  mock.gripper = has_gripper != 0;
-}
-
-void mock_dhd_hold_still(void) {
-  const std::lock_guard lock(mutex);
-  mock.still = true;
-}
-
-namespace {
-
-void add_rule(const Rule& rule) {
-  const std::lock_guard lock(mutex);
-  const auto free = std::find_if(mock.rules.begin(), mock.rules.end(), [](const Rule& old) { return old.times == 0; });
-  if (free == mock.rules.end()) return forbid("too many rules of the mock");
-  *free = rule;
-}
-
-}  // namespace
-
-void mock_dhd_fail(const char* function, int error, int times) { add_rule({function, -1, error, times}); }
-void mock_dhd_answer(const char* function, int value, int times) { add_rule({function, value, 0, times}); }
-
-void mock_dhd_set_power(int on) {
-  const std::lock_guard lock(mutex);
-  mock.powered = on != 0;
-  if (!mock.powered) mock.mode = Mode::Brake;
-}
-
-void mock_dhd_set_reset(int on) {
-  const std::lock_guard lock(mutex);
-  mock.reset = on != 0;
-  if (mock.reset) mock.mode = Mode::Idle;
-}
-
-void mock_dhd_set_failed(int on) {
-  const std::lock_guard lock(mutex);
-  mock.failed = on != 0;
-}
-
-void mock_dhd_cut_force(int cause) {
-  const std::lock_guard lock(mutex);
-  mock.mode = Mode::Brake;
-  mock.cause = cause;
-}
-
-void mock_dhd_press_force_button(void) {
-  const std::lock_guard lock(mutex);
-  mock.mode = Mode::Force;
-  mock.force_n = {};
-  mock.last_force_ns = now_ns();
-}
-
-void mock_dhd_unplug(void) {
-  const std::lock_guard lock(mutex);
-  mock.unplugged = true;
-  mock.mode = Mode::Brake;
-}
-
-void mock_dhd_block(int on) { blocked = on != 0; }
-
-void mock_dhd_force(double newtons[3]) {
-  const std::lock_guard lock(mutex);
-  run_watchdog();
-  const bool felt = mock.mode == Mode::Force && mock.powered && !mock.reset && !mock.unplugged;
-  for (std::size_t axis = 0; axis < 3; ++axis) newtons[axis] = felt ? mock.force_n[axis] : 0.0;
-}
-
-int mock_dhd_brakes(void) {
-  const std::lock_guard lock(mutex);
-  return mock.mode == Mode::Brake ? 1 : 0;
-}
-
-const char* mock_dhd_call(int index) {
-  const std::lock_guard lock(mutex);
-  const auto i = static_cast<unsigned>(index);
-  return i < mock.call_count ? mock.calls[i] : nullptr;
-}
-
-double mock_dhd_max_force(void) {
-  const std::lock_guard lock(mutex);
-  return mock.max_force_n;
-}
-
-long long mock_dhd_watchdog_ns(void) {
-  const std::lock_guard lock(mutex);
-  return mock.watchdog_ns;
-}
-
-int mock_dhd_gravity(void) {
-  const std::lock_guard lock(mutex);
-  return mock.gravity ? 1 : 0;
-}
-
-const char* mock_dhd_violation(void) {
-  const std::lock_guard lock(mutex);
-  return mock.violation;
-}
 }
