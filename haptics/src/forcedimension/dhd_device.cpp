@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <glm/geometric.hpp>
 #include <utility>
 
 #include "core/log.h"
@@ -242,14 +241,10 @@ void DhdDevice::switch_output(bool on, std::int64_t now_ns) noexcept {
 }
 
 void DhdDevice::send_force(std::int64_t now_ns, std::int64_t elapsed_ns) noexcept {
-  glm::dvec3 force_n = mailbox_.wanted_n(now_ns, elapsed_ns);
+  const glm::dvec3 force_n = mailbox_.wanted_n(now_ns, elapsed_ns);
   // what the user switches on again at the device is the last force that was set
   if (switched_off_) dhd_.set_force(0, 0, 0, 0, 0, 0, 0, id_);
   if (output_ != Output::On) return;
-  // the governor's cap once more, for no driver may exceed its profile
-  const double length = glm::length(force_n);
-  const double cap_n = force_cap_n(spec_);
-  if (length > cap_n) force_n *= cap_n / length;
   const int result = dhd_.set_force(force_n.z, force_n.x, force_n.y, 0, 0, 0, 0, id_);
   if (result < 0) return raise_last_error(now_ns);
   if (result == dhd::kMotorSaturated) saturated_.store(true);
