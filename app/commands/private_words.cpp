@@ -82,6 +82,15 @@ std::string shortened(std::string_view path) {
 }
 
 // Every absolute path in the text.
+void replace_serial_numbers(std::string& text) {
+  constexpr std::string_view kKey = "serial ";
+  for (std::size_t at = text.find(kKey); at != std::string::npos; at = text.find(kKey, at + kKey.size())) {
+    std::size_t end = at + kKey.size();
+    while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0) ++end;
+    if (end > at + kKey.size()) text.replace(at + kKey.size(), end - at - kKey.size(), "...");
+  }
+}
+
 void shorten_paths(std::string& text) {
   for (std::size_t at = text.find('/'); at != std::string::npos; at = text.find('/', at)) {
     const std::size_t end = std::min(text.find_first_of(kEndsPath, at), text.size());
@@ -159,6 +168,7 @@ std::string without(const PrivateWords& secrets, std::string text) {
   }
   replace_homes(text);
   shorten_paths(text);
+  replace_serial_numbers(text);
   for (const std::string& user : secrets.users) replace_word(text, user, "USER");
   for (const std::string& host : secrets.hosts) replace_word(text, host, "HOST");
   return text;

@@ -49,7 +49,7 @@ constexpr std::array kDevices{
                .probe = probe_force_dimension},
     DeviceKind{.word = "haply",
                .subject = "haply device",
-               .meaning = "Inverse3, through the manufacturer's service",
+               .meaning = "Inverse3, Inverse3x or Minverse, through the manufacturer's service",
                .renders_force = true,
                .controls = HandControls::Grip,
                .remedy = {},

@@ -265,9 +265,11 @@ void probe_haply(const Environment& environment, ProbeLog& log) {
   const std::uint16_t port = service_port(environment);
   const auto answer = HaplyDevice::query(port);
   if (!answer) return log.missing(answer.error().message);
-  const std::string listed = fmt::format("its service answers at port {} and has {}", port, text_of(*answer));
-  if (answer->arms.empty()) return log.missing(listed + "; plug the device in and calibrate it");
-  log.found(listed);
+  if (answer->arms.empty()) {
+    return log.missing(fmt::format("its service answers at port {}, and has {}; plug the device in and calibrate it",
+                                   port, text_of(*answer)));
+  }
+  log.found(fmt::format("{}: its service answers at port {}", text_of(*answer), port));
 }
 
 }  // namespace afm::haptics

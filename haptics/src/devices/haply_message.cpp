@@ -115,8 +115,8 @@ HaplyInventory parse_haply_inventory(std::string_view message) {
 
 std::string text_of(const HaplyInventory& inventory) {
   std::string text = inventory.arms.empty() ? "no device" : joined(inventory.arms);
-  if (!inventory.grips.empty()) text += "; grips: " + joined(inventory.grips);
-  if (!inventory.unknown.empty()) text += "; unknown: " + joined(inventory.unknown);
+  if (!inventory.grips.empty()) text += "; grips " + joined(inventory.grips);
+  if (!inventory.unknown.empty()) text += "; unknown " + joined(inventory.unknown);
   return text;
 }
 

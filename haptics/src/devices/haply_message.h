@@ -41,7 +41,7 @@ std::optional<HaplyState> parse_haply_state(std::string_view message, std::strin
 // At most 16 devices of each kind; empty lists for bytes that are not a message.
 HaplyInventory parse_haply_inventory(std::string_view message);
 
-// "inverse3 049D, inverse3x 0012; grips: verse_grip 1; unknown: hexaverse 7"; "no device".
+// "inverse3 049D, inverse3x 0012; grips verse_grip 1; unknown hexaverse 7"; "no device".
 std::string text_of(const HaplyInventory& inventory);
 
 // The service applies a force once, and answers with its next state.

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "dhd_bench.h"
 #include "support/no_alloc.h"
@@ -39,28 +38,6 @@ void expect_rearming(DhdBench& bench) {
   EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
   bench.press_turn_on();
   EXPECT_EQ(bench.state().servo_state, ServoState::Arming);
-}
-
-TEST(DhdDevice, TurnsPlaceForceAndButtonIntoTheFrameOfTheRoom) {
-  DhdBench bench;
-  mock_dhd_set_position(0.030, -0.010, 0.020);  // towards the user, left, up
-  mock_dhd_set_buttons(1);
-  bench.driver_tick();
-  DeviceSample sample = bench.device->read(bench.clock.now_ns());
-  EXPECT_TRUE(sample.healthy);
-  EXPECT_TRUE(sample.turn_on);
-  EXPECT_NEAR(glm::distance(sample.position_m, glm::dvec3(-0.010, 0.020, 0.030)), 0.0, 2e-7);
-  mock_dhd_set_buttons(2);
-  bench.driver_tick();
-  EXPECT_FALSE(bench.device->read(bench.clock.now_ns()).turn_on);
-}
-
-TEST(DhdDevice, PullsDownwardsAlongTheLibrarysAxes) {
-  DhdBench bench;
-  bench.hold_attached();
-  const auto force = afm::test::DhdMock::force();
-  EXPECT_LT(force[2], -0.5);  // down
-  EXPECT_NEAR(std::hypot(force[0], force[1]), 0.0, 1e-3);
 }
 
 TEST(DhdDevice, LetsACycleBeFeltWithinItsProfile) {
@@ -144,14 +121,13 @@ const FaultCase kFaultCases[] = {
     {"unplugged", [] { mock_dhd_unplug(); }, DhdHealth::ConnectionLost, 0, "connection was lost"},
 };
 
-// One period to read the fault, and one for the governor.
-TEST(DhdDevice, TakesTheForceAwayWithinTwoTicksOfAnyErrorAndNamesIt) {
+TEST(DhdDevice, TakesTheForceAwayWithinATickOfAnyErrorAndNamesIt) {
   for (const FaultCase& fault : kFaultCases) {
     SCOPED_TRACE(fault.name);
     DhdBench bench;
     bench.hold_attached();
     fault.happens();
-    bench.run(2);
+    bench.run(1);
     EXPECT_EQ(bench.felt(), 0.0);
     EXPECT_EQ(bench.health(), fault.health);
     EXPECT_EQ(bench.state().servo_state, ServoState::Fault);
@@ -279,6 +255,15 @@ TEST(DhdDevice, GivesNoForceWhileTheDeviceRefusesForceMode) {
   EXPECT_EQ(bench.health(), DhdHealth::Ready);
 }
 
+TEST(DhdDevice, BearsADeviceThatSwitchesItsForceOnSlowly) {
+  DhdBench bench([] { mock_dhd_delay_force_mode(45); });
+  for (int ms = 0; ms < 200; ++ms) {
+    bench.run(1);
+    ASSERT_EQ(bench.health(), DhdHealth::Ready) << ms;
+  }
+  bench.hold_attached();
+}
+
 // Positions of a moment ago are no failure, unless they stay.
 TEST(DhdDevice, BearsTheTimeGuardForAMomentOnly) {
   DhdBench bench;
@@ -332,40 +317,6 @@ TEST(DhdDevice, LeavesTheForceToTheDevicesWatchdogWhenNoThreadIsLeft) {
   EXPECT_GT(bench.felt(), 0.5);
   mock_dhd_set_time(begin_ns + DhdDevice::kWatchdogNs + 1);
   EXPECT_EQ(bench.felt(), 0.0);
-}
-
-TEST(DhdDevice, ComparesNotANumberAndLeapsWithNothing) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinity = std::numeric_limits<double>::infinity();
-  for (const auto& [x, y] : {std::pair(nan, 0.0), std::pair(0.0, infinity), std::pair(0.0, 1000.0),
-                             std::pair(-1e300, 0.0), std::pair(60.0, 0.0)}) {
-    SCOPED_TRACE(testing::Message() << x << ' ' << y);
-    DhdBench bench;
-    bench.hold_attached();
-    const double height_m = bench.device->read(bench.clock.now_ns()).position_m.y;
-    afm::test::DhdMock::set_position(x, y, 0);
-    bench.run(1);
-    EXPECT_EQ(bench.health(), DhdHealth::ImplausiblePosition);
-    const DeviceSample sample = bench.device->read(bench.clock.now_ns());
-    EXPECT_FALSE(sample.healthy);
-    EXPECT_NEAR(sample.position_m.y, height_m, 1e-6);
-    EXPECT_EQ(bench.felt(), 0.0);
-    afm::test::DhdMock::set_position(0, DhdBench::kContactMm + 25, 0);
-    bench.run(250);
-    EXPECT_EQ(bench.health(), DhdHealth::Ready);
-    EXPECT_EQ(bench.felt(), 0.0);
-  }
-}
-
-TEST(DhdDevice, LosesItsForceWhenItsSensorStandsStill) {
-  DhdBench bench;
-  bench.hold_attached();
-  mock_dhd_hold_still();
-  bench.run(990);
-  EXPECT_GT(bench.felt(), 0.5);
-  bench.run(20);
-  EXPECT_EQ(bench.felt(), 0.0);
-  EXPECT_EQ(bench.state().fault, FaultCode::DeviceError);
 }
 
 TEST(DhdDevice, IsLeftWithZeroForceAndItsBrakesOn) {

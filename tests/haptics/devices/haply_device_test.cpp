@@ -231,7 +231,7 @@ TEST(HaplyDevice, TakesTheArmThatIsWantedWithTheLimitsOfItsType) {
   HaplyService service(HaplyService::Manner::Crowd);
   const auto listed = HaplyDevice::query(service.port());
   ASSERT_TRUE(listed) << listed.error().message;
-  EXPECT_EQ(text_of(*listed), "inverse3 049D, minverse 0012; unknown: hexaverse 9");
+  EXPECT_EQ(text_of(*listed), "inverse3 049D, minverse 0012; unknown hexaverse 9");
 
   const auto first = HaplyDevice::open(kClock, service.port());
   ASSERT_TRUE(first) << first.error().message;

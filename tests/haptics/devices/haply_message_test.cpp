@@ -54,7 +54,7 @@ const std::string kFirst =
 TEST(HaplyMessage, IsReadForEveryDeviceThatItLists) {
   const auto inventory = parse_haply_inventory(kFirst);
   EXPECT_EQ(text_of(inventory),
-            "inverse3 049D, minverse 0012, minverse 0013; grips: ruko 3, verse_grip 1, verse_grip 2; unknown: "
+            "inverse3 049D, minverse 0012, minverse 0013; grips ruko 3, verse_grip 1, verse_grip 2; unknown "
             "hexaverse 9");
   EXPECT_EQ(text_of(parse_haply_inventory(R"({"inverse3":[]})")), "no device");
   EXPECT_EQ(text_of(parse_haply_inventory("[1, 2")), "no device");

@@ -20,7 +20,12 @@ long long now_ns() {
   return std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
 }
 
-void run_watchdog() {
+void run_controller() {
+  if (mock.force_mode_at_ns >= 0 && now_ns() >= mock.force_mode_at_ns) {
+    mock.mode = Mode::Force;
+    mock.force_mode_at_ns = -1;
+    mock.last_force_ns = now_ns();
+  }
   if (mock.mode != Mode::Force || mock.watchdog_ns == 0 || now_ns() - mock.last_force_ns <= mock.watchdog_ns) return;
   mock.mode = Mode::Brake;
   mock.cause = kOffByWatchdog;
@@ -107,6 +112,11 @@ void mock_dhd_set_reset(int on) {
   if (mock.reset) mock.mode = Mode::Idle;
 }
 
+void mock_dhd_delay_force_mode(int ms) {
+  const std::lock_guard lock(mutex);
+  mock.force_mode_delay_ns = 1'000'000LL * ms;
+}
+
 void mock_dhd_set_failed(int on) {
   const std::lock_guard lock(mutex);
   mock.failed = on != 0;
@@ -134,13 +144,14 @@ void mock_dhd_block(int on) { blocked = on != 0; }
 
 void mock_dhd_force(double newtons[3]) {
   const std::lock_guard lock(mutex);
-  run_watchdog();
+  run_controller();
   const bool felt = mock.mode == Mode::Force && mock.powered && !mock.reset && !mock.unplugged;
   for (std::size_t axis = 0; axis < 3; ++axis) newtons[axis] = felt ? mock.force_n[axis] : 0.0;
 }
 
 int mock_dhd_brakes(void) {
   const std::lock_guard lock(mutex);
+  run_controller();
   return mock.mode == Mode::Brake ? 1 : 0;
 }
 

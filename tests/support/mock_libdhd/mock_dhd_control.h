@@ -40,6 +40,9 @@ void mock_dhd_set_power(int on);
 void mock_dhd_set_reset(int on);
 void mock_dhd_set_failed(int on);
 
+// The device takes this long to switch its force on, once it is asked to.
+void mock_dhd_delay_force_mode(int ms);
+
 // The device itself leaves force mode for this cause (1: its button, 2: velocity, 6: dead-man switch, 0: none).
 void mock_dhd_cut_force(int cause);
 

@@ -162,7 +162,7 @@ int dhdGetStatus(int* values, char id) {
   const std::lock_guard lock(mutex);
   const int result = begin("dhdGetStatus", id);
   if (result < 0) return result;
-  run_watchdog();
+  run_controller();
   const bool passive = mock.reset || !mock.powered;
   std::fill(values, values + kStatusCount, 0);
   values[kPower] = mock.powered ? 1 : 0;
@@ -210,7 +210,7 @@ int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double 
   if (!(std::hypot(fx, fy, fz) <= kMostForceN)) forbid("a force is no number or too large");
   const int result = begin("dhdSetForceAndTorqueAndGripperForce", id);
   if (result < 0) return result;
-  run_watchdog();
+  run_controller();
   mock.force_n = {fx, fy, fz};
   mock.last_force_ns = now_ns();
   return result;
@@ -222,8 +222,9 @@ int dhdEnableForce(unsigned char on, char id) {
   record(on != 0 ? "force_on" : "force_off");
   const int result = begin("dhdEnableForce", id);
   if (result < 0) return result;
-  mock.mode = on != 0 ? Mode::Force : Mode::Brake;
-  mock.last_force_ns = now_ns();
+  mock.mode = Mode::Brake;
+  mock.force_mode_at_ns = on != 0 ? now_ns() + mock.force_mode_delay_ns : -1;
+  run_controller();
   return result;
 }
 
@@ -235,6 +236,7 @@ int dhdSetBrakes(int on, char id) {
   const int result = begin("dhdSetBrakes", id);
   if (result < 0) return result;
   mock.mode = on != 0 ? Mode::Brake : Mode::Idle;
+  mock.force_mode_at_ns = -1;
   return result;
 }
 #endif

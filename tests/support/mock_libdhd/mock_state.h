@@ -50,6 +50,8 @@ struct Mock {
   bool failed = false;
   bool unplugged = false;
   Mode mode = Mode::Brake;
+  long long force_mode_delay_ns = 0;
+  long long force_mode_at_ns = -1;  // negative: not asked for
   int cause = 0;
   std::array<double, 3> force_n{};
   double max_force_n = -1;
@@ -78,6 +80,6 @@ void forbid(const char* violation);
 long long now_ns();
 
 // What the controller in the device does by itself.
-void run_watchdog();
+void run_controller();
 
 }  // namespace mock_dhd
