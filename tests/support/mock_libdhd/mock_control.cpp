@@ -10,6 +10,7 @@ namespace mock_dhd {
 Mock mock;
 std::mutex mutex;
 std::atomic<bool> blocked{false};
+std::atomic<int> caught{0};
 
 void forbid(const char* text) {
   if (mock.violation == nullptr) mock.violation = text;
@@ -141,6 +142,7 @@ void mock_dhd_unplug(void) {
 }
 
 void mock_dhd_block(int on) { blocked = on != 0; }
+int mock_dhd_caught(void) { return caught; }
 
 void mock_dhd_force(double newtons[3]) {
   const std::lock_guard lock(mutex);

@@ -55,6 +55,9 @@ void mock_dhd_unplug(void);
 // dhdGetPosition does not come back while this is set.
 void mock_dhd_block(int blocked);
 
+// Number of calls that wait there.
+int mock_dhd_caught(void);
+
 // The force on the hand now, in the library's frame: the last one that was set, nothing outside force mode.
 void mock_dhd_force(double newtons[3]);
 int mock_dhd_brakes(void);

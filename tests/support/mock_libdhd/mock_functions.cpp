@@ -178,7 +178,11 @@ int dhdGetStatus(int* values, char id) {
 }
 
 int dhdGetPosition(double* x, double* y, double* z, char id) {
-  while (blocked) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  if (blocked) {
+    ++caught;
+    while (blocked) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    --caught;
+  }
   const std::lock_guard lock(mutex);
   const int result = begin("dhdGetPosition", id);
   if (result < 0) return result;

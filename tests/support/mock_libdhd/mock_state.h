@@ -73,6 +73,7 @@ struct Mock {
 extern Mock mock;
 extern std::mutex mutex;  // held by every function
 extern std::atomic<bool> blocked;
+extern std::atomic<int> caught;  // calls that do not return
 
 void forbid(const char* violation);
 
