@@ -242,8 +242,9 @@ void DhdDevice::switch_output(bool on, std::int64_t now_ns) noexcept {
 
 void DhdDevice::send_force(std::int64_t now_ns, std::int64_t elapsed_ns) noexcept {
   const glm::dvec3 force_n = mailbox_.wanted_n(now_ns, elapsed_ns);
-  // what the user switches on again at the device is the last force that was set
-  if (switched_off_) dhd_.set_force(0, 0, 0, 0, 0, 0, 0, id_);
+  // what the user switches on again at the device is the last force that was set; and a Falcon finds its zero only
+  // while it is sent forces (the SDK's example of two devices)
+  if (switched_off_ || state_ == DhdHealth::NeedsCalibration) dhd_.set_force(0, 0, 0, 0, 0, 0, 0, id_);
   if (output_ != Output::On) return;
   const int result = dhd_.set_force(force_n.z, force_n.x, force_n.y, 0, 0, 0, 0, id_);
   if (result < 0) return raise_last_error(now_ns);

@@ -69,7 +69,8 @@ std::string_view describe(DhdHealth health) noexcept {
     case DhdHealth::Ready:
       return "ready; raise the handle and press Turn-On";
     case DhdHealth::NeedsCalibration:
-      return "it is not calibrated; put its calibration pin into the pit until its light stops blinking";
+      return "it is not calibrated; put its calibration pin into the pit until its light stops blinking (Falcon: pull "
+             "the grip out and push it in)";
     case DhdHealth::NoPower:
       return "it has no power; switch it on";
     case DhdHealth::ForceButtonOff:

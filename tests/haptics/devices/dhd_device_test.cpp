@@ -215,6 +215,20 @@ TEST(DhdDevice, WaitsForItsCalibrationWithoutDisturbingIt) {
   EXPECT_EQ(bench.health(), DhdHealth::Ready);
 }
 
+// The SDK's example sends zero until the user has moved the grip.
+TEST(DhdDevice, SendsZeroWhileAFalconIsCalibrated) {
+  DhdBench bench([] {
+    mock_dhd_set_devices(1, 60, "Falcon");
+    mock_dhd_set_reset(1);
+    mock_dhd_end_reset_after(100);
+  });
+  bench.run(90);
+  EXPECT_EQ(bench.health(), DhdHealth::NeedsCalibration);
+  EXPECT_THAT(bench.log, Contains(HasSubstr("Falcon: pull the grip out and push it in")));
+  bench.run(30);
+  EXPECT_EQ(bench.health(), DhdHealth::Ready);
+}
+
 TEST(DhdDevice, LosesItsForceWhenItIsCalibratedAnewOrLosesItsPower) {
   for (void (*happens)(int) : {mock_dhd_set_reset, +[](int on) { mock_dhd_set_power(1 - on); }}) {
     DhdBench bench;

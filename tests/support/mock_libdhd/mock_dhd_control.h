@@ -40,6 +40,9 @@ void mock_dhd_set_power(int on);
 void mock_dhd_set_reset(int on);
 void mock_dhd_set_failed(int on);
 
+// Reset mode ends by itself after this number of forces, as a Falcon's does.
+void mock_dhd_end_reset_after(int forces);
+
 // The device takes this long to switch its force on, once it is asked to.
 void mock_dhd_delay_force_mode(int ms);
 

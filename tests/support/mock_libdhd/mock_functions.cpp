@@ -215,6 +215,8 @@ int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double 
   const int result = begin("dhdSetForceAndTorqueAndGripperForce", id);
   if (result < 0) return result;
   run_controller();
+  if (mock.reset && std::hypot(fx, fy, fz) > 0.0) forbid("a force was set in reset mode");
+  if (mock.reset && mock.reset_lasts > 0 && --mock.reset_lasts == 0) mock.reset = false;
   mock.force_n = {fx, fy, fz};
   mock.last_force_ns = now_ns();
   return result;
