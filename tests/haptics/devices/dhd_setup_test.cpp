@@ -131,7 +131,9 @@ TEST(DhdSetup, KnowsThatNoFalconHasASerialNumber) {
   mock_dhd_reset();
   mock_dhd_set_devices(1, 60, "Falcon");
   EXPECT_EQ(DhdDevice::query(mock_functions(), "")->name, "Falcon");
-  EXPECT_THAT(DhdDevice::query(mock_functions(), "65535").error().message, HasSubstr("it has no serial number"));
+  const auto none = DhdDevice::query(mock_functions(), "65535");
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("it has no serial number"));
 }
 
 TEST(DhdSetup, SaysWhatTheLibraryAnswered) {

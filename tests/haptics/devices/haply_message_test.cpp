@@ -48,7 +48,7 @@ const std::string kFirst =
     R"({"device_id":"0012","config":{"type":"minverse"},"state":{"cursor_position":{"x":0.02,"y":-0.12,"z":0.15}}}],)"
     R"("minverse":[{"device_id":"0013","state":{"cursor_position":{"x":0.03,"y":-0.12,"z":0.15}}}],)"
     R"("hexaverse":[{"device_id":"9","state":{"cursor_position":{"x":0.04,"y":0,"z":0}}}],)"
-    R"("verse_grip":[{"device_id":"1","state":{"button":false}},{"device_id":"2","state":{"button":true}}],)"
+    R"("verse_grip":[{"device_id":"1","state":{"button":true}},{"device_id":"2","state":{"button":false}}],)"
     R"("custom_verse_grip":[{"device_id":"3","config":{"type":"ruko"},"state":{"buttons":{"a":false}}}]})";
 
 TEST(HaplyMessage, IsReadForEveryDeviceThatItLists) {
@@ -64,7 +64,7 @@ TEST(HaplyMessage, GivesTheArmThatIsWantedAndNoOther) {
   const auto first = parse_haply_state(kFirst);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->device.id, "049D");
-  EXPECT_TRUE(first->button);  // the second grip's
+  EXPECT_TRUE(first->button);  // one of the grips'
   const auto second = parse_haply_state(kFirst, "0012");
   ASSERT_TRUE(second);
   EXPECT_EQ(second->device, (HaplyName{"inverse3", "0012"}));

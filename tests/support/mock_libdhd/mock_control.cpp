@@ -118,6 +118,11 @@ void mock_dhd_delay_force_mode(int ms) {
   mock.force_mode_delay_ns = 1'000'000LL * ms;
 }
 
+void mock_dhd_set_connected(int on) {
+  const std::lock_guard lock(mutex);
+  mock.connected = on != 0;
+}
+
 void mock_dhd_end_reset_after(int forces) {
   const std::lock_guard lock(mutex);
   mock.reset_lasts = forces;

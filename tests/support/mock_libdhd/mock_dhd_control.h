@@ -35,8 +35,9 @@ void mock_dhd_fail(const char* function, int error, int times);
 // The next `times` calls of this function do their work and return `value`; dhdGetPosition then gives the old place.
 void mock_dhd_answer(const char* function, int value, int times);
 
-// The device's status: powered, in reset mode, failed. A device in reset mode has no current.
+// The device's status: powered, connected, in reset mode, failed. A device in reset mode has no current.
 void mock_dhd_set_power(int on);
+void mock_dhd_set_connected(int on);
 void mock_dhd_set_reset(int on);
 void mock_dhd_set_failed(int on);
 

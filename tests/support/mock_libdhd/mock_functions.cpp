@@ -166,7 +166,7 @@ int dhdGetStatus(int* values, char id) {
   const bool passive = mock.reset || !mock.powered;
   std::fill(values, values + kStatusCount, 0);
   values[kPower] = mock.powered ? 1 : 0;
-  values[kConnected] = 1;
+  values[kConnected] = mock.connected ? 1 : 0;
   values[kStarted] = 1;
   values[kReset] = mock.reset ? 1 : 0;
   values[kIdle] = !passive && mock.mode == Mode::Idle ? 1 : 0;

@@ -48,6 +48,7 @@ struct Mock {
   bool powered = true;
   bool reset = false;
   int reset_lasts = -1;  // number of forces; negative: until a test ends it
+  bool connected = true;
   bool failed = false;
   bool unplugged = false;
   Mode mode = Mode::Brake;
