@@ -64,7 +64,7 @@ install(FILES ${reference}/touchafm DESTINATION bin)
 install(DIRECTORY ${assets}/guidance ${assets}/lessons ${assets}/models ${assets}/particles ${assets}/walls ${assets}/wands DESTINATION share/touchafm
         PATTERN *.rules EXCLUDE)
 install(FILES ${assets}/materials.toml ${assets}/probes.toml DESTINATION share/touchafm)
-install(FILES ${assets}/wands/70-touchafm-wands.rules DESTINATION lib/udev/rules.d)
+install(FILES ${assets}/haptics/70-touchafm-haptics.rules ${assets}/wands/70-touchafm-wands.rules DESTINATION lib/udev/rules.d)
 install(FILES ${assets}/cluster/touchafm-node@.service DESTINATION lib/systemd/user)
 install(FILES ${assets}/desktop/touchafm.desktop DESTINATION share/applications)
 install(FILES ${assets}/desktop/touchafm.svg DESTINATION share/icons/hicolor/scalable/apps)

@@ -180,8 +180,10 @@ void add_devices_command(OptionList& program, const CommandContext& context) {
       .type_name("FILE");
   command.footer(fmt::format(
       "example: touchafm devices\n"
-      "Set {}=FILE to the driver library of a PHANTOM or Touch, and {}=NAME to the name of the device in its set-up.",
-      haptics::kHdLibraryVariable, haptics::kHdDeviceVariable));
+      "Set {}=FILE to the driver library of a PHANTOM or Touch, and {}=NAME to the name of the device in its set-up.\n"
+      "Set {}=FILE to Force Dimension's library, and {}=NUMBER to the serial number of the device.",
+      haptics::kHdLibraryVariable, haptics::kHdDeviceVariable, haptics::kFdLibraryVariable,
+      haptics::kFdDeviceVariable));
   command.when_chosen([&context, json, wand_file] { return list(context.assets_dir, *wand_file, *json); });
 }
 

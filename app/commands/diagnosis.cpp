@@ -18,6 +18,11 @@ constexpr double kGoodLatenessUs = 200.0;
 
 constexpr const char* kLogInAgain = ", then log in again";
 
+std::string add_rule(const char* file, const std::string& rule) {
+  return fmt::format(
+      "echo '{}' | sudo tee /etc/udev/rules.d/{} && sudo udevadm control --reload && sudo udevadm trigger", rule, file);
+}
+
 std::string join_group(const char* groups) {
   return fmt::format("sudo usermod -aG {} \"$(id -un)\"{}", groups, kLogInAgain);
 }
@@ -125,20 +130,16 @@ Finding hid(const MachineFacts& facts) {
                                 : fmt::format("{} of {} HID devices can be opened", open, facts.hid_nodes.size());
   if (open == static_cast<std::ptrdiff_t>(facts.hid_nodes.size())) return {"wands (HID)", Verdict::Good, found, {}};
   return {"wands (HID)", Verdict::Missing, found,
-          "echo 'KERNEL==\"hidraw*\", TAG+=\"uaccess\"' | sudo tee /etc/udev/rules.d/70-touchafm.rules && sudo udevadm "
-          "control --reload && sudo udevadm trigger"};
+          add_rule("70-touchafm.rules", "KERNEL==\"hidraw*\", TAG+=\"uaccess\"")};
 }
 
 Finding haptic_port(const MachineFacts& facts) {
-  const auto closed = std::find_if(facts.serial_nodes.begin(), facts.serial_nodes.end(),
-                                   [](const DeviceNode& node) { return !node.accessible; });
-  if (closed != facts.serial_nodes.end()) {
-    return {"haptic port (USB)", Verdict::Missing, closed->path + " cannot be opened", join_group("dialout")};
-  }
-  return {"haptic port (USB)",
-          Verdict::Good,
-          facts.serial_nodes.empty() ? "no /dev/ttyACM*" : facts.serial_nodes.front().path + " can be opened",
-          {}};
+  const haptics::PortRights rights = haptics::judge_rights(facts.haptic_ports);
+  constexpr const char* kCheck = "haptic port (USB)";
+  if (rights.open) return {kCheck, Verdict::Good, rights.said, {}};
+  return {kCheck, Verdict::Missing, rights.said,
+          rights.group.empty() ? add_rule("70-touchafm-haptics.rules", rights.udev_rule)
+                               : join_group(rights.group.c_str())};
 }
 
 Finding haptic_device(const MachineFacts& facts) {
@@ -153,10 +154,14 @@ Finding haptic_device(const MachineFacts& facts) {
     }
   }
   if (silent) return *silent;
-  return {"haptic device", Verdict::Limited, "no driver is installed: a simulated hand is used instead",
-          fmt::format("install the driver of the PHANTOM or Touch, or set {} to the path of its libHD.so (touchafm "
-                      "devices lists what was tried)",
-                      haptics::kHdLibraryVariable)};
+  const std::string plugged = facts.haptic_ports.empty() ? "" : facts.haptic_ports.front().device;
+  return {
+      "haptic device", Verdict::Limited,
+      fmt::format("no driver is installed: a simulated hand is used instead{}",
+                  plugged.empty() ? "" : fmt::format(", although a {} is plugged in", plugged)),
+      fmt::format("install the driver of the device (OpenHaptics for a PHANTOM or Touch, a HID one too), or set {} or "
+                  "{} to the path of its library (touchafm devices lists what was tried)",
+                  haptics::kHdLibraryVariable, haptics::kFdLibraryVariable)};
 }
 
 Finding servo_program(const MachineFacts& facts) {

@@ -73,7 +73,7 @@ std::string fault_bundle(const MachineFacts& facts, const std::string& findings)
   }
   if (!facts.graphics_refusal.empty()) text += facts.graphics_refusal + "\n";
   text += "\nDevices\n-------\n" + nodes_text("graphics", facts.render_nodes) + nodes_text("HID", facts.hid_nodes) +
-          nodes_text("serial", facts.serial_nodes);
+          fmt::format("haptic ports: {}\n", haptics::judge_rights(facts.haptic_ports).said);
   for (const haptics::ProbeLine& line : facts.haptics) {
     text += fmt::format("haptic {}: {}; {}\n", line.subject, line.usable ? "usable" : "not usable",
                         core::printable(line.said));

@@ -100,7 +100,7 @@ MachineFacts look_at_machine(const core::Clock& clock, const std::string& progra
   }
   facts.render_nodes = nodes("/dev/dri", "renderD");
   facts.hid_nodes = nodes("/dev", "hidraw");
-  facts.serial_nodes = nodes("/dev", "ttyACM");
+  facts.haptic_ports = haptics::find_haptic_ports();
   facts.haptics = haptics::probe_devices(servo::environment());
 
   facts.servo_program = std::filesystem::path(program).replace_filename("touchafm-servo").string();

@@ -7,6 +7,7 @@
 
 #include "app/bench/scheduling_latency.h"
 #include "haptics/device_registry.h"
+#include "haptics/haptic_ports.h"
 #include "render/context.h"
 
 namespace afm::app {
@@ -37,7 +38,7 @@ struct MachineFacts {
   std::string headset_refusal;  // reason if it does not answer
   std::vector<DeviceNode> render_nodes;
   std::vector<DeviceNode> hid_nodes;
-  std::vector<DeviceNode> serial_nodes;
+  std::vector<haptics::HapticPort> haptic_ports;
   std::vector<haptics::ProbeLine> haptics;
   std::string servo_program;
   std::string missing_program;  // servo or watchdog, if it cannot be run; empty: none is missing

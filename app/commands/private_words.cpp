@@ -25,11 +25,14 @@ constexpr auto kSystemFolders =
                                      "/proc/", "/sys/", "/boot/", "/var/lib/", "/run/user/"});
 
 constexpr auto kModelWords = std::to_array<std::string_view>(
-    {"360",      "3d",      "controller", "desktop",  "device",    "dualsense", "dualshock", "falcon",      "gamepad",
-     "geomagic", "haply",   "hdapi",      "hd",       "inverse3",  "inverse3x", "joystick",  "logitech",    "mini",
-     "minverse", "mock",    "novint",     "nintendo", "omni",      "one",       "phantom",   "playstation", "premium",
-     "ps4",      "ps5",     "sensable",   "series",   "simulated", "sony",      "stylus",    "switch",      "touch",
-     "usb",      "virtual", "wireless",   "x",        "xbox"});
+    {"360",       "3d",          "controller", "delta.3",  "delta.6",  "desktop",        "device",
+     "dimension", "dualsense",   "dualshock",  "falcon",   "force",    "forcedimension", "gamepad",
+     "geomagic",  "haply",       "hd",         "hdapi",    "inverse3", "inverse3x",      "joystick",
+     "lambda.3",  "lambda.6",    "lambda.7",   "logitech", "mini",     "minverse",       "mock",
+     "nintendo",  "novint",      "omega.3",    "omega.6",  "omega.7",  "omni",           "one",
+     "phantom",   "playstation", "premium",    "ps4",      "ps5",      "sensable",       "series",
+     "sigma.3",   "sigma.7",     "simulated",  "sony",     "stylus",   "switch",         "touch",
+     "usb",       "virtual",     "wireless",   "x",        "xbox"});
 
 std::string lower(std::string_view text) {
   std::string small(text);
@@ -79,6 +82,15 @@ std::string shortened(std::string_view path) {
 }
 
 // Every absolute path in the text.
+void replace_serial_numbers(std::string& text) {
+  constexpr std::string_view kKey = "serial ";
+  for (std::size_t at = text.find(kKey); at != std::string::npos; at = text.find(kKey, at + kKey.size())) {
+    std::size_t end = at + kKey.size();
+    while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0) ++end;
+    if (end > at + kKey.size()) text.replace(at + kKey.size(), end - at - kKey.size(), "...");
+  }
+}
+
 void shorten_paths(std::string& text) {
   for (std::size_t at = text.find('/'); at != std::string::npos; at = text.find('/', at)) {
     const std::size_t end = std::min(text.find_first_of(kEndsPath, at), text.size());
@@ -156,6 +168,7 @@ std::string without(const PrivateWords& secrets, std::string text) {
   }
   replace_homes(text);
   shorten_paths(text);
+  replace_serial_numbers(text);
   for (const std::string& user : secrets.users) replace_word(text, user, "USER");
   for (const std::string& host : secrets.hosts) replace_word(text, host, "HOST");
   return text;

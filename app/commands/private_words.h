@@ -18,7 +18,8 @@ struct PrivateWords {
 // Of this process, and of the person who became root by sudo.
 PrivateWords private_words();
 
-// Replaces names by ~, USER and HOST, and folders outside the system's own by "...", which keeps the name of the file.
+// Replaces names by ~, USER and HOST, folders outside the system's own by "...", which keeps the name of the file, and
+// the digits after "serial".
 // Names count as whole words in any case, so that a user "an" leaves "an error" alone: names of fewer than three
 // letters stay.
 std::string without(const PrivateWords& secrets, std::string text);

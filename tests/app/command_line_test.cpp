@@ -169,7 +169,7 @@ TEST(CommandLine, NamesEveryHapticDevice) {
   for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
     EXPECT_THAT(help, HasSubstr(std::string(kind.word) + " ("));
   }
-  expect_refusal(touchafm("view --haptics falcon"), 2, "hdapi, haply, gamepad");
+  expect_refusal(touchafm("view --haptics falcon"), 2, "hdapi, forcedimension, haply, gamepad");
 }
 
 TEST(CommandLine, RefusesAFrictionThatTheLawDoesNotHave) {

@@ -27,6 +27,7 @@ ProgramResult touchafm(const std::string& arguments, const std::string& environm
 }
 
 const std::string kMock = "TOUCHAFM_HD_LIBRARY=" + support::mock_hd();
+const std::string kMockDhd = "TOUCHAFM_FD_LIBRARY=" + support::mock_dhd();
 
 TEST(DevicesCommand, SaysWhatWasTriedAndWhyNot) {
   const ProgramResult result = touchafm("devices");
@@ -37,7 +38,7 @@ TEST(DevicesCommand, SaysWhatWasTriedAndWhyNot) {
 }
 
 TEST(DevicesCommand, LooksForEveryHapticDevice) {
-  const auto list = nlohmann::json::parse(touchafm("devices --json", kMock).out);
+  const auto list = nlohmann::json::parse(touchafm("devices --json", kMock + " " + kMockDhd).out);
   for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
     EXPECT_TRUE(std::any_of(list.begin(), list.end(), [&](const auto& row) {
       return row["kind"] == "haptic" && row["device"] == std::string(kind.subject);
@@ -56,9 +57,16 @@ TEST(DevicesCommand, FindsADeviceBehindAnInstalledLibrary) {
   EXPECT_THAT((*device)["detail"].get<std::string>(), HasSubstr("Mock Touch, serial 0001: 3.3 N peak"));
 }
 
+TEST(DevicesCommand, SaysWhichDevicesNoHardwareHasProved) {
+  EXPECT_THAT(
+      touchafm("devices", kMockDhd).out,
+      HasSubstr("omega.3, serial 1234: 12 N peak, 150 x 150 x 150 mm; tested with a stand-in for its library only"));
+}
+
 TEST(DevicesCommand, SaysWhatTheLibraryAnswersWhenNoDeviceIsThere) {
   EXPECT_THAT(touchafm("devices", kMock + " MOCK_HD_FAULT=missing").out, HasSubstr("mock: not connected (0x0303)"));
   EXPECT_THAT(touchafm("devices", kMock + " MOCK_HD_FAULT=busy").out, HasSubstr("mock: in use (0x0301)"));
+  EXPECT_THAT(touchafm("devices", kMockDhd + " MOCK_DHD_FAULT=missing").out, HasSubstr("no device is connected"));
 }
 
 TEST(GraphicsDevice, IsChosenByName) {

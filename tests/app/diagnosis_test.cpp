@@ -26,7 +26,7 @@ MachineFacts good_machine() {
   facts.saver_stays_off = true;
   facts.render_nodes = {{"/dev/dri/renderD128", true}};
   facts.hid_nodes = {{"/dev/hidraw0", true}};
-  facts.serial_nodes = {{"/dev/ttyACM0", true}};
+  facts.haptic_ports = {{"/dev/ttyACM0", "Touch", haptics::HapticBus::Serial, true, "dialout"}};
   facts.haptics = {{"hdapi library libHD.so.3.4", true, "loaded"}, {"hdapi device", true, "Touch"}};
   facts.servo_program = "/usr/bin/touchafm-servo";
   return facts;
@@ -91,8 +91,19 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
        [](MachineFacts& m) { m.headset_manifest = "/etc/xdg/openxr/1/active_runtime.json"; }},
       {"haptic device", Verdict::Limited, "TOUCHAFM_HD_LIBRARY", [](MachineFacts& m) { m.haptics.clear(); }},
       {"haptic device", Verdict::Limited, "switch it on", [](MachineFacts& m) { m.haptics[1].usable = false; }},
+      {"haptic device", Verdict::Limited, "OpenHaptics for a PHANTOM or Touch, a HID one too",
+       [](MachineFacts& m) { m.haptics.clear(); }},
       {"haptic port (USB)", Verdict::Missing, "sudo usermod -aG dialout",
-       [](MachineFacts& m) { m.serial_nodes[0].accessible = false; }},
+       [](MachineFacts& m) { m.haptic_ports[0].accessible = false; }},
+      {"haptic port (USB)", Verdict::Missing, "sudo usermod -aG uucp",
+       [](MachineFacts& m) {
+         m.haptic_ports[0].accessible = false;
+         m.haptic_ports[0].group = "uucp";
+       }},
+      {"haptic port (USB)", Verdict::Missing,
+       "echo 'SUBSYSTEM==\"hidraw\", KERNELS==\"*:2988:*\", TAG+=\"uaccess\"' | sudo tee "
+       "/etc/udev/rules.d/70-touchafm-haptics.rules && sudo udevadm control --reload",
+       [](MachineFacts& m) { m.haptic_ports = {{"/dev/hidraw1", "Touch", haptics::HapticBus::Hid, false, ""}}; }},
       {"wands (HID)", Verdict::Missing, "/etc/udev/rules.d/70-touchafm.rules",
        [](MachineFacts& m) { m.hid_nodes[0].accessible = false; }},
   };
@@ -120,11 +131,19 @@ TEST(Diagnosis, WantsAShareForDrawingOnlyWhereTheProcessorDraws) {
 TEST(Diagnosis, TakesNoDeviceForNoLackOfRights) {
   MachineFacts facts = good_machine();
   facts.hid_nodes.clear();
-  facts.serial_nodes.clear();
+  facts.haptic_ports.clear();
   facts.render_nodes.clear();
   const auto findings = diagnose(facts);
   EXPECT_GE(findings.size(), 10U);
   for (const Finding& f : findings) EXPECT_EQ(f.verdict, Verdict::Good) << f.check;
+}
+
+TEST(Diagnosis, SaysThatADeviceIsPluggedInWithoutItsDriver) {
+  MachineFacts facts = good_machine();
+  facts.haptics.clear();
+  facts.haptic_ports = {{"/dev/hidraw1", "Touch", haptics::HapticBus::Hid, true, ""}};
+  EXPECT_THAT(finding(facts, "haptic device").found, HasSubstr("although a Touch is plugged in"));
+  EXPECT_EQ(finding(facts, "haptic port (USB)").found, "/dev/hidraw1 (Touch, a HID device) can be opened");
 }
 
 TEST(Diagnosis, IsContentWithAnyDeviceThatRendersForce) {

@@ -51,6 +51,8 @@ TEST(FaultBundle, KeepsADevicesModelAlone) {
   EXPECT_EQ(model_of("Touch X, serial 0123"), "Touch X (rest of the name left out)");
   EXPECT_EQ(model_of("Touch of Alice Liddell 0123, serial Alice"), "Touch (rest of the name left out)");
   EXPECT_EQ(model_of("Alice"), "(name left out)");
+  EXPECT_EQ(model_of("omega.3, serial 1234"), "omega.3 (rest of the name left out)");
+  EXPECT_EQ(model_of("inverse3 049D, minverse 0012"), "inverse3 minverse (rest of the name left out)");
 }
 
 TEST(FaultBundle, HasWhatAReportNeeds) {
@@ -61,12 +63,14 @@ TEST(FaultBundle, HasWhatAReportNeeds) {
   facts.hid_nodes.push_back({"/dev/hidraw3", false});
   facts.haptics.push_back({"hdapi (OpenHaptics)", true, "Touch of Alice, serial 0123: 3.3 N peak"});
   facts.haptics.push_back({"OpenHaptics", false, "/home/someone/libHD.so cannot be opened"});
+  facts.haptics.push_back({"forcedimension device", false, "(#0: serial 4711, #1: serial 4712)"});
+  facts.haptics.push_back({"haply device", true, "inverse3 49D1: its service answers at port 10001"});
   const std::string text = fault_bundle(facts, "graphics good\nhaptic device: Touch of Alice, serial 0123\n");
   EXPECT_THAT(text, AllOf(HasSubstr("touchafm "), HasSubstr("6.1.0, PREEMPT_RT"), HasSubstr("llvmpipe"),
                           HasSubstr("DISPLAY=:0"), HasSubstr("HID /dev/hidraw3: not accessible"),
                           HasSubstr("haptic OpenHaptics: not usable; ~/libHD.so cannot be opened"),
                           HasSubstr("graphics good"), HasSubstr("what you did")));
-  for (const char* secret : {"someone", "Alice", "0123"}) EXPECT_THAT(text, Not(HasSubstr(secret)));
+  for (const char* secret : {"someone", "Alice", "0123", "471", "49D1"}) EXPECT_THAT(text, Not(HasSubstr(secret)));
   EXPECT_THAT(text, HasSubstr("Touch (rest of the name left out): 3.3 N peak"));
 }
 

@@ -139,6 +139,7 @@ TEST_F(InstalledProgram, HasADesktopEntryWhoseIconAndProgramExist) {
   EXPECT_THAT(read(entry),
               AllOf(HasSubstr("\nExec=env TOUCHAFM_FROM_MENU=1 touchafm view\n"), HasSubstr("\nIcon=touchafm\n")));
   EXPECT_TRUE(fs::exists(prefix() + "/share/icons/hicolor/scalable/apps/touchafm.svg"));
+  EXPECT_TRUE(fs::exists(prefix() + "/lib/udev/rules.d/70-touchafm-haptics.rules"));
   EXPECT_TRUE(fs::exists(prefix() + "/lib/udev/rules.d/70-touchafm-wands.rules"));
 }
 

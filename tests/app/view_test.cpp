@@ -352,7 +352,7 @@ TEST(View, SaysWhatIsWrongInOneLine) {
   EXPECT_THAT(size.err, HasSubstr("\"1280\" is not WIDTHxHEIGHT"));
   const auto device = support::run_program(support::touchafm() + " view --haptics falcon");
   EXPECT_EQ(device.exit_code, 2);
-  EXPECT_THAT(device.err, HasSubstr("choose auto, mouse, hdapi, haply, gamepad, "));
+  EXPECT_THAT(device.err, HasSubstr("choose auto, mouse, hdapi, forcedimension, haply, gamepad, "));
   const auto session = support::run_program(support::touchafm() + " view --haptics replay:/nowhere/x.afms");
   EXPECT_EQ(session.exit_code, 3);
   const auto mode = support::run_program(support::touchafm() + " view --stereo holographic");

@@ -23,7 +23,8 @@ endforeach()
 
 # Each source is compiled once, alone or in a unity build's file of several. Not counted are the other files that the build
 # generates (precompiled headers, and the public headers that are compiled alone) and what is compiled in two ways on purpose.
-set(compiled_in_two_ways tests/support/mock_libhd/mock_functions.cpp)  # with and without one function of the driver
+# with and without one function of the driver
+set(compiled_in_two_ways tests/support/mock_libdhd/mock_functions.cpp tests/support/mock_libhd/mock_functions.cpp)
 file(READ ${BUILD}/compile_commands.json commands)
 string(REGEX MATCHALL "\"file\": \"[^\"]*\"" entries "${commands}")
 set(files "")

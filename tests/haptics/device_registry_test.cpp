@@ -12,6 +12,7 @@
 
 #include "core/exit_code.h"
 #include "mock_control.h"
+#include "mock_dhd_control.h"
 #include "support/places.h"
 
 namespace device_registry_test {
@@ -20,6 +21,7 @@ using namespace afm::haptics;
 using afm::core::ErrorCategory;
 using afm::core::MonotonicClock;
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::Field;
 using testing::HasSubstr;
@@ -47,6 +49,7 @@ class DeviceRegistry : public testing::Test {
   static Environment with_library(const std::string& library) {
     return [library](const std::string& variable) -> std::string {
       if (variable == "TOUCHAFM_HD_LIBRARY") return library;
+      if (variable == "TOUCHAFM_FD_LIBRARY") return "/nowhere/libdhd.so";
       return variable == "TOUCHAFM_HAPLY_PORT" ? "1" : "";
     };
   }
@@ -66,17 +69,18 @@ TEST_F(DeviceRegistry, TakesARealDeviceBeforeTheSimulatedHand) {
 TEST_F(DeviceRegistry, FallsBackToTheSimulatedHandAndSaysWhy) {
   const auto no_library = open_best_device(nowhere, clock);
   EXPECT_EQ(no_library.device->spec().name, "simulated hand");
-  EXPECT_THAT(
-      no_library.lines,
-      ElementsAre(line("hdapi library /nowhere/libHD.so", false, "No such file"), line("haply device", false, "port 1"),
-                  line("gamepad", false, "none is plugged in"), line("simulated hand", true, "")));
+  EXPECT_THAT(no_library.lines,
+              ElementsAre(line("hdapi library /nowhere/libHD.so", false, "No such file"),
+                          line("forcedimension library /nowhere/libdhd.so", false, "No such file"),
+                          line("haply device", false, "port 1"), line("gamepad", false, "none is plugged in"),
+                          line("simulated hand", true, "")));
 
   mock_hd_fail_init("*", kNotConnected, 100);
   const auto no_device = open_best_device(mock, clock);
-  EXPECT_THAT(
-      no_device.lines,
-      ElementsAre(line("libmock_hd.so", true, "loaded"), line("hdapi device", false, "mock: not connected"),
-                  line("haply device", false, "port 1"), line("gamepad", false, ""), line("simulated hand", true, "")));
+  EXPECT_THAT(no_device.lines,
+              ElementsAre(line("libmock_hd.so", true, "loaded"), line("hdapi device", false, "mock: not connected"),
+                          line("forcedimension library", false, "No such file"), line("haply device", false, "port 1"),
+                          line("gamepad", false, ""), line("simulated hand", true, "")));
 }
 
 TEST_F(DeviceRegistry, DoesNotReplaceADeviceThatWasNamed) {
@@ -101,6 +105,29 @@ TEST_F(DeviceRegistry, DoesNotReplaceADeviceThatWasNamed) {
   EXPECT_THAT(no_gamepad.error().message, HasSubstr("no gamepad: none is plugged in"));
 }
 
+TEST_F(DeviceRegistry, FindsADeviceBehindForceDimensionsLibrary) {
+  const Environment environment = [this](const std::string& variable) {
+    return variable == "TOUCHAFM_FD_LIBRARY" ? afm::support::mock_dhd() : nowhere(variable.c_str());
+  };
+  mock_dhd_reset();
+  mock_dhd_use_clock();
+  const auto lines = probe_devices(environment);
+  EXPECT_THAT(lines, Contains(line("libmock_dhd.so", true, "loaded")));
+  EXPECT_THAT(lines, Contains(line("forcedimension device", true,
+                                   "omega.3, serial 1234: 12 N peak, 150 x 150 x 150 mm; tested with a stand-in ")));
+  const auto opened = open_best_device(environment, clock);
+  EXPECT_EQ(opened.device->spec().name, "omega.3, serial 1234");
+  EXPECT_TRUE(opened.device->spec().has_own_hand);
+
+  mock_dhd_fail("dhdOpenID", 20, -1);
+  const auto busy = open_word("forcedimension", environment, clock);
+  ASSERT_FALSE(busy);
+  EXPECT_EQ(busy.error().category, ErrorCategory::DeviceMissing);
+  EXPECT_THAT(busy.error().message, HasSubstr("mock: in use"));
+  EXPECT_THAT(open_word("forcedimension", nowhere, clock).error().message,
+              AllOf(HasSubstr("/nowhere/libdhd.so"), HasSubstr("TOUCHAFM_FD_LIBRARY")));
+}
+
 TEST_F(DeviceRegistry, OpensTheSimulatedHandWithoutLookingFurther) {
   const auto opened = open_word("sim", mock, clock);
   ASSERT_TRUE(opened);
@@ -111,9 +138,10 @@ TEST_F(DeviceRegistry, OpensTheSimulatedHandWithoutLookingFurther) {
 TEST_F(DeviceRegistry, ListsWhatIsThereWithoutStartingIt) {
   EXPECT_THAT(probe_devices(mock),
               ElementsAre(line("libmock_hd.so", true, "loaded"),
-                          line("hdapi device", true, "3.3 N peak, 0.88 N continuous, 160 x 120 x 70 mm"),
-                          line("haply device", false, "port 1"), line("gamepad", false, "none is plugged in"),
-                          line("simulated hand", true, "")));
+                          line("hdapi device", true,
+                               "3.3 N peak, 0.88 N continuous, 160 x 120 x 70 mm; tested with a stand-in "),
+                          line("forcedimension library", false, "No such file"), line("haply device", false, "port 1"),
+                          line("gamepad", false, "none is plugged in"), line("simulated hand", true, "")));
   EXPECT_STREQ(mock_hd_call(0), "init");
   EXPECT_STREQ(mock_hd_call(1), "disable_device");
   EXPECT_EQ(mock_hd_call(2), nullptr);
@@ -141,6 +169,15 @@ TEST_F(DeviceRegistry, EndsTheProcessWhereADriverDoesNotComeBack) {
   EXPECT_EXIT(std::ignore = open_device(*find_device_kind("hdapi"), mock, clock, {}, kPatience), code, message);
   EXPECT_EXIT(probe_devices(mock, kPatience), code, message);
   ::unsetenv("MOCK_HD_FAULT");
+
+  const Environment dhd = [](const std::string& variable) {
+    return variable == "TOUCHAFM_FD_LIBRARY" ? afm::support::mock_dhd() : std::string();
+  };
+  mock_dhd_reset();
+  ASSERT_EQ(::setenv("MOCK_DHD_FAULT", "hangs", 1), 0);
+  EXPECT_EXIT(std::ignore = open_device(*find_device_kind("forcedimension"), dhd, clock, {}, kPatience), code,
+              "forcedimension device: its driver did not answer within 0.2 s");
+  ::unsetenv("MOCK_DHD_FAULT");
 }
 
 TEST_F(DeviceRegistry, KnowsWhichHandNobodyHolds) {

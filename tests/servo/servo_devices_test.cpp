@@ -94,6 +94,24 @@ TEST_F(ServoDevices, LetsACycleBeFeltThroughTheVendorsLibrary) {
   EXPECT_EQ(side.tip_state()->hand.force_n, (std::array<double, 3>{}));
 }
 
+// The same person, at an omega whose point of contact is 5 mm lower. The library's calls are made by a thread of the
+// servo.
+TEST_F(ServoDevices, LetsACycleBeFeltThroughForceDimensionsLibrary) {
+  const support::ScratchFolder folder;
+  const Environment library("TOUCHAFM_FD_LIBRARY", support::mock_dhd());
+  const Environment script("MOCK_DHD_SCRIPT", folder.write("person.txt", kPerson));
+  auto servo = start("forcedimension");
+  ASSERT_TRUE(servo) << servo.error().message;
+  EXPECT_TRUE(until(**servo, [&] {
+    return events.size() >= 2 &&
+           std::any_of(samples.begin(), samples.end(), [](const TipSample& s) { return s.hand_force_n < -1.5; });
+  }));
+  const pid_t pid = (*servo)->pid();
+  servo->reset();
+  EXPECT_NE(::kill(pid, 0), 0);
+  EXPECT_EQ(side.tip_state()->hand.force_n, (std::array<double, 3>{}));
+}
+
 TEST_F(ServoDevices, EndsWithFourWhenTheNamedDeviceIsMissing) {
   auto no_library = start("hdapi");
   ASSERT_TRUE(no_library);
@@ -104,6 +122,12 @@ TEST_F(ServoDevices, EndsWithFourWhenTheNamedDeviceIsMissing) {
   auto no_device = start("hdapi");
   ASSERT_TRUE(no_device);
   EXPECT_EQ(exit_code(**no_device), 4);
+
+  const Environment other_library("TOUCHAFM_FD_LIBRARY", support::mock_dhd());
+  const Environment other_fault("MOCK_DHD_FAULT", "missing");
+  auto no_omega = start("forcedimension");
+  ASSERT_TRUE(no_omega);
+  EXPECT_EQ(exit_code(**no_omega), 4);
 }
 
 TEST_F(ServoDevices, FallsBackToTheSimulatedHand) {

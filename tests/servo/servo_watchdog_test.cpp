@@ -111,8 +111,8 @@ class ServoWatchdog : public testing::Test {
   double held_n() {
     const auto forces = service.forces();
     if (forces.empty()) return 0.0;
-    const auto& [x, y, z] = forces.back();
-    return std::hypot(x, y, z);
+    const HaplyService::Force& force = forces.back();
+    return std::hypot(force.x, force.y, force.z);
   }
 
   // A window for expect_within: the force is on, `number` goes to `process`, and `condition` is waited for.

@@ -18,6 +18,9 @@ std::string touchafm() { return AFM_PROGRAM; }
 std::string servo_program() { return AFM_SERVO_PROGRAM; }
 std::string servo_mode() { return AFM_SERVO_MODE; }
 std::string cmake() { return AFM_CMAKE; }
+std::string mock_dhd() { return AFM_MOCK_DHD; }
+std::string mock_dhd_of_old() { return AFM_MOCK_DHD_OF_OLD; }
+std::string mock_dhd_without_brakes() { return AFM_MOCK_DHD_WITHOUT_BRAKES; }
 std::string mock_hd() { return AFM_MOCK_HD; }
 std::string mock_hd_without_unschedule() { return AFM_MOCK_HD_WITHOUT_UNSCHEDULE; }
 std::string fault_layer_folder() { return AFM_FAULT_LAYER_DIR; }

@@ -15,7 +15,10 @@ std::string touchafm();       // the program
 std::string servo_program();  // touchafm-servo
 std::string servo_mode();  // value of --servo: "thread" under ThreadSanitizer, which sees one process, else "process"
 std::string cmake();       // CMake's own program
-std::string mock_hd();     // stand-in for the vendor's haptic library
+std::string mock_dhd();    // stand-in for Force Dimension's library
+std::string mock_dhd_of_old();  // the same before it had a largest force
+std::string mock_dhd_without_brakes();
+std::string mock_hd();  // stand-in for the vendor's haptic library
 std::string mock_hd_without_unschedule();
 std::string fault_layer_folder();  // value of VK_LAYER_PATH
 std::string fault_layer();         // the Vulkan layer itself

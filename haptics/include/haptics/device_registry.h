@@ -23,6 +23,8 @@ namespace afm::haptics {
 using Environment = std::function<std::string(const char* variable)>;
 inline constexpr const char* kHdLibraryVariable = "TOUCHAFM_HD_LIBRARY";  // path or name of the vendor's library
 inline constexpr const char* kHdDeviceVariable = "TOUCHAFM_HD_DEVICE";    // name of the device in the vendor's set-up
+inline constexpr const char* kFdLibraryVariable = "TOUCHAFM_FD_LIBRARY";  // path or name of Force Dimension's library
+inline constexpr const char* kFdDeviceVariable = "TOUCHAFM_FD_DEVICE";    // serial number, or "#0" for the first device
 
 // Item that was looked for, and the result: lower case, no full stop.
 struct ProbeLine {
@@ -70,6 +72,7 @@ struct DeviceKind {
   bool renders_force;        // the hand itself feels the force
   HandControls controls;     // names of its controls on the wall
   std::string_view remedy;   // advice for a silent device with an installed driver; empty: a probe cannot detect that
+  std::string_view proof;    // what its driver was tested with, for a device that no hardware has proved; or empty
 
   // Both functions log what they tried, the device itself last.
   core::Result<std::unique_ptr<HapticDevice>> (*open)(const DeviceRequest& request, ProbeLog& log);
@@ -104,7 +107,7 @@ core::Result<OpenedDevice> open_device(const DeviceKind& kind, const Environment
 OpenedDevice open_best_device(const Environment& environment, const core::Clock& clock,
                               const OfferReleasePath& offer = {});
 
-// Probes every kind of device without starting any.
+// Probes every kind of device without starting any. A device that was found has the `proof` of its kind.
 std::vector<ProbeLine> probe_devices(const Environment& environment,
                                      std::chrono::milliseconds patience = kOpeningPatience);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "haptics/device_registry.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -12,6 +14,7 @@
 #include "devices/haply_device.h"
 #include "devices/hdapi_device.h"
 #include "devices/opening_limit.h"
+#include "forcedimension/dhd_device.h"
 #include "haptics/simulated_device.h"
 
 namespace afm::haptics {
@@ -32,14 +35,25 @@ constexpr std::array kDevices{
                .renders_force = true,
                .controls = HandControls::Pen,
                .remedy = "switch it on and run the manufacturer's set-up program",
+               .proof = "tested with a stand-in for its library only",
                .open = open_hdapi,
                .probe = probe_hdapi},
+    DeviceKind{.word = "forcedimension",
+               .subject = "forcedimension device",
+               .meaning = "omega, delta, sigma, lambda or Falcon, through Force Dimension's library",
+               .renders_force = true,
+               .controls = HandControls::Device,
+               .remedy = "switch it on and run the manufacturer's test program",
+               .proof = "tested with a stand-in for its library only",
+               .open = open_force_dimension,
+               .probe = probe_force_dimension},
     DeviceKind{.word = "haply",
                .subject = "haply device",
-               .meaning = "Inverse3, through the manufacturer's service",
+               .meaning = "Inverse3, Inverse3x or Minverse, through the manufacturer's service",
                .renders_force = true,
                .controls = HandControls::Grip,
                .remedy = {},
+               .proof = "tested with a stand-in for its service only",
                .open = open_haply,
                .probe = probe_haply},
     DeviceKind{.word = "gamepad",
@@ -48,6 +62,7 @@ constexpr std::array kDevices{
                .renders_force = false,
                .controls = HandControls::Gamepad,
                .remedy = {},
+               .proof = {},
                .open = open_gamepad,
                .probe = probe_gamepads},
     DeviceKind{.word = "sim",
@@ -56,6 +71,7 @@ constexpr std::array kDevices{
                .renders_force = false,
                .controls = HandControls::Simulated,
                .remedy = {},
+               .proof = {},
                .open = open_simulated,
                .probe = probe_simulated},
 };
@@ -109,7 +125,11 @@ std::vector<ProbeLine> probe_devices(const Environment& environment, std::chrono
     const OpeningLimit limit(std::string(kind.subject), patience);
     ProbeLog log(kind.subject);
     kind.probe(environment, log);
-    lines.insert(lines.end(), log.lines().begin(), log.lines().end());
+    for (ProbeLine line : log.lines()) {
+      if (line.usable && line.subject == kind.subject && !kind.proof.empty())
+        line.said += fmt::format("; {}", kind.proof);
+      lines.push_back(std::move(line));
+    }
   }
   return lines;
 }

@@ -12,8 +12,8 @@
 #include "core/clock.h"
 #include "core/latest_value.h"
 #include "core/result.h"
-#include "devices/driver_thread.h"
 #include "devices/force_rumble.h"
+#include "drivers/driver_thread.h"
 #include "haptics/device_registry.h"
 #include "haptics/simulated_device.h"
 

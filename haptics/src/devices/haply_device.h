@@ -11,7 +11,9 @@
 #include "core/clock.h"
 #include "core/latest_value.h"
 #include "core/result.h"
-#include "devices/driver_thread.h"
+#include "devices/haply_message.h"
+#include "drivers/command_fade.h"
+#include "drivers/driver_thread.h"
 #include "haptics/device_registry.h"
 
 namespace afm::haptics {
@@ -20,33 +22,31 @@ class HaplyLink;
 
 inline constexpr std::uint16_t kHaplyServicePort = 10001;  // port of the manufacturer's service on this machine
 inline constexpr const char* kHaplyPortVariable = "TOUCHAFM_HAPLY_PORT";
+inline constexpr const char* kHaplyDeviceVariable = "TOUCHAFM_HAPLY_DEVICE";  // id of the arm, if there are several
 
-// Haply Inverse3, through the Inverse Service that the manufacturer's set-up starts on this machine. One thread talks
-// to the service, one message in each direction about every millisecond; the servo reads the newest position, writes
-// the newest force, and never waits. Turn-On is the grip's button.
+// Haply Inverse3, Inverse3x or Minverse, through the Inverse Service that the manufacturer's set-up starts on this
+// machine. One thread talks to the service, one message in each direction about every millisecond; the servo reads the
+// newest position, writes the newest force, and never waits. Turn-On is the grip's button.
 //
-// - A force that the servo has not renewed for kStaleNs fades to exactly zero within kReleaseNs, and returns over
-//   kReturnNs.
+// - A force that the servo has not renewed fades to zero (CommandFade).
 // - Without a position for kStallNs the device is not healthy, so the governor cuts the force, and zero is sent
 //   unasked: the service keeps applying the last force, even while it reports nothing. Zero is also sent before every
 //   disconnection.
-// - A lost service is looked for again every kRetryNs.
+// - A lost service is looked for again every kRetryNs. The arm stays the same: a force never moves to another hand.
 class HaplyDevice final : public HapticDevice {
  public:
-  static constexpr std::int64_t kStaleNs = 5'000'000;
-  static constexpr std::int64_t kReleaseNs = 10'000'000;
-  static constexpr std::int64_t kReturnNs = 100'000'000;
   static constexpr std::int64_t kStallNs = 20'000'000;
   static constexpr std::int64_t kRetryNs = 200'000'000;
 
-  // DeviceMissing: no service, or no Inverse3 that reports its position within two seconds. `clock` must outlive the
-  // device, and is the one that provides the time of read(). `offer` is called for each connection.
+  // Takes the arm with the id `wanted`, or the first one if that is empty. DeviceMissing: no service, or no such arm
+  // that reports its position within two seconds. `clock` must outlive the device, and is the one that provides the
+  // time of read(). `offer` is called for each connection.
   static core::Result<std::unique_ptr<HaplyDevice>> open(const core::Clock& clock,
                                                          std::uint16_t port = kHaplyServicePort,
-                                                         OfferReleasePath offer = {});
+                                                         OfferReleasePath offer = {}, const std::string& wanted = {});
 
-  // Checks that the service answers; starts nothing.
-  static core::Result<void> query(std::uint16_t port = kHaplyServicePort);
+  // Devices that the service lists; starts nothing.
+  static core::Result<HaplyInventory> query(std::uint16_t port = kHaplyServicePort);
 
   ~HaplyDevice() override;  // sends zero force first
 
@@ -61,16 +61,15 @@ class HaplyDevice final : public HapticDevice {
     glm::dvec3 position_m{0.0};
     std::uint32_t button = 0;
   };
-  struct TimedForce {
-    std::int64_t time_ns = 0;
-    glm::dvec3 force_n{0.0};
-  };
 
-  HaplyDevice(const core::Clock& clock, std::uint16_t port, std::unique_ptr<HaplyLink> link, OfferReleasePath offer);
+  HaplyDevice(const core::Clock& clock, std::uint16_t port, std::unique_ptr<HaplyLink> link, OfferReleasePath offer,
+              const std::string& wanted);
 
   void serve() noexcept;  // starts with the connection in `link_`
   void exchange();
   void part() noexcept;
+  void list(const std::string& message);
+  HaplyName typed(const HaplyName& arm) const;
   void offer_release() const;
   void tell(const glm::dvec3& force_n);
   glm::dvec3 force_for(std::int64_t now_ns);
@@ -86,18 +85,23 @@ class HaplyDevice final : public HapticDevice {
   std::atomic<bool> closing_{false};
   std::atomic<bool> exchanging_{true};  // false once the connection has ended with zero force
   std::atomic<bool> released_{true};    // no force sent since the last zero
+  HaplyName first_;                     // arm that was taken; constant once known_ is set
+  std::atomic<bool> known_{false};
 
   // servo's thread
   Frame frame_;
 
   // service's thread
-  std::string device_id_;
+  std::string wanted_;  // id of the arm; empty until the first one is known
+  HaplyName arm_;       // arm whose position the connection has; empty: none yet
+  HaplyInventory inventory_;
+  std::string listed_;  // newest list of devices in the log
   TimedForce command_;
   std::int64_t force_ns_ = 0;
   std::int64_t heard_ns_ = 0;
   std::int64_t complained_ns_ = 0;
-  std::int64_t trust_ns_ = 0;  // 0: command ignored; kReturnNs: command applied fully
-  DriverThread thread_;        // last member: it uses all the others
+  CommandFade fade_;
+  DriverThread thread_;  // last member: it uses all the others
 };
 
 // Entry for the registry.

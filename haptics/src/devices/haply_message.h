@@ -5,22 +5,46 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 // Messages of Haply's Inverse Service, version 3, in TouchAFM's frame: right +x, up +y, towards the user +z. The
-// service's own frame is right +x, away +y, up +z.
+// service's own frame is right +x, away +y, up +z. A message has one list for each family of devices; the service's
+// documents (3.5) name inverse3, inverse3x and minverse as one family of arms, and three of grips.
 namespace afm::haptics {
 
-struct HaplyState {
-  std::string device_id;     // first Inverse3
-  glm::dvec3 position_m{0};  // from the centre of its mounting plate
-  bool button = false;       // grip button, wireless or not
+// Device of a message: the name of its list, and its id there.
+struct HaplyName {
+  std::string family;
+  std::string id;
+
+  bool operator==(const HaplyName&) const = default;
 };
 
-// Empty if the bytes are not a message, or contain no Inverse3 with a plausible position. Accepts any bytes; any
-// thread.
-std::optional<HaplyState> parse_haply_state(std::string_view message);
+struct HaplyState {
+  HaplyName device;
+  glm::dvec3 position_m{0};  // from the centre of its mounting plate
+  bool button = false;       // any grip's button, wireless or not
+};
+
+// Devices that a message lists. Their `family` is here the type that the device itself names, in the first message of a
+// connection only, or else its list.
+struct HaplyInventory {
+  std::vector<HaplyName> arms;  // can be driven, in order
+  std::vector<HaplyName> grips;
+  std::vector<HaplyName> unknown;  // in lists without a name here
+};
+
+// State of the arm with the id `wanted`, or of the first one if that is empty. Empty if the bytes are not a message, or
+// contain no such arm with a plausible position. Accepts any bytes; any thread.
+std::optional<HaplyState> parse_haply_state(std::string_view message, std::string_view wanted = {});
+
+// At most 16 devices of each kind; empty lists for bytes that are not a message.
+HaplyInventory parse_haply_inventory(std::string_view message);
+
+// "inverse3 049D, inverse3x 0012; grips verse_grip 1; unknown hexaverse 7"; "no device".
+std::string text_of(const HaplyInventory& inventory);
 
 // The service applies a force once, and answers with its next state.
-std::string haply_force_message(const std::string& device_id, const glm::dvec3& force_n);
+std::string haply_force_message(const HaplyName& device, const glm::dvec3& force_n);
 
 }  // namespace afm::haptics

@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstddef>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <utility>
 
 #include "core/log.h"
 #include "devices/hdapi_numbers.h"
 #include "devices/hdapi_setup.h"
-#include "devices/release_patience.h"
+#include "drivers/release_patience.h"
 
 namespace afm::haptics {
 
@@ -24,12 +22,6 @@ constexpr std::int64_t kSchedulerPeriodNs = 1'000'000;
 constexpr auto kSupervisionPause = std::chrono::milliseconds(5);
 constexpr auto kFirstFramePatience = std::chrono::seconds(1);
 constexpr int kMostErrorsInAFrame = 8;
-constexpr std::int64_t kForEver = std::numeric_limits<std::int64_t>::max();
-
-// Largest plausible motion between two callbacks, in which a hand moves a millimetre at most. The figures for the
-// workspace have some tolerance as well.
-constexpr double kLongestLeapM = 0.05;
-constexpr double kWorkspacePlayM = 0.1;
 
 }  // namespace
 
@@ -60,8 +52,9 @@ HdapiDevice::HdapiDevice(const HdapiFunctions& functions, const core::Clock& clo
       clock_(clock),
       handle_(handle),
       spec_(std::move(spec)),
+      places_(spec_.workspace_min_m, spec_.workspace_max_m),
       calibration_{.style = hdapi::calibration_style(functions)} {
-  spec_.force_lasts_s = core::seconds(kStaleNs);
+  spec_.force_lasts_s = core::seconds(CommandFade::kStaleNs);
 }
 
 core::Result<void> HdapiDevice::start(Supervision supervision) {
@@ -115,19 +108,6 @@ HdapiDevice::~HdapiDevice() {
   hd_.disable_device(handle_);
 }
 
-DeviceSample HdapiDevice::read(std::int64_t now_ns) noexcept {
-  tick_ns_ = now_ns;
-  if (const auto frame = frames_.try_load()) seen_ = *frame;
-  return {.position_m = seen_.position_m,
-          .turn_on = (seen_.buttons & hdapi::kFirstButton) != 0,
-          .healthy = seen_.ready != 0 && now_ns - seen_.time_ns <= kStallNs,
-          .motor_heat = seen_.motor_heat};
-}
-
-void HdapiDevice::write(const ForceCommand& command) noexcept {
-  commands_.store({.time_ns = tick_ns_, .force_n = command.force_n()});
-}
-
 HdapiHealth HdapiDevice::health(std::int64_t now_ns) const noexcept {
   if (called_.load() && now_ns - last_frame_ns_.load() > kStallNs) return HdapiHealth::SchedulerStalled;
   return health_.load();
@@ -142,12 +122,7 @@ std::optional<std::string> HdapiDevice::supervise() {
     output_cut_.store(true);
   }
   cut_ = stalled;
-  // a driver with too few callbacks keeps stalling and recovering
-  const std::int64_t now_ns = clock_.now_ns();
-  std::int64_t& told_ns = told_.at_ns[static_cast<std::size_t>(now)];
-  if (now == told_.newest || (told_ns != 0 && now_ns - told_ns < kSameLineNs)) return std::nullopt;
-  told_.newest = now;
-  told_ns = now_ns;
+  if (!told_.is_news(now, clock_.now_ns())) return std::nullopt;
   const std::uint32_t code = stalled ? 0 : error_code_.load();
   return fmt::format("{}: {}{}", spec_.name, describe(now),
                      code == 0 ? "" : fmt::format("; the driver said: {}", hdapi::error_text(hd_, code)));
@@ -160,7 +135,7 @@ std::uint32_t HdapiDevice::call(void* self) noexcept {
 
 void HdapiDevice::run_frame() noexcept {
   const std::int64_t now_ns = clock_.now_ns();
-  const std::int64_t elapsed_ns = std::clamp<std::int64_t>(now_ns - frame_.time_ns, 0, kReleaseNs);
+  const std::int64_t elapsed_ns = std::clamp<std::int64_t>(now_ns - frame_.time_ns, 0, CommandFade::kReleaseNs);
   frame_.time_ns = now_ns;
 
   hd_.begin_frame(handle_);
@@ -174,8 +149,8 @@ void HdapiDevice::run_frame() noexcept {
 
   const HdapiHealth health = own_health(now_ns);
   frame_.ready = health == HdapiHealth::Ready ? 1 : 0;
-  frames_.store(frame_);
-  error_code_.store(health == fault_.health ? fault_.code : 0);
+  mailbox_.publish(frame_);
+  error_code_.store(fault_.code_of(health));
   health_.store(health);
   last_frame_ns_.store(now_ns);
   called_.store(true);
@@ -188,7 +163,7 @@ void HdapiDevice::read_hand(std::int64_t now_ns) noexcept {
   hd_.get_doubles(hdapi::kPosition, mm.data());
   std::array<std::int32_t, hdapi::kRoomForValues> buttons{};
   hd_.get_integers(hdapi::kButtons, buttons.data());
-  frame_.buttons = static_cast<std::uint32_t>(buttons[0]);
+  frame_.turn_on = (static_cast<std::uint32_t>(buttons[0]) & hdapi::kFirstButton) != 0 ? 1 : 0;
   if (measures_heat_) {
     std::array<double, hdapi::kRoomForValues> heat{};
     hd_.get_doubles(hdapi::kMotorTemperature, heat.data());
@@ -200,18 +175,11 @@ void HdapiDevice::read_hand(std::int64_t now_ns) noexcept {
   }
 
   const glm::dvec3 position_m = 1e-3 * glm::dvec3(mm[0], mm[1], mm[2]);
-  bool inside = true;
-  for (int axis = 0; axis < 3; ++axis) {
-    // NaN compares false
-    inside = inside && position_m[axis] >= spec_.workspace_min_m[axis] - kWorkspacePlayM &&
-             position_m[axis] <= spec_.workspace_max_m[axis] + kWorkspacePlayM;
+  if (places_.accepts(position_m)) {
+    frame_.position_m = position_m;
+  } else {
+    raise(HdapiHealth::ImplausiblePosition, 0, now_ns);
   }
-  const bool leapt = inside && has_position_ && glm::length(position_m - raw_position_m_) > kLongestLeapM;
-  if (!inside || leapt) raise(HdapiHealth::ImplausiblePosition, 0, now_ns);
-  if (!inside) return;
-  raw_position_m_ = position_m;
-  has_position_ = true;
-  if (!leapt) frame_.position_m = position_m;
 }
 
 void HdapiDevice::follow_calibration(std::int64_t now_ns) noexcept {
@@ -242,14 +210,8 @@ void HdapiDevice::switch_output(bool on) noexcept {
 }
 
 void HdapiDevice::send_force(std::int64_t now_ns, std::int64_t elapsed_ns) noexcept {
-  if (const auto command = commands_.try_load()) command_ = *command;
-  const bool stale = now_ns - command_.time_ns > kStaleNs;
-  // in whole nanoseconds, so that the fade ends at exactly zero
-  trust_ns_ =
-      std::clamp<std::int64_t>(trust_ns_ + (stale ? -elapsed_ns * (kReturnNs / kReleaseNs) : elapsed_ns), 0, kReturnNs);
-  const double gain = static_cast<double>(trust_ns_) / static_cast<double>(kReturnNs);
-
-  const glm::dvec3 target_n = output_ == Output::On ? gain * command_.force_n : glm::dvec3(0.0);
+  const glm::dvec3 wanted_n = mailbox_.wanted_n(now_ns, elapsed_ns);
+  const glm::dvec3 target_n = output_ == Output::On ? wanted_n : glm::dvec3(0.0);
   // two of the servo's ticks may fall between two callbacks
   const double seconds = 1e-9 * static_cast<double>(std::min(elapsed_ns, kSchedulerPeriodNs));
   const double longest_step_n = kUsableLimitShare * spec_.max_slew_n_per_s * seconds;
@@ -270,52 +232,27 @@ void HdapiDevice::take_errors(std::int64_t now_ns) noexcept {
 }
 
 void HdapiDevice::raise(HdapiHealth fault, std::uint32_t error_code, std::int64_t now_ns) noexcept {
-  if (fault_.until_ns == kForEver) return;
-  const auto recovery = recovery_ns(fault);
-  fault_.health = fault;
-  fault_.code = error_code;
-  fault_.until_ns = recovery ? now_ns + *recovery : kForEver;
+  fault_.raise(fault, recovery_ns(fault), error_code, now_ns);
 }
 
 HdapiHealth HdapiDevice::own_health(std::int64_t now_ns) const noexcept {
-  return now_ns < fault_.until_ns ? fault_.health : calibration_.health;
+  return fault_.health(calibration_.health, now_ns);
 }
 
 namespace {
 
-// Removes the name that the dynamic linker repeats.
-std::string without_name(const LibraryAttempt& attempt) {
-  const std::string prefix = attempt.name + ": ";
-  return attempt.refusal.starts_with(prefix) ? attempt.refusal.substr(prefix.size()) : attempt.refusal;
-}
-
 // Loads the library, or returns nothing; logs the attempts.
 std::optional<HdapiFunctions> find_library(const Environment& environment, ProbeLog& log) {
   const HdapiSearch search = load_hdapi(environment(kHdLibraryVariable));
-  for (const LibraryAttempt& attempt : search.attempts) {
-    const bool taken = attempt.refusal.empty();
-    log.tried("hdapi library " + attempt.name, taken, taken ? "loaded" : without_name(attempt));
-  }
+  log_attempts("hdapi library", search.attempts, log);
   return search.functions;
-}
-
-std::string joined(const std::vector<ProbeLine>& lines) {
-  std::string text;
-  for (const ProbeLine& line : lines)
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", line.subject, line.said);
-  return text;
 }
 
 }  // namespace
 
 core::Result<std::unique_ptr<HapticDevice>> open_hdapi(const DeviceRequest& request, ProbeLog& log) {
   const auto functions = find_library(request.environment, log);
-  if (!functions) {
-    return core::failure(
-        core::ErrorCategory::DeviceMissing,
-        fmt::format("no hdapi device: {}; install the device's driver, or set {} to the path of its library",
-                    joined(log.lines()), kHdLibraryVariable));
-  }
+  if (!functions) return no_library("hdapi device", log, kHdLibraryVariable);
   auto device = HdapiDevice::open(*functions, request.clock, request.environment(kHdDeviceVariable));
   if (!device) {
     log.missing(device.error().message);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -11,10 +10,12 @@
 #include <thread>
 
 #include "core/clock.h"
-#include "core/latest_value.h"
 #include "core/result.h"
 #include "devices/hdapi_health.h"
 #include "devices/hdapi_library.h"
+#include "drivers/driver_faults.h"
+#include "drivers/driver_mailbox.h"
+#include "drivers/place_filter.h"
 #include "haptics/device_registry.h"
 
 namespace afm::haptics {
@@ -25,20 +26,15 @@ namespace afm::haptics {
 // servo's newest command to the device, and stores the hand's position. The servo reads and writes at its own rate. The
 // supervisor watches the scheduler and reports changes.
 //
-// - The scheduler's side does not trust the servo: a command older than kStaleNs fades to exactly zero within
-//   kReleaseNs, and returns over kReturnNs.
+// - The scheduler's side does not trust the servo: it fades an old command to zero (CommandFade).
 // - The servo's side does not trust the scheduler: without a callback for kStallNs the device is not healthy, so the
 //   governor cuts the force.
 // - No step of the force exceeds the device's own limit, except that zero takes effect at once.
 // - The force output is on only while the device is Ready; it is off before a calibration.
 class HdapiDevice final : public HapticDevice {
  public:
-  static constexpr std::int64_t kStaleNs = 5'000'000;
-  static constexpr std::int64_t kReleaseNs = 10'000'000;
-  static constexpr std::int64_t kReturnNs = 100'000'000;
   static constexpr std::int64_t kStallNs = 5'000'000;
   static constexpr std::int64_t kCalibrationCheckNs = 100'000'000;
-  static constexpr std::int64_t kSameLineNs = 10'000'000'000;  // between two identical lines
 
   // Caller of supervise(): the device's own thread, or a test.
   enum class Supervision { Thread, Caller };
@@ -58,8 +54,8 @@ class HdapiDevice final : public HapticDevice {
   ~HdapiDevice() override;
 
   const DeviceSpec& spec() const noexcept override { return spec_; }
-  DeviceSample read(std::int64_t now_ns) noexcept override;
-  void write(const ForceCommand& command) noexcept override;
+  DeviceSample read(std::int64_t now_ns) noexcept override { return mailbox_.read(now_ns); }
+  void write(const ForceCommand& command) noexcept override { mailbox_.write(command); }
 
   // Health of the device at `now_ns`. Any thread.
   HdapiHealth health(std::int64_t now_ns) const noexcept;
@@ -70,33 +66,12 @@ class HdapiDevice final : public HapticDevice {
   std::optional<std::string> supervise();
 
  private:
-  struct Frame {
-    std::int64_t time_ns = 0;
-    glm::dvec3 position_m{0.0};
-    double motor_heat = 0;
-    std::uint32_t buttons = 0;
-    std::uint32_t ready = 0;
-  };
-  struct TimedForce {
-    std::int64_t time_ns = 0;
-    glm::dvec3 force_n{0.0};
-  };
   enum class Output { Unknown, Off, On };
   struct Calibration {
     std::uint32_t style = 0;
     HdapiHealth health = HdapiHealth::Starting;
     std::int64_t checked_ns = 0;
   };
-  struct Fault {
-    HdapiHealth health = HdapiHealth::Ready;
-    std::uint32_t code = 0;
-    std::int64_t until_ns = 0;
-  };
-  struct Told {
-    HdapiHealth newest = HdapiHealth::Starting;
-    std::array<std::int64_t, static_cast<std::size_t>(HdapiHealth::DeviceFault) + 1> at_ns{};  // time of each line
-  };
-
   HdapiDevice(const HdapiFunctions& functions, const core::Clock& clock, HdapiHandle handle, DeviceSpec spec);
 
   core::Result<void> start(Supervision supervision);
@@ -121,8 +96,7 @@ class HdapiDevice final : public HapticDevice {
   bool measures_heat_ = false;
 
   // shared by the threads
-  core::LatestValue<Frame> frames_;
-  core::LatestValue<TimedForce> commands_;
+  DriverMailbox mailbox_{kStallNs};
   std::atomic<bool> called_{false};
   std::atomic<std::int64_t> last_frame_ns_{0};
   std::atomic<HdapiHealth> health_{HdapiHealth::Starting};
@@ -132,22 +106,15 @@ class HdapiDevice final : public HapticDevice {
   std::atomic<bool> released_{false};  // zero force sent since closing began
 
   // scheduler's thread
-  Frame frame_;
-  bool has_position_ = false;
-  glm::dvec3 raw_position_m_{0.0};
+  DriverFrame frame_;
+  PlaceFilter places_;
   Calibration calibration_;
-  Fault fault_;
+  HeldFault<HdapiHealth> fault_;
   Output output_ = Output::Unknown;
-  TimedForce command_;
-  std::int64_t trust_ns_ = 0;  // 0 to kReturnNs: weight of the servo's commands
   glm::dvec3 force_n_{0.0};
 
-  // servo's thread
-  Frame seen_;
-  std::int64_t tick_ns_ = 0;
-
   // supervisor's thread
-  Told told_;
+  ToldHealth<HdapiHealth, HdapiHealth::DeviceFault> told_;
   bool cut_ = false;
   std::thread supervisor_;
 };

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/hdapi_library.h"
 
-#include <dlfcn.h>
-
-#include "devices/function_binder.h"
+#include "drivers/function_binder.h"
 
 namespace afm::haptics {
 
@@ -12,7 +10,7 @@ namespace {
 // 3.4 drives the Touch (USB, Ethernet), 3.0 the Omni (FireWire).
 constexpr const char* kLibraryNames[] = {"libHD.so.3.4", "libHD.so.3.0", "libHD.so"};
 
-// Empty if all functions were found.
+// Reason for a refusal; empty if all functions were found.
 std::string bind_all(void* library, HdapiFunctions& hd) {
   FunctionBinder binder(library);
   binder.bind("hdInitDevice", hd.init_device);
@@ -35,33 +33,13 @@ std::string bind_all(void* library, HdapiFunctions& hd) {
   binder.bind("hdSetSchedulerRate", hd.set_scheduler_rate);
   binder.bind("hdScheduleAsynchronous", hd.schedule_asynchronous);
   binder.bind("hdUnschedule", hd.unschedule);
-  return binder.missing();
+  return binder.refusal();
 }
 
 }  // namespace
 
 HdapiSearch load_hdapi(const std::string& configured) {
-  std::vector<std::string> names(std::begin(kLibraryNames), std::end(kLibraryNames));
-  if (!configured.empty()) names = {configured};
-
-  HdapiSearch search;
-  for (const std::string& name : names) {
-    LibraryAttempt& attempt = search.attempts.emplace_back(LibraryAttempt{name, {}});
-    // never closed, not even when refused; its own plug-ins look for its symbols among the global ones
-    void* library = ::dlopen(name.c_str(), RTLD_NOW | RTLD_GLOBAL);
-    if (library == nullptr) {
-      attempt.refusal = linker_error();
-      continue;
-    }
-    HdapiFunctions functions;
-    if (const std::string missing = bind_all(library, functions); !missing.empty()) {
-      attempt.refusal = "it lacks the function " + missing;
-      continue;
-    }
-    search.functions = functions;
-    break;
-  }
-  return search;
+  return search_library<HdapiFunctions>(kLibraryNames, configured, bind_all);
 }
 
 }  // namespace afm::haptics

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
+
+#include "drivers/vendor_library.h"
 
 // Vendor's library of the PHANTOM Omni and Touch ("HDAPI"), installed by the lab and loaded at run time. Names, types
 // and numbers are our own, based only on the facts of the interface (x86-64 SysV, plain C): no header, binary or text
@@ -48,17 +48,7 @@ struct HdapiFunctions {
   void (*unschedule)(HdapiSchedulerHandle callback) = nullptr;
 };
 
-// Library that was tried. `refusal` is the reason why it was rejected, the dynamic linker's message or a missing
-// function; empty for the one in use.
-struct LibraryAttempt {
-  std::string name;
-  std::string refusal;
-};
-
-struct HdapiSearch {
-  std::optional<HdapiFunctions> functions;
-  std::vector<LibraryAttempt> attempts;  // in order; the last one is in use if `functions` is set
-};
+using HdapiSearch = LibrarySearch<HdapiFunctions>;
 
 // Loads only `configured` if it is not empty; otherwise the first of libHD.so.3.4, libHD.so.3.0 and libHD.so that can
 // be loaded and has every function of HdapiFunctions. Libraries stay loaded for the lifetime of the process: the driver

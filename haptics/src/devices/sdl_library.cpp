@@ -2,9 +2,10 @@
 #include "devices/sdl_library.h"
 
 #include <dlfcn.h>
-#include <fmt/core.h>
 
-#include "devices/function_binder.h"
+#include <utility>
+
+#include "drivers/function_binder.h"
 
 namespace afm::haptics {
 
@@ -41,9 +42,8 @@ core::Result<SdlFunctions> load_sdl() {
   binder.bind("SDL_HapticUpdateEffect", sdl.update_effect);
   binder.bind("SDL_HapticRunEffect", sdl.run_effect);
   binder.bind("SDL_HapticStopEffect", sdl.stop_effect);
-  if (!binder.missing().empty()) {
-    return core::failure(core::ErrorCategory::DeviceMissing, fmt::format("it lacks the function {}", binder.missing()));
-  }
+  if (auto refusal = binder.refusal(); !refusal.empty())
+    return core::failure(core::ErrorCategory::DeviceMissing, std::move(refusal));
   return sdl;
 }
 

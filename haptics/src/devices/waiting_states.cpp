@@ -11,7 +11,7 @@ WaitingStates::Taken WaitingStates::take(const std::function<std::optional<std::
   bool last = false;
   for (auto message = receive(true); message; message = receive(false)) {
     taken.asked = true;
-    if (auto state = parse_haply_state(*message)) last_ = std::move(state);
+    if (auto state = parse_haply_state(*message, wanted_)) last_ = std::move(state);
     if (last) return taken;
     last = late();  // one last read, or a slow thread would consider every state outdated
   }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "devices/haply_message.h"
 
@@ -14,6 +15,12 @@ namespace afm::haptics {
 // connection, one thread.
 class WaitingStates {
  public:
+  // Only states of the arm with the id `wanted` count; empty: of the first one.
+  explicit WaitingStates(std::string wanted = {}) : wanted_(std::move(wanted)) {}
+
+  // From now on only states of this arm count: a force must not move to another hand.
+  void keep_to(const std::string& id) { wanted_ = id; }
+
   struct Taken {
     bool asked = false;                // the service has sent something, and waits for a force
     std::optional<HaplyState> newest;  // last in the queue; empty while more are queued, or for invalid bytes
@@ -24,6 +31,7 @@ class WaitingStates {
   Taken take(const std::function<std::optional<std::string>(bool first)>& receive, const std::function<bool()>& late);
 
  private:
+  std::string wanted_;
   std::optional<HaplyState> last_;  // not the last in the queue
 };
 

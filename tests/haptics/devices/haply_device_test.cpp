@@ -228,6 +228,48 @@ TEST(HaplyDevice, IsNotHealthyWhileTheServiceIsSilentOrGoneAndComesBack) {
   EXPECT_TRUE(eventually(healthy));
 }
 
+TEST(HaplyDevice, TakesTheArmThatIsWantedWithTheLimitsOfItsType) {
+  HaplyService service(HaplyService::Manner::Crowd);
+  const auto listed = HaplyDevice::query(service.port());
+  ASSERT_TRUE(listed) << listed.error().message;
+  EXPECT_EQ(text_of(*listed), "inverse3 049D, minverse 0012; unknown hexaverse 9");
+
+  const auto first = HaplyDevice::open(kClock, service.port());
+  ASSERT_TRUE(first) << first.error().message;
+  EXPECT_EQ((*first)->spec().name, "Haply Inverse3 049D");
+  EXPECT_EQ((*first)->spec().max_force_n, 2.2);
+
+  HaplyService other(HaplyService::Manner::Crowd);
+  const auto second = HaplyDevice::open(kClock, other.port(), {}, "0012");
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_EQ((*second)->spec().name, "Haply Minverse 0012");
+  EXPECT_EQ((*second)->spec().max_force_n, 1.1);
+  ASSERT_TRUE(eventually([&] { return !other.forces().empty(); }));
+  for (const auto& force : other.forces()) EXPECT_EQ(force.id, "0012");
+}
+
+TEST(HaplyDevice, SaysThatTheWantedArmIsMissing) {
+  const HaplyService service(HaplyService::Manner::Crowd);
+  const auto none = HaplyDevice::open(kClock, service.port(), {}, "0099");
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().category, afm::core::ErrorCategory::DeviceMissing);
+  EXPECT_THAT(none.error().message, HasSubstr("reported no device 0099 within 2 s"));
+}
+
+// The hand on one arm must not feel what the other one does.
+TEST(HaplyDevice, NeverMovesItsForceToAnotherArm) {
+  HaplyService service(HaplyService::Manner::Crowd);
+  const auto device = HaplyDevice::open(kClock, service.port());
+  ASSERT_TRUE(device) << device.error().message;
+  ASSERT_TRUE(eventually([&] { return (*device)->read(kClock.now_ns()).healthy; }));
+  service.second_only = true;
+  ASSERT_TRUE(eventually([&] { return !(*device)->read(kClock.now_ns()).healthy; }));
+  service.hang_up();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_FALSE((*device)->read(kClock.now_ns()).healthy);
+  for (const auto& force : service.forces()) EXPECT_EQ(force.id, "049D");
+}
+
 TEST(HaplyDevice, SaysWhatIsMissing) {
   std::uint16_t free_port = 0;
   {

@@ -47,6 +47,14 @@ class HaplyService::Server {
       return "{\"inverse3\": [{\"device_id\": \"049D\", \"state\": {\"cursor_position\": ";
     if (told_.manner == Manner::NoDevice) return "{\"inverse3\": []}";
     const nlohmann::json place{{"x", 0.01 + tremor_m()}, {"y", -0.12}, {"z", told_.up_m.load()}};
+    if (told_.manner == Manner::Crowd) {
+      const nlohmann::json inverse3{{"device_id", "049D"}, {"state", {{"cursor_position", place}}}};
+      const nlohmann::json minverse{
+          {"device_id", "0012"}, {"config", {{"type", "minverse"}}}, {"state", {{"cursor_position", place}}}};
+      nlohmann::json arms = nlohmann::json::array({inverse3, minverse});
+      if (told_.second_only) arms.erase(0);
+      return nlohmann::json{{"inverse3", arms}, {"hexaverse", {{{"device_id", "9"}}}}}.dump();
+    }
     return nlohmann::json{
         {"inverse3", {{{"device_id", "049D"}, {"state", {{"cursor_position", place}}}}}},
         {"wireless_verse_grip",
@@ -117,9 +125,10 @@ class HaplyService::Server {
     const auto message = nlohmann::json::parse(
         std::string_view(static_cast<const char*>(buffer.cdata().data()), buffer.size()), nullptr, false);
     buffer.clear();
-    const auto& values = message["inverse3"][0]["commands"]["set_cursor_force"]["values"];
+    const auto& device = message["inverse3"][0];
+    const auto& values = device["commands"]["set_cursor_force"]["values"];
     const std::lock_guard lock(mutex_);
-    forces_.push_back({values["x"], values["y"], values["z"]});
+    forces_.push_back({values["x"], values["y"], values["z"], device["device_id"]});
   }
 
   const HaplyService& told_;

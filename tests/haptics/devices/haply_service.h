@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace afm::test {
@@ -12,9 +13,10 @@ namespace afm::test {
 // documented for the service. One client at a time; the last one may reconnect.
 class HaplyService {
  public:
-  // Mute: no handshake. Silent: accepts forces but reports nothing. TooLong: reports a state of 100 kB, then waits for
-  // input. Late: as TooLong, 50 ms after a force.
-  enum class Manner { Proper, Silent, Babbling, NoDevice, TooLong, Late, Mute };
+  // Crowd: a Minverse and a device of an unknown family beside the Inverse3, in the list of an Inverse3. Mute: no
+  // handshake. Silent: accepts forces but reports nothing. TooLong: reports a state of 100 kB, then waits for input.
+  // Late: as TooLong, 50 ms after a force.
+  enum class Manner { Proper, Crowd, Silent, Babbling, NoDevice, TooLong, Late, Mute };
 
   HaplyService() : HaplyService(Manner::Proper) {}
   explicit HaplyService(Manner first);
@@ -29,12 +31,14 @@ class HaplyService {
 
   struct Force {
     double x, y, z;  // the service's axes
+    std::string id;  // device to which it was sent
   };
   std::vector<Force> forces() const;
 
   std::atomic<Manner> manner;
   std::atomic<double> up_m{0.18};  // height of the cursor
   std::atomic<bool> button{false};
+  std::atomic<bool> second_only{false};  // the Inverse3 has left the crowd
 
  private:
   class Server;

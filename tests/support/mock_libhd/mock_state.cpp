@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <string_view>
 
 namespace mock_hd {
@@ -65,11 +64,7 @@ void Mock::follow_environment() {
   }
   if (const char* file_name = std::getenv("MOCK_HD_SCRIPT")) {
     threaded = true;
-    std::ifstream file(file_name);
-    KeyFrame key;
-    while (file >> key.seconds >> key.position_mm[0] >> key.position_mm[1] >> key.position_mm[2] >> key.buttons)
-      script.push_back(key);
-    if (script.empty()) forbid("MOCK_HD_SCRIPT names no script");
+    if (!script.load(file_name)) forbid("MOCK_HD_SCRIPT names no script");
   }
 }
 
@@ -129,18 +124,9 @@ void Mock::tick() {
 
 void Mock::play_script() {
   if (script.empty()) return;
-  const double whole = script.back().seconds;
-  const double played = 1e-3 * kPeriodMs * static_cast<double>(ticks_);
-  const double seconds = whole > 0 ? std::fmod(played, whole) : 0.0;
-  const auto after = std::find_if(script.begin(), script.end(), [&](const KeyFrame& k) { return k.seconds > seconds; });
-  const KeyFrame& to = after == script.end() ? script.back() : *after;
-  const KeyFrame& from = after == script.begin() ? script.front() : *(after - 1);
-  const double span = to.seconds - from.seconds;
-  const double share = span > 0 ? std::clamp((seconds - from.seconds) / span, 0.0, 1.0) : 0.0;
-  for (unsigned axis = 0; axis < 3; ++axis) {
-    position_mm[axis] = from.position_mm[axis] + share * (to.position_mm[axis] - from.position_mm[axis]);
-  }
-  buttons = from.buttons;
+  const auto moment = script.at(1e-3 * kPeriodMs * static_cast<double>(ticks_));
+  for (unsigned axis = 0; axis < 3; ++axis) position_mm[axis] = moment.position_mm[axis];
+  buttons = moment.buttons;
 }
 
 // What the real driver watches after every tick: beyond a limit it says so and switches its amplifiers off for a while.

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "support/person_script.h"
+
 // The state behind the mock's two interfaces, and the scheduler. Nothing here allocates once the scheduler runs.
 namespace mock_hd {
 
@@ -57,12 +59,6 @@ struct InitFailure {
   int times = 0;
 };
 
-struct KeyFrame {
-  double seconds = 0;
-  Vector position_mm{};
-  int buttons = 0;
-};
-
 class Mock {
  public:
   static Mock& instance();
@@ -83,7 +79,7 @@ class Mock {
 
   // set up while no scheduler runs
   std::vector<InitFailure> init_failures;
-  std::vector<KeyFrame> script;
+  afm::support::PersonScript script;
   bool threaded = false;
   bool hangs = false;  // hdInitDevice does not come back
   double impulse_limit_n_per_ms = 2.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "devices/driver_thread.h"
+#include "drivers/driver_thread.h"
 
 #include <future>
 #include <utility>

@@ -24,7 +24,8 @@ class FunctionBinder {
     if (function == nullptr && missing_.empty()) missing_ = name;
   }
 
-  const std::string& missing() const { return missing_; }
+  // "it lacks the function dhdOpenID"; empty if none is missing.
+  std::string refusal() const { return missing_.empty() ? std::string() : "it lacks the function " + missing_; }
 
  private:
   void* library_;

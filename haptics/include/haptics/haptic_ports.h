@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+// Where haptic devices are plugged in on this computer, found without any driver.
+namespace afm::haptics {
+
+enum class HapticBus { Serial, Hid, Usb };
+
+struct HapticPort {
+  std::string path;    // in /dev
+  std::string device;  // "Touch"; empty for a serial port of an unknown device
+  HapticBus bus = HapticBus::Serial;
+  bool accessible = false;  // the current user may read and write it
+  std::string group;        // the file's, whose members may open it; empty: unknown, or root's
+};
+
+// Serial ports (/dev/ttyACM*), and a Touch that is a HID device, a Force Dimension device or a Falcon at its USB node.
+// Reads /dev and /sys below `root`. Any thread that may wait.
+std::vector<HapticPort> find_haptic_ports(const std::string& root = "/");
+
+// What is to be said of the rights on these ports, for the first one that cannot be opened.
+struct PortRights {
+  bool open = true;       // all can be opened, or there are none
+  std::string said;       // lower case, no full stop
+  std::string group;      // to join; empty: the rule is needed
+  std::string udev_rule;  // row of assets/haptics/70-touchafm-haptics.rules
+};
+PortRights judge_rights(const std::vector<HapticPort>& ports);
+
+}  // namespace afm::haptics

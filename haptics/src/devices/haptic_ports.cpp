@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "haptics/haptic_ports.h"
+
+#include <fmt/core.h>
+#include <grp.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string_view>
+
+namespace afm::haptics {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Sources: bharatm11/Geomagic_Touch_ROS_Drivers #2 and #17, jsk_robot #1907 (a Touch has the vendor 2988, an older one
+// 0301:2988; those sold since 2023 are HID devices without a serial port); sawForceDimensionSDK (1451, 0403:cb48).
+struct KnownPort {
+  HapticBus bus;
+  unsigned vendor;
+  std::optional<unsigned> product;
+  const char* device;
+  const char* udev_rule;
+};
+constexpr const char* kSerialRule = R"(SUBSYSTEM=="tty", ATTRS{idVendor}=="2988", TAG+="uaccess")";
+constexpr KnownPort kKnownPorts[] = {
+    {HapticBus::Serial, 0x2988, {}, "Touch", kSerialRule},
+    {HapticBus::Serial, 0x0301, 0x2988, "Touch",
+     R"(SUBSYSTEM=="tty", ATTRS{idVendor}=="0301", ATTRS{idProduct}=="2988", TAG+="uaccess")"},
+    {HapticBus::Hid, 0x2988, {}, "Touch", R"(SUBSYSTEM=="hidraw", KERNELS=="*:2988:*", TAG+="uaccess")"},
+    {HapticBus::Usb,
+     0x1451,
+     {},
+     "Force Dimension device",
+     R"(SUBSYSTEM=="usb", ATTR{idVendor}=="1451", TAG+="uaccess")"},
+    {HapticBus::Usb, 0x0403, 0xcb48, "Novint Falcon",
+     R"(SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48", TAG+="uaccess")"},
+};
+
+struct UsbNumbers {
+  unsigned vendor = 0;
+  unsigned product = 0;
+};
+
+const KnownPort* find_known(HapticBus bus, const UsbNumbers& numbers) {
+  const auto found = std::find_if(std::begin(kKnownPorts), std::end(kKnownPorts), [&](const KnownPort& known) {
+    return known.bus == bus && known.vendor == numbers.vendor &&
+           known.product.value_or(numbers.product) == numbers.product;
+  });
+  return found == std::end(kKnownPorts) ? nullptr : found;
+}
+
+std::string first_line(const fs::path& file) {
+  std::string line;
+  std::ifstream stream(file);
+  std::getline(stream, line);
+  return line;
+}
+
+// 0 for what is no number.
+unsigned number(std::string_view text, int base) {
+  unsigned value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value, base);
+  return value;
+}
+
+UsbNumbers usb_numbers(const fs::path& device) {
+  return {number(first_line(device / "idVendor"), 16), number(first_line(device / "idProduct"), 16)};
+}
+
+// HID_ID=0003:00002988:00000304 of the HID core.
+UsbNumbers hid_numbers(const fs::path& uevent) {
+  constexpr std::string_view kKey = "HID_ID=";
+  std::ifstream stream(uevent);
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with(kKey)) continue;
+    const std::size_t vendor = line.find(':');
+    const std::size_t product = vendor == std::string::npos ? vendor : line.find(':', vendor + 1);
+    if (product == std::string::npos) return {};
+    return {number(std::string_view(line).substr(vendor + 1, product - vendor - 1), 16),
+            number(std::string_view(line).substr(product + 1), 16)};
+  }
+  return {};
+}
+
+std::string group_of(const fs::path& file) {
+  struct stat status{};
+  if (::stat(file.c_str(), &status) != 0 || status.st_gid == 0) return {};
+  std::array<char, 4096> buffer{};
+  group entry{};
+  group* found = nullptr;
+  ::getgrgid_r(status.st_gid, &entry, buffer.data(), buffer.size(), &found);
+  return found == nullptr ? std::string() : std::string(found->gr_name);
+}
+
+// Names in a folder that begin with `prefix`, sorted; none if there is no such folder.
+std::vector<std::string> names_in(const fs::path& folder, std::string_view prefix) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    std::string name = entry.path().filename().string();
+    if (name.starts_with(prefix)) names.push_back(std::move(name));
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+HapticPort port_at(const fs::path& root, const std::string& path, HapticBus bus, const KnownPort* known) {
+  const fs::path file = root / path.substr(1);
+  return {.path = path,
+          .device = known == nullptr ? "" : known->device,
+          .bus = bus,
+          .accessible = ::access(file.c_str(), R_OK | W_OK) == 0,
+          .group = group_of(file)};
+}
+
+// "/dev/hidraw3 (Touch, a HID device)"
+std::string text_of(const HapticPort& port) {
+  if (port.device.empty()) return port.path;
+  return fmt::format("{} ({}{})", port.path, port.device, port.bus == HapticBus::Hid ? ", a HID device" : "");
+}
+
+}  // namespace
+
+std::vector<HapticPort> find_haptic_ports(const std::string& root) {
+  const fs::path top(root);
+  std::vector<HapticPort> ports;
+  for (const std::string& name : names_in(top / "dev", "ttyACM")) {
+    std::error_code none;
+    // the tty's device is an interface of the USB device
+    const fs::path interface = fs::canonical(top / "sys/class/tty" / name / "device", none);
+    const KnownPort* known = none ? nullptr : find_known(HapticBus::Serial, usb_numbers(interface.parent_path()));
+    ports.push_back(port_at(top, "/dev/" + name, HapticBus::Serial, known));
+  }
+  for (const std::string& name : names_in(top / "sys/class/hidraw", "hidraw")) {
+    const KnownPort* known = find_known(HapticBus::Hid, hid_numbers(top / "sys/class/hidraw" / name / "device/uevent"));
+    if (known != nullptr) ports.push_back(port_at(top, "/dev/" + name, HapticBus::Hid, known));
+  }
+  for (const std::string& name : names_in(top / "sys/bus/usb/devices", "")) {
+    const fs::path device = top / "sys/bus/usb/devices" / name;
+    const KnownPort* known = find_known(HapticBus::Usb, usb_numbers(device));
+    if (known == nullptr) continue;
+    const std::string path = fmt::format("/dev/bus/usb/{:03}/{:03}", number(first_line(device / "busnum"), 10),
+                                         number(first_line(device / "devnum"), 10));
+    ports.push_back(port_at(top, path, HapticBus::Usb, known));
+  }
+  return ports;
+}
+
+PortRights judge_rights(const std::vector<HapticPort>& ports) {
+  if (ports.empty()) return {.open = true, .said = "no haptic device is plugged in", .group = {}, .udev_rule = {}};
+  const auto closed = std::find_if(ports.begin(), ports.end(), [](const HapticPort& port) { return !port.accessible; });
+  if (closed != ports.end()) {
+    const auto known = std::find_if(std::begin(kKnownPorts), std::end(kKnownPorts), [&](const KnownPort& one) {
+      return one.bus == closed->bus && closed->device == one.device;
+    });
+    return {.open = false,
+            .said = text_of(*closed) + " cannot be opened",
+            .group = closed->bus == HapticBus::Serial ? closed->group : std::string(),
+            .udev_rule = known == std::end(kKnownPorts) ? kSerialRule : known->udev_rule};
+  }
+  std::string said;
+  for (const HapticPort& port : ports) said += (said.empty() ? "" : ", ") + text_of(port);
+  return {.open = true, .said = said + " can be opened", .group = {}, .udev_rule = {}};
+}
+
+}  // namespace afm::haptics
