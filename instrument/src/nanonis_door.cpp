@@ -239,7 +239,7 @@ struct NanonisDoor::Functions {
   static void speed_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
     const auto [width_m, height_m] = door.instrument_.frame();
     const double forward_s = 0.5 / door.instrument_.settings().scan.line_rate.si;
-    const double ratio = double{door.speed_ratio_};
+    const auto ratio = static_cast<double>(door.speed_ratio_);
     out.add(static_cast<float>(width_m / forward_s)).add(static_cast<float>(ratio * width_m / forward_s));
     out.add(static_cast<float>(forward_s)).add(static_cast<float>(forward_s / ratio));
     constexpr std::uint16_t kConstantTime = 1;
