@@ -32,6 +32,15 @@ double within(const char* what, double value, double smallest, double largest) {
   return value;
 }
 
+// A count of 0 to kSignals, and as many indexes of signals.
+std::vector<std::int32_t> indexes_of(NanonisReader& in) {
+  const auto count = in.read<std::int32_t>();
+  if (count < 0 || count > kSignals) throw RefusedRequest(fmt::format("{} signals are too many", count));
+  std::vector<std::int32_t> indexes(static_cast<std::size_t>(count));
+  for (std::int32_t& index : indexes) index = in.read<std::int32_t>();
+  return indexes;
+}
+
 }  // namespace
 
 // One function of the protocol each: reads its arguments, acts, and writes its results before the error.
@@ -84,12 +93,9 @@ struct NanonisDoor::Functions {
     out.add(signal(door, index));
   }
   static void vals_get(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
-    const auto count = in.read<std::int32_t>();
-    if (count < 0 || count > kSignals) throw RefusedRequest(fmt::format("{} signals are too many", count));
-    std::vector<std::int32_t> indexes;
-    for (std::int32_t i = 0; i < count; ++i) indexes.push_back(in.read<std::int32_t>());
+    const std::vector<std::int32_t> indexes = indexes_of(in);
     in.read<std::uint32_t>();
-    out.add(count);
+    out.add_count(indexes.size());
     for (const std::int32_t index : indexes) out.add(signal(door, index));
   }
   static void in_slots_get(NanonisDoor&, NanonisReader&, NanonisWriter& out) {
@@ -209,10 +215,7 @@ struct NanonisDoor::Functions {
     out.add_count(settings.pixels).add_count(settings.lines_or_pixels());
   }
   static void buffer_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
-    const auto count = in.read<std::int32_t>();
-    if (count < 0 || count > kSignals) throw RefusedRequest(fmt::format("{} channels are too many", count));
-    std::vector<std::int32_t> channels;
-    for (std::int32_t i = 0; i < count; ++i) channels.push_back(in.read<std::int32_t>());
+    std::vector<std::int32_t> channels = indexes_of(in);
     const auto pixels = in.read<std::int32_t>(), lines = in.read<std::int32_t>();
     constexpr double kMost = static_cast<double>(kMostInstrumentPixels);
     within("pixels", pixels, 2.0, kMost);
