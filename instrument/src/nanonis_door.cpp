@@ -158,13 +158,12 @@ struct NanonisDoor::Functions {
       settings.scan.integral_gain = physics::Frequency(integral);
     });
   }
-  static void withdraw(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
+  static void withdraw(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
     in.read<std::uint32_t>();
     in.read<std::int32_t>();
-    lift(door);
+    home(door, in, out);
   }
-  static void home(NanonisDoor& door, NanonisReader&, NanonisWriter&) { lift(door); }
-  static void lift(NanonisDoor& door) {
+  static void home(NanonisDoor& door, NanonisReader&, NanonisWriter&) {
     door.instrument_.withdraw(kWithdrawnM, kApproachSpeedM);
     door.feedback_ = false;
   }
