@@ -3,10 +3,13 @@
 #include "core/percentiles.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace afm::app {
 
@@ -18,7 +21,7 @@ constexpr double kGoodLatenessUs = 200.0;
 
 constexpr const char* kLogInAgain = ", then log in again";
 
-std::string join_group(const char* groups) {
+std::string join_group(std::string_view groups) {
   return fmt::format("sudo usermod -aG {} \"$(id -un)\"{}", groups, kLogInAgain);
 }
 
@@ -63,10 +66,10 @@ Finding graphics(const MachineFacts& facts) {
   }
   const auto closed = std::find_if(facts.render_nodes.begin(), facts.render_nodes.end(),
                                    [](const DeviceNode& node) { return !node.accessible; });
-  const std::string fix =
-      closed != facts.render_nodes.end()
-          ? join_group("render,video")
-          : "install the Vulkan driver of the GPU; for Intel and AMD: sudo apt install mesa-vulkan-drivers";
+  const std::string fix = closed != facts.render_nodes.end()
+                              ? join_group("render,video")
+                              : "install the Vulkan driver of the GPU; for Intel and AMD: " +
+                                    core::install_command(facts.packages, std::array{core::SystemPart::VulkanDriver});
   if (const auto cpu = std::find_if(all.begin(), all.end(), usable); cpu != all.end()) {
     return {"graphics", Verdict::Limited, fmt::format("no GPU: {} renders on the processor", cpu->name), fix};
   }
@@ -130,10 +133,11 @@ Finding hid(const MachineFacts& facts) {
 }
 
 Finding haptic_port(const MachineFacts& facts) {
+  const std::string_view port_group = facts.packages == nullptr ? "dialout" : facts.packages->serial_group;
   const auto closed = std::find_if(facts.serial_nodes.begin(), facts.serial_nodes.end(),
                                    [](const DeviceNode& node) { return !node.accessible; });
   if (closed != facts.serial_nodes.end()) {
-    return {"haptic port (USB)", Verdict::Missing, closed->path + " cannot be opened", join_group("dialout")};
+    return {"haptic port (USB)", Verdict::Missing, closed->path + " cannot be opened", join_group(port_group)};
   }
   return {"haptic port (USB)",
           Verdict::Good,
@@ -159,6 +163,15 @@ Finding haptic_device(const MachineFacts& facts) {
                       haptics::kHdLibraryVariable)};
 }
 
+Finding system_packages(const MachineFacts& facts) {
+  constexpr const char* kCheck = "system packages";
+  if (facts.missing_parts.empty()) return {kCheck, Verdict::Good, "all that TouchAFM can use", {}};
+  std::vector<std::string_view> names;
+  for (const core::SystemPart part : facts.missing_parts) names.push_back(core::description_of(part));
+  return {kCheck, Verdict::Limited, fmt::format("missing: {}", fmt::join(names, "; ")),
+          core::install_command(facts.packages, facts.missing_parts)};
+}
+
 Finding servo_program(const MachineFacts& facts) {
   if (facts.missing_program.empty()) return {"servo program", Verdict::Good, facts.servo_program, {}};
   return {
@@ -174,6 +187,7 @@ std::vector<Finding> diagnose(const MachineFacts& facts) {
           locked_memory(facts),
           wake_up(facts),
           servo_program(facts),
+          system_packages(facts),
           graphics(facts),
           drawing(facts),
           display(facts),

@@ -28,6 +28,7 @@ MachineFacts good_machine() {
   facts.hid_nodes = {{"/dev/hidraw0", true}};
   facts.serial_nodes = {{"/dev/ttyACM0", true}};
   facts.haptics = {{"hdapi library libHD.so.3.4", true, "loaded"}, {"hdapi device", true, "Touch"}};
+  facts.packages = core::package_system_of("ID=debian\n");
   facts.servo_program = "/usr/bin/touchafm-servo";
   return facts;
 }
@@ -91,6 +92,18 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
        [](MachineFacts& m) { m.headset_manifest = "/etc/xdg/openxr/1/active_runtime.json"; }},
       {"haptic device", Verdict::Limited, "TOUCHAFM_HD_LIBRARY", [](MachineFacts& m) { m.haptics.clear(); }},
       {"haptic device", Verdict::Limited, "switch it on", [](MachineFacts& m) { m.haptics[1].usable = false; }},
+      {"system packages", Verdict::Limited, "sudo apt install libsdl2-2.0-0 espeak-ng",
+       [](MachineFacts& m) { m.missing_parts = {core::SystemPart::Sdl2, core::SystemPart::EspeakNg}; }},
+      {"graphics", Verdict::Missing, "sudo dnf install mesa-vulkan-drivers",
+       [](MachineFacts& m) {
+         m.packages = core::package_system_of("ID=fedora\n");
+         m.graphics.clear();
+       }},
+      {"haptic port (USB)", Verdict::Missing, "sudo usermod -aG uucp",
+       [](MachineFacts& m) {
+         m.packages = core::package_system_of("ID=arch\n");
+         m.serial_nodes[0].accessible = false;
+       }},
       {"haptic port (USB)", Verdict::Missing, "sudo usermod -aG dialout",
        [](MachineFacts& m) { m.serial_nodes[0].accessible = false; }},
       {"wands (HID)", Verdict::Missing, "/etc/udev/rules.d/70-touchafm.rules",
@@ -106,6 +119,14 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
     EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const Finding& any) { return any.verdict != Verdict::Good; }), 1)
         << c.check;
   }
+}
+
+TEST(Diagnosis, NamesWhatTheSystemLacksAndItsUse) {
+  MachineFacts facts = good_machine();
+  facts.missing_parts = {core::SystemPart::VulkanLoader, core::SystemPart::Sdl2};
+  EXPECT_EQ(finding(facts, "system packages").found, "missing: the Vulkan loader; SDL2 (gamepads, sound)");
+  facts.packages = nullptr;
+  EXPECT_EQ(finding(facts, "system packages").fix, "install what Debian calls libvulkan1 libsdl2-2.0-0");
 }
 
 TEST(Diagnosis, WantsAShareForDrawingOnlyWhereTheProcessorDraws) {
