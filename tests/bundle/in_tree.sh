@@ -18,8 +18,8 @@ demonstrate() {
   [ "$status" = 0 ] || { cat messages >&2; fail "demo ended with $status"; }
 }
 
-# what doctor names for this system
-lacks() { "$touchafm" doctor --seconds 0.1 | grep -F "system packages: $1" || fail "doctor does not say: $1"; }
+# the command that doctor prints for what this system lacks
+lacks() { "$touchafm" doctor --seconds 0.1 | grep -x "  system packages: $1" || fail "doctor does not say: $1"; }
 
 case $1 in
   alone)
@@ -32,9 +32,9 @@ case $1 in
     demonstrate --out alone --material mica --hand-speed 200mm/s --eye-width 160
     ;;
   use)
-    "$touchafm" --version
+    PATH=$PATH:/home/visitor touchafm --version # a link
     "$touchafm" doctor --seconds 0.5
-    lacks "sudo apt install libsdl2-2.0-0 espeak-ng"
+    lacks "sudo apt install libx11-xcb1 libxcursor1 libxi6 libxinerama1 libxrandr2 libsdl2-2.0-0 espeak-ng"
     "$touchafm" curve --material gold --out gold.h5
     "$touchafm" analyse gold.h5 | grep -q pull-off || fail "no curve from HDF5"
     "$touchafm" wall "/opt/some folder/touchafm/share/touchafm/walls/powerwall.toml" >/dev/null

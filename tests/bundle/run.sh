@@ -81,7 +81,8 @@ for suite in bookworm trixie; do
   mkdir -p "$tree/opt/some folder" "$tree/home/visitor"
   tar -C "$tree/opt" -xf "$archive"
   mv "$tree/opt/$name" "$tree/opt/some folder/touchafm"
-  chown 1000:1000 "$tree/home/visitor"
+  ln -s "../../opt/some folder/touchafm/bin/touchafm" "$tree/home/visitor/touchafm"
+  chown -h 1000:1000 "$tree/home/visitor" "$tree/home/visitor/touchafm"
   mount --rbind /dev "$tree/dev"
   mount -t tmpfs shm "$tree/dev/shm"
   [ -z "$(find "$tree/usr/share/fonts" -name '*.[ot]tf' 2>/dev/null)" ] || fail "the bare tree has fonts"
@@ -94,7 +95,7 @@ for suite in bookworm trixie; do
   python3 "$here/window_picture.py" "$tree/home/visitor/screen/Xvfb_screen0" "$cache/$suite.png"
 done
 step "other distributions"
-for row in "fedora:sudo dnf install SDL2 espeak-ng" "arch:sudo pacman -S sdl2 espeak-ng" "opensuse-leap:sudo zypper install libSDL2-2_0-0 espeak-ng"; do
+for row in "fedora:sudo dnf install .* SDL2 espeak-ng" "arch:sudo pacman -S .* sdl2 espeak-ng" "opensuse-leap:sudo zypper install .* libSDL2-2_0-0 espeak-ng"; do
   rm -f "$work/trixie/etc/os-release"
   echo "ID=${row%%:*}" >"$work/trixie/etc/os-release"
   in_tree "$work/trixie" HOME=/home/visitor lacks "${row#*:}"
