@@ -17,7 +17,7 @@ namespace {
 struct StyleRow {
   float height_mm;
   FontFace first;
-  FontFace second;  // for glyphs that the first lacks, or instead of it
+  FontFace second;  // source of glyphs that the first lacks, or its replacement
 };
 
 // Largest resolution, sufficient for 8192 pixels across the paper's wall.
