@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Started by `touchafm bench physics`. A separate program, so that touchafm itself needs no benchmark library.
 #include <cstdio>
-#include <filesystem>
 #include <string>
-#include <system_error>
 
 #include "app/micro/physics_benchmarks.h"
 #include "app/options/command_line.h"
 #include "core/exit_code.h"
+#include "core/own_folder.h"
 #include "core/run_main.h"
 #include "core/version.h"
 
@@ -26,9 +25,7 @@ int run(int count, char** arguments) {
   if (!answer) return fail(ExitCode::WrongUsage, answer.error().message + "; see touchafm-bench --help");
   std::string text = *answer;
   if (text.empty()) {
-    std::error_code error;
-    const auto here = std::filesystem::read_symlink("/proc/self/exe", error);
-    const std::string touchafm = std::filesystem::path(here).replace_filename("touchafm").string();
+    const std::string touchafm = afm::core::own_program().replace_filename("touchafm").string();
     const auto figures = afm::app::run_benchmarks(afm::app::physics_benchmarks(touchafm));
     if (!figures) return fail(afm::core::exit_code(figures.error().category), figures.error().message);
     text = as_json ? benchmark_json(*figures) : benchmark_table(*figures);

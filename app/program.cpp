@@ -9,12 +9,12 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "app/options/menu_notice.h"
 #include "app/options/standard_output.h"
 #include "core/exit_code.h"
+#include "core/own_folder.h"
 #include "core/run_main.h"
 #include "core/version.h"
 #include "exhibit/frame/exhibit_setup.h"
@@ -24,16 +24,6 @@ namespace afm::app {
 namespace {
 
 using core::fail;
-
-// Finds share/touchafm below the folder above bin (a build) or above libexec/touchafm (an installation, which may have
-// been moved).
-std::string find_assets(const std::filesystem::path& program) {
-  const std::filesystem::path folder = program.parent_path();
-  const std::filesystem::path built = folder.parent_path() / "share" / "touchafm";
-  std::error_code ignored;
-  if (std::filesystem::is_directory(built, ignored)) return built.string();
-  return (folder.parent_path().parent_path() / "share" / "touchafm").string();
-}
 
 std::string language_of_environment() {
   std::vector<std::string> values;
@@ -55,9 +45,8 @@ bool names_unknown_command(int count, char** arguments) {
 }  // namespace
 
 int run_program(int count, char** arguments, const char* commit) {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const CommandContext context{.assets_dir = find_assets(program),
+  const std::filesystem::path program = core::own_program();
+  const CommandContext context{.assets_dir = core::assets_of(program).string(),
                                .program_path = program.string(),
                                .arguments = {arguments + 1, arguments + count},
                                .language = language_of_environment()};

@@ -15,6 +15,7 @@ set(AFM_SANITIZE "" CACHE STRING "comma-separated list for -fsanitize, empty for
 option(AFM_BUILD_FUZZERS "build the libFuzzer targets (clang only)" OFF)
 option(AFM_PYTHON "build the Python module touchafm" ON)
 set(AFM_PYTHON_FOLDER lib/python3/dist-packages)  # of a build as of an installation
+option(AFM_BUNDLE "link programs that run on other distributions (scripts/bundle)" OFF)
 if(AFM_PYTHON)
   set(Python3_EXECUTABLE /usr/bin/python3)  # that of the Debian package, whatever else is in the path
   find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)

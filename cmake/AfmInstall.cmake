@@ -51,14 +51,18 @@ add_custom_target(reference
   DEPENDS ${reference}/touchafm.1.gz ${reference}/touchafm.bash ${reference}/changelog.gz ${reference}/changelog.Debian.gz ${reference}/python3/changelog.Debian.gz)
 
 # What `cmake --install` needs; it does not build everything first.
-add_custom_target(installed DEPENDS touchafm touchafm-bench touchafm-guard touchafm-hdf5 touchafm-servo reference)
+set(programs touchafm touchafm-guard touchafm-hdf5 touchafm-servo)
+if(NOT AFM_BUNDLE)  # Debian has no archive of the benchmark library, whose interface is C++
+  list(APPEND programs touchafm-bench)
+endif()
+add_custom_target(installed DEPENDS ${programs} reference)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 if(AFM_PYTHON)
   add_dependencies(installed touchafm_python)
 endif()
 
 set(libexec libexec/touchafm)
-install(TARGETS touchafm touchafm-bench touchafm-guard touchafm-hdf5 touchafm-servo DESTINATION ${libexec})
+install(TARGETS ${programs} DESTINATION ${libexec})
 file(CREATE_LINK ../${libexec}/touchafm ${reference}/touchafm SYMBOLIC)
 install(FILES ${reference}/touchafm DESTINATION bin)
 install(DIRECTORY ${assets}/guidance ${assets}/lessons ${assets}/models ${assets}/particles ${assets}/walls ${assets}/wands DESTINATION share/touchafm

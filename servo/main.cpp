@@ -17,6 +17,7 @@
 #include "core/exit_code.h"
 #include "core/file_descriptor.h"
 #include "core/log.h"
+#include "core/own_folder.h"
 #include "core/run_main.h"
 #include "haptics/edit_thread.h"
 #include "haptics/realtime.h"
@@ -80,9 +81,7 @@ afm::core::FileDescriptor catch_signals() {
   return afm::core::FileDescriptor(::signalfd(-1, &ending, SFD_CLOEXEC));
 }
 
-std::string guard_program() {
-  return std::filesystem::path(afm::servo::executable_path()).replace_filename("touchafm-guard").string();
-}
+std::string guard_program() { return afm::core::own_program().replace_filename("touchafm-guard").string(); }
 
 ExitCode run(const Options& options) {
   afm::core::FileDescriptor parent_socket(options.parent_socket);
@@ -119,7 +118,7 @@ ExitCode run(const Options& options) {
     const afm::servo::RendererMonitor watch(
         **loop, std::move(parent_socket), signals, (*watchdog)->descriptor(), link,
         {.seconds = options.settings.linger_s,
-         .program = afm::servo::executable_path(),
+         .program = afm::core::own_program().string(),
          .segment = segment->descriptor(),
          .scene_digest = segment->scene_digest(),
          .arguments = afm::servo::servo_arguments(options.settings, std::string(options.haptics))});

@@ -3,10 +3,13 @@
 #include "core/percentiles.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace afm::app {
 
@@ -23,7 +26,7 @@ std::string add_rule(const char* file, const std::string& rule) {
       "echo '{}' | sudo tee /etc/udev/rules.d/{} && sudo udevadm control --reload && sudo udevadm trigger", rule, file);
 }
 
-std::string join_group(const char* groups) {
+std::string join_group(std::string_view groups) {
   return fmt::format("sudo usermod -aG {} \"$(id -un)\"{}", groups, kLogInAgain);
 }
 
@@ -68,10 +71,10 @@ Finding graphics(const MachineFacts& facts) {
   }
   const auto closed = std::find_if(facts.render_nodes.begin(), facts.render_nodes.end(),
                                    [](const DeviceNode& node) { return !node.accessible; });
-  const std::string fix =
-      closed != facts.render_nodes.end()
-          ? join_group("render,video")
-          : "install the Vulkan driver of the GPU; for Intel and AMD: sudo apt install mesa-vulkan-drivers";
+  const std::string fix = closed != facts.render_nodes.end()
+                              ? join_group("render,video")
+                              : "install the Vulkan driver of the GPU; for Intel and AMD: " +
+                                    core::install_command(facts.packages, std::array{core::SystemPart::VulkanDriver});
   if (const auto cpu = std::find_if(all.begin(), all.end(), usable); cpu != all.end()) {
     return {"graphics", Verdict::Limited, fmt::format("no GPU: {} renders on the processor", cpu->name), fix};
   }
@@ -138,8 +141,7 @@ Finding haptic_port(const MachineFacts& facts) {
   constexpr const char* kCheck = "haptic port (USB)";
   if (rights.open) return {kCheck, Verdict::Good, rights.said, {}};
   return {kCheck, Verdict::Missing, rights.said,
-          rights.group.empty() ? add_rule("70-touchafm-haptics.rules", rights.udev_rule)
-                               : join_group(rights.group.c_str())};
+          rights.group.empty() ? add_rule("70-touchafm-haptics.rules", rights.udev_rule) : join_group(rights.group)};
 }
 
 Finding haptic_device(const MachineFacts& facts) {
@@ -164,6 +166,15 @@ Finding haptic_device(const MachineFacts& facts) {
                   haptics::kHdLibraryVariable, haptics::kFdLibraryVariable)};
 }
 
+Finding system_packages(const MachineFacts& facts) {
+  constexpr const char* kCheck = "system packages";
+  if (facts.missing_parts.empty()) return {kCheck, Verdict::Good, "all that TouchAFM can use", {}};
+  std::vector<std::string_view> names;
+  for (const core::SystemPart part : facts.missing_parts) names.push_back(core::description_of(part));
+  return {kCheck, Verdict::Limited, fmt::format("missing: {}", fmt::join(names, "; ")),
+          core::install_command(facts.packages, facts.missing_parts)};
+}
+
 Finding servo_program(const MachineFacts& facts) {
   if (facts.missing_program.empty()) return {"servo program", Verdict::Good, facts.servo_program, {}};
   return {
@@ -179,6 +190,7 @@ std::vector<Finding> diagnose(const MachineFacts& facts) {
           locked_memory(facts),
           wake_up(facts),
           servo_program(facts),
+          system_packages(facts),
           graphics(facts),
           drawing(facts),
           display(facts),

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "app/headset/headset_runtime.h"
+#include "app/view/speech_choice.h"
 #include "render/saver_inhibition.h"
 #include "render/window.h"
 #include "servo/haptic_choice.h"
@@ -66,6 +67,14 @@ std::string display() {
   return names;
 }
 
+// What this machine lacks; an OpenXR loader only where a headset's runtime is installed.
+std::vector<core::SystemPart> missing_parts(bool has_headset_runtime) {
+  std::vector<core::SystemPart> parts = core::parts_without_libraries();
+  if (!has_headset_runtime) std::erase(parts, core::SystemPart::OpenXrLoader);
+  if (!choose_speech_program("en")) parts.push_back(core::SystemPart::EspeakNg);
+  return parts;
+}
+
 }  // namespace
 
 MachineFacts look_at_machine(const core::Clock& clock, const std::string& program, double jitter_seconds) {
@@ -102,6 +111,9 @@ MachineFacts look_at_machine(const core::Clock& clock, const std::string& progra
   facts.hid_nodes = nodes("/dev", "hidraw");
   facts.haptic_ports = haptics::find_haptic_ports();
   facts.haptics = haptics::probe_devices(servo::environment());
+
+  facts.packages = core::package_system_of(core::read_os_release());
+  facts.missing_parts = missing_parts(!facts.headset_manifest.empty());
 
   facts.servo_program = std::filesystem::path(program).replace_filename("touchafm-servo").string();
   for (const char* name : {"touchafm-guard", "touchafm-servo"}) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/bench/scheduling_latency.h"
+#include "core/system_packages.h"
 #include "haptics/device_registry.h"
 #include "haptics/haptic_ports.h"
 #include "render/context.h"
@@ -40,6 +41,8 @@ struct MachineFacts {
   std::vector<DeviceNode> hid_nodes;
   std::vector<haptics::HapticPort> haptic_ports;
   std::vector<haptics::ProbeLine> haptics;
+  const core::PackageSystem* packages = nullptr;  // null: an unknown distribution
+  std::vector<core::SystemPart> missing_parts;    // without drivers and fonts
   std::string servo_program;
   std::string missing_program;  // servo or watchdog, if it cannot be run; empty: none is missing
 };

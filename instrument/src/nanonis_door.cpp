@@ -356,7 +356,6 @@ constexpr std::array<NanonisDoor::Functions::Row, 38> NanonisDoor::Functions::kR
     {"AutoApproach.OnOffSet", 0, &Functions::approach_set},
     {"Motor.StartMove", 0, &Functions::motor_move},
 }};
-
 NanonisDoor::NanonisDoor(SimulatedInstrument& instrument) : instrument_(instrument) {}
 NanonisDoor::~NanonisDoor() = default;
 

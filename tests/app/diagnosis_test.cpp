@@ -28,6 +28,7 @@ MachineFacts good_machine() {
   facts.hid_nodes = {{"/dev/hidraw0", true}};
   facts.haptic_ports = {{"/dev/ttyACM0", "Touch", haptics::HapticBus::Serial, true, "dialout"}};
   facts.haptics = {{"hdapi library libHD.so.3.4", true, "loaded"}, {"hdapi device", true, "Touch"}};
+  facts.packages = core::package_system_of("ID=debian\n");
   facts.servo_program = "/usr/bin/touchafm-servo";
   return facts;
 }
@@ -93,6 +94,13 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
       {"haptic device", Verdict::Limited, "switch it on", [](MachineFacts& m) { m.haptics[1].usable = false; }},
       {"haptic device", Verdict::Limited, "OpenHaptics for a PHANTOM or Touch, a HID one too",
        [](MachineFacts& m) { m.haptics.clear(); }},
+      {"system packages", Verdict::Limited, "sudo apt install libsdl2-2.0-0 espeak-ng",
+       [](MachineFacts& m) { m.missing_parts = {core::SystemPart::Sdl2, core::SystemPart::EspeakNg}; }},
+      {"graphics", Verdict::Missing, "sudo dnf install mesa-vulkan-drivers",
+       [](MachineFacts& m) {
+         m.packages = core::package_system_of("ID=fedora\n");
+         m.graphics.clear();
+       }},
       {"haptic port (USB)", Verdict::Missing, "sudo usermod -aG dialout",
        [](MachineFacts& m) { m.haptic_ports[0].accessible = false; }},
       {"haptic port (USB)", Verdict::Missing, "sudo usermod -aG uucp",
@@ -117,6 +125,14 @@ TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
     EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const Finding& any) { return any.verdict != Verdict::Good; }), 1)
         << c.check;
   }
+}
+
+TEST(Diagnosis, NamesWhatTheSystemLacksAndItsUse) {
+  MachineFacts facts = good_machine();
+  facts.missing_parts = {core::SystemPart::VulkanLoader, core::SystemPart::Sdl2};
+  EXPECT_EQ(finding(facts, "system packages").found, "missing: the Vulkan loader; SDL2 (gamepads, sound)");
+  facts.packages = nullptr;
+  EXPECT_EQ(finding(facts, "system packages").fix, "install what Debian calls libvulkan1 libsdl2-2.0-0");
 }
 
 TEST(Diagnosis, WantsAShareForDrawingOnlyWhereTheProcessorDraws) {

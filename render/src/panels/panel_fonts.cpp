@@ -4,37 +4,33 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <deque>
 #include <new>
+#include <optional>
 #include <string>
-#include <string_view>
-#include <utility>
 
-#include "core/whole_file.h"
+#include "core/system_packages.h"
+#include "panels/font_finder.h"
 
 namespace afm::render {
 namespace {
 
 struct StyleRow {
   float height_mm;
-  const char* inter;
-  const char* dejavu;
+  FontFace first;
+  FontFace second;  // source of glyphs that the first lacks, or its replacement
 };
 
 // Largest resolution, sufficient for 8192 pixels across the paper's wall.
 constexpr float kMostTexelsPerMm = 5.4F;
 constexpr float kCoarser = 0.75F;  // reduction step when the glyphs do not fit into an image
 
-constexpr const char* kInterFolder = "/usr/share/fonts/opentype/inter/";
-constexpr const char* kDejavuFolder = "/usr/share/fonts/truetype/dejavu/";
-
 // Styles in the order of TextStyle, at least in medium weight: thin strokes are invisible from the back of a room.
 constexpr std::array<StyleRow, kTextStyles> kStyles{{
-    {30.0F, "Inter-Medium.otf", "DejaVuSans.ttf"},
-    {40.0F, "Inter-Medium.otf", "DejaVuSans.ttf"},
-    {44.0F, "Inter-SemiBold.otf", "DejaVuSans-Bold.ttf"},
-    {60.0F, "Inter-SemiBold.otf", "DejaVuSans-Bold.ttf"},
-    {72.0F, "Inter-SemiBold.otf", "DejaVuSans-Bold.ttf"},
+    {30.0F, FontFace::InterMedium, FontFace::DejaVu},
+    {40.0F, FontFace::InterMedium, FontFace::DejaVu},
+    {44.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
+    {60.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
+    {72.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
 }};
 
 // Latin, Greek, Cyrillic capitals for the labels of keys, punctuation with the typographic minus and dashes, subscripts
@@ -43,12 +39,6 @@ constexpr std::array<ImWchar, 19> kGlyphRanges{0x0020, 0x00FF, 0x0391, 0x03C9, 0
                                                0x2027, 0x2030, 0x2044, 0x2070, 0x209C, 0x2190, 0x2193,
                                                0x2200, 0x2265, 0x2266, 0x226B, 0};
 
-// True for a file with an OpenType signature; ImGui ends the program for any other.
-bool is_font(const std::string& bytes) {
-  using namespace std::string_view_literals;
-  return bytes.starts_with("OTTO"sv) || bytes.starts_with("\0\1\0\0"sv);
-}
-
 // Never returns null, since ImGui does not check.
 void* memory_or_throw(std::size_t size, void* /*unused*/) {
   if (void* place = std::malloc(size)) return place;
@@ -56,36 +46,55 @@ void* memory_or_throw(std::size_t size, void* /*unused*/) {
 }
 void give_back(void* place, void* /*unused*/) { std::free(place); }
 
-core::Result<PanelFonts> draw_glyphs(float texels_per_mm, float true_mm) {
+// Bytes of the fonts, in the order of FontFace; read by the atlas when it is built.
+using FontBytes = std::array<std::optional<std::string>, kFontFaces>;
+
+std::optional<std::string>& bytes_of(FontBytes& fonts, FontFace face) { return fonts[static_cast<std::size_t>(face)]; }
+
+core::Result<FontBytes> read_fonts() {
+  FontFinder finder(font_folders());
+  FontBytes fonts;
+  for (const StyleRow& style : kStyles) {
+    for (const FontFace face : {style.first, style.second}) {
+      auto& bytes = bytes_of(fonts, face);
+      if (!bytes) bytes = finder.read(face);
+    }
+    auto& second = bytes_of(fonts, style.second);
+    if (!second && !bytes_of(fonts, style.first)) second = finder.read_similar(style.second);
+    if (second || bytes_of(fonts, style.first)) continue;
+    std::string folders;
+    for (const std::string& folder : font_folders()) folders += folder + ", ";
+    return core::failure(core::ErrorCategory::Failed,
+                         "cannot find a font for the panels (looked for Inter and DejaVu Sans in " + folders +
+                             "and asked fontconfig): " +
+                             core::install_command(core::package_system_of(core::read_os_release()),
+                                                   std::array{core::SystemPart::Fonts}));
+  }
+  return fonts;
+}
+
+core::Result<PanelFonts> draw_glyphs(FontBytes& bytes, float texels_per_mm, float true_mm) {
   PanelFonts result{.atlas = std::make_unique<ImFontAtlas>(), .texels_per_mm = texels_per_mm, .true_mm = true_mm};
   result.atlas->Flags |= ImFontAtlasFlags_NoMouseCursors;
-  std::deque<std::string> files;  // read by the atlas when it is built
   for (std::size_t style = 0; style < kTextStyles; ++style) {
     const auto& row = kStyles[style];
     const float pixels = std::max(1.0F, std::round(row.height_mm * result.texels_per_mm));
     ImFontConfig config;
     config.OversampleH = 2;
     config.OversampleV = 1;
-    for (const std::string& path : {std::string(kInterFolder) + row.inter, std::string(kDejavuFolder) + row.dejavu}) {
-      auto bytes = core::read_file(path);
-      if (bytes && is_font(*bytes)) {
-        std::string& file = files.emplace_back(std::move(*bytes));
-        config.FontDataOwnedByAtlas = false;
-        ImFont* font = result.atlas->AddFontFromMemoryTTF(file.data(), static_cast<int>(file.size()), pixels, &config,
-                                                          kGlyphRanges.data());
-        result.fonts[style] = config.MergeMode ? result.fonts[style] : font;
-        config.MergeMode = result.fonts[style] != nullptr;
-      }
-    }
-    if (result.fonts[style] == nullptr) {
-      return core::failure(core::ErrorCategory::Failed, std::string("cannot find a font for the panels (looked for ") +
-                                                            kInterFolder + row.inter + " and " + kDejavuFolder +
-                                                            row.dejavu + "): install fonts-inter or fonts-dejavu-core");
+    for (const FontFace face : {row.first, row.second}) {
+      auto& file = bytes_of(bytes, face);
+      if (!file) continue;
+      config.FontDataOwnedByAtlas = false;
+      ImFont* font = result.atlas->AddFontFromMemoryTTF(file->data(), static_cast<int>(file->size()), pixels, &config,
+                                                        kGlyphRanges.data());
+      result.fonts[style] = config.MergeMode ? result.fonts[style] : font;
+      config.MergeMode = result.fonts[style] != nullptr;
     }
   }
   if (!result.atlas->Build()) {
     return core::failure(core::ErrorCategory::Failed,
-                         "cannot rasterise the panels' fonts: reinstall fonts-inter and fonts-dejavu-core");
+                         "cannot rasterise the panels' fonts: reinstall Inter and DejaVu Sans");
   }
   return result;
 }
@@ -98,10 +107,12 @@ core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre
   ImGui::SetAllocatorFunctions(memory_or_throw, give_back);
   const auto true_mm = static_cast<float>(1e-3 / millimetre_m);
   float texels_per_mm = std::min(static_cast<float>(texels_per_m * millimetre_m), kMostTexelsPerMm);
-  auto fonts = draw_glyphs(texels_per_mm, true_mm);
+  auto bytes = read_fonts();
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto fonts = draw_glyphs(*bytes, texels_per_mm, true_mm);
   while (fonts && fonts->atlas->TexHeight > static_cast<int>(largest_image)) {
     texels_per_mm *= kCoarser;
-    fonts = draw_glyphs(texels_per_mm, true_mm);
+    fonts = draw_glyphs(*bytes, texels_per_mm, true_mm);
   }
   return fonts;
 }

@@ -27,9 +27,10 @@ struct PanelFonts {
   float true_mm = 1.0F;        // a millimetre of the room, in the panels' millimetres
 };
 
-// Reads the system's fonts: Inter (fonts-inter), and DejaVu Sans (fonts-dejavu-core) for missing glyphs or as a
-// replacement. Lengths as in RendererOptions; the resolution is reduced if the glyphs would need an image of more than
-// `largest_image` texels each way. Failed: neither font is installed.
+// Reads Inter, and DejaVu Sans for missing glyphs or as a replacement: from the program's assets, from Debian's
+// packages fonts-inter and fonts-dejavu-core, or from where fontconfig says, which may offer another font. Lengths as
+// in RendererOptions; the resolution is reduced if the glyphs would need an image of more than `largest_image` texels
+// each way. Failed: no font is found.
 core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m, std::uint32_t largest_image);
 
 }  // namespace afm::render

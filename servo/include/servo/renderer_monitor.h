@@ -27,9 +27,6 @@ struct Linger {
   std::vector<std::string> arguments;  // servo_arguments()
 };
 
-// Path of the running program; empty if the system does not provide it.
-std::string executable_path();
-
 // Without a beat of the watchdog for this long, nothing guards the hand: the servo releases it and ends.
 inline constexpr int kWatchdogSilentMs = 80;
 

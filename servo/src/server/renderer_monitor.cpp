@@ -9,7 +9,6 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <filesystem>
 #include <utility>
 
 #include "core/clock.h"
@@ -19,12 +18,6 @@
 #include "servo/watchdog.h"
 
 namespace afm::servo {
-
-std::string executable_path() {
-  std::error_code error;
-  const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", error);
-  return error ? std::string() : path.string();
-}
 
 namespace {
 
