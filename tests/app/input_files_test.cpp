@@ -54,6 +54,8 @@ const std::vector<Input> kInputs{
     {"view", "--wand-file", "--wand-file @"},
     {"view", "--head", "--head sim:@", ".csv"},
     {"view", "--haptics", "--haptics replay:@", ".afms"},
+    {"serve", "--sample", "--socket $OUT/afm.sock --sample @", ".glb"},
+    {"serve", "--sample", "--socket $OUT/afm.sock --sample @", ".gwy"},
     {"lesson", "lesson", "@"},
     {"lesson", "--guidance", "$LESSON --guidance @"},
     {"lesson", "--wall", "$LESSON --wall @"},

@@ -50,9 +50,12 @@ std::vector<Quotation> quotations_of(const std::string& where, const std::string
     }
     for (std::size_t at = 0; (at = line.find(kProgram, at)) != std::string::npos; at += kProgram.size()) {
       const bool quoted = at > 0 && line[at - 1] == '`';
+      // the first word of a line of a block, with its path or behind a prompt
+      const std::size_t blank = line.find_last_of(' ', at);
+      const std::size_t word = blank == std::string::npos ? 0 : blank + 1;
       const bool begins =
-          at == 0 || line.compare(at - std::min<std::size_t>(at, 2), 2, "$ ") == 0 || line[at - 1] == '/';
-      if (!quoted && !(begins && (in_block || at > 0))) continue;
+          in_block && (word == 0 || (word == 2 && line[0] == '$')) && (at == word || line[at - 1] == '/');
+      if (!quoted && !begins) continue;
       if (begins && line.ends_with('\\')) {
         open = line.substr(0, line.size() - 1);
         break;

@@ -41,7 +41,7 @@ struct LeverOptions {
   std::optional<double> averages;
   int mode = 1;
   bool sader = false;
-  std::optional<physics::Fluid> fluid;  // of Sader's method; empty: air
+  std::optional<physics::Fluid> fluid;  // fluid around a lever of Sader's method; empty: air
   std::string curve;                    // file whose contact slope is the sensitivity; empty: none
   CurveReading curve_reading;
   std::optional<double> bandwidth_hz;
