@@ -7,6 +7,9 @@
 
 #include "support/person_script.h"
 
+// Hidden, so that each variant of the library has a state of its own.
+#pragma GCC visibility push(hidden)
+
 // The state behind the mock's two interfaces.
 namespace mock_dhd {
 
@@ -86,3 +89,5 @@ long long now_ns();
 void run_controller();
 
 }  // namespace mock_dhd
+
+#pragma GCC visibility pop
