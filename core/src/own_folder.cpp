@@ -5,6 +5,7 @@
 #include <link.h>
 #include <sys/auxv.h>
 
+#include <bit>
 #include <system_error>
 
 namespace afm::core {
@@ -14,7 +15,7 @@ std::filesystem::path own_program() {
   std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
   if (!error) return program;
   // without /proc: the path that the kernel was given
-  const char* const started = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
+  const char* const started = std::bit_cast<const char*>(::getauxval(AT_EXECFN));
   return started == nullptr ? std::filesystem::path() : std::filesystem::canonical(started, error);
 }
 
