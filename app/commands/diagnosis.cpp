@@ -170,6 +170,7 @@ Finding system_packages(const MachineFacts& facts) {
   constexpr const char* kCheck = "system packages";
   if (facts.missing_parts.empty()) return {kCheck, Verdict::Good, "all that TouchAFM can use", {}};
   std::vector<std::string_view> names;
+  names.reserve(facts.missing_parts.size());
   for (const core::SystemPart part : facts.missing_parts) names.push_back(core::description_of(part));
   return {kCheck, Verdict::Limited, fmt::format("missing: {}", fmt::join(names, "; ")),
           core::install_command(facts.packages, facts.missing_parts)};
