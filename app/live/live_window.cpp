@@ -69,7 +69,7 @@ struct LiveWindow {
 core::Result<void> run_live_window(const LiveWindowParts& given, const ViewSettings& settings,
                                    const LiveFeatures& features) {
   LiveWindow window(given, settings);
-  // a panel may lie on the screens of several machines, each with a graphics device of its own
+  // a panel may lie on the screens of several machines, each with its own graphics device
   if (features.cluster == nullptr) window.panels.set_drawn_by(given.drawn_by);
   LiveControls controls(window.parts, settings, features);
   LiveView loop(window.parts, [&](render::Key key) { controls.press(key); },

@@ -23,22 +23,13 @@ namespace {
 constexpr std::size_t kNameBytes = 32, kHeaderBytes = 40;
 constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 constexpr double kWithdrawnM = 1e-6;
-constexpr double kMotorStepM = 100e-9;  // of the coarse motor, along z
+constexpr double kMotorStepM = 100e-9;  // step of the coarse motor, along z
 
 double within(const char* what, double value, double smallest, double largest) {
   if (!(value >= smallest && value <= largest)) {
     throw RefusedRequest(fmt::format("{}: {} is not within {} to {}", what, value, smallest, largest));
   }
   return value;
-}
-
-// A count of 0 to kSignals, and as many indexes of signals.
-std::vector<std::int32_t> indexes_of(NanonisReader& in) {
-  const auto count = in.read<std::int32_t>();
-  if (count < 0 || count > kSignals) throw RefusedRequest(fmt::format("{} signals are too many", count));
-  std::vector<std::int32_t> indexes(static_cast<std::size_t>(count));
-  for (std::int32_t& index : indexes) index = in.read<std::int32_t>();
-  return indexes;
 }
 
 }  // namespace
@@ -89,7 +80,7 @@ struct NanonisDoor::Functions {
   }
   static void val_get(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
     const auto index = in.read<std::int32_t>();
-    in.read<std::uint32_t>();  // whether to wait for the newest one, which this is
+    in.read<std::uint32_t>();  // wait for the newest value, which this is
     out.add(signal(door, index));
   }
   static void vals_get(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
@@ -111,7 +102,11 @@ struct NanonisDoor::Functions {
     door.bias_v_ = static_cast<float>(within("bias", in.real(), -10.0, 10.0));
   }
   static void bias_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) { out.add(door.bias_v_); }
-  static void current_get(NanonisDoor&, NanonisReader&, NanonisWriter& out) { out.add(0.0F); }
+  // A status that is always zero, and the current, which there is none of.
+  template <class T>
+  static void zero(NanonisDoor&, NanonisReader&, NanonisWriter& out) {
+    out.add(T{0});
+  }
 
   static void z_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
     out.add(static_cast<float>(door.instrument_.position().z_m));
@@ -183,7 +178,6 @@ struct NanonisDoor::Functions {
     door.image_ = std::make_unique<const physics::ScanImage>(
         value_of(door.instrument_.scan([](const physics::ScanLine&, double) { return true; })));
   }
-  static void scan_status(NanonisDoor&, NanonisReader&, NanonisWriter& out) { out.add(std::uint32_t{0}); }
   static void scan_wait(NanonisDoor&, NanonisReader& in, NanonisWriter& out) {
     in.read<std::int32_t>();
     out.add(std::uint32_t{0}).add_text("");  // no time-out, and no file
@@ -299,7 +293,6 @@ struct NanonisDoor::Functions {
   }
 
   static void approach_open(NanonisDoor&, NanonisReader&, NanonisWriter&) {}
-  static void approach_get(NanonisDoor&, NanonisReader&, NanonisWriter& out) { out.add(std::uint16_t{0}); }  // done
   static void approach_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
     if (in.read<std::uint16_t>() != 0) switch_feedback(door, true);
   }
@@ -323,7 +316,7 @@ constexpr std::array<NanonisDoor::Functions::Row, 38> NanonisDoor::Functions::kR
     {"Signals.InSlotsGet", 12, &Functions::in_slots_get},
     {"Bias.Set", 0, &Functions::bias_set},
     {"Bias.Get", 4, &Functions::bias_get},
-    {"Current.Get", 4, &Functions::current_get},
+    {"Current.Get", 4, &Functions::zero<float>},
     {"ZCtrl.ZPosGet", 4, &Functions::z_get},
     {"ZCtrl.ZPosSet", 0, &Functions::z_set},
     {"ZCtrl.OnOffGet", 4, &Functions::on_get},
@@ -336,7 +329,7 @@ constexpr std::array<NanonisDoor::Functions::Row, 38> NanonisDoor::Functions::kR
     {"ZCtrl.Home", 0, &Functions::home},
     {"ZCtrl.StatusGet", 2, &Functions::status_get},
     {"Scan.Action", 0, &Functions::scan_action},
-    {"Scan.StatusGet", 4, &Functions::scan_status},
+    {"Scan.StatusGet", 4, &Functions::zero<std::uint32_t>},
     {"Scan.WaitEndOfScan", 8, &Functions::scan_wait},
     {"Scan.FrameGet", 20, &Functions::frame_get},
     {"Scan.FrameSet", 0, &Functions::frame_set},
@@ -352,7 +345,7 @@ constexpr std::array<NanonisDoor::Functions::Row, 38> NanonisDoor::Functions::kR
     {"FolMe.SpeedGet", 8, &Functions::follow_speed_get},
     {"FolMe.SpeedSet", 0, &Functions::follow_speed_set},
     {"AutoApproach.Open", 0, &Functions::approach_open},
-    {"AutoApproach.OnOffGet", 2, &Functions::approach_get},
+    {"AutoApproach.OnOffGet", 2, &Functions::zero<std::uint16_t>},
     {"AutoApproach.OnOffSet", 0, &Functions::approach_set},
     {"Motor.StartMove", 0, &Functions::motor_move},
 }};

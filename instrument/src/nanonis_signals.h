@@ -8,6 +8,10 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "nanonis_bytes.h"
+#include "refused_request.h"
 
 namespace afm::instrument {
 
@@ -15,7 +19,7 @@ namespace afm::instrument {
 struct Signal {
   std::int32_t index;
   std::string_view name;
-  std::string_view channel;  // of the image; empty: none
+  std::string_view channel;  // channel of the image; empty: none
 };
 inline constexpr std::int32_t kSignals = 128;
 inline constexpr std::array kNamed{Signal{0, "Current (A)", ""},
@@ -35,6 +39,15 @@ inline const Signal* find_signal(std::int32_t index) {
 inline std::string name_of_signal(std::int32_t index) {
   const Signal* named = find_signal(index);
   return named != nullptr ? std::string(named->name) : fmt::format("Not used {}", index);
+}
+
+// A count of 0 to kSignals, and as many indexes of signals. RefusedRequest for any other count.
+inline std::vector<std::int32_t> indexes_of(NanonisReader& in) {
+  const auto count = in.read<std::int32_t>();
+  if (count < 0 || count > kSignals) throw RefusedRequest(fmt::format("{} signals are too many", count));
+  std::vector<std::int32_t> indexes(static_cast<std::size_t>(count));
+  for (std::int32_t& index : indexes) index = in.read<std::int32_t>();
+  return indexes;
 }
 
 }  // namespace afm::instrument

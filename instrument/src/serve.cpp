@@ -92,7 +92,7 @@ core::Result<void> serve(std::span<const OpenDoor> doors, bool once) {
   std::vector<Client> clients(doors.size());
   std::vector<pollfd> watched(doors.size());
   for (;;) {
-    // whoever comes while a client is here waits in the kernel's queue
+    // while one client is served, the next waits in the kernel's queue
     for (std::size_t i = 0; i < doors.size(); ++i) {
       const int descriptor = clients[i].is_here() ? clients[i].descriptor() : doors[i].listener->descriptor();
       watched[i] = {.fd = descriptor, .events = POLLIN, .revents = 0};

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "architecture/class_shape.h"
+#include "architecture/production.h"
 #include "core/whole_file.h"
 #include "support/places.h"
 
@@ -29,9 +30,6 @@ using testing::UnorderedElementsAre;
 constexpr int kMostFields = 30;
 constexpr int kMostFunctions = 40;
 constexpr std::size_t kMostSources = 2;
-
-constexpr std::array kRoots{"app",     "cluster", "core",  "curves", "exhibit", "haptics", "input",
-                            "physics", "render",  "scene", "servo",  "fits",    "study"};
 
 std::string text_of(const std::vector<ClassShape>& shapes) {
   std::string text;
@@ -104,7 +102,7 @@ TEST(ClassLimits, HoldForEveryClass) {
   namespace fs = std::filesystem;
   std::vector<std::string> faults;
   std::size_t classes = 0, files = 0;
-  for (const char* root : kRoots) {
+  for (const std::string& root : support::production_folders()) {
     std::set<std::string> names;
     std::map<std::string, std::set<std::string>> sources;  // source files per class
     for (const auto& entry : fs::recursive_directory_iterator(support::source(root))) {

@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/options/command.h"
 #include "app/program.h"
+#include "architecture/production.h"
 #include "architecture/prose.h"
 #include "core/whole_file.h"
 #include "support/places.h"
@@ -72,9 +74,6 @@ constexpr std::array kWords{
     Word{"jitter", "scheduling latency"},
     Word{"news", "update"},
 };
-
-constexpr std::array kProduction{"app",   "cluster", "core",   "curves", "docs/reference", "exhibit", "haptics",
-                                 "input", "physics", "render", "scene",  "servo",          "fits",    "study"};
 
 std::string in_tree(const std::filesystem::path& path) {
   return std::filesystem::relative(path, support::source()).string();
@@ -160,7 +159,9 @@ TEST(Prose, FindsWholeWordsAcrossTheEndOfALine) {
 TEST(PlainEnglish, IsWhatEveryMessageUses) {
   std::vector<std::string> faults;
   std::size_t files = 0, messages = 0;
-  for (const char* folder : kProduction) {
+  std::set<std::string> folders = support::production_folders();
+  folders.insert("docs/reference");
+  for (const std::string& folder : folders) {
     for (const auto& path : files_below(folder, {".cpp", ".h"})) {
       ++files;
       for (const Prose& message : messages_of(core::read_file(path.string()).value())) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "architecture/production.h"
 #include "architecture/prose.h"
 #include "core/whole_file.h"
 #include "support/places.h"
@@ -21,8 +22,6 @@ namespace quoted_messages_test {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr std::array kFolders{"app",   "cluster", "core",   "curves", "exhibit", "fits", "haptics",
-                              "input", "physics", "render", "scene",  "servo",   "study"};
 constexpr std::string_view kAnything = "…";  // in a quotation: a name or a number
 
 std::string text_of(const std::string& path) { return core::read_file(support::source(path)).value(); }
@@ -60,7 +59,7 @@ bool holds(std::string_view message, std::string_view quotation) {
 // Literals of the sources; lines of the wall's words and of the script that installs packages.
 std::vector<std::string> printed_messages() {
   std::vector<std::string> messages;
-  for (const char* folder : kFolders) {
+  for (const std::string& folder : support::production_folders()) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(support::source(folder))) {
       const std::string ending = entry.path().extension().string();
       if (ending != ".cpp" && ending != ".h") continue;

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "architecture/production.h"
 #include "architecture/prose.h"
 #include "core/whole_file.h"
 #include "support/places.h"
@@ -25,9 +27,6 @@ using testing::IsEmpty;
 
 constexpr std::array<std::string_view, 9> kDependent{"of",  "that",  "for",     "until",   "which",
                                                      "who", "where", "whether", "likewise"};
-
-constexpr std::array kRoots{"app",     "assets", "cluster", "core",  "curves",  "exhibit", "haptics", "input",
-                            "physics", "render", "scene",   "servo", "shaders", "fits",    "study",   "tests"};
 
 bool is_dependent(const Comment& comment) {
   const std::string first = comment.text.substr(0, comment.text.find_first_of(" ,.:;"));
@@ -71,7 +70,9 @@ TEST(TrailingComments, CanBeReadAlone) {
   namespace fs = std::filesystem;
   std::vector<std::string> faults;
   std::size_t files = 0;
-  for (const char* root : kRoots) {
+  std::set<std::string> roots = support::production_folders();
+  roots.insert({"assets", "shaders", "tests"});
+  for (const std::string& root : roots) {
     for (const auto& entry : fs::recursive_directory_iterator(support::source(root))) {
       const std::string ending = entry.path().extension().string();
       const bool is_source = ending == ".cpp" || ending == ".h" || ending == ".glsl" || ending == ".vert" ||

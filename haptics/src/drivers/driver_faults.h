@@ -12,7 +12,7 @@ namespace afm::haptics {
 template <class Health>
 class HeldFault {
  public:
-  // The fault counts for `recovery_ns` from now on, or for ever if that is empty; nothing replaces such a fault.
+  // The fault counts for `recovery_ns` from now on, or until the end if that is empty; nothing replaces such a fault.
   void raise(Health fault, std::optional<std::int64_t> recovery_ns, std::uint32_t code, std::int64_t now_ns) noexcept {
     if (until_ns_ == kForEver) return;
     fault_ = fault;

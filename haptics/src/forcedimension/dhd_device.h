@@ -25,7 +25,7 @@ namespace afm::haptics {
 // has proved it: its tests drive a stand-in for the library.
 //
 // Three threads share it, and none waits for another. The library's calls are transfers over USB and may block, so a
-// thread of its own makes them, once a millisecond: it reads the hand, and passes the servo's newest command on. The
+// separate thread makes them, once a millisecond: it reads the hand, and passes the servo's newest command on. The
 // servo reads and writes at its own rate. The supervisor watches that thread and reports changes.
 //
 // - The driver's thread does not trust the servo: it fades an old command to zero (CommandFade).

@@ -32,13 +32,13 @@ struct InstrumentSettings {
   bool flat = false;    // a level sample in place of the drawn one
   double size_m = 0;    // width of an image; zero: that of the sample
   double height_m = 0;  // height of an image; zero: its pixels are squares
-  double turn_rad = 0;  // of the image about its middle, counterclockwise
+  double turn_rad = 0;  // turn of the image about its middle, counterclockwise
   std::size_t pixels = 64;
   std::size_t lines = 0;            // zero: as many as pixels
   bool upwards = false;             // the slow scan begins at the bottom
-  double free_amplitude_m = 20e-9;  // of a tapping curve, zero to peak
+  double free_amplitude_m = 20e-9;  // free swing of a tapping curve, zero to peak
   double drive_hz = 0;              // zero: at the resonance
-  double viscosity_pa_s = 0;        // of the contact
+  double viscosity_pa_s = 0;        // viscosity of the contact
   Faults faults;
 
   std::size_t lines_or_pixels() const { return lines > 0 ? lines : pixels; }

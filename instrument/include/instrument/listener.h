@@ -26,7 +26,7 @@ class Listener {
   ~Listener();
 
   int descriptor() const noexcept { return socket_.get(); }
-  std::uint16_t port() const;  // of on_loopback()
+  std::uint16_t port() const;  // port of a listener of on_loopback()
 
   // The next client, which does not block; none, if it has left again or is refused.
   core::FileDescriptor accept() const;

@@ -45,7 +45,7 @@ class NanonisDoor final : public Door {
   double follow_speed_m_per_s_ = 1e-6;
   std::uint32_t custom_speed_ = 0;
   std::vector<std::int32_t> channels_{30};
-  float speed_ratio_ = 1;  // of retrace and trace; kept: a retrace takes as long as a trace
+  float speed_ratio_ = 1;  // ratio of retrace and trace; kept: a retrace takes as long as a trace
   std::uint32_t continuous_ = 0, bouncing_ = 0, autosave_ = 0;
   std::string series_, comment_;
 };

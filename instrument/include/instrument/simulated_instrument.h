@@ -50,8 +50,9 @@ class SimulatedInstrument {
   const Position& position() const noexcept { return at_; }
 
   struct CurveRequest {
-    std::optional<double> z_from_m{}, z_to_m{};  // of the lever's base, zero at the surface; empty: as touchafm curve
-    std::size_t points = 500;                    // of each branch, 2 to kMostCurvePoints; a jump adds two
+    std::optional<double> z_from_m{},
+        z_to_m{};              // heights of the lever's base, zero at the surface; empty: as touchafm curve
+    std::size_t points = 500;  // points of each branch, 2 to kMostCurvePoints; a jump adds two
     double speed_m_per_s = 1e-6;
   };
   static constexpr std::size_t kMostCurvePoints = 100'000;
@@ -70,7 +71,7 @@ class SimulatedInstrument {
   struct Frame {
     double width_m, height_m;
   };
-  Frame frame() const;  // of the next image
+  Frame frame() const;  // size of the next image
 
   // An image around the tip. Calls `taken` with each line and the time; the scan ends if it returns false. WrongUsage
   // unless the tip is engaged.

@@ -159,7 +159,7 @@ struct CauseCase {
   int recovers_after_ms;  // 0: never
 };
 
-// The device itself has switched the force off; the status, read every 10 ms, tells why.
+// The device itself has switched the force off; the status, read every 10 ms, says why.
 TEST(DhdDevice, NamesWhyTheDeviceLeftForceMode) {
   for (const CauseCase& cut : {CauseCase{2, DhdHealth::VelocityExceeded, 200},
                                {3, DhdHealth::WatchdogExpired, 200},

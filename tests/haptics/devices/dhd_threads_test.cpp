@@ -100,7 +100,10 @@ TEST_F(DhdThreads, AreLeftWithTheForceOffThoughACallDoesNotComeBack) {
 TEST_F(DhdThreads, AreRefusedWhenTheFirstCallDoesNotComeBack) {
   mock_dhd_block(1);
   std::thread end([] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    // the device is given up
+    EXPECT_TRUE(eventually([] { return mock_dhd_caught() == 1; }));
+    const std::size_t before = calls().size();
+    EXPECT_TRUE(eventually([before] { return calls().size() > before && calls().back() == "brakes_on"; }));
     mock_dhd_block(0);
   });
   const auto device = open();

@@ -264,8 +264,12 @@ TEST(HaplyDevice, NeverMovesItsForceToAnotherArm) {
   ASSERT_TRUE(eventually([&] { return (*device)->read(kClock.now_ns()).healthy; }));
   service.second_only = true;
   ASSERT_TRUE(eventually([&] { return !(*device)->read(kClock.now_ns()).healthy; }));
-  service.hang_up();
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  // before it connects again it has read what the last connection sent
+  for (int i = 0; i < 2; ++i) {
+    const unsigned before = service.states();
+    service.hang_up();
+    ASSERT_TRUE(eventually([&] { return service.states() > before; }));
+  }
   EXPECT_FALSE((*device)->read(kClock.now_ns()).healthy);
   for (const auto& force : service.forces()) EXPECT_EQ(force.id, "049D");
 }

@@ -38,6 +38,8 @@ class HaplyService::Server {
     return forces_;
   }
 
+  unsigned states() const { return states_; }
+
  private:
   using Tcp = boost::asio::ip::tcp;
   using Stream = boost::beast::websocket::stream<Tcp::socket>;
@@ -137,7 +139,7 @@ class HaplyService::Server {
   std::atomic<bool> ending_{false};
   mutable std::mutex mutex_;
   int client_ = -1;
-  mutable unsigned states_ = 0;  // number of states sent
+  mutable std::atomic<unsigned> states_{0};  // number of states sent
   std::vector<Force> forces_;
   std::thread thread_;
 };
@@ -146,6 +148,7 @@ HaplyService::HaplyService(Manner first) : manner(first), server_(std::make_uniq
 HaplyService::~HaplyService() = default;
 std::uint16_t HaplyService::port() const { return server_->port(); }
 void HaplyService::hang_up() { server_->hang_up(); }
+unsigned HaplyService::states() const { return server_->states(); }
 std::vector<HaplyService::Force> HaplyService::forces() const { return server_->forces(); }
 
 }  // namespace afm::test

@@ -28,6 +28,8 @@ class HaplyService {
 
   // Ends the connection, as a service does that is restarted.
   void hang_up();
+  // Number of states sent so far.
+  unsigned states() const;
 
   struct Force {
     double x, y, z;  // the service's axes

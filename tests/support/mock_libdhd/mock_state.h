@@ -5,9 +5,9 @@
 #include <atomic>
 #include <mutex>
 
-#include "support/person_script.h"
+#include "haptics/devices/person_script.h"
 
-// Hidden, so that each variant of the library has a state of its own.
+// Hidden, so that each variant of the library has its own state.
 #pragma GCC visibility push(hidden)
 
 // The state behind the mock's two interfaces.

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "support/person_script.h"
+#include "haptics/devices/person_script.h"
 
 // The state behind the mock's two interfaces, and the scheduler. Nothing here allocates once the scheduler runs.
 namespace mock_hd {
