@@ -18,6 +18,7 @@
 #include "app/analyse/analyse_image.h"
 #include "app/analyse/fit_batch.h"
 #include "app/analyse/fit_options.h"
+#include "app/analyse/reading_options.h"
 #include "app/options/command.h"
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
@@ -38,14 +39,12 @@ namespace afm::app {
 namespace {
 
 using core::wrong_usage;
-// The same range as for a contact.
-constexpr QuantityRange<physics::Stiffness> kSpringConstants{physics::Stiffness(1e-6), physics::Stiffness(1e6)};
-
 core::Result<curves::AnalysedCurve> load_analysed(const std::string& file, const curves::CurveReading& reading,
-                                                  std::optional<physics::ContactMethod> method) {
+                                                  std::optional<physics::ContactMethod> method,
+                                                  const physics::BaselineChoice& baseline) {
   auto curve = curves::load_curve(file, reading);
   if (!curve) return tl::unexpected(curve.error());
-  auto analysed = curves::analysed(file, std::move(*curve), method);
+  auto analysed = curves::analysed(file, std::move(*curve), method, baseline);
   if (analysed) analysed->name = std::filesystem::path(file).filename().string();
   return analysed;
 }
@@ -144,38 +143,50 @@ core::Result<void> check_batch(const AnalyseOptions& options, const std::vector<
   return {};
 }
 
-// How a curve is read. The options write into `reading` while the parser lives.
+// "0um:1.5um", ways from the outermost point of the approach.
+core::Result<physics::WayRange> parse_way_range(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const auto from = physics::parse_quantity(text.substr(0, colon), physics::kLengthUnits);
+  const auto to =
+      physics::parse_quantity(colon == std::string::npos ? "" : text.substr(colon + 1), physics::kLengthUnits);
+  if (!from.value || !to.value || from.value->si < 0.0 || *from.value >= *to.value) {
+    return wrong_usage(
+        fmt::format("\"{}\" is no range of ways from the outermost point of the approach, such as 0um:1.5um", text));
+  }
+  return physics::WayRange{*from.value, *to.value};
+}
+
+// The options write into `baseline` while the parser lives.
 template <class Add>
-void add_reading_options(OptionList& command, curves::CurveReading& reading, const Add& add) {
-  add("--spring-constant",
-      quantity_option(
-          command, "--spring-constant", [&reading](physics::Stiffness lever) { reading.spring_constant = lever; },
-          physics::kStiffnessUnits, "spring constant of the lever instead of the file's; forces scale with it",
-          std::optional(kSpringConstants)));
-  const auto read_sensitivity = [&reading](const std::string& text) -> core::Result<void> {
-    const auto sensitivity = parse_sensitivity(text);
-    if (!sensitivity) return tl::unexpected(sensitivity.error());
-    reading.sensitivity_m_per_v = *sensitivity;
+void add_baseline_options(OptionList& command, physics::BaselineChoice& baseline, const Add& add) {
+  std::vector<std::string> words;
+  for (const auto& each : physics::kBaselineShapes) words.emplace_back(each.name);
+  const auto read_shape = [&baseline, words](const std::string& text) -> core::Result<void> {
+    const auto shape = std::find(words.begin(), words.end(), text);
+    if (shape == words.end()) {
+      return wrong_usage(fmt::format("unknown baseline \"{}\"; choose {}", text, fmt::join(words, ", ")));
+    }
+    baseline.shape = physics::kBaselineShapes.at(static_cast<std::size_t>(shape - words.begin())).shape;
     return {};
   };
-  add("--sensitivity", command
-                           .add_parsed_option("--sensitivity", read_sensitivity,
-                                              "sensitivity of the optical lever instead of the file's")
-                           .type_name("SENSITIVITY in um/V, nm/V, pm/V"));
-  const auto read_columns = [&reading](const std::string& text) -> core::Result<void> {
-    auto columns = curves::parse_table_columns(text);
-    if (!columns) return tl::unexpected(columns.error());
-    reading.columns = std::move(*columns);
-    return {};
-  };
-  add("--columns",
+  add("--baseline",
       command
-          .add_parsed_option("--columns", read_columns,
-                             "read FILE as a plain table, by the names and units of its columns: "
-                             "\"height:um force:nN\", \"- height:nm deflection:V\", or deflection:-V where the "
-                             "sign is the opposite; names: height, "
-                             "force, deflection, retract-force, retract-deflection, segment, time, -")
-          .type_name("COLUMNS"));
+          .add_parsed_option("--baseline", read_shape,
+                             "force without contact: a tilted line, a flat one, or a line with waves, the "
+                             "interference of the laser; default: tilted")
+          .type_name(fmt::format("{{{}}}", fmt::join(words, ","))));
+  const auto read_range = [&baseline](const std::string& text) -> core::Result<void> {
+    const auto range = parse_way_range(text);
+    if (!range) return tl::unexpected(range.error());
+    baseline.range = *range;
+    return {};
+  };
+  add("--baseline-range",
+      command
+          .add_parsed_option("--baseline-range", read_range,
+                             "part of the approach for the baseline, as ways from its outermost point: 0um:1.5um; "
+                             "default: as much as stays on one line")
+          .type_name("FROM:TO"));
 }
 
 // The options write into `options` while the parser lives.
@@ -188,7 +199,9 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
                              .add_option("--beside", options.beside,
                                          "second curve to compare with, measured or computed by touchafm curve")
                              .type_name("FILE"));
-  add_reading_options(command, options.reading, for_curves);
+  for (const NamedOption& of_reading : add_reading_options(command, options.reading)) {
+    for_curves(of_reading.name, of_reading.option);
+  }
   const auto read_method = [&options](const std::string& text) -> core::Result<void> {
     const auto method = std::find_if(physics::kContactMethods.begin(), physics::kContactMethods.end(),
                                      [&](const auto& each) { return each.name == text; });
@@ -205,6 +218,7 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
                                         "; default: zero-force if the tip is attracted before contact or the curve is "
                                         "computed, otherwise fit-polynomial")
                  .type_name("METHOD"));
+  add_baseline_options(command, options.baseline, for_curves);
   for_curves("--curve",
              command.add_option("--curve", options.reading.index, "number of the curve in a file with several, from 0")
                  .show_default()
@@ -220,16 +234,6 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
 }
 
 }  // namespace
-
-core::Result<double> parse_sensitivity(std::string_view text) {
-  constexpr std::string_view kPerVolt = "/V";
-  const auto parsed = physics::parse_quantity(text.substr(0, text.size() - std::min(text.size(), kPerVolt.size())),
-                                              physics::kLengthUnits);
-  if (!text.ends_with(kPerVolt) || !parsed.value || parsed.value->si <= 0.0) {
-    return wrong_usage(fmt::format("\"{}\" is not a deflection per volt, such as 70nm/V", text));
-  }
-  return parsed.value->si;
-}
 
 core::Result<void> analyse_session(const AnalyseOptions& options) {
   const auto session = servo::load_session(options.file);
@@ -270,11 +274,11 @@ core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
   if (*kind == FileKind::Image) {
     return analyse_image_file(options.file, {{.channel = options.channel}, options.levelling}, options.json);
   }
-  const auto measured = load_analysed(options.file, options.reading, options.contact_method);
+  const auto measured = load_analysed(options.file, options.reading, options.contact_method, options.baseline);
   if (!measured) return tl::unexpected(measured.error());
   std::optional<curves::AnalysedCurve> beside;
   if (!options.beside.empty()) {
-    auto other = load_analysed(options.beside, {}, {});
+    auto other = load_analysed(options.beside, {}, {}, {});
     if (!other) return tl::unexpected(other.error());
     beside = std::move(*other);
   }

@@ -16,16 +16,14 @@ struct AnalyseOptions {
   std::string file;
   curves::CurveReading reading;                          // overrides the file's own settings
   std::optional<physics::ContactMethod> contact_method;  // empty: chosen from the curve
-  std::string beside;                                    // second curve for comparison, measured or computed
+  physics::BaselineChoice baseline;
+  std::string beside;  // second curve for comparison, measured or computed
   bool json = false;
   std::string out;  // SVG of the curve, in addition to the text
   curves::FitOptions fit;
   std::string channel;  // name of an image's channel
   physics::Levelling levelling = physics::Levelling::Plane;
 };
-
-// Converts "70nm/V" to metres per volt. WrongUsage if the text is malformed or the value not positive.
-core::Result<double> parse_sensitivity(std::string_view text);
 
 // Reads, analyses and compares a curve; prints the figures to stdout. For an image, recognised by its first bytes,
 // prints size, channels and statistics.

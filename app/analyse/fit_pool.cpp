@@ -35,7 +35,7 @@ FittedCurve fitted(const std::string& file, core::Result<curves::RecordedCurve> 
     }
     result.position = curve->metadata.position;
     result.pixel = curve->metadata.pixel;
-    const auto analysed = curves::analysed(file, std::move(*curve), options.contact_method);
+    const auto analysed = curves::analysed(file, std::move(*curve), options.contact_method, options.baseline);
     if (!analysed) {
       result.why = analysed.error().message;
       return result;

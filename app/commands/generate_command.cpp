@@ -64,12 +64,8 @@ class Together {
   core::OutputFolder folder_;
 };
 
-// AFM Workshop's is the only .csv of measured curves.
 core::Result<curves::CurveFormat> curve_format_of(const std::string& file) {
-  for (const curves::WritableFormat& row : curves::writable_formats()) {
-    if (file.ends_with("." + std::string(row.word))) return row.format;
-  }
-  if (file.ends_with(".csv")) return curves::CurveFormat::AfmWorkshop;
+  if (const auto format = curves::writable_format_of(file)) return format->format;
   return wrong_usage(fmt::format("--out {}: name a file that ends in .h5, .tab or, for AFM Workshop's, .csv", file));
 }
 

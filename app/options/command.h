@@ -29,6 +29,7 @@ struct CommandContext {
   COMMAND(scan)                       \
   COMMAND(generate)                   \
   COMMAND(analyse)                    \
+  COMMAND(convert)                    \
   COMMAND(lever)                      \
   COMMAND(material)                   \
   COMMAND(particles)                  \

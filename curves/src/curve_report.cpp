@@ -40,6 +40,8 @@ constexpr auto kEnergyText = &text_of<physics::kEnergyUnits, physics::Energy>;
 
 double zero_of(const CurveFeatures& features) { return features.contact_point.value_or(physics::Length()).si; }
 
+bool has_waves(const CurveFeatures& features) { return features.baseline.waves.period.si > 0.0; }
+
 // In printing order.
 const Figure kFigures[] = {
     {"baseline_level_N", "baseline", [](const CurveFeatures& f) { return std::optional(f.baseline.level.si); },
@@ -48,6 +50,14 @@ const Figure kFigures[] = {
      kStiffnessText},
     {"baseline_noise_N", "  its noise", [](const CurveFeatures& f) { return std::optional(f.baseline.noise.si); },
      kForceText},
+    {"baseline_waves_N", "  its waves",
+     [](const CurveFeatures& f) {
+       return has_waves(f) ? std::optional(f.baseline.waves.amplitude().si) : std::nullopt;
+     },
+     kForceText},
+    {"baseline_wave_period_m", "  their period",
+     [](const CurveFeatures& f) { return has_waves(f) ? std::optional(f.baseline.waves.period.si) : std::nullopt; },
+     kLengthText},
     {"contact_point_m", "contact point",
      [](const CurveFeatures& f) { return f.contact_point ? std::optional(f.contact_point->si) : std::nullopt; },
      kLengthText},
@@ -155,11 +165,12 @@ bool is_subtractable(const Figure& figure, const CurveFeatures& a, const CurveFe
 }  // namespace
 
 core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve,
-                                     std::optional<physics::ContactMethod> method) {
+                                     std::optional<physics::ContactMethod> method,
+                                     const physics::BaselineChoice& baseline) {
   try {
     const bool computed = curve.metadata.software == kComputedBy;
-    CurveFeatures features =
-        physics::analyse(curve.points, computed ? physics::ForceZero::True : physics::ForceZero::Instrument, method);
+    CurveFeatures features = physics::analyse(
+        curve.points, computed ? physics::ForceZero::True : physics::ForceZero::Instrument, method, baseline);
     if (method && !features.contact_point) {
       return core::failure(core::ErrorCategory::BadInputFile,
                            fmt::format("cannot analyse {}: --contact-point {} finds no contact point; try another",

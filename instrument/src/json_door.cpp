@@ -269,13 +269,12 @@ struct JsonDoor::Verbs {
                                                                           : curves::gwy_bytes(*door.image_)));
       return {{"file", name}};
     }
-    for (const curves::WritableFormat& row : curves::writable_formats()) {
-      if (!name.ends_with("." + std::string(row.word))) continue;
+    if (const auto format = curves::writable_format_of(name)) {
       if (!door.curve_) throw RefusedRequest("there is no curve yet; \"curve\" first");
-      value_of(core::write_file(path, value_of(curves::series_bytes(row.format, std::array{*door.curve_}))));
+      value_of(core::write_file(path, value_of(curves::series_bytes(format->format, std::array{*door.curve_}))));
       return {{"file", name}};
     }
-    throw RefusedRequest("\"file\": name it .gwy or .gsf for the newest image, .h5 or .tab for the newest curve");
+    throw RefusedRequest("\"file\": name it .gwy or .gsf for the newest image, .h5, .tab or .csv for the newest curve");
   }
 
   static Json quit(JsonDoor&, Arguments& arguments, const Json&, const Send&) {

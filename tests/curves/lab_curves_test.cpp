@@ -16,6 +16,7 @@
 #include "curves/image_file.h"
 #include "support/image_files.h"
 #include "support/places.h"
+#include "vendor_image_files.h"
 
 namespace afm::curves {
 namespace lab_curves_test {
@@ -76,12 +77,10 @@ TEST(LabFiles, AreRefusedByTheirTrueKind) {
       EXPECT_THAT(message, HasSubstr("it is " + kind));
     }
   }
-  test::TiffPage park;
-  park.number(0xC500, 4, 0x0E031301);
-  park.number(0x0100, 4, 2);
-  std::string tiff("MM\0*\0\0\0\x08", 8);
-  park.append_to(tiff);
-  EXPECT_THAT(parse_image(tiff, "a.tiff").error().message, HasSubstr("a TIFF of Park Systems"));
+  const std::string profile = test::park_image_file({.kind = 1}, ""),
+                    spectroscopy = test::park_image_file({.kind = 2}, "");
+  EXPECT_THAT(parse_image(profile, "a.tiff").error().message, HasSubstr("a line profile of Park Systems"));
+  EXPECT_THAT(parse_image(spectroscopy, "a.tiff").error().message, HasSubstr("a spectroscopy of Park Systems"));
 }
 
 constexpr double kPush_nN = 15.49, kSpringConstant = 0.05;

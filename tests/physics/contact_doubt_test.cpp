@@ -7,57 +7,14 @@
 #include <random>
 #include <vector>
 
+#include "gel_curve.h"
 #include "physics/curve_analysis.h"
 
-// A sphere of 5 um on gels of 0.3 to 100 kPa under a lever of 0.05 N/m, with 5 pN of noise and what spoils the contact
-// point: a tilt, waves of a laser, an approach without a baseline.
+// Gels of 0.3 to 100 kPa with what spoils the contact point: a tilt, waves of a laser, an approach without a baseline.
 namespace contact_doubt_test {
 
 using namespace afm::physics;
-
-constexpr double kSpring = 0.05, kRadiusM = 5e-6, kPoisson = 0.5, kNoiseN = 5e-12, kContactM = 12.3e-6;
-
-// Hertz 1882.
-double force_n(double modulus_pa, double indentation_m) {
-  return 4.0 / 3.0 * modulus_pa / (1.0 - kPoisson * kPoisson) * std::sqrt(kRadiusM) * std::pow(indentation_m, 1.5);
-}
-
-// Force with the lever's base at `below_m` below the contact point, by Newton's method.
-double pushed_n(double modulus_pa, double below_m) {
-  if (below_m <= 0.0) return 0.0;
-  double indentation_m = below_m;
-  for (int i = 0; i < 60; ++i) {
-    const double force = force_n(modulus_pa, indentation_m);
-    indentation_m -= (indentation_m + force / kSpring - below_m) / (1.0 + 1.5 * force / indentation_m / kSpring);
-  }
-  return force_n(modulus_pa, indentation_m);
-}
-
-struct Gel {
-  double modulus_pa = 1e3;
-  double depth_m = 1e-6;    // depth of the lever's base at the deepest point
-  double outside_m = 2e-6;  // negative: the approach begins below the contact point
-  double tilt = 0.0;        // N/m
-  double wave_n = 0.0;      // amplitude
-  double period_m = 4e-7;
-  double phase = 0.0;
-  int points = 2000;
-};
-
-std::vector<CurvePoint> cycle(const Gel& gel, std::mt19937_64& random) {
-  std::normal_distribution<double> noise(0.0, kNoiseN);
-  std::vector<CurvePoint> points;
-  for (const Branch branch : {Branch::Approach, Branch::Retract}) {
-    for (int i = 0; i < gel.points; ++i) {
-      const double share = static_cast<double>(branch == Branch::Approach ? i : gel.points - 1 - i) / (gel.points - 1);
-      const double z = gel.outside_m - (gel.outside_m + gel.depth_m) * share;
-      const double wave = gel.wave_n * std::sin(2.0 * 3.14159265358979 * z / gel.period_m + gel.phase);
-      points.push_back({Length(kContactM + z),
-                        Force(pushed_n(gel.modulus_pa, -z) + 1e-9 + gel.tilt * z + wave + noise(random)), branch});
-    }
-  }
-  return points;
-}
+using namespace afm::test;
 
 class Draw {
  public:
@@ -88,7 +45,7 @@ struct Judged {
 };
 
 Judged judged(const Gel& gel, std::mt19937_64& random) {
-  Judged result{analyse(cycle(gel, random))};
+  Judged result{analyse(gel_cycle(gel, random))};
   const auto& found = result.features;
   result.error_m = found.contact_point ? found.contact_point->si - kContactM : HUGE_VAL;
   result.off =

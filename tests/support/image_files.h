@@ -200,6 +200,10 @@ class TiffPage {
   void text(std::uint16_t tag, const std::string& value) {
     entries_[tag] = {2, static_cast<std::uint32_t>(value.size() + 1), value + '\0'};
   }
+  // Bytes of a tag with a layout of its own.
+  void raw(std::uint16_t tag, const std::string& bytes) {
+    entries_[tag] = {7, static_cast<std::uint32_t>(bytes.size()), bytes};
+  }
   // One strip, whose place is known when the file is put together.
   void pixels(const std::string& bytes) { pixels_ = bytes; }
 

@@ -40,12 +40,16 @@ bool begins_like_curve(std::string_view bytes);
 // Format that write_curve() writes.
 struct WritableFormat {
   CurveFormat format = CurveFormat::Tab;
-  std::string_view word;  // name on command lines, and the ending of files: "tab"
+  std::string_view word;    // name on command lines: "tab"
+  std::string_view ending;  // ".tab"
   bool binary = false;
 };
 
 // In the order of CurveFormat.
 std::vector<WritableFormat> writable_formats();
+
+// The one whose ending a file's name has; empty: none. AFM Workshop's is the only .csv.
+std::optional<WritableFormat> writable_format_of(std::string_view name);
 
 // How to convert a recording to forces, and which curve to read. A given calibration replaces the file's: forces scale
 // with their original spring constant and sensitivity.

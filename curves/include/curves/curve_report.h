@@ -23,7 +23,8 @@ struct AnalysedCurve {
 // the curve, if it cannot be analysed or the requested method finds no contact point. By default the analysis chooses
 // the method (physics/curve_analysis.h).
 core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve,
-                                     std::optional<physics::ContactMethod> method = std::nullopt);
+                                     std::optional<physics::ContactMethod> method = std::nullopt,
+                                     const physics::BaselineChoice& baseline = {});
 
 // One line per feature, with its unit, places relative to the contact point; with another curve, also its figures and
 // the differences. `other` may be null.

@@ -20,6 +20,12 @@ bool is_beyond(const AnalysedCurve& curve, const physics::CurvePoint& point, con
   return force_n > options.most_force_n || depth_m > options.most_depth_m;
 }
 
+// The fit has a level and a tilt of its own, and no waves.
+double without_waves_n(const AnalysedCurve& curve, const physics::CurvePoint& point) {
+  const physics::Baseline& baseline = curve.features.baseline;
+  return (point.force - baseline.waves.at(point.z - baseline.z_far)).si;
+}
+
 // Heights between which a tip may stick or be free.
 struct Doubtful {
   double approach_sticks_m = -std::numeric_limits<double>::infinity();  // below it the approach surely sticks
@@ -64,7 +70,7 @@ FitPoints adhesive_points(const AnalysedCurve& curve, const FitOptions& options)
     const bool sticks = point.z.si <= (approach ? heights.approach_sticks_m : heights.retract_sticks_m);
     const bool free = point.z.si > (approach ? heights.approach_free_m : heights.retract_free_m);
     if (!(sticks || free) || (sticks && is_beyond(curve, point, options))) continue;
-    found.samples.push_back({point.z.si, point.force.si, sticks});
+    found.samples.push_back({point.z.si, without_waves_n(curve, point), sticks});
     found.places.push_back(i);
   }
   return found;
@@ -76,7 +82,7 @@ FitPoints approach_points(const AnalysedCurve& curve, const FitOptions& options)
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].branch != Branch::Approach) continue;
     if (is_beyond(curve, points[i], options)) break;
-    found.samples.push_back({points[i].z.si, points[i].force.si});
+    found.samples.push_back({points[i].z.si, without_waves_n(curve, points[i])});
     found.places.push_back(i);
   }
   return found;

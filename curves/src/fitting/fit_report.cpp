@@ -217,7 +217,7 @@ SvgLine fit_line(const AnalysedCurve& curve, const fits::ElasticFit& fit, const 
     if (i > 0 && places[i] != places[i - 1] + 1) line.points.push_back({kBreak, kBreak});
     const physics::CurvePoint& point = curve.curve.points[places[i]];
     line.points.push_back(
-        {(point.z.si - zero_m) * kNmPerM, (fit.model_n[i] - curve.features.baseline.at(point.z).si) * kNnPerN});
+        {(point.z.si - zero_m) * kNmPerM, (fit.model_n[i] - curve.features.baseline.line_at(point.z).si) * kNnPerN});
   }
   return line;
 }

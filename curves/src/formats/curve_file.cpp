@@ -80,8 +80,9 @@ enum class Reader { Ours, Foreign };  // Foreign: formats of other programs, rea
 
 struct CurveRow {
   CurveFormat format;
-  std::string_view files;  // as listed in kCurveFiles
-  std::string_view word;   // value of --format; empty: read only
+  std::string_view files;   // as listed in kCurveFiles
+  std::string_view word;    // value of --format; empty: read only
+  std::string_view ending;  // ".tab"; empty: read only
   bool (*begins)(std::string_view bytes);
   Reader reader;
   const SeriesRow* series;  // null: files hold one curve
@@ -97,28 +98,29 @@ constexpr FormatTable kCurves{
     },
     kCurveFiles, kLongestHeading,
     std::array{
-        CurveRow{CurveFormat::TouchAfmCsv, "TouchAFM .csv", "",
+        CurveRow{CurveFormat::TouchAfmCsv, "TouchAFM .csv", "", "",
                  [](std::string_view b) { return b.starts_with("# TouchAFM force-displacement curve"); }, Reader::Ours,
                  nullptr, [](std::string_view b, const CurveReading&) { return read_touchafm_csv(b); }, nullptr},
-        CurveRow{CurveFormat::Tab, "afmformats .tab", "tab", begins_as_tab, Reader::Ours, nullptr,
+        CurveRow{CurveFormat::Tab, "afmformats .tab", "tab", ".tab", begins_as_tab, Reader::Ours, nullptr,
                  [](std::string_view b, const CurveReading&) { return read_tab(b); }, tab_bytes},
-        CurveRow{CurveFormat::Hdf5, ".h5", "h5", [](std::string_view b) { return b.starts_with("\x89HDF\r\n\x1a\n"); },
-                 Reader::Ours, &kHdf5Series, read_hdf5,
-                 [](const RecordedCurve& curve) { return hdf5_bytes({&curve, 1}); }, true},
-        CurveRow{CurveFormat::JpkForce, "JPK .jpk-force, .jpk-force-map or .jpk-qi-data", "",
+        CurveRow{CurveFormat::Hdf5, ".h5", "h5", ".h5",
+                 [](std::string_view b) { return b.starts_with("\x89HDF\r\n\x1a\n"); }, Reader::Ours, &kHdf5Series,
+                 read_hdf5, [](const RecordedCurve& curve) { return hdf5_bytes({&curve, 1}); }, true},
+        CurveRow{CurveFormat::JpkForce, "JPK .jpk-force, .jpk-force-map or .jpk-qi-data", "", "",
                  [](std::string_view b) { return b.starts_with("PK\x03\x04"); }, Reader::Foreign, &kJpkSeries, read_jpk,
                  nullptr},
         CurveRow{
-            CurveFormat::AfmWorkshop, "AFM Workshop .csv", "afm-workshop",
+            CurveFormat::AfmWorkshop, "AFM Workshop .csv", "afm-workshop", ".csv",
             [](std::string_view b) { return b.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos; },
             Reader::Foreign, nullptr, read_workshop, workshop_bytes},
-        CurveRow{CurveFormat::NanoscopeForce, "Nanoscope .spm or .000", "",
+        CurveRow{CurveFormat::NanoscopeForce, "Nanoscope .spm or .000", "", "",
                  [](std::string_view b) { return b.starts_with(kNanoscopeForceMagic); }, Reader::Foreign, nullptr,
                  read_nanoscope_curve, nullptr},
-        CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", looks_like_igor, Reader::Foreign, nullptr, read_igor,
+        CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", "", looks_like_igor, Reader::Foreign, nullptr, read_igor,
                  nullptr}}};
 // Not known by its content: the user says what it is.
-constexpr CurveRow kColumnTable{CurveFormat{}, "", "", nullptr, Reader::Foreign, nullptr, read_column_table, nullptr};
+constexpr CurveRow kColumnTable{CurveFormat{},     "",     "", "", nullptr, Reader::Foreign, nullptr,
+                                read_column_table, nullptr};
 static_assert(core::has_row_for_each(kCurves.rows, &CurveRow::format));
 static_assert(kCurves.names_all(), "kCurveFiles names the files of every format");
 
@@ -242,9 +244,16 @@ class PartReader {
 std::vector<WritableFormat> writable_formats() {
   std::vector<WritableFormat> formats;
   for (const CurveRow& row : kCurves.rows) {
-    if (row.write != nullptr) formats.push_back({row.format, row.word, row.binary});
+    if (row.write != nullptr) formats.push_back({row.format, row.word, row.ending, row.binary});
   }
   return formats;
+}
+
+std::optional<WritableFormat> writable_format_of(std::string_view name) {
+  for (const WritableFormat& format : writable_formats()) {
+    if (name.ends_with(format.ending)) return format;
+  }
+  return std::nullopt;
 }
 
 bool is_curve_file(const std::string& path) { return kCurves.row_of_file(path) != nullptr; }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bytes/file_bytes.h"
+#include "bytes/tiff_page.h"
 #include "core/enumerators.h"
 #include "core/printable.h"
 #include "curves/curve_error.h"
@@ -24,6 +25,8 @@
 #include "images/image_pages.h"
 #include "images/jpk_image.h"
 #include "images/nanoscope_image.h"
+#include "images/nanosurf_image.h"
+#include "images/park_image.h"
 
 namespace afm::curves {
 
@@ -58,6 +61,9 @@ constexpr FormatTable kImages{
                   read_nanoscope},
         FormatRow{ImageFormat::Igor, "Igor", "Igor .ibw",
                   [](std::string_view b) { return looks_like_igor_image(b) || is_old_igor(b); }, read_igor_image},
+        FormatRow{ImageFormat::Nanosurf, "Nanosurf", "Nanosurf .nid",
+                  [](std::string_view b) { return b.starts_with(kNanosurfMagic); }, read_nanosurf_image},
+        FormatRow{ImageFormat::Park, "Park", "Park .tiff", looks_like_park, read_park_image},
         FormatRow{ImageFormat::Jpk, "JPK", "JPK .jpk", looks_like_tiff, read_jpk_image}}};
 static_assert(core::has_row_for_each(kImages.rows, &FormatRow::format));
 static_assert(kImages.names_all(), "kImageFiles names the files of every format");
@@ -90,7 +96,8 @@ int rank_as_height(const ImagePage& page) {
   const auto begins = [&](std::string_view word) { return name.starts_with(word); };
   if (page.unit != "m") return 4;
   const int way = name.find("retrace") != std::string::npos ? 1 : 0;
-  if (begins("height") || begins("topography") || begins("z ") || begins("zsens") || name == "z") return way;
+  if (begins("height") || begins("topography") || begins("z ") || begins("z-axis") || begins("zsens") || name == "z")
+    return way;
   if (begins("defl") || begins("amplitude") || begins("lock-in") || begins("peak force")) return 4;
   return 2 + way;
 }

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "physics/contact_point.h"
@@ -33,15 +36,55 @@ CurveSummary summarise(std::span<const CurveSample> samples);
 // The curve of a model in the form of an instrument's.
 std::vector<CurvePoint> points_of(std::span<const CurveSample> samples);
 
+// Interference of the laser's light at lever and sample: a wave along Z with this period, as a sum of a sine and a
+// cosine of the way from the outermost point.
+struct Waves {
+  Length period;  // zero: none
+  Force sine, cosine;
+
+  Force amplitude() const { return Force(std::hypot(sine.si, cosine.si)); }
+  Force at(Length way) const {
+    if (period.si == 0.0) return {};
+    const double phase = 2.0 * std::numbers::pi * (way / period);
+    return std::sin(phase) * sine + std::cos(phase) * cosine;
+  }
+};
+
 // The force recorded by the instrument without interaction ("baseline" in nanite, AtomicJ and SPM-Kit): a straight line
-// F = level + tilt (Z - z_far).
+// F = level + tilt (Z - z_far), with waves where they are asked for.
 struct Baseline {
   Length z_far;  // outermost point of the approach
   Force level;
   Stiffness tilt;
-  Force noise;  // standard deviation around the line, from the median absolute deviation
+  Force noise;  // standard deviation around the baseline, from the median absolute deviation
+  Waves waves{};
 
-  Force at(Length z) const { return level + tilt * (z - z_far); }
+  Force line_at(Length z) const { return level + tilt * (z - z_far); }
+  Force at(Length z) const { return line_at(z) + waves.at(z - z_far); }
+};
+
+enum class BaselineShape {
+  Tilted,  // a straight line
+  Flat,    // a level alone
+  Waves,   // a straight line and one wave
+};
+
+struct BaselineShapeName {
+  BaselineShape shape;
+  std::string_view name;
+};
+inline constexpr std::array kBaselineShapes{BaselineShapeName{BaselineShape::Tilted, "tilted"},
+                                            BaselineShapeName{BaselineShape::Flat, "flat"},
+                                            BaselineShapeName{BaselineShape::Waves, "waves"}};
+
+// Part of the approach, as ways from its outermost point.
+struct WayRange {
+  Length from, to;  // from < to
+};
+
+struct BaselineChoice {
+  BaselineShape shape = BaselineShape::Tilted;
+  std::optional<WayRange> range{};  // empty: found from the curve
 };
 
 // A sudden change of the force: the last point before it and the strongest pull after it. Forces are above the
@@ -101,14 +144,16 @@ struct CurveFeatures {
 
 // Least number of points of an analysable approach. A retract may be missing.
 inline constexpr std::size_t kFewestApproachPoints = 10;
+inline constexpr std::size_t kFewestBaselinePoints = 5;
 
 // Zero of a curve's force: True for a computed curve; Instrument if it must be estimated, at the risk of taking a
 // long-range attraction for tilt.
 enum class ForceZero { Instrument, True };
 
 // For points in the order of the cycle, any number per branch. Throws std::invalid_argument if the approach has fewer
-// than kFewestApproachPoints, a point is not finite, or all points have the same Z. O(n log n), allocates.
+// than kFewestApproachPoints, a point is not finite, all points have the same Z, or fewer than kFewestBaselinePoints
+// lie in the chosen range. O(n log n), allocates.
 CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero = ForceZero::Instrument,
-                      std::optional<ContactMethod> method = std::nullopt);
+                      std::optional<ContactMethod> method = std::nullopt, const BaselineChoice& baseline = {});
 
 }  // namespace afm::physics

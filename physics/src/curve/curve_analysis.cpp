@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "baseline.h"
 #include "contact_fit.h"
 #include "retract_features.h"
 
@@ -14,81 +15,9 @@ namespace afm::physics {
 
 namespace {
 
-// A feature is significant from five standard deviations of the noise on; without noise, from a millionth of the
-// curve's largest force on, which is far above rounding.
+// A feature is significant from five standard deviations of the noise on; without noise, from kRoundingShare of the
+// curve's largest force on.
 constexpr double kSignificant = 5.0;
-constexpr double kRoundingShare = 1e-6;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
-
-struct Stretch {
-  std::span<const CurvePoint> points;  // falling Z
-  Length z_far;
-};
-
-// The line through the medians of up to 32 groups of neighbours, with the median of the slopes of all their pairs as
-// slope (Theil 1950, Sen 1968): tolerates half of the points as outliers.
-Baseline line_through(const Stretch& stretch) {
-  constexpr std::size_t kGroups = 32;
-  const std::size_t count = stretch.points.size();
-  const std::size_t groups = std::min(kGroups, count);
-  std::vector<double> z_of, force_of, slopes;
-  for (std::size_t g = 0; g < groups; ++g) {
-    std::vector<double> z, force;
-    for (std::size_t i = g * count / groups; i < (g + 1) * count / groups; ++i) {
-      z.push_back((stretch.points[i].z - stretch.z_far).si);
-      force.push_back(stretch.points[i].force.si);
-    }
-    z_of.push_back(median(z));
-    force_of.push_back(median(force));
-  }
-  for (std::size_t a = 0; a < groups; ++a) {
-    for (std::size_t b = a + 1; b < groups; ++b) {
-      if (z_of[a] != z_of[b]) slopes.push_back((force_of[a] - force_of[b]) / (z_of[a] - z_of[b]));
-    }
-  }
-  Baseline line{stretch.z_far, {}, Stiffness(slopes.empty() ? 0.0 : median(slopes)), {}};
-  std::vector<double> residuals;
-  for (const CurvePoint& point : stretch.points) residuals.push_back((point.force - line.at(point.z)).si);
-  line.level = Force(median(residuals));
-  for (double& residual : residuals) residual = std::abs(residual - line.level.si);
-  line.noise = Force(1.4826 * median(residuals));  // standard deviation of a normal distribution
-  return line;
-}
-
-// Fits the outermost fifth of the way, then more and more of it as long as the next twentieth stays on the line.
-Baseline fit_baseline(std::span<const CurvePoint> approach, Force greatest) {
-  std::vector<CurvePoint> falling(approach.begin(), approach.end());
-  std::stable_sort(falling.begin(), falling.end(), [](const auto& a, const auto& b) { return a.z > b.z; });
-  const Length z_far = falling.front().z, way = z_far - falling.back().z;
-  if (way.si <= 0.0) throw std::invalid_argument("all points of the curve's approach have the same height");
-
-  const auto count_until = [&](double share) {
-    const auto end = std::partition_point(falling.begin(), falling.end(),
-                                          [&](const auto& point) { return point.z >= z_far - share * way; });
-    return std::max<std::size_t>(5, static_cast<std::size_t>(end - falling.begin()));
-  };
-  const std::span<const CurvePoint> all(falling);
-  std::size_t count = count_until(0.2);
-  Baseline line = line_through({all.first(count), z_far});
-  for (double share = 0.25; share < 0.95; share += 0.05) {
-    const std::size_t next = count_until(share);
-    if (next <= count) continue;
-    std::vector<double> residuals;
-    for (const CurvePoint& point : all.subspan(count, next - count)) {
-      residuals.push_back((point.force - line.at(point.z)).si);
-    }
-    if (std::abs(median(residuals)) > std::max(1.5 * line.noise.si, kRoundingShare * greatest.si)) break;
-    count = next;
-    line = line_through({all.first(count), z_far});
-  }
-  return line;
-}
 
 // Searches the points before contact.
 std::optional<CurveJump> find_snap_in(std::span<const CurvePoint> before_contact, Force threshold) {
@@ -268,8 +197,8 @@ std::vector<CurvePoint> points_of(std::span<const CurveSample> samples) {
   return points;
 }
 
-CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero_of_force,
-                      std::optional<ContactMethod> method) {
+CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero_of_force, std::optional<ContactMethod> method,
+                      const BaselineChoice& choice) {
   std::vector<CurvePoint> cycle(points.begin(), points.end());
   const auto turn = std::stable_partition(cycle.begin(), cycle.end(),
                                           [](const CurvePoint& point) { return point.branch == Branch::Approach; });
@@ -286,10 +215,11 @@ CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero_of_forc
 
   CurveFeatures features;
   const std::span<CurvePoint> approach(cycle.data(), approach_count);
-  features.baseline = fit_baseline(approach, greatest);
+  features.baseline = fit_baseline(approach, greatest, choice);
   if (zero_of_force == ForceZero::True) {
     features.baseline.level = Force();
     features.baseline.tilt = Stiffness();
+    features.baseline.waves = {};
   }
   for (CurvePoint& point : cycle) {
     point.force = point.force - features.baseline.at(point.z);

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baseline.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "curve_bins.h"
+
+namespace afm::physics {
+
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
+}
+
+struct Stretch {
+  std::span<const CurvePoint> points;  // falling Z
+  Length z_far;
+};
+
+// Level and noise of a baseline whose other parts are known: median and median absolute deviation of what is left.
+void level_on(const Stretch& stretch, Baseline& line) {
+  line.level = Force();
+  std::vector<double> residuals;
+  residuals.reserve(stretch.points.size());
+  for (const CurvePoint& point : stretch.points) residuals.push_back((point.force - line.at(point.z)).si);
+  line.level = Force(median(residuals));
+  for (double& residual : residuals) residual = std::abs(residual - line.level.si);
+  constexpr double kNormal = 1.4826;  // standard deviation of a normal distribution over the median of its magnitudes
+  line.noise = Force(kNormal * median(std::move(residuals)));
+}
+
+// The line through the medians of up to 32 groups of neighbours, with the median of the slopes of all their pairs as
+// slope (Theil 1950, Sen 1968): tolerates half of the points as outliers.
+Baseline line_through(const Stretch& stretch, bool flat) {
+  Baseline line{stretch.z_far, {}, {}, {}};
+  if (!flat) {
+    constexpr std::size_t kGroups = 32;
+    const std::size_t count = stretch.points.size();
+    const std::size_t groups = std::min(kGroups, count);
+    std::vector<double> z_of, force_of, slopes;
+    for (std::size_t g = 0; g < groups; ++g) {
+      std::vector<double> z, force;
+      for (std::size_t i = g * count / groups; i < (g + 1) * count / groups; ++i) {
+        z.push_back((stretch.points[i].z - stretch.z_far).si);
+        force.push_back(stretch.points[i].force.si);
+      }
+      z_of.push_back(median(std::move(z)));
+      force_of.push_back(median(std::move(force)));
+    }
+    for (std::size_t a = 0; a < groups; ++a) {
+      for (std::size_t b = a + 1; b < groups; ++b) {
+        if (z_of[a] != z_of[b]) slopes.push_back((force_of[a] - force_of[b]) / (z_of[a] - z_of[b]));
+      }
+    }
+    line.tilt = Stiffness(slopes.empty() ? 0.0 : median(std::move(slopes)));
+  }
+  level_on(stretch, line);
+  return line;
+}
+
+// Least squares of level, tilt, sine and cosine at one period.
+struct WaveFit {
+  std::array<double, 4> terms{};  // level, tilt over the stretch's length, sine, cosine
+  double residual = 0.0;          // sum of squares
+};
+
+// Solves the symmetric 4 x 4 system by elimination with pivots; a singular one gives zeros.
+std::array<double, 4> solved(std::array<std::array<double, 5>, 4> rows) {
+  for (std::size_t column = 0; column < 4; ++column) {
+    std::size_t pivot = column;
+    for (std::size_t row = column + 1; row < 4; ++row) {
+      if (std::abs(rows[row][column]) > std::abs(rows[pivot][column])) pivot = row;
+    }
+    std::swap(rows[column], rows[pivot]);
+    if (std::abs(rows[column][column]) < 1e-12 * static_cast<double>(rows.size())) return {};
+    for (std::size_t row = 0; row < 4; ++row) {
+      if (row == column) continue;
+      const double factor = rows[row][column] / rows[column][column];
+      for (std::size_t i = column; i < 5; ++i) rows[row][i] -= factor * rows[column][i];
+    }
+  }
+  return {rows[0][4] / rows[0][0], rows[1][4] / rows[1][1], rows[2][4] / rows[2][2], rows[3][4] / rows[3][3]};
+}
+
+// Bins of the stretch; `way` in lengths of the stretch.
+struct Profile {
+  std::vector<double> way, force;
+  Length length;
+};
+
+WaveFit fit_at(const Profile& profile, double periods) {
+  std::array<std::array<double, 5>, 4> sums{};
+  const auto row_at = [&](std::size_t i) {
+    const double phase = 2.0 * std::numbers::pi * periods * profile.way[i];
+    return std::array{1.0, profile.way[i], std::sin(phase), std::cos(phase), profile.force[i]};
+  };
+  for (std::size_t i = 0; i < profile.way.size(); ++i) {
+    const auto row = row_at(i);
+    for (std::size_t a = 0; a < 4; ++a) {
+      for (std::size_t b = 0; b < 5; ++b) sums[a][b] += row[a] * row[b] / static_cast<double>(profile.way.size());
+    }
+  }
+  WaveFit fit{solved(sums), 0.0};
+  for (std::size_t i = 0; i < profile.way.size(); ++i) {
+    const auto row = row_at(i);
+    double left = row[4];
+    for (std::size_t a = 0; a < 4; ++a) left -= fit.terms[a] * row[a];
+    fit.residual += left * left;
+  }
+  return fit;
+}
+
+constexpr double kFewestPeriods = 1.0, kMostPeriods = 60.0;  // in the stretch
+constexpr std::size_t kWaveBins = 512;
+
+// Number of periods in the stretch at which a wave leaves least, refined to a thousandth of the grid's step.
+double best_periods(const Profile& profile) {
+  constexpr double kStep = 0.125;
+  double best = kFewestPeriods, least = fit_at(profile, best).residual;
+  for (double periods = kFewestPeriods + kStep; periods <= kMostPeriods; periods += kStep) {
+    if (const double residual = fit_at(profile, periods).residual; residual < least) {
+      least = residual;
+      best = periods;
+    }
+  }
+  double low = std::max(kFewestPeriods, best - kStep), high = best + kStep;
+  while (high - low > 1e-3 * kStep) {
+    const double third = (high - low) / 3.0;
+    if (fit_at(profile, low + third).residual < fit_at(profile, high - third).residual) {
+      high -= third;
+    } else {
+      low += third;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+// The line with the wave that explains most, or the line alone where none explains a quarter of what it leaves.
+Baseline with_waves(const Stretch& stretch) {
+  constexpr double kLeastExplained = 0.25;
+  const Baseline line = line_through(stretch, false);
+  const Length near = stretch.points.back().z;
+  Profile profile{{}, {}, stretch.points.front().z - near};
+  if (profile.length.si <= 0.0) return line;
+  double without = 0.0;
+  for (const CurveBin& bin : curve_bins(stretch.points, near, stretch.points.front().z, kWaveBins, 1)) {
+    profile.way.push_back((bin.z - stretch.z_far) / profile.length);
+    profile.force.push_back(bin.mean.si);
+    without += std::pow((bin.mean - line.at(bin.z)).si, 2.0);
+  }
+  const double periods = best_periods(profile);
+  const WaveFit fit = fit_at(profile, periods);
+  if (!(fit.residual < (1.0 - kLeastExplained) * without)) return line;
+  Baseline wavy{stretch.z_far,
+                {},
+                Stiffness(fit.terms[1] / profile.length.si),
+                {},
+                {(1.0 / periods) * profile.length, Force(fit.terms[2]), Force(fit.terms[3])}};
+  level_on(stretch, wavy);
+  return wavy;
+}
+
+// The approach sorted from the outermost point inwards.
+class Falling {
+ public:
+  explicit Falling(std::span<const CurvePoint> approach) : points_(approach.begin(), approach.end()) {
+    std::stable_sort(points_.begin(), points_.end(), [](const auto& a, const auto& b) { return a.z > b.z; });
+    if (way().si <= 0.0) throw std::invalid_argument("all points of the curve's approach have the same height");
+  }
+
+  Length z_far() const { return points_.front().z; }
+  Length way() const { return points_.front().z - points_.back().z; }
+  std::span<const CurvePoint> first(std::size_t count) const { return std::span(points_).first(count); }
+  std::span<const CurvePoint> between(std::size_t from, std::size_t to) const {
+    return std::span(points_).subspan(from, to - from);
+  }
+  // Points out to this way from the outermost one.
+  std::size_t count_until(Length way) const {
+    const auto end = std::partition_point(points_.begin(), points_.end(),
+                                          [&](const auto& point) { return point.z >= z_far() - way; });
+    return static_cast<std::size_t>(end - points_.begin());
+  }
+
+ private:
+  std::vector<CurvePoint> points_;
+};
+
+// Fits the outermost fifth of the way, then more and more of it as long as the next twentieth stays on the line.
+Baseline found_line(const Falling& approach, Force greatest, bool flat) {
+  const auto count_until = [&](double share) {
+    return std::max(kFewestBaselinePoints, approach.count_until(share * approach.way()));
+  };
+  std::size_t count = count_until(0.2);
+  Baseline line = line_through({approach.first(count), approach.z_far()}, flat);
+  for (double share = 0.25; share < 0.95; share += 0.05) {
+    const std::size_t next = count_until(share);
+    if (next <= count) continue;
+    std::vector<double> residuals;
+    for (const CurvePoint& point : approach.between(count, next)) {
+      residuals.push_back((point.force - line.at(point.z)).si);
+    }
+    if (std::abs(median(std::move(residuals))) > std::max(1.5 * line.noise.si, kRoundingShare * greatest.si)) break;
+    count = next;
+    line = line_through({approach.first(count), approach.z_far()}, flat);
+  }
+  return line;
+}
+
+Stretch chosen_stretch(const Falling& approach, const WayRange& range) {
+  const std::size_t from = approach.count_until(range.from), to = approach.count_until(range.to);
+  // the outermost point belongs to a range that begins there
+  const std::size_t first = range.from.si <= 0.0 ? 0 : from;
+  if (to < first + kFewestBaselinePoints) {
+    throw std::invalid_argument("the range of the baseline has " + std::to_string(to > first ? to - first : 0) +
+                                " points of the approach; it needs at least " + std::to_string(kFewestBaselinePoints));
+  }
+  return {approach.between(first, to), approach.z_far()};
+}
+
+// Outside the contact by the straight baseline, less a tenth: a wave cannot be told from the beginning of a contact.
+Stretch outside_contact(std::span<const CurvePoint> recorded, const Falling& approach, const Baseline& line) {
+  constexpr double kKept = 0.9;
+  std::vector<CurvePoint> above(recorded.begin(), recorded.end());
+  for (CurvePoint& point : above) point.force = point.force - line.at(point.z);
+  const auto contact = contact_point(above, ContactMethod::FitPolynomial);
+  const Length way = contact ? approach.z_far() - *contact : approach.way();
+  const std::size_t count = std::max(kFewestBaselinePoints, approach.count_until(kKept * way));
+  return {approach.first(count), approach.z_far()};
+}
+
+}  // namespace
+
+Baseline fit_baseline(std::span<const CurvePoint> approach, Force greatest, const BaselineChoice& choice) {
+  const Falling falling(approach);
+  const bool flat = choice.shape == BaselineShape::Flat, waves = choice.shape == BaselineShape::Waves;
+  if (choice.range) {
+    const Stretch stretch = chosen_stretch(falling, *choice.range);
+    return waves ? with_waves(stretch) : line_through(stretch, flat);
+  }
+  const Baseline line = found_line(falling, greatest, flat);
+  return waves ? with_waves(outside_contact(approach, falling, line)) : line;
+}
+
+}  // namespace afm::physics
