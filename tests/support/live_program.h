@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,13 +18,15 @@
 
 namespace afm::support {
 
-// A program that runs beside the test, with what it says on stderr. Ended at the latest with the test.
+// A program that runs beside the test, with what it says on stderr. Ended at the latest with the thread that made it.
 class LiveProgram {
  public:
   LiveProgram(std::vector<std::string> arguments, const std::string& display) {
     folder_.write("err", "");
     pid_ = ::fork();
     if (pid_ != 0) return;
+    // a test that is killed, as one of a mutant that hangs, leaves no window behind
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     ::setenv("DISPLAY", display.c_str(), 1);
     ::unsetenv("WAYLAND_DISPLAY");
     ::dup2(::open(err().c_str(), O_WRONLY | O_APPEND), STDERR_FILENO);

@@ -5,6 +5,7 @@
 #include <X11/Xutil.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -47,6 +48,7 @@ TwoMonitors::TwoMonitors() {
   if (::pipe(ends) != 0) throw std::runtime_error("no pipe for Xorg");
   pid_ = ::fork();
   if (pid_ == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     const std::string configuration = folder_.file("xorg.conf"), log = folder_.file("log");
     ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
     ::execl(kServer, kServer, "-displayfd", std::to_string(ends[1]).c_str(), "-config", configuration.c_str(),

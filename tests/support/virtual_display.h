@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,6 +28,7 @@ class VirtualDisplay {
     if (::pipe(ends) != 0) throw std::runtime_error("no pipe for Xvfb");
     pid_ = ::fork();
     if (pid_ == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGTERM);
       const std::string display_fd = std::to_string(ends[1]);
       const std::string screen = std::to_string(width) + "x" + std::to_string(height) + "x" + std::to_string(depth);
       ::execlp("Xvfb", "Xvfb", "-displayfd", display_fd.c_str(), "-screen", "0", screen.c_str(), "-fbdir",
