@@ -69,6 +69,7 @@ constexpr std::array kNotRun{
     Exception{"touchafm-*-x86_64/bin/touchafm demo --out out", kBundle},
     Exception{"touchafm bench physics", kMinutes},
     Exception{"touchafm lesson assets/lessons/first-touch.toml --fullscreen --instructor 2", "needs a second monitor"},
+    Exception{"touchafm lesson --withdraw QXWERT --out study", "needs a person's consent: LessonProgram.* has it"},
     Exception{"touchafm generate curve", kName},
     Exception{"touchafm view --record", kName},
     Exception{"touchafm view --headset --haptics auto", kHeadset},
@@ -83,18 +84,18 @@ constexpr std::array kNotRun{
     Exception{"touchafm bench render", kMinutes},
 };
 
-// A placeholder, such as FILE, NAME.afms or N, to be replaced by the reader.
+// Words that the reader replaces, such as FILE, ADDRESS:PORT, N or WxH. QXWERT is a code as a participant gets it.
 bool has_placeholder(const std::string& command) {
   std::istringstream words(command);
   for (std::string word; words >> word;) {
-    const std::size_t end = word.find_first_of("./:@");
-    const std::string first = word.substr(0, end);
-    const bool shouts = !first.empty() && std::all_of(first.begin(), first.end(),
-                                                      [](unsigned char c) { return std::isupper(c) != 0; });
-    // a participant's code has six letters, and is an argument
-    if ((shouts && first.size() != 6) || word.find("…") != std::string::npos || word.find('[') != std::string::npos ||
-        word.find(":FILE") != std::string::npos) {
-      return true;
+    if (word == "WxH" || word.find("…") != std::string::npos || word.find('[') != std::string::npos) return true;
+    if (word.size() == 1 && std::isupper(static_cast<unsigned char>(word.front())) != 0) return true;
+    std::replace_if(word.begin(), word.end(), [](char c) { return c == '.' || c == '/' || c == ':' || c == '@'; }, ' ');
+    std::istringstream parts(word);
+    for (std::string part; parts >> part;) {
+      const bool is_upper =
+          std::all_of(part.begin(), part.end(), [](unsigned char c) { return std::isupper(c) != 0; });
+      if (is_upper && part.size() > 2 && part != "QXWERT") return true;
     }
   }
   return false;
@@ -178,7 +179,7 @@ touchafm() {
   command touchafm "$@" &
   local pid=$! i
   for i in {1..600}; do
-    if grep -q 'Choose a sample\|says the guide' "$output"; then break; fi
+    if grep -q 'Choose a sample\|lesson: ' "$output"; then break; fi
     kill -0 $pid || break
     sleep 0.1
   done
@@ -190,7 +191,7 @@ make() { command touchafm generate "$@" >/dev/null; }
 make curve --radius 5um --modulus 3kPa --spring-constant 0.05N/m --most-force 1nN --noise 15pN --out curve.h5
 make map --pixels 2x2 --size 10um --modulus 2kPa --radius 5um --spring-constant 0.05N/m --most-force 1nN --out map.h5
 make image --material mica --size 40nm --pixels 32 --rate 20Hz --out grating.gwy
-make curve --radius 5um --modulus 50GPa --spring-constant 0.05N/m --most-force 1nN --out glass.h5
+make curve --radius 5um --modulus 50GPa --spring-constant 0.05N/m --sensitivity 60nm/V --most-force 1nN --out glass.h5
 mkdir day1
 cp curve.h5 gel.jpk-force
 cp curve.h5 day1/one.jpk-force
@@ -277,7 +278,11 @@ TEST(ManualCommandsNotRun, AreOnlyTheListed) {
                           "```toml\ntouchafm = 1\n```\n\n   ```\n   touchafm paper --out a\n   a\n   ```\n"),
               ElementsAre("touchafm curve --material gold", "touchafm view --sound", "sudo halt",
                           "touchafm paper --out a"));
-  EXPECT_THAT(commands_of("`touchafm node NAME --interface eth0`, `touchafm view --haptics replay:FILE`\n"), IsEmpty());
+  EXPECT_THAT(commands_of("`touchafm node NAME --interface eth0`, `touchafm view --haptics replay:FILE`,\n"
+                          "`touchafm render --size WxH`, `touchafm render --journey S --out a.png`\n"),
+              IsEmpty());
+  EXPECT_THAT(commands_of("`touchafm lever --gci \"5 N/m/kHz^1.3\"`, `touchafm lesson a.toml --participant QXWERT`\n"),
+              testing::SizeIs(2));
   EXPECT_TRUE(is_run("touchafm view --sound"));
   EXPECT_FALSE(is_run("touchafm bench haptics"));
 }
