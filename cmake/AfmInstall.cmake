@@ -79,7 +79,8 @@ install(FILES ${reference}/touchafm.bash DESTINATION share/bash-completion/compl
 set(documents share/doc/touchafm)
 set(docs ${CMAKE_SOURCE_DIR}/docs)
 install(FILES ${CMAKE_SOURCE_DIR}/cmake/debian/copyright ${reference}/changelog.gz ${reference}/changelog.Debian.gz
-        ${docs}/manual.md ${docs}/physics.md ${docs}/curves.md ${docs}/generate.md ${docs}/serve.md ${docs}/gltf.md ${docs}/host-tuning.md ${docs}/glossary.md
+        ${docs}/manual.md ${docs}/physics.md ${docs}/curves.md ${docs}/fits.md ${docs}/lever.md ${docs}/tapping.md
+        ${docs}/manipulation.md ${docs}/generate.md ${docs}/serve.md ${docs}/gltf.md ${docs}/host-tuning.md ${docs}/glossary.md
         ${docs}/tutorial.md ${docs}/teaching.md ${docs}/teaching.de.md ${docs}/worksheet.md ${docs}/worksheet.de.md ${docs}/museum.md
         ${docs}/troubleshooting.md ${docs}/comparison.md ${docs}/adding-a-material.md ${docs}/adding-a-wand.md DESTINATION ${documents})
 install(DIRECTORY ${docs}/manual DESTINATION ${documents})

@@ -97,6 +97,8 @@ def lay_out(folder):
         (folder / place).write_text(text)
     shutil.copytree(ROOT / "docs/pictures", folder / "pictures")
     shutil.copy(ROOT / "docs/site/conf.py", folder)
+    (folder / "_static").mkdir()
+    shutil.copy(ROOT / "docs/site/site.css", folder / "_static")
     return len(pages)
 
 
