@@ -13,6 +13,7 @@
 #include "python/bindings.h"
 #include "python/curve.h"
 #include "python/errors.h"
+#include "python/json.h"
 #include "python/long_work.h"
 #include "python/named_row.h"
 #include "python/numbers.h"
@@ -66,7 +67,7 @@ py::tuple generate(const std::optional<std::string>& law, std::size_t count, std
   std::vector<Curve> made;
   made.reserve(file.curves.size());
   for (curves::RecordedCurve& curve : file.curves) made.push_back({"generated", std::move(curve)});
-  return py::make_tuple(std::move(made), py::module_::import("json").attr("loads")(file.truth));
+  return py::make_tuple(std::move(made), dict_of_text(file.truth));
 }
 
 }  // namespace
