@@ -8,9 +8,10 @@
 
 #include "app/display/view_display.h"
 #include "core/clock.h"
-#include "core/log.h"
+#include "curves/sample_model.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
+#include "exhibit/scan/served_image.h"
 
 namespace afm::app {
 
@@ -71,13 +72,16 @@ void SpectatorWindow::take(double frame_s) {
   }
   if (shown_.image.number != image_number_) {
     image_number_ = shown_.image.number;
-    image_.emplace(exhibit::ServedImage::Size{.columns = shown_.image.columns,
-                                              .rows = shown_.image.rows,
-                                              .width_m = shown_.image.width_m,
-                                              .height_m = shown_.image.height_m,
-                                              .line_rate_hz = shown_.image.line_rate_hz});
+    image_ =
+        std::make_unique<exhibit::ServedImage>(exhibit::ServedImage::Size{.columns = shown_.image.columns,
+                                                                          .rows = shown_.image.rows,
+                                                                          .width_m = shown_.image.width_m,
+                                                                          .height_m = shown_.image.height_m,
+                                                                          .line_rate_hz = shown_.image.line_rate_hz});
   }
-  for (const physics::ScanLine& line : shown_.lines) image_->add(line);
+  for (const physics::ScanLine& line : shown_.lines) {
+    if (image_) image_->add(line);
+  }
   // the newest thing that happened is in front
   if (player_.playing() && !shown_.image.running && shown_.lines.empty()) image_.reset();
 }
@@ -102,7 +106,7 @@ void SpectatorWindow::draw() {
   std::vector<exhibit::CycleCurve> curves(materials_.size());
   if (material_) curves[*material_] = player_.drawn();
   now.curves = curves;
-  now.wall.scan = image_.has_value();
+  now.wall.scan = image_ != nullptr;
   now.guidance = stage_.phrases()[exhibit::Phrase::Served];
   render::FrameState frame = frames_->build(now);
   if (image_ && material_) {

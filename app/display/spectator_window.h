@@ -8,16 +8,18 @@
 #include <string>
 #include <vector>
 
-#include "curves/sample_model.h"
-#include "exhibit/scan/served_image.h"
 #include "exhibit/state/curve_player.h"
 #include "instrument/showcase.h"
 
+namespace afm::curves {
+struct SampleModel;
+}
 namespace afm::core {
 class Clock;
 }
 namespace afm::exhibit {
 class FrameBuilder;
+class ServedImage;
 struct Stage;
 }  // namespace afm::exhibit
 
@@ -56,7 +58,7 @@ class SpectatorWindow {
   std::uint64_t played_ = 0;  // curve that is or was played
   exhibit::CurvePlayer player_;
   std::uint64_t image_number_ = 0;
-  std::optional<exhibit::ServedImage> image_;
+  std::unique_ptr<exhibit::ServedImage> image_;  // null: the curve is in front
 };
 
 }  // namespace afm::app
