@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a hand felt: the forces and events of a recorded session.
 
-`touchafm demo --out . --material mica` records one without a device, `touchafm view --record DIR` those of your own hand.
+`touchafm demo --out out` records one without a device, `touchafm view --record DIR` those of your own hand.
 
 >>> import touchafm
->>> session = touchafm.session("session-mica.afms")
+>>> session = touchafm.session("out/session-mica.afms")
 >>> for event in session.events:
 ...     print(f"{event['kind']} at Z = {event['z'] * 1e9:.2f} nm: {event['force_before'] * 1e9:.3f} nN before")
 jump-to-contact at Z = 2.40 nm: -0.080 nN before

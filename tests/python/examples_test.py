@@ -16,7 +16,8 @@ def load_tests(loader, tests, pattern):
     assert len(examples) >= 10, examples
     os.chdir(tempfile.mkdtemp())
     tests_folder = pathlib.Path(__file__).parent.parent
-    shutil.copy(tests_folder / "formats" / "0.2.0" / "session-mica.afms", ".")  # recorded by touchafm demo
+    os.mkdir("out")  # as touchafm demo --out out leaves it
+    shutil.copy(tests_folder / "formats" / "0.2.0" / "session-mica.afms", "out")
     for example in examples:
         spec = importlib.util.spec_from_file_location(example.stem, example)
         module = importlib.util.module_from_spec(spec)
