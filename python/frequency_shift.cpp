@@ -17,6 +17,7 @@
 #include "python/json.h"
 #include "python/long_work.h"
 #include "python/numbers.h"
+#include "python/result_type.h"
 
 namespace afm::python {
 
@@ -66,7 +67,7 @@ py::list turns_of(const FrequencyShiftRun& self) {
 }  // namespace
 
 void add_frequency_shifts(py::module_& module) {
-  py::class_<FrequencyShiftRun>(module, "FrequencyShift",
+  py::class_<FrequencyShiftRun>(module, "FrequencyShift", plain_type(), py::is_final(),
                                 "Shift of the resonance of a lever whose amplitude is kept constant, from the highest "
                                 "place down (Giessibl 1997). Amplitudes are zero-to-peak. Immutable.")
       .def_property_readonly("z", heights([](const FrequencyShiftPoint& point) { return point.z.si; }),

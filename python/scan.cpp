@@ -27,6 +27,7 @@
 #include "python/long_work.h"
 #include "python/named_row.h"
 #include "python/numbers.h"
+#include "python/result_type.h"
 
 namespace afm::python {
 
@@ -168,7 +169,7 @@ py::array level_heights(const GivenArray& heights, const std::string& how) {
 
 void add_scan_class(py::module_& module) {
   py::class_<Scan, std::shared_ptr<Scan>> scan(
-      module, "Scan",
+      module, "Scan", plain_type(), py::is_final(),
       "An image of the virtual microscope with its artefacts. Channels are arrays of SI numbers, row 0 at the top. "
       "Immutable.");
   const auto add = [&scan](const char* name, double ScanImage::* member, const char* doc) {

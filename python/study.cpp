@@ -15,6 +15,7 @@
 #include "python/errors.h"
 #include "python/json.h"
 #include "python/long_work.h"
+#include "python/result_type.h"
 #include "study/study_data.h"
 #include "study/study_report.h"
 
@@ -88,7 +89,7 @@ py::dict trials_of(const Study& self) {
 }  // namespace
 
 void add_studies(py::module_& module) {
-  py::class_<Study, std::shared_ptr<Study>>(module, "Study",
+  py::class_<Study, std::shared_ptr<Study>>(module, "Study", plain_type(), py::is_final(),
                                             "A study's data set and what it shows (docs/teaching.md). Immutable.")
       .def_property_readonly(
           "participants",

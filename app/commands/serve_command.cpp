@@ -42,7 +42,7 @@ struct ServeOptions {
   std::optional<std::uint16_t> port;
   bool once = false;
   bool view = false;
-  exhibit::ExhibitFiles files;  // of the view
+  exhibit::ExhibitFiles files;  // files of the view
   DisplayOptions display;
 };
 
