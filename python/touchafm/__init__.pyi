@@ -510,5 +510,18 @@ def generate(
     base: Optional[str] = ...,
     **numbers: float,
 ) -> tuple[list[Curve], dict[str, Any]]: ...
+def generate_map(
+    law: Optional[str] = ...,
+    *,
+    pixels: Optional[tuple[int, int]] = ...,
+    size: Optional[float] = ...,
+    field: Optional[Literal["uniform", "step", "gradient", "islands"]] = ...,
+    second_modulus: Optional[float] = ...,
+    second_work_of_adhesion: Optional[float] = ...,
+    points: Optional[int] = ...,
+    seed: Optional[int] = ...,
+    base: Optional[str] = ...,
+    **numbers: float,
+) -> tuple[list[Curve], dict[str, Any]]: ...
 def session(path: _Path) -> Session: ...
 def study(folder: _Path) -> Study: ...
