@@ -12,8 +12,11 @@ void add_cycles(pybind11::module_& module);    // cycles, sweeps, the paper's ta
 void add_files(pybind11::module_& module);     // curves and images of files
 void add_fits(pybind11::module_& module);      // analysis and fits
 void add_tapping(pybind11::module_& module);
+void add_frequency_shifts(pybind11::module_& module);
+void add_scans(pybind11::module_& module);      // images of the virtual microscope
 void add_levers(pybind11::module_& module);     // calibration
 void add_synthetic(pybind11::module_& module);  // curves with their truth
 void add_sessions(pybind11::module_& module);
+void add_studies(pybind11::module_& module);
 
 }  // namespace afm::python

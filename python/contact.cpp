@@ -17,6 +17,7 @@
 #include "python/errors.h"
 #include "python/json.h"
 #include "python/numbers.h"
+#include "python/result_type.h"
 
 namespace afm::python {
 
@@ -129,7 +130,7 @@ py::dict dict_of_contact(const Contact& contact) {
 
 void add_figures(py::module_& module) {
   using physics::CycleFigures;
-  py::class_<CycleFigures> figures(module, "Figures",
+  py::class_<CycleFigures> figures(module, "Figures", plain_type(), py::is_final(),
                                    "Results of one cycle of a law at rest, solved exactly. SI; forces on the tip are "
                                    "positive away from the sample.");
   figures.def_readonly("hysteretic", &CycleFigures::hysteretic,
@@ -150,7 +151,7 @@ void add_figures(py::module_& module) {
 }
 
 void add_contact_class(py::module_& module) {
-  py::class_<Contact> contact(module, "Contact",
+  py::class_<Contact> contact(module, "Contact", plain_type(), py::is_final(),
                               "Tip, lever, sample and medium, with the source of each number. Immutable.");
   contact.def(
       py::init(&make_contact), py::kw_only(), py::arg("material") = py::none(), py::arg("probe") = py::none(),
@@ -199,7 +200,8 @@ void add_contact_class(py::module_& module) {
 }
 
 void add_law_class(py::module_& module) {
-  py::class_<Law> law(module, "Law", "A law of force with its lever: two branches and two jumps. Immutable.");
+  py::class_<Law> law(module, "Law", plain_type(), py::is_final(),
+                      "A law of force with its lever: two branches and two jumps. Immutable.");
   law.def("force", &force_on, py::arg("z"), py::kw_only(), py::arg("branch") = "free",
           "Force on the tip, N, for heights z of the lever's base, m: an array of z's shape, or a float.\n\n"
           "branch: \"free\" ends at figures.z_jtc, \"attached\" at figures.z_joc; beyond, the end's force.\n"

@@ -22,6 +22,7 @@
 #include "python/json.h"
 #include "python/long_work.h"
 #include "python/numbers.h"
+#include "python/result_type.h"
 #include "scene/samples/material_library.h"
 
 namespace afm::python {
@@ -53,7 +54,8 @@ CurveRun make_cycle(const Contact& contact, const std::optional<std::string>& la
 
 void add_event(py::module_& module) {
   using physics::ModelEvent;
-  py::class_<ModelEvent>(module, "Event", "A jump of the tip. SI; forces positive away from the sample.")
+  py::class_<ModelEvent>(module, "Event", plain_type(), py::is_final(),
+                         "A jump of the tip. SI; forces positive away from the sample.")
       .def_property_readonly(
           "kind", [](const ModelEvent& self) { return physics::name_of(self.kind); },
           "\"jump-to-contact\" or \"jump-off-contact\".")
@@ -86,7 +88,7 @@ std::optional<physics::ModelEvent> event_of(const CurveRun& run, physics::EventK
 }
 
 void add_cycle(py::module_& module) {
-  py::class_<CurveRun> cycle(module, "Cycle",
+  py::class_<CurveRun> cycle(module, "Cycle", plain_type(), py::is_final(),
                              "One approach-retract cycle: approach, then retract; a jump is two points. Immutable.");
   cycle.def_property_readonly("z", column_of(&CurveSample::z), "Height of the lever's base, m.")
       .def_property_readonly("force", column_of(&CurveSample::force), "Force on the tip, N, positive away from it.")
@@ -191,7 +193,7 @@ void add_sweep(py::module_& module) {
       Column{"critical_stiffness", &SweepRow::critical_stiffness_n_per_m, "Stiffness without hysteresis, N/m."},
       Column{"tabor", &SweepRow::tabor, "Tabor's parameter."},
       Column{"maugis", &SweepRow::maugis, "Maugis' parameter."}};
-  py::class_<Sweep> sweep(module, "Sweep",
+  py::class_<Sweep> sweep(module, "Sweep", plain_type(), py::is_final(),
                           "Events of a cycle for each value of one parameter, or for a grid of two. Immutable.");
   for (const Column& row : kColumns) {
     sweep.def_property_readonly(

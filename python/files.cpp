@@ -17,6 +17,7 @@
 #include "python/curve.h"
 #include "python/errors.h"
 #include "python/long_work.h"
+#include "python/result_type.h"
 
 namespace afm::python {
 
@@ -148,7 +149,7 @@ auto points_of(Member member) {
 }
 
 void add_curve(py::module_& module) {
-  py::class_<Curve>(module, "Curve",
+  py::class_<Curve>(module, "Curve", plain_type(), py::is_final(),
                     "A force-distance curve of an instrument or a model: approach, then retract. Immutable.")
       .def(py::init(&make_curve), py::kw_only(), py::arg("z"), py::arg("force"), py::arg("approach"),
            py::arg("spring_constant") = py::none(), py::arg("name") = "curve",

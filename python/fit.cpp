@@ -20,6 +20,7 @@
 #include "python/long_work.h"
 #include "python/named_row.h"
 #include "python/numbers.h"
+#include "python/result_type.h"
 
 namespace afm::python {
 
@@ -99,7 +100,7 @@ std::optional<double> si_of(const std::optional<Q>& value) {
 }
 
 void add_analysis(py::module_& module) {
-  py::class_<AnalysedCurve>(module, "Analysis",
+  py::class_<AnalysedCurve>(module, "Analysis", plain_type(), py::is_final(),
                             "Figures of a curve (docs/curves.md defines each). SI; forces above the baseline; None for "
                             "what was not found. Immutable.")
       .def_readonly("name", &AnalysedCurve::name, "Name of the curve.")
@@ -136,7 +137,8 @@ void add_analysis(py::module_& module) {
 py::tuple interval(const fits::Interval& of) { return py::make_tuple(of.low, of.high); }
 
 void add_fit(py::module_& module) {
-  py::class_<Fit> found(module, "Fit", "A fitted contact (docs/fits.md defines each figure). SI. Immutable.");
+  py::class_<Fit> found(module, "Fit", plain_type(), py::is_final(),
+                        "A fitted contact (docs/fits.md defines each figure). SI. Immutable.");
   const auto add = [&found](const char* name, double fits::ElasticFit::* member, const char* doc) {
     found.def_property_readonly(name, [member](const Fit& self) { return self.found.*member; }, doc);
   };

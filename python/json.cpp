@@ -5,8 +5,8 @@
 
 namespace afm::python {
 
-pybind11::dict dict_of(const nlohmann::ordered_json& json) {
-  return pybind11::module_::import("json").attr("loads")(json.dump());
-}
+pybind11::dict dict_of(const nlohmann::ordered_json& json) { return dict_of_text(json.dump()); }
+
+pybind11::dict dict_of_text(const std::string& json) { return pybind11::module_::import("json").attr("loads")(json); }
 
 }  // namespace afm::python

@@ -18,6 +18,7 @@
 #include "python/json.h"
 #include "python/long_work.h"
 #include "python/numbers.h"
+#include "python/result_type.h"
 
 namespace afm::python {
 
@@ -98,7 +99,7 @@ Lever make_lever(const std::optional<Thermal>& thermal, const std::string& unit,
 }  // namespace
 
 void add_levers(py::module_& module) {
-  py::class_<Lever>(module, "Lever", "A calibrated lever. SI. Immutable.")
+  py::class_<Lever>(module, "Lever", plain_type(), py::is_final(), "A calibrated lever. SI. Immutable.")
       .def_property_readonly(
           "k", [](const Lever& self) { return self.found.spring_constant_n_per_m(); },
           "Spring constant, N/m: by the thermal noise, else Sader's, else GCI's, else the known one; None without.")

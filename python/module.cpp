@@ -13,7 +13,10 @@ PYBIND11_MODULE(_core, module) {
   add_files(module);
   add_fits(module);
   add_tapping(module);
+  add_frequency_shifts(module);
+  add_scans(module);
   add_levers(module);
   add_synthetic(module);
   add_sessions(module);
+  add_studies(module);
 }

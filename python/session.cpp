@@ -12,6 +12,7 @@
 #include "python/bindings.h"
 #include "python/errors.h"
 #include "python/long_work.h"
+#include "python/result_type.h"
 #include "servo/session_file.h"
 
 namespace afm::python {
@@ -50,7 +51,8 @@ std::shared_ptr<RecordedSession> load(const std::filesystem::path& path) {
 
 void add_sessions(py::module_& module) {
   py::class_<RecordedSession, std::shared_ptr<RecordedSession>>(
-      module, "Session", "What a hand felt: every tick of the servo and every event. SI. Immutable.")
+      module, "Session", plain_type(), py::is_final(),
+      "What a hand felt: every tick of the servo and every event. SI. Immutable.")
       .def_readonly("material", &RecordedSession::material, "Name of the material.")
       .def_readonly("rate", &RecordedSession::rate_hz, "Rate of the servo, Hz.")
       .def_readonly("complete", &RecordedSession::complete, "False: the file was cut, and this is its beginning.")

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "python/bindings.h"
 #include "python/curve.h"
 #include "python/errors.h"
+#include "python/json.h"
 #include "python/long_work.h"
 #include "python/named_row.h"
 #include "python/numbers.h"
@@ -46,8 +48,9 @@ std::vector<curves::GivenNumber> given_numbers(const py::kwargs& given) {
   return numbers;
 }
 
-py::tuple generate(const std::optional<std::string>& law, std::size_t count, std::optional<std::size_t> points,
-                   std::optional<std::uint32_t> seed, const std::optional<std::string>& base, const py::kwargs& given) {
+curves::SyntheticSetup setup_of(const std::optional<std::string>& law, std::optional<std::size_t> points,
+                                std::optional<std::uint32_t> seed, const std::optional<std::string>& base,
+                                const py::kwargs& given) {
   curves::SyntheticSetup setup;
   if (law) setup.shape = row_named(fits::kShapes, *law, "law").shape;
   if (base) setup.base = row_named(fits::kBases, *base, "base").base;
@@ -57,16 +60,61 @@ py::tuple generate(const std::optional<std::string>& law, std::size_t count, std
     refuse(fmt::format("points: {} is outside {} to {}", setup.points, curves::kFewestSyntheticPoints,
                        curves::kMostSyntheticPoints));
   }
-  if (count == 0 || count > curves::kMostSyntheticPoints) {
-    refuse(fmt::format("count: {} is outside 1 to {}", count, curves::kMostSyntheticPoints));
-  }
   value_of(curves::apply(given_numbers(given), setup));
-  curves::SyntheticFile file =
-      value_of(long_work([setup, count](const std::stop_token&) { return curves::synthetic_curves(setup, count); }));
+  return setup;
+}
+
+// The curves, and the dict of the truth file.
+py::tuple with_truth(curves::SyntheticFile file) {
   std::vector<Curve> made;
   made.reserve(file.curves.size());
   for (curves::RecordedCurve& curve : file.curves) made.push_back({"generated", std::move(curve)});
-  return py::make_tuple(std::move(made), py::module_::import("json").attr("loads")(file.truth));
+  return py::make_tuple(std::move(made), dict_of_text(file.truth));
+}
+
+py::tuple generate(const std::optional<std::string>& law, std::size_t count, std::optional<std::size_t> points,
+                   std::optional<std::uint32_t> seed, const std::optional<std::string>& base, const py::kwargs& given) {
+  if (count == 0 || count > curves::kMostSyntheticPoints) {
+    refuse(fmt::format("count: {} is outside 1 to {}", count, curves::kMostSyntheticPoints));
+  }
+  return with_truth(
+      value_of(long_work([setup = setup_of(law, points, seed, base, given), count](const std::stop_token&) {
+        return curves::synthetic_curves(setup, count);
+      })));
+}
+
+double legal(double si, const char* option, const physics::Units& units, const curves::QuantityRange<double>& range) {
+  const std::string refusal =
+      curves::refusal(si, physics::format_si(si, units.units), {units.sort, units.units, range});
+  if (!refusal.empty()) refuse(fmt::format("--{}: {}", option, refusal));
+  return si;
+}
+
+py::tuple generate_map(const std::optional<std::string>& law,
+                       const std::optional<std::pair<std::size_t, std::size_t>>& pixels, std::optional<double> size,
+                       const std::optional<std::string>& field, std::optional<double> second_modulus,
+                       std::optional<double> second_work_of_adhesion, std::optional<std::size_t> points,
+                       std::optional<std::uint32_t> seed, const std::optional<std::string>& base,
+                       const py::kwargs& given) {
+  curves::SyntheticMap map;
+  const auto [columns, rows] = pixels.value_or(std::pair(curves::kUsualMapPixels, curves::kUsualMapPixels));
+  const std::size_t least = std::min(columns, rows), most = std::max(columns, rows);
+  if (least < 1 || most > curves::kMostMapPixels) {
+    refuse(fmt::format("pixels: {} x {} is outside 1 to {}", columns, rows, curves::kMostMapPixels));
+  }
+  const double width_m = size ? legal(*size, "size", physics::kLengthUnits, curves::kMapWidthsM) : map.grid.width_m;
+  map.grid = curves::map_grid(columns, rows, width_m);
+  if (field) map.shape = row_named(curves::kFieldShapes, *field, "field").shape;
+  if (second_modulus) {
+    map.second_modulus_pa = legal(*second_modulus, "second-modulus", physics::kPressureUnits, curves::kMapModuliPa);
+  }
+  if (second_work_of_adhesion) {
+    map.second_work_j_per_m2 = legal(*second_work_of_adhesion, "second-work-of-adhesion", physics::kSurfaceEnergyUnits,
+                                     curves::kMapWorksJPerM2);
+  }
+  return with_truth(value_of(long_work([setup = setup_of(law, points, seed, base, given), map](const std::stop_token&) {
+    return curves::synthetic_map(setup, map);
+  })));
 }
 
 }  // namespace
@@ -79,6 +127,17 @@ void add_synthetic(py::module_& module) {
       "Curve, and the dict of the truth file.\n\n"
       "Numbers in SI, with the names of the command's options: modulus, tip_radius, spring_constant, most_force,\n"
       "noise, ... The same seed gives the same bytes. Raises ValueError as the command refuses its options.");
+  module.def(
+      "generate_map", &generate_map, py::arg("law") = py::none(), py::kw_only(), py::arg("pixels") = py::none(),
+      py::arg("size") = py::none(), py::arg("field") = py::none(), py::arg("second_modulus") = py::none(),
+      py::arg("second_work_of_adhesion") = py::none(), py::arg("points") = py::none(), py::arg("seed") = py::none(),
+      py::arg("base") = py::none(),
+      "A map of curves over a sample that differs from place to place, and its truth, as touchafm generate map makes\n"
+      "them: a list of Curve, the bottom row first and each from the left, whose metadata has position and pixel, and\n"
+      "the dict of the truth file.\n\n"
+      "pixels: curves in x and y; size: width, m; field: \"uniform\", \"step\", \"gradient\" or \"islands\", with\n"
+      "second_modulus, Pa, and second_work_of_adhesion, J/m2. The rest as for generate(). Raises ValueError as the\n"
+      "command refuses its options.");
 }
 
 }  // namespace afm::python

@@ -18,6 +18,7 @@
 #include "python/json.h"
 #include "python/long_work.h"
 #include "python/numbers.h"
+#include "python/result_type.h"
 
 namespace afm::python {
 
@@ -66,7 +67,7 @@ auto points(Value value) {
 }  // namespace
 
 void add_tapping(py::module_& module) {
-  py::class_<TappingRun>(module, "Tapping",
+  py::class_<TappingRun>(module, "Tapping", plain_type(), py::is_final(),
                          "Swing of a driven lever over a sample, on the way down and up again, or the states at one "
                          "height. Amplitudes are zero-to-peak; phases are the tip's lag behind the drive. Immutable.")
       .def_property_readonly("z", points([](const TapPoint& point) { return point.z.si; }),

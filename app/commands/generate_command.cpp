@@ -29,7 +29,7 @@ struct GenerateOptions {
   std::vector<curves::GivenNumber> given;
   std::size_t count = 1;
   std::optional<glm::uvec2> pixels;
-  double size_m = 10e-6;
+  double size_m = curves::kUsualMapWidthM;
   curves::SyntheticMap map;
   std::string out;
 };
@@ -76,8 +76,8 @@ core::Result<void> generate_curves(const GenerateOptions& options, bool is_map) 
   if (!format) return tl::unexpected(format.error());
   curves::SyntheticMap map(options.map);
   if (is_map) {
-    const glm::uvec2 pixels = options.pixels.value_or(glm::uvec2(16, 16));
-    map.grid = {pixels.x, pixels.y, options.size_m, options.size_m * pixels.y / pixels.x, 0.0, 0.0};
+    const glm::uvec2 pixels = options.pixels.value_or(glm::uvec2(curves::kUsualMapPixels));
+    map.grid = curves::map_grid(pixels.x, pixels.y, options.size_m);
   }
   auto files = Together::open(options.out);
   if (!files) return tl::unexpected(files.error());
@@ -133,12 +133,18 @@ void add_setup_options(OptionList& command, GenerateOptions& options) {
       .type_name("NUMBER");
 }
 
+template <class Q>
+QuantityRange<Q> typed(const curves::QuantityRange<double>& range) {
+  return {Q(range.least), Q(range.most)};
+}
+
 void add_map_options(OptionList& command, GenerateOptions& options) {
-  pixel_size_option(command, "--pixels", options.pixels, "curves in x and y; default: 16x16", PixelRange{1, 512});
+  pixel_size_option(command, "--pixels", options.pixels, "curves in x and y; default: 16x16",
+                    PixelRange{1, curves::kMostMapPixels});
   quantity_option(
       command, "--size", [&options](physics::Length size) { options.size_m = size.si; }, physics::kLengthUnits,
       "width of the map; its pixels are squares; default: 10um",
-      std::optional(QuantityRange<physics::Length>{physics::Length(1e-9), physics::Length(1e-3)}));
+      std::optional(typed<physics::Length>(curves::kMapWidthsM)));
   std::string shapes;
   for (const curves::FieldShapeRow& row : curves::kFieldShapes)
     shapes += fmt::format("\n  {}: {}", row.name, row.meaning);
@@ -147,13 +153,12 @@ void add_map_options(OptionList& command, GenerateOptions& options) {
   quantity_option(
       command, "--second-modulus",
       [&options](physics::Pressure modulus) { options.map.second_modulus_pa = modulus.si; }, physics::kPressureUnits,
-      "second modulus of --field",
-      std::optional(QuantityRange<physics::Pressure>{physics::Pressure(1.0), physics::Pressure(1e12)}));
+      "second modulus of --field", std::optional(typed<physics::Pressure>(curves::kMapModuliPa)));
   quantity_option(
       command, "--second-work-of-adhesion",
       [&options](physics::SurfaceEnergy work) { options.map.second_work_j_per_m2 = work.si; },
       physics::kSurfaceEnergyUnits, "second work of adhesion of --field, of dmt, jkr and maugis",
-      std::optional(QuantityRange<physics::SurfaceEnergy>{physics::SurfaceEnergy(1e-6), physics::SurfaceEnergy(10.0)}));
+      std::optional(typed<physics::SurfaceEnergy>(curves::kMapWorksJPerM2)));
 }
 
 }  // namespace

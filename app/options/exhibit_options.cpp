@@ -107,13 +107,17 @@ void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const
   command.add_option("--assets", files.assets_dir, "folder of models, walls, materials and languages").type_name("DIR");
 }
 
-void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
-  add_phrase_options(command, files, context);
-  command
+Option add_wall_option(OptionList& command, exhibit::ExhibitFiles& files) {
+  return command
       .add_option("--wall", files.wall,
                   "wall file (TOML): the corners of the screens and the position of the viewer; default: the paper's "
                   "wall, 10 ft x 7.5 ft")
       .type_name("FILE");
+}
+
+void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context) {
+  add_phrase_options(command, files, context);
+  add_wall_option(command, files);
   command
       .add_option("--materials", files.materials,
                   "material file (TOML), shown instead of the paper's mica, gold and silicon nitride")

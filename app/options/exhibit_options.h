@@ -34,7 +34,10 @@ void add_friction_option(OptionList& command, physics::FrictionLaw& friction);
 // Adds --language, --guidance and --assets, which determine the texts of pictures and reports.
 void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context);
 
-// Adds the same, and --wall and --materials.
+// Adds --wall.
+Option add_wall_option(OptionList& command, exhibit::ExhibitFiles& files);
+
+// Adds the options of the phrases, --wall and --materials.
 void add_stage_options(OptionList& command, exhibit::ExhibitFiles& files, const CommandContext& context);
 
 }  // namespace afm::app

@@ -100,7 +100,7 @@ struct JsonDoor::Verbs {
     std::string_view meaning;
     Json (*run)(JsonDoor& door, Arguments& arguments, const Json& id, const Send& send);
   };
-  static const std::array<Row, 14> kRows;
+  static const std::array<Row, 15> kRows;
 
   static Json hello(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
     constexpr double kMostSeed = 9007199254740992.0;  // largest whole number that every JSON library keeps
@@ -206,9 +206,25 @@ struct JsonDoor::Verbs {
     return answer;
   }
 
+  // The next request, if all of it has come meanwhile, is to stop.
+  static bool is_stopped(const JsonDoor& door) {
+    constexpr std::size_t kLongestStop = 200;
+    const std::string_view next = door.sent_meanwhile();
+    const auto size = door.request_size(next);
+    if (!size || *size > kLongestStop) return false;
+    const Json request = Json::parse(next.substr(0, *size), nullptr, false);
+    return request.is_object() && request.value("do", Json()) == "stop";
+  }
+
+  // A stopped scan has said so in its own answer.
+  static Json stop(JsonDoor&, Arguments& arguments, const Json&, const Send&) {
+    arguments.finish();
+    return Json::object();
+  }
+
   static Json scan(JsonDoor& door, Arguments& arguments, const Json& id, const Send& send) {
     arguments.finish();
-    bool read = true;
+    bool stopped = false;
     physics::ScanImage image = value_of(door.instrument_.scan([&](const physics::ScanLine& line, double time_s) {
       const auto track = [](const physics::ScanTrack& pass) {
         return Json{{"height_m", numbers_of(pass.height_m)},
@@ -220,12 +236,13 @@ struct JsonDoor::Verbs {
                       {"time_s", time_s},
                       {"trace", track(line.trace)},
                       {"retrace", track(line.retrace)}};
-      read = send(text.dump() + "\n");
-      return read;
+      stopped = is_stopped(door);
+      return send(text.dump() + "\n") && !stopped;
     }));
     Json answer{{"columns", image.columns},       {"rows", image.rows},
                 {"width_m", image.width_m},       {"height_m", image.height_m},
                 {"x_offset_m", image.x_offset_m}, {"y_offset_m", image.y_offset_m}};
+    if (stopped) answer["stopped"] = true;
     door.image_ = std::make_unique<const physics::ScanImage>(std::move(image));
     return answer;
   }
@@ -288,7 +305,7 @@ struct JsonDoor::Verbs {
   }
 };
 
-constexpr std::array<JsonDoor::Verbs::Row, 14> JsonDoor::Verbs::kRows{{
+constexpr std::array<JsonDoor::Verbs::Row, 15> JsonDoor::Verbs::kRows{{
     {"hello", "who answers; \"seed\" starts anew", &Verbs::hello},
     {"get", "every setting and where the tip is", &Verbs::get},
     {"set", "changes settings, all or none: \"values\"", &Verbs::set},
@@ -300,6 +317,7 @@ constexpr std::array<JsonDoor::Verbs::Row, 14> JsonDoor::Verbs::kRows{{
     {"tapping_curve", "amplitude and phase over the height: \"z_from_m\", \"z_to_m\", \"points\"",
      &Verbs::tapping_curve},
     {"scan", "an image around the tip, line by line", &Verbs::scan},
+    {"stop", "ends a scan that runs after its line", &Verbs::stop},
     {"thermal", "spectrum of the free lever: \"points\", \"most_Hz\", \"averages\"", &Verbs::thermal},
     {"truth", "what no microscope shows", &Verbs::truth},
     {"save", "writes the newest image or curve: \"file\"", &Verbs::save},

@@ -41,7 +41,11 @@ class Client {
 
   // Reads what has come and answers every whole request. Afterwards the client may have left.
   Door::Then answer_all(Door& door) {
-    const bool more = read();
+    read();
+    door.look_with([this, &door] {
+      if (!ended_ && buffer_.size() <= door.most_request_bytes()) read();
+      return std::string_view(buffer_);
+    });
     for (std::optional<std::size_t> size; (size = door.request_size(buffer_));) {
       const std::string request = buffer_.substr(0, *size);
       buffer_.erase(0, *size);
@@ -50,18 +54,16 @@ class Client {
       if (gone_) break;
     }
     if (buffer_.size() > door.most_request_bytes()) send(door.too_long());
-    if (!more || gone_ || buffer_.size() > door.most_request_bytes()) leave();
+    if (ended_ || gone_ || buffer_.size() > door.most_request_bytes()) leave();
     return Door::Then::GoOn;
   }
 
  private:
-  // False: nothing more will come.
-  bool read() {
+  void read() {
     std::array<char, kBytesAtOnce> bytes;
     const ssize_t count = ::recv(socket_.get(), bytes.data(), bytes.size(), 0);
-    if (count < 0) return errno == EAGAIN || errno == EINTR;
-    buffer_.append(bytes.data(), static_cast<std::size_t>(count));
-    return count > 0;
+    if (count > 0) buffer_.append(bytes.data(), static_cast<std::size_t>(count));
+    ended_ = count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR);
   }
 
   bool send(std::string_view bytes) {
@@ -83,6 +85,7 @@ class Client {
 
   core::FileDescriptor socket_;
   std::string buffer_;
+  bool ended_ = false;  // nothing more will come
   bool gone_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "curves/tapping/driven_setup.h"
+#include "instrument/showcase.h"
 #include "physics/flexural_modes.h"
 #include "physics/thermal_noise.h"
 #include "physics/units.h"
@@ -26,14 +27,26 @@ std::string metres(const std::optional<double>& si) { return si ? fmt::format("{
 
 }  // namespace
 
-SimulatedInstrument::SimulatedInstrument(std::string assets_dir, exhibit::OwnSample sample)
+SimulatedInstrument::SimulatedInstrument(std::string assets_dir, imaging::OwnSample sample)
     : assets_dir_(std::move(assets_dir)), sample_(std::move(sample)), noise_(0) {}
 
 core::Result<SimulatedInstrument> SimulatedInstrument::create(std::string assets_dir, std::uint64_t seed,
-                                                              exhibit::OwnSample sample) {
+                                                              imaging::OwnSample sample) {
   SimulatedInstrument made(std::move(assets_dir), std::move(sample));
   if (const auto ready = made.reset(seed); !ready) return tl::unexpected(ready.error());
   return made;
+}
+
+void SimulatedInstrument::show_in(Showcase& showcase) {
+  showcase_ = &showcase;
+  showcase.put_contact(setup_);
+  show_place();
+}
+
+void SimulatedInstrument::show_place() const {
+  if (showcase_ == nullptr) return;
+  const double surface_m = surface_below(), force_n = touching_ ? settings_.scan.setpoint.si : 0.0;
+  showcase_->put_place(at_.x_m, at_.y_m, surface_m, at_.z_m - surface_m, force_n, touching_);
 }
 
 core::Result<void> SimulatedInstrument::reset(std::uint64_t seed) {
@@ -48,6 +61,7 @@ core::Result<void> SimulatedInstrument::reset(std::uint64_t seed) {
   at_ = {.z_m = kStartAboveM};
   chance_.seed(seed);
   noise_ = physics::NormalGenerator(seed);
+  show_place();
   return {};
 }
 
@@ -79,7 +93,7 @@ core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings
   if (!same || std::abs(radius_m - surface_radius_m_) > kGrowthThatIsSeen * surface_radius_m_) {
     physics::TipShape tip(settings.tip);
     tip.radius = physics::Length(radius_m);
-    auto surface = exhibit::scan_surface(*setup, tip, assets_dir_, sample_);
+    auto surface = imaging::scan_surface(*setup, tip, assets_dir_, sample_);
     if (!surface) return tl::unexpected(surface.error());
     surface_ = std::move(*surface);
     surface_radius_m_ = radius_m;
@@ -87,6 +101,8 @@ core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings
   settings_ = settings;
   setup_ = std::move(*setup);
   growth_m_ = growth_m;
+  if (showcase_ != nullptr) showcase_->put_contact(setup_);
+  show_place();
   return {};
 }
 
@@ -136,12 +152,14 @@ void SimulatedInstrument::approach(double speed_m_per_s) {
   at_.z_m = z_m;
   at_.engaged = true;
   touching_ = !false_alarm;
+  show_place();
 }
 
 void SimulatedInstrument::withdraw(double distance_m, double speed_m_per_s) {
   pass(distance_m / speed_m_per_s);
   at_.z_m += distance_m;
   at_.engaged = touching_ = false;
+  show_place();
 }
 
 void SimulatedInstrument::move_to(double x_m, double y_m, double speed_m_per_s) {
@@ -150,6 +168,7 @@ void SimulatedInstrument::move_to(double x_m, double y_m, double speed_m_per_s) 
   at_.x_m = x_m;
   at_.y_m = y_m;
   if (touching_) at_.z_m += surface_below() - before_m;  // the feedback follows
+  show_place();
 }
 
 core::Result<void> SimulatedInstrument::wear(double force_n) {
@@ -198,6 +217,7 @@ core::Result<SimulatedInstrument::Curve> SimulatedInstrument::curve(const CurveR
     if (faults.detector_range_n > 0.0) shown_n = std::clamp(shown_n, -faults.detector_range_n, faults.detector_range_n);
     result.shown_n.push_back(shown_n);
   }
+  if (showcase_ != nullptr) showcase_->put_curve(result.run.curve);
   pass(2.0 * length_m / request.speed_m_per_s);
   if (const auto worn = wear(highest_n); !worn) return tl::unexpected(worn.error());
   return result;
@@ -254,13 +274,16 @@ core::Result<physics::ScanImage> SimulatedInstrument::scan(const TakeLine& taken
   try {
     physics::Scanner scanner(area, scan_settings(), surface_now(), chance_());
     scanner.begin_frame(settings_.upwards ? physics::SlowDirection::Up : physics::SlowDirection::Down);
+    if (showcase_ != nullptr) showcase_->begin_image(area, settings_.scan.line_rate.si);
     std::optional<core::Error> error;
     physics::ScanImage image = physics::scan_frame(scanner, [&](const physics::ScanLine& line) {
+      if (showcase_ != nullptr) showcase_->put_line(line);
       const auto worn = after_line(line, scanner);
       if (!worn) error = worn.error();
       return !error && taken(line, at_.time_s + scanner.time().si);
     });
     pass(scanner.time().si);
+    if (showcase_ != nullptr) showcase_->end_image();
     if (error) return tl::unexpected(*error);
     return image;
   } catch (const physics::UnphysicalValue& error) {

@@ -65,22 +65,26 @@ class Client:
             self._folder = None
 
     def request(self, do, *, on_line=None, **members):
-        """The answer to any request as a dict. on_line is called with each line of a scan as it comes."""
+        """The answer to any request as a dict. on_line is called with each line of a scan as it comes; False stops the scan."""
         self._number += 1
         text = json.dumps({"id": self._number, "do": do, **members}, default=_plain)
         self._socket.sendall(text.encode() + b"\n")
+        stopping = False
         while True:
             line = self._answers.readline()
             if not line.endswith(b"\n"):
                 raise ConnectionError(f"the server left while it was asked to {do}")
             answer = json.loads(line)
             if "line" in answer:
-                if on_line is not None:
-                    on_line(answer)
-            elif answer.get("ok"):
+                if on_line is not None and on_line(answer) is False and not stopping:
+                    stopping = True
+                    self._socket.sendall(b'{"do": "stop"}\n')
+                continue
+            if stopping:
+                self._answers.readline()  # that to "stop"
+            if answer.get("ok"):
                 return answer
-            else:
-                raise Refused(answer.get("error", "the server gave no reason"))
+            raise Refused(answer.get("error", "the server gave no reason"))
 
     def hello(self, seed=None):
         """Who answers; with a seed, the microscope starts anew."""
@@ -134,13 +138,14 @@ class Client:
         }
 
     def scan(self, on_line=None):
-        """An image around the tip: a dict of its channels, row 0 on top, "Height" to "Lateral force (retrace)"."""
+        """An image around the tip: a dict of its channels, row 0 on top, "Height" to "Lateral force (retrace)".
+
+        on_line is called with each line as it comes; if it returns False the scan ends, and what was not scanned is NaN."""
         rows = []
 
         def take(line):
             rows.append(line)
-            if on_line is not None:
-                on_line(line)
+            return on_line is None or on_line(line)
 
         answer = self.request("scan", on_line=take)
         image = {}

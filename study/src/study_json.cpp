@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "study/study_report.h"
 #include "study/survey_report.h"
 #include "study_page.h"
 

@@ -20,6 +20,4 @@ std::string survey_svg(const std::vector<SurveyResult>& survey);
 std::string identify_svg(const LessonResults& lesson);
 std::string thresholds_svg(const LessonResults& lesson);
 
-std::string study_json(const StudyResults& results);
-
 }  // namespace afm::study

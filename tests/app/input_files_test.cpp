@@ -56,6 +56,7 @@ const std::vector<Input> kInputs{
     {"view", "--haptics", "--haptics replay:@", ".afms"},
     {"serve", "--sample", "--socket $OUT/afm.sock --sample @", ".glb"},
     {"serve", "--sample", "--socket $OUT/afm.sock --sample @", ".gwy"},
+    {"serve", "--wall", "--view --socket $OUT/afm.sock --wall @"},
     {"lesson", "lesson", "@"},
     {"lesson", "--guidance", "$LESSON --guidance @"},
     {"lesson", "--wall", "$LESSON --wall @"},

@@ -16,9 +16,9 @@
 
 #include "core/whole_file.h"
 #include "curves/sample_model.h"
-#include "exhibit/scan/scan_surface.h"
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
+#include "imaging/scan_surface.h"
 #include "scene/gltf/gltf_loader.h"
 #include "scene/graph/height_field.h"
 #include "support/image_files.h"
@@ -99,7 +99,7 @@ TEST(ScanCommand, IsLevelBeyondTheRimOfTheSampleAsAHandFeelsIt) {
     const haptics::SampleSurface felt = felt_surface(options);
     for (const physics::TipKind kind : {physics::TipKind::Paraboloid, physics::TipKind::Sphere}) {
       const auto surface =
-          exhibit::scan_surface(*contact_setup(options.contact), {.kind = kind}, options.contact.assets_dir);
+          imaging::scan_surface(*contact_setup(options.contact), {.kind = kind}, options.contact.assets_dir);
       ASSERT_TRUE(surface);
       const double level_m = surface->height_m(1.0, 1.0), half_m = 0.5 * surface->width_m;
       EXPECT_NE(surface->height_m(half_m, 3e-9), level_m);
@@ -135,7 +135,7 @@ TEST(ScanCommand, ShowsInTheManualsFirstExampleOnlyWhatTheSampleHas) {
   const double size_m = 1e-9 * std::stod(manual.substr(first + example.size()));
   EXPECT_EQ(manual.substr(manual.find(' ', first + example.size()) - 2, 2), "nm");
   const ScanOptions options = options_for("mica");
-  const auto surface = exhibit::scan_surface(*contact_setup(options.contact), {}, options.contact.assets_dir);
+  const auto surface = imaging::scan_surface(*contact_setup(options.contact), {}, options.contact.assets_dir);
   ASSERT_TRUE(surface);
   EXPECT_LE(size_m, surface->width_m * (1.0 + 1e-9));
   EXPECT_GT(size_m, 0.5 * surface->width_m);
@@ -207,9 +207,9 @@ TEST(ScanCommand, MakesTheImageOfABluntTipHigherOrEqual) {
   ScanOptions options = options_for("gold");
   physics::TipShape ball{.kind = physics::TipKind::Sphere, .radius = physics::Length(5e-9)};
   const auto setup = *contact_setup(options.contact);
-  const auto sharp = exhibit::scan_surface(setup, ball, options.contact.assets_dir);
+  const auto sharp = imaging::scan_surface(setup, ball, options.contact.assets_dir);
   ball.radius = physics::Length(80e-9);
-  const auto blunt = exhibit::scan_surface(setup, ball, options.contact.assets_dir);
+  const auto blunt = imaging::scan_surface(setup, ball, options.contact.assets_dir);
   ASSERT_TRUE(sharp && blunt);
   double lift_m = 0.0;
   for (int i = -50; i <= 50; ++i) {

@@ -10,8 +10,8 @@
 #include <thread>
 #include <utility>
 
-#include "exhibit/models/loading_notice.h"
 #include "exhibit/models/user_models.h"
+#include "scene/gltf/loading_notice.h"
 #include "scene/graph/height_field.h"
 #include "scene/graph/pose.h"
 #include "support/scratch_folder.h"
@@ -134,10 +134,10 @@ TEST_F(OwnModel, IsDescribed) {
 }
 
 TEST(LoadingNotice, SpeaksOnceItHasWaitedAndNotBefore) {
-  const auto said_after = [](LoadingNotice::Wait wait) {
+  const auto said_after = [](scene::LoadingNotice::Wait wait) {
     std::ostringstream out;
     {
-      const LoadingNotice notice("lever.glb", std::move(wait), out);
+      const scene::LoadingNotice notice("lever.glb", std::move(wait), out);
     }
     return out.str();
   };

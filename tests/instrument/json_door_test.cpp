@@ -54,7 +54,7 @@ TEST_F(JsonDoorTest, SaysWhoItIsAndWhatItCanDo) {
   EXPECT_EQ(answer["ok"], true);
   EXPECT_EQ(answer["software"], "TouchAFM");
   EXPECT_EQ(answer["protocol"], 1);
-  EXPECT_EQ(answer["verbs"].size(), 14U);
+  EXPECT_EQ(answer["verbs"].size(), 15U);
 }
 
 TEST_F(JsonDoorTest, TakesBackEverySettingThatItLists) {
@@ -93,6 +93,27 @@ TEST_F(JsonDoorTest, StreamsAnImageLineByLine) {
     EXPECT_EQ(line["retrace"]["lateral_N"].size(), 64U);
   }
   EXPECT_EQ(json::parse(lines.back())["rows"], 5);
+}
+
+TEST_F(JsonDoorTest, EndsAScanThatTheNextRequestStops) {
+  answer_to(R"({"do": "approach"})");
+  std::size_t looks = 0;
+  std::string meanwhile;
+  door_.look_with([&]() -> std::string_view {
+    if (++looks == 5) meanwhile = "{\"id\": 8, \"do\": \"stop\"}\n";
+    return meanwhile;
+  });
+  const std::vector<std::string> lines = lines_for(R"({"id": 7, "do": "scan"})");
+  ASSERT_EQ(lines.size(), 6U);
+  EXPECT_EQ(json::parse(lines.back())["stopped"], true);
+  EXPECT_EQ(json::parse(lines.back())["rows"], 64);
+  EXPECT_EQ(answer_to(meanwhile)["ok"], true);
+
+  // any other request, or a part of one, waits
+  for (const char* other : {"{\"do\": \"stop\"}", "{\"do\": \"get\"}\n{\"do\": \"stop\"}\n", "[\"stop\"]\n", "\n"}) {
+    door_.look_with([other] { return std::string_view(other); });
+    EXPECT_EQ(lines_for(R"({"do": "scan"})").size(), 65U) << other;
+  }
 }
 
 TEST_F(JsonDoorTest, EndsAScanThatNobodyReads) {

@@ -152,35 +152,6 @@ class Sweep(unittest.TestCase):
             touchafm.sweep(mica, colour=[1.0])
 
 
-class Tapping(unittest.TestCase):
-    SET_UP = {"law": "dmt", "spring_constant": 40.0, "tip_radius": 20e-9, "hamaker": 64e-21, "reduced_modulus": 1.5e9,
-              "resonance": 300e3, "quality_factor": 400.0}
-    COMMAND = ("curve", "--mode", "tapping", "--free-amplitude", "20nm", "--resonance", "300kHz", "--quality-factor", "400",
-               "--model", "dmt", "--spring-constant", "40N/m", "--tip-radius", "20nm", "--hamaker", "64zJ", "--contact-gap",
-               "0.165nm", "--reduced-modulus", "1.5GPa", "--json")
-
-    def contact(self):
-        given = {key: value for key, value in self.SET_UP.items() if key not in ("resonance", "quality_factor")}
-        return touchafm.Contact(work_of_adhesion=1e-3, **given)
-
-    def tapping(self, **given):
-        return touchafm.tapping(self.contact(), free_amplitude=20e-9, resonance=300e3, quality_factor=400.0,
-                                contact_gap=0.165e-9, **given)
-
-    def test_is_the_json_of_the_command(self):
-        tapping = self.tapping()
-        self.assertEqual(without_sources(tapping.as_dict()), without_sources(json_of(*self.COMMAND)))
-        self.assertGreater(tapping.amplitude.max(), 19e-9)
-        at = self.tapping(at=17.4 / 1e9)  # as a typed 17.4nm is read
-        self.assertEqual(without_sources(at.as_dict()), without_sources(json_of(*self.COMMAND, "--at", "17.4nm")))
-
-    def test_refuses_what_has_no_effect(self):
-        with self.assertRaises(ValueError):
-            self.tapping(at=17.4e-9, z_from=1e-8)
-        with self.assertRaises(ValueError):
-            self.tapping(method="guess")
-
-
 class Paper(unittest.TestCase):
     def test_has_tables_1_and_2(self):
         tables = touchafm.paper_tables()

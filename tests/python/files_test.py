@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Curves of files and arrays, their analysis and fits: the numbers, refusals and JSON of the command."""
 
+import json
 import pathlib
 import tempfile
 import unittest
@@ -96,6 +97,32 @@ class Curves(Files):
         for wrong in ({"points": 1}, {"count": 0}, {"base": "sliding"}, {"half_angle": 0.3}, {"noise": -1.0}):
             with self.assertRaises(ValueError, msg=wrong):
                 touchafm.generate(**{**GEL, **wrong})
+
+
+class Maps(Files):
+    FIELD = {"field": "islands", "second_modulus": 20e3, "pixels": (5, 4), "size": 8e-6, "points": 60, "seed": 3}
+
+    def test_are_those_of_the_command_for_a_seed(self):
+        made, truth = touchafm.generate_map(**self.FIELD, **GEL)
+        path = self.folder / "cells.h5"
+        result = command("generate", "map", *GEL_COMMAND, "--field", "islands", "--second-modulus", "20kPa", "--pixels", "5x4",
+                         "--size", "8um", "--points", "60", "--seed", "3", "--out", str(path))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        read = touchafm.read(path)
+        self.assertEqual(len(made), 20)
+        for mine, file in zip(made, read):
+            self.assertEqual(mine.metadata["pixel"], file.metadata["pixel"])
+            np.testing.assert_allclose(mine.force, file.force, rtol=1e-9, atol=1e-20)
+        with open(f"{path}.truth.json", encoding="utf-8") as file:
+            written = json.load(file)
+        self.assertEqual([each["modulus_Pa"] for each in truth["curves"]], [each["modulus_Pa"] for each in written["curves"]])
+        self.assertEqual(len({each["modulus_Pa"] for each in truth["curves"]}), 2)
+
+    def test_refuses_what_the_command_refuses(self):
+        for wrong in ({"pixels": (0, 4)}, {"pixels": (513, 1)}, {"size": 1.0}, {"field": "sea"}, {"second_modulus": -1.0},
+                      {"second_work_of_adhesion": 1e-3}):
+            with self.assertRaises(ValueError, msg=wrong):
+                touchafm.generate_map(**{**self.FIELD, **GEL, **wrong})
 
 
 class Fits(Files):

@@ -40,6 +40,21 @@ class Serve(unittest.TestCase):
         saved = touchafm.read_image(os.path.join(self.folder.name, "image.gwy"))
         np.testing.assert_allclose(saved["channels"]["Height"][0], image["Height"], atol=1e-15)
 
+    def test_stops_a_scan(self):
+        self.afm.set(pixels=128, lines=1000)
+        self.afm.approach()
+        rows = []
+
+        def enough(line):
+            rows.append(line["line"])
+            return len(rows) < 10
+
+        image = self.afm.scan(on_line=enough)
+        self.assertFalse(np.isnan(image["Height"][9]).any())
+        self.assertLess(len(rows), 1000)
+        self.assertTrue(np.isnan(image["Height"][len(rows):]).all())
+        self.assertEqual(self.afm.get()["lines"], 1000)  # the next answer is that of the next request
+
     def test_calibrates_the_lever(self):
         frequency, density = self.afm.thermal(averages=200)
         lever = touchafm.lever(thermal=(frequency, density), averages=200, temperature=self.afm.get()["temperature_K"])

@@ -37,6 +37,19 @@ class Stub(unittest.TestCase):
                     continue
                 self.assertIn("**kwargs", signature, (name, argument.arg))  # a number among others
 
+    def test_says_which_classes_only_functions_make(self):
+        for name, node in self.classes.items():
+            made = {"FileError", "Contact", "Curve"}
+            initialiser = next((each for each in node.body if getattr(each, "name", "") == "__init__"), None)
+            never = isinstance(getattr(initialiser, "returns", None), ast.Name) and initialiser.returns.id == "NoReturn"
+            self.assertEqual(never, name not in made, name)
+            if name not in made:
+                with self.assertRaises(TypeError):
+                    getattr(touchafm, name)()
+            if name != "FileError":
+                with self.assertRaises(TypeError):
+                    type("Other", (getattr(touchafm, name),), {})
+
     def test_finds_a_docstring_everywhere(self):
         for name in touchafm.__all__:
             member = getattr(touchafm, name)

@@ -53,6 +53,20 @@ class Interruption(unittest.TestCase):
         self.assertLess(time.monotonic() - sent[0], 2.0)  # 0.2 s on a machine that is not busy
 
 
+    def test_ends_a_scan(self):
+        sent = []
+
+        def interrupt():
+            time.sleep(0.5)
+            sent.append(time.monotonic())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        threading.Thread(target=interrupt).start()
+        with self.assertRaises(KeyboardInterrupt):
+            touchafm.scan(MICA, pixels=4000)
+        self.assertLess(time.monotonic() - sent[0], 2.0)
+
+
 class Memory(unittest.TestCase):
     def test_does_not_grow_with_calls(self):
         law = touchafm.law("dmt", MICA)

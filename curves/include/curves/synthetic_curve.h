@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "curves/quantity_domain.h"
 #include "curves/recorded_curve.h"
 #include "curves/synthetic_setup.h"
 
@@ -43,8 +44,18 @@ inline constexpr std::array kFieldShapes{
     FieldShapeRow{FieldShape::Gradient, "gradient", "from the left column to the second value in the right one"},
     FieldShapeRow{FieldShape::Islands, "islands", "the second value in five discs, whose places follow from the seed"}};
 
+// Pixels and width of a map, unless others are given, and legal values of a request.
+inline constexpr std::size_t kUsualMapPixels = 16, kMostMapPixels = 512;  // along a side
+inline constexpr double kUsualMapWidthM = 10e-6;
+inline constexpr QuantityRange<double> kMapWidthsM{1e-9, 1e-3}, kMapModuliPa{1.0, 1e12}, kMapWorksJPerM2{1e-6, 10.0};
+
+// Square pixels around the origin.
+constexpr MapGrid map_grid(std::size_t columns, std::size_t rows, double width_m) {
+  return {columns, rows, width_m, width_m * static_cast<double>(rows) / static_cast<double>(columns), 0.0, 0.0};
+}
+
 struct SyntheticMap {
-  MapGrid grid;
+  MapGrid grid = map_grid(kUsualMapPixels, kUsualMapPixels, kUsualMapWidthM);
   FieldShape shape = FieldShape::Uniform;
   double second_modulus_pa = 0, second_work_j_per_m2 = 0;  // zero: as the first
 };

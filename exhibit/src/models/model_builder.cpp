@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
 #include "scene/gltf/gltf_loader.h"
@@ -11,38 +10,6 @@
 namespace afm::exhibit {
 
 using glm::dmat4;
-using glm::dvec3;
-
-dmat4 ancestor_from_node(const scene::Scene& scene, scene::NodeIndex ancestor, scene::NodeIndex node) {
-  dmat4 result(1.0);
-  for (std::optional<scene::NodeIndex> n = node; n && *n != ancestor; n = scene.nodes[*n].parent) {
-    result = scene.nodes[*n].parent_from_node * result;
-  }
-  return result;
-}
-
-bool is_below(const scene::Scene& scene, scene::NodeIndex ancestor, scene::NodeIndex node) {
-  for (std::optional<scene::NodeIndex> n = node; n; n = scene.nodes[*n].parent) {
-    if (*n == ancestor) return true;
-  }
-  return false;
-}
-
-Bounds bounds_below(const scene::Scene& scene, scene::NodeIndex root) {
-  Bounds bounds;
-  for (scene::NodeIndex i = 0; i < scene.nodes.size(); ++i) {
-    if (!scene.nodes[i].mesh || !is_below(scene, root, i)) continue;
-    const dmat4 root_from_node = ancestor_from_node(scene, root, i);
-    for (const scene::Primitive& primitive : scene.meshes[*scene.nodes[i].mesh].primitives) {
-      for (const scene::Vertex& vertex : primitive.vertices) {
-        const dvec3 p(root_from_node * glm::dvec4(dvec3(vertex.position), 1.0));
-        bounds.low = glm::min(bounds.low, p);
-        bounds.high = glm::max(bounds.high, p);
-      }
-    }
-  }
-  return bounds;
-}
 
 scene::NodeIndex ModelBuilder::frame(std::string_view name, std::optional<scene::NodeIndex> parent,
                                      const dmat4& parent_from_name) {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "exhibit/models/loading_notice.h"
 #include "exhibit/models/model_view.h"
+#include "scene/gltf/loading_notice.h"
 #include "scene/graph/pose.h"
 
 namespace afm::exhibit {
@@ -124,7 +124,7 @@ nlohmann::json json_of(const scene::Scene& scene) {
 core::Result<void> describe_model(const std::string& file, DescriptionForm form, std::ostream& out) {
   scene::GltfWarnings notes;
   const auto scene = [&] {
-    const LoadingNotice notice(file);
+    const scene::LoadingNotice notice(file);
     return scene::load_gltf(file, &notes);
   }();
   if (!scene) return tl::unexpected(scene.error());

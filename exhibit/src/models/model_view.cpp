@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-#include "models/noted_model.h"
+#include "scene/gltf/noted_model.h"
 #include "scene/graph/pose.h"
 
 namespace afm::exhibit {
@@ -186,7 +186,7 @@ std::string camera_name(const scene::Scene& scene, const scene::Node& node) {
 }
 
 core::Result<ModelView> open_model(const ModelChoice& choice) {
-  auto loaded = load_noted_model(choice.file);
+  auto loaded = scene::load_noted_model(choice.file);
   if (!loaded) return tl::unexpected(loaded.error());
   ModelView view;
   view.scene =

@@ -13,12 +13,12 @@
 
 #include "core/log.h"
 #include "exhibit/models/height_colours.h"
-#include "exhibit/models/loading_notice.h"
 #include "haptics/contact_model.h"
 #include "haptics/sample_surface.h"
 #include "haptics/simulated_device.h"
 #include "models/linear_colour.h"
 #include "physics/quantity_text.h"
+#include "scene/gltf/loading_notice.h"
 
 namespace afm::exhibit {
 
@@ -168,7 +168,7 @@ double exaggeration_of(double relief_m, double side_m) {
 }
 
 core::Result<TopographyModel> load_topography_model(const std::string& file, const curves::TopographyReading& reading) {
-  const LoadingNotice notice(file);
+  const scene::LoadingNotice notice(file);
   const auto measured = curves::load_topography(file, reading);
   if (!measured) return tl::unexpected(measured.error());
   auto felt = curves::felt_topography(*measured);

@@ -1,175 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/models/user_models.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/matrix.hpp>
-#include <system_error>
 #include <utility>
 
-#include "core/file_kind.h"
-#include "core/log.h"
-#include "core/whole_file.h"
-#include "curves/curve_file.h"
 #include "curves/image_file.h"
-#include "curves/unread_kinds.h"
-#include "exhibit/models/model_builder.h"
-#include "models/noted_model.h"
-#include "scene/gltf/not_gltf.h"
-#include "scene/graph/pose.h"
+#include "imaging/own_models.h"
 
 namespace afm::exhibit {
 
 namespace {
-
-using glm::dmat4;
-using glm::dvec3;
-
-// A wider sample cannot be in true size, so it is scaled to this width.
-constexpr double kWidestSampleM = 1e-6;
-constexpr double kFittedSampleM = 60e-9;
-
-core::Error missing(const std::string& file, std::string_view what) {
-  return {core::ErrorCategory::BadInputFile,
-          fmt::format("cannot use the model '{}': {} (docs/gltf.md, Roles)", file, what)};
-}
-
-void transform(scene::Primitive& primitive, const dmat4& matrix) {
-  const glm::dmat3 linear(matrix);
-  const double mirrored = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
-  const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                            glm::cross(linear[0], linear[1]));
-  for (scene::Vertex& vertex : primitive.vertices) {
-    vertex.position = glm::vec3(dvec3(matrix * glm::dvec4(dvec3(vertex.position), 1.0)));
-    const dvec3 normal = mirrored * cofactor * dvec3(vertex.normal);
-    const double length = glm::length(normal);
-    if (length > 0.0) vertex.normal = glm::vec3(normal / length);
-  }
-  for (glm::vec4& tangent : primitive.tangents) {
-    tangent = glm::vec4(glm::vec3(linear * dvec3(tangent)), static_cast<float>(mirrored) * tangent.w);
-  }
-  for (std::size_t i = 0;
-       mirrored < 0.0 && primitive.topology == scene::Topology::Triangles && i + 2 < primitive.indices.size(); i += 3) {
-    std::swap(primitive.indices[i + 1], primitive.indices[i + 2]);
-  }
-}
-
-// All meshes of the nodes that `wanted` accepts, as one mesh in a frame.
-template <class Wanted>
-scene::Mesh merged(const scene::Scene& scene, const dmat4& frame_from_scene, Wanted wanted) {
-  const std::vector<dmat4> scene_from_node = scene::scene_from_nodes(scene);
-  scene::Mesh mesh;
-  for (scene::NodeIndex i = 0; i < scene.nodes.size(); ++i) {
-    if (!scene.nodes[i].mesh || !wanted(i)) continue;
-    for (const scene::Primitive& primitive : scene.meshes[*scene.nodes[i].mesh].primitives) {
-      transform(mesh.primitives.emplace_back(primitive), frame_from_scene * scene_from_node[i]);
-    }
-  }
-  return mesh;
-}
-
-// The materials and textures of a model without its nodes and meshes.
-scene::Scene without_shape(const scene::Scene& scene) {
-  scene::Scene bare;
-  bare.materials = scene.materials;
-  bare.textures = scene.textures;
-  bare.images = scene.images;
-  bare.variants = scene.variants;
-  return bare;
-}
-
-core::Result<scene::Scene> load(const std::string& file) {
-  auto loaded = load_noted_model(file);
-  if (loaded && !loaded->animations.empty()) {
-    core::log_line(fmt::format("'{}' is shown at rest: the wall does not play the animations of a model", file));
-  }
-  return loaded;
-}
-
-core::Result<scene::Scene> load_probe(const std::string& file) {
-  auto loaded = load(file);
-  if (!loaded) return loaded;
-  const scene::Scene model = scene::posed(std::move(*loaded), std::nullopt);
-  const auto base = scene::find_role(model, "base"), tip = scene::find_role(model, "tip");
-  if (!base || !tip) return tl::unexpected(missing(file, "a probe needs a node for the role base and one for tip"));
-  const std::vector<dmat4> scene_from_node = scene::scene_from_nodes(model);
-  const dmat4 base_from_scene = glm::inverse(scene_from_node[*base]),
-              tip_from_scene = glm::inverse(scene_from_node[*tip]);
-
-  scene::Scene probe = without_shape(model);
-  const dmat4 base_from_tip = base_from_scene * scene_from_node[*tip];
-  probe.nodes.push_back({"cantilever", std::nullopt, 0U, dmat4(1.0)});
-  probe.nodes.push_back({"tip", 0U, 1U, base_from_tip});
-  const auto in_tip = [&](scene::NodeIndex node) { return is_below(model, *tip, node); };
-  probe.meshes.push_back(merged(model, base_from_scene, [&](scene::NodeIndex node) { return !in_tip(node); }));
-  probe.meshes.push_back(merged(model, tip_from_scene, in_tip));
-  if (!(base_from_tip[3].x > 0.0) || !std::isfinite(base_from_tip[3].x)) {
-    return tl::unexpected(missing(file, "the tip does not lie along +x of the base"));
-  }
-  const double apex = bounds_below(probe, 1).low.z;
-  if (!(apex < 0.0)) return tl::unexpected(missing(file, "nothing hangs below the node of the tip, along its -z"));
-  probe.nodes.push_back({"apex", 1U, std::nullopt, glm::translate(dmat4(1.0), dvec3(0.0, 0.0, apex))});
-  return probe;
-}
-
-core::Result<scene::Scene> load_sample(const std::string& file) {
-  auto loaded = load(file);
-  if (!loaded) return loaded;
-  const scene::Scene model = scene::posed(std::move(*loaded), std::nullopt);
-  const auto surface = scene::find_role(model, "surface");
-  if (!surface) return tl::unexpected(missing(file, "a sample needs a node for the role surface"));
-  const dmat4 surface_from_scene = glm::inverse(scene::scene_from_nodes(model)[*surface]);
-  const auto all = [](scene::NodeIndex) { return true; };
-
-  scene::Scene sample = without_shape(model);
-  sample.nodes.push_back({"surface", std::nullopt, 0U, dmat4(1.0)});
-  sample.meshes.push_back(merged(model, surface_from_scene, all));
-  const Bounds bounds = bounds_below(sample, 0);
-  const double width = std::max(bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y);
-  if (!std::isnormal(width)) return tl::unexpected(missing(file, "its surface has no extent along x and y"));
-  if (width > kWidestSampleM) {
-    for (scene::Primitive& primitive : sample.meshes[0].primitives) {
-      transform(primitive, glm::scale(dmat4(1.0), dvec3(kFittedSampleM / width)));
-    }
-  }
-  return sample;
-}
-
-// Returns whether an existing file begins neither as binary glTF nor as JSON.
-bool is_no_model(const std::string& path) {
-  std::error_code missing;
-  if (!std::filesystem::is_regular_file(path, missing)) return false;
-  std::ifstream file(path, std::ios::binary);
-  char first = '\0';
-  return file && (!(file >> first) || (first != '{' && first != 'g'));
-}
-
-// Why a file is neither a model nor an image, as far as its beginning shows, and what to do.
-std::string refusal_of_other(const std::string& file) {
-  std::string neither =
-      fmt::format("it is neither a glTF model nor an image that can be read ({}); export it in one of these formats",
-                  curves::kImageFiles);
-  const auto beginning = core::read_beginning(file, core::kFileKindBytes);
-  if (!beginning) return neither;
-  std::error_code unknown;
-  const std::uintmax_t size = std::filesystem::file_size(file, unknown);
-  if (const auto model = core::file_kind(*beginning, size); model && model->role == core::FileRole::Model)
-    return scene::not_gltf(*model);
-  std::string kind = curves::unread_kind_of(*beginning, size);
-  if (kind.empty() && curves::is_curve_file(file)) kind = "a curve, which has no surface";
-  return kind.empty() ? neither : fmt::format("it is {}; {}", kind, neither);
-}
-
-tl::unexpected<core::Error> unusable_sample(const std::string& file, const std::string& why) {
-  return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot use the sample '{}': {}", file, why));
-}
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -183,22 +24,17 @@ core::Result<UserModels> load_own_models(const std::string& probe_file, const st
                                          const curves::TopographyReading& reading) {
   UserModels own;
   if (!probe_file.empty()) {
-    auto probe = load_probe(probe_file);
+    auto probe = imaging::load_own_probe(probe_file);
     if (!probe) return tl::unexpected(probe.error());
     own.probe = std::move(*probe);
   }
-  if (const std::string kind = core::kind_of_no_file(sample_file); !kind.empty()) {
-    return unusable_sample(sample_file, fmt::format("it is {}, not a file; name a glTF model or an image ({})", kind,
-                                                    curves::kImageFiles));
-  }
+  if (const auto checked = imaging::check_own_sample(sample_file); !checked) return tl::unexpected(checked.error());
   if (curves::is_image_file(sample_file)) {
     auto topography = load_topography_model(sample_file, reading);
     if (!topography) return tl::unexpected(topography.error());
     own.topography = std::move(*topography);
-  } else if (is_no_model(sample_file)) {
-    return unusable_sample(sample_file, refusal_of_other(sample_file));
   } else if (!sample_file.empty()) {
-    auto sample = load_sample(sample_file);
+    auto sample = imaging::load_own_sample(sample_file);
     if (!sample) return tl::unexpected(sample.error());
     own.sample = std::move(*sample);
   }

@@ -14,49 +14,13 @@
 #include "exhibit/scan/scan_cause.h"
 #include "exhibit/scenery/wall_marks.h"
 #include "physics/quantity_text.h"
+#include "scan/image_maps.h"
 
 namespace afm::exhibit {
 
 namespace {
 
-constexpr glm::vec3 kTraceColor{0.337F, 0.706F, 0.914F}, kRetraceColor{0.902F, 0.624F, 0.0F};
-constexpr double kOutliers = 0.003;  // share of all values at each end, so that spikes do not narrow the colour range
-constexpr double kLeastRangeM = 0.2e-9;  // smallest range of the colours, so that a flat sample does not look rough
 constexpr double kTipOfRelief = 1.5;  // shown height of the tip in units of the sample's range; the rest cannot touch
-constexpr double kLeastForceN = 0.05e-9;  // smallest range of the forces' shades
-
-struct Range {
-  double low = 0, high = 0;
-  bool empty = true;
-
-  double middle() const { return 0.5 * (low + high); }
-};
-
-// Range of the measured values without outliers.
-Range range_of(const std::vector<double>& a, const std::vector<double>& b) {
-  std::vector<double> values;
-  values.reserve(a.size() + b.size());
-  for (const auto* map : {&a, &b}) {
-    std::copy_if(map->begin(), map->end(), std::back_inserter(values), [](double v) { return std::isfinite(v); });
-  }
-  if (values.empty()) return {};
-  const auto cut = static_cast<std::ptrdiff_t>(kOutliers * static_cast<double>(values.size()));
-  const auto low = values.begin() + cut, high = values.end() - 1 - cut;
-  std::nth_element(values.begin(), low, values.end());
-  const double lowest = *low;
-  std::nth_element(values.begin(), high, values.end());
-  return {lowest, *high, false};
-}
-
-Range at_least(Range range, double width) {
-  if (range.high - range.low >= width) return range;
-  return {range.middle() - 0.5 * width, range.middle() + 0.5 * width, range.empty};
-}
-
-Srgb grey(double zero_to_one) {
-  const auto level = static_cast<std::uint8_t>(std::lround(28.0 + 210.0 * std::clamp(zero_to_one, 0.0, 1.0)));
-  return {level, level, level};
-}
 
 render::ColorGrid colored(const std::vector<double>& map, const Range& range, Srgb (*color)(double)) {
   constexpr auto kSide = static_cast<std::uint32_t>(LiveScan::kPixels);
@@ -67,29 +31,6 @@ render::ColorGrid colored(const std::vector<double>& map, const Range& range, Sr
     grid.colors.push_back({r, g, b, static_cast<std::uint8_t>(std::isfinite(value) ? 255 : 0)});
   }
   return grid;
-}
-
-std::string nanonewtons(const Range& range) { return fmt::format("{:.2g}", 0.5e9 * (range.high - range.low)); }
-
-// The largest unit in which the side is at least 1.
-struct SideUnit {
-  double m;
-  const char* name;
-};
-SideUnit side_unit(double side_m) { return side_m < 1e-6 ? SideUnit{1e-9, "nm"} : SideUnit{1e-6, "\u00b5m"}; }
-
-std::string side_text(const LiveScan& scan) {
-  const double side_m = scan.subject().side_m;
-  const SideUnit unit = side_unit(side_m);
-  return fmt::format("{:.3g} {}", side_m / unit.m, unit.name);
-}
-
-void show_side(const LiveScan& scan, render::ImagePanel& panel) {
-  const double side_m = scan.subject().side_m;
-  const SideUnit unit = side_unit(side_m);
-  panel.side_unit = unit.name;
-  panel.side = side_m / unit.m;
-  panel.scale_bar = scale_bar(panel.side, 0.30).length_m;
 }
 
 // A row of the image from left to right, in nanometres above `low_m`.
@@ -170,8 +111,6 @@ void add_truth(const ScanTruth& truth, const std::vector<double>& trace_m, const
                                  .points = nanometres(truth.revealed_tip)});
 }
 
-Range range_of(const std::vector<double>& map) { return range_of(map, {}); }
-
 // The image painted by a hand: on the left the measured quantity, on the right the controlled one. Cells without a
 // visit have no colour.
 render::ImagePanel painted_panel(const LiveScan& scan, const std::string& sample, const Phrases& phrases) {
@@ -186,7 +125,7 @@ render::ImagePanel painted_panel(const LiveScan& scan, const std::string& sample
 
   render::ImagePanel panel;
   panel.title = phrases.text<Phrase::ScanTitle>(sample);
-  const std::string side = side_text(scan), percent = fmt::format("{:.0f}", 100 * scan.seen_share());
+  const std::string side = side_text(scan.subject().side_m), percent = fmt::format("{:.0f}", 100 * scan.seen_share());
   panel.subtitle =
       feedback ? phrases.text<Phrase::ScanByHand>(side, percent) : phrases.text<Phrase::ScanByHandOpen>(side, percent);
   panel.decimal_mark = phrases.decimal_mark();
@@ -209,10 +148,8 @@ render::ImagePanel painted_panel(const LiveScan& scan, const std::string& sample
                             .points = line_of(maps.height_m[feedback ? 0 : 1], *row, side_nm, seen.low)}};
     panel.line = (static_cast<double>(*row) + 0.5) / static_cast<double>(LiveScan::kPixels);
   }
-  show_side(scan, panel);
-  panel.bar_low_nm = 0.0;
-  panel.bar_high_nm = high_nm;
-  for (const Srgb& c : kHeightColours) panel.bar.push_back(glm::vec3(c[0], c[1], c[2]) / 255.0F);
+  show_side(scan.subject().side_m, panel);
+  show_heights(high_nm, panel);
   return panel;
 }
 
@@ -238,7 +175,7 @@ render::ImagePanel image_panel(const LiveScan& scan, const std::string& sample, 
   render::ImagePanel panel;
   panel.title = phrases.text<Phrase::ScanTitle>(sample);
   panel.subtitle =
-      phrases.text<Phrase::ScanSubtitle>(side_text(scan), value_text(scan.choice(), ScanRow::Rate),
+      phrases.text<Phrase::ScanSubtitle>(side_text(scan.subject().side_m), value_text(scan.choice(), ScanRow::Rate),
                                          fmt::format("{}", scan.row() + 1), fmt::format("{}", LiveScan::kPixels));
   panel.decimal_mark = phrases.decimal_mark();
   panel.heights = {render::ImageMap{phrases[Phrase::ScanTrace], colored(maps.height_m[0], heights, height_colour)},
@@ -247,12 +184,10 @@ render::ImagePanel image_panel(const LiveScan& scan, const std::string& sample, 
       {phrases.text<Phrase::ScanError>(nanonewtons(errors)), colored(maps.error_n[0], errors, grey)},
       {phrases.text<Phrase::ScanLateral>(nanonewtons(lateral)), colored(maps.lateral_n[0], lateral, grey)}};
   panel.profile = newest_line(scan, heights, phrases);
-  show_side(scan, panel);
+  show_side(scan.subject().side_m, panel);
   panel.line = (static_cast<double>(scan.row()) + 0.5) / static_cast<double>(LiveScan::kPixels);
-  panel.bar_low_nm = 0.0;
-  panel.bar_high_nm = (heights.high - heights.low) * 1e9;
+  show_heights((heights.high - heights.low) * 1e9, panel);
   if (scan.truth()) add_truth(*scan.truth(), maps.height_m[0], heights, phrases, panel);
-  for (const Srgb& c : kHeightColours) panel.bar.push_back(glm::vec3(c[0], c[1], c[2]) / 255.0F);
   return panel;
 }
 

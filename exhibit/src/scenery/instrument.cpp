@@ -47,7 +47,7 @@ void Instrument::measure(scene::Scene& scene, ModelBuilder& build) {
       dvec3(glm::inverse(ancestor_from_node(scene, lever_, cantilever_)) * ancestor_from_node(scene, lever_, tip_)[3])
           .x;
   tip_length_ = -bounds_below(scene, tip_).low.z;
-  const Bounds stage = bounds_below(scene, build.node("stage/stage"));
+  const scene::Bounds stage = bounds_below(scene, build.node("stage/stage"));
   stage_scale_ = kStageDrawnWidth / (stage.high.x - stage.low.x);
   stage_height_ = stage_scale_ * (stage.high.z - stage.low.z);
 }

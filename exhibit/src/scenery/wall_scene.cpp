@@ -9,10 +9,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/check.h"
-#include "exhibit/models/drawn_surface.h"
 #include "exhibit/models/model_builder.h"
 #include "exhibit/models/particle_models.h"
 #include "exhibit/models/user_models.h"
+#include "imaging/drawn_surface.h"
 #include "models/height_bar.h"
 #include "physics/contact.h"
 #include "scene/graph/height_field.h"
@@ -51,7 +51,7 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
                              const UserModels& own) {
   const physics::ApproachRetractEvents events = physics::approach_retract_events(material.contact);
   MaterialLook look{};
-  const std::string model = model_of(assets_dir, material);
+  const std::string model = imaging::model_of(assets_dir, material);
   const std::string sample = "sample-" + material.name;
   look.stroke_m = own.particles ? StageParticles::stroke_m(*own.particles) : events.z_joc.si * kStrokeOfZjoc;
   look.surface_stroke_m = look.stroke_m;
@@ -67,7 +67,7 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
                              : build.model_in_frame_of("surface", "sample-" + model + ".glb", sample, sample_frame_);
     const scene::NodeIndex surface = build.node(sample + "/surface");
     look.height_field = build.error() ? scene::kNoHeightField : height_field_of(own.sample ? "own" : model, surface);
-    const Bounds slab = build.error() ? Bounds{dvec3(0.0), dvec3(0.0)} : bounds_below(scene_, surface);
+    const scene::Bounds slab = build.error() ? scene::Bounds{dvec3(0.0), dvec3(0.0)} : bounds_below(scene_, surface);
     look.thickness_m = -slab.low.z;
     if (!own.sample) look.surface_stroke_m = stroke_of_sample(slab.high.x - slab.low.x, look.stroke_m);
   }

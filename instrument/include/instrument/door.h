@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace afm::instrument {
 
@@ -29,6 +30,17 @@ class Door {
 
   // Answers one request of request_size() bytes, whatever it is.
   virtual Then answer(std::string_view request, const Send& send) = 0;
+
+  // What the client has sent after the request that is being answered; does not wait. For work that the next request
+  // may stop.
+  using Look = std::function<std::string_view()>;
+  void look_with(Look look) { look_ = std::move(look); }
+
+ protected:
+  std::string_view sent_meanwhile() const { return look_ ? look_() : std::string_view(); }
+
+ private:
+  Look look_;  // empty: nothing can come meanwhile
 };
 
 }  // namespace afm::instrument

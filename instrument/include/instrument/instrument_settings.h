@@ -7,7 +7,7 @@
 
 #include "core/result.h"
 #include "curves/contact_options.h"
-#include "exhibit/scan/scan_surface.h"
+#include "imaging/scan_surface.h"
 #include "physics/imaging/scan_settings.h"
 #include "physics/imaging/tip_shape.h"
 

@@ -19,13 +19,18 @@
 
 namespace afm::instrument {
 
+class Showcase;
+
 // An atomic force microscope in simulated time, whose truth is known. The same seed and the same calls give the same
 // results, bit for bit. Lengths in m of the sample's frame, z away from it; time in s. One thread; allocates.
 class SimulatedInstrument {
  public:
-  // Fails as curves::contact_setup() and exhibit::scan_surface(). `sample`: instead of the one drawn for the material.
+  // Fails as curves::contact_setup() and imaging::scan_surface(). `sample`: instead of the one drawn for the material.
   static core::Result<SimulatedInstrument> create(std::string assets_dir, std::uint64_t seed,
-                                                  exhibit::OwnSample sample = {});
+                                                  imaging::OwnSample sample = {});
+
+  // Shows from now on what happens; the showcase must outlive the object. Results do not depend on it.
+  void show_in(Showcase& showcase);
 
   // As if it were created with this seed.
   core::Result<void> reset(std::uint64_t seed);
@@ -95,7 +100,7 @@ class SimulatedInstrument {
   Truth truth() const;
 
  private:
-  SimulatedInstrument(std::string assets_dir, exhibit::OwnSample sample);
+  SimulatedInstrument(std::string assets_dir, imaging::OwnSample sample);
 
   core::Result<void> build(const InstrumentSettings& settings, double growth_m);
   physics::TipShape tip_shape() const;
@@ -104,21 +109,23 @@ class SimulatedInstrument {
   double surface_below() const;
   double uniform();
   void pass(double time_s) noexcept;
+  void show_place() const;
   core::Result<void> wear(double force_n);
   core::Result<void> after_line(const physics::ScanLine& line, physics::Scanner& scanner);
   curves::PathOptions path_of(const std::optional<double>& from, const std::optional<double>& to) const;
 
   std::string assets_dir_;
-  exhibit::OwnSample sample_;
+  imaging::OwnSample sample_;
   InstrumentSettings settings_;
   curves::ContactSetup setup_;    // with the worn tip
-  exhibit::ScanSurface surface_;  // under the tip as it was at surface_radius_m_
+  imaging::ScanSurface surface_;  // under the tip as it was at surface_radius_m_
   double surface_radius_m_ = 0;
   double growth_m_ = 0, drift_x_m_ = 0, drift_y_m_ = 0, highest_force_n_ = 0;
   bool touching_ = false, second_apex_ = false;
   Position at_;
   std::mt19937_64 chance_;
   physics::NormalGenerator noise_;
+  Showcase* showcase_ = nullptr;  // null: nobody looks
 };
 
 }  // namespace afm::instrument

@@ -14,4 +14,7 @@ namespace afm::study {
 using ReportFiles = std::vector<std::pair<std::string, std::string>>;
 ReportFiles study_report(const StudyResults& results);
 
+// study.json of a report.
+std::string study_json(const StudyResults& results);
+
 }  // namespace afm::study

@@ -2,29 +2,15 @@
 #pragma once
 
 #include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/result.h"
 #include "scene/graph/scene.h"
+#include "scene/graph/subtree.h"
 
 namespace afm::exhibit {
-
-// The node's transform at rest relative to one of its ancestors.
-glm::dmat4 ancestor_from_node(const scene::Scene& scene, scene::NodeIndex ancestor, scene::NodeIndex node);
-
-bool is_below(const scene::Scene& scene, scene::NodeIndex ancestor, scene::NodeIndex node);
-
-struct Bounds {
-  glm::dvec3 low{std::numeric_limits<double>::infinity()};
-  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-};
-
-// Bounds of everything below `root` at rest, in root's frame.
-Bounds bounds_below(const scene::Scene& scene, scene::NodeIndex root);
 
 // Loads models one by one into one graph. Keeps the first error, so that callers need no check after each step; after
 // an error every call still returns a node, but the graph must not be used.

@@ -115,10 +115,11 @@
   PHRASE(PictureBudget, "picture-budget", "time", kLine)              \
   PHRASE(PictureOverBudget, "picture-over-budget", "time budget", kLine)
 
-// A wall of several machines: its missing parts.
+// A wall of several machines: its missing parts; and a microscope that a program controls.
 #define AFM_FOR_EACH_CLUSTER_PHRASE(PHRASE)          \
   PHRASE(NodeMissing, "node-missing", "node", kLine) \
-  PHRASE(MasterMissing, "master-missing", "", kLine)
+  PHRASE(MasterMissing, "master-missing", "", kLine) \
+  PHRASE(Served, "served", "", kLine)
 
 // Plots and panels of values, labels in the scene, the depth meter, the test pattern.
 #define AFM_FOR_EACH_PANEL_PHRASE(PHRASE)                                \

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-namespace afm::exhibit {
+namespace afm::scene {
 
 // Exists while a file is loaded. After a second, a separate thread reports that loading continues.
 class LoadingNotice {
@@ -23,4 +23,4 @@ class LoadingNotice {
   std::jthread thread_;
 };
 
-}  // namespace afm::exhibit
+}  // namespace afm::scene

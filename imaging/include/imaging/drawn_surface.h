@@ -8,7 +8,7 @@
 #include "scene/samples/material_library.h"
 #include "scene/shared/shared_blocks.h"
 
-namespace afm::exhibit {
+namespace afm::imaging {
 
 // The material whose models are used for this one: itself, the one with its look or, with a line on stderr, the grey
 // one.
@@ -18,4 +18,4 @@ std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& 
 core::Result<std::unique_ptr<scene::SharedHeightField>> drawn_surface(const std::string& assets_dir,
                                                                       const scene::MaterialEntry& material);
 
-}  // namespace afm::exhibit
+}  // namespace afm::imaging

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "models/noted_model.h"
+#include "scene/gltf/noted_model.h"
 
 #include <fmt/format.h>
 
 #include "core/log.h"
-#include "exhibit/models/loading_notice.h"
 #include "scene/gltf/gltf_loader.h"
+#include "scene/gltf/loading_notice.h"
 
-namespace afm::exhibit {
+namespace afm::scene {
 
-core::Result<scene::Scene> load_noted_model(const std::string& file) {
-  scene::GltfWarnings notes;
+core::Result<Scene> load_noted_model(const std::string& file) {
+  GltfWarnings notes;
   auto loaded = [&] {
     const LoadingNotice notice(file);
-    return scene::load_gltf(file, &notes);
+    return load_gltf(file, &notes);
   }();
   if (!loaded) return loaded;
   for (const std::string& missing : notes.missing) {
@@ -23,4 +23,4 @@ core::Result<scene::Scene> load_noted_model(const std::string& file) {
   return loaded;
 }
 
-}  // namespace afm::exhibit
+}  // namespace afm::scene

@@ -6,10 +6,10 @@
 #include "core/result.h"
 #include "scene/graph/scene.h"
 
-namespace afm::exhibit {
+namespace afm::scene {
 
 // load_gltf() for a picture: after a second reports that loading continues, then logs the images that are not there,
 // and the reason if nothing is shown.
-core::Result<scene::Scene> load_noted_model(const std::string& file);
+core::Result<Scene> load_noted_model(const std::string& file);
 
-}  // namespace afm::exhibit
+}  // namespace afm::scene

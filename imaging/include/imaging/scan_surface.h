@@ -9,7 +9,7 @@
 #include "physics/imaging/scanner.h"
 #include "physics/imaging/tip_shape.h"
 
-namespace afm::exhibit {
+namespace afm::imaging {
 
 // A sample's surface for the scanner.
 struct ScanSurface {
@@ -29,8 +29,8 @@ struct OwnSample {
 
 // The sample of a material under a tip. Under a paraboloid: the surface that a hand feels (haptics::SampleSurface of
 // the drawn heights). Under any other tip: the drawn heights dilated by it. An image that is traced is taken as it was
-// measured, under any tip. The scanner itself adds the tip's second apex. Fails as load_own_models() does.
+// measured, under any tip. The scanner itself adds the tip's second apex. Fails as load_own_sample() does.
 core::Result<ScanSurface> scan_surface(const curves::ContactSetup& setup, const physics::TipShape& tip,
                                        const std::string& assets_dir, const OwnSample& own = {});
 
-}  // namespace afm::exhibit
+}  // namespace afm::imaging

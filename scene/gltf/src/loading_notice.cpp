@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/models/loading_notice.h"
+#include "scene/gltf/loading_notice.h"
 
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <utility>
 
-namespace afm::exhibit {
+namespace afm::scene {
 
 bool LoadingNotice::wait_a_second(const std::stop_token& stop) {
   std::mutex mutex;
@@ -21,4 +21,4 @@ LoadingNotice::LoadingNotice(const std::string& file, Wait wait, std::ostream& o
         if (wait(stop)) out << "loading " + file + " ...\n" << std::flush;
       }) {}
 
-}  // namespace afm::exhibit
+}  // namespace afm::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/models/drawn_surface.h"
+#include "imaging/drawn_surface.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "scene/gltf/gltf_loader.h"
 #include "scene/graph/height_field.h"
 
-namespace afm::exhibit {
+namespace afm::imaging {
 
 std::string model_of(const std::string& assets_dir, const scene::MaterialEntry& material) {
   constexpr const char* kNeutralLook = "si3n4";
@@ -37,4 +37,4 @@ core::Result<std::unique_ptr<scene::SharedHeightField>> drawn_surface(const std:
   return std::make_unique<scene::SharedHeightField>(*field);
 }
 
-}  // namespace afm::exhibit
+}  // namespace afm::imaging

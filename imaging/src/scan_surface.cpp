@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "exhibit/scan/scan_surface.h"
+#include "imaging/scan_surface.h"
 
 #include <fmt/format.h>
 
@@ -10,15 +10,15 @@
 
 #include "curves/image_file.h"
 #include "curves/sample_model.h"
-#include "exhibit/models/drawn_surface.h"
-#include "exhibit/models/user_models.h"
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
+#include "imaging/drawn_surface.h"
+#include "imaging/own_models.h"
 #include "physics/imaging/morphology.h"
 #include "physics/imaging/rim.h"
 #include "scene/graph/height_field.h"
 
-namespace afm::exhibit {
+namespace afm::imaging {
 namespace {
 
 // Of a scene::SharedHeightField or a scene::Topography: centred on the origin, row by row from -y.
@@ -44,10 +44,11 @@ core::Result<physics::HeightGrid> measured_heights(const OwnSample& own) {
 }
 
 core::Result<std::unique_ptr<scene::SharedHeightField>> surface_of_model(const OwnSample& own) {
-  const auto models = load_own_models("", own.file, own.reading);
-  if (!models) return tl::unexpected(models.error());
-  const auto node = models->sample ? models->sample->find_node("surface") : std::nullopt;
-  const auto field = node ? scene::height_field_below(*models->sample, *node) : std::nullopt;
+  if (const auto checked = check_own_sample(own.file); !checked) return tl::unexpected(checked.error());
+  const auto model = load_own_sample(own.file);
+  if (!model) return tl::unexpected(model.error());
+  const auto node = model->find_node("surface");
+  const auto field = node ? scene::height_field_below(*model, *node) : std::nullopt;
   if (!field) {
     return core::failure(core::ErrorCategory::BadInputFile,
                          fmt::format("cannot scan the sample '{}': its surface has no heights", own.file));
@@ -103,4 +104,4 @@ core::Result<ScanSurface> scan_surface(const curves::ContactSetup& setup, const 
   return surface;
 }
 
-}  // namespace afm::exhibit
+}  // namespace afm::imaging

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/display/spectator_window.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "app/display/view_display.h"
+#include "core/clock.h"
+#include "curves/sample_model.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
+#include "exhibit/scan/served_image.h"
+
+namespace afm::app {
+
+namespace {
+
+constexpr std::int64_t kFrameNs = 33'000'000;  // half of a display's rate leaves the processor to the instrument
+
+}  // namespace
+
+SpectatorWindow::SpectatorWindow(const exhibit::Stage& stage, std::vector<curves::SampleModel> materials,
+                                 ViewDisplay& display, instrument::Showcase& showcase, const core::Clock& clock)
+    : stage_(stage),
+      materials_(std::move(materials)),
+      display_(display),
+      showcase_(showcase),
+      clock_(clock),
+      frames_(std::make_unique<exhibit::FrameBuilder>(stage.wall_scene, materials_, stage.eyes)) {}
+
+SpectatorWindow::~SpectatorWindow() = default;
+
+bool SpectatorWindow::leaves() {
+  const ViewInput input = display_.windows().poll();
+  bool leaves = input.close_requested;
+  for (const ViewEvent& event : input.events) {
+    if (event.event.kind != render::WindowEvent::Kind::KeyDown) continue;
+    leaves = leaves || event.event.key == render::Key::Escape;
+    if (event.event.key == render::Key::F11) display_.windows().toggle_full_screen();
+    if (event.event.key == render::Key::F12) display_.picture().save();
+  }
+  return leaves;
+}
+
+// The numbers of the contact now, as the panels show them; false: the wall lacks its material.
+bool SpectatorWindow::follow_contact() {
+  if (shown_.setup == followed_ || !shown_.setup) return true;
+  const auto& known = stage_.materials.materials;
+  const auto found = std::find_if(known.begin(), known.end(), [&](const scene::MaterialEntry& entry) {
+    return entry.name == shown_.setup->material.name;
+  });
+  if (found == known.end()) return false;
+  const auto index = static_cast<std::size_t>(found - known.begin());
+  if (auto model = curves::make_sample_model(*shown_.setup)) {
+    stage_.wall_scene.lay_surface_on(model->parameters, index);
+    materials_[index] = std::move(*model);
+  }
+  if (material_ != index) player_ = {};
+  material_ = index;
+  followed_ = shown_.setup;
+  return true;
+}
+
+void SpectatorWindow::take(double frame_s) {
+  shown_ = showcase_.look();
+  player_.advance(frame_s);
+  if (!player_.playing() && shown_.curves != played_) {
+    played_ = shown_.curves;
+    player_.begin(shown_.curve);
+  }
+  if (shown_.image.number != image_number_) {
+    image_number_ = shown_.image.number;
+    image_ =
+        std::make_unique<exhibit::ServedImage>(exhibit::ServedImage::Size{.columns = shown_.image.columns,
+                                                                          .rows = shown_.image.rows,
+                                                                          .width_m = shown_.image.width_m,
+                                                                          .height_m = shown_.image.height_m,
+                                                                          .line_rate_hz = shown_.image.line_rate_hz});
+  }
+  for (const physics::ScanLine& line : shown_.lines) {
+    if (image_) image_->add(line);
+  }
+  // the newest thing that happened is in front
+  if (player_.playing() && !shown_.image.running && shown_.lines.empty()) image_.reset();
+}
+
+void SpectatorWindow::draw() {
+  exhibit::Moment now;
+  const scene::TopographyScale scale = stage_.wall_scene.topography_scale(material_.value_or(0));
+  now.wall.material = material_;
+  now.wall.surface = {.xy_m = {scale.lateral * shown_.x_m, scale.lateral * shown_.y_m},
+                      .height_m = scale.vertical * shown_.surface_m};
+  if (material_) now.wall.release_z_m = materials_[*material_].figures().z_joc.si;
+  now.realtime = true;  // simulated time is late for nobody
+  now.phase = shown_.touching ? physics::Phase::Attached : physics::Phase::Free;
+  const double bend_m = material_ ? shown_.force_n / materials_[*material_].parameters.contact.spring_constant.si : 0.0;
+  now.wall.tip = {
+      .z_m = shown_.z_m, .force_n = shown_.force_n, .height_m = shown_.z_m + bend_m, .deflection_m = -bend_m};
+  if (player_.playing()) {
+    now.wall.tip = player_.tip();
+    now.phase = player_.phase();
+    now.retracting = player_.retracting();
+  }
+  std::vector<exhibit::CycleCurve> curves(materials_.size());
+  if (material_) curves[*material_] = player_.drawn();
+  now.curves = curves;
+  now.wall.scan = image_ != nullptr;
+  now.guidance = stage_.phrases()[exhibit::Phrase::Served];
+  render::FrameState frame = frames_->build(now);
+  if (image_ && material_) {
+    const std::string& title = materials_[*material_].setup.material.title;
+    frame.panels.image.content = image_->panel(stage_.phrases().word(title), stage_.phrases());
+  }
+  display_.picture().show(frame, exhibit::Relief::NarrowEyes, clock_.now_ns(), [] {});
+}
+
+std::optional<std::string> SpectatorWindow::run(const std::function<bool()>& over) {
+  std::int64_t shown_ns = clock_.now_ns();
+  while (!over() && !leaves()) {
+    const std::int64_t now_ns = clock_.now_ns();
+    take(static_cast<double>(now_ns - std::exchange(shown_ns, now_ns)) * 1e-9);
+    if (!follow_contact()) return shown_.setup->material.name;
+    if (display_.windows().hidden()) {
+      display_.picture().rest();
+    } else {
+      display_.picture().fit(now_ns);
+      draw();
+    }
+    const std::int64_t left_ns = now_ns + kFrameNs - clock_.now_ns();
+    if (left_ns > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(left_ns));
+  }
+  display_.picture().finish();
+  return std::nullopt;
+}
+
+}  // namespace afm::app

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "exhibit/state/cycle_curve.h"
+#include "physics/force_curve.h"
+#include "scene/shared/tip_blocks.h"
+
+namespace afm::exhibit {
+
+// Plays a curve that was computed in an instant at a pace that people can follow: the tip moves along it, and what has
+// been passed is drawn. One thread.
+class CurvePlayer {
+ public:
+  static constexpr double kSeconds = 2.0;  // time for one curve, whatever its length
+
+  // Begins again from the first sample.
+  void begin(std::shared_ptr<const physics::ForceCurve> curve);
+
+  // Lets time pass.
+  void advance(double seconds);
+
+  bool playing() const { return curve_ != nullptr && next_ < curve_->samples.size(); }
+
+  // Where the tip is; its first place before begin().
+  const scene::Tip& tip() const { return tip_; }
+  physics::Phase phase() const { return phase_; }
+  bool retracting() const { return retracting_; }
+  const CycleCurve& drawn() const { return drawn_; }
+
+ private:
+  std::shared_ptr<const physics::ForceCurve> curve_;  // shared with the sender, who may already have another
+  std::size_t next_ = 0;                              // first sample that is not passed
+  double seconds_ = 0;
+  scene::Tip tip_{};
+  physics::Phase phase_ = physics::Phase::Free;
+  bool retracting_ = false;
+  CycleCurve drawn_;
+};
+
+}  // namespace afm::exhibit

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "curves/contact_setup.h"
+#include "physics/force_curve.h"
+#include "physics/imaging/scanner.h"
+
+namespace afm::instrument {
+
+// What an instrument does, for a window that shows it. SI.
+struct Shown {
+  std::shared_ptr<const curves::ContactSetup> setup;  // shared with the showcase; with the worn tip
+  double x_m = 0, y_m = 0, surface_m = 0;             // place of the tip, and the sample's height below it
+  double z_m = 0;                                     // lever's base above the surface below it
+  double force_n = 0;                                 // on the lever
+  bool touching = false;
+  std::shared_ptr<const physics::ForceCurve> curve;  // newest, shared with the showcase; null: none
+  std::uint64_t curves = 0;                          // number so far
+  struct Image {
+    std::uint64_t number = 0;  // zero: there is none
+    std::size_t columns = 0, rows = 0;
+    double width_m = 0, height_m = 0, line_rate_hz = 0;
+    bool running = false;
+  };
+  Image image;
+  std::vector<physics::ScanLine> lines;  // lines of the newest image that nobody has looked at yet
+};
+
+// Carries the newest state from the instrument's thread to a window's. Whatever is not looked at in time is replaced by
+// what follows, so that it holds one curve and the lines of one image at most, and nobody waits for longer than the
+// other's copy of a few pointers.
+class Showcase {
+ public:
+  // By the instrument's thread.
+  void put_contact(const curves::ContactSetup& setup);
+  void put_place(double x_m, double y_m, double surface_m, double z_m, double force_n, bool touching);
+  void put_curve(const physics::ForceCurve& curve);
+  void begin_image(const physics::ScanArea& area, double line_rate_hz);
+  void put_line(const physics::ScanLine& line);
+  void end_image();
+
+  // By the window's thread: everything so far. Takes the lines out.
+  Shown look();
+
+ private:
+  std::mutex mutex_;
+  Shown newest_;
+};
+
+}  // namespace afm::instrument

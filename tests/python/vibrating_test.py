@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A lever that vibrates, by a constant drive or at a constant amplitude: the command's numbers."""
+
+import unittest
+
+import numpy as np
+
+import touchafm
+from command import error_of, json_of, without_sources
+
+
+class Tapping(unittest.TestCase):
+    SET_UP = {"law": "dmt", "spring_constant": 40.0, "tip_radius": 20e-9, "hamaker": 64e-21, "reduced_modulus": 1.5e9,
+              "resonance": 300e3, "quality_factor": 400.0}
+    COMMAND = ("curve", "--mode", "tapping", "--free-amplitude", "20nm", "--resonance", "300kHz", "--quality-factor", "400",
+               "--model", "dmt", "--spring-constant", "40N/m", "--tip-radius", "20nm", "--hamaker", "64zJ", "--contact-gap",
+               "0.165nm", "--reduced-modulus", "1.5GPa", "--json")
+
+    def contact(self):
+        given = {key: value for key, value in self.SET_UP.items() if key not in ("resonance", "quality_factor")}
+        return touchafm.Contact(work_of_adhesion=1e-3, **given)
+
+    def tapping(self, **given):
+        return touchafm.tapping(self.contact(), free_amplitude=20e-9, resonance=300e3, quality_factor=400.0,
+                                contact_gap=0.165e-9, **given)
+
+    def test_is_the_json_of_the_command(self):
+        tapping = self.tapping()
+        self.assertEqual(without_sources(tapping.as_dict()), without_sources(json_of(*self.COMMAND)))
+        self.assertGreater(tapping.amplitude.max(), 19e-9)
+        at = self.tapping(at=17.4 / 1e9)  # as a typed 17.4nm is read
+        self.assertEqual(without_sources(at.as_dict()), without_sources(json_of(*self.COMMAND, "--at", "17.4nm")))
+
+    def test_refuses_what_has_no_effect(self):
+        with self.assertRaises(ValueError):
+            self.tapping(at=17.4e-9, z_from=1e-8)
+        with self.assertRaises(ValueError):
+            self.tapping(method="guess")
+
+
+class FrequencyShift(unittest.TestCase):
+    COMMAND = ("curve", "--mode", "fm", "--material", "mica", "--model", "dmt", "--resonance", "30kHz", "--amplitude", "1nm")
+
+    def shift(self, **given):
+        return touchafm.frequency_shift(touchafm.Contact.material("mica"), amplitude=1 / 1e9, resonance=30e3, law="dmt", **given)
+
+    def test_is_the_json_of_the_command(self):
+        self.assertEqual(without_sources(self.shift().as_dict()), without_sources(json_of(*self.COMMAND, "--json")))
+        at = self.shift(at=5 / 1e9)
+        self.assertEqual(without_sources(at.as_dict()), without_sources(json_of(*self.COMMAND, "--at", "5nm", "--json")))
+        self.assertEqual(len(at), 1)
+
+    def test_is_that_of_the_gradient_far_away(self):
+        far = self.shift(z_from=100e-9, z_to=50e-9)
+        np.testing.assert_allclose(far.shift, far.small_amplitude_shift, rtol=1e-3)
+        self.assertTrue((far.shift < 0.0).all())
+        self.assertTrue((np.diff(far.z) < 0.0).all())
+
+    def test_turns_where_the_sample_begins_to_repel(self):
+        turns = self.shift().turns
+        self.assertTrue(turns)
+        self.assertLess(turns[0]["shift"], 0.0)
+
+    def test_refuses_with_the_words_of_the_command(self):
+        with self.assertRaises(ValueError) as refused:
+            touchafm.frequency_shift(touchafm.Contact.material("mica"), amplitude=-1e-9, resonance=30e3)
+        self.assertIn("amplitude -1 nm is not within", str(refused.exception))
+        with self.assertRaises(ValueError) as refused:
+            self.shift(at=5e-9, z_from=1e-8)
+        self.assertEqual(str(refused.exception), error_of(*self.COMMAND, "--at", "5nm", "--from", "10nm", "--json"))
+
+
+if __name__ == "__main__":
+    unittest.main()
