@@ -202,7 +202,9 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
                             .highlighted = pointed.tab,
                             .placement = wall_scene_.places().parameter_tab()});
   }
-  if (open || parameters.changed()) exhibit::add_prediction(parameters, phrases(), frame.panels.force.content);
+  render::ForcePanel& plot = frame.panels.force.content;
+  if (open || parameters.changed()) return exhibit::add_prediction(parameters, phrases(), plot);
+  exhibit::add_forecast(parameters, phrases(), plot);
 }
 
 // Replaces the panel with the sample's data, or that of the particles.

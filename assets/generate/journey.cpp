@@ -118,10 +118,10 @@ std::vector<Part> holder() {
 
 // The last nanometres of the tip: atoms on the ball, silicon and nitrogen, that sink into it with their distance.
 std::vector<Part> tip_atoms() {
-  constexpr double kSpacing = 0.30 * kNm, kRadius = 0.17 * kNm, kReach = 1.8 * kNm;
+  constexpr double kSpacing = 0.30 * kNm, kRadius = 0.17 * kNm, kReach = 2.2 * kNm;
   Surface surface;
-  for (std::int64_t row = -9; row <= 9; ++row) {
-    for (std::int64_t column = -9; column <= 9; ++column) {
+  for (std::int64_t row = -10; row <= 10; ++row) {
+    for (std::int64_t column = -10; column <= 10; ++column) {
       const double shift = row % 2 != 0 ? 0.5 : 0.0;
       const double x = (static_cast<double>(column) + shift + 0.25 * (random_unit(column, row, 81) - 0.5)) * kSpacing;
       const double y =
@@ -156,7 +156,10 @@ Model journey() {
   add("chip", chip());
   add("lever", placed(cantilever(), lever_placement()));
   add("tip", {{std::move(sides), nitride()}});
-  add("apex", {{std::move(apex), nitride()}});
+  MaterialSpec dull = nitride();  // seen from so near, no lamp is reflected in it
+  dull.roughness = 0.75;
+  dull.base_color = {0.30, 0.20, 0.08};
+  add("apex", {{std::move(apex), dull}});
   add("tip-atoms", tip_atoms());
   return model;
 }

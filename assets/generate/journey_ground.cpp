@@ -13,21 +13,26 @@ namespace {
 constexpr double kNm = 1e-9;
 constexpr double kDiscRadius = 5e-3, kDiscThickness = 0.36e-3;
 constexpr double kInnermost = 0.4 * kNm;
-constexpr double kRingRatio = 1.22;
-constexpr int kHalvings = 4;  // 64 points around
-constexpr double kAtomsReach = 3.1 * kNm;
-constexpr double kBelowAtoms = 0.36 * kNm;                 // depth of the ground below the atoms
-constexpr std::int64_t kAtomRows = 14, kAtomColumns = 20;  // enough for that reach
+constexpr double kRingRatio = 1.12;
+constexpr int kHalvings = 6;                                       // 256 points around, fewer behind the tip
+constexpr double kAtomsReach = 3.3 * kNm, kAtomsSink = 2.0 * kNm;  // from there outwards fewer and fewer are seen
+constexpr double kBelowAtoms = 0.36 * kNm;                         // depth of the ground below the atoms
+constexpr std::int64_t kAtomRows = 15, kAtomColumns = 21;          // enough for that reach
 
-// What a sample looks like close by, whatever "close" is: one pattern, repeated at every scale. Real surfaces are not
-// that kind: far from its scale each pattern stands for what one would see there, cleavage steps or the film's
-// roughness.
+// What one sees at a decade of scale.
+struct Features {
+  double amplitude;                   // in units of the scale
+  double (*pattern)(double, double);  // 0..1 at a position in units of the scale
+};
+
+constexpr std::size_t kDecades = 7;  // from 1 mm to 1 nm
+
+// What a sample looks like from a millimetre to its atoms: each decade has features of its own.
 struct Look {
   const char* name;
   MaterialSpec material;
-  double amplitude;                               // amplitude of the pattern in units of its scale
-  std::function<double(double, double)> pattern;  // 0..1 at a position in units of the scale
-  std::function<V3(double)> tint;                 // colour for a height 0..1 in the pattern
+  Features decades[kDecades];
+  std::function<V3(double)> tint;  // colour for a height 0..1 in the pattern
 };
 
 struct Place {
@@ -40,24 +45,38 @@ Place ground_at(const Look& look, double x, double y) {
   const double r = std::sqrt(x * x + y * y);
   double sum = 0, weights = 1e-12, height = 0;
   double scale = 1e-3;
-  for (int i = 0; i < 14; ++i, scale *= 0.31622776601683794) {
+  for (std::size_t i = 0; i < 2 * kDecades; ++i, scale *= 0.31622776601683794) {
+    const Features& features = look.decades[i / 2];
     const double ratio = r / scale;
-    const double weight = smooth_step(0.35, 1.1, ratio) * (1 - smooth_step(1.6, 5, ratio));
+    const double weight = smooth_step(0.35, 1.1, ratio) * (1 - smooth_step(2.5, 9, ratio));
     if (weight <= 0) continue;
     const double turn = i % 2 == 0 ? 1.0 : -1.0;  // no two scales show the same
-    const double n = look.pattern(turn * x / scale + 7.3 * i, y / scale - 3.1 * i);
-    height -= weight * look.amplitude * scale * (1 - n);
+    const auto shift = static_cast<double>(i);
+    const double n = features.pattern(turn * x / scale + 7.3 * shift, y / scale - 3.1 * shift);
+    height -= weight * features.amplitude * scale * (1 - n);
     sum += weight * n;
     weights += weight;
   }
-  const double hollow = kBelowAtoms * (1 - smooth_step(kAtomsReach, kAtomsReach * 4, r));
+  const double hollow = kBelowAtoms * (1 - smooth_step(0.7 * kAtomsSink, kAtomsReach, r));
   return {height - hollow, sum / weights};
+}
+
+// Directions around the contact: close together towards the viewer, at negative y, and far apart behind.
+Outline seen_around() {
+  const Outline whole = circle(1, kHalvings);
+  Outline around;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const double y = whole[i].position.y;
+    const std::size_t every = y < -0.7 ? 1 : y < 0.3 ? 4 : 8;
+    if (i % every == 0) around.push_back(whole[i]);
+  }
+  return around;
 }
 
 // Rings whose radii grow by a constant ratio, so that all scales are drawn alike; split where the float's steps, which
 // are those of the largest radius, would show.
 std::vector<Surface> rings(const Look& look) {
-  const Outline around = circle(1, kHalvings);
+  const Outline around = seen_around();
   std::vector<double> radii{0};
   for (double r = kInnermost; r < kDiscRadius * 0.985; r *= kRingRatio) radii.push_back(r);
   radii.push_back(kDiscRadius);
@@ -70,7 +89,7 @@ std::vector<Surface> rings(const Look& look) {
 
   const auto vertex = [&](std::size_t ring, std::size_t column) {
     const V2 direction = around[column % around.size()].position;
-    const double r = radii[ring], step = std::max(0.12 * r, 0.1 * kInnermost);
+    const double r = radii[ring], step = std::max(0.035 * r, 0.1 * kInnermost);
     const double x = r * direction.x, y = r * direction.y;
     const Place here = ground_at(look, x, y);
     const double slope_x = (ground_at(look, x + step, y).height - ground_at(look, x - step, y).height) / (2 * step);
@@ -95,7 +114,14 @@ std::vector<Surface> rings(const Look& look) {
 // Who looks stands at negative y, 2 to 3 nm from the contact.
 int halvings_at(double x, double y) {
   const double away = std::sqrt(x * x + (y + 2.3 * kNm) * (y + 2.3 * kNm));
-  return away < 1.1 * kNm ? 3 : away < 3.2 * kNm ? 2 : 1;
+  return away < 0.95 * kNm ? 3 : away < 2.6 * kNm ? 2 : 1;
+}
+
+// How deep an atom lies below its place: the farther from the contact, the fewer are out of the ground, and the lattice
+// has no edge.
+double sunk(double r, std::int64_t column, std::int64_t row) {
+  const double until = mix(kAtomsSink, kAtomsReach, random_unit(column, row, 96));
+  return 1.2 * kBelowAtoms * smooth_step(-0.4 * kNm, 0.3 * kNm, r - until);
 }
 
 Surface mica_atoms() {
@@ -111,9 +137,11 @@ Surface mica_atoms() {
       if (r > kAtomsReach) continue;
       const bool hole = (column % 2 != 0) && (row % 2 != 0);
       if (!hole) {
-        add_atom(surface, {x, y, -0.15 * kNm}, 0.15 * kNm, Facing::Up, {0.72, 0.20, 0.15}, halvings_at(x, y));
+        add_atom(surface, {x, y, -0.15 * kNm - sunk(r, column, row)}, 0.15 * kNm, Facing::Up, {0.72, 0.20, 0.15},
+                 halvings_at(x, y));
       } else if (random_unit(column, row, 91) > 0.5) {
-        add_atom(surface, {x, y, -0.13 * kNm}, 0.19 * kNm, Facing::Up, {0.42, 0.22, 0.62}, halvings_at(x, y));
+        add_atom(surface, {x, y, -0.13 * kNm - sunk(r, column, row)}, 0.19 * kNm, Facing::Up, {0.42, 0.22, 0.62},
+                 halvings_at(x, y));
       }
     }
   }
@@ -132,7 +160,7 @@ Surface packed_atoms(double spacing, double disorder, const std::function<V3(dou
       const double r = std::sqrt(x * x + y * y);
       if (r > kAtomsReach) continue;
       const double radius = 0.54 * spacing;
-      const double sink = disorder * 0.2 * spacing * random_unit(column, row, 94);
+      const double sink = disorder * 0.2 * spacing * random_unit(column, row, 94) + sunk(r, column, row);
       add_atom(surface, {x, y, -radius - sink}, radius, Facing::Up, color(random_unit(column, row, 95)),
                halvings_at(x, y));
     }
@@ -175,14 +203,54 @@ double speckle(double x, double y) {
   return 0.75 * shape.height(x, y) + 0.125 * (1 + noise(0.8 * x, 0.8 * y, 53));
 }
 
+// A few long grooves of a polish, in two directions.
+double scratches(double x, double y) {
+  constexpr double kHalfWidth = 0.13, kPitch = 0.8, kLength = 7;
+  double depth = 0;
+  for (int family = 0; family < 2; ++family) {
+    const V2 along = family == 0 ? V2{0.96, 0.28} : V2{-0.6, 0.8};
+    const double u = along.x * x + along.y * y, v = along.x * y - along.y * x;
+    const auto lane = static_cast<std::int64_t>(std::floor(v / kPitch));
+    for (std::int64_t k = lane - 1; k <= lane + 1; ++k) {
+      const double part = u / kLength + random_unit(k, family, 71), piece = std::floor(part);
+      const auto number = static_cast<std::int64_t>(piece);
+      if (random_unit(k, number, 72 + static_cast<std::uint32_t>(family)) < 0.45) continue;
+      const double middle = (static_cast<double>(k) + 0.2 + 0.6 * random_unit(k, number, 74)) * kPitch;
+      const double ends = smooth_step(0, 0.12, part - piece) * (1 - smooth_step(0.88, 1, part - piece));
+      depth = std::max(depth, ends * std::max(0.0, 1 - std::abs(v - middle) / kHalfWidth));
+    }
+  }
+  return 1 - 0.75 * depth - 0.12 * (1 - noise(0.4 * x, 0.4 * y, 75)) * 0.5;
+}
+
+// Round hillocks, few and of many sizes, on a level film.
+double hillocks(double x, double y) {
+  const Grains shape{.cell = 1.1, .smallest = 0.05, .radius_low = 0.25, .radius_high = 0.55, .seed = 63};
+  return 0.35 + 0.65 * shape.height(x, y);
+}
+
+// Terraces one above the other, with steps that wander little.
+double steps(double x, double y) {
+  const double along = 0.8 * (0.45 * y - 0.9 * x) + 0.35 * noise(0.5 * x, 0.5 * y, 17);
+  const double layer = std::floor(along), part = along - layer;
+  const auto height = [](double of) { return 0.25 * (of - 4 * std::floor(of / 4)); };
+  const double low = height(layer), high = height(layer + 1);
+  return mix(low, high, smooth_step(0.44, 0.56, part));
+}
+
 }  // namespace
 
 std::vector<Model> grounds() {
   const Look mica{
       .name = "mica",
       .material = {.name = "mica", .base_color = {0.66, 0.63, 0.59}, .roughness = 0.24, .vertex_colors = true},
-      .amplitude = 0.022,
-      .pattern = terraces,
+      .decades = {{0.020, terraces},
+                  {0.014, scratches},
+                  {0.024, steps},
+                  {0.020, terraces},
+                  {0.014, steps},
+                  {0.004, terraces},
+                  {0, terraces}},
       .tint = [](double n) { return mix(V3{0.42, 0.48, 0.54}, V3{1.0, 0.96, 0.92}, n); }};
   const Look gold{.name = "gold",
                   .material = {.name = "gold",
@@ -190,8 +258,13 @@ std::vector<Model> grounds() {
                                .metallic = 1,
                                .roughness = 0.28,
                                .vertex_colors = true},
-                  .amplitude = 0.12,
-                  .pattern = grains,
+                  .decades = {{0.03, scratches},
+                              {0.035, scratches},
+                              {0.05, hillocks},
+                              {0.07, hillocks},
+                              {0.13, grains},
+                              {0.006, steps},
+                              {0, steps}},
                   .tint = [](double n) {
                     const double lit = mix(0.42, 1, n);
                     return V3{lit, lit * mix(0.62, 1, lit), lit * mix(0.3, 1, lit)};
@@ -201,8 +274,13 @@ std::vector<Model> grounds() {
                                   .base_color = {0.060, 0.098, 0.092},
                                   .roughness = 0.32,
                                   .vertex_colors = true},
-                     .amplitude = 0.05,
-                     .pattern = speckle,
+                     .decades = {{0.02, scratches},
+                                 {0.03, hillocks},
+                                 {0.03, scratches},
+                                 {0.05, hillocks},
+                                 {0.05, speckle},
+                                 {0.008, speckle},
+                                 {0, speckle}},
                      .tint = [](double n) {
                        const double lit = mix(0.5, 1, n);
                        return V3{lit, lit, lit};

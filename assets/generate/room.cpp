@@ -13,13 +13,14 @@ constexpr double kFront = 0.80;               // before the wall: under the shel
 constexpr double kFrontBeside = 1.25;         // what stands before the wall must not be cut off at its sides
 constexpr int kRings = 10;
 
-double gaussian(double x, double y) { return 1 / ((1 + x * x + y * y) * (1 + x * x + y * y)); }
-
-// The soft shade of the stage's foot, and of the plate above it away from the key light: the floor takes no other.
+// The soft shade of the stage, which ends in the floor, wider away from the key light: the floor takes no other.
 double shade(double x, double z) {
-  const double foot = gaussian(x / 0.34, (z + 0.12) / 0.32);
-  const double plate = gaussian((x - 0.22) / 1.05, (z + 0.22) / 0.75);
-  return (1 - 0.7 * foot) * (1 - 0.72 * plate);
+  constexpr double kHalfWidth = 0.66, kFoot = 0.40, kRear = -0.75, kDarkest = 0.08;
+  const double beside = std::max({0.0, x - kHalfWidth, -x - kHalfWidth}),
+               before = std::max({0.0, z - kFoot, kRear - z});
+  const double reach = x > 0 ? 1.15 : 0.75;
+  const double away = std::sqrt(beside * beside / (reach * reach) + before * before / 0.36);
+  return mix(kDarkest, 1, smooth_step(0, 1, away));
 }
 
 double visible(double x, double z) {

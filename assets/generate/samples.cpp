@@ -48,10 +48,13 @@ Model mica() {
   };
   const HeightField field(90, 40 * kNm / 90, [&](double x, double y) { return layers(x, y) * kLayer; });
 
-  const V3 even{0.84, 0.85, 0.87}, odd{0.74, 0.76, 0.80};
+  // the cut face of clear sheets: each as the one above, with a fine dark gap below it
+  constexpr double kGap = 0.14;  // share of a layer
+  const V3 sheet{0.80, 0.86, 0.88}, gap{0.34, 0.40, 0.44};
   std::vector<WallBand> bands;
   for (int layer = 2; layer > -9; --layer) {
-    bands.push_back({layer * kLayer, (layer - 1) * kLayer, layer % 2 == 0 ? even : odd});
+    bands.push_back({layer * kLayer, (layer - 1 + kGap) * kLayer, sheet});
+    bands.push_back({(layer - 1 + kGap) * kLayer, (layer - 1) * kLayer, gap});
   }
   // higher terraces are lighter and risers dark, so that the steps are told apart from a distance; the terraces' hues
   // alternate as the interference colours of thin flakes do, which makes mica pearly
@@ -61,10 +64,13 @@ Model mica() {
     const double layer = std::clamp(position.z / kLayer + kLayersBelowCenter, 0.0, 4.0);
     const auto below = static_cast<std::size_t>(std::min(layer, 3.0));
     const double part = layer - static_cast<double>(below);
-    return mix(kHues[below], kHues[below + 1], part) * (1 - 1.7 * part * (1 - part));
+    // the edge of the upper sheet catches the light, its foot is in its shade
+    const double edge = std::max(0.0, 1 - std::abs(part - 0.86) / 0.14),
+                 foot = std::max(0.0, 1 - std::abs(part - 0.3) / 0.3);
+    return mix(kHues[below], kHues[below + 1], part) * ((1 + 0.2 * edge) * (1 - 0.55 * foot));
   };
   const MaterialSpec material{
-      .name = "mica", .base_color = {0.62, 0.63, 0.64}, .roughness = 0.16, .vertex_colors = true};
+      .name = "mica", .base_color = {0.60, 0.63, 0.66}, .roughness = 0.11, .vertex_colors = true};
   NodeSpec node = surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}});
   node.extras["step_m"] = kLayer;
   return sample("sample-mica", std::move(node));
@@ -85,7 +91,7 @@ Model gold() {
   };
   const MaterialSpec film{
       .name = "gold", .base_color = {1.0, 0.66, 0.23}, .metallic = 1, .roughness = 0.26, .vertex_colors = true};
-  const MaterialSpec substrate{.name = "substrate", .base_color = {0.34, 0.33, 0.35}, .roughness = 0.6};
+  const MaterialSpec substrate{.name = "substrate", .base_color = {0.085, 0.095, 0.115}, .roughness = 0.3};
   const MaterialSpec cut{
       .name = "cut gold", .base_color = {0.85, 0.62, 0.24}, .metallic = 0.4, .roughness = 0.5, .vertex_colors = true};
   const std::vector<WallBand> film_bands{{kHeight, -9 * kNm, {0.85, 0.82, 0.78}},
@@ -113,7 +119,7 @@ Model silicon_nitride() {
     return V3{lit, lit, lit};
   };
   const MaterialSpec material{
-      .name = "silicon nitride", .base_color = {0.105, 0.120, 0.150}, .roughness = 0.26, .vertex_colors = true};
+      .name = "silicon nitride", .base_color = {0.085, 0.110, 0.155}, .roughness = 0.15, .vertex_colors = true};
   const std::vector<WallBand> bands{{3 * kNm, -2 * kNm, {0.85, 0.85, 0.85}}, {-2 * kNm, -9.5 * kNm, {0.7, 0.7, 0.7}}};
   return sample("sample-si3n4",
                 surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}}));

@@ -6,9 +6,7 @@ namespace {
 
 constexpr double kMm = 1e-3;
 constexpr V2 kPlateHalf{8.0 * kMm, 6.6 * kMm};
-constexpr double kPlateHeight = 0.42 * kMm;
-// the post stands in the room: metres of the exhibit
-constexpr double kPostRadius = 0.055, kFootRadius = 0.26;
+constexpr double kPlateHeight = 0.30 * kMm;
 constexpr int kRound = 3;  // halvings: 32 points around
 
 MaterialSpec steel() { return {.name = "steel", .base_color = {0.56, 0.57, 0.58}, .metallic = 1, .roughness = 0.32}; }
@@ -16,7 +14,7 @@ MaterialSpec anodised() {
   return {.name = "anodised", .base_color = {0.055, 0.060, 0.072}, .metallic = 0.5, .roughness = 0.36};
 }
 
-// A low plate on a slim post, so that the sample is what one sees. Its top is in the sample's shade.
+// A thin plate, so that the sample is what one sees. Its top is in the sample's shade.
 Surface plate() {
   constexpr double kCorner = 0.9 * kMm, kBevel = 0.09 * kMm, kSeat = 0.2;
   const auto outline = [](double in) {
@@ -54,17 +52,24 @@ Surface trim() {
   return surface;
 }
 
-// From its foot at 0 to 1: as long as the room leaves it under the plate.
-Surface post() {
+// The body under the plate, from its foot at -1 to 0: as long as the room asks for. Towards its foot it dissolves in
+// the shade on the floor.
+Surface body() {
+  const double in = 0.75 * kMm;
+  const V2 half = kPlateHalf - V2{in, in};
+  const Outline outline = rounded_rectangle(half * -1.0, half, 0.5 * kMm, kRound);
+  constexpr std::size_t kBands = 8;
+  constexpr double kEnd = 0.62;  // nothing is seen below
   Surface surface;
-  add_lathe(surface, {{kPostRadius, 0, 1, 0}, {kPostRadius, 1, 1, 0}}, kRound);
-  return surface;
-}
-
-Surface foot() {
-  Surface surface;
-  add_prism(surface, circle(kFootRadius, kRound), 0, 0.030, 0.010);
-  add_prism(surface, circle(1.35 * kPostRadius, kRound), 0.020, 0.075, 0.012);
+  surface.add_grid(kBands + 1, outline.size() + 1, [&](std::size_t row, std::size_t column) {
+    const OutlinePoint& point = outline[column % outline.size()];
+    const double down = kEnd * (1 - static_cast<double>(row) / kBands);
+    const double lit = mix(1, 0.4, smooth_step(0, 0.4, down));
+    return SurfaceVertex{{point.position.x, point.position.y, -down},
+                         {point.normal.x, point.normal.y, 0},
+                         {lit, lit, lit},
+                         1 - smooth_step(0.02, kEnd, down)};
+  });
   return surface;
 }
 
@@ -73,14 +78,20 @@ Surface foot() {
 Model stage() {
   MaterialSpec shaded = anodised();
   shaded.vertex_colors = true;
+  // no light reaches it
+  const MaterialSpec dissolving{.name = "dissolving",
+                                .base_color = {0.016, 0.018, 0.023},
+                                .roughness = 1,
+                                .fading = true,
+                                .unlit = true,
+                                .vertex_colors = true};
   Model model{"stage", {}};
   model.nodes.push_back({.name = "stand", .placement = kYUpFromZUp});
   model.nodes.push_back({.name = "stage",
                          .parent = 0,
                          .parts = {{plate(), shaded}, {trim(), steel()}},
                          .extras = {{"plate_width_m", 2 * kPlateHalf.x}, {"plate_depth_m", 2 * kPlateHalf.y}}});
-  model.nodes.push_back({.name = "post", .parent = 0, .parts = {{post(), steel()}}});
-  model.nodes.push_back({.name = "foot", .parent = 0, .parts = {{foot(), anodised()}}});
+  model.nodes.push_back({.name = "body", .parent = 0, .parts = {{body(), dissolving}}});
   return model;
 }
 

@@ -94,7 +94,8 @@ class Flashes : public ::testing::Test {
         event.kind = now_attached ? physics::EventKind::JumpToContact : physics::EventKind::JumpOffContact;
         event.time_ns = clock.now;
         event.material = 0;
-        event.force_before_n = now_attached ? -2e-10 : -1.4e-9;
+        event.force_before_n = now_attached ? -2e-10 : -1.4e-9 - 1e-12 * ms;
+        event.force_after_n = now_attached ? -4e-10 - 1e-12 * ms : 0.0;
         cycles.add(event);
         cues.add(event);
         narrator.heard(event);
@@ -162,6 +163,7 @@ class Flashes : public ::testing::Test {
     for (std::size_t i = 0; i < frame.labels.size(); ++i) {
       see("label " + std::to_string(i), frame.labels[i].text + (frame.labels[i].highlighted ? " marked" : ""));
     }
+    see("word of the jump", frame.labels.back().text);
     for (std::size_t i = 0; i < frame.visible.size(); ++i) {
       see("node " + stage_->wall_scene.scene().nodes[i].name, std::to_string(frame.visible[i]));
     }
@@ -190,6 +192,8 @@ TEST_F(Flashes, NothingChangesMoreThanThreeTimesASecondHoweverFastTheTipChatters
     EXPECT_GT(changes.elements().size(), 40U);
     EXPECT_GT(changes.most("ring"), 0U) << cycles_per_s;
     EXPECT_GT(changes.most("caption"), 0U) << cycles_per_s;
+    EXPECT_GT(changes.most("node probe-ghost"), 0U) << cycles_per_s;
+    EXPECT_GT(changes.most("word of the jump"), 0U) << cycles_per_s;
     for (const std::string& element : changes.elements()) {
       if (element != "stage") {
         EXPECT_LE(changes.most(element), 3U) << element << ", " << cycles_per_s << " Hz";

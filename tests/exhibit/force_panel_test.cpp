@@ -24,8 +24,8 @@ using render::MarkerLabel;
 using render::PlotMarker;
 
 // The plot on the paper's wall, millimetres, and a size of text that is never less than what is drawn.
-const LabelBox kPlot{{150.0F, 202.0F}, {720.0F, 808.0F}};
-const LabelBox kCaption{{158.0F, 200.0F}, {290.0F, 246.0F}};
+const LabelBox kPlot{{150.0F, 270.0F}, {720.0F, 808.0F}};
+const LabelBox kCaption{{158.0F, 268.0F}, {290.0F, 314.0F}};
 constexpr float kWidestCharacter = 0.60F * 30.0F, kLine = 36.0F;
 
 std::vector<MarkerLabel> labels_of(const render::ForcePanel& panel) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
 #include <string>
 
 #include "exhibit/scenery/wall_scene.h"
@@ -50,6 +51,28 @@ class InstrumentTest : public test::PaperWall {
       }
     }
     return highest;
+  }
+
+  // Nothing that is drawn stands between an eye and the panel.
+  void expect_before_all(const render::FrameState& frame, const render::PanelPlacement& panel, scene::Eye which,
+                         double share) const {
+    const scene::Viewer& viewer = wall_.viewers.front();
+    const glm::dvec3 eye = scene::eye_position(viewer.sweet_spot, which, viewer.ipd_m);
+    for (scene::NodeIndex i = 0; i < scene_.scene().nodes.size(); ++i) {
+      const auto& mesh = scene_.scene().nodes[i].mesh;
+      if (!mesh || frame.visible[i] == 0) continue;
+      for (const scene::Primitive& primitive : scene_.scene().meshes[*mesh].primitives) {
+        for (const scene::Vertex& vertex : primitive.vertices) {
+          const glm::dvec3 place(frame.room_from_node[i] * glm::dvec4(glm::dvec3(vertex.position), 1.0));
+          if (place.z <= panel.lower_left_m.z || place.z >= eye.z) continue;
+          const glm::dvec3 seen = eye + (place - eye) * ((eye.z - panel.lower_left_m.z) / (eye.z - place.z));
+          const glm::dvec3 from = seen - panel.lower_left_m;
+          const bool covered = from.x > 0.0 && from.x < panel.right_m.x && from.y > 0.0 && from.y < panel.up_m.y;
+          EXPECT_FALSE(covered) << scene_.scene().nodes[i].name << " at " << share;
+          if (covered) return;
+        }
+      }
+    }
   }
 
   glm::dvec3 origin(const render::FrameState& frame, const std::string& name) const {
@@ -143,6 +166,53 @@ TEST_F(InstrumentTest, TheMarksOfTheUnbentLeverPassBesideTheTipAndOverTheSample)
     }
   }
   EXPECT_GT(shown, 40);
+}
+
+// After a pull-off the lever as it was hangs where the tip let go, and the jump's word stands free of tip and sample.
+TEST_F(InstrumentTest, AGhostOfTheLeverHangsWhereTheTipLetGo) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const double release_m = z_joc(material);
+    const scene::Tip free{.z_m = release_m, .deflection_m = 0.0};
+    WallState state{.material = material, .tip = free};
+    EXPECT_EQ(frame(state).visible[node("probe-ghost")], 0) << "nothing has happened";
+    state.cue = {.kind = physics::EventKind::JumpToContact, .force_n = -1e-10F, .age_s = 0.1};
+    EXPECT_EQ(frame(state).visible[node("probe-ghost")], 0) << "it has snapped in";
+    state.cue->kind = physics::EventKind::JumpOffContact;
+    const render::FrameState shown = frame(state);
+    ASSERT_EQ(shown.visible[node("probe-ghost")], 1);
+    ASSERT_EQ(shown.bends.size(), 2U);
+    EXPECT_EQ(shown.bends.back().node, node("probe-ghost"));
+    // before the jump: the lever bent by all of the height
+    const render::FrameState before =
+        frame({.material = material, .tip = {.z_m = release_m, .deflection_m = release_m}});
+    EXPECT_NEAR(shown.bends.back().end_deflection, before.bends.front().end_deflection,
+                1e-3F * std::abs(before.bends.front().end_deflection));
+    EXPECT_LT(glm::distance(origin(shown, "probe-ghost"), origin(before, "probe/cantilever")), 1e-3);
+    state.centerpiece = Centerpiece::Analogy;
+    EXPECT_EQ(frame(state).visible[node("probe-ghost")], 0);
+  }
+}
+
+TEST_F(InstrumentTest, TheWordOfAJumpIsHiddenByNothingAtAnyHeight) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    std::optional<render::PanelPlacement> first;
+    for (double share = -0.3; share <= 1.4; share += 0.1) {
+      for (const double bent : {0.0, share}) {
+        const double z_m = share * z_joc(material);
+        const WallState state{
+            .material = material,
+            .tip = {.z_m = z_m, .deflection_m = bent * z_joc(material)},
+            .cue = JumpCue{.kind = physics::EventKind::JumpOffContact, .force_n = -1e-9F, .age_s = 0.5}};
+        const render::FrameState shown = frame(state);
+        const render::PanelPlacement& word = shown.labels.back().placement;
+        EXPECT_EQ(first.value_or(word), word) << "it moves with the tip";
+        first = word;
+        for (const scene::Eye eye : scene::kEyes) expect_before_all(shown, word, eye, share);
+        const render::PanelPlacement& panel = shown.panels.force.placement;
+        EXPECT_GT(word.lower_left_m.x, panel.lower_left_m.x + panel.right_m.x);
+      }
+    }
+  }
 }
 
 TEST_F(InstrumentTest, TheArrowOfTheForcePointsAsTheForceActsAndIsAsLongAsTheBend) {

@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "exhibit/scenery/wall_scene.h"
 #include "support/paper_wall.h"
@@ -74,7 +75,37 @@ TEST_F(JourneyTest, NamesAKnownThingOfTheScaleBesideTheTip) {
     EXPECT_LT(place.z - high, 0.5 * unit_m / std::pow(10.0, orders)) << thing;
     EXPECT_GT(std::abs(place.x), 0.25 * unit_m / std::pow(10.0, orders)) << thing;
   }
-  for (const double orders : {0.0, 2.0, 4.0, 5.6, 9.0}) EXPECT_EQ(frame(orders).labels.size(), 1U) << orders;
+  for (const double orders : {0.0, 2.0, 4.0, 5.6, 8.0}) EXPECT_EQ(frame(orders).labels.size(), 11U) << orders;
+}
+
+TEST_F(JourneyTest, MarksItsRungOnALadderOfTenPowersAndNamesTheGap) {
+  const auto marked = [&](double orders) {
+    std::vector<std::string> texts;
+    for (const render::Label& label : frame(orders).labels) {
+      if (label.highlighted) texts.push_back(label.text);
+    }
+    return texts;
+  };
+  EXPECT_THAT(marked(0.0), testing::ElementsAre("1 m"));
+  EXPECT_THAT(marked(2.6), testing::ElementsAre("1 mm"));
+  EXPECT_THAT(marked(5.0), testing::ElementsAre("10 \u00b5m"));
+  EXPECT_THAT(marked(9.0), testing::ElementsAre("1 nm"));
+  const auto named = [&](double orders) {
+    const std::vector<render::Label> labels = frame(orders).labels;
+    return std::any_of(labels.begin(), labels.end(), [](const render::Label& l) { return l.text == "gap 0.6 nm"; });
+  };
+  EXPECT_FALSE(named(8.0));
+  EXPECT_TRUE(named(9.0));
+}
+
+// The shade of the tip has the numbers of its model.
+TEST_F(JourneyTest, ShadesWithTheBallAndThePyramidOfTheModel) {
+  const render::FrameState state = frame(7.0);
+  const double per_m = 1e7 * scene_.panel_millimetre_m() * 1000.0;
+  EXPECT_NEAR(static_cast<double>(state.cone.radius_m) / per_m, 50e-9, 1e-9);
+  EXPECT_NEAR(static_cast<double>(state.cone.height_m) / per_m, 6.2e-6, 0.1e-6);
+  EXPECT_GT(state.cone.slope, 0.315F);  // a face at 17.5 degrees
+  EXPECT_LT(state.cone.slope, 0.446F);  // an edge
 }
 
 // What the map of the shadows covers is 3.4 layout units wide: at the scales of the tip it would end in the air.

@@ -8,6 +8,7 @@
 #include "exhibit/frame/film_strip.h"
 #include "exhibit/scenery/wall_marks.h"
 #include "exhibit/state/jump_cue.h"
+#include "support/phrases.h"
 
 namespace afm::exhibit {
 namespace marks_test {
@@ -39,15 +40,15 @@ TEST(ScaleBar, SaysItsLengthInTheUnitThatFits) {
 
 scene::TipEvent event(physics::EventKind kind, std::int64_t time_ns) { return {.kind = kind, .time_ns = time_ns}; }
 
-TEST(JumpCue, LastsASecondFromTheNewestJump) {
+TEST(JumpCue, LastsASecondAndAHalfFromTheNewestJump) {
   using enum physics::EventKind;
   const std::vector<scene::TipEvent> events{event(JumpToContact, 1'000'000'000), event(JumpOffContact, 3'000'000'000)};
   EXPECT_FALSE(jump_cue(events, 999'999'999));
   ASSERT_TRUE(jump_cue(events, 1'200'000'000));
   EXPECT_EQ(jump_cue(events, 1'200'000'000)->kind, JumpToContact);
   EXPECT_NEAR(jump_cue(events, 1'200'000'000)->age_s, 0.2, 1e-9);
-  EXPECT_TRUE(jump_cue(events, 1'900'000'000));
-  EXPECT_FALSE(jump_cue(events, 2'100'000'000));
+  EXPECT_TRUE(jump_cue(events, 2'400'000'000));
+  EXPECT_FALSE(jump_cue(events, 2'600'000'000));
   ASSERT_TRUE(jump_cue(events, 3'000'000'000));
   EXPECT_EQ(jump_cue(events, 3'000'000'000)->kind, JumpOffContact);
   EXPECT_FALSE(jump_cue({}, 5));
@@ -86,15 +87,34 @@ TEST(JumpCue, OfATipThatChattersChangesThreeTimesASecondAndEndsWithTheLastJump) 
 
 TEST(JumpCue, ClosesInOnAJumpToContactAndSpreadsFromAJumpOff) {
   using enum physics::EventKind;
-  for (double age_s = 0.0; age_s + 0.05 <= kCueSeconds; age_s += 0.05) {
-    const CueRing in = cue_ring({JumpToContact, age_s}), in_later = cue_ring({JumpToContact, age_s + 0.05});
-    const CueRing off = cue_ring({JumpOffContact, age_s}), off_later = cue_ring({JumpOffContact, age_s + 0.05});
+  const auto ring = [](physics::EventKind kind, double age_s) { return cue_ring({.kind = kind, .age_s = age_s}); };
+  for (double age_s = 0.0; age_s + 0.05 <= kRingSeconds; age_s += 0.05) {
+    const CueRing in = ring(JumpToContact, age_s), in_later = ring(JumpToContact, age_s + 0.05);
+    const CueRing off = ring(JumpOffContact, age_s), off_later = ring(JumpOffContact, age_s + 0.05);
     EXPECT_LT(in_later.radius, in.radius);
     EXPECT_GT(off_later.radius, off.radius);
     EXPECT_LT(in_later.color.b, in.color.b);
     EXPECT_LT(off_later.color.r, off.color.r);
   }
-  EXPECT_EQ(cue_ring({JumpToContact, kCueSeconds}).color, glm::vec3(0.0F));
+  for (const double age_s : {kRingSeconds, kCueSeconds}) {
+    EXPECT_EQ(ring(JumpToContact, age_s).color, glm::vec3(0.0F));
+  }
+}
+
+TEST(JumpCue, KeepsTheForceOfTheJumpWhileTheTipMovesOn) {
+  using enum physics::EventKind;
+  scene::TipEvent in = event(JumpToContact, 1'000'000'000), off = event(JumpOffContact, 1'100'000'000);
+  in.force_before_n = -0.1e-9;
+  in.force_after_n = -0.407e-9;
+  off.force_before_n = -10e-9;
+  off.force_after_n = 0;
+  JumpCues cues;
+  cues.add(in);
+  cues.add(off);  // shown once the other has been seen
+  EXPECT_EQ(cue_text(cues.at(1'200'000'000).value(), test::english()), "snap \u22120.41 nN");
+  EXPECT_EQ(cue_text(cues.at(1'399'000'000).value(), test::english()), "snap \u22120.41 nN");
+  EXPECT_EQ(cue_text(cues.at(1'500'000'000).value(), test::english()), "pull-off \u221210.00 nN");
+  EXPECT_EQ(cue_text(cues.at(2'800'000'000).value(), test::english()), "pull-off \u221210.00 nN");
 }
 
 TEST(FilmStrip, PutsReducedFramesInRows) {

@@ -77,6 +77,19 @@ TEST(ParameterPanel, ThePredictionStandsBehindTheFeltCurvesWithAxesThatHoldIt) {
   EXPECT_EQ(panel.markers.size(), 4U);
 }
 
+TEST(ParameterPanel, TheForecastLeavesAxesAndMarkers) {
+  render::ForcePanel panel;
+  panel.curves.resize(1);
+  panel.markers.resize(1);
+  const render::ForcePanel before = panel;
+  add_forecast(mica(), test::english(), panel);
+  ASSERT_EQ(panel.curves.size(), 2U);
+  EXPECT_TRUE(panel.curves.front().faded);
+  EXPECT_FALSE(panel.curves.front().retract.empty());
+  panel.curves.erase(panel.curves.begin());
+  EXPECT_EQ(panel, before);
+}
+
 TEST(PicturePlace, KeepsProportionsBetweenBarsAndScalesNothingThatFits) {
   const auto wide = render::picture_place({1000, 300}, {400, 300});
   EXPECT_EQ(wide.offset_px, glm::uvec2(300, 0));

@@ -12,6 +12,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -188,11 +189,42 @@ TEST(PanelFonts, HoldEveryLetterOfEveryLanguage) {
       unsigned int letter = 0;
       at += ImTextCharFromUtf8(&letter, at, end);
       if (letter < ' ') continue;
-      for (ImFont* font : fonts.fonts) {
+      // the last has what a number is made of
+      for (ImFont* font : std::span(fonts.fonts).first(render::kTextStyles - 1)) {
         EXPECT_NE(font->FindGlyphNoFallback(static_cast<ImWchar>(letter)), nullptr) << "U+" << std::hex << letter;
       }
     }
   }
+}
+
+// From the last row of a room, 10 m away, 40 minutes of arc.
+TEST(PanelFonts, ShowTheLiveForceInDigitsForTheLastRow) {
+  constexpr double kLeastMm = 116.3;
+  const render::PanelFonts fonts = render::load_panel_fonts(2000.0, 1e-3, kLargestImage).value();
+  const ImFont& font = *fonts.fonts[static_cast<std::size_t>(render::TextStyle::Figure)];
+  for (const char digit : std::string_view("0123456789")) {
+    const ImFontGlyph* glyph = font.FindGlyphNoFallback(static_cast<ImWchar>(digit));
+    ASSERT_NE(glyph, nullptr) << digit;
+    EXPECT_GE((glyph->Y1 - glyph->Y0) / fonts.texels_per_mm, static_cast<float>(kLeastMm)) << digit;
+  }
+  for (const unsigned int sign : {0x2BU, 0x2CU, 0x2EU, 0x2212U}) {
+    EXPECT_NE(font.FindGlyphNoFallback(static_cast<ImWchar>(sign)), nullptr) << sign;
+  }
+}
+
+// They follow the tip at once. What differs between two digits is at most half of their boxes: for four of them, before
+// the paper's wall, that is too small for a flash (WCAG 2.3.1).
+TEST(PanelFonts, ShowTheLiveForceTooSmallForAFlash) {
+  constexpr double kLargestSafeSr = 0.006, kDiffers = 0.5, kDigits = 4.0, kViewerM = 2.5;
+  const render::PanelFonts fonts = render::load_panel_fonts(2000.0, 1e-3, kLargestImage).value();
+  const ImFont& font = *fonts.fonts[static_cast<std::size_t>(render::TextStyle::Figure)];
+  const ImFontGlyph* glyph = font.FindGlyphNoFallback('0');
+  ASSERT_NE(glyph, nullptr);
+  const auto size_m = [&](float low, float high) {
+    return 1e-3 * static_cast<double>((high - low) / fonts.texels_per_mm);
+  };
+  const double area_m2 = kDiffers * kDigits * size_m(glyph->X0, glyph->X1) * size_m(glyph->Y0, glyph->Y1);
+  EXPECT_LT(area_m2 / (kViewerM * kViewerM), kLargestSafeSr);
 }
 
 }  // namespace readable_walls_test

@@ -39,7 +39,7 @@ class PanelsInTheRoom : public VulkanTest {
     render::PlotCurve curve;
     curve.color = color;
     curve.retract = {{-5.0, 0.5}, {20.0, -1.5}};
-    return {.title = "", .curves = {curve}, .markers = {}, .cursor = {}, .stage = "", .figures = {}};
+    return {.title = "", .curves = {curve}, .markers = {}, .cursor = {}, .stage = "", .live = "", .figures = {}};
   }
 
   scene::Scene empty_;

@@ -203,8 +203,10 @@ render::FrameState full_frame(const TestScene& test) {
                                             {render::PlotMarker::Kind::HorizontalLine, -1.4, "F_ad 1.40 nN"}},
                                 .cursor = render::PlotPoint{9.0, -0.9},
                                 .stage = "e \u2192 f   retract, held by adhesion",
+                                .live = "\u22120.90 nN",
                                 .figures = {}};
   frame.panels.force.content.curves[0].faded = true;
+  frame.panels.force.content.curves[1].filled = true;
   frame.panels.force.placement = {.lower_left_m = {-1.484, -0.40, 0.0}, .right_m = {0.95, 0, 0}, .up_m = {0, 0.75, 0}};
   frame.panels.data.content = {
       .title = "Mica (muscovite)",

@@ -108,7 +108,7 @@ static_assert(scene::all_fields_described<ShownView>());
 // Other fields of exhibit::Moment.
 struct ShownMoment {
   static constexpr std::uint32_t kMostCenterpieces = 4, kNoCenterpiece = 1;  // kNoCenterpiece is used by films only
-  static constexpr double kLongestCueS = 1.0;
+  static constexpr double kLongestCueS = 1.5;
   static constexpr std::uint32_t kRetracting = 1, kWand = 2, kWandOriented = 4, kWandPlaced = 8, kWandConnected = 16,
                                  kCue = 32, kBlank = 64, kScan = 128, kTruth = 256, kStopped = 512, kByWand = 1024,
                                  kAllFlags = 2047;
@@ -125,7 +125,7 @@ struct ShownMoment {
   std::uint32_t flags = 0;
   std::uint32_t scan_frame = 0;  // exhibit::ScanProgress
   std::uint32_t scan_pixel = 0;
-  std::uint32_t padding = 0;
+  float cue_force_n = 0;
 };
 
 template <class Visit, scene::RecordOf<ShownMoment>... Record>
@@ -142,7 +142,7 @@ constexpr void for_each_field(Visit&& visit, Record&... moment) {
   visit("flags", moment.flags...);
   visit("scan_frame", moment.scan_frame...);
   visit("scan_pixel", moment.scan_pixel...);
-  visit("padding", moment.padding...);
+  visit("cue_force_n", moment.cue_force_n...);
 }
 static_assert(scene::all_fields_described<ShownMoment>());
 

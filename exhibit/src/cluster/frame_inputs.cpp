@@ -58,6 +58,7 @@ void copy_moment(const Copy& copy, Moment& moment, Shown& shown) {
   if (copy.has(wall.wand, shown.flags, M::kWand)) copy_wand(copy, *wall.wand, shown);
   if (copy.has(wall.cue, shown.flags, M::kCue)) {
     copy(wall.cue->kind, shown.cue);
+    copy(wall.cue->force_n, shown.cue_force_n);
     copy(wall.cue->age_s, shown.cue_age_s);
   }
 }

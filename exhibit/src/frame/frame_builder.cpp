@@ -15,6 +15,7 @@
 #include "exhibit/scenery/journey.h"
 #include "exhibit/scenery/wall_scene.h"
 #include "exhibit/words/guidance.h"
+#include "exhibit/words/signed_text.h"
 #include "haptics/scaling.h"
 #include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
@@ -178,6 +179,7 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
     axes.include((*materials_)[i]);
     if (i >= moment.curves.size() || moment.curves[i].empty()) continue;
     panel.curves.push_back(moment.curves[i].plot(phrases.word((*materials_)[i].setup.material.title), curve_color(i)));
+    panel.curves.back().filled = moment.wall.material == i;
   }
   axes.apply(panel);
   if (moment.wall.centerpiece == Centerpiece::Plot) {
@@ -190,6 +192,7 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   const physics::CycleFigures& figures = (*materials_)[*moment.wall.material].figures();
   if (figures.hysteretic) panel.markers = jump_markers(figures, phrases);
   panel.stage = phrases[stage_of_cycle(moment, figures.z_jtc.si)];
+  panel.live = phrases.number(force_text(moment.wall.tip.force_n));
   if (moment.phase != physics::Phase::WaitForLift) {
     panel.cursor = render::PlotPoint{moment.wall.tip.z_m * curves::kNmPerM, moment.wall.tip.force_n * curves::kNnPerN};
   }

@@ -10,6 +10,7 @@
 
 #include "curves/plot_units.h"
 #include "exhibit/state/moment.h"
+#include "exhibit/words/signed_text.h"
 #include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
 
@@ -19,13 +20,6 @@ namespace {
 
 using physics::format_quantity;
 using physics::Law;
-
-// Formats with a typographic minus, and without a sign if the value rounds to zero.
-std::string signed_text(double value, int decimals, const char* unit) {
-  const double tiny = 0.5 * std::pow(10.0, -decimals);
-  const char* sign = value >= tiny ? "+" : value <= -tiny ? "\u2212" : "";
-  return fmt::format("{}{:.{}f} {}", sign, std::abs(value), decimals, unit);
-}
 
 // A value of the contact, with its source or, if it was changed, with its initial value.
 template <class Q, class Text>

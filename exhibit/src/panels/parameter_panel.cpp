@@ -92,16 +92,21 @@ render::ControlPanel parameter_panel(const curves::LiveParameters& parameters, c
   return panel;
 }
 
-void add_prediction(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel) {
-  const physics::CycleFigures& figures = parameters.model().figures();
-  render::PlotCurve predicted{
-      .label = phrases[Phrase::PlotPredicted], .color = kPredictionColor, .faded = true, .approach = {}, .retract = {}};
+void add_forecast(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel) {
+  render::PlotCurve predicted;
+  predicted.label = phrases[Phrase::PlotPredicted];
+  predicted.color = kPredictionColor;
+  predicted.faded = true;
   for (const physics::CurveSample& sample : parameters.curve().samples) {
     auto& branch = sample.branch == physics::Branch::Approach ? predicted.approach : predicted.retract;
     branch.push_back({.place_nm = sample.z.si * curves::kNmPerM, .force_nn = sample.force.si * curves::kNnPerN});
   }
   panel.curves.insert(panel.curves.begin(), std::move(predicted));
+}
 
+void add_prediction(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel) {
+  add_forecast(parameters, phrases, panel);
+  const physics::CycleFigures& figures = parameters.model().figures();
   const double reach_nm = curves::cycle_reach_m(parameters.model()) * curves::kNmPerM;
   const double deepest_nn = std::abs(parameters.curve().samples.back().force.si) * curves::kNnPerN;
   const double pull_nn = strongest_pull_n(parameters.curve()) * curves::kNnPerN;

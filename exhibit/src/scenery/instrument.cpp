@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
 #include "exhibit/models/model_builder.h"
 #include "exhibit/models/user_models.h"
@@ -17,13 +18,40 @@ namespace afm::exhibit {
 using glm::dmat4;
 using glm::dvec3;
 
+namespace {
+
+// A node with the lever's mesh, of light: it hides nothing.
+scene::NodeIndex add_ghost(scene::Scene& scene, scene::NodeIndex lever, scene::NodeIndex parent) {
+  scene::PbrMaterial light;
+  light.name = "lever of light";
+  light.base_color = {0.72F, 0.80F, 0.88F, 0.38F};
+  light.metallic = 0.0F;
+  light.blended = light.unlit = true;
+  const auto material = static_cast<std::uint32_t>(scene.materials.size());
+  scene.materials.push_back(light);
+  scene::Node ghost{.name = "probe-ghost", .parent = parent, .mesh = {}};
+  ghost.role = "mark";
+  if (scene.nodes[lever].mesh) {
+    scene::Mesh mesh = scene.meshes[*scene.nodes[lever].mesh];
+    for (scene::Primitive& primitive : mesh.primitives) {
+      primitive.material = material;
+      primitive.variants.clear();
+    }
+    ghost.mesh = static_cast<std::uint32_t>(scene.meshes.size());
+    scene.meshes.push_back(std::move(mesh));
+  }
+  scene.nodes.push_back(std::move(ghost));
+  return static_cast<scene::NodeIndex>(scene.nodes.size() - 1);
+}
+
+}  // namespace
+
 Instrument::Instrument(ModelBuilder& build, scene::NodeIndex layout, scene::NodeIndex sample, const UserModels& own)
     : layout_(layout), sample_frame_(sample) {
   floor_ = build.model("room.glb", "room", layout_);
   floor_surface_ = build.node("room/floor");
   stage_ = build.model_in_frame_of("stage", "stage.glb", "stage", sample_frame_);
-  post_ = build.node("stage/post");
-  foot_ = build.node("stage/foot");
+  body_ = build.node("stage/body");
   probe_frame_ = build.frame("probe-frame", sample_frame_, dmat4(1.0));
   lever_ = own.probe ? build.part(*own.probe, "probe", probe_frame_) : build.model("probe.glb", "probe", probe_frame_);
   cantilever_ = build.node("probe/cantilever");
@@ -43,6 +71,8 @@ void Instrument::measure(scene::Scene& scene, ModelBuilder& build) {
   beam_out_ = static_cast<scene::NodeIndex>(scene.nodes.size());
   scene.nodes.push_back(beam_out);
 
+  ghost_ = add_ghost(scene, cantilever_, sample_frame_);
+
   lever_length_ =
       dvec3(glm::inverse(ancestor_from_node(scene, lever_, cantilever_)) * ancestor_from_node(scene, lever_, tip_)[3])
           .x;
@@ -50,6 +80,7 @@ void Instrument::measure(scene::Scene& scene, ModelBuilder& build) {
   const scene::Bounds stage = bounds_below(scene, build.node("stage/stage"));
   stage_scale_ = kStageDrawnWidth / (stage.high.x - stage.low.x);
   stage_height_ = stage_scale_ * (stage.high.z - stage.low.z);
+  stage_depth_ = stage_scale_ * stage.high.y;
 }
 
 // All in the sample's frame, layout units. The lever extends towards the viewer, parallel to the sample.
@@ -110,6 +141,15 @@ void Instrument::place_probe(const scene::Scene& scene, const Setting& setting, 
   }
 }
 
+void Instrument::place_ghost(const Setting& setting, std::vector<dmat4>& local, render::BeamBend& bend) const {
+  const double lever_scale = kLeverDrawnLength / lever_length_;
+  const LeverPose pose = lever_pose(setting);
+  local[ghost_] = pose.frame_from_lever * glm::scale(dmat4(1.0), dvec3(lever_scale));
+  bend = {.node = ghost_,
+          .length = static_cast<float>(lever_length_),
+          .end_deflection = static_cast<float>(pose.end / lever_scale)};
+}
+
 void Instrument::place_optics(const scene::Scene& scene, const Setting& setting, std::vector<dmat4>& local) const {
   const auto set = [&](scene::NodeIndex node, const dmat4& layout_from_node) {
     const dmat4 layout_from_parent = ancestor_from_node(scene, layout_, *scene.nodes[node].parent);
@@ -135,23 +175,16 @@ void Instrument::place_optics(const scene::Scene& scene, const Setting& setting,
   set(beam_out_, stretched(lever_end, dvec3(spot[3]), kBeamRadius));
 }
 
-// Upright from the floor to the plate below a sample, wherever that is; moves with them under the wand.
+// The plate below a sample, and below that its body, which ends in the floor, wherever the wand has moved them.
 void Instrument::place_stage(const scene::Scene& scene, double thickness, std::vector<dmat4>& local) const {
   local[stage_] =
       glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -thickness)), dvec3(stage_scale_)) * local[stage_];
-
   const dmat4& layout_from_sample = scene.nodes[sample_frame_].parent_from_node;
-  const dvec3 top(layout_from_sample * glm::dvec4(0.0, 0.0, -thickness - stage_height_, 1.0));
-  const dvec3 foot(top.x, floor_y_, top.z);
-  const dmat4 stand_from_layout = glm::inverse(layout_from_sample * local[stage_]);
-  const auto set = [&](scene::NodeIndex node, const dmat4& layout_from_node) {
-    const dmat4 stage_from_parent = ancestor_from_node(scene, stage_, *scene.nodes[node].parent);
-    local[node] = glm::inverse(stage_from_parent) * stand_from_layout * layout_from_node;
-  };
-  const double height = std::max(top.y - floor_y_, 0.0);
-  const dmat4 standing = frame_matrix({1, 0, 0}, {0, 0, -1}, {0, 1, 0}, foot);
-  set(post_, glm::scale(standing, dvec3(1.0, 1.0, height)));
-  set(foot_, height > 0.0 ? standing : dmat4(0.0));
+  const dvec3 normal = glm::normalize(dvec3(layout_from_sample[2]));
+  const dvec3 back(layout_from_sample * glm::dvec4(0.0, stage_depth_, -thickness - stage_height_, 1.0));
+  const double length = std::max(back.y - floor_y_, 0.0) / normal.y;
+  local[body_] = glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -stage_height_ / stage_scale_)) *
+                 glm::scale(dmat4(1.0), dvec3(1.0, 1.0, length / stage_scale_)) * local[body_];
   local[floor_] = glm::translate(dmat4(1.0), dvec3(0.0, floor_y_, 0.0));
 }
 

@@ -30,9 +30,6 @@ constexpr double kMapToOrders = 4.25, kConeFromOrders = 4.85;
 // Among the atoms everything is in the tip's shade, which leaves them some light.
 constexpr double kLightFromOrders = 7.5, kShadeOfAtoms = 0.55;
 
-// The tip's end, metres (assets/generate/probe.cpp and journey.cpp). The slope is that of a cone between the pyramid's
-// faces, at 17.5 degrees, and its edges.
-constexpr double kTipRadius = 50e-9, kTipGap = 0.7e-9, kTipHeight = 6.2e-6, kTipSlope = 0.37;
 constexpr double kWidestShade = 0.4;  // layout units
 
 constexpr double kVeilS = 0.5, kTravelS = 20.0;
@@ -43,6 +40,17 @@ static_assert(kStepS > 2.0 * kVeilS);
 double eased(double t) {
   const double x = std::clamp(t, 0.0, 1.0);
   return x * x * (3.0 - 2.0 * x);
+}
+
+// Calls `visit` with each vertex of a node, in the frame.
+template <class Visit>
+void for_each_place(const scene::Scene& scene, scene::NodeIndex frame, scene::NodeIndex node, const Visit& visit) {
+  const dmat4 frame_from_node = ancestor_from_node(scene, frame, node);
+  for (const scene::Primitive& primitive : scene.meshes[*scene.nodes[node].mesh].primitives) {
+    for (const scene::Vertex& vertex : primitive.vertices) {
+      visit(dvec3(frame_from_node * glm::dvec4(dvec3(vertex.position), 1.0)));
+    }
+  }
 }
 
 double scale_of(double orders) { return std::pow(10.0, std::clamp(orders, 0.0, kJourneyOrders)); }
@@ -61,6 +69,7 @@ Journey::Journey(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layo
   frame_ = build.frame("journey-frame", layout, dmat4(1.0));
   const scene::NodeIndex root = build.model_in_frame_of("journey", "journey.glb", "journey", frame_);
   measure(scene, root, std::nullopt);
+  if (!build.error()) measure_tip(scene, build);
   measure(scene, build.model_in_frame_of("companions", "companions.glb", "companions", frame_), std::nullopt);
 }
 
@@ -77,17 +86,39 @@ void Journey::measure(const scene::Scene& scene, scene::NodeIndex first, std::op
   for (scene::NodeIndex i = first; i < scene.nodes.size(); ++i) {
     if (!scene.nodes[i].mesh) continue;
     Part part{.node = i, .ground = ground, .nearest_m = std::numeric_limits<double>::infinity(), .farthest_m = 0.0};
-    const dmat4 frame_from_node = ancestor_from_node(scene, frame_, i);
-    for (const scene::Primitive& primitive : scene.meshes[*scene.nodes[i].mesh].primitives) {
-      for (const scene::Vertex& vertex : primitive.vertices) {
-        const double away = glm::length(dvec3(frame_from_node * glm::dvec4(dvec3(vertex.position), 1.0)));
-        part.nearest_m = std::min(part.nearest_m, away);
-        part.farthest_m = std::max(part.farthest_m, away);
-      }
-    }
+    for_each_place(scene, frame_, i, [&](const dvec3& place) {
+      part.nearest_m = std::min(part.nearest_m, glm::length(place));
+      part.farthest_m = std::max(part.farthest_m, glm::length(place));
+    });
     parts_.push_back(part);
     if (scene.nodes[i].name.ends_with("atoms")) atoms_.push_back(i);
   }
+}
+
+void Journey::measure_tip(const scene::Scene& scene, ModelBuilder& build) {
+  const auto lowest = [&](const char* node) {
+    double low = std::numeric_limits<double>::infinity();
+    for_each_place(scene, frame_, build.node(node), [&](const dvec3& place) { low = std::min(low, place.z); });
+    return low;
+  };
+  tip_.gap_m = lowest("journey/tip-atoms");
+  // a ball about the axis goes through the lowest place of the apex and through its widest
+  glm::dvec2 low(0.0, std::numeric_limits<double>::infinity()), wide(0.0);
+  for_each_place(scene, frame_, build.node("journey/apex"), [&](const dvec3& place) {
+    const glm::dvec2 seen(glm::length(glm::dvec2(place)), place.z);  // from the axis, and up
+    if (seen.y < low.y) low = seen;
+    if (seen.x > wide.x) wide = seen;
+  });
+  const double center_m = 0.5 * (glm::dot(wide, wide) - glm::dot(low, low)) / (wide.y - low.y);
+  tip_.radius_m = glm::distance(low, glm::dvec2(0.0, center_m));
+  tip_.lowest_m = center_m - tip_.radius_m;
+  double edge = 0.0;
+  for_each_place(scene, frame_, build.node("journey/tip"), [&](const dvec3& place) {
+    tip_.height_m = std::max(tip_.height_m, place.z - tip_.lowest_m);
+    edge = std::max(edge, glm::length(glm::dvec2(place)));
+  });
+  const double face = edge / std::sqrt(2.0);  // the pyramid is square
+  tip_.slope = 0.5 * (edge + face) / tip_.height_m;
 }
 
 void Journey::place(double orders, std::vector<dmat4>& local) const {
@@ -110,14 +141,14 @@ void Journey::shade(double orders, const dmat4& room_from_frame, double unit_m, 
   frame.key_light.map_share = static_cast<float>(1.0 - cone);
   const double per_m = glm::length(dvec3(room_from_frame[2]));
   const dvec3 axis = dvec3(room_from_frame[2]) / per_m;
-  const dvec3 apex = dvec3(room_from_frame[3]) + kTipGap * dvec3(room_from_frame[2]);
+  const dvec3 apex = dvec3(room_from_frame[3]) + tip_.lowest_m * dvec3(room_from_frame[2]);
   frame.cone = {.apex_m = glm::vec3(apex),
                 .axis = glm::vec3(axis),
-                .radius_m = static_cast<float>(kTipRadius * per_m),
-                .slope = static_cast<float>(kTipSlope),
-                .height_m = static_cast<float>(kTipHeight * per_m),
+                .radius_m = static_cast<float>(tip_.radius_m * per_m),
+                .slope = static_cast<float>(tip_.slope),
+                .height_m = static_cast<float>(tip_.height_m * per_m),
                 .share = static_cast<float>(cone * (1.0 - (1.0 - kShadeOfAtoms) * close))};
-  const double radius = std::clamp(kTipRadius * per_m, kShadeRadius * unit_m, kWidestShade * unit_m);
+  const double radius = std::clamp(tip_.radius_m * per_m, kShadeRadius * unit_m, kWidestShade * unit_m);
   frame.outlined = atoms_;
   frame.contact = {.place_m = glm::vec3(apex), .shade_radius_m = static_cast<float>(cone * radius)};
 }

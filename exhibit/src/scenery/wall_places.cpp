@@ -148,6 +148,11 @@ render::PanelPlacement WallPlaces::note() const {
   return note;
 }
 
+render::PanelPlacement WallPlaces::rung(std::size_t i) const {
+  return in_wall(-half_width_ + kPanelMargin, kLowestRung + kRungPitch * static_cast<double>(i), kRungWidth,
+                 kRungHeight);
+}
+
 glm::dvec3 WallPlaces::swatch(std::size_t i, std::size_t count) const {
   const std::size_t front = std::min(count, kFrontSwatches);
   const auto across = [](std::size_t place, std::size_t places, double spacing) {

@@ -104,7 +104,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   double floor_y = w.places_.shelf_y();
   for (const MaterialLook& look : w.looks_) {
     const double thickness = look.thickness_m * kStrokeHeight / look.surface_stroke_m + w.instrument_.stage_height();
-    floor_y = std::min(floor_y, -std::cos(kSampleTiltRad) * thickness - kLeastPost);
+    floor_y = std::min(floor_y, -std::cos(kSampleTiltRad) * thickness - kLeastBody);
   }
   w.instrument_.set_floor(floor_y);
   return w;

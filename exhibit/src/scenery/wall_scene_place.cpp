@@ -51,9 +51,45 @@ void place_light(const WallPlaces& places, render::FrameState& frame) {
   frame.key_light.shadow_radius_m = static_cast<float>(1.7 * places.unit_m());
 }
 
+// After a pull-off. Particles have no such height.
+bool shows_ghost(const WallState& state, bool with_particles) {
+  return state.centerpiece == Centerpiece::Instrument && state.material && !with_particles && state.cue &&
+         state.cue->kind == physics::EventKind::JumpOffContact;
+}
+
+// Beside the place where the tip touches, in the wall's plane; moves with the sample, not with the tip.
+render::Label cue_label(const JumpCue& cue, const Phrases& phrases, const dmat4& room_from_layout,
+                        const dvec3& touched_m) {
+  const auto vector = [&](double x, double y) { return dvec3(room_from_layout * glm::dvec4(x, y, 0.0, 0.0)); };
+  return {.text = cue_text(cue, phrases),
+          .highlighted = false,
+          .placement = {.lower_left_m = touched_m + vector(kCuePlace.x, kCuePlace.y),
+                        .right_m = vector(kCueWidth, 0.0),
+                        .up_m = vector(0.0, kCueHeight)}};
+}
+
+// The ladder of ten powers with the rung where one is, and the gap below the last atom.
+void add_journey_labels(const Journey& journey, const WallPlaces& places, const Phrases& phrases, double orders,
+                        render::FrameState& frame) {
+  if (orders >= kGapFromOrders) {
+    const double middle = 0.5 * journey.gap_m() * std::pow(10.0, orders);
+    frame.labels.push_back(
+        {.text = phrases.text<Phrase::JourneyGap>(fmt::format("{:.1f} nm", journey.gap_m() * 1e9)),
+         .highlighted = false,
+         .placement = places.in_scene(kGapLabelRight - kGapLabelWidth, middle - 0.5 * kGapLabelHeight, kGapLabelWidth,
+                                      kGapLabelHeight)});
+  }
+  const auto here = static_cast<std::size_t>(std::lround(orders));
+  constexpr auto kRungs = static_cast<std::size_t>(kJourneyOrders) + 1;
+  for (std::size_t i = 0; i < kRungs; ++i) {
+    const std::string length = scale_bar(std::pow(10.0, -static_cast<double>(i)), 1.0 + 1e-9).text;
+    frame.labels.push_back({.text = length, .highlighted = i == here, .placement = places.rung(kRungs - 1 - i)});
+  }
+}
+
 }  // namespace
 
-std::vector<dmat4> WallScene::local_transforms(const WallState& state, render::BeamBend& bend) const {
+std::vector<dmat4> WallScene::local_transforms(const WallState& state, std::vector<render::BeamBend>& bends) const {
   std::vector<dmat4> local;
   local.reserve(scene_.nodes.size());
   for (const scene::Node& node : scene_.nodes) local.push_back(node.parent_from_node);
@@ -65,7 +101,14 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, render::B
                                                              ? looks_[*state.material].full_deflection_m *
                                                                    parameter_factor(*state.material, state.release_z_m)
                                                              : 1.0};
-  instrument_.place_probe(scene_, setting, marks_, local, bend);
+  bends.resize(1);
+  instrument_.place_probe(scene_, setting, marks_, local, bends.front());
+  if (shows_ghost(state, particles_.has_value())) {
+    // the tip still on the sample, the lever's end as far below as the pull-off is high
+    Instrument::Setting pulled = setting;
+    pulled.tip.z_m = pulled.tip.deflection_m = kStrokeHeight / kStrokeOfZjoc / setting.layout_per_m;
+    instrument_.place_ghost(pulled, local, bends.emplace_back());
+  }
   place_sample(state, local);
   if (particles_) {
     const double height = setting.layout_per_m * (state.tip.z_m - state.tip.deflection_m);
@@ -118,8 +161,8 @@ void WallScene::place_wand(const WallState& state, std::vector<dmat4>& local) co
 }
 
 std::vector<dmat4> WallScene::node_transforms(const WallState& state) const {
-  render::BeamBend bend;
-  return compose(scene_, local_transforms(state, bend));
+  std::vector<render::BeamBend> bends;
+  return compose(scene_, local_transforms(state, bends));
 }
 
 std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) const {
@@ -139,6 +182,7 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
   if (state.centerpiece != Journey) hide({journey_.frame()});
   if (topography_mesh_ && (state.centerpiece != Instrument || !state.material)) hide({height_bar_});
   if (state.centerpiece != Instrument || !state.material) hide(marks_.lever_nodes());
+  if (!shows_ghost(state, particles_.has_value())) hide({instrument_.ghost()});
   if (ruler_m_per_unit(state) == 0.0) hide(marks_.ruler_nodes());
   if (particles_) {
     const bool shown = state.centerpiece == Instrument && state.material;
@@ -151,9 +195,7 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
 }
 
 void WallScene::update(const WallState& state, render::FrameState& frame) const {
-  render::BeamBend bend;
-  frame.room_from_node = compose(scene_, local_transforms(state, bend));
-  frame.bends = {bend};
+  frame.room_from_node = compose(scene_, local_transforms(state, frame.bends));
   frame.copies.clear();
   if (particles_) particles_->add_copies(state.particles, layout_per_m(state), frame);
 
@@ -244,7 +286,7 @@ void WallScene::place_marks(const WallState& state, render::FrameState& frame) c
                                     kRulerTextHeight)});
   if (state.centerpiece == Centerpiece::Journey) {
     if (const auto companion = journey_.companion(state.journey_orders)) place_companion_label(*companion, frame);
-    return;
+    return add_journey_labels(journey_, places_, phrases_, state.journey_orders, frame);
   }
 
   const auto radius_m = static_cast<float>(kShadeRadius * places_.unit_m());
@@ -255,6 +297,9 @@ void WallScene::place_marks(const WallState& state, render::FrameState& frame) c
   const CueRing ring = cue_ring(*state.cue);
   frame.contact.ring_color = ring.color;
   frame.contact.ring_radius_m = static_cast<float>(ring.radius) * frame.contact.shade_radius_m;
+  if (magnet) return;
+  frame.labels.push_back(
+      cue_label(*state.cue, phrases_, places_.room_from_layout(), dvec3(frame.room_from_node[sample_frame_][3])));
 }
 
 // Above the companion, at its depth.

@@ -41,7 +41,9 @@ void CycleCurve::add_point(const render::PlotPoint& point) {
 }
 
 render::PlotCurve CycleCurve::plot(std::string label, const glm::vec3& color) const {
-  render::PlotCurve curve{.label = std::move(label), .color = color, .faded = false, .approach = {}, .retract = {}};
+  render::PlotCurve curve;
+  curve.label = std::move(label);
+  curve.color = color;
   if (points_.empty()) return curve;
   const auto turn = points_.begin() + static_cast<std::ptrdiff_t>(deepest_);
   curve.approach.assign(points_.begin(), turn + 1);

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "exhibit/words/phrases.h"
+#include "exhibit/words/signed_text.h"
+
 namespace afm::exhibit {
 
 namespace {
@@ -11,16 +14,22 @@ namespace {
 constexpr double kNearRadius = 0.4, kFarRadius = 4.0;
 constexpr glm::vec3 kInColor(0.25F, 1.1F, 2.0F), kOffColor(2.2F, 0.75F, 0.05F);
 
+// The force that the paper gives for the jump: F_attr or F_ad.
+float force_of(const scene::TipEvent& event) {
+  const bool in = event.kind == physics::EventKind::JumpToContact;
+  return static_cast<float>(in ? event.force_after_n : event.force_before_n);
+}
+
 }  // namespace
 
 void JumpCues::add(const scene::TipEvent& event) {
   if (!physics::is_jump(event.kind)) return;
   if (next_ && next_->since_ns <= event.time_ns) shown_ = std::exchange(next_, std::nullopt);
   if (!shown_ || event.time_ns - shown_->since_ns >= kLeastNs) {
-    shown_ = {event.kind, event.time_ns};
+    shown_ = {event.kind, force_of(event), event.time_ns};
     next_.reset();
   } else {
-    next_ = {event.kind, shown_->since_ns + kLeastNs};
+    next_ = {event.kind, force_of(event), shown_->since_ns + kLeastNs};
   }
 }
 
@@ -39,7 +48,7 @@ std::optional<JumpCue> JumpCues::at(std::int64_t now_ns) const {
   if (!shown) return std::nullopt;
   const double age_s = static_cast<double>(now_ns - shown->since_ns) * 1e-9;
   if (age_s > kCueSeconds) return std::nullopt;
-  return JumpCue{shown->kind, age_s};
+  return JumpCue{shown->kind, shown->force_n, age_s};
 }
 
 std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::int64_t now_ns) {
@@ -52,11 +61,17 @@ std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::in
 }
 
 CueRing cue_ring(const JumpCue& cue) {
-  const double t = std::clamp(cue.age_s / kCueSeconds, 0.0, 1.0);
+  const double t = std::clamp(cue.age_s / kRingSeconds, 0.0, 1.0);
   const bool in = cue.kind == physics::EventKind::JumpToContact;
   const double way = in ? 1.0 - t : t;
   const auto strength = static_cast<float>((1.0 - t) * (1.0 - t));
   return {(in ? kInColor : kOffColor) * strength, kNearRadius + (kFarRadius - kNearRadius) * way};
+}
+
+std::string cue_text(const JumpCue& cue, const Phrases& phrases) {
+  const std::string force = force_text(static_cast<double>(cue.force_n));
+  return cue.kind == physics::EventKind::JumpToContact ? phrases.text<Phrase::CueSnapIn>(force)
+                                                       : phrases.text<Phrase::CuePullOff>(force);
 }
 
 }  // namespace afm::exhibit

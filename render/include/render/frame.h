@@ -117,6 +117,7 @@ struct PlotCurve {
   std::string label;
   glm::vec3 color{1.0F};  // sRGB
   bool faded = false;     // earlier material, drawn in the background
+  bool filled = false;    // the area between both branches has their colour: the energy of the loop
   std::vector<PlotPoint> approach;
   std::vector<PlotPoint> retract;
 
@@ -156,6 +157,7 @@ struct ForcePanel {
   std::vector<PlotMarker> markers;
   std::optional<PlotPoint> cursor;  // current position of the tip
   std::string stage;                // current part of the cycle, with the letters of the paper's Fig. 2
+  std::string live;                 // the force now, "\u22120.41 nN", in the largest digits; empty: none
   std::vector<DataRow> figures;     // quantities derived from the curves, in a row above them, without sources
 
   bool operator==(const ForcePanel&) const = default;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <tuple>
 
 #include "panels/panel_painting.h"
@@ -16,6 +18,27 @@ constexpr float kRetractWidth = 7.0F;
 constexpr float kApproachWidth = 4.5F;
 constexpr float kFadedAlpha = 0.50F;
 constexpr float kCursorRadius = 19.0F;
+
+// The live force: its place, the widest one, and the line on which digits of all sizes stand, as a share of the em
+// square.
+constexpr float kFigureTop = -10.0F, kBaseline = 0.80F;
+constexpr std::string_view kWidestNumber = "\u221200.00", kWidestUnit = "nN";
+
+// Calls `visit` for each letter of UTF-8.
+template <class Visit>
+void for_each_letter(std::string_view text, const Visit& visit) {
+  while (!text.empty()) {
+    std::size_t end = 1;
+    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) ++end;
+    visit(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+}
+
+float cell_width(const Canvas& canvas, std::string_view letter) {
+  const bool digit = std::isdigit(static_cast<unsigned char>(letter.front())) != 0;
+  return canvas.text_width_mm(TextStyle::Figure, digit ? "0" : letter);
+}
 
 // Position of the axes on the canvas, and their ranges.
 struct Plot {
@@ -42,10 +65,58 @@ std::pair<double, double> sane_range(double low, double high) {
   return {-1.0, 1.0};
 }
 
-void paint_heading(Canvas& canvas, const ForcePanel& panel) {
-  const float width = canvas.size_mm().x - 2.0F * kMargin;
-  canvas.shrunk_text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title, width);
-  canvas.shrunk_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.stage, width);
+constexpr float kUnitGap = 12.0F;
+
+// Width of a number in the largest digits, with its unit. Digits have equal cells, so that none moves when another
+// changes.
+float number_width(const Canvas& canvas, std::string_view number, std::string_view unit) {
+  float width = kUnitGap + canvas.text_width_mm(TextStyle::Title, unit);
+  for_each_letter(number, [&](std::string_view letter) { width += cell_width(canvas, letter); });
+  return width;
+}
+
+// Draws a number with its unit that ends at `right`, smaller if it is wider than `room`.
+void paint_number(Canvas& canvas, std::string_view text, float right, float top, float room) {
+  const std::size_t space = std::min(text.rfind(' '), text.size());
+  const std::string_view number = text.substr(0, space), unit = text.substr(std::min(space + 1, text.size()));
+  const float scale = std::min(1.0F, room / number_width(canvas, number, unit));
+  const float large = text_height_mm(TextStyle::Figure), small = text_height_mm(TextStyle::Title);
+  top += 0.5F * (1.0F - scale) * large;
+  // on the digits' line
+  canvas.text({right, top + scale * kBaseline * (large - small)}, TextStyle::Title, palette::kMuted, unit, Align::Right,
+              scale);
+  float x = right - scale * number_width(canvas, number, unit);
+  for_each_letter(number, [&](std::string_view letter) {
+    const float cell = scale * cell_width(canvas, letter);
+    canvas.text({x + 0.5F * cell, top}, TextStyle::Figure, palette::kInk, letter, Align::Center, scale);
+    x += cell;
+  });
+}
+
+// Draws title, part of the cycle and the force now: side by side, or on a narrow panel below each other. Returns the
+// lower end.
+float paint_heading(Canvas& canvas, const ForcePanel& panel) {
+  constexpr float kPlain = 146.0F, kApart = 30.0F, kLeastShrunk = 0.75F, kWhole = 162.0F, kLine = 56.0F;
+  const float width = canvas.size_mm().x - 2.0F * kMargin, right = kMargin + width;
+  const auto heading = [&](float room) {
+    canvas.shrunk_text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title, room);
+    canvas.shrunk_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.stage, room);
+  };
+  if (panel.live.empty()) {
+    heading(width);
+    return kPlain;
+  }
+  const float room = width - kApart - number_width(canvas, kWidestNumber, kWidestUnit);
+  if (room > kLeastShrunk * canvas.text_width_mm(TextStyle::Title, panel.title)) {
+    heading(room);
+    paint_number(canvas, panel.live, right, kFigureTop, width - room - kApart);
+    return kWhole;
+  }
+  const float half = 0.5F * (width - kApart);
+  canvas.shrunk_text({kMargin, 20.0F}, TextStyle::Body, palette::kInk, panel.title, half);
+  canvas.shrunk_text({kMargin + half + kApart, 20.0F}, TextStyle::Body, palette::kYellow, panel.stage, half);
+  paint_number(canvas, panel.live, right, kFigureTop + kLine, width);
+  return kWhole + kLine;
 }
 
 // Draws columns from `top` down: small names with the values below them. Returns the lower end.
@@ -164,6 +235,37 @@ std::span<const glm::vec2> placed(Canvas& canvas, const Plot& plot, const std::v
   return places;
 }
 
+// Height of a branch at the middle of each column; of a stretch that the hand went over several times, the last.
+using Heights = std::array<std::optional<float>, 640>;
+
+void take_heights(std::span<const glm::vec2> points, float left, float column, Heights& heights) {
+  heights.fill(std::nullopt);
+  const auto at = [&](std::size_t i) { return left + (static_cast<float>(i) + 0.5F) * column; };
+  for (std::size_t p = 0; p + 1 < points.size(); ++p) {
+    const glm::vec2 low = points[p].x < points[p + 1].x ? points[p] : points[p + 1];
+    const glm::vec2 high = points[p].x < points[p + 1].x ? points[p + 1] : points[p];
+    const auto first = static_cast<std::size_t>(std::max(0.0F, std::ceil((low.x - left) / column - 0.5F)));
+    for (std::size_t i = first; i < heights.size() && at(i) <= high.x; ++i) {
+      heights[i] = glm::mix(low.y, high.y, (at(i) - low.x) / std::max(high.x - low.x, 1e-6F));
+    }
+  }
+}
+
+// Fills between the branches, in columns: a jump is a step.
+void fill_loop(Canvas& canvas, const Plot& plot, const PlotCurve& curve) {
+  constexpr float kAlpha = 0.20F;
+  Heights approach, retract;
+  const float column = (plot.bottom_right.x - plot.top_left.x) / static_cast<float>(approach.size());
+  take_heights(placed(canvas, plot, curve.approach), plot.top_left.x, column, approach);
+  take_heights(placed(canvas, plot, curve.retract), plot.top_left.x, column, retract);
+  for (std::size_t i = 0; i < approach.size(); ++i) {
+    if (!approach[i] || !retract[i]) continue;
+    const float x = plot.top_left.x + static_cast<float>(i) * column;
+    const auto [top, bottom] = std::minmax(*approach[i], *retract[i]);
+    canvas.rectangle({x, top}, {x + column, bottom}, Color{curve.color, kAlpha});
+  }
+}
+
 void paint_curve(Canvas& canvas, const Plot& plot, const PlotCurve& curve) {
   const Color color{curve.color, curve.faded ? kFadedAlpha : 1.0F};
   const float thin = curve.faded ? 0.75F : 1.0F;
@@ -222,8 +324,7 @@ void paint_cursor(Canvas& canvas, const glm::vec2& place) {
 
 void paint(Canvas& canvas, const ForcePanel& panel) {
   canvas.panel_background();
-  paint_heading(canvas, panel);
-  const float legend_y = paint_figures(canvas, panel.figures, 146.0F);
+  const float legend_y = paint_figures(canvas, panel.figures, paint_heading(canvas, panel));
   paint_legend(canvas, panel, legend_y);
 
   const char mark = panel.words.decimal_mark;
@@ -242,6 +343,9 @@ void paint(Canvas& canvas, const ForcePanel& panel) {
   const LabelBox caption = force_caption(canvas, plot, panel);
   paint_markers(canvas, plot, panel.markers, caption);
   canvas.push_clip(plot.top_left, plot.bottom_right);
+  for (const auto& curve : panel.curves) {
+    if (curve.filled) fill_loop(canvas, plot, curve);
+  }
   for (const auto& curve : panel.curves) {
     if (curve.faded) {
       paint_curve(canvas, plot, curve);

@@ -18,6 +18,7 @@ struct StyleRow {
   float height_mm;
   FontFace first;
   FontFace second;  // source of glyphs that the first lacks, or its replacement
+  bool only_numbers = false;
 };
 
 // Largest resolution, sufficient for 8192 pixels across the paper's wall.
@@ -31,6 +32,7 @@ constexpr std::array<StyleRow, kTextStyles> kStyles{{
     {44.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
     {60.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
     {72.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
+    {194.0F, FontFace::InterSemiBold, FontFace::DejaVuBold, true},
 }};
 
 // Latin, Greek, Cyrillic capitals for the labels of keys, punctuation with the typographic minus and dashes, subscripts
@@ -38,6 +40,9 @@ constexpr std::array<StyleRow, kTextStyles> kStyles{{
 constexpr std::array<ImWchar, 19> kGlyphRanges{0x0020, 0x00FF, 0x0391, 0x03C9, 0x0401, 0x042F, 0x2010,
                                                0x2027, 0x2030, 0x2044, 0x2070, 0x209C, 0x2190, 0x2193,
                                                0x2200, 0x2265, 0x2266, 0x226B, 0};
+
+// Plus, comma, hyphen, point, digits and the typographic minus.
+constexpr std::array<ImWchar, 7> kNumberRanges{0x002B, 0x002E, 0x0030, 0x0039, 0x2212, 0x2212, 0};
 
 // Never returns null, since ImGui does not check.
 void* memory_or_throw(std::size_t size, void* /*unused*/) {
@@ -80,14 +85,14 @@ core::Result<PanelFonts> draw_glyphs(FontBytes& bytes, float texels_per_mm, floa
     const auto& row = kStyles[style];
     const float pixels = std::max(1.0F, std::round(row.height_mm * result.texels_per_mm));
     ImFontConfig config;
-    config.OversampleH = 2;
+    config.OversampleH = row.only_numbers ? 1 : 2;
     config.OversampleV = 1;
     for (const FontFace face : {row.first, row.second}) {
       auto& file = bytes_of(bytes, face);
       if (!file) continue;
       config.FontDataOwnedByAtlas = false;
       ImFont* font = result.atlas->AddFontFromMemoryTTF(file->data(), static_cast<int>(file->size()), pixels, &config,
-                                                        kGlyphRanges.data());
+                                                        row.only_numbers ? kNumberRanges.data() : kGlyphRanges.data());
       result.fonts[style] = config.MergeMode ? result.fonts[style] : font;
       config.MergeMode = result.fonts[style] != nullptr;
     }

@@ -13,8 +13,9 @@
 namespace afm::render {
 
 // Purpose of a text; determines its size on the wall.
-enum class TextStyle { Small, Body, Strong, Title, Guidance };
-inline constexpr std::size_t kTextStyles = 5;
+// Figure has only what a number is made of.
+enum class TextStyle { Small, Body, Strong, Title, Guidance, Figure };
+inline constexpr std::size_t kTextStyles = 6;
 
 // Height of the em square, in the panels' millimetres.
 float text_height_mm(TextStyle style);

@@ -100,6 +100,7 @@ Parts parts_of(const Record& record) {
 // ---- something else, and valid ----
 
 inline void change(bool& value) { value = !value; }
+inline void change(float& value) { value = value == 0.0F ? 0.25F : 1.5F * value; }
 inline void change(double& value) { value = value == 0.0 ? 0.25 : 1.5 * value; }
 template <class Integer>
   requires std::is_integral_v<Integer>

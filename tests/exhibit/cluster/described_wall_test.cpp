@@ -135,7 +135,7 @@ class DescribedWall : public ::testing::Test {
     wall.journey_orders = 3.0;
     wall.fade = 0.25;
     wall.navigation = glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(0.1, 0, 0.2)), 0.4, glm::dvec3(0, 1, 0));
-    wall.cue = {.kind = physics::EventKind::JumpToContact, .age_s = 0.125};
+    wall.cue = {.kind = physics::EventKind::JumpToContact, .force_n = -0.4e-9F, .age_s = 0.125};
     wall.scan = true;
     wall.scan_line = {glm::dvec3(-1e-8, 0.0, 1e-9), glm::dvec3(1e-8, 0.0, 1e-9)};
     wall.particles = &particles_;
@@ -185,7 +185,11 @@ class DescribedWall : public ::testing::Test {
     sample.servo_state = moment.servo_state;
     sample.phase = moment.phase;
     if (const auto& cue = moment.wall.cue) {
-      session.events.push_back({.kind = cue->kind, .time_ns = kNowNs - static_cast<std::int64_t>(cue->age_s * 1e9)});
+      const auto force_n = static_cast<double>(cue->force_n);
+      session.events.push_back({.kind = cue->kind,
+                                .time_ns = kNowNs - static_cast<std::int64_t>(cue->age_s * 1e9),
+                                .force_before_n = force_n,
+                                .force_after_n = force_n});
     }
     const std::array frames{wall_frame_of(moment, kNowNs, names)};
     nlohmann::json written, read;

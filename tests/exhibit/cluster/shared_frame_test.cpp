@@ -57,7 +57,9 @@ class SharedFrame : public ::testing::Test {
       wand.position_m = {0.1 * i, 1.2, 1.5};
       wand.position_valid = wand.orientation_valid = wand.connected = true;
     }
-    if (i % 7 == 3) moment.wall.cue = JumpCue{.kind = physics::EventKind::JumpToContact, .age_s = 0.01 * i};
+    if (i % 7 == 3)
+      moment.wall.cue = JumpCue{
+          .kind = physics::EventKind::JumpToContact, .force_n = -1e-10F * static_cast<float>(i), .age_s = 0.01 * i};
     moment.wall.centerpiece = i % 6 == 4   ? Centerpiece::Journey
                               : i % 6 == 5 ? Centerpiece::Analogy
                                            : Centerpiece::Instrument;

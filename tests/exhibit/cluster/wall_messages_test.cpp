@@ -24,7 +24,7 @@ FrameMessage some_frame() {
   moment.wall.journey_orders = 4.5;
   moment.wall.fade = 0.25;
   moment.wall.centerpiece = Centerpiece::Journey;
-  moment.wall.cue = JumpCue{.kind = physics::EventKind::JumpOffContact, .age_s = 0.125};
+  moment.wall.cue = JumpCue{.kind = physics::EventKind::JumpOffContact, .force_n = -1.4e-9F, .age_s = 0.125};
   input::WandState& wand = moment.wall.wand.emplace();
   wand.position_m = {0.1, 1.2, 2.0};
   wand.orientation_valid = wand.connected = true;
@@ -55,6 +55,7 @@ TEST(FrameMessageTest, ComesBackAsTheMomentThatWasSent) {
   EXPECT_EQ(moment.wall.fade, 0.25);
   ASSERT_TRUE(moment.wall.cue);
   EXPECT_EQ(moment.wall.cue->kind, physics::EventKind::JumpOffContact);
+  EXPECT_EQ(moment.wall.cue->force_n, -1.4e-9F);
   EXPECT_EQ(moment.wall.cue->age_s, 0.125);
   ASSERT_TRUE(moment.wall.wand);
   EXPECT_EQ(moment.wall.wand->position_m, glm::dvec3(0.1, 1.2, 2.0));

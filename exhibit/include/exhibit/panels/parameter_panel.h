@@ -20,7 +20,10 @@ enum class PanelButton { Reset, Close };
 render::ControlPanel parameter_panel(const curves::LiveParameters& parameters, const std::string& title,
                                      ChangeState state, const Phrases& phrases, const std::string& drawn_by = {});
 
-// Adds the predicted curve behind the felt ones, and sets axes and markers that fit it.
+// Adds the predicted curve behind the felt ones.
+void add_forecast(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel);
+
+// The same for changed parameters, with axes and markers that fit them.
 void add_prediction(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel);
 
 }  // namespace afm::exhibit

@@ -15,7 +15,7 @@ class ModelBuilder;
 class WallMarks;
 struct UserModels;
 
-// The instrument on the wall: probe, stage with its stand, and optics. It knows its nodes; the graph that has them is
+// The instrument on the wall: probe, stage, and optics. It knows its nodes; the graph that has them is
 // the wall's.
 class Instrument {
  public:
@@ -41,6 +41,8 @@ class Instrument {
   // Each sets the transforms of its nodes from their parents.
   void place_probe(const scene::Scene& scene, const Setting& setting, const WallMarks& marks,
                    std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
+  // A pale copy of the lever.
+  void place_ghost(const Setting& setting, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
   void place_optics(const scene::Scene& scene, const Setting& setting, std::vector<glm::dmat4>& local) const;
   void place_stage(const scene::Scene& scene, double thickness, std::vector<glm::dmat4>& local) const;
 
@@ -50,6 +52,7 @@ class Instrument {
 
   scene::NodeIndex lever() const { return lever_; }
   scene::NodeIndex apex() const { return apex_; }
+  scene::NodeIndex ghost() const { return ghost_; }
   scene::NodeIndex optics() const { return optics_; }
   scene::NodeIndex stage() const { return stage_; }
   scene::NodeIndex floor() const { return floor_; }
@@ -65,12 +68,12 @@ class Instrument {
 
   LeverPose lever_pose(const Setting& setting) const;
 
-  scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, apex_{}, stage_{},
-      post_{}, foot_{}, floor_{}, floor_surface_{};
+  scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, apex_{}, ghost_{},
+      stage_{}, body_{}, floor_{}, floor_surface_{};
   scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{};
   double lever_length_ = 0;  // glTF metres, clamp to tip axis
   double tip_length_ = 0;    // glTF metres, base to apex
-  double stage_scale_ = 0, stage_height_ = 0;
+  double stage_scale_ = 0, stage_height_ = 0, stage_depth_ = 0;
   double floor_y_ = 0;
 };
 

@@ -50,9 +50,22 @@ class Journey {
   };
   std::optional<Companion> companion(double orders) const;
 
+  // Distance of the last atom of the tip from the sample.
+  double gap_m() const { return tip_.gap_m; }
+
   scene::NodeIndex frame() const { return frame_; }
 
  private:
+  // The tip's end, as its model has it: a ball on a cone between the pyramid's faces and its edges.
+  struct Tip {
+    double gap_m = 0;     // from the sample to the last atom
+    double lowest_m = 0;  // from the sample to the ball
+    double radius_m = 0;  // the ball's
+    double height_m = 0;  // from the ball's lowest point to the tip's base
+    double slope = 0;
+  };
+  void measure_tip(const scene::Scene& scene, ModelBuilder& build);
+
   struct Part {
     scene::NodeIndex node = 0;
     std::optional<std::size_t> ground;     // ground that contains the part
@@ -61,6 +74,7 @@ class Journey {
   void measure(const scene::Scene& scene, scene::NodeIndex first, std::optional<std::size_t> ground);
 
   scene::NodeIndex frame_ = 0;
+  Tip tip_;
   std::vector<Part> parts_;
   std::vector<scene::NodeIndex> atoms_;
   std::vector<std::string> grounds_;

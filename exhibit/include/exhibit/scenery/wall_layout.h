@@ -24,7 +24,7 @@ inline constexpr double kLeverAzimuthRad = 0.42;  // direction of the lever: fro
 inline constexpr double kLeverDrawnLength = 1.25;
 inline constexpr double kLeverDrawnThickness = 0.0125;
 inline constexpr double kStageDrawnWidth = 1.44;  // in front of the wall it reaches to the panels on both sides
-inline constexpr double kLeastPost = 0.08;        // shortest post between floor and stage
+inline constexpr double kLeastBody = 0.08;        // height of the stage's plate above the floor, at least
 // The light is always on the upper side of the lever, however it bends; both are visible below the banner.
 inline constexpr glm::dvec3 kLaser(-0.48, 0.79, -0.18);
 inline constexpr glm::dvec3 kPhotodiode(0.56, 0.80, -0.42);
@@ -32,8 +32,8 @@ inline constexpr double kPhotodiodeHalfSize = 0.0875;
 inline constexpr double kSpotReach = 0.8;  // share of the half size at the deflection of the pull-off
 inline constexpr double kBeamRadius = 0.007;
 inline constexpr double kSpotRadius = 0.032;
-inline constexpr glm::dvec3 kWandGrip(0.66, -0.24, 1.00);
-inline constexpr double kShelfY = -0.85, kHighestShelfY = -0.45;
+inline constexpr glm::dvec3 kWandGrip(0.66, -0.18, 1.00);
+inline constexpr double kShelfY = -0.79, kHighestShelfY = -0.45;
 inline constexpr double kShelfHeight = 0.10;  // includes the swatches' names
 inline constexpr double kShelfZ = 0.62;
 inline constexpr double kSwatchSpacing = 0.42;
@@ -83,6 +83,9 @@ inline constexpr double kUnbentRadius = 0.0045;
 // the arrow of the force, beside the lever
 inline constexpr double kForceRadius = 0.009;
 inline constexpr double kForceHeadLength = 0.065, kForceHeadRadius = 0.026;
+// word and number of a jump, left of the tip, over the sample and below the lever; lower left corner
+inline constexpr glm::dvec2 kCuePlace(-0.73, 0.075);
+inline constexpr double kCueWidth = 0.54, kCueHeight = 0.10;
 inline constexpr double kShadeRadius = 0.085;  // soft shade at the contact
 // the scan line, over the sample
 inline constexpr double kScanLineRadius = 0.004;
@@ -94,6 +97,10 @@ inline constexpr double kAnalogyLabelHeight = 0.075;
 inline constexpr double kAnalogyLabelGap = 0.16;
 inline constexpr glm::dvec3 kAnalogyPlateLabel(0.0, -0.382, -0.07);  // in the sample's frame, on the plate's front
 inline constexpr double kCompanionLabelWidth = 0.44, kCompanionLabelHeight = 0.075;  // in the journey
+// the ladder of ten powers at the left, and the name of the gap, beside the tip
+inline constexpr double kRungWidth = 0.24, kRungHeight = 0.075, kRungPitch = 0.088, kLowestRung = -0.10;
+inline constexpr double kGapLabelWidth = 0.34, kGapLabelHeight = 0.075, kGapLabelRight = -0.20;
+inline constexpr double kGapFromOrders = 8.4;
 inline constexpr float kFogBegin = 3.5F, kFogEnd = 14.0F;  // distances behind the wall in the journey
 inline constexpr double kBannerHeight = 0.21;
 // extent of the wall below and above the contact point: the whole shelf is visible, and the banner is above the panels

@@ -41,6 +41,9 @@ class WallPlaces {
   // Placement of a short note below the left panel.
   render::PanelPlacement note() const;
 
+  // Placement of a rung of the journey's ladder, numbered from the lowest.
+  render::PanelPlacement rung(std::size_t i) const;
+
   // A rectangle of the layout in the wall's plane, or in the scene's.
   render::PanelPlacement in_wall(double left, double bottom, double width, double height) const;
   render::PanelPlacement in_scene(double left, double bottom, double width, double height) const;

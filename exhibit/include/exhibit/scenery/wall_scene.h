@@ -133,7 +133,7 @@ class WallScene {
   void place_marks(const WallState& state, render::FrameState& frame) const;
   void place_companion_label(const Journey::Companion& companion, render::FrameState& frame) const;
   void place_height_bar(const WallState& state, render::FrameState& frame) const;
-  std::vector<glm::dmat4> local_transforms(const WallState& state, render::BeamBend& bend) const;
+  std::vector<glm::dmat4> local_transforms(const WallState& state, std::vector<render::BeamBend>& bends) const;
 
   scene::Scene scene_;
   Phrases phrases_;

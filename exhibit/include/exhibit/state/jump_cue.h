@@ -5,23 +5,29 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
 
-// Time for which a jump is shown. A CPU device draws two frames a second, so a shorter cue might never be drawn.
-inline constexpr double kCueSeconds = 1.0;
+class Phrases;
 
-// A recent jump.
+// Time for which a jump is shown: its word, its number and the lever as it was; and, shorter, its ring of light. A CPU
+// device draws two frames a second, so a shorter cue might never be drawn.
+inline constexpr double kCueSeconds = 1.5, kRingSeconds = 1.0;
+
+// A recent jump, as it was when it happened: nothing in it follows the tip.
 struct JumpCue {
   physics::EventKind kind = physics::EventKind::JumpToContact;
-  double age_s = 0;  // 0 to kCueSeconds
+  float force_n = 0;  // after a jump to contact, before a jump off
+  double age_s = 0;   // 0 to kCueSeconds
 };
 
 template <class Visit, scene::RecordOf<JumpCue>... Record>
 constexpr void for_each_field(Visit&& visit, Record&... cue) {
   visit("kind", cue.kind...);
+  visit("force_n", cue.force_n...);
   visit("age_s", cue.age_s...);
 }
 static_assert(scene::all_fields_described<JumpCue>());
@@ -43,6 +49,7 @@ class JumpCues {
  private:
   struct Shown {
     physics::EventKind kind = physics::EventKind::JumpToContact;
+    float force_n = 0;
     std::int64_t since_ns = 0;
   };
   std::optional<Shown> begun(std::int64_t now_ns) const;
@@ -60,5 +67,8 @@ struct CueRing {
   double radius = 0;      // in radii of the contact's shade
 };
 CueRing cue_ring(const JumpCue& cue);
+
+// "snap-in −0.41 nN": the word and the number of the jump.
+std::string cue_text(const JumpCue& cue, const Phrases& phrases);
 
 }  // namespace afm::exhibit

@@ -136,6 +136,9 @@
   PHRASE(StageRetract, "stage-retract", "", kLine)                       \
   PHRASE(StageAdhesion, "stage-adhesion", "", kLine)                     \
   PHRASE(StageFree, "stage-free", "", kLine)                             \
+  PHRASE(CueSnapIn, "cue-snap-in", "force", kLine)                       \
+  PHRASE(CuePullOff, "cue-pull-off", "force", kLine)                     \
+  PHRASE(JourneyGap, "journey-gap", "gap", kLine)                        \
   PHRASE(NoSample, "no-sample", "", kLine)                               \
   PHRASE(NoSampleAdvice, "no-sample-advice", "choose?", kLine)           \
   PHRASE(TipAndMedium, "tip-and-medium", "tip medium", kLine)            \
