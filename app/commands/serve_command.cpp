@@ -213,6 +213,7 @@ void add_serve_command(OptionList& program, const CommandContext& context) {
   options->files.assets_dir = context.assets_dir;
   options->files.language = context.language;
   add_wall_option(command, options->files).needs(view);
+  options->display.keys_hint = "Escape ends the view";
   pixel_size_option(command, "--size", options->display.window.size_px,
                     "open one window of this size in pixels; default: as touchafm view", PixelRange{64, 16384})
       .needs(view);

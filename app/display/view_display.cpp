@@ -23,11 +23,11 @@ namespace afm::app {
 namespace {
 
 void log_start(const render::RendererOptions& drawing, double budget_ms, const std::string& device,
-               const render::SaverInhibition& awake) {
+               const char* keys_hint, const render::SaverInhibition& awake) {
   const std::string coarser =
       budget_ms > 0 ? fmt::format(", fewer while a frame takes more than {:g} ms (--frame-budget)", budget_ms) : "";
-  core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}{}; F1 shows the keys", drawing.eye_width,
-                             drawing.eye_height, device, coarser));
+  core::log_line(fmt::format("drawing {} x {} pixels for each eye on {}{}; {}", drawing.eye_width, drawing.eye_height,
+                             device, coarser, keys_hint));
   if (awake.works()) return;
   core::log_line(fmt::format("the screen saver may blank the wall: X's: {}; org.freedesktop.ScreenSaver: {}",
                              awake.x_server().said, awake.session().said));
@@ -145,7 +145,7 @@ core::Result<std::unique_ptr<ViewDisplay>> ViewDisplay::open(const exhibit::Stag
     if (!instructor) return tl::unexpected(instructor.error());
     display->instructor_ = std::move(*instructor);
   }
-  log_start(drawing, budget_ms, display->context_->device_name(), display->awake_);
+  log_start(drawing, budget_ms, display->context_->device_name(), options.keys_hint, display->awake_);
   return display;
 }
 

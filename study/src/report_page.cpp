@@ -74,7 +74,9 @@ struct HtmlBlock {
     }
     return html_scrolled(html + "</table>") + "\n";
   }
-  std::string operator()(const PageFigure& figure) const { return html_figure(figure.svg, figure.caption); }
+  std::string operator()(const PageFigure& figure) const {
+    return html_fitting(html_figure(figure.svg, figure.caption));
+  }
 };
 
 }  // namespace
