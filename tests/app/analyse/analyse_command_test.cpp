@@ -11,6 +11,7 @@
 #include <numbers>
 #include <vector>
 
+#include "app/analyse/reading_options.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
