@@ -19,9 +19,11 @@ import tempfile
 import threading
 import time
 
+from production_folders import production_folders
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 HEADER = "tests/mutants/mutant.h"
-FOLDERS = ["core", "physics", "scene", "haptics", "input", "render", "servo", "curves", "study", "fits", "cluster", "exhibit", "instrument", "app"]
+FOLDERS = [folder for folder in production_folders() if folder != "python"]
 COUNTED_TWICE = ("haptics", "servo")
 ALSO_TESTED_IN = {"render": ["headset"], "app": ["headset"]}  # folders of tests alone
 MARKS = DRAWN = 4096  # as in mutant.h

@@ -12,6 +12,7 @@ namespace afm::study {
 namespace {
 
 using curves::html_figure;
+using curves::html_fitting;
 using curves::html_head;
 using curves::html_heading;
 using curves::html_scrolled;
