@@ -17,7 +17,10 @@ constexpr double kLargestSent = 1e9;         // same limit as in the shared scen
 constexpr double kUnitTolerance = 1e-3;      // deviation of an orientation's length from 1
 constexpr std::int32_t kFarthestStep = 100;  // steps between an edited and the loaded value
 
-bool sound(double value) { return std::isfinite(value) && std::abs(value) <= kLargestSent; }
+template <std::floating_point Number>
+bool sound(Number value) {
+  return std::isfinite(value) && std::abs(static_cast<double>(value)) <= kLargestSent;
+}
 template <std::integral Integer>
 bool sound(Integer /*any*/) {
   return true;
