@@ -22,6 +22,7 @@
 #include "app/options/pixel_size_option.h"
 #include "core/clock.h"
 #include "core/log.h"
+#include "curves/sample_model.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "instrument/json_door.h"
 #include "instrument/listener.h"
