@@ -20,6 +20,7 @@
 #include "app/analyse/fit_options.h"
 #include "app/analyse/reading_options.h"
 #include "app/options/command.h"
+#include "app/options/enum_option.h"
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
@@ -159,22 +160,11 @@ core::Result<physics::WayRange> parse_way_range(const std::string& text) {
 // The options write into `baseline` while the parser lives.
 template <class Add>
 void add_baseline_options(OptionList& command, physics::BaselineChoice& baseline, const Add& add) {
-  std::vector<std::string> words;
-  for (const auto& each : physics::kBaselineShapes) words.emplace_back(each.name);
-  const auto read_shape = [&baseline, words](const std::string& text) -> core::Result<void> {
-    const auto shape = std::find(words.begin(), words.end(), text);
-    if (shape == words.end()) {
-      return wrong_usage(fmt::format("unknown baseline \"{}\"; choose {}", text, fmt::join(words, ", ")));
-    }
-    baseline.shape = physics::kBaselineShapes.at(static_cast<std::size_t>(shape - words.begin())).shape;
-    return {};
-  };
   add("--baseline",
-      command
-          .add_parsed_option("--baseline", read_shape,
-                             "force without contact: a tilted line, a flat one, or a line with waves, the "
-                             "interference of the laser; default: tilted")
-          .type_name(fmt::format("{{{}}}", fmt::join(words, ","))));
+      enum_option(command, "--baseline", baseline.shape, "a baseline", physics::kBaselineShapes,
+                  &physics::BaselineShapeName::name, &physics::BaselineShapeName::shape,
+                  "force without contact: a tilted line, a flat one, or a line with waves, the interference of the "
+                  "laser; default: tilted"));
   const auto read_range = [&baseline](const std::string& text) -> core::Result<void> {
     const auto range = parse_way_range(text);
     if (!range) return tl::unexpected(range.error());

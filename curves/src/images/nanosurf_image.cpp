@@ -111,7 +111,7 @@ std::size_t points_of(const Section& channel) {
 
 // "Z-Axis", "Z-Axis (retrace)"; another frame by its name.
 std::string name_of_channel(const Section& channel, std::string_view group) {
-  const std::string name(channel.text("Dim2Name").value_or("unnamed"));
+  std::string name(channel.text("Dim2Name").value_or("unnamed"));
   const std::string_view frame = channel.text("Frame").value_or(group);
   if (frame == kForward) return name;
   return fmt::format("{} ({})", name, frame == kBackward ? "retrace" : frame);
