@@ -200,6 +200,7 @@ cp map.h5 cell.jpk-qi-data
 cp glass.h5 glass.jpk-force
 cp grating.gwy scan.gwy
 cp grating.gwy scan.spm
+cp grating.gwy mica.nid
 cp assets/particles/gold-row.toml my-set.toml
 command touchafm lesson assets/lessons/three-materials.toml --participant sim:7 --out class >/dev/null
 )";
