@@ -54,7 +54,8 @@ TEST(ConvertCommand, RefusesAndLosesNothing) {
 }
 
 TEST(AnalyseCommand, RefusesABaselineThatIsNone) {
-  expect_refusal(touchafm("analyse x.tab --baseline wavy"), 2, "\"wavy\" is not a baseline; choose tilted, flat, waves");
+  expect_refusal(touchafm("analyse x.tab --baseline wavy"), 2,
+                 "\"wavy\" is not a baseline; choose tilted, flat, waves");
   for (const char* range : {"1um", "2um:1um", "-1um:1um", "0:1um", ":", "1um:"}) {
     expect_refusal(touchafm(std::string("analyse x.tab --baseline-range ") + range), 2, "is no range of ways");
   }
