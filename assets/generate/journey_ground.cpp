@@ -27,7 +27,7 @@ struct Features {
 
 constexpr std::size_t kDecades = 7;  // from 1 mm to 1 nm
 
-// What a sample looks like from a millimetre to its atoms: each decade has features of its own.
+// What a sample looks like from a millimetre to its atoms: every decade shows different features.
 struct Look {
   const char* name;
   MaterialSpec material;

@@ -77,7 +77,7 @@ struct NanosurfChannel {
   std::string numbers = little_numbers<std::int16_t>({1, 2, 3, 10, 20, -30});
 };
 
-// Each channel in a group of its own, of which one channel more is counted than was saved.
+// Every channel is in a separate group, whose count includes one channel that was not saved.
 inline std::string nanosurf_file(const std::vector<NanosurfChannel>& channels) {
   std::string set = "[DataSet]\r\nVersion=2\r\nGroupCount=" + std::to_string(channels.size()) + "\r\n";
   std::string sections, data;

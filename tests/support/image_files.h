@@ -200,7 +200,7 @@ class TiffPage {
   void text(std::uint16_t tag, const std::string& value) {
     entries_[tag] = {2, static_cast<std::uint32_t>(value.size() + 1), value + '\0'};
   }
-  // Bytes of a tag with a layout of its own.
+  // Raw bytes of a private tag.
   void raw(std::uint16_t tag, const std::string& bytes) {
     entries_[tag] = {7, static_cast<std::uint32_t>(bytes.size()), bytes};
   }

@@ -20,7 +20,7 @@ bool is_beyond(const AnalysedCurve& curve, const physics::CurvePoint& point, con
   return force_n > options.most_force_n || depth_m > options.most_depth_m;
 }
 
-// The fit has a level and a tilt of its own, and no waves.
+// The fit finds level and tilt itself, but has no waves.
 double without_waves_n(const AnalysedCurve& curve, const physics::CurvePoint& point) {
   const physics::Baseline& baseline = curve.features.baseline;
   return (point.force - baseline.waves.at(point.z - baseline.z_far)).si;

@@ -7,7 +7,7 @@
 
 namespace afm::curves {
 
-// An image of Park Systems (.tiff): a preview, and in tags of its own the numbers (0xC502: 16-bit or 32-bit integers or
+// An image of Park Systems (.tiff): a preview, and in private tags the numbers (0xC502: 16-bit or 32-bit integers or
 // floats, rows from bottom to top) and a header (0xC503), whose layout is that of XEI's "image header": value = gain x
 // (scale x number + offset), sides in micrometres. One channel a file. Throws CurveError, also for a line profile and
 // for spectroscopy.

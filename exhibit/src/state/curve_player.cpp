@@ -16,7 +16,7 @@ void CurvePlayer::begin(std::shared_ptr<const physics::ForceCurve> curve) {
 
 void CurvePlayer::advance(double seconds) {
   if (!playing()) return;
-  constexpr std::size_t kMostDrawn = 2000;  // points; the jumps besides
+  constexpr std::size_t kMostDrawn = 2000;  // points, without those of the jumps
   const std::size_t count = curve_->samples.size(), stride = count / kMostDrawn + 1;
   seconds_ += seconds;
   const double share = std::min(1.0, seconds_ / kSeconds);
