@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -19,30 +18,20 @@
 #include "haptics/device_registry.h"
 #include "scene/shared/scale_modes.h"
 #include "support/places.h"
-#include "support/run_program.h"
+#include "support/run_touchafm.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
 namespace command_line_test {
 
+using support::expect_refusal;
 using support::ProgramResult;
+using support::run_touchafm;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-ProgramResult touchafm(const std::string& arguments) {
-  return support::run_program(support::touchafm() + " " + arguments);
-}
-
-// Everything that is refused says so in one line.
-void expect_refusal(const ProgramResult& result, int exit_code, const std::string& part) {
-  EXPECT_EQ(result.exit_code, exit_code) << result.err;
-  EXPECT_THAT(result.err, HasSubstr(part));
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  EXPECT_EQ(result.out, "");
-}
-
 TEST(CommandLine, EveryCommandExplainsItself) {
-  const ProgramResult all = touchafm("--help");
+  const ProgramResult all = run_touchafm("--help");
   EXPECT_EQ(all.exit_code, 0);
   std::vector<std::string> commands{"bench cluster", "bench haptics", "bench physics", "bench render"};
   for (const Command& command : kCommands) {
@@ -52,7 +41,7 @@ TEST(CommandLine, EveryCommandExplainsItself) {
   // a text or a number of which the help does not say what it may be
   const std::regex unexplained(R"(\n  \S+ +(TEXT|U?INT|FLOAT)\b)");
   for (const std::string& command : commands) {
-    const ProgramResult one = touchafm(command + " --help");
+    const ProgramResult one = run_touchafm(command + " --help");
     EXPECT_EQ(one.exit_code, 0) << command;
     EXPECT_THAT(one.out, HasSubstr("example: touchafm " + command)) << command;
     std::smatch option;
@@ -61,46 +50,46 @@ TEST(CommandLine, EveryCommandExplainsItself) {
 }
 
 TEST(CommandLine, RefusesAnUnknownCommandAndAnUnknownOption) {
-  expect_refusal(touchafm("dmeo --out x"), 2, "dmeo");
-  expect_refusal(touchafm("demo --out x --fast"), 2, "--fast");
-  expect_refusal(touchafm(""), 2, "--help");
+  expect_refusal(run_touchafm("dmeo --out x"), 2, "dmeo");
+  expect_refusal(run_touchafm("demo --out x --fast"), 2, "--fast");
+  expect_refusal(run_touchafm(""), 2, "--help");
 }
 
 TEST(CommandLine, RefusesAnUnknownMaterialByListingTheKnown) {
-  expect_refusal(touchafm("curve --material granite"), 2, "mica");
+  expect_refusal(run_touchafm("curve --material granite"), 2, "mica");
 }
 
 TEST(CommandLine, RefusesABareNumberByListingTheUnits) {
-  expect_refusal(touchafm("curve --material mica --tip-radius 50"), 2, "nm");
+  expect_refusal(run_touchafm("curve --material mica --tip-radius 50"), 2, "nm");
 }
 
 TEST(CommandLine, RefusesOptionsOfAnalyseThatAreForAnotherKindOfFile) {
   const support::ScratchFolder folder;
   const std::string image = folder.file("mica.gsf");
-  ASSERT_EQ(touchafm("scan --material mica --pixels 8 --size 30nm --rate 10Hz --out " + image).exit_code, 0);
+  ASSERT_EQ(run_touchafm("scan --material mica --pixels 8 --size 30nm --rate 10Hz --out " + image).exit_code, 0);
   for (const char* option : {"--beside x.csv", "--spring-constant 1N/m", "--sensitivity 70nm/V",
                              "--contact-point gradient", "--curve 1", "--out x.svg"}) {
     const std::string name = std::string(option).substr(0, std::string(option).find(' '));
-    expect_refusal(touchafm("analyse " + image + " " + option), 2, name + " is for curves, and " + image);
+    expect_refusal(run_touchafm("analyse " + image + " " + option), 2, name + " is for curves, and " + image);
   }
   const std::string curve = support::source("tests/formats/0.1.0/curve.csv"), session = folder.write("x", "AFMS");
-  expect_refusal(touchafm("analyse " + curve + " --channel Height"), 2,
+  expect_refusal(run_touchafm("analyse " + curve + " --channel Height"), 2,
                  "--channel is for images, and " + curve + " is a curve");
-  expect_refusal(touchafm("analyse " + curve + " --level none"), 2, "--level is for images");
-  expect_refusal(touchafm("analyse " + session + " --curve 0"), 2,
+  expect_refusal(run_touchafm("analyse " + curve + " --level none"), 2, "--level is for images");
+  expect_refusal(run_touchafm("analyse " + session + " --curve 0"), 2,
                  "--curve is for curves, and " + session + " is a session");
-  expect_refusal(touchafm("analyse " + folder.path()), 3, "it is a folder, not a file");
-  EXPECT_EQ(touchafm("analyse " + image + " --level none --json").exit_code, 0);
+  expect_refusal(run_touchafm("analyse " + folder.path()), 3, "it is a folder, not a file");
+  EXPECT_EQ(run_touchafm("analyse " + image + " --level none --json").exit_code, 0);
 }
 
 TEST(CommandLine, RefusesSettingsOfAScanByListingWhatIsLegal) {
-  expect_refusal(touchafm("scan --out x.gwy"), 2, "--material");
-  expect_refusal(touchafm("scan --material mica --json --rate 2"), 2, "MHz, kHz, Hz");
-  expect_refusal(touchafm("scan --material mica --json --setpoint 1N"), 2, "-10uN to 10uN");
-  expect_refusal(touchafm("scan --material mica --json --pixels 5000"), 2, "4096");
-  expect_refusal(touchafm("scan --material mica --json --tip spoon"), 2, "pyramid-3");
-  expect_refusal(touchafm("scan --material mica --out x.tif"), 2, ".gwy or .gsf");
-  expect_refusal(touchafm("scan --material mica --out /nowhere/x.gwy"), 2, "there is no folder /nowhere; make it");
+  expect_refusal(run_touchafm("scan --out x.gwy"), 2, "--material");
+  expect_refusal(run_touchafm("scan --material mica --json --rate 2"), 2, "MHz, kHz, Hz");
+  expect_refusal(run_touchafm("scan --material mica --json --setpoint 1N"), 2, "-10uN to 10uN");
+  expect_refusal(run_touchafm("scan --material mica --json --pixels 5000"), 2, "4096");
+  expect_refusal(run_touchafm("scan --material mica --json --tip spoon"), 2, "pyramid-3");
+  expect_refusal(run_touchafm("scan --material mica --out x.tif"), 2, ".gwy or .gsf");
+  expect_refusal(run_touchafm("scan --material mica --out /nowhere/x.gwy"), 2, "there is no folder /nowhere; make it");
 }
 
 TEST(CommandLine, RefusesAWallWithCollinearCorners) {
@@ -109,25 +98,25 @@ TEST(CommandLine, RefusesAWallWithCollinearCorners) {
       folder.write("wall.toml",
                    "[[screen]]\nname='w'\nlower_left=[0,0,0]\nlower_right=[1,0,0]\nupper_left=[2,0,0]\n"
                    "[[viewer]]\nname='v'\nipd='63 mm'\nsweet_spot=[0,1,2]\n");
-  expect_refusal(touchafm("wall " + wall), 3, "collinear");
-  expect_refusal(touchafm("demo --out " + folder.file("out") + " --wall " + wall), 3, "collinear");
+  expect_refusal(run_touchafm("wall " + wall), 3, "collinear");
+  expect_refusal(run_touchafm("demo --out " + folder.file("out") + " --wall " + wall), 3, "collinear");
   EXPECT_FALSE(std::filesystem::exists(folder.file("out")));
 }
 
 TEST(CommandLine, RefusesAnEyeBehindTheWall) {
-  expect_refusal(touchafm("wall " + support::source("assets/walls/powerwall.toml --json --head 0,1.65,-2")), 3,
+  expect_refusal(run_touchafm("wall " + support::source("assets/walls/powerwall.toml --json --head 0,1.65,-2")), 3,
                  "behind");
 }
 
 TEST(CommandLine, RefusesAHeadThatIsNotAPose) {
-  expect_refusal(touchafm("wall " + support::source("assets/walls/powerwall.toml --head 0,1.65")), 2, "x,y,z");
-  expect_refusal(touchafm("wall " + support::source("assets/walls/powerwall.toml --head 0,1,2,3,4,5,6")), 2,
+  expect_refusal(run_touchafm("wall " + support::source("assets/walls/powerwall.toml --head 0,1.65")), 2, "x,y,z");
+  expect_refusal(run_touchafm("wall " + support::source("assets/walls/powerwall.toml --head 0,1,2,3,4,5,6")), 2,
                  "quaternion");
 }
 
 TEST(CommandLine, PrintsBothEyesOfAWallAsJson) {
   const ProgramResult result =
-      touchafm("wall " + support::source("assets/walls/powerwall.toml --json --head 0,1.65,2.5"));
+      run_touchafm("wall " + support::source("assets/walls/powerwall.toml --json --head 0,1.65,2.5"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto frusta = nlohmann::json::parse(result.out);
   ASSERT_EQ(frusta.size(), 2U);
@@ -147,44 +136,44 @@ TEST(CommandLine, StartsAWallOfSeveralMachinesOrSaysWhatItLacks) {
       "\n[[node]]\nname = \"left\"\nhost = \"127.0.0.1\"\n[[output]]\nname = \"far\"\nnode = \"left\"\nscreen = "
       "\"powerwall\"\nmode = \"mono\"\nmonitor = \"DP-1\"\n";
   const std::string wall = folder.write("wall.toml", text);
-  const ProgramResult lines = touchafm("wall " + wall + " --start");
+  const ProgramResult lines = run_touchafm("wall " + wall + " --start");
   EXPECT_EQ(lines.exit_code, 0) << lines.err;
   EXPECT_EQ(lines.out, "ssh 127.0.0.1 DISPLAY=:0 touchafm node left --interface 127.0.0.1\ntouchafm view --wall " +
                            wall + " --cluster\n");
-  EXPECT_THAT(touchafm("wall " + wall).out, HasSubstr("output far: node left, screen powerwall"));
-  expect_refusal(touchafm("wall " + alone + " --start"), 2, "[[node]]");
-  expect_refusal(touchafm("view --cluster --wall " + alone), 2, "[[node]]");
-  expect_refusal(touchafm("view --wall " + wall), 2, "--cluster");
-  expect_refusal(touchafm("view --cluster --interface 203.0.113.7 --wall " + wall), 2, "127.0.0.1 (lo)");
-  expect_refusal(touchafm("view --headset --cluster --wall " + wall), 2, "--headset");
-  expect_refusal(touchafm("node left"), 2, "--interface");
-  expect_refusal(touchafm("node left --interface lo --haptics sim"), 2, "--haptics");
-  expect_refusal(touchafm("node left --interface 203.0.113.7"), 2, "127.0.0.1 (lo)");
-  expect_refusal(touchafm("node left --interface lo --master nowhere.invalid"), 4, "nowhere.invalid");
-  expect_refusal(touchafm("doctor --cluster " + alone), 2, "[[node]]");
+  EXPECT_THAT(run_touchafm("wall " + wall).out, HasSubstr("output far: node left, screen powerwall"));
+  expect_refusal(run_touchafm("wall " + alone + " --start"), 2, "[[node]]");
+  expect_refusal(run_touchafm("view --cluster --wall " + alone), 2, "[[node]]");
+  expect_refusal(run_touchafm("view --wall " + wall), 2, "--cluster");
+  expect_refusal(run_touchafm("view --cluster --interface 203.0.113.7 --wall " + wall), 2, "127.0.0.1 (lo)");
+  expect_refusal(run_touchafm("view --headset --cluster --wall " + wall), 2, "--headset");
+  expect_refusal(run_touchafm("node left"), 2, "--interface");
+  expect_refusal(run_touchafm("node left --interface lo --haptics sim"), 2, "--haptics");
+  expect_refusal(run_touchafm("node left --interface 203.0.113.7"), 2, "127.0.0.1 (lo)");
+  expect_refusal(run_touchafm("node left --interface lo --master nowhere.invalid"), 4, "nowhere.invalid");
+  expect_refusal(run_touchafm("doctor --cluster " + alone), 2, "[[node]]");
 }
 
 TEST(CommandLine, NamesEveryHapticDevice) {
-  const std::string help = touchafm("view --help").out;
+  const std::string help = run_touchafm("view --help").out;
   for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
     EXPECT_THAT(help, HasSubstr(std::string(kind.word) + " ("));
   }
-  expect_refusal(touchafm("view --haptics falcon"), 2, "hdapi, forcedimension, haply, gamepad");
+  expect_refusal(run_touchafm("view --haptics falcon"), 2, "hdapi, forcedimension, haply, gamepad");
 }
 
 TEST(CommandLine, RefusesAFrictionThatTheLawDoesNotHave) {
   const support::ScratchFolder folder;
-  expect_refusal(touchafm("demo --friction lattice --out " + folder.file("out")), 2, "choose the model dmt");
-  expect_refusal(touchafm("demo --friction glue --out " + folder.file("out")), 2, "amontons");
+  expect_refusal(run_touchafm("demo --friction lattice --out " + folder.file("out")), 2, "choose the model dmt");
+  expect_refusal(run_touchafm("demo --friction glue --out " + folder.file("out")), 2, "amontons");
 }
 
 TEST(CommandLine, ExplainsEveryScaleMode) {
   for (const char* command : {"demo", "view"}) {
-    const std::string help = touchafm(std::string(command) + " --help").out;
+    const std::string help = run_touchafm(std::string(command) + " --help").out;
     for (const scene::ScaleModeText& scale : scene::kScalesOfSamples)
       EXPECT_THAT(help, HasSubstr(scale.word)) << command;
   }
-  expect_refusal(touchafm("demo --out x --scale logarithmic"), 2, "compressed");
+  expect_refusal(run_touchafm("demo --out x --scale logarithmic"), 2, "compressed");
 }
 
 const std::string kWalls = support::source("assets/walls/");
@@ -202,12 +191,12 @@ std::array<unsigned, 2> png_size(const std::string& path) {
 
 TEST(CommandLine, NamesTheStereoModesForOneThatIsNone) {
   for (const char* command : {"render --session s --out x.png", "view", "wall w.toml"}) {
-    const ProgramResult result = touchafm(std::string(command) + " --stereo 3d");
+    const ProgramResult result = run_touchafm(std::string(command) + " --stereo 3d");
     expect_refusal(result, 2, "\"3d\" is not a stereo mode");
     EXPECT_THAT(result.err, AllOf(HasSubstr("side-by-side-half"), HasSubstr("frame-packed-1080p"), HasSubstr("dual")));
   }
-  expect_refusal(touchafm("wall w.toml --ipd 10mm"), 2, "10mm is outside 30mm to 90mm");
-  expect_refusal(touchafm("wall w.toml --ipd 63"), 2, "mm");
+  expect_refusal(run_touchafm("wall w.toml --ipd 10mm"), 2, "10mm is outside 30mm to 90mm");
+  expect_refusal(run_touchafm("wall w.toml --ipd 63"), 2, "mm");
 }
 
 TEST(CommandLine, DrawsATestPatternOfTheSizeThatWasAskedForInEveryMode) {
@@ -218,11 +207,11 @@ TEST(CommandLine, DrawsATestPatternOfTheSizeThatWasAskedForInEveryMode) {
        {std::tuple("mono", 64U, 48U), std::tuple("side-by-side", 1U, 1U), std::tuple("top-bottom", 64U, 48U),
         std::tuple("row", 1U, 1U), std::tuple("anaglyph-amber-blue", 64U, 48U)}) {
     const ProgramResult result =
-        touchafm(pattern + " --stereo " + mode + " --size " + std::to_string(width) + "x" + std::to_string(height));
+        run_touchafm(pattern + " --stereo " + mode + " --size " + std::to_string(width) + "x" + std::to_string(height));
     ASSERT_EQ(result.exit_code, 0) << mode << result.err;
     EXPECT_EQ(png_size(out), (std::array{width, height})) << mode;
   }
-  ASSERT_EQ(touchafm(pattern + " --stereo dual --size 64x48").exit_code, 0);
+  ASSERT_EQ(run_touchafm(pattern + " --stereo dual --size 64x48").exit_code, 0);
   EXPECT_EQ(png_size(folder.file("pattern-left.png")), (std::array{64U, 48U}));
   EXPECT_EQ(png_size(folder.file("pattern-right.png")), (std::array{64U, 48U}));
 }
@@ -231,29 +220,29 @@ TEST(CommandLine, RefusesPicturesThatCannotBe) {
   const support::ScratchFolder folder;
   const std::string wall = "wall " + kWalls + "powerwall.toml";
   const std::string pattern = wall + " --test-pattern --out " + folder.file("x.png");
-  expect_refusal(touchafm(pattern + " --size 0x48"), 2, "0x48 pixels cannot be drawn");
-  expect_refusal(touchafm(pattern + " --size 100000x48"), 2, "choose 1 to");
-  expect_refusal(touchafm(pattern + " --size 64"), 2, "WIDTHxHEIGHT");
-  expect_refusal(touchafm(pattern + " --stereo frame-packed-720p --size 640x480"), 2, "exactly 1280x1470");
-  expect_refusal(touchafm(wall + " --test-pattern"), 2, "--out");
+  expect_refusal(run_touchafm(pattern + " --size 0x48"), 2, "0x48 pixels cannot be drawn");
+  expect_refusal(run_touchafm(pattern + " --size 100000x48"), 2, "choose 1 to");
+  expect_refusal(run_touchafm(pattern + " --size 64"), 2, "WIDTHxHEIGHT");
+  expect_refusal(run_touchafm(pattern + " --stereo frame-packed-720p --size 640x480"), 2, "exactly 1280x1470");
+  expect_refusal(run_touchafm(wall + " --test-pattern"), 2, "--out");
   EXPECT_FALSE(std::filesystem::exists(folder.file("x.png")));
 }
 
 TEST(CommandLine, ChecksEveryPresetAndAParaViewConfiguration) {
   for (const char* name : {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2", "blended", "curved"}) {
-    const ProgramResult result = touchafm("wall " + kWalls + name + ".toml");
+    const ProgramResult result = run_touchafm("wall " + kWalls + name + ".toml");
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("the wall file is valid"));
     EXPECT_THAT(result.out, ::testing::Not(HasSubstr("note:"))) << name;
   }
-  const ProgramResult pvx = touchafm("wall " + support::source("tests/fuzz/corpus/wall/good.pvx --json"));
+  const ProgramResult pvx = run_touchafm("wall " + support::source("tests/fuzz/corpus/wall/good.pvx --json"));
   ASSERT_EQ(pvx.exit_code, 0) << pvx.err;
   EXPECT_EQ(nlohmann::json::parse(pvx.out).at(0).at("screen"), "w");
 }
 
 TEST(CommandLine, SaysHowAWallIsBlendedAndWarped) {
   const auto json_of = [](const char* name) {
-    const ProgramResult result = touchafm("wall " + kWalls + name + " --json");
+    const ProgramResult result = run_touchafm("wall " + kWalls + name + " --json");
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return nlohmann::json::parse(result.out);
   };
@@ -266,9 +255,9 @@ TEST(CommandLine, SaysHowAWallIsBlendedAndWarped) {
   EXPECT_NEAR(blended.at(2).at("corrected_outputs").at(0).at("brightest_black").get<double>(), 0.001, 1e-12);
   EXPECT_EQ(curved.at(0).at("corrected_outputs").at(0).at("warp_mesh").at("columns"), 17);
   EXPECT_FALSE(json_of("powerwall.toml").at(0).contains("corrected_outputs"));
-  EXPECT_THAT(touchafm("wall " + kWalls + "blended.toml").out,
+  EXPECT_THAT(run_touchafm("wall " + kWalls + "blended.toml").out,
               AllOf(HasSubstr("blended with right: right edge 400 mm"), HasSubstr("black 0.0005 of white")));
-  EXPECT_THAT(touchafm("wall " + kWalls + "curved.toml").out, HasSubstr("warp mesh of 17 x 10 nodes"));
+  EXPECT_THAT(run_touchafm("wall " + kWalls + "curved.toml").out, HasSubstr("warp mesh of 17 x 10 nodes"));
 }
 
 TEST(CommandLine, DrawsTheTestPatternOfBlendedAndCurvedScreens) {
@@ -276,7 +265,7 @@ TEST(CommandLine, DrawsTheTestPatternOfBlendedAndCurvedScreens) {
   const std::string out = folder.file("pattern.png");
   for (const char* name : {"blended", "curved"}) {
     const ProgramResult result =
-        touchafm("wall " + kWalls + name + ".toml --test-pattern --stereo mono --size 384x120 --out " + out);
+        run_touchafm("wall " + kWalls + name + ".toml --test-pattern --stereo mono --size 384x120 --out " + out);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(png_size(out), (std::array{384U, 120U})) << name;
   }
@@ -287,17 +276,17 @@ TEST(CommandLine, RefusesMissingAndBrokenModels) {
   std::filesystem::copy(support::source("assets"), folder.file("assets"), std::filesystem::copy_options::recursive);
   const std::string demo = "demo --out " + folder.file("out") + " --assets " + folder.file("assets");
   std::filesystem::resize_file(folder.file("assets/models/probe.glb"), 1000);
-  expect_refusal(touchafm(demo), 3, "probe.glb");
+  expect_refusal(run_touchafm(demo), 3, "probe.glb");
   std::filesystem::remove(folder.file("assets/models/probe.glb"));
-  expect_refusal(touchafm(demo), 3, "probe.glb");
+  expect_refusal(run_touchafm(demo), 3, "probe.glb");
   EXPECT_FALSE(std::filesystem::exists(folder.file("out")));
 }
 
 TEST(CommandLine, RefusesAnOutputFolderThatCannotBeWritten) {
   const support::ScratchFolder folder;
   const std::string file = folder.write("file", "x");
-  expect_refusal(touchafm("demo --out " + file), 1, file);
-  expect_refusal(touchafm("paper --out " + file + "/below"), 1, file);
+  expect_refusal(run_touchafm("demo --out " + file), 1, file);
+  expect_refusal(run_touchafm("paper --out " + file + "/below"), 1, file);
 }
 
 // doctor, wall and devices printed into a full disk and ended with 0.
@@ -314,22 +303,22 @@ TEST(CommandLine, FailsWhenWhatItPrintsCannotBeWritten) {
 
 TEST(CommandLine, WritesTheReportOfAStudyOrNothing) {
   const support::ScratchFolder folder;
-  expect_refusal(touchafm("study " + folder.file("class")), 2, "--out");
+  expect_refusal(run_touchafm("study " + folder.file("class")), 2, "--out");
   const std::string command = "study " + folder.file("class") + " --out " + folder.file("report");
-  expect_refusal(touchafm(command), 3, "there is no such folder");
+  expect_refusal(run_touchafm(command), 3, "there is no such folder");
   std::filesystem::create_directories(folder.file("class/sub-ABCDEF"));
-  expect_refusal(touchafm(command), 3, "no participants.tsv is in it");
+  expect_refusal(run_touchafm(command), 3, "no participants.tsv is in it");
   folder.write("class/participants.tsv", "participant_id\torder\tage_band\tcomfort\nsub-ABCDEF\t0\tn/a\tfinished\n");
   const std::string events = "class/sub-ABCDEF/task-three_events.tsv";
   folder.write(events, "onset\tduration\n");
-  expect_refusal(touchafm(command), 3, "task-three_events.tsv:1: there is no column \"step\"");
+  expect_refusal(run_touchafm(command), 3, "task-three_events.tsv:1: there is no column \"step\"");
   EXPECT_FALSE(std::filesystem::exists(folder.file("report")));
   folder.write(events,
                "onset\tduration\tstep\ttrial_type\tcondition\tpractice\ttrial\tlevel\tstimulus\tresponse\tcorrect\trt\n"
                "1\t1\tblind\tidentify\thaptics\t0\t1\tn/a\tmica\tgold\t0\t0.5\n");
-  expect_refusal(touchafm("study " + folder.file("class") + " --out " + folder.file(events)), 1,
+  expect_refusal(run_touchafm("study " + folder.file("class") + " --out " + folder.file(events)), 1,
                  "task-three_events.tsv");
-  const ProgramResult done = touchafm(command);
+  const ProgramResult done = run_touchafm(command);
   EXPECT_EQ(done.exit_code, 0) << done.err;
   for (const char* file : {"study.md", "study.html", "study.json", "identify-three.svg"}) {
     EXPECT_TRUE(std::filesystem::exists(folder.file("report/" + std::string(file)))) << file;
@@ -346,45 +335,46 @@ TEST(CommandLine, SaysWhatToInstallWhenThereIsNoVulkanDriver) {
 
 TEST(CommandLine, ListsTheLegalValuesOfAChoiceThatIsNone) {
   for (const char* command : {"demo --out /tmp/x", "view"}) {
-    expect_refusal(touchafm(std::string(command) + " --scale tiny"), 2, "choose common, fit, compressed");
-    expect_refusal(touchafm(std::string(command) + " --servo fibre"), 2, "choose process, thread");
+    expect_refusal(run_touchafm(std::string(command) + " --scale tiny"), 2, "choose common, fit, compressed");
+    expect_refusal(run_touchafm(std::string(command) + " --servo fibre"), 2, "choose process, thread");
   }
-  expect_refusal(touchafm("demo --out /tmp/x --model paper-rule"), 2, "cannot feel model \"paper-rule\"");
-  expect_refusal(touchafm("analyse x.tab --spring-constant 0.1nm"), 2, "--spring-constant: ");
-  expect_refusal(touchafm("analyse x.tab --spring-constant -1N/m"), 2, "is outside");
-  expect_refusal(touchafm("analyse x.tab --sensitivity 70nm"), 2, "not a deflection per volt");
+  expect_refusal(run_touchafm("demo --out /tmp/x --model paper-rule"), 2, "cannot feel model \"paper-rule\"");
+  expect_refusal(run_touchafm("analyse x.tab --spring-constant 0.1nm"), 2, "--spring-constant: ");
+  expect_refusal(run_touchafm("analyse x.tab --spring-constant -1N/m"), 2, "is outside");
+  expect_refusal(run_touchafm("analyse x.tab --sensitivity 70nm"), 2, "not a deflection per volt");
 }
 
 TEST(CommandLine, RefusesALeverThatCannotBeCalibrated) {
   const support::ScratchFolder folder;
   const std::string spectrum = folder.write("spectrum.txt", "Hz V2/Hz\n1 2\n2 3\n"),
                     of_it = "lever --thermal " + spectrum;
-  expect_refusal(touchafm("lever"), 2, "nothing to calibrate by; give --thermal");
-  expect_refusal(touchafm("lever --sader --length 120um --width 30um --resonance 70kHz"), 2,
+  expect_refusal(run_touchafm("lever"), 2, "nothing to calibrate by; give --thermal");
+  expect_refusal(run_touchafm("lever --sader --length 120um --width 30um --resonance 70kHz"), 2,
                  "--sader needs --quality-factor");
-  expect_refusal(touchafm("lever --gci 5e-5 --resonance 70kHz --quality-factor 150"), 2, "N/m/kHz^1.3");
-  expect_refusal(touchafm("lever --sensitivity-from x.tab --length 120um"), 2, "--sader");
-  expect_refusal(touchafm("lever --sensitivity-from x.tab --range 1kHz:2kHz"), 2, "--thermal");
-  expect_refusal(touchafm(of_it + " --sensitivity 60nm"), 2, "nm/V");
-  expect_refusal(touchafm(of_it + " --range 20kHz:5kHz"), 2, "does not go up");
-  expect_refusal(touchafm(of_it + " --range 5kHz"), 2, "5kHz:20kHz");
-  expect_refusal(touchafm(of_it + " --uncertainty tilt=3%"), 2, "known are sensitivity");
-  expect_refusal(touchafm(of_it + " --uncertainty temperature=1"), 2, "%, K");
-  expect_refusal(touchafm(of_it + " --uncertainty sensitivity=3% --uncertainty tilt=3%"), 2, "known are sensitivity");
-  expect_refusal(touchafm(of_it + " --uncertainty area=3% --uncertainty area=4%"), 2, "given twice");
-  expect_refusal(touchafm(of_it + " --uncertainty area=0%"), 2, "above 0 %");
-  expect_refusal(touchafm(of_it + " --sensitivity 60nm/V"), 3, "fewer than 20 points; give --range");
-  expect_refusal(touchafm(of_it + " --units Hz"), 3, "has no density");
+  expect_refusal(run_touchafm("lever --gci 5e-5 --resonance 70kHz --quality-factor 150"), 2, "N/m/kHz^1.3");
+  expect_refusal(run_touchafm("lever --sensitivity-from x.tab --length 120um"), 2, "--sader");
+  expect_refusal(run_touchafm("lever --sensitivity-from x.tab --range 1kHz:2kHz"), 2, "--thermal");
+  expect_refusal(run_touchafm(of_it + " --sensitivity 60nm"), 2, "nm/V");
+  expect_refusal(run_touchafm(of_it + " --range 20kHz:5kHz"), 2, "does not go up");
+  expect_refusal(run_touchafm(of_it + " --range 5kHz"), 2, "5kHz:20kHz");
+  expect_refusal(run_touchafm(of_it + " --uncertainty tilt=3%"), 2, "known are sensitivity");
+  expect_refusal(run_touchafm(of_it + " --uncertainty temperature=1"), 2, "%, K");
+  expect_refusal(run_touchafm(of_it + " --uncertainty sensitivity=3% --uncertainty tilt=3%"), 2,
+                 "known are sensitivity");
+  expect_refusal(run_touchafm(of_it + " --uncertainty area=3% --uncertainty area=4%"), 2, "given twice");
+  expect_refusal(run_touchafm(of_it + " --uncertainty area=0%"), 2, "above 0 %");
+  expect_refusal(run_touchafm(of_it + " --sensitivity 60nm/V"), 3, "fewer than 20 points; give --range");
+  expect_refusal(run_touchafm(of_it + " --units Hz"), 3, "has no density");
 }
 
 TEST(CommandLine, RefusesAHandThatIsNoHand) {
-  expect_refusal(touchafm("demo --out /tmp/x --hand-speed 3m/s"), 2, "5mm/s to 200mm/s");
-  expect_refusal(touchafm("demo --out /tmp/x --hand-speed 30"), 2, "mm/s");
+  expect_refusal(run_touchafm("demo --out /tmp/x --hand-speed 3m/s"), 2, "5mm/s to 200mm/s");
+  expect_refusal(run_touchafm("demo --out /tmp/x --hand-speed 30"), 2, "mm/s");
 }
 
 TEST(CommandLine, RefusesASessionThatIsNone) {
   const support::ScratchFolder folder;
-  expect_refusal(touchafm("render --session " + folder.write("s.afms", "no") + " --out " + folder.file("x.png")), 3,
+  expect_refusal(run_touchafm("render --session " + folder.write("s.afms", "no") + " --out " + folder.file("x.png")), 3,
                  "not a TouchAFM session");
   EXPECT_FALSE(std::filesystem::exists(folder.file("x.png")));
 }

@@ -9,8 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "support/places.h"
-#include "support/run_program.h"
+#include "support/run_touchafm.h"
 #include "support/scratch_folder.h"
 
 // `touchafm curve` and `touchafm material` as people run them: exit codes, one line for what is refused, and nothing
@@ -19,12 +18,9 @@ namespace afm::app {
 namespace curve_program_test {
 
 using support::ProgramResult;
+using support::run_touchafm;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
-
-ProgramResult touchafm(const std::string& arguments) {
-  return support::run_program(support::touchafm() + " " + arguments);
-}
 
 std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -34,7 +30,7 @@ std::string text_of(const std::string& path) {
 // Refused in one line, with nothing left in the folder but what the test put there.
 void expect_refusal(const std::string& arguments, int exit_code, const std::string& part) {
   const support::ScratchFolder folder;
-  const ProgramResult result = touchafm(arguments + " --out " + folder.file("curve.csv"));
+  const ProgramResult result = run_touchafm(arguments + " --out " + folder.file("curve.csv"));
   EXPECT_EQ(result.exit_code, exit_code) << arguments << "\n" << result.err;
   EXPECT_THAT(result.err, HasSubstr(part)) << arguments;
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -108,16 +104,16 @@ TEST(CurveProgram, RefusesBadMaterialFiles) {
 TEST(CurveProgram, TakesAMaterialOfTheUsersOwnBesideTheBuiltInOnes) {
   const support::ScratchFolder folder;
   const std::string file = material_file(folder, "30 nm");
-  const ProgramResult own = touchafm("curve --material own --model paper --json --materials " + file);
+  const ProgramResult own = run_touchafm("curve --material own --model paper --json --materials " + file);
   ASSERT_EQ(own.exit_code, 0) << own.err;
   EXPECT_EQ(nlohmann::json::parse(own.out)["parameters"]["tip_radius_m"], 30e-9);
-  EXPECT_EQ(touchafm("curve --material mica --json --materials " + file).exit_code, 0);
+  EXPECT_EQ(run_touchafm("curve --material mica --json --materials " + file).exit_code, 0);
 }
 
 TEST(CurveProgram, WritesTheFormatThatTheEndingNames) {
   const support::ScratchFolder folder;
   for (const char* name : {"c.csv", "c.json", "c.svg", "c.tab", "c.h5"}) {
-    const ProgramResult result = touchafm("curve --material mica --step 0.1nm --out " + folder.file(name));
+    const ProgramResult result = run_touchafm("curve --material mica --step 0.1nm --out " + folder.file(name));
     EXPECT_EQ(result.exit_code, 0) << name << result.err;
   }
   EXPECT_THAT(text_of(folder.file("c.csv")), HasSubstr("z_m,force_N"));
@@ -125,15 +121,16 @@ TEST(CurveProgram, WritesTheFormatThatTheEndingNames) {
   EXPECT_THAT(text_of(folder.file("c.svg")), HasSubstr("<svg"));
   EXPECT_THAT(text_of(folder.file("c.tab")), HasSubstr("BEGIN METADATA"));
   EXPECT_EQ(text_of(folder.file("c.h5")).substr(1, 3), "HDF");
-  const ProgramResult workshop = touchafm("curve --material mica --step 0.1nm --format afm-workshop");
+  const ProgramResult workshop = run_touchafm("curve --material mica --step 0.1nm --format afm-workshop");
   EXPECT_EQ(workshop.exit_code, 0) << workshop.err;
   EXPECT_FALSE(workshop.out.empty());
 }
 
 TEST(CurveProgram, DrawsAMeasuredCurveOverTheModel) {
   const support::ScratchFolder folder;
-  ASSERT_EQ(touchafm("curve --material gold --step 0.1nm --out " + folder.file("measured.tab")).exit_code, 0);
-  const ProgramResult result = touchafm("curve --material mica --format svg --overlay " + folder.file("measured.tab"));
+  ASSERT_EQ(run_touchafm("curve --material gold --step 0.1nm --out " + folder.file("measured.tab")).exit_code, 0);
+  const ProgramResult result =
+      run_touchafm("curve --material mica --format svg --overlay " + folder.file("measured.tab"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("measured, retract"));
   EXPECT_THAT(result.err, HasSubstr("measured.tab is shifted by "));
@@ -142,7 +139,7 @@ TEST(CurveProgram, DrawsAMeasuredCurveOverTheModel) {
 }
 
 TEST(MaterialProgram, ListsMaterialsAndProbes) {
-  const ProgramResult list = touchafm("material");
+  const ProgramResult list = run_touchafm("material");
   ASSERT_EQ(list.exit_code, 0) << list.err;
   for (const char* name : {"materials (touchafm material NAME", "mica", "pdms-air", "polystyrene-water",
                            "probes (--probe NAME; nominal values)", "ppp-contr", "colloid-5um"}) {
@@ -152,7 +149,7 @@ TEST(MaterialProgram, ListsMaterialsAndProbes) {
 
 TEST(MaterialProgram, TellsEveryNumberWithItsSourceAndTheLawWithItsReason) {
   const support::ScratchFolder folder;
-  const ProgramResult gold = touchafm("material gold --map " + folder.file("map.svg"));
+  const ProgramResult gold = run_touchafm("material gold --map " + folder.file("map.svg"));
   ASSERT_EQ(gold.exit_code, 0) << gold.err;
   for (const char* part : {"Hillier et al. 1996", "(estimated)", "reduced modulus", "71.45 GPa", "Tabor parameter",
                            "model dmt, chosen by the Tabor parameter", "snap-in", "pull-off", "loop energy",
@@ -160,8 +157,8 @@ TEST(MaterialProgram, TellsEveryNumberWithItsSourceAndTheLawWithItsReason) {
     EXPECT_THAT(gold.out, HasSubstr(part));
   }
   EXPECT_THAT(text_of(folder.file("map.svg")), HasSubstr("this contact"));
-  EXPECT_EQ(touchafm("material butter").exit_code, 2);
-  EXPECT_EQ(touchafm("material --map " + folder.file("x.svg")).exit_code, 2);
+  EXPECT_EQ(run_touchafm("material butter").exit_code, 2);
+  EXPECT_EQ(run_touchafm("material --map " + folder.file("x.svg")).exit_code, 2);
   EXPECT_FALSE(fs::exists(folder.file("x.svg")));
 }
 

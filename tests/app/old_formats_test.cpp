@@ -6,23 +6,21 @@
 #include <string>
 
 #include "support/places.h"
-#include "support/run_program.h"
+#include "support/run_touchafm.h"
 #include "support/scratch_folder.h"
 
 // Every file that an earlier version wrote is still read: tests/formats/README.md.
 namespace afm::app {
 namespace old_formats_test {
 
+using support::run_touchafm;
+
 using ::testing::HasSubstr;
 
 const std::string kFiles = support::source("tests/formats/0.1.0/");
 
-support::ProgramResult touchafm(const std::string& arguments) {
-  return support::run_program(support::touchafm() + " " + arguments);
-}
-
 TEST(OldFormats, OfASessionReplaysBitForBit) {
-  const auto done = touchafm("replay " + kFiles + "session-gold.afms");
+  const auto done = run_touchafm("replay " + kFiles + "session-gold.afms");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, HasSubstr("is identical, bit for bit"));
 }
@@ -30,13 +28,13 @@ TEST(OldFormats, OfASessionReplaysBitForBit) {
 TEST(OldFormats, OfASessionIsDrawn) {
   const support::ScratchFolder folder;
   const auto done =
-      touchafm("render --session " + kFiles + "session-gold.afms --at 1 --size 128x96 --stereo mono --wall " + kFiles +
-               "wall.toml --guidance " + kFiles + "guidance.toml --out " + folder.file("gold.png"));
+      run_touchafm("render --session " + kFiles + "session-gold.afms --at 1 --size 128x96 --stereo mono --wall " +
+                   kFiles + "wall.toml --guidance " + kFiles + "guidance.toml --out " + folder.file("gold.png"));
   EXPECT_EQ(done.exit_code, 0) << done.err;
 }
 
 TEST(OldFormats, OfACurveIsAnalysed) {
-  const auto done = touchafm("analyse " + kFiles + "curve.csv");
+  const auto done = run_touchafm("analyse " + kFiles + "curve.csv");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, HasSubstr("pull-off"));
 }
@@ -46,7 +44,7 @@ TEST(OldFormats, OfWallMaterialsProbesAndWandAreRead) {
        {"wall " + kFiles + "wall.toml", "curve --material gold --materials " + kFiles + "materials.toml --json",
         "curve --material gold --probe mlct-c --probes " + kFiles + "probes.toml --json",
         "devices --wand-file " + kFiles + "wand.toml"}) {
-    const auto done = touchafm(command);
+    const auto done = run_touchafm(command);
     EXPECT_EQ(done.exit_code, 0) << command << ": " << done.err;
   }
 }

@@ -26,9 +26,9 @@ except (ConnectionResetError, BrokenPipeError):
 """
 
 
-@unittest.skipUnless(os.geteuid() == 0, "only root can be somebody else")
 class OtherUser(unittest.TestCase):
     def setUp(self):
+        self.assertEqual(os.geteuid(), 0, "only root can be another user: run this test as root")
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)
         os.chmod(folder, 0o755)

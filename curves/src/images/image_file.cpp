@@ -90,16 +90,31 @@ std::string names_of(const std::vector<ImagePage>& pages) {
   return names;
 }
 
-// Preference as a height by name and unit; smaller is better.
+// What instruments call a channel in metres, by the beginning of its name in lower case.
+enum class Content { Height, Other, NoHeight };
+struct NameRow {
+  std::string_view beginning;
+  Content content;
+};
+constexpr std::array kNames{NameRow{"height", Content::Height},      NameRow{"topography", Content::Height},
+                            NameRow{"z ", Content::Height},          NameRow{"z-axis", Content::Height},
+                            NameRow{"zsens", Content::Height},       NameRow{"defl", Content::NoHeight},
+                            NameRow{"amplitude", Content::NoHeight}, NameRow{"lock-in", Content::NoHeight},
+                            NameRow{"peak force", Content::NoHeight}};
+
+Content content_of(const std::string& name) {
+  if (name == "z") return Content::Height;
+  const auto* const row =
+      std::find_if(kNames.begin(), kNames.end(), [&](const NameRow& each) { return name.starts_with(each.beginning); });
+  return row == kNames.end() ? Content::Other : row->content;
+}
+
+// Preference as a height: content, then trace before retrace; smaller is better.
 int rank_as_height(const ImagePage& page) {
   const std::string name = lower(page.name);
-  const auto begins = [&](std::string_view word) { return name.starts_with(word); };
-  if (page.unit != "m") return 4;
-  const int way = name.find("retrace") != std::string::npos ? 1 : 0;
-  if (begins("height") || begins("topography") || begins("z ") || begins("z-axis") || begins("zsens") || name == "z")
-    return way;
-  if (begins("defl") || begins("amplitude") || begins("lock-in") || begins("peak force")) return 4;
-  return 2 + way;
+  const Content content = page.unit == "m" ? content_of(name) : Content::NoHeight;
+  const bool retrace = content != Content::NoHeight && name.find("retrace") != std::string::npos;
+  return 2 * static_cast<int>(content) + (retrace ? 1 : 0);
 }
 
 // Throws with the reasons of the channels that cannot be read.

@@ -3,79 +3,70 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 
 #include "core/whole_file.h"
 #include "support/places.h"
-#include "support/run_program.h"
+#include "support/run_touchafm.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
 namespace convert_command_test {
 
+using support::expect_refusal;
 using support::ProgramResult;
+using support::run_touchafm;
 using testing::HasSubstr;
-
-ProgramResult touchafm(const std::string& arguments) {
-  return support::run_program(support::touchafm() + " " + arguments);
-}
-
-void expect_refusal(const ProgramResult& result, int exit_code, const std::string& part) {
-  EXPECT_EQ(result.exit_code, exit_code) << result.err;
-  EXPECT_THAT(result.err, HasSubstr(part));
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  EXPECT_EQ(result.out, "");
-}
 
 std::string data(const std::string& name) { return support::source("tests/data/afm/" + name); }
 
 TEST(ConvertCommand, WritesAFileThatAnalyseReads) {
   const support::ScratchFolder folder;
-  const ProgramResult curve = touchafm("convert " + data("dwell.ibw") + " " + folder.file("new.h5"));
+  const ProgramResult curve = run_touchafm("convert " + data("dwell.ibw") + " " + folder.file("new.h5"));
   EXPECT_EQ(curve.exit_code, 0) << curve.err;
   EXPECT_EQ(curve.out, folder.file("new.h5") + ": 1 curve of 400 points\n");
   EXPECT_THAT(curve.err, HasSubstr(data("dwell.ibw") + ": ")) << "what the reader left out";
-  EXPECT_THAT(touchafm("analyse " + folder.file("new.h5")).out, HasSubstr("11.3"));
-  EXPECT_EQ(touchafm("convert " + data("qnm-log.spm") + " " + folder.file("new.gwy")).exit_code, 0);
-  EXPECT_THAT(touchafm("analyse " + folder.file("new.gwy")).out, HasSubstr("LogDMTModulus"));
+  EXPECT_THAT(run_touchafm("analyse " + folder.file("new.h5")).out, HasSubstr("11.3"));
+  EXPECT_EQ(run_touchafm("convert " + data("qnm-log.spm") + " " + folder.file("new.gwy")).exit_code, 0);
+  EXPECT_THAT(run_touchafm("analyse " + folder.file("new.gwy")).out, HasSubstr("LogDMTModulus"));
 }
 
 TEST(ConvertCommand, RefusesAndLosesNothing) {
   const support::ScratchFolder folder;
   const std::string curve = data("bom.tab"), kept = folder.write("kept.tab", core::read_file(curve).value());
-  expect_refusal(touchafm("convert " + kept + " " + kept), 2, "are one file, which would be lost");
+  expect_refusal(run_touchafm("convert " + kept + " " + kept), 2, "are one file, which would be lost");
   EXPECT_EQ(core::read_file(kept).value(), core::read_file(curve).value());
-  expect_refusal(touchafm("convert " + curve + " " + folder.file("new.gwy")), 2, "is no name for them");
-  expect_refusal(touchafm("convert " + curve + " " + folder.file("no/new.tab")), 2, "no/new.tab");
+  expect_refusal(run_touchafm("convert " + curve + " " + folder.file("new.gwy")), 2, "is no name for them");
+  expect_refusal(run_touchafm("convert " + curve + " " + folder.file("no/new.tab")), 2, "no/new.tab");
   const std::string other = folder.write("old.tab", "mine");
-  expect_refusal(touchafm("convert " + data("ramp.spm") + " " + other), 3, "without a deflection");
+  expect_refusal(run_touchafm("convert " + data("ramp.spm") + " " + other), 3, "without a deflection");
   EXPECT_EQ(core::read_file(other).value(), "mine");
 }
 
 TEST(AnalyseCommand, RefusesABaselineThatIsNone) {
-  expect_refusal(touchafm("analyse x.tab --baseline wavy"), 2,
+  expect_refusal(run_touchafm("analyse x.tab --baseline wavy"), 2,
                  "\"wavy\" is not a baseline; choose tilted, flat, waves");
   for (const char* range : {"1um", "2um:1um", "-1um:1um", "0:1um", ":", "1um:"}) {
-    expect_refusal(touchafm(std::string("analyse x.tab --baseline-range ") + range), 2, "is no range of ways");
+    expect_refusal(run_touchafm(std::string("analyse x.tab --baseline-range ") + range), 2, "is no range of ways");
   }
-  expect_refusal(touchafm("analyse " + data("bom.tab") + " --baseline-range 1mm:2mm"), 3,
+  expect_refusal(run_touchafm("analyse " + data("bom.tab") + " --baseline-range 1mm:2mm"), 3,
                  "the range of the baseline has 0 points of the approach");
 }
 
 TEST(AnalyseCommand, PrintsTheWavesOfABaseline) {
   const support::ScratchFolder folder;
-  const ProgramResult made = touchafm(
+  const ProgramResult made = run_touchafm(
       "generate curve --law sphere --modulus 2kPa --radius 5um --spring-constant 0.05N/m --most-force 2nN --wave 100pN "
       "--wave-period 400nm --seed 3 --out " +
       folder.file("wavy.tab"));
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const ProgramResult read =
-      touchafm("analyse " + folder.file("wavy.tab") + " --baseline waves --fit sphere --radius 5um");
+      run_touchafm("analyse " + folder.file("wavy.tab") + " --baseline waves --fit sphere --radius 5um");
   EXPECT_THAT(read.out, HasSubstr("its waves"));
   EXPECT_THAT(read.out, HasSubstr("their period"));
   EXPECT_THAT(read.out, HasSubstr("modulus E                  2 kPa")) << "the fit has no waves left";
-  EXPECT_THAT(touchafm("analyse " + folder.file("wavy.tab") + " --json").out, HasSubstr("\"baseline_waves_N\": null"));
+  EXPECT_THAT(run_touchafm("analyse " + folder.file("wavy.tab") + " --json").out,
+              HasSubstr("\"baseline_waves_N\": null"));
 }
 
 }  // namespace convert_command_test

@@ -19,7 +19,7 @@
 #include "core/whole_file.h"
 #include "support/live_program.h"
 #include "support/places.h"
-#include "support/run_program.h"
+#include "support/run_touchafm.h"
 #include "support/scratch_folder.h"
 
 // `touchafm generate`: the truth is what `touchafm analyse` finds, and files come with their truth or not at all.
@@ -28,6 +28,7 @@ namespace generate_program_test {
 
 using nlohmann::json;
 using support::ProgramResult;
+using support::run_touchafm;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -35,12 +36,8 @@ constexpr const char* kGel = "--modulus 3kPa --radius 5um --spring-constant 0.05
 constexpr const char* kSticky =
     "--law jkr --radius 1um --modulus 1MPa --work-of-adhesion 20mJ/m2 --spring-constant 1N/m --most-force 200nN";
 
-ProgramResult touchafm(const std::string& arguments) {
-  return support::run_program(support::touchafm() + " " + arguments);
-}
-
 void expect_done(const std::string& arguments) {
-  const ProgramResult result = touchafm(arguments);
+  const ProgramResult result = run_touchafm(arguments);
   EXPECT_EQ(result.exit_code, 0) << arguments << "\n" << result.err;
 }
 
@@ -53,7 +50,7 @@ json truth_of(const std::string& file) {
 // Rows of a fit's table by the names of its columns.
 using Row = std::map<std::string, std::string>;
 std::vector<Row> fits_of(const support::ScratchFolder& folder, const std::string& file, const std::string& fit) {
-  const ProgramResult result = touchafm("analyse " + file + " " + fit + " --out " + folder.file("fits"));
+  const ProgramResult result = run_touchafm("analyse " + file + " " + fit + " --out " + folder.file("fits"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
   std::istringstream table(core::read_file(folder.file("fits/fits.tsv")).value_or(""));
   std::vector<std::string> names;
@@ -187,7 +184,7 @@ TEST(GeneratedImage, ComesWithTheSurfaceOnItsGrid) {
   EXPECT_EQ(truth["seed"], 3);
   EXPECT_EQ(truth["surface"], "mica.gwy.truth.gwy");
   for (const std::string& image : {file, file + ".truth.gwy"}) {
-    const ProgramResult read = touchafm("analyse --json " + image);
+    const ProgramResult read = run_touchafm("analyse --json " + image);
     ASSERT_EQ(read.exit_code, 0) << read.err;
     const json figures = json::parse(read.out);
     EXPECT_EQ(figures.dump().find("nan"), std::string::npos);
@@ -211,7 +208,7 @@ TEST(Generated, AgainInAnotherSecondIsTheSameBytes) {
     expect_done(fmt::format("generate curve {} --noise 15pN --seed 7 --out {}", kGel, second));
     EXPECT_EQ(core::read_file(first).value(), core::read_file(second).value()) << ending;
     EXPECT_EQ(core::read_file(first + ".truth.json").value(), core::read_file(second + ".truth.json").value());
-    EXPECT_EQ(touchafm("analyse " + first).exit_code, 0) << ending;
+    EXPECT_EQ(run_touchafm("analyse " + first).exit_code, 0) << ending;
   }
   const std::string other = folder.file("c.h5");
   expect_done(fmt::format("generate curve {} --noise 15pN --seed 8 --out {}", kGel, other));
@@ -221,7 +218,7 @@ TEST(Generated, AgainInAnotherSecondIsTheSameBytes) {
 // Refused in one line, with nothing left.
 void expect_refusal(const std::string& arguments, const std::string& part, const std::string& name = "curve.h5") {
   const support::ScratchFolder folder;
-  const ProgramResult result = touchafm("generate " + arguments + " --out " + folder.file(name));
+  const ProgramResult result = run_touchafm("generate " + arguments + " --out " + folder.file(name));
   EXPECT_EQ(result.exit_code, 2) << arguments << "\n" << result.err;
   EXPECT_THAT(result.err, HasSubstr(part)) << arguments;
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -271,7 +268,7 @@ TEST(Generated, ReplacesNoFileAndLeavesNoneAlone) {
   for (const char* existing : {"curve.h5", "curve.h5.truth.json"}) {
     const support::ScratchFolder folder;
     folder.write(existing, "mine");
-    const ProgramResult result = touchafm(fmt::format("generate curve {} --out {}", kGel, folder.file("curve.h5")));
+    const ProgramResult result = run_touchafm(fmt::format("generate curve {} --out {}", kGel, folder.file("curve.h5")));
     EXPECT_EQ(result.exit_code, 2) << result.err;
     EXPECT_THAT(result.err, HasSubstr(std::string(existing) + ": it exists already"));
     EXPECT_EQ(core::read_file(folder.file(existing)).value(), "mine");
