@@ -126,7 +126,10 @@ py::dict metadata_of(const Curve& curve) {
   add_text("time", data.time);
   add_text("curve_id", data.curve_id);
   if (data.position) result["position"] = py::make_tuple(data.position->x_m, data.position->y_m);
-  if (data.pixel) result["pixel"] = py::make_tuple(data.pixel->column, data.pixel->row);
+  if (data.pixel) {
+    result["pixel"] = py::make_tuple(data.pixel->column, data.pixel->row);
+    result["grid"] = py::make_tuple(data.pixel->grid.columns, data.pixel->grid.rows);
+  }
   for (const auto& [key, value] : data.parameters) result[py::str(key)] = value;
   return result;
 }

@@ -13,6 +13,7 @@
 #include "core/log.h"
 #include "core/whole_file.h"
 #include "curves/conversion.h"
+#include "curves/image_file.h"
 
 namespace afm::app {
 

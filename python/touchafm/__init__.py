@@ -7,7 +7,7 @@ read-only views or copies in float64. as_dict() of a result is the JSON that the
 An argument that the command would refuse raises ValueError with the command's words. A file that cannot be read, understood
 or written raises FileError, an OSError. Long work releases Python's lock, and Ctrl-C ends it within 0.2 s.
 
-touchafm.serve, imported by itself, controls a simulated microscope.
+touchafm.serve, imported by itself, controls a simulated microscope; touchafm.maps fits all curves of a map.
 """
 
 from ._core import (
