@@ -66,12 +66,18 @@ class VirtualDisplay {
     };
     const std::uint32_t header = word(0), width = word(4), height = word(5), bytes_per_line = word(12),
                         colors = word(19);
+    const bool ten_bits = word(14) == 0x3FF00000U;  // mask of red
     render::Image image{.width = width, .height = height, .rgba = {}};
     for (std::uint32_t y = 0; y < height; ++y) {
       for (std::uint32_t x = 0; x < width; ++x) {
         const std::size_t at = header + std::size_t{12} * colors + std::size_t{y} * bytes_per_line + std::size_t{4} * x;
-        for (const std::size_t channel : {2U, 1U, 0U})
-          image.rgba.push_back(static_cast<std::uint8_t>(dump.at(at + channel)));
+        std::uint32_t pixel = 0;  // blue in the lowest bits
+        for (const std::size_t byte : {3U, 2U, 1U, 0U})
+          pixel = pixel << 8 | static_cast<unsigned char>(dump.at(at + byte));
+        for (const unsigned channel : {2U, 1U, 0U}) {
+          const std::uint32_t value = ten_bits ? pixel >> (10 * channel + 2) : pixel >> (8 * channel);
+          image.rgba.push_back(static_cast<std::uint8_t>(value & 0xFFU));
+        }
         image.rgba.push_back(255);
       }
     }

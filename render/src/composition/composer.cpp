@@ -378,7 +378,7 @@ std::vector<Image> Composer::compose(const Composition& composition, const ReadA
   HostCopy copy;
   device_.run_once([&](const vk::raii::CommandBuffer& command) {
     record(command, composition, area, target_);
-    copy.record(device_, command, target_.image);
+    copy.record(device_, command, *target_.image.image, target_.image.layers, target_.image.extent);
   });
   std::vector<Image> pictures;
   pictures.reserve(target_.image.layers);

@@ -27,13 +27,14 @@ void record_copy(const vk::raii::CommandBuffer& command, vk::Image image, std::u
 
 }  // namespace
 
-void HostCopy::record(const Device& device, const vk::raii::CommandBuffer& command, const DeviceImage& image) {
-  extent_ = image.extent;
-  const std::size_t bytes = image.layers * bytes_of(extent_);
+void HostCopy::record(const Device& device, const vk::raii::CommandBuffer& command, vk::Image image,
+                      std::uint32_t layers, vk::Extent2D extent) {
+  extent_ = extent;
+  const std::size_t bytes = layers * bytes_of(extent_);
   if (buffer_.size != bytes) {
     buffer_ = create_readback_buffer(device, "read back", bytes, vk::BufferUsageFlagBits::eTransferDst);
   }
-  record_copy(command, *image.image, 0, image.layers, extent_, buffer_);
+  record_copy(command, image, 0, layers, extent_, buffer_);
 }
 
 ImageSpan HostCopy::picture(std::uint32_t layer) const {

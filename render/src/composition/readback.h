@@ -7,13 +7,14 @@
 
 namespace afm::render {
 
-// Copy of all layers of an image of kEyeFormat in host memory, which is reused for the next one.
+// Copy of all layers of an image with four bytes a pixel in host memory, which is reused for the next one.
 class HostCopy {
  public:
   // Requires the image in eTransferSrcOptimal, and the result of an earlier record() finished and no longer needed.
-  void record(const Device& device, const vk::raii::CommandBuffer& command, const DeviceImage& image);
+  void record(const Device& device, const vk::raii::CommandBuffer& command, vk::Image image, std::uint32_t layers,
+              vk::Extent2D extent);
 
-  // Result of the last record(), once its commands are done; valid until the next one.
+  // Result of the last record(), once its commands are done; valid until the next one. As of an image of kEyeFormat.
   ImageSpan picture(std::uint32_t layer) const;
 
  private:

@@ -157,6 +157,7 @@ void Presenter::Parts::show() {
     drawn[count] = pane.surface->drawn();
     swapchains[count] = pane.surface->swapchain();
     indices[count] = pane.surface->index();
+    pane.surface->put();
     pane.surface->presented();
     pane.taken = pane.drawn = false;
     ++count;

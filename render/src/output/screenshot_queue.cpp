@@ -83,7 +83,7 @@ void ScreenshotQueue::Parts::begin(QueuedPicture& place, const Composition& comp
   mark(place, QueueMark::Begin);
   renderer.composer.record(command, composition, area, place.target);
   mark(place, QueueMark::Composed);
-  place.host.record(device, command, place.target.image);
+  place.host.record(device, command, *place.target.image.image, place.target.image.layers, place.target.image.extent);
   mark(place, QueueMark::Copied);
   command.end();
   const vk::CommandBufferSubmitInfo submit{.commandBuffer = *command};

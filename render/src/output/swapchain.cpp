@@ -56,24 +56,25 @@ bool offers_present_barrier(const Device& device, vk::SurfaceKHR surface) {
                                              .presentBarrierSupported == VK_TRUE;
 }
 
-Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
-                     std::uint32_t layers, Swap swap, const Swapchain* old)
-    : layer_count_(layers) {
+Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, const Use& use,
+                     const Swapchain* old)
+    : layer_count_(use.layers) {
   const vk::SwapchainPresentBarrierCreateInfoNV barrier{.presentBarrierEnable = VK_TRUE};
   const auto capabilities = device.physical().getSurfaceCapabilitiesKHR(surface);
-  extent_ = choose_extent(capabilities, wanted);
+  extent_ = choose_extent(capabilities, use.wanted_px);
   constexpr auto kCopies = vk::ImageUsageFlagBits::eTransferDst;
   takes_copies_ = static_cast<bool>(capabilities.supportedUsageFlags & kCopies);
   vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eColorAttachment;
   if (takes_copies_) usage |= kCopies;
+  if (use.read) usage |= vk::ImageUsageFlagBits::eTransferSrc;
   swapchain_ =
-      vk::raii::SwapchainKHR(*device, {.pNext = swap == Swap::WithOthers ? &barrier : nullptr,
+      vk::raii::SwapchainKHR(*device, {.pNext = use.swap == Swap::WithOthers ? &barrier : nullptr,
                                        .surface = surface,
                                        .minImageCount = choose_image_count(capabilities),
                                        .imageFormat = format.format,
                                        .imageColorSpace = format.colorSpace,
                                        .imageExtent = extent_,
-                                       .imageArrayLayers = layers,
+                                       .imageArrayLayers = use.layers,
                                        .imageUsage = usage,
                                        .imageSharingMode = vk::SharingMode::eExclusive,
                                        .preTransform = capabilities.currentTransform,
@@ -84,7 +85,7 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
   for (const VkImage image : swapchain_.getImages()) {
     images_.emplace_back(image);
     shown_.emplace_back();
-    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+    for (std::uint32_t layer = 0; layer < use.layers; ++layer) {
       views_.emplace_back(*device,
                           vk::ImageViewCreateInfo{.image = image,
                                                   .viewType = vk::ImageViewType::e2D,

@@ -22,10 +22,19 @@ bool offers_present_barrier(const Device& device, vk::SurfaceKHR surface);
 // Recreated for every size.
 class Swapchain {
  public:
-  // `wanted` is used if the surface leaves the size to us. `swap` is WithOthers only if the surface offers it. `old`
-  // may be null; nothing of it may be in flight, and it is unusable afterwards. Throws if vkCreateSwapchainKHR fails.
-  Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, vk::Extent2D wanted,
-            std::uint32_t layers, Swap swap, const Swapchain* old);
+  // What the images are for. `wanted_px` is used if the surface leaves the size to us, `swap` is WithOthers only if the
+  // surface offers it, and images that are `read` may be copied.
+  struct Use {
+    vk::Extent2D wanted_px;
+    std::uint32_t layers = 1;
+    Swap swap = Swap::Alone;
+    bool read = false;
+  };
+
+  // `old` may be null; nothing of it may be in flight, and it is unusable afterwards. Throws if vkCreateSwapchainKHR
+  // fails.
+  Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFormatKHR format, const Use& use,
+            const Swapchain* old);
 
   const vk::raii::SwapchainKHR& operator*() const { return swapchain_; }
   const vk::raii::SwapchainKHR* operator->() const { return &swapchain_; }

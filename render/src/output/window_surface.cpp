@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "output/window_surface.h"
 
+#include <span>
 #include <utility>
 
-#include "core/log.h"
 #include "device/barriers.h"
 #include "render/presenter.h"
 
@@ -15,6 +15,8 @@ constexpr int kMostTurns = 40;  // longest wait for a display that keeps all its
 constexpr ImageUse kAcquired{kFilling, vk::AccessFlagBits2::eNone, vk::ImageLayout::eUndefined};
 constexpr ImageUse kPresented{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagBits2::eNone,
                               vk::ImageLayout::ePresentSrcKHR};
+constexpr ImageUse kComposed{vk::PipelineStageFlagBits2::eAllCommands, vk::AccessFlagBits2::eMemoryWrite,
+                             vk::ImageLayout::ePresentSrcKHR};
 
 }  // namespace
 
@@ -33,9 +35,8 @@ core::Result<void> WindowSurface::choose_format() {
   const bool ten_bits =
       format_.format == vk::Format::eA2B10G10R10UnormPack32 || format_.format == vk::Format::eA2R10G10B10UnormPack32;
   if (ten_bits && device_.physical().getProperties().deviceType == vk::PhysicalDeviceType::eCpu) {
-    // Mesa 22.3 sends every picture as one of 24 bits, which such a window refuses
-    core::log_line("the display has a colour depth of 30 bits: where " + device_.name() +
-                   " shows a black window, set the display to 24 bits");
+    const std::optional<std::uint32_t> window = window_.handle().x_window();
+    if (window) by_x_ = XPicture::of(*window);
   }
   pipeline_ = composer_.create_pipeline_for(format_.format);
   return {};
@@ -65,7 +66,9 @@ bool WindowSurface::follow_window(std::uint32_t layers) {
     return false;
   }
   device_.finish_all();
-  swapchain_ = Swapchain(device_, *surface_, format_, wanted, layers, swap(), swapchain_ ? &*swapchain_ : nullptr);
+  swapchain_ = Swapchain(device_, *surface_, format_,
+                         {.wanted_px = wanted, .layers = layers, .swap = swap(), .read = by_x_ != nullptr},
+                         swapchain_ ? &*swapchain_ : nullptr);
   // an image acquired from the old swapchain may have left it signalled
   acquired_ = vk::raii::Semaphore(*device_, vk::SemaphoreCreateInfo{});
   index_.reset();
@@ -105,6 +108,15 @@ void WindowSurface::record(const vk::raii::CommandBuffer& command, const WindowP
        .after = kPresented,
        .takes_copies = swapchain_->takes_copies() && format_.format == kEyeFormat,
        .shown = &swapchain_->shown(*index_)});
+  if (!by_x_) return;
+  const vk::Image image = swapchain_->image(*index_);
+  record_barriers(command, {image_barrier(image, kColorAspect, kComposed, kCopiedFrom)});
+  host_.record(device_, command, image, 1, window_size);
+  record_barriers(command, {image_barrier(image, kColorAspect, kCopiedFrom, kPresented)});
+}
+
+void WindowSurface::put() const {
+  if (by_x_) by_x_->put(swapchain_->extent(), std::as_bytes(host_.picture(0).bytes));
 }
 
 void WindowSurface::replace() {

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "composition/composer.h"
+#include "composition/readback.h"
 #include "output/swapchain.h"
 #include "output/window_handle.h"
+#include "output/x_picture.h"
 #include "render/presenter.h"
 
 namespace afm::render {
@@ -46,6 +49,9 @@ class WindowSurface {
   vk::SwapchainKHR swapchain() const { return ***swapchain_; }
   std::uint32_t index() const { return *index_; }
 
+  // Puts the picture that has been drawn into a window that its driver leaves black; call before presented().
+  void put() const;
+
   // Marks the acquired image as presented. An outdated surface gets new images next time.
   void presented() { index_.reset(); }
   void outdate() { outdated_ = true; }
@@ -65,6 +71,8 @@ class WindowSurface {
   std::optional<ComposePipeline> pipeline_;
   vk::raii::Semaphore acquired_;
   std::optional<Swapchain> swapchain_;
+  std::unique_ptr<XPicture> by_x_;      // null: the driver shows pictures in this window
+  HostCopy host_;                       // the drawn image, for by_x_
   std::optional<std::uint32_t> index_;  // index of the acquired image
   bool outdated_ = false;
   bool lost_ = false;
