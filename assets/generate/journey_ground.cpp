@@ -13,8 +13,8 @@ namespace {
 constexpr double kNm = 1e-9;
 constexpr double kDiscRadius = 5e-3, kDiscThickness = 0.36e-3;
 constexpr double kInnermost = 0.4 * kNm;
-constexpr double kRingRatio = 1.12;
-constexpr int kHalvings = 6;                                       // 256 points around, fewer behind the tip
+constexpr double kRingRatio = 1.07;  // cells about as long as wide before the tip
+constexpr int kHalvings = 6;                                       // 256 directions, of which half are used before the tip
 constexpr double kAtomsReach = 3.3 * kNm, kAtomsSink = 2.0 * kNm;  // from there outwards fewer and fewer are seen
 constexpr double kBelowAtoms = 0.36 * kNm;                         // depth of the ground below the atoms
 constexpr std::int64_t kAtomRows = 15, kAtomColumns = 21;          // enough for that reach
@@ -67,7 +67,7 @@ Outline seen_around() {
   Outline around;
   for (std::size_t i = 0; i < whole.size(); ++i) {
     const double y = whole[i].position.y;
-    const std::size_t every = y < -0.7 ? 1 : y < 0.3 ? 4 : 8;
+    const std::size_t every = y < -0.7 ? 2 : y < 0.3 ? 4 : 8;
     if (i % every == 0) around.push_back(whole[i]);
   }
   return around;
@@ -89,7 +89,7 @@ std::vector<Surface> rings(const Look& look) {
 
   const auto vertex = [&](std::size_t ring, std::size_t column) {
     const V2 direction = around[column % around.size()].position;
-    const double r = radii[ring], step = std::max(0.035 * r, 0.1 * kInnermost);
+    const double r = radii[ring], step = std::max(0.025 * r, 0.1 * kInnermost);
     const double x = r * direction.x, y = r * direction.y;
     const Place here = ground_at(look, x, y);
     const double slope_x = (ground_at(look, x + step, y).height - ground_at(look, x - step, y).height) / (2 * step);
