@@ -225,8 +225,8 @@ void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, 
       return;
     case RightPanel::FrictionLoop:
       if (friction_ == nullptr) return;
-      const physics::FrictionLaw law = edits_.of(material).model().parameters.friction.law;
-      show_right(panels, panels.loop, exhibit::friction_panel(*friction_, law, phrases()));
+      const physics::FrictionParameters& friction = edits_.of(material).model().parameters.friction;
+      show_right(panels, panels.loop, exhibit::friction_panel(*friction_, friction, phrases()));
       return;
   }
 }

@@ -30,6 +30,7 @@ ViewPointer::ViewPointer(const exhibit::Stage& stage, ViewPicture& picture, View
       swatches_(stage.wall_scene.swatch_targets()) {}
 
 void ViewPointer::follow(const glm::dvec2& cursor_px, bool dragging, std::int64_t now_ns) {
+  dragging_ = dragging;
   if (std::exchange(cursor_px_, cursor_px) != cursor_px && !dragging) cursor_moved_ns_ = now_ns;
 }
 
@@ -61,8 +62,10 @@ Pointed ViewPointer::now(std::size_t window, const glm::dvec2& cursor_px) {
   return kind() == exhibit::Pointer::Wand ? at_wand() : at(window, cursor_px);
 }
 
-input::WandState ViewPointer::drawn(const Pointed& pointed, std::int64_t now_ns) const {
-  return kind() == exhibit::Pointer::Wand ? view_wand_.state() : mouse_.towards(pointed.point_m, now_ns);
+std::optional<input::WandState> ViewPointer::drawn(const Pointed& pointed, std::int64_t now_ns) const {
+  if (kind() == exhibit::Pointer::Wand) return view_wand_.state();
+  if (dragging_) return std::nullopt;  // nothing to point at, and the stick would cross lever and sample
+  return mouse_.towards(pointed.point_m, now_ns);
 }
 
 double ViewPointer::hand_m_per_px(std::size_t window) const {

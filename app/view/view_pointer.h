@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "app/display/mouse_wand.h"
@@ -41,8 +42,8 @@ class ViewPointer {
 
   input::Ray ray(std::size_t window, const glm::dvec2& cursor_px) const;
 
-  // The wand to draw; the mouse has one too.
-  input::WandState drawn(const Pointed& pointed, std::int64_t now_ns) const;
+  // The wand to draw; the mouse has one too, but not while it drags the hand.
+  std::optional<input::WandState> drawn(const Pointed& pointed, std::int64_t now_ns) const;
 
   // Hand travel per pixel that keeps the tip under the cursor.
   double hand_m_per_px(std::size_t window) const;
@@ -57,6 +58,7 @@ class ViewPointer {
   std::vector<input::Target> swatches_;
   glm::dvec2 cursor_px_{0.0};
   std::int64_t cursor_moved_ns_ = 0;
+  bool dragging_ = false;
 };
 
 }  // namespace afm::app

@@ -22,6 +22,7 @@ using physics::Length;
 
 constexpr double kStrokeM = 10e-9;
 constexpr int kTicks = 500;  // per stroke
+constexpr double kPeriodM = 0.5e-9;
 
 // What the servo gives while a hand leads the tip along a line of this direction.
 class Led {
@@ -65,7 +66,10 @@ class Led {
 };
 
 render::ForcePanel panel_of(const FrictionHistory& history, FrictionLaw law = FrictionLaw::Amontons) {
-  return friction_panel(history, law, test::english());
+  physics::FrictionParameters friction;
+  friction.law = law;
+  friction.period = Length(kPeriodM);
+  return friction_panel(history, friction, test::english());
 }
 
 std::vector<std::string> values(const render::ForcePanel& panel) {
@@ -152,6 +156,37 @@ TEST(FrictionPanel, KeepsTheLoopOfTheContactBeforeUntilAnotherIsClosedOrTheParam
   hand.edit_revision = 1;
   hand.to(1e-9);
   EXPECT_TRUE(panel_of(history).figures.empty());
+}
+
+// Twenty atoms in a stroke: a panel of all of them would be a block of colour.
+TEST(FrictionPanel, ShowsThreePeriodsOfALatticeAroundTheTipInWholePeriods) {
+  FrictionHistory history;
+  Led hand(history);
+  hand.land();
+  hand.to(2.9e-9);
+  EXPECT_EQ(panel_of(history, FrictionLaw::Lattice).stage, "rub the tip back and forth on the surface");
+  EXPECT_EQ(panel_of(history, FrictionLaw::Lattice).curves[0].retract.size(), kTicks + 1U) << "short enough";
+  hand.to(kStrokeM);
+  hand.to(0.0);
+  hand.there_and_back();
+  for (const double at_m : {3.1e-9, 3.4e-9}) {
+    hand.to(at_m);
+    const render::ForcePanel panel = panel_of(history, FrictionLaw::Lattice);
+    EXPECT_EQ(panel.stage, "atom by atom: 3 of 20 periods");
+    EXPECT_EQ(values(panel)[0], "half width 700 pN") << "of the whole loop";
+    for (const render::PlotCurve& curve : panel.curves) {
+      for (const auto* points : {&curve.approach, &curve.retract}) {
+        for (const render::PlotPoint& point : *points) {
+          EXPECT_GE(point.place_nm, 2.5 - 1e-9);
+          EXPECT_LE(point.place_nm, 4.0 + 1e-9);
+        }
+      }
+    }
+    EXPECT_NEAR(panel.place_max_nm - panel.place_min_nm, 1.5 * 1.16, 0.05);
+  }
+  EXPECT_GT(panel_of(history).place_max_nm, 9.0) << "another law has no periods";
+  hand.lift();
+  EXPECT_LT(panel_of(history, FrictionLaw::Lattice).place_max_nm, 6.6) << "around the middle";
 }
 
 TEST(FrictionHistory, IsBoundedHoweverLongTheTipIsLedAndEmptyWhereItRests) {

@@ -70,7 +70,10 @@ render::ForcePanel full_friction_loop(physics::FrictionLaw law, const Phrases& p
     sample.lateral_force_n = {phase < 200 ? -123.4e-9 : 123.4e-9, 0.0};
     history.add(sample);
   }
-  return friction_panel(history, law, phrases);
+  physics::FrictionParameters friction;
+  friction.law = law;
+  friction.period = physics::Length(0.5e-9);
+  return friction_panel(history, friction, phrases);
 }
 
 std::vector<render::DataPanel> full_particles(const Phrases& phrases) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/friction/friction_panel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -21,7 +24,10 @@ using Run = std::vector<physics::LateralPoint>;
 
 constexpr glm::vec3 kRightColor{0.337F, 0.706F, 0.914F}, kLeftColor{0.902F, 0.624F, 0.0F},
     kNowColor{0.00F, 0.78F, 0.56F};
-constexpr double kLoopMargin = 0.08;     // share of the axes around the curves
+constexpr double kLoopMargin = 0.08;  // share of the axes around the curves
+constexpr double kShownPeriods = 3.0,
+                 kPeriodsBeside = 1.0;   // shown periods of a lattice, and those left of the tip's own
+constexpr double kManyPeriods = 6.0;     // longest stroke that is shown whole
 constexpr double kLeastForceNn = 0.002;  // half range of the force, so that rounding is not drawn as friction
 
 render::PlotPoint plotted(const physics::LateralPoint& point) {
@@ -49,6 +55,37 @@ void add_strokes(const Run& run, const physics::FrictionLoop& loop, const Phrase
                     .faded = false,
                     .approach = std::move(left),
                     .retract = {}});
+}
+
+// Shows whole periods around a place, so that the teeth stay where they are while the tip moves on.
+void zoom_to(double place_nm, double period_nm, render::ForcePanel& panel) {
+  const double low_nm = (std::floor(place_nm / period_nm) - kPeriodsBeside) * period_nm;
+  const double high_nm = low_nm + kShownPeriods * period_nm;
+  const auto outside = [&](const render::PlotPoint& point) {
+    return point.place_nm < low_nm || point.place_nm > high_nm;
+  };
+  for (render::PlotCurve& curve : panel.curves) {
+    std::erase_if(curve.approach, outside);
+    std::erase_if(curve.retract, outside);
+  }
+}
+
+struct Stroke {
+  double low_nm = std::numeric_limits<double>::infinity(), high_nm = -low_nm;
+
+  double length_nm() const { return high_nm - low_nm; }
+};
+Stroke stroke_of(const render::ForcePanel& panel) {
+  Stroke stroke;
+  for (const render::PlotCurve& curve : panel.curves) {
+    for (const auto* points : {&curve.approach, &curve.retract}) {
+      for (const render::PlotPoint& point : *points) {
+        stroke.low_nm = std::min(stroke.low_nm, point.place_nm);
+        stroke.high_nm = std::max(stroke.high_nm, point.place_nm);
+      }
+    }
+  }
+  return stroke;
 }
 
 void fit_axes(render::ForcePanel& panel) {
@@ -89,7 +126,9 @@ void add_loop(const Run& run, const physics::FrictionLoop& loop, const Phrases& 
 
 }  // namespace
 
-render::ForcePanel friction_panel(const FrictionHistory& history, physics::FrictionLaw law, const Phrases& phrases) {
+render::ForcePanel friction_panel(const FrictionHistory& history, const physics::FrictionParameters& friction,
+                                  const Phrases& phrases) {
+  const physics::FrictionLaw law = friction.law;
   render::ForcePanel panel;
   panel.title = phrases[Phrase::FrictionTitle];
   panel.words = {.approach = {},
@@ -119,6 +158,14 @@ render::ForcePanel friction_panel(const FrictionHistory& history, physics::Frict
   panel.stage = growing || earlier ? phrases.text<Phrase::FrictionClosed>(physics::text_of(law).word)
                                    : phrases[Phrase::FrictionAdvice];
   if (history.attached() && !now.empty()) panel.cursor = plotted(now.back());
+  const Stroke stroke = stroke_of(panel);
+  const double period_nm = friction.period.si * curves::kNmPerM;
+  if (law == physics::FrictionLaw::Lattice && stroke.length_nm() > kManyPeriods * period_nm) {
+    zoom_to(panel.cursor ? panel.cursor->place_nm : 0.5 * (stroke.low_nm + stroke.high_nm), period_nm, panel);
+    if (growing || earlier)
+      panel.stage = phrases.text<Phrase::FrictionZoomed>(fmt::format("{:.0f}", kShownPeriods),
+                                                         fmt::format("{:.0f}", stroke.length_nm() / period_nm));
+  }
   fit_axes(panel);
   return panel;
 }

@@ -20,7 +20,9 @@ Analogy::Analogy(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex samp
   magnet_ = build.node("analogy/magnet");
   spring_ = build.node("analogy/spring");
   hand_ = build.node("analogy/hand");
+  const scene::NodeIndex plate = build.node("analogy/plate");
   if (build.error()) return;
+  plate_thickness_ = -bounds_below(scene, plate).low.z;
   magnet_height_ = bounds_below(scene, magnet_).high.z;
   spring_length_ = bounds_below(scene, spring_).high.z;
 }

@@ -9,7 +9,9 @@
 namespace afm::exhibit {
 
 // The friction loop: lateral force against lateral displacement as it grows, and half width, offset and slope of the
-// last closed one. With FrictionLaw::None, explains how to enable friction.
-render::ForcePanel friction_panel(const FrictionHistory& history, physics::FrictionLaw law, const Phrases& phrases);
+// last closed one. Of strokes over many atoms of a lattice, the axes show the three periods around the tip, so that
+// each slip is seen. With FrictionLaw::None, explains how to enable friction.
+render::ForcePanel friction_panel(const FrictionHistory& history, const physics::FrictionParameters& friction,
+                                  const Phrases& phrases);
 
 }  // namespace afm::exhibit

@@ -25,6 +25,8 @@ class Analogy {
   };
   void place(const Heights& heights, std::vector<glm::dmat4>& local) const;
 
+  double plate_thickness() const { return plate_thickness_; }
+
   // Heights of the centres of magnet and spring, for their labels.
   double magnet_middle(const Heights& heights) const { return heights.poles + 0.5 * magnet_height_; }
   double spring_middle(const Heights& heights) const;
@@ -36,7 +38,7 @@ class Analogy {
   double spring_length(const Heights& heights) const;
 
   scene::NodeIndex frame_ = 0, magnet_ = 0, spring_ = 0, hand_ = 0;
-  double magnet_height_ = 0, spring_length_ = 1;
+  double magnet_height_ = 0, spring_length_ = 1, plate_thickness_ = 0;
 };
 
 }  // namespace afm::exhibit

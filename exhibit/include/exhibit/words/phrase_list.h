@@ -201,16 +201,17 @@
   PHRASE(PatternRuler, "pattern-ruler", "distance", kLine)
 
 // Friction loop.
-#define AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)                  \
-  PHRASE(FrictionTitle, "friction-title", "", kLine)          \
-  PHRASE(FrictionOff, "friction-off", "", kLine)              \
-  PHRASE(FrictionAdvice, "friction-advice", "", kLine)        \
-  PHRASE(FrictionClosed, "friction-closed", "law", kLine)     \
-  PHRASE(FrictionNow, "friction-now", "", kLine)              \
-  PHRASE(FrictionLeft, "friction-left", "", kLine)            \
-  PHRASE(FrictionRight, "friction-right", "", kLine)          \
-  PHRASE(FrictionHalfWidth, "friction-half-width", "", kLine) \
-  PHRASE(FrictionOffset, "friction-offset", "", kLine)        \
+#define AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)                        \
+  PHRASE(FrictionTitle, "friction-title", "", kLine)                \
+  PHRASE(FrictionOff, "friction-off", "", kLine)                    \
+  PHRASE(FrictionAdvice, "friction-advice", "", kLine)              \
+  PHRASE(FrictionClosed, "friction-closed", "law", kLine)           \
+  PHRASE(FrictionZoomed, "friction-zoomed", "shown periods", kLine) \
+  PHRASE(FrictionNow, "friction-now", "", kLine)                    \
+  PHRASE(FrictionLeft, "friction-left", "", kLine)                  \
+  PHRASE(FrictionRight, "friction-right", "", kLine)                \
+  PHRASE(FrictionHalfWidth, "friction-half-width", "", kLine)       \
+  PHRASE(FrictionOffset, "friction-offset", "", kLine)              \
   PHRASE(FrictionSlope, "friction-slope", "", kLine)
 
 // Scan images and settings; artefacts, in the order of physics::ScanArtefact, whose names are the ends of the keys.
