@@ -10,6 +10,7 @@
 >>> found.E.shape  # row 0 at the top
 (4, 6)
 >>> print(np.round(found.E[0] / 1e3))  # kPa
+[ 3.  3.  3. 20. 20. 20.]
 >>> bool((found.flag == "trusted").all())
 True
 """

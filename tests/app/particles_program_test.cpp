@@ -10,24 +10,18 @@
 
 #include "core/whole_file.h"
 #include "support/places.h"
-#include "support/run_program.h"
+#include "support/run_touchafm.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
 namespace particles_program_test {
 
+using support::expect_refusal;
 using support::ProgramResult;
 using testing::HasSubstr;
 
 ProgramResult particles(const std::string& arguments) {
   return support::run_program(support::touchafm() + " particles " + arguments);
-}
-
-void expect_refusal(const ProgramResult& result, int exit_code, const std::string& part) {
-  EXPECT_EQ(result.exit_code, exit_code) << result.err;
-  EXPECT_THAT(result.err, HasSubstr(part));
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  EXPECT_EQ(result.out, "");
 }
 
 TEST(ParticlesCommand, PushesTheGoldOfTheBuiltInSet) {

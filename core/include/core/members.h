@@ -40,7 +40,7 @@ inline constexpr std::size_t kMembers = count_members<std::remove_const_t<Record
 template <class Record>
 constexpr auto members_of(Record& record) {
   constexpr std::size_t kCount = kMembers<Record>;
-  static_assert(kCount >= 1 && kCount <= 16, "members_of() needs a case for so many members");
+  static_assert(kCount >= 1 && kCount <= 17, "members_of() needs a case for so many members");
   if constexpr (kCount == 1) {
     auto& [a] = record;
     return std::tie(a);
@@ -86,9 +86,12 @@ constexpr auto members_of(Record& record) {
   } else if constexpr (kCount == 15) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = record;
     return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
-  } else {
+  } else if constexpr (kCount == 16) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = record;
     return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+  } else {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = record;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
   }
 }
 

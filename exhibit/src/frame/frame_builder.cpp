@@ -12,6 +12,7 @@
 #include "exhibit/panels/data_panel.h"
 #include "exhibit/panels/particles_panel.h"
 #include "exhibit/scan/scan_panels.h"
+#include "exhibit/scan/scan_relief.h"
 #include "exhibit/scenery/journey.h"
 #include "exhibit/scenery/wall_scene.h"
 #include "exhibit/words/guidance.h"
@@ -146,6 +147,7 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
   if (moment.scan != nullptr && moment.wall.material) {
     const std::string& title = (*materials_)[*moment.wall.material].setup.material.title;
     frame.panels.image.content = image_panel(*moment.scan, phrases_->word(title), *phrases_);
+    wall_scene_->lay_on_sample(relief_of(*moment.scan), moment.wall, frame);
   }
   if (moment.wall.centerpiece == Centerpiece::Plot) {
     frame.panels.data.content = results_panel(moment.results, *phrases_);

@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "exhibit/models/model_builder.h"
 #include "exhibit/models/particle_models.h"
+#include "exhibit/models/relief.h"
 #include "exhibit/models/user_models.h"
 #include "imaging/drawn_surface.h"
 #include "models/height_bar.h"
@@ -45,6 +46,11 @@ void WallScene::add_frames(ModelBuilder& build, const UserModels& own) {
   analogy_ = Analogy(build, scene_, sample_frame_);
   journey_ = Journey(build, scene_, layout_);
   if (own.particles) particles_.emplace(*own.particles, build, scene_, sample_frame_);
+  height_bar_ = build.part(height_bar(kHeightBarWidth / kHeightBarHeight), "height-bar", layout_);
+  scene_.nodes[height_bar_].parent_from_node = glm::scale(
+      glm::translate(dmat4(1.0), dvec3(places_.height_bar_x(), kHeightBarBottom, 0.0)), dvec3(kHeightBarHeight));
+  build.part(relief_mesh(), "image", sample_frame_);
+  relief_ = build.node("image/relief");
 }
 
 void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir, const scene::MaterialEntry& material,
@@ -122,9 +128,6 @@ void WallScene::add_topography(ModelBuilder& build, const std::string& sample, c
     topography_ = model.topography;
     topography_relief_m_ = model.highest_m - model.lowest_m;
     topography_exaggeration_ = model.exaggeration;
-    height_bar_ = build.part(height_bar(kHeightBarWidth / kHeightBarHeight), "height-bar", layout_);
-    scene_.nodes[height_bar_].parent_from_node = glm::scale(
-        glm::translate(dmat4(1.0), dvec3(places_.height_bar_x(), kHeightBarBottom, 0.0)), dvec3(kHeightBarHeight));
     look.sample = build.part(model.sample, sample, sample_frame_);
     topography_mesh_ = scene_.nodes[build.node(sample + "/surface")].mesh;
   } else {

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 
 #include "core/check.h"
 #include "exhibit/models/model_builder.h"
+#include "exhibit/models/relief.h"
 #include "exhibit/scenery/wall_layout.h"
 #include "exhibit/scenery/wall_scene.h"
 #include "physics/quantity_text.h"
@@ -87,6 +89,27 @@ void add_journey_labels(const Journey& journey, const WallPlaces& places, const 
   }
 }
 
+// The numbers at the ends of the colour scale, in metres as measured, and a measured sample's exaggeration.
+void add_height_labels(const WallPlaces& places, const Phrases& phrases, double range_m,
+                       std::optional<double> exaggeration, render::FrameState& frame) {
+  const auto length = [](double length_m) {
+    std::string text = physics::format_quantity(physics::Length(length_m), physics::kLengthUnits, 3);
+    if (const auto micro = text.find("um"); micro != std::string::npos) text.replace(micro, 1, "\u00b5");
+    return text;
+  };
+  const double left = places.height_bar_x() + kHeightBarWidth + kHeightBarTextGap;
+  const auto beside = [&](double height) {
+    return places.in_wall(left, kHeightBarBottom + height - 0.5 * kHeightBarTextHeight, kHeightBarTextWidth,
+                          kHeightBarTextHeight);
+  };
+  frame.labels.push_back({length(range_m), false, beside(kHeightBarHeight)});
+  if (exaggeration) {
+    frame.labels.push_back({phrases.text<Phrase::HeightsTimes>(fmt::format("{:g}", *exaggeration)), false,
+                            beside(0.5 * kHeightBarHeight)});
+  }
+  frame.labels.push_back({"0", false, beside(0.0)});
+}
+
 }  // namespace
 
 std::vector<dmat4> WallScene::local_transforms(const WallState& state, std::vector<render::BeamBend>& bends) const {
@@ -144,6 +167,7 @@ void WallScene::place_sample(const WallState& state, std::vector<dmat4>& local) 
     local[look.sample] = glm::scale(dmat4(1.0), dvec3(per_m)) * local[look.sample];
     thickness = look.thickness_m * per_m;
   }
+  if (state.centerpiece == Centerpiece::Analogy) thickness = analogy_.plate_thickness();
   instrument_.place_stage(scene_, thickness, local);
 }
 
@@ -176,11 +200,10 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
     if (state.centerpiece == Journey) hide({looks_[i].swatch});
   }
   if (state.centerpiece != Instrument) hide({instrument_.lever(), instrument_.optics()});
-  if (state.centerpiece == Analogy || state.centerpiece == Journey) hide({instrument_.stage()});
-  if (state.centerpiece == Journey) hide({instrument_.floor()});
+  if (state.centerpiece == Journey) hide({instrument_.stage(), instrument_.floor()});
   if (state.centerpiece != Analogy) hide({analogy_.frame()});
   if (state.centerpiece != Journey) hide({journey_.frame()});
-  if (topography_mesh_ && (state.centerpiece != Instrument || !state.material)) hide({height_bar_});
+  if (!topography_mesh_ || state.centerpiece != Instrument || !state.material) hide({height_bar_});
   if (state.centerpiece != Instrument || !state.material) hide(marks_.lever_nodes());
   if (!shows_ghost(state, particles_.has_value())) hide({instrument_.ghost()});
   if (ruler_m_per_unit(state) == 0.0) hide(marks_.ruler_nodes());
@@ -197,6 +220,7 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
 void WallScene::update(const WallState& state, render::FrameState& frame) const {
   frame.room_from_node = compose(scene_, local_transforms(state, frame.bends));
   frame.copies.clear();
+  frame.shapes.clear();
   if (particles_) particles_->add_copies(state.particles, layout_per_m(state), frame);
 
   const std::vector<scene::NodeIndex> hidden = hidden_roots(state);
@@ -217,7 +241,9 @@ void WallScene::update(const WallState& state, render::FrameState& frame) const 
   if (state.centerpiece != Centerpiece::Journey) place_swatch_labels(state, frame);
   if (state.centerpiece == Centerpiece::Analogy) place_analogy_labels(state, frame);
   place_marks(state, frame);
-  place_height_bar(state, frame);
+  if (topography_mesh_ && state.centerpiece == Centerpiece::Instrument && state.material) {
+    add_height_labels(places_, phrases_, topography_relief_m_, topography_exaggeration_, frame);
+  }
   place_fog(places_, state, frame);
   place_light(places_, frame);
   // the floor's shadows are painted in its colours
@@ -279,13 +305,17 @@ void WallScene::place_marks(const WallState& state, render::FrameState& frame) c
   const double m_per_unit = ruler_m_per_unit(state);
   if (m_per_unit == 0.0) return;
   const ScaleBar bar = scale_bar(m_per_unit, kRulerLongest);
+  const bool travels = state.centerpiece == Centerpiece::Journey;
+  const auto companion = travels ? journey_.companion(state.journey_orders) : std::nullopt;
+  // a companion at the right has its name there
+  const double text_x =
+      kRulerFoot.x + (companion && companion->place.x > 0.0 ? -kRulerTextGap - kRulerTextWidth : kRulerTextGap);
   frame.labels.push_back(
       {.text = bar.text,
        .highlighted = false,
-       .placement = places_.in_wall(kRulerFoot.x + kRulerTextGap, 0.5 * (bar.drawn - kRulerTextHeight), kRulerTextWidth,
-                                    kRulerTextHeight)});
-  if (state.centerpiece == Centerpiece::Journey) {
-    if (const auto companion = journey_.companion(state.journey_orders)) place_companion_label(*companion, frame);
+       .placement = places_.in_wall(text_x, 0.5 * (bar.drawn - kRulerTextHeight), kRulerTextWidth, kRulerTextHeight)});
+  if (travels) {
+    if (companion) place_companion_label(*companion, frame);
     return add_journey_labels(journey_, places_, phrases_, state.journey_orders, frame);
   }
 
@@ -316,23 +346,18 @@ void WallScene::place_companion_label(const Journey::Companion& companion, rende
                           .placement = {.lower_left_m = middle - 0.5 * right, .right_m = right, .up_m = up}});
 }
 
-// The numbers at the ends of the colour scale, in metres as measured, and the sample's exaggeration.
-void WallScene::place_height_bar(const WallState& state, render::FrameState& frame) const {
-  if (!topography_mesh_ || state.centerpiece != Centerpiece::Instrument || !state.material) return;
-  const auto length = [](double length_m) {
-    std::string text = physics::format_quantity(physics::Length(length_m), physics::kLengthUnits, 3);
-    if (const auto micro = text.find("um"); micro != std::string::npos) text.replace(micro, 1, "\u00b5");
-    return text;
-  };
-  const double left = places_.height_bar_x() + kHeightBarWidth + kHeightBarTextGap;
-  const auto beside = [&](double height) {
-    return places_.in_wall(left, kHeightBarBottom + height - 0.5 * kHeightBarTextHeight, kHeightBarTextWidth,
-                           kHeightBarTextHeight);
-  };
-  frame.labels.push_back({length(topography_relief_m_), false, beside(kHeightBarHeight)});
-  frame.labels.push_back({phrases_.text<Phrase::HeightsTimes>(fmt::format("{:g}", topography_exaggeration_)), false,
-                          beside(0.5 * kHeightBarHeight)});
-  frame.labels.push_back({"0", false, beside(0.0)});
+void WallScene::lay_on_sample(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const {
+  if (state.centerpiece != Centerpiece::Instrument || !state.material) return;
+  const double per_m = layout_per_m(state);
+  const dmat4 sample_from_relief =
+      glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, per_m * relief.floor_m + kReliefLift)),
+                 per_m * dvec3(relief.side_m, relief.side_m, relief.lid_m - relief.floor_m));
+  frame.room_from_node[relief_] = frame.room_from_node[sample_frame_] * sample_from_relief;
+  frame.shapes.push_back({.node = relief_, .vertices = relief.vertices});
+  for (scene::NodeIndex i = 0; i < scene_.nodes.size(); ++i) {
+    if (is_below(scene_, height_bar_, i)) frame.visible[i] = 1;
+  }
+  if (!topography_mesh_) add_height_labels(places_, phrases_, relief.range_m, std::nullopt, frame);
 }
 
 }  // namespace afm::exhibit

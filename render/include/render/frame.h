@@ -45,6 +45,13 @@ struct MeshCopies {
   std::vector<MeshCopy> copies;
 };
 
+// Vertices of a node's mesh in this frame, as many as the mesh has and within its box, in place of those it was loaded
+// with. A node with scene::Node::reshaped and without this entry shows nothing. Such a mesh casts no shadow.
+struct MeshShape {
+  scene::NodeIndex node = 0;
+  std::vector<scene::Vertex> vertices;
+};
+
 // One key light with a shadow; the rest is the procedural environment.
 struct KeyLight {
   glm::vec3 direction_to_light{0.3F, 0.8F, 0.5F};  // room frame, any length
@@ -336,6 +343,7 @@ struct FrameState {
   std::vector<scene::NodeIndex> highlighted;  // pointed at or selected by the wand; glow with their children
   std::vector<BeamBend> bends;
   std::vector<MeshCopies> copies;            // at most one entry per node
+  std::vector<MeshShape> shapes;             // at most one entry per node
   std::vector<scene::NodeIndex> unshadowed;  // lit as if nothing cast a shadow: their colours include one
   std::vector<scene::NodeIndex> outlined;    // darker where the surface turns away, in frames with fog
   KeyLight key_light;

@@ -37,6 +37,13 @@ std::span<const MeshCopy> copies_of(const FrameState& frame, scene::NodeIndex no
   return {};
 }
 
+std::span<const scene::Vertex> shape_of(const FrameState& frame, scene::NodeIndex node) {
+  for (const MeshShape& each : frame.shapes) {
+    if (each.node == node) return each.vertices;
+  }
+  return {};
+}
+
 DrawBox shown_box(const FrameState& frame, const Draw& draw) {
   if (draw.most_copies == 0) return bent_box(draw, bend_of(frame, draw.node));
   const std::span<const MeshCopy> copies = copies_of(frame, draw.node);

@@ -30,6 +30,9 @@ DrawBox box_of(const Draw& draw, const MeshCopy& copy);
 // Copies of a node's mesh in a frame.
 std::span<const MeshCopy> copies_of(const FrameState& frame, scene::NodeIndex node);
 
+// Vertices that a frame gives a node's mesh; empty if none.
+std::span<const scene::Vertex> shape_of(const FrameState& frame, scene::NodeIndex node);
+
 // Bounding box of everything that a draw shows in a frame: its bent mesh, or all copies. Without copies, where there is
 // room for some, a box of size 0.
 DrawBox shown_box(const FrameState& frame, const Draw& draw);

@@ -103,6 +103,7 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
       list.copies[i] = static_cast<std::uint32_t>(copies_of(frame, draw.node).size());
       if (list.copies[i] == 0) continue;
     }
+    if (draw.reshaped && shape_of(frame, draw.node).empty()) continue;
     if (draw.casts_shadow && frame.key_light.map_share > 0.0F) {
       list.shadow.push_back(i);
     }
@@ -117,7 +118,8 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
     }
     if (seen) {
       const bool copied = draw.most_copies > 0;
-      if (!list.hazy && !copied) list.shading[i] = shading(draw, frame.eyes[0], room_from_node, pixels_high);
+      if (!list.hazy && !copied && !draw.reshaped)
+        list.shading[i] = shading(draw, frame.eyes[0], room_from_node, pixels_high);
       // copies that move among themselves keep their place in the order
       const glm::dvec3 middle = copied ? glm::dvec3(0.0) : box.center;
       const double distance = glm::distance(viewer, glm::dvec3(room_from_node * glm::dvec4(middle, 1.0)));

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <set>
 #include <span>
 
 #include "core/check.h"
@@ -98,9 +99,10 @@ void pack_variant(const scene::Primitive& primitive, const MeshOrder& order, std
 }
 
 void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive,
-                    const std::optional<ShaderVariant>& variant, Packed& packed, std::vector<Draw>& draws) {
+                    const std::optional<ShaderVariant>& variant, bool reshaped, Packed& packed,
+                    std::vector<Draw>& draws) {
   const auto& material = scene.materials.at(primitive.material);
-  const MeshOrder order = drawing_order(primitive, material.blended);
+  const MeshOrder order = drawing_order(primitive, material.blended || reshaped);
   draws.push_back({.node = 0,
                    .first_index = static_cast<std::uint32_t>(packed.indices.size()),
                    .index_count = static_cast<std::uint32_t>(order.indices.size()),
@@ -129,12 +131,16 @@ void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive
 Packed pack(const scene::Scene& scene) {
   Packed packed;
   packed.draws_of_mesh.resize(scene.meshes.size());
+  std::set<std::size_t> reshaped;  // meshes
+  for (const scene::Node& node : scene.nodes) {
+    if (node.reshaped && node.mesh) reshaped.insert(*node.mesh);
+  }
   for (const bool with_variant : {true, false}) {
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
       for (const auto& primitive : scene.meshes[i].primitives) {
         const auto variant = variant_of(scene, primitive);
         if (variant.has_value() == with_variant) {
-          pack_primitive(scene, primitive, variant, packed, packed.draws_of_mesh[i]);
+          pack_primitive(scene, primitive, variant, reshaped.contains(i), packed, packed.draws_of_mesh[i]);
         }
       }
     }
@@ -148,6 +154,19 @@ Packed pack(const scene::Scene& scene) {
   return packed;
 }
 
+std::uint32_t vertex_count_of(const scene::Scene& scene, const scene::Node& node) {
+  const auto& primitives = scene.meshes.at(node.mesh.value()).primitives;
+  AFM_CHECK(primitives.size() == 1 && node.most_copies == 0);
+  return static_cast<std::uint32_t>(primitives.front().vertices.size());
+}
+
+void reshape(Draw& draw, std::uint32_t first_vertex) {
+  AFM_CHECK(!draw.variant);  // drawn by the plain pipelines
+  draw.reshaped = true;
+  draw.casts_shadow = false;
+  draw.first_vertex = static_cast<std::int32_t>(first_vertex);
+}
+
 }  // namespace
 
 SceneGeometry::SceneGeometry(const Device& device, const scene::Scene& scene) {
@@ -157,6 +176,7 @@ SceneGeometry::SceneGeometry(const Device& device, const scene::Scene& scene) {
     const auto& node = scene.nodes[index];
     parents_.push_back(node.parent);
     most_copies_.push_back(node.most_copies);
+    shape_sizes_.push_back(node.reshaped ? vertex_count_of(scene, node) : 0);
     if (node.mesh) {
       for (Draw draw : packed.draws_of_mesh.at(*node.mesh)) {
         draw.node = index;
@@ -164,10 +184,12 @@ SceneGeometry::SceneGeometry(const Device& device, const scene::Scene& scene) {
         draw.first_copy = copy_count_;
         // copies are drawn by a pipeline for plain, opaque materials
         AFM_CHECK(draw.most_copies == 0 || (!draw.variant && !draw.blended && !draw.unlit));
+        if (node.reshaped) reshape(draw, shape_count_);
         draws_.push_back(draw);
       }
     }
     copy_count_ += node.most_copies;
+    shape_count_ += shape_sizes_.back();
   }
   std::stable_sort(draws_.begin(), draws_.end(), [](const Draw& a, const Draw& b) { return a.blended < b.blended; });
   vertices_ = upload_buffer(device, "scene vertices", std::as_bytes(std::span(packed.vertices)),

@@ -31,10 +31,11 @@ struct Draw {
   float reach = 0.0F;             // largest distance of a vertex from the mesh's origin
   std::uint32_t most_copies = 0;  // 0: the mesh itself is drawn
   std::uint32_t first_copy = 0;   // place in the buffer of all copies
-  float usual_edge = 0.0F;        // in the node's frame; the longest edge of nine triangles in ten is at most this
-  float longest_edge = 0.0F;      // 0: no triangles
-  float largest_turn = 0.0F;      // radians, between the normals at two corners of a triangle
-  DrawBlock block{};              // includes the material's constants
+  bool reshaped = false;      // its vertices are the frame's; first_vertex is their place in the buffer of all shapes
+  float usual_edge = 0.0F;    // in the node's frame; the longest edge of nine triangles in ten is at most this
+  float longest_edge = 0.0F;  // 0: no triangles
+  float largest_turn = 0.0F;  // radians, between the normals at two corners of a triangle
+  DrawBlock block{};          // includes the material's constants
 };
 
 // Vertex data read only by a ShaderVariant.
@@ -60,6 +61,10 @@ class SceneGeometry {
   std::uint32_t most_copies(scene::NodeIndex node) const { return most_copies_[node]; }
   std::uint32_t copy_count() const { return copy_count_; }
 
+  // Number of vertices of a node's mesh that a frame gives, 0 if it gives none, and of all nodes together.
+  std::uint32_t shape_size(scene::NodeIndex node) const { return shape_sizes_[node]; }
+  std::uint32_t shape_count() const { return shape_count_; }
+
   void bind(const vk::raii::CommandBuffer& command) const;
 
   static const std::array<vk::VertexInputBindingDescription, 1>& bindings();
@@ -75,6 +80,8 @@ class SceneGeometry {
   std::vector<ShaderVariant> variants_;
   std::vector<std::uint32_t> most_copies_;  // indexed by node
   std::uint32_t copy_count_ = 0;
+  std::vector<std::uint32_t> shape_sizes_;  // indexed by node
+  std::uint32_t shape_count_ = 0;
   Buffer vertices_;
   Buffer variant_vertices_;  // first vertex with a look
   Buffer indices_;

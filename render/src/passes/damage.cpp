@@ -70,7 +70,7 @@ bool Damage::find_changed(const DrawnFrame& before, const DrawnFrame& now, const
     if (!counts) continue;
     if (const Draw& draw = geometry.draws()[i]; draw.most_copies > 0) {
       if (!find_changed_copies(before, now, i, draw)) return false;
-    } else if (!now.same(before, i)) {
+    } else if (!now.same(before, i) || !now.same_shape(before, geometry, i)) {
       changed_[i] = 1;
       changes_.push_back(i);
     }

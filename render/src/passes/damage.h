@@ -37,6 +37,10 @@ class DrawnFrame {
   // SceneGeometry::copy_count() copies, those of a node from Draw::first_copy on. Those that are not shown are all 0.
   std::span<const MeshCopy> copies() const { return copies_; }
 
+  // SceneGeometry::shape_count() vertices, those of a draw from Draw::first_vertex on; those of earlier frames where
+  // this one has none.
+  std::span<const scene::Vertex> shapes() const { return shapes_; }
+
   // Pixels of an eye's image in which either eye may see the draw; empty if it is not drawn.
   const PixelBox& bounds(std::uint32_t draw) const { return bounds_[draw]; }
 
@@ -48,6 +52,7 @@ class DrawnFrame {
   glm::dmat4 room_from_node(std::uint32_t draw) const;  // as the shaders use it
   bool same_for_all(const DrawnFrame& other) const;
   bool same(const DrawnFrame& other, std::uint32_t draw) const;
+  bool same_shape(const DrawnFrame& other, const SceneGeometry& geometry, std::uint32_t draw) const;
   bool same_copies(const DrawnFrame& other, const Draw& draw) const;
   std::span<const MeshCopy> copies_of(const Draw& draw) const;
   bool casts_same_shadow(const DrawnFrame& other, std::uint32_t draw) const;
@@ -67,8 +72,9 @@ class DrawnFrame {
   std::vector<std::uint8_t> how_;  // kDrawn and the other flags, indexed by draw
   std::vector<MeshCopy> copies_;
   std::vector<std::uint32_t> copy_counts_;  // indexed by node
-  std::vector<PixelBox> bounds_;            // indexed by draw
-  std::vector<std::uint32_t> order_;        // drawing order
+  std::vector<scene::Vertex> shapes_;
+  std::vector<PixelBox> bounds_;      // indexed by draw
+  std::vector<std::uint32_t> order_;  // drawing order
   std::vector<PanelState> panels_;
   std::vector<std::uint8_t> glowing_;
 };

@@ -109,6 +109,13 @@ void DrawnFrame::take(const FrameState& frame, const SceneGeometry& geometry, co
     std::copy(copies.begin(), copies.end(), copies_.begin() + draw.first_copy);
   }
 
+  shapes_.resize(geometry.shape_count());
+  for (const Draw& draw : draws) {
+    if (!draw.reshaped) continue;
+    const std::span<const scene::Vertex> shape = shape_of(frame, draw.node);
+    std::copy(shape.begin(), shape.end(), shapes_.begin() + draw.first_vertex);
+  }
+
   bounds_.assign(draws.size(), {});
   const bool same_eyes = same_for_all(before);
   for (const std::uint32_t i : order_) {
@@ -135,6 +142,16 @@ bool DrawnFrame::same_for_all(const DrawnFrame& other) const {
 
 bool DrawnFrame::same(const DrawnFrame& other, std::uint32_t draw) const {
   return how_[draw] == other.how_[draw] && same_bytes(blocks_[draw], other.blocks_[draw]);
+}
+
+bool DrawnFrame::same_shape(const DrawnFrame& other, const SceneGeometry& geometry, std::uint32_t draw) const {
+  const Draw& its = geometry.draws()[draw];
+  if (!its.reshaped) return true;
+  const auto part = [&](const DrawnFrame& of) {
+    return std::as_bytes(
+        std::span(of.shapes_).subspan(static_cast<std::size_t>(its.first_vertex), geometry.shape_size(its.node)));
+  };
+  return std::memcmp(part(*this).data(), part(other).data(), part(*this).size()) == 0;
 }
 
 bool DrawnFrame::same_copies(const DrawnFrame& other, const Draw& draw) const {

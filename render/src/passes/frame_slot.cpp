@@ -103,6 +103,12 @@ FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::D
     written_copies_.resize(geometry.copy_count());
     std::memcpy(copies_.mapped, written_copies_.data(), copies_.size);
   }
+  if (geometry.shape_count() > 0) {
+    shapes_ = create_host_buffer(device, "shapes", geometry.shape_count() * sizeof(scene::Vertex),
+                                 vk::BufferUsageFlagBits::eVertexBuffer);
+    written_shapes_.resize(geometry.shape_count());
+    std::memcpy(shapes_.mapped, written_shapes_.data(), shapes_.size);
+  }
   shadow_set_ = allocate(shadow_layout);
   write_uniforms(device, *shadow_set_, uniforms_.front(), draw_blocks_);
 }
@@ -119,7 +125,7 @@ bool FrameSlot::Recorded::take(const DrawList& new_draws, const EyePassConfig& n
 }
 
 void FrameSlot::write(const FrameState& frame, std::span<const DrawBlock> blocks, std::span<const MeshCopy> copies,
-                      const EyePassConfig& drawing, float guard_band) {
+                      std::span<const scene::Vertex> shapes, const EyePassConfig& drawing, float guard_band) {
   const glm::vec2 size(static_cast<float>(drawing.extent.width), static_cast<float>(drawing.extent.height));
   for (std::size_t pass = 0; pass < uniforms_.size(); ++pass) {
     FrameBlock block = make_frame_block(frame, pass, size, guard_band);
@@ -135,6 +141,10 @@ void FrameSlot::write(const FrameState& frame, std::span<const DrawBlock> blocks
     if (copies[i] == written_copies_[i]) continue;
     written_copies_[i] = copies[i];
     std::memcpy(copies_.mapped + i * sizeof(MeshCopy), &copies[i], sizeof(MeshCopy));
+  }
+  if (!shapes.empty() && std::memcmp(written_shapes_.data(), shapes.data(), shapes.size_bytes()) != 0) {
+    std::copy(shapes.begin(), shapes.end(), written_shapes_.begin());
+    std::memcpy(shapes_.mapped, shapes.data(), shapes.size_bytes());
   }
 }
 

@@ -27,9 +27,10 @@ class FrameSlot {
             const ShadowMap& shadow_map, const SceneGeometry& geometry);
 
   // Writes everything that the frame's shaders read; `blocks` has one entry per draw, `copies` one for each of
-  // SceneGeometry::copy_count(). Of the copies, only those that differ from the slot's last frame are written.
+  // SceneGeometry::copy_count(), `shapes` one for each of SceneGeometry::shape_count(). Of copies and shapes, only
+  // those that differ from the slot's last frame are written.
   void write(const FrameState& frame, std::span<const DrawBlock> blocks, std::span<const MeshCopy> copies,
-             const EyePassConfig& drawing, float guard_band);
+             std::span<const scene::Vertex> shapes, const EyePassConfig& drawing, float guard_band);
 
   // Descriptor set of a pass, which starts with the left eye's view or with the right eye's.
   vk::DescriptorSet set(std::size_t pass) const { return *sets_[pass]; }
@@ -42,6 +43,9 @@ class FrameSlot {
 
   // Vertex buffer of all copies; null if the scene has no room for any.
   vk::Buffer copies() const { return *copies_.buffer; }
+
+  // Vertex buffer of all shapes; null if frames give none.
+  vk::Buffer shapes() const { return *shapes_.buffer; }
 
   // Draws of the frame; stored here only to keep their memory.
   DrawList draws;
@@ -82,6 +86,8 @@ class FrameSlot {
   Buffer draw_blocks_;
   Buffer copies_;
   std::vector<MeshCopy> written_copies_;
+  Buffer shapes_;
+  std::vector<scene::Vertex> written_shapes_;
   vk::raii::DescriptorPool descriptor_pool_{nullptr};
   std::vector<vk::raii::DescriptorSet> sets_;
   vk::raii::DescriptorSet shadow_set_{nullptr};

@@ -168,7 +168,9 @@ void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLa
 
 void ScenePass::draw_one(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t i) {
   const Draw& draw = input.geometry.draws()[i];
+  if (draw.reshaped) command.bindVertexBuffers(0, input.shapes, vk::DeviceSize{0});
   command.drawIndexed(draw.index_count, input.draws.copies[i], draw.first_index, draw.first_vertex, draw.first_copy);
+  if (draw.reshaped) input.geometry.bind(command);
 }
 
 void ScenePass::bind_buffers(const vk::raii::CommandBuffer& command, const Input& input) {

@@ -28,6 +28,7 @@ class ScenePass {
     const DrawnFrame* frame = nullptr;  // if `box` is set, used to skip draws outside it
     std::optional<PixelBox> box{};      // scissor, over an earlier picture
     vk::Buffer copies{};                // as FrameSlot::copies()
+    vk::Buffer shapes{};                // as FrameSlot::shapes()
   };
   // Draws `draws` of the input's geometry; the input's set is FrameSlot::shadow_set().
   void record_shadow(const vk::raii::CommandBuffer& command, const Input& input,

@@ -15,9 +15,9 @@ void Renderer::Parts::record_eyes(const vk::raii::CommandBuffer& command, std::s
       slot.area.everything() ? std::nullopt : std::optional<PixelBox>(slot.area.around());
   for (std::size_t pass = 0; pass < drawing.pass_count; ++pass) {
     const auto record = [&](const std::optional<PixelBox>& box) {
-      scene_pass.record_eyes(
-          command, drawing,
-          {geometry, materials, slot.draws, slot.set(pass), slot.draw_stride(), &now, box, slot.copies()});
+      scene_pass.record_eyes(command, drawing,
+                             {geometry, materials, slot.draws, slot.set(pass), slot.draw_stride(), &now, box,
+                              slot.copies(), slot.shapes()});
       if (!eyes.reduced()) panels.record_rectangles(command, drawing, slot.set(pass));
     };
     eyes.begin(command, pass, around);

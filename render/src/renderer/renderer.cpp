@@ -126,8 +126,8 @@ void Renderer::Parts::record_painting(std::size_t slot) {
 void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
   FrameSlot& slot = slots[slot_index];
   const auto& command = slot.shadow();
-  const ScenePass::Input input{geometry,           materials, slot.draws, slot.shadow_set(),
-                               slot.draw_stride(), nullptr,   {},         slot.copies()};
+  const ScenePass::Input input{geometry, materials, slot.draws,    slot.shadow_set(), slot.draw_stride(),
+                               nullptr,  {},        slot.copies(), slot.shapes()};
   command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   mark(command, slot_index, GpuTimer::Mark::ShadowBegin);
   if (step == ShadowStep::Everything) {
@@ -187,7 +187,7 @@ void Renderer::Parts::render(const FrameState& frame) {
   if (rested) {
     return;
   }
-  slot.write(frame, now.blocks(), now.copies(), eyes.drawing(), eyes.guard_band());
+  slot.write(frame, now.blocks(), now.copies(), now.shapes(), eyes.drawing(), eyes.guard_band());
   if (slot.painted) {
     record_painting(slot_index);
   }
@@ -253,6 +253,9 @@ void Renderer::render(const FrameState& frame) {
   AFM_CHECK(frame.visible.empty() || frame.visible.size() == parts_->node_count);
   for (const MeshCopies& each : frame.copies) {
     AFM_CHECK(each.node < parts_->node_count && each.copies.size() <= parts_->geometry.most_copies(each.node));
+  }
+  for (const MeshShape& each : frame.shapes) {
+    AFM_CHECK(each.node < parts_->node_count && each.vertices.size() == parts_->geometry.shape_size(each.node));
   }
   rethrow_as_device_failure(parts_->device, "drawing a frame", [&] { parts_->render(frame); });
 }

@@ -75,7 +75,7 @@ void add_node(Digest& digest, const Node& node) {
   digest.add(node.parent);
   digest.add(node.mesh);
   digest.add(node.parent_from_node);
-  digest.add(std::uint64_t{node.most_copies});
+  digest.add(std::uint64_t{node.most_copies} << 1U | (node.reshaped ? 1U : 0U));
 }
 
 void add_primitive(Digest& digest, const Primitive& primitive) {

@@ -90,6 +90,7 @@ inline constexpr double kShadeRadius = 0.085;  // soft shade at the contact
 // the scan line, over the sample
 inline constexpr double kScanLineRadius = 0.004;
 inline constexpr double kScanLineLift = 0.004;  // height above the surface
+inline constexpr double kReliefLift = 0.003;    // height of an image above the surface that it shows
 // smaller than the instrument's stroke, so that the hand stays below the banner
 inline constexpr double kAnalogyScale = 0.55;
 inline constexpr double kAnalogyLabelWidth = 0.40;

@@ -28,6 +28,7 @@
 
 namespace afm::exhibit {
 
+struct HeightRelief;
 class ModelBuilder;
 struct UserModels;
 
@@ -98,6 +99,9 @@ class WallScene {
   // Transforms of all nodes, room from node.
   std::vector<glm::dmat4> node_transforms(const WallState& state) const;
 
+  // Lays an image on the sample in front, with its colour scale beside. Call after update(), with the same state.
+  void lay_on_sample(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const;
+
   // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.
   void update(const WallState& state, render::FrameState& frame) const;
 
@@ -132,7 +136,6 @@ class WallScene {
   void place_analogy_labels(const WallState& state, render::FrameState& frame) const;
   void place_marks(const WallState& state, render::FrameState& frame) const;
   void place_companion_label(const Journey::Companion& companion, render::FrameState& frame) const;
-  void place_height_bar(const WallState& state, render::FrameState& frame) const;
   std::vector<glm::dmat4> local_transforms(const WallState& state, std::vector<render::BeamBend>& bends) const;
 
   scene::Scene scene_;
@@ -144,7 +147,7 @@ class WallScene {
   std::optional<std::uint32_t> topography_mesh_;
   double topography_relief_m_ = 0;  // range of the colour scale
   double topography_exaggeration_ = 1;
-  scene::NodeIndex height_bar_{};            // used if there is a topography
+  scene::NodeIndex height_bar_{}, relief_{};
   std::vector<std::string> surface_models_;  // model of each surface
   WallPlaces places_;
   double text_size_ = 1.0;

@@ -109,6 +109,7 @@ struct Node {
   std::optional<std::uint32_t> light{};
   std::vector<float> weights{};   // morph target weights that replace the mesh's own
   std::uint32_t most_copies = 0;  // largest number of copies of the mesh that a frame shows in its place; 0: none
+  bool reshaped = false;          // a frame gives the vertices of its mesh, one primitive, within the mesh's own box
   std::string role{};             // role in TouchAFM (docs/gltf.md): "tip", "base", "surface" or "mark"
 };
 

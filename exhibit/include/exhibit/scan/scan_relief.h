@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "exhibit/models/relief.h"
+#include "exhibit/scan/live_scan.h"
+
+namespace afm::exhibit {
+
+// The image so far, as it lies on the sample: the heights of the trace in the colours of its panel.
+HeightRelief relief_of(const LiveScan& scan);
+
+}  // namespace afm::exhibit
