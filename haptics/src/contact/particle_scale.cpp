@@ -34,18 +34,6 @@ std::size_t median_species(const scene::SharedParticles& particles) {
   return *middle;
 }
 
-// The strongest pull of a tip on particles that stick to it; 0 if none do.
-double largest_pull_n(const physics::PushSetup& setup) {
-  double most_n = 0.0;
-  for (const physics::ParticleSpecies& species : setup.species) {
-    if (!species.sticks) continue;
-    for (const bool flank : {true, false}) {
-      most_n = std::max(most_n, physics::tip_pull_off(setup.tip, species, flank).si);
-    }
-  }
-  return most_n;
-}
-
 // Metres of hand per metre at which a way of particles fills its share of the workspace's.
 double field_m_per_m(double way_m, double least_m, double most_m, double contact_m) {
   // from the contact point, as a recording has it
@@ -96,8 +84,12 @@ core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particl
   scale.hand_m_per_m = hand_m_per_m(particles, 2.0 * radius.si, device);
   const double distance_m = physics::side_contact(setup.tip, radius, physics::Length(0.0)).distance.si;
   const double most_n = particle_stiffness_n_per_m(device) * ParticleScale::kMostBend * distance_m * scale.hand_m_per_m;
+  double pull_n = 0.0;
+  for (const physics::ParticleSpecies& s : setup.species) {
+    pull_n = std::max(pull_n, physics::strongest_pull(setup.tip, s).si);
+  }
   // neither the push that moves a particle nor the pull at which a contact tears is beyond the device
-  const double cap_n = force_cap_n(device), strongest_n = std::max(threshold_n, largest_pull_n(setup));
+  const double cap_n = force_cap_n(device), strongest_n = std::max(threshold_n, pull_n);
   const double felt_n =
       std::min({particles.pusher.threshold_on_hand_n, most_n, cap_n, cap_n * (threshold_n / strongest_n)});
   if (!(felt_n >= Scaling::kFaintestPullN)) {

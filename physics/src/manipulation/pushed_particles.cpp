@@ -21,16 +21,12 @@ constexpr double kOverlapAllowed = 1e-6;  // share of the touching distance, at 
 constexpr double kUnitTurn = 1e-9;        // by which the square of a turn may differ from 1
 constexpr double kMostStretch = 0.125;    // longest stretch of a contact that pulls, over the radius
 
-Force largest_pull(const PushSetup& setup, const ParticleSpecies& species) {
-  return std::max(tip_pull_off(setup.tip, species, true), tip_pull_off(setup.tip, species, false));
-}
-
 void validate_hold(const PushSetup& setup, const ParticleSpecies& species) {
   if (lifts(setup.tip, species)) {
     throw UnphysicalValue("tip_adhesion", "tip adhesion " + format_quantity(species.tip_adhesion, kSurfaceEnergyUnits) +
                                               " would lift the spheres off the sample, which is not modelled");
   }
-  const Length stretch = largest_pull(setup, species) / setup.springs.contact;
+  const Length stretch = strongest_pull(setup.tip, species) / setup.springs.contact;
   if (stretch > kMostStretch * species.contact.tip_radius) {
     throw UnphysicalValue("contact_stiffness",
                           "contact stiffness " + format_quantity(setup.springs.contact, kStiffnessUnits) +
@@ -51,8 +47,7 @@ Length clear_height(const PushSetup& setup) noexcept {
   Length radius, stretch;
   for (const ParticleSpecies& species : setup.species) {
     radius = std::max(radius, species.contact.tip_radius);
-    if (!species.sticks) continue;
-    const Force pull = largest_pull(setup, species);
+    const Force pull = strongest_pull(setup.tip, species);
     stretch = std::max(stretch, pull / setup.springs.normal + pull / setup.springs.contact);
   }
   return kClearShare * (2.0 * radius + stretch);

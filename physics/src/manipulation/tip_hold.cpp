@@ -9,6 +9,7 @@ namespace afm::physics {
 namespace {
 
 constexpr double kScatter = 0.2;
+constexpr double kStrongFactor = 2.0;  // 3.6 standard deviations
 
 // splitmix64 (Steele, Lea & Flood 2014).
 std::uint64_t spread(std::uint64_t word) {
@@ -38,6 +39,12 @@ Force tip_pull_off(const SphereCone& tip, const ParticleSpecies& species, bool o
 
 TipGrip flank_grip(const SphereCone& tip, const ParticleSpecies& species, double tip_friction) noexcept {
   return {tip_friction, tip_pull_off(tip, species, true)};
+}
+
+Force strongest_pull(const SphereCone& tip, const ParticleSpecies& species) noexcept {
+  if (!species.sticks) return Force(0.0);
+  const Force pull = std::max(tip_pull_off(tip, species, true), tip_pull_off(tip, species, false));
+  return species.scatter_seed != 0 ? kStrongFactor * pull : pull;
 }
 
 bool follows_tip(const SphereCone& tip, const ParticleSpecies& species) {

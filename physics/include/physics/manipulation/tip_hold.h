@@ -17,6 +17,10 @@ Force tip_pull_off(const SphereCone& tip, const ParticleSpecies& species, bool o
 // Friction and adhesion between tip and sphere on the flank.
 TipGrip flank_grip(const SphereCone& tip, const ParticleSpecies& species, double tip_friction) noexcept;
 
+// The strongest pull of a tip on spheres that stick to it, 0 if they do not; with scatter, twice F_t, which one contact
+// of 5000 exceeds.
+Force strongest_pull(const SphereCone& tip, const ParticleSpecies& species) noexcept;
+
 // Whether a sphere on the flank of a tip that goes away follows it, F_t cos(theta) > f_s(-F_t sin(theta)) (M23);
 // otherwise the contact tears.
 bool follows_tip(const SphereCone& tip, const ParticleSpecies& species);
