@@ -93,6 +93,14 @@ TEST(ReplayOfParticles, GivesEveryBitAgainOfSpheresThatStick) {
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->particles->set, session.particles->set);
   expect_same(*loaded);
+
+  // a program that does not know adhesion refuses the version
+  EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x09");
+  RecordedSession plain = session;
+  plain.particles->set.species[0].sticks = 0;
+  ASSERT_TRUE(save_session(plain, path));
+  EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x07");
+  EXPECT_TRUE(load_session(path));
 }
 
 TEST(ReplayOfParticles, TakesPushesBackAsTheHandHadThemTakenBack) {

@@ -84,6 +84,11 @@ bool has_rods(const SharedParticles& particles) {
                      [](double length_m) { return length_m != 0.0; });
 }
 
+bool has_hold(const SharedParticles& particles) {
+  return std::any_of(particles.species.begin(), particles.species.end(),
+                     [](const SharedSpecies& species) { return species.sticks != 0; });
+}
+
 physics::HalfTurn turn_of(const ParticlePose& pose) noexcept {
   return pose.rod != 0 ? physics::HalfTurn{pose.orientation[0], pose.orientation[3]} : physics::HalfTurn{};
 }

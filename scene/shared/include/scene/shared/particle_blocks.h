@@ -137,6 +137,9 @@ struct SharedParticles {
 // True if a species is one of rods.
 bool has_rods(const SharedParticles& particles);
 
+// True if spheres of a species stick to the tip.
+bool has_hold(const SharedParticles& particles);
+
 // The same for the physics; `particles` is valid (validate in scene/shared/shared_segment.h).
 physics::PushSetup push_setup(const SharedParticles& particles);
 std::vector<physics::PlacedParticle> start_places(const SharedParticles& particles);
