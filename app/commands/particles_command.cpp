@@ -100,7 +100,7 @@ class ScriptedTask {
 
   void follow(const physics::PushedParticles& particles, double time_s) {
     const PushTick& tick = particles.last();
-    const auto events = meeting_.follow(particles, tick.normal.si > 0.0);
+    const auto events = meeting_.follow(particles, tick.normal.si != 0.0);
     for (const auto& event : events.all()) task_.add(event.kind);
     if (!particles.moved().empty()) ++places_;
     add(particles, time_s);
@@ -195,7 +195,13 @@ nlohmann::json json_of(const TickSample& sample) {
           {"lost_J", t.lost.si},
           {"stored_J", t.stored.si},
           {"certificate_J", margin_j(t)},
-          {"yields", t.yields}};
+          {"yields", t.yields},
+          {"attached", t.attached},
+          {"dragged", t.dragged},
+          {"dragged_at_N", t.dragged_at.si},
+          {"torn", t.torn},
+          {"torn_at_N", t.torn_at.si},
+          {"torn_lost_J", t.torn_lost.si}};
 }
 
 nlohmann::json json_of(const scene::PatternState& pattern) {
@@ -306,6 +312,11 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
   if (rest.si > 0.01 * last.work.si) {
     text += fmt::format("{} more was lost in jumps of the tip among several particles\n",
                         format_quantity(rest, kEnergyUnits, 4));
+  }
+  if (last.attached > 0) {
+    text +=
+        fmt::format("tip adhesion: held {} time{}, dragged {}, tore {}, with a loss of {}\n", last.attached,
+                    plural(last.attached), last.dragged, last.torn, format_quantity(last.torn_lost, kEnergyUnits, 4));
   }
   if (played.lagging > 0) text += fmt::format("{} ticks lagged behind the hand: it was too fast\n", played.lagging);
   if (last.exhausted > 0) text += fmt::format("{} ticks ended before all spheres were at rest\n", last.exhausted);

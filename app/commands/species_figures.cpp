@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "physics/manipulation/push_figures.h"
 #include "physics/manipulation/rod.h"
+#include "physics/manipulation/tip_hold.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
 
@@ -42,8 +42,7 @@ SpeciesFigures figures_of(const scene::ParticleSet& set, const ParticleSpecies& 
   const physics::PushSetup& setup = set.setup;
   const Length radius = species.contact.tip_radius;
   const double sine = std::sin(setup.tip.half_angle_rad), cosine = std::cos(setup.tip.half_angle_rad);
-  const physics::TipGrip grip{setup.tip_friction, 1.5 * std::numbers::pi * species.tip_adhesion *
-                                                      physics::effective_radius(setup.tip, radius, true)};
+  const physics::TipGrip grip = physics::flank_grip(setup.tip, species, setup.tip_friction);
   SpeciesFigures f;
   f.rest = physics::push_balance(species, grip, sine, cosine);
   f.moving = physics::push_balance(species, grip, sine, cosine, species.kinetic_ratio);
@@ -113,6 +112,32 @@ nlohmann::json rod_figures_json(const scene::ParticleSet& set, const ParticleSpe
           {"largest_push_N", f.most_push.si},         {"distance_of_axes_m", f.rho.si}};
 }
 
+// Adhesion of the tip: where a contact on the flank or on the cap tears, and at what loss.
+std::string hold_text(const scene::ParticleSet& set, const ParticleSpecies& species) {
+  const physics::SphereCone& tip = set.setup.tip;
+  return fmt::format(
+      "  tip adhesion         tears off at {} on the flank, {} on top; a tip that goes away {} it\n"
+      "  lifted               from {} on: not modelled, and refused\n",
+      format_quantity(physics::tip_pull_off(tip, species, true), kForceUnits, 4),
+      format_quantity(physics::tip_pull_off(tip, species, false), kForceUnits, 4),
+      physics::follows_tip(tip, species) ? "drags" : "leaves",
+      format_quantity(physics::lifting_adhesion(tip, species), physics::kSurfaceEnergyUnits, 4));
+}
+
+nlohmann::json hold_json(const scene::ParticleSet& set, const ParticleSpecies& species) {
+  if (!species.sticks) return {};
+  const physics::SphereCone& tip = set.setup.tip;
+  const double sine = std::sin(tip.half_angle_rad), cosine = std::cos(tip.half_angle_rad);
+  const Force pull = physics::tip_pull_off(tip, species, true);
+  const Stiffness spring = physics::stiffness_along_normal(set.setup.springs, sine, cosine);
+  return {{"pull_off_on_flank_N", pull.si},
+          {"pull_off_on_top_N", physics::tip_pull_off(tip, species, false).si},
+          {"lateral_pull_N", (pull * cosine).si},
+          {"drags", physics::follows_tip(tip, species)},
+          {"tear_J", physics::tear_energy(pull, spring).si},
+          {"lifted_from_J_per_m2", physics::lifting_adhesion(tip, species).si}};
+}
+
 }  // namespace
 
 std::string species_figures_text(const scene::ParticleSet& set, std::size_t index) {
@@ -141,31 +166,33 @@ std::string species_figures_text(const scene::ParticleSet& set, std::size_t inde
       force_text(f.most_push), format_quantity(physics::largest_offset(3.0) * f.rho, kLengthUnits, 4),
       format_quantity(f.rho, kLengthUnits, 4),
       format_quantity(physics::fastest_steering(f.rho, kSteeringDelay), physics::kVelocityUnits, 4), f.kt_per_nm);
-  return text + sources_text(set.species[index]);
+  return text + (species.sticks ? hold_text(set, species) : "") + sources_text(set.species[index]);
 }
 
 nlohmann::json species_figures_json(const scene::ParticleSet& set, std::size_t index) {
   if (physics::is_rod(set.setup.species[index])) return rod_figures_json(set, set.setup.species[index]);
   const SpeciesFigures f = figures_of(set, set.setup.species[index]);
-  return {{"push_mode", physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word},
-          {"adhesion_N", f.adhesion.si},
-          {"threshold_at_rest_N", f.rest.lateral.si},
-          {"threshold_moving_N", f.moving.lateral.si},
-          {"normal_at_rest_N", f.rest.normal.si},
-          {"lift_at_rest_N", f.rest.lift.si},
-          {"unloaded_threshold_by_area_N", f.area_law.si},
-          {"unloaded_threshold_by_amontons_N", f.amontons_law.si},
-          {"gentle_load_N", f.gentle.si},
-          {"gentle_load_without_tip_friction_N", f.gentle_without_friction.si},
-          {"softest_lever_N_per_m", f.softest.si},
-          {"largest_push_N", f.most_push.si},
-          {"stiffness_sideways_N_per_m", f.sideways.si},
-          {"distance_of_axes_m", f.rho.si},
-          {"largest_offset_for_3_distances_m", (physics::largest_offset(3.0) * f.rho).si},
-          {"fastest_steering_m_per_s", physics::fastest_steering(f.rho, kSteeringDelay).si},
-          {"tabor_parameter", f.tabor},
-          {"spinning_moment_share", f.spinning},
-          {"kT_per_nm", f.kt_per_nm}};
+  nlohmann::json json{{"push_mode", physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word},
+                      {"adhesion_N", f.adhesion.si},
+                      {"threshold_at_rest_N", f.rest.lateral.si},
+                      {"threshold_moving_N", f.moving.lateral.si},
+                      {"normal_at_rest_N", f.rest.normal.si},
+                      {"lift_at_rest_N", f.rest.lift.si},
+                      {"unloaded_threshold_by_area_N", f.area_law.si},
+                      {"unloaded_threshold_by_amontons_N", f.amontons_law.si},
+                      {"gentle_load_N", f.gentle.si},
+                      {"gentle_load_without_tip_friction_N", f.gentle_without_friction.si},
+                      {"softest_lever_N_per_m", f.softest.si},
+                      {"largest_push_N", f.most_push.si},
+                      {"stiffness_sideways_N_per_m", f.sideways.si},
+                      {"distance_of_axes_m", f.rho.si},
+                      {"largest_offset_for_3_distances_m", (physics::largest_offset(3.0) * f.rho).si},
+                      {"fastest_steering_m_per_s", physics::fastest_steering(f.rho, kSteeringDelay).si},
+                      {"tabor_parameter", f.tabor},
+                      {"spinning_moment_share", f.spinning},
+                      {"kT_per_nm", f.kt_per_nm}};
+  json["tip_adhesion"] = hold_json(set, set.setup.species[index]);
+  return json;
 }
 
 }  // namespace afm::app

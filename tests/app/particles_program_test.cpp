@@ -53,6 +53,34 @@ TEST(ParticlesCommand, PushesTheGoldOfTheBuiltInSet) {
   EXPECT_EQ(json["species"][0]["sources"].size(), 12U);
 }
 
+TEST(ParticlesCommand, DragsSpheresThatStickToTheTip) {
+  const ProgramResult result = particles("sticky-tip --json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  // the sphere follows the tip back by 60 nm less the stretch of lever and contact, and stays where the tip is lifted
+  const auto& sphere = json["particles"][0];
+  EXPECT_NEAR(sphere["end_m"][0].get<double>(), -100e-9, 8e-9);
+  const auto& dragged = json["moves"][2];
+  EXPECT_EQ(dragged["state"], "slides");
+  EXPECT_LT(dragged["normal_N"].get<double>(), 0.0);
+  EXPECT_GT(dragged["lateral_N"][0].get<double>(), 0.0);
+  const auto& last = json["moves"].back();
+  EXPECT_EQ(last["state"], "free");
+  EXPECT_EQ(last["attached"], 1);
+  EXPECT_EQ(last["dragged"], 1);
+  EXPECT_EQ(last["torn"], 1);
+  const auto& figures = json["species"][0]["figures"]["tip_adhesion"];
+  EXPECT_NEAR(figures["pull_off_on_flank_N"].get<double>(), 1.4904e-9, 1e-12);
+  EXPECT_EQ(last["torn_at_N"], figures["pull_off_on_top_N"]);
+  EXPECT_GT(last["torn_lost_J"].get<double>(), 0.0);
+  EXPECT_LE(last["torn_lost_J"].get<double>(), last["lost_J"].get<double>());
+  EXPECT_EQ(figures["drags"], true);
+  EXPECT_NEAR(figures["lifted_from_J_per_m2"].get<double>(), 0.35, 1e-12);
+  EXPECT_THAT(particles("sticky-tip").out, HasSubstr("tip adhesion: held 1 time, dragged "));
+  EXPECT_TRUE(
+      nlohmann::json::parse(particles("gold-row --json").out)["species"][0]["figures"]["tip_adhesion"].is_null());
+}
+
 TEST(ParticlesCommand, SaysHowFarThePatternIs) {
   const ProgramResult result = particles("gold-row --json");
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -127,8 +155,9 @@ TEST(ParticlesCommand, LaysARodAcrossItsElectrodesAtAnyRate) {
 
 TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
   expect_refusal(particles(""), 2, "file");
-  expect_refusal(particles("silver-row"), 2,
-                 "unknown set of particles \"silver-row\"; choose gold-row, latex-letter, tube-and-electrodes");
+  expect_refusal(
+      particles("silver-row"), 2,
+      "unknown set of particles \"silver-row\"; choose gold-row, latex-letter, sticky-tip, tube-and-electrodes");
   expect_refusal(particles("/no/such.toml"), 3, "/no/such.toml");
   expect_refusal(particles("gold-row --rate 4"), 2, "kHz");
   expect_refusal(particles("gold-row --rate 1MHz"), 2, "100kHz");

@@ -80,6 +80,7 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
   std::vector<render::DataPanel> panels;
   for (const char* name : {"gold-row", "latex-letter"}) {
     scene::ParticleSet set = test::particle_set(name);
+    set.setup.species.front().sticks = true;
     const std::vector<scene::ParticlePage> pages = test::start_pages(set), formed = test::formed_pages(set);
     for (const physics::PushState state : core::kEnumerators<physics::PushState>) {
       scene::TipPush push = test::push_of(set, set.particles.size() - 1, state);

@@ -57,6 +57,20 @@ TEST_F(ParticlesPanel, HasAWordForEveryState) {
   EXPECT_EQ(words, (std::vector<std::string>{"free", "holds", "slides", "rolls", "several move"}));
 }
 
+TEST_F(ParticlesPanel, SaysThatATipWhichSticksHoldsOrDrags) {
+  scene::TipPush push = test::push_of(set_, 0, PushState::Slides);
+  EXPECT_EQ(row(panel(push), Phrase::ParticleTearsAt), render::DataRow{}) << "a tip that does not stick";
+  set_.setup.species[0].sticks = true;
+  push.normal_n = -0.26e-9;
+  EXPECT_EQ(row(panel(push), Phrase::PushStateName).value, "is dragged");
+  EXPECT_EQ(row(panel(push), Phrase::PushNormal).value, "-0.26 nN");
+  const render::DataRow tears = row(panel(push), Phrase::ParticleTearsAt);
+  EXPECT_EQ(tears.value, "1.49 nN");
+  EXPECT_THAT(tears.source, StartsWith("on its flank, by 20 mJ/m\u00b2; estimated: silicon oxide on gold"));
+  push.state = PushState::Holds;
+  EXPECT_EQ(row(panel(push), Phrase::PushStateName).value, "holds the tip");
+}
+
 TEST_F(ParticlesPanel, SaysHowManyPushesCanBeTakenBack) {
   set_.targets.clear();
   scene::TipPush push = test::push_of(set_, 0, PushState::Free);

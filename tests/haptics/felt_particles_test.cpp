@@ -16,6 +16,7 @@
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "haptics/contact_model.h"
@@ -226,10 +227,13 @@ TEST(FeltParticles, AreNotLostByAHandThatLiftsTheTip) {
 // Random walks of the hand among one sphere and five, with rest, lifts and presses: the observer sees no more than a
 // sampled spring gives, and the account of each push holds.
 TEST(FeltParticles, NeverGiveMoreThanASampledSpring) {
-  for (const int count : {1, 5}) {
+  for (const auto& [count, sticks] :
+       {std::pair{1, false}, std::pair{5, false}, std::pair{1, true}, std::pair{5, true}}) {
     std::vector<test::PlaceM> places;
     for (int i = 0; i < count; ++i) places.push_back({52e-9 * (i % 3), 52e-9 * (i / 3)});
-    Hand hand(particles_at(places));
+    scene::SharedSpecies gold = test::gold_species();
+    gold.sticks = static_cast<std::uint16_t>(sticks);
+    Hand hand(particles_at(places, gold));
     std::mt19937_64 random(static_cast<std::uint64_t>(count));
     std::normal_distribution<double> gauss;
     haptics::PassivityObserver observer;
@@ -265,6 +269,46 @@ TEST(FeltParticles, NeverGiveMoreThanASampledSpring) {
     }
     EXPECT_GT(touches, 2000) << count;
     EXPECT_LT(largest_j, haptics::PassivityObserver::kToleranceJ) << count;
+  }
+}
+
+// Strokes of the hand about a sphere that sticks to the tip, each of which ends above: none gives energy.
+TEST(FeltParticles, GiveNoEnergyOnAClosedStrokeWhenTheyStick) {
+  for (const double shear_pa : {10e6, 100e6}) {  // dragged, and torn off
+    scene::SharedSpecies gold = test::gold_species();
+    gold.shear_strength_pa = shear_pa;
+    gold.sticks = 1;
+    Hand hand(particles_at({{0.0, 0.0}}, gold));
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> beside(-0.012, 0.012), low(-0.001, 0.006);
+    int dragged = 0, torn = 0;
+    glm::dvec3 at(0.0, 0.0, hand.release_m() + 0.005);
+    const auto go = [&](const glm::dvec3& to) {
+      const int ticks = std::max(1, static_cast<int>(glm::length(to - at) / 1e-4));
+      for (int i = 1; i <= ticks; ++i) {
+        const Touch touch = hand.step(at + (to - at) * (static_cast<double>(i) / ticks));
+        for (const auto& event : touch.push.happened()) {
+          if (event.kind == EventKind::ParticleDragged) ++dragged;
+          if (event.kind == EventKind::ParticleTorn) ++torn;
+        }
+      }
+      at = to;
+    };
+    for (int stroke = 0; stroke < 200; ++stroke) {
+      const scene::ParticlePose there = hand.felt.pages()[0].poses[0];
+      const glm::dvec2 middle = hand.scale.hand_m_per_m * glm::dvec2(there.x_m, there.y_m);
+      const auto near = [&] { return middle + glm::dvec2(beside(random), beside(random)); };
+      const glm::dvec3 over(near(), hand.release_m() + 0.005);
+      go(over);
+      for (int i = 0; i < 4; ++i) go(glm::dvec3(near(), low(random)));
+      go(glm::dvec3(glm::dvec2(at), 0.999 * hand.scale.clear_z_m * hand.scale.hand_m_per_m));
+      const scene::TipPush push = hand.felt.push();
+      EXPECT_GE(push.work_j * push.hand_m_per_m * push.hand_n_per_n, -1e-9) << stroke;
+    }
+    EXPECT_GT(torn, 50);
+    if (shear_pa < 50e6) {
+      EXPECT_GT(dragged, 50);
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "haptics/felt_particles.h"
@@ -55,6 +56,21 @@ TEST(ParticleScale, OfAWideSetFitsTheWorkspaceAndKeepsTheLeverFromRunningRound) 
   EXPECT_NEAR(scale.hand_m_per_m * 800e-9, 0.6 * 0.160, 1e-12);
   const double bend_m = 0.25e-9 * scale.hand_n_per_n / 200.0 / scale.hand_m_per_m;
   EXPECT_LT(bend_m, 0.34 * touch_m(particles));
+}
+
+// A tip that holds gold pulls by more than what moves it: the pull is what the device can bear.
+TEST(ParticleScale, KeepsThePullOfATipThatSticksWithinTheDevice) {
+  SharedParticles particles = particles_at({{0.0, 0.0}});
+  const ParticleScale plain = haptics::particle_scale(particles, kOmni).value();
+  particles.species[0].sticks = 1;
+  const ParticleScale sticky = haptics::particle_scale(particles, kOmni).value();
+  const double pull_n = 3.598997214e-09 / std::cos(std::numbers::pi / 12.0) * 0.02 / 0.05;
+  EXPECT_GT(pull_n * plain.hand_n_per_n, haptics::force_cap_n(kOmni));
+  EXPECT_LE(pull_n * sticky.hand_n_per_n, haptics::force_cap_n(kOmni) * (1.0 + 1e-6));
+  particles.species[0].scatter_seed = 7;  // some contacts hold more
+  EXPECT_NEAR(haptics::particle_scale(particles, kOmni)->hand_n_per_n, 0.5 * sticky.hand_n_per_n,
+              1e-9 * sticky.hand_n_per_n);
+  EXPECT_GT(sticky.clear_z_m, plain.clear_z_m + pull_n * sticky.softened_upwards / 1.0);
 }
 
 TEST(ParticleScale, RefusesParticlesTooFaintOrTooFarApart) {
@@ -214,6 +230,43 @@ TEST_P(AtRate, N75AClosedPathTakesWork) {
     expect_relative(felt.pages()[0].poses[0].x_m - rho, ratio == 1.0 ? 1.945245579e-08 : 1.972622789e-08, 1e-5);
     // a hand that goes back has lost nothing
     for (const ParticlePush::Event& event : events_) EXPECT_NE(event.kind, EventKind::ParticleLost);
+  }
+}
+
+// Rows N55 and N56: a tip that goes back drags a sphere, and tears off one that is pinned.
+TEST_P(AtRate, N55AndN56DragOrTear) {
+  for (const bool pinned : {false, true}) {
+    scene::SharedSpecies species = test::gold_species();
+    species.tip_adhesion_j_per_m2 = 0.05;
+    species.reduced_modulus_pa = 38710783890.0;
+    species.ageing_s = 1e6;
+    species.sticks = 1;
+    SharedParticles particles = particles_at({{0.0, 0.0}}, species);
+    const double rho = touch_m(particles);
+    particles.particles[0].x_m = rho - 0.01e-9;
+    particles.particles[0].pinned = pinned ? 1U : 0U;
+    FeltParticles felt(particles, {.hand_m_per_m = 2e5, .hand_n_per_n = 4e9, .clear_z_m = 60e-9});
+    events_.clear();
+    put_down(felt);
+    drag(felt, {0.02e-9, 1e-9});
+    drag(felt, {-5e-9, 1e-9});
+    const auto torn = std::find_if(events_.begin(), events_.end(),
+                                   [](const auto& event) { return event.kind == EventKind::ParticleTorn; });
+    const auto dragged = std::find_if(events_.begin(), events_.end(),
+                                      [](const auto& event) { return event.kind == EventKind::ParticleDragged; });
+    EXPECT_EQ(torn != events_.end(), pinned);
+    EXPECT_EQ(dragged != events_.end(), !pinned);
+    if (pinned) {
+      expect_relative(torn->force_before_n, 3.598997214e-09 / std::cos(std::numbers::pi / 12.0), 1e-6);
+      EXPECT_EQ(torn->force_after_n, 0.0);
+      EXPECT_EQ(felt.push().particle, scene::kNoParticle);
+      EXPECT_EQ(felt.push().lateral_n[0], 0.0);
+    } else {
+      EXPECT_LT(felt.pages()[0].poses[0].x_m, rho - 4.5e-9);
+      EXPECT_LT(felt.push().normal_n, 0.0);
+      EXPECT_GT(felt.push().lateral_n[0], 0.0) << "towards the sphere";
+      EXPECT_EQ(felt.push().state, PushState::Slides);
+    }
   }
 }
 

@@ -26,7 +26,8 @@ scene::SharedModel two_particles() {
 
 class PushingBench : public ServoBench {
  public:
-  explicit PushingBench(double rate_hz = 1000.0) : ServoBench(two_particles(), rate_hz) {}
+  explicit PushingBench(double rate_hz = 1000.0, const scene::SharedModel& model = two_particles())
+      : ServoBench(model, rate_hz) {}
 
   // To a place on the sample, at a height above the contact point.
   void send(double x_m, double y_m, double height_m, double seconds) {
@@ -105,6 +106,37 @@ TEST(ServoAmongParticles, PublishesWhatTheHandFeels) {
     EXPECT_GE(bench.count(EventKind::ParticleGave), 1U);
     EXPECT_EQ(bench.state().active.scale_mode, ScaleMode::Particles);
     EXPECT_EQ(bench.renderer.refused_blocks(), 0U);
+  }
+}
+
+// A contact that tears drops the force within the limits of the governor.
+TEST(ServoAmongParticles, TearOffWithoutAKick) {
+  for (const double rate_hz : {500.0, 1000.0, 4000.0}) {
+    scene::SharedModel model = test::paper_model();
+    scene::SharedSpecies gold = test::gold_species();
+    gold.shear_strength_pa = 100e6;
+    gold.sticks = 1;
+    model.particles = test::particles_at({{-80e-9, 0.0}, {80e-9, 100e-9}}, gold);
+    PushingBench bench(rate_hz, model);
+    bench.put_down();
+    double most_n = 0.0, before_n = bench.sideways_n();
+    const auto go = [&](double x_m) {
+      bench.send(x_m, 0.0, 0.001, 2.0);
+      while (bench.state().acknowledged.hand_script != bench.script) {
+        bench.tick();
+        const double now_n = bench.sideways_n();
+        ASSERT_LE(std::abs(now_n - before_n), bench.state().safety.slew_limit_n_per_s / rate_hz * (1.0 + 1e-6));
+        ASSERT_LE(now_n, bench.state().safety.force_cap_n * (1.0 + 1e-9));
+        before_n = now_n;
+        if (bench.count(EventKind::ParticleTorn) == 0) most_n = std::max(most_n, now_n);
+      }
+    };
+    go(-0.0235);
+    go(-0.040);
+    EXPECT_EQ(bench.count(EventKind::ParticleTorn), 1U) << rate_hz;
+    EXPECT_GT(most_n, 0.1);
+    EXPECT_LT(bench.sideways_n(), 0.02);
+    EXPECT_EQ(bench.state().fault, scene::FaultCode::None);
   }
 }
 

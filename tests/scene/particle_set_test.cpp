@@ -34,7 +34,7 @@ TEST(ParticleSet, EveryShippedSetLoadsWithASourceForEachNumber) {
       for (const SourcedValue& value : species.sources) EXPECT_FALSE(value.source.empty()) << value.key;
     }
   }
-  EXPECT_EQ(sets, 3);
+  EXPECT_EQ(sets, 4);
 }
 
 TEST(ParticleSet, GoldRowHasTheNumbersOfTheCases) {
@@ -121,6 +121,32 @@ TEST(ParticleSet, RefusesRodsThatCannotBe) {
               HasSubstr("only a rod has an angle"));
   EXPECT_THAT(refusal(shipped() + "\n[[pad]]\nx = \"0 nm\"\ny = \"0 nm\"\nwidth = \"1 nm\"\nheight = \"1 nm\"\n"),
               HasSubstr("pads need a rod"));
+}
+
+TEST(ParticleSet, SticksToTheTipIfItsFileSaysSo) {
+  const std::string key = "rolling_distance";
+  const auto with = [&](const std::string& lines) { return changed(key, lines + "\n" + key); };
+  const support::ScratchFolder folder;
+  const auto set = load_particle_set(folder.write("set.toml", with("sticks = true\npull_off_seed = 7")));
+  ASSERT_TRUE(set) << set.error().message;
+  const auto shared = std::make_unique<SharedParticles>(shared_particles(*set));
+  for (const physics::ParticleSpecies& species : {set->setup.species[0], push_setup(*shared).species[0]}) {
+    EXPECT_TRUE(species.sticks);
+    EXPECT_EQ(species.scatter_seed, 7);
+  }
+  EXPECT_FALSE(load_particle_set(kFolder + "/gold-row.toml")->setup.species[0].sticks);
+  EXPECT_THAT(refusal(with("sticks = 1")), HasSubstr("species.sticks"));
+  EXPECT_THAT(refusal(with("pull_off_seed = 7")), HasSubstr("species.pull_off_seed: the tip has no pull-off here"));
+  EXPECT_THAT(refusal(with("sticks = true\npull_off_seed = 0")), HasSubstr("species.pull_off_seed"));
+  const auto adhesion = [&](const std::string& value) {
+    std::string text = with("sticks = true");
+    const std::string given = "\"20 mJ/m2\"";
+    return text.replace(text.find(given), given.size(), "\"" + value + "\"");
+  };
+  EXPECT_THAT(refusal(adhesion("0 mJ/m2")), HasSubstr("species.sticks: a tip that sticks needs tip_adhesion above 0"));
+  EXPECT_THAT(refusal(adhesion("-5 mJ/m2")), HasSubstr("species.sticks: a tip that sticks needs tip_adhesion above 0"));
+  EXPECT_THAT(refusal(adhesion("20 N/m2")), HasSubstr("species.tip_adhesion: cannot read"));
+  EXPECT_THAT(refusal(adhesion("400 mJ/m2")), HasSubstr("would lift the spheres off the sample"));
 }
 
 TEST(ParticleSet, OfARecordingHasTheWordsOfTheSetOfTheAssets) {

@@ -138,6 +138,8 @@ TEST(SharedParticles, AreRefusedWithAReason) {
             "the particles of the shared scene: particle 1 is of an unknown species");
   EXPECT_EQ(refused([](SharedParticles& p) { p.species[0].law = static_cast<afm::physics::ParticleLaw>(9); }),
             "the name or the law of particle species 0 is invalid");
+  EXPECT_EQ(refused([](SharedParticles& p) { p.species[0].sticks = 2; }),
+            "the adhesion of particle species 0 is invalid");
   EXPECT_EQ(refused([](SharedParticles& p) { p.pusher.threshold_on_hand_n = 0.0; }),
             "the size or the threshold of the particles in a hand is impossible");
 }

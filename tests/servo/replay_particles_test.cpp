@@ -61,6 +61,48 @@ TEST(ReplayOfParticles, GivesEveryBitAgainWhereverTheyLayBefore) {
 }
 
 // Pushes, two of them taken back, all put back, and that taken back, too; with force in between.
+// Spheres that stick to the tip: recorded and stored with what the tip holds.
+TEST(ReplayOfParticles, GivesEveryBitAgainOfSpheresThatStick) {
+  scene::SharedModel model = test::model_with_particles();
+  model.particles.species[0].sticks = 1;
+  model.particles.species[0].scatter_seed = 7;
+  Recording recording(model);
+  recording.choose(test::kMica, ScaleMode::Particles);
+  recording.arm();
+  recording.go({-0.028, 0.0}, 0.045, 0.3);
+  recording.run(500);
+  recording.go({-0.028, 0.0}, 0.001, 0.3);
+  recording.run(500);
+  recording.go({-0.016, 0.0}, 0.001, 1.0);
+  recording.run(1200);
+  recording.go({-0.045, 0.0}, 0.001, 1.0);
+  recording.run(1200);
+  recording.go({-0.045, 0.0}, 0.05, 0.5);
+  recording.run(800);
+  recording.choose(test::kGold, ScaleMode::Particles);
+  ASSERT_EQ(recording.sessions.size(), 1U);
+  const RecordedSession& session = recording.sessions.front();
+  EXPECT_GE(count(session, EventKind::ParticleDragged), 1U);
+  EXPECT_TRUE(std::any_of(session.samples.begin(), session.samples.end(),
+                          [](const scene::TipSample& sample) { return sample.push.normal_n < 0.0; }));
+  expect_same(session);
+  const support::ScratchFolder folder;
+  const std::string path = folder.file("sticks.afms");
+  ASSERT_TRUE(save_session(session, path));
+  const auto loaded = load_session(path);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->particles->set, session.particles->set);
+  expect_same(*loaded);
+
+  // a program that does not know adhesion refuses the version
+  EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x09");
+  RecordedSession plain = session;
+  plain.particles->set.species[0].sticks = 0;
+  ASSERT_TRUE(save_session(plain, path));
+  EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x07");
+  EXPECT_TRUE(load_session(path));
+}
+
 TEST(ReplayOfParticles, TakesPushesBackAsTheHandHadThemTakenBack) {
   Recording recording(test::model_with_particles());
   recording.choose(test::kMica, ScaleMode::Particles);

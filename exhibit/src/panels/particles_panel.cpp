@@ -17,6 +17,7 @@
 #include "core/enumerators.h"
 #include "curves/plot_units.h"
 #include "panels/panel_conventions.h"
+#include "physics/manipulation/tip_hold.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/pattern_state.h"
@@ -104,7 +105,7 @@ class ParticleRows {
   void add_push() {
     const scene::TipPush& push = now_.push;
     const PushState state = touched_ ? push.state : PushState::Free;
-    add(Phrase::PushStateName, phrases_[after(Phrase::PushFree, core::index_of(state))],
+    add(Phrase::PushStateName, phrases_[name_of(state, touched_ && push.normal_n < 0.0)],
         touched_ ? phrases_.text<Phrase::PushedParticle>(fmt::format("{}", *touched_ + 1),
                                                          fmt::format("{}", now_.set->particles.size()),
                                                          phrases_.word(now_.set->species[species_index()].name))
@@ -113,6 +114,13 @@ class ParticleRows {
         phrases_[Phrase::PushNormalOn]);
     const double lateral_n = touched_ ? std::hypot(push.lateral_n[0], push.lateral_n[1]) : 0.0;
     add(Phrase::PushLateral, force_text(Force(lateral_n), phrases_), phrases_[Phrase::PushLateralOn]);
+  }
+
+  // A tip that pulls by adhesion holds a particle back or drags it.
+  static Phrase name_of(PushState state, bool pulled) {
+    if (pulled && state == PushState::Holds) return Phrase::PushHeld;
+    if (pulled && state == PushState::Slides) return Phrase::PushDragged;
+    return after(Phrase::PushFree, core::index_of(state));
   }
 
   // Unloaded and at rest, as the other law's figure, until a touched particle has its own.
@@ -146,6 +154,12 @@ class ParticleRows {
     if (kind.coefficient > 0.0) {
       add(Phrase::ParticleCoefficient, phrases_.number(fmt::format("{:.3g}", kind.coefficient)),
           source_text(now_.set->species[species_index()].sources, "coefficient", phrases_));
+    }
+    if (kind.sticks) {
+      const std::string work = quantity_text(kind.tip_adhesion, physics::kSurfaceEnergyUnits, phrases_);
+      const std::string source = source_text(now_.set->species[species_index()].sources, "tip_adhesion", phrases_);
+      add(Phrase::ParticleTearsAt, force_text(physics::tip_pull_off(now_.set->setup.tip, kind, true), phrases_),
+          phrases_.text<Phrase::ParticleTearsBy>(work) + (source.empty() ? "" : "; " + source));
     }
     const std::string lever =
         phrases_.number(format_quantity(now_.set->setup.springs.lateral, physics::kStiffnessUnits, kDigits));

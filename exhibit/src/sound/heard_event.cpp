@@ -14,7 +14,8 @@ using enum HeardEvent;
 // Notes of the equal temperament, rounded to a hertz: a glide down for closing, up for opening; two notes up for a
 // possible start, down for an end; a rough low note, three times, for a failure; a click for a repeated event. Of
 // particles: a soft knock for a touch, two for a ride over, a click for a first slip, a long fall for a loss, which a
-// rise takes back; three notes up for a pattern.
+// rise takes back; a short rise for a pull that moves one, a pluck for a contact that tears; three notes up for a
+// pattern.
 constexpr std::array kRows{
     HeardEventRow{
         SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},
@@ -79,6 +80,16 @@ constexpr std::array kRows{
                   Phrase::SayParticleRiddenOver,
                   Spoken::AtOnce,
                   {{SignalNote{0, 0.040, 392, 330, 0.26, 0.6}, SignalNote{0.110, 0.040, 392, 330, 0.26, 0.6}}}},
+    HeardEventRow{ParticleDragged,
+                  Phrase::HeardParticleDragged,
+                  Phrase::SayParticleDragged,
+                  Spoken::OnRequest,
+                  {{SignalNote{0, 0.060, 494, 659, 0.20, 0.3}}}},
+    HeardEventRow{ParticleTorn,
+                  Phrase::HeardParticleTorn,
+                  Phrase::SayParticleTorn,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.120, 784, 1568, 0.26, 0.6}}}},
     HeardEventRow{PushTakenBack,
                   Phrase::HeardPushTakenBack,
                   Phrase::SayPushTakenBack,

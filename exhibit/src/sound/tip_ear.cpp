@@ -35,6 +35,14 @@ Heard heard_of(const scene::TipEvent& event) {
       heard.event = HeardEvent::ParticleRiddenOver;
       heard.force_n = event.force_before_n;
       break;
+    case physics::EventKind::ParticleDragged:
+      heard.event = HeardEvent::ParticleDragged;
+      heard.force_n = event.force_before_n;
+      break;
+    case physics::EventKind::ParticleTorn:
+      heard.event = HeardEvent::ParticleTorn;
+      heard.force_n = event.force_before_n;
+      break;
     case physics::EventKind::PushTakenBack:
       heard.event = HeardEvent::PushTakenBack;
       break;

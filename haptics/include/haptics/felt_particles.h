@@ -74,11 +74,16 @@ class FeltParticles {
  private:
   enum class Tip { Waits, Over, Among };
 
+  // Numbers of a PushTick before the newest.
+  struct Counts {
+    std::uint64_t yields = 0, dragged = 0, torn = 0;
+  };
+
   void move_poses(const physics::PushTick& tick) noexcept;
   void put(std::uint32_t particle, const scene::ParticlePose& there) noexcept;
   void change(std::uint32_t particle, const scene::ParticlePose& now) noexcept;
   void account(const physics::PushTick& tick) noexcept;
-  void note_events(const physics::PushTick& tick, std::uint64_t yields_before, ParticlePush& step) noexcept;
+  void note_events(const physics::PushTick& tick, const Counts& before, ParticlePush& step) noexcept;
   bool is_rod(std::size_t particle) const noexcept;
   scene::ParticlePose& pose(std::size_t particle) noexcept;
 

@@ -21,7 +21,7 @@ struct ParticlePush {
   bool near = false;     // a particle is within reach
   bool touches = false;  // a particle is touched; otherwise the forces are zero
   glm::dvec3 push_n{0.0};
-  std::array<Event, 3> events{};
+  std::array<Event, 4> events{};
   std::size_t event_count = 0;
 
   void add(const Event& event) noexcept { events[event_count++] = event; }

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <stdexcept>
 
 #include "physics/manipulation/particle_friction.h"
-#include "physics/manipulation/tip_contact.h"
+#include "physics/manipulation/tip_hold.h"
 
 namespace afm::haptics {
 
@@ -50,9 +49,7 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
                          scale.hand_m_per_m) {
   const double sine = std::sin(setup_.tip.half_angle_rad), cosine = std::cos(setup_.tip.half_angle_rad);
   for (physics::ParticleSpecies species : setup_.species) {
-    const Length radius = species.contact.tip_radius;
-    const physics::TipGrip grip{setup_.tip_friction, 1.5 * std::numbers::pi * species.tip_adhesion *
-                                                         physics::effective_radius(setup_.tip, radius, true)};
+    const physics::TipGrip grip = physics::flank_grip(setup_.tip, species, setup_.tip_friction);
     if (physics::is_rod(species)) {  // measured alone
       other_threshold_n_.push_back(0.0);
       continue;
@@ -159,12 +156,12 @@ ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double 
     strokes_.begin();
   }
 
-  const std::uint64_t yields_before = particles_.last().yields;
+  const Counts before{particles_.last().yields, particles_.last().dragged, particles_.last().torn};
   const physics::PushTick& tick = particles_.move_to(base_at(at_m), physics::Time(elapsed_s));
   step.near = tick.near;
   move_poses(tick);
   account(tick);
-  note_events(tick, yields_before, step);
+  note_events(tick, before, step);
   step.touches = tick.particle != physics::kNoParticle;
   step.push_n = push_n_;
   return step;
@@ -203,12 +200,17 @@ void FeltParticles::account(const physics::PushTick& tick) noexcept {
   stored_j_ = scale_.hand_n_per_n * scale_.hand_m_per_m * (tick.stored.si - alone_j - sample_j_);
 }
 
-void FeltParticles::note_events(const physics::PushTick& tick, std::uint64_t yields_before,
-                                ParticlePush& step) noexcept {
+void FeltParticles::note_events(const physics::PushTick& tick, const Counts& before, ParticlePush& step) noexcept {
   const physics::TipMeeting::Events events =
-      meeting_.follow(particles_, tick.normal.si * scale_.hand_n_per_n >= kFeltN);
+      meeting_.follow(particles_, std::abs(tick.normal.si) * scale_.hand_n_per_n >= kFeltN);
   for (const physics::TipMeeting::Event& event : events.all()) step.add({event.kind, event.before.si, event.after.si});
-  if (tick.yields > yields_before) step.add({EventKind::ParticleGave, tick.gave_at.si, tick.goes_on_at.si});
+  if (tick.dragged > before.dragged) {
+    step.add({EventKind::ParticleDragged, tick.dragged_at.si, magnitude(tick.lateral).si});
+  } else if (tick.yields > before.yields) {
+    step.add({EventKind::ParticleGave, tick.gave_at.si, tick.goes_on_at.si});
+  }
+  const bool felt = tick.torn_at.si * scale_.hand_n_per_n >= kFeltN;
+  if (tick.torn > before.torn && felt) step.add({EventKind::ParticleTorn, tick.torn_at.si, 0.0});
 }
 
 scene::TipPush FeltParticles::push() const noexcept {

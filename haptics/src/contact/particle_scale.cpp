@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "physics/manipulation/particle_friction.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/manipulation/tip_contact.h"
+#include "physics/manipulation/tip_hold.h"
 
 namespace afm::haptics {
 
@@ -72,8 +72,7 @@ core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particl
   const physics::ParticleSpecies& species = setup.species[median];
   const physics::Length radius = species.contact.tip_radius;
 
-  const physics::TipGrip grip{setup.tip_friction, 1.5 * std::numbers::pi * species.tip_adhesion *
-                                                      physics::effective_radius(setup.tip, radius, true)};
+  const physics::TipGrip grip = physics::flank_grip(setup.tip, species, setup.tip_friction);
   const double sine = std::sin(setup.tip.half_angle_rad), cosine = std::cos(setup.tip.half_angle_rad);
   const double threshold_n = physics::push_balance(species, grip, sine, cosine).lateral.si;
   if (!(std::isfinite(threshold_n) && threshold_n > 0.0)) {
@@ -85,7 +84,14 @@ core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particl
   scale.hand_m_per_m = hand_m_per_m(particles, 2.0 * radius.si, device);
   const double distance_m = physics::side_contact(setup.tip, radius, physics::Length(0.0)).distance.si;
   const double most_n = particle_stiffness_n_per_m(device) * ParticleScale::kMostBend * distance_m * scale.hand_m_per_m;
-  const double felt_n = std::min({particles.pusher.threshold_on_hand_n, most_n, force_cap_n(device)});
+  double pull_n = 0.0;
+  for (const physics::ParticleSpecies& s : setup.species) {
+    pull_n = std::max(pull_n, physics::strongest_pull(setup.tip, s).si);
+  }
+  // neither the push that moves a particle nor the pull at which a contact tears is beyond the device
+  const double cap_n = force_cap_n(device), strongest_n = std::max(threshold_n, pull_n);
+  const double felt_n =
+      std::min({particles.pusher.threshold_on_hand_n, most_n, cap_n, cap_n * (threshold_n / strongest_n)});
   if (!(felt_n >= Scaling::kFaintestPullN)) {
     return core::failure(
         core::ErrorCategory::Failed,
@@ -97,9 +103,10 @@ core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particl
   const double most_n_per_m = particle_stiffness_n_per_m(device) * scale.hand_m_per_m / scale.hand_n_per_n;
   scale.softened_sideways = std::max(1.0, setup.springs.lateral.si / most_n_per_m);
   scale.softened_upwards = std::max(1.0, setup.springs.normal.si / most_n_per_m);
-  scale.clear_z_m = physics::clear_height(setup).si;
+  const physics::PushSetup felt = felt_setup(particles, scale);
+  scale.clear_z_m = physics::clear_height(felt).si;
   try {
-    physics::validate(felt_setup(particles, scale));
+    physics::validate(felt);
   } catch (const std::invalid_argument& error) {
     return core::failure(core::ErrorCategory::Failed,
                          fmt::format("cannot push the particles \"{}\" with a lever as soft as a hand can bear: {}",

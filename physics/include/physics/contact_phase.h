@@ -22,6 +22,8 @@ enum class EventKind : std::uint32_t {
   ParticleRiddenOver = 7,  // the tip climbed over a particle, because its lever is too soft
   PushTakenBack = 8,       // the particles are where they were before the newest push
   ParticlesPutBack = 9,    // all particles are where they were at the start
+  ParticleDragged = 10,    // a particle at rest began to follow a tip that pulls it by adhesion
+  ParticleTorn = 11,       // the contact by which the tip pulled a particle tore
 };
 
 // Name in reports and replays.
@@ -45,6 +47,10 @@ constexpr const char* name_of(EventKind kind) {
       return "push-taken-back";
     case EventKind::ParticlesPutBack:
       return "particles-put-back";
+    case EventKind::ParticleDragged:
+      return "particle-dragged";
+    case EventKind::ParticleTorn:
+      return "particle-torn";
   }
   return "unknown";
 }

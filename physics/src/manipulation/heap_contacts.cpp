@@ -52,7 +52,7 @@ double HeapContacts::stored() const noexcept {
   const double lever_j = 0.5 * (springs_.lateral.si * (x * x + y * y) + springs_.normal.si * z * z);
   double squares = 0.0;
   for (const std::size_t i : near_tip()) {
-    const double depth = std::max(0.0, tips_[i].overlap.depth_m);
+    const double depth = acts(i, tips_[i]) ? tips_[i].overlap.depth_m : 0.0;
     squares += depth * depth;
   }
   for (std::size_t p = 0; p < pair_count_; ++p) {
@@ -176,8 +176,8 @@ double HeapContacts::lever_change(const Apex& to) const noexcept {
 double HeapContacts::tip_change(std::size_t i, const Place& to, const Apex& apex) const noexcept {
   const TipContact &was = tips_[i], &now = tips_then_[i];
   const double depth0 = was.overlap.depth_m, depth1 = now.overlap.depth_m, k = 0.5 * springs_.contact.si;
-  if (depth0 <= 0.0) return depth1 <= 0.0 ? 0.0 : k * depth1 * depth1;
-  if (depth1 <= 0.0) return -k * depth0 * depth0;
+  if (!acts(i, was)) return acts(i, now) ? k * depth1 * depth1 : 0.0;
+  if (!acts(i, now)) return -k * depth0 * depth0;
   const TipProfile& profile = *bodies_[i].profile;
   const double flank = profile.flank_sine(), rise = apex.height - apex_.height;
   const bool rod = bodies_[i].is_rod();
@@ -235,6 +235,7 @@ HeapContacts::Normal HeapContacts::normal_of(std::size_t i) const noexcept {
   const double ux = tip.away_m > 0.0 ? tip.x / tip.away_m : 1.0, uy = tip.away_m > 0.0 ? tip.y / tip.away_m : 0.0;
   const bool ball = tip.overlap.sine > body.profile->flank_sine();
   return {.overlap_m = tip.overlap.depth_m,
+          .acts = acts(i, tip),
           .towards = {ux * tip.overlap.cosine, uy * tip.overlap.cosine, -tip.overlap.sine},
           .apart_m = std::max(1e-30, ball ? body.profile->reach_sum_m() - tip.overlap.depth_m : tip.away_m),
           .ball = ball,

@@ -11,6 +11,7 @@
 #include "outline.h"
 #include "physics/manipulation/push_figures.h"
 #include "physics/manipulation/tip_contact.h"
+#include "tip_holds.h"
 
 namespace afm::physics {
 
@@ -49,6 +50,7 @@ class HeapContacts {
     double half_m = 0.0;    // half length of a rod; 0: a sphere
     Flat start_axis{1.0, 0.0}, axis{1.0, 0.0};
     double turned_m = 0.0;
+    TipPull pull;  // adhesion of the tip, whose contact then pulls, too
 
     bool is_rod() const { return half_m > 0.0; }
     bool moved() const { return at.x != start.x || at.y != start.y || turned_m != 0.0; }
@@ -71,6 +73,7 @@ class HeapContacts {
   // Tip and body.
   struct Normal {
     double overlap_m = -1.0;          // positive: they touch
+    bool acts = false;                // they touch, or the tip holds the body
     std::array<double, 3> towards{};  // gradient of the overlap with the apex
     double apart_m = 1.0;             // radius of curvature of the overlap
     bool ball = false;                // the cap: curved along the vertical as well
@@ -123,7 +126,7 @@ class HeapContacts {
 
   // Contacts after the step whose change was asked last. Valid only for what it moves.
   bool touches_then(std::size_t pair) const noexcept { return apart_then_m_[pair] < pairs_[pair].distance_m; }
-  bool tip_touches_then(std::size_t body) const noexcept { return tips_then_[body].overlap.depth_m > 0.0; }
+  bool tip_acts_then(std::size_t body) const noexcept { return acts(body, tips_then_[body]); }
 
   const PushSprings& springs() const noexcept { return springs_; }
   const Apex& base() const noexcept { return base_; }
@@ -156,6 +159,9 @@ class HeapContacts {
     Flat first, second;
   };
 
+  bool acts(std::size_t body, const TipContact& tip) const noexcept {
+    return tip.overlap.depth_m > 0.0 || bodies_[body].pull.holds();
+  }
   TipContact contact_at(std::size_t body, const Place& at, const Apex& apex) const noexcept;
   Place place_of(std::size_t body, const Step& step) const noexcept;
   Outline second_of(const Pair& pair) const noexcept;

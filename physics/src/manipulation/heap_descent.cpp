@@ -49,7 +49,7 @@ class Descent {
   void propose(Step& step, const Move& move, double share) const noexcept;
   bool foresee(const Step& step, bool foreseen) noexcept;
   bool tip_counts(std::size_t i, bool foreseen) const noexcept {
-    return foreseen ? tip_foreseen_[i] : heap_.normal_of(i).overlap_m > 0.0;
+    return foreseen ? tip_foreseen_[i] : heap_.normal_of(i).acts;
   }
   bool pair_counts(std::size_t p, bool foreseen) const noexcept {
     return foreseen ? pair_foreseen_[p] : heap_.touch_of(p).overlap_m > 0.0;
@@ -85,7 +85,7 @@ Flat Descent::pull_on(std::size_t i, double& spring) const noexcept {
   const double k_n = heap_.springs().contact.si;
   Flat force;
   spring = 0.0;
-  if (const Normal normal = heap_.normal_of(i); normal.overlap_m > 0.0) {
+  if (const Normal normal = heap_.normal_of(i); normal.acts) {
     force.x += k_n * normal.overlap_m * normal.towards[0];
     force.y += k_n * normal.overlap_m * normal.towards[1];
     spring += k_n;
@@ -156,7 +156,7 @@ bool Descent::settle_rod(std::size_t i) noexcept {
 }
 
 bool Descent::touches(std::size_t i) const noexcept {
-  if (heap_.normal_of(i).overlap_m > 0.0) return true;
+  if (heap_.normal_of(i).acts) return true;
   const auto pairs = heap_.pairs_of(i);
   return std::any_of(pairs.begin(), pairs.end(), [this](std::size_t p) { return heap_.touch_of(p).overlap_m > 0.0; });
 }
@@ -256,8 +256,7 @@ bool Descent::foresee(const Step& step, bool foreseen) noexcept {
     changed = changed || touches != solved_with;
     known = touches;
   };
-  for (const std::size_t i : heap_.near_tip())
-    mark(tip_foreseen_[i], tip_counts(i, foreseen), heap_.tip_touches_then(i));
+  for (const std::size_t i : heap_.near_tip()) mark(tip_foreseen_[i], tip_counts(i, foreseen), heap_.tip_acts_then(i));
   for (std::size_t m = 0; m < step.count; ++m) {
     const std::size_t i = step.movers[m];
     for (const std::size_t p : heap_.pairs_of(i)) {

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "physics/manipulation/tip_hold.h"
 
 namespace afm::physics {
 namespace {
@@ -143,12 +144,8 @@ LoneContact::LoneContact(const ParticleSpecies& species, const SphereCone& tip, 
       springs_(springs),
       profile_(tip, species.contact.tip_radius),
       cap_z_m_(std::numeric_limits<double>::quiet_NaN()) {
-  const auto grip = [&](bool on_flank) {
-    const Length radius = effective_radius(tip, species.contact.tip_radius, on_flank);
-    return TipGrip{tip_friction, 1.5 * std::numbers::pi * species.tip_adhesion * radius};
-  };
-  flank_grip_ = grip(true);
-  cap_grip_ = grip(false);
+  flank_grip_ = flank_grip(tip, species, tip_friction);
+  cap_grip_ = {tip_friction, tip_pull_off(tip, species, false)};
   const double sine = profile_.flank_sine(), cosine = profile_.flank_cosine();
   const PushBalance rest = push_balance(species_, flank_grip_, sine, cosine);
   const PushBalance moving = push_balance(species_, flank_grip_, sine, cosine, species_.kinetic_ratio);
@@ -281,7 +278,9 @@ LoneThresholds LoneContact::thresholds(double z_m) noexcept {
 }
 
 LoneThresholds LoneContact::under_load(double normal_n, double sine, double cosine) const noexcept {
-  const double slides_n = sliding_threshold(species_, Force(normal_n * sine)).si;
+  const double slides_n = (normal_n < 0.0 ? threshold_under_pull(species_, Force(-normal_n * sine))
+                                          : sliding_threshold(species_, Force(normal_n * sine)))
+                              .si;
   if (!(species_.rolling_distance.si > 0.0) || !(normal_n > 0.0) || flank_.mode != PushMode::Rolls) {
     return {slides_n, species_.kinetic_ratio * slides_n, PushMode::Slides};
   }

@@ -19,6 +19,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kLargestPush = 1e-3;  // N: beyond any lever
+constexpr double kHeld = 1.0 - 1e-9;   // share of F_ad that a sphere on the sample bears
 
 PushBalance jammed() {
   const Force infinite{std::numeric_limits<double>::infinity()};
@@ -95,7 +96,9 @@ void validate(const ParticleSpecies& s) {
   require_range("ageing", s.ageing, Time(0.0), Time(1e6), kTimeUnits);
   require_range("rolling_distance", s.rolling_distance, Length(0.0), is_rod(s) ? Length(0.0) : s.contact.tip_radius,
                 kLengthUnits);
-  require_range("tip_adhesion", s.tip_adhesion, SurfaceEnergy(0.0), SurfaceEnergy(10.0), kSurfaceEnergyUnits);
+  if (s.sticks && is_rod(s)) throw UnphysicalValue("sticks", "only spheres stick to a tip, and this is a rod");
+  require_range("tip_adhesion", s.tip_adhesion, SurfaceEnergy(s.sticks ? 1e-6 : 0.0), SurfaceEnergy(10.0),
+                kSurfaceEnergyUnits);
 }
 
 Force pull_off_force(const ParticleSpecies& species) noexcept { return -jkr_pull_off_load(species.contact); }
@@ -125,6 +128,11 @@ Force sliding_threshold(const ParticleSpecies& species, ParticleLaw law, Force l
       break;
   }
   return species.measured_threshold;
+}
+
+Force threshold_under_pull(const ParticleSpecies& species, Force pull) {
+  const Force load = std::max(-pull, -(kHeld * pull_off_force(species)));
+  return std::max(Force(0.0), sliding_threshold(species, load));
 }
 
 Torque rolling_moment(const ParticleSpecies& species, Force load) {

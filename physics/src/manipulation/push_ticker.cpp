@@ -24,7 +24,7 @@ double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
 PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<PlacedParticle>& particles,
                                 const LeverBase& start)
-    : setup_(setup), heap_(setup.springs) {
+    : setup_(setup), holds_(setup, particles), heap_(setup.springs) {
   validate(setup, particles);
   double smallest_m = HUGE_VAL, reach_m = 0.0, touching_m = 0.0, longest_half_m = 0.0;
   for (const ParticleSpecies& species : setup_.species) {
@@ -54,11 +54,12 @@ PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<Placed
   moves_.assign(x_.size(), false);
   clear_m_ = clear_height(setup_).si;
   pressed_.assign(x_.size(), {});
-  grid_ = std::make_unique<ParticleGrid>(x_, y_, std::max(reach_m, touching_m) + 3.0 * reach_m_ + 2.0 * longest_half_m);
+  grid_ = std::make_unique<ParticleGrid>(
+      x_, y_, std::max(reach_m, touching_m) + 3.0 * reach_m_ + 2.0 * longest_half_m + holds_.stretch_m());
   base_ = {start.position.x.si, start.position.y.si, start.z.si};
   apex_ = {base_.x, base_.y, std::max(0.0, base_.height)};
   tick_.stored = tick_.given = Energy(stored_everywhere());
-  work_left_ = kWorkOfATick;
+  left_.work = kWorkOfATick;
   sub_step(base_);
   publish();
 }
@@ -86,9 +87,9 @@ void PushedParticles::Ticker::advance(const Apex& to) noexcept {
   const int steps = tick_.lagging ? kMostSubSteps : std::max(1, static_cast<int>(std::ceil(needed)));
   const double share = tick_.lagging ? sub_step_m_ / way_m : 1.0 / steps;
   const Apex from = base_;
-  work_left_ = kWorkOfATick;
+  left_.work = kWorkOfATick;
   for (int i = 1; i <= steps; ++i) {
-    heap_steps_left_ = (steps - i + 1) * kHeapSplit;
+    left_.heap_steps = (steps - i + 1) * kHeapSplit;
     const double at = i * share;
     sub_step(i == steps && !tick_.lagging ? to : Apex{from.x + at * dx, from.y + at * dy, from.height + at * dz});
   }
@@ -98,10 +99,10 @@ void PushedParticles::Ticker::advance(const Apex& to) noexcept {
 bool PushedParticles::Ticker::find_near() noexcept {
   near_.clear();
   bool fits = true;
-  const double x = apex_.x, y = apex_.y, lowest_m = apex_.height - reach_m_;
+  const double x = apex_.x, y = apex_.y, lowest_m = apex_.height - reach_m_ - holds_.stretch_m();
   grid_->near(x, y, [&](std::size_t i) {
     const double diameter_m = 2.0 * setup_.species[species_[i]].contact.tip_radius.si;
-    const double most_m = contacts_[species_[i]].profile().reach_m() + reach_m_;
+    const double most_m = contacts_[species_[i]].profile().reach_m() + reach_m_ + holds_.stretch_m();
     if (lowest_m > diameter_m) return;
     const Flat nearest = nearest_on(outline(i), {x, y});
     if (length_of(nearest.x - x, nearest.y - y) > most_m) return;
@@ -123,12 +124,13 @@ void PushedParticles::Ticker::sub_step(const Apex& to) noexcept {
       restless_.empty() && (near_.empty() ? free_step(to) : near_.size() == 1 && lone_step(to, *near_.begin()));
   if (!in_closed_form) {
     const Apex from = base_;
-    for (int i = 1; i < kHeapSplit; ++i) {
+    const double x = to.x - from.x, y = to.y - from.y, z = to.height - from.height;
+    for (int i = 1; i <= kHeapSplit; ++i) {
       const double at = static_cast<double>(i) / kHeapSplit;
-      heap_step(
-          {from.x + at * (to.x - from.x), from.y + at * (to.y - from.y), from.height + at * (to.height - from.height)});
+      const Apex next = i == kHeapSplit ? to : Apex{from.x + at * x, from.y + at * y, from.height + at * z};
+      heap_step(next);
+      tear(next);
     }
-    heap_step(to);
   }
   press();
 }
@@ -258,11 +260,13 @@ double PushedParticles::Ticker::share_of_push(std::size_t i) const noexcept {
 // is not known in closed form, goes too far for one sub-step, or would raise stored energy plus friction.
 bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept {
   if (half_m(i) > 0.0 || !is_alone(i)) return false;
+  const bool held = holds_.pull_of(i).holds();  // pulled wherever it is not pushed
+  if (held && !(pressed_[i].normal_n > 0.0)) return false;
   LoneContact& contact = contacts_[species_[i]];
   const Flat was{x_[i], y_[i]};
   const double away_m = length_of(was.x - base_.x, was.y - base_.y);
   const double before_n = contact.force_at(away_m, base_.height), sunk_n = contact.force_at(away_m, to.height);
-  if (before_n < 0.0 || sunk_n < 0.0) return false;
+  if (before_n < 0.0 || sunk_n < 0.0 || (held && before_n == 0.0)) return false;
   if (before_n == 0.0 && sunk_n == 0.0 && passes(i, to)) return free_step(to);
   const double sunk_j = contact.under(sunk_n, to.height).energy_j - contact.under(before_n, base_.height).energy_j;
 
@@ -276,7 +280,7 @@ bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept 
 
   const double x = path.particle.x - to.x, y = path.particle.y - to.y, end_m = length_of(x, y);
   const double lateral_n = contact.force_at(end_m, to.height);
-  if (lateral_n < 0.0 || (lateral_n > 0.0 && !(end_m > 0.0))) return false;
+  if (lateral_n < 0.0 || (lateral_n > 0.0 && !(end_m > 0.0)) || (held && lateral_n == 0.0)) return false;
   Apex apex{to.x, to.y, std::max(0.0, to.height)};
   if (lateral_n > 0.0) {
     const double lag = lateral_n / (setup_.springs.lateral.si * end_m);
@@ -332,12 +336,13 @@ void PushedParticles::Ticker::hold_over(const LeverBase& base) noexcept {
   for (const std::uint32_t i : moved_) moves_[i] = false;
   moved_.clear();
   near_.clear();
+  holds_.reset();
   press();
   std::fill(moved_at_s_.begin(), moved_at_s_.end(), -HUGE_VAL);
   time_s_ = tick_end_s_ = 0.0;
   settled_ = false;
   restless_.clear();
-  tick_.given = tick_.work = tick_.lost = tick_.stored = Energy();
+  tick_.given = tick_.work = tick_.lost = tick_.stored = tick_.torn_lost = Energy();
   tick_.lagging = false;
   publish();
 }
@@ -350,7 +355,8 @@ void PushedParticles::Ticker::press() noexcept {
     const Flat nearest = nearest_on(outline(i), {apex_.x, apex_.y});
     const Overlap overlap =
         contacts_[species_[i]].profile().overlap(length_of(nearest.x - apex_.x, nearest.y - apex_.y), apex_.height);
-    if (!(overlap.depth_m > 0.0)) continue;
+    if (overlap.depth_m > 0.0 && holds_.form(i)) ++tick_.attached;
+    if (!(overlap.depth_m > 0.0 || holds_.pull_of(i).holds())) continue;
     pressed_[i] = {setup_.springs.contact.si * overlap.depth_m, overlap.sine, overlap.cosine};
     touched_.add(i);
   }
@@ -368,7 +374,7 @@ void PushedParticles::Ticker::publish() noexcept {
   tick_.state = PushState::Free;
   tick_.normal = tick_.threshold = Force(0.0);
   for (const std::size_t i : touched_) {
-    if (pressed_[i].normal_n <= tick_.normal.si) continue;
+    if (std::abs(pressed_[i].normal_n) <= std::abs(tick_.normal.si)) continue;
     tick_.particle = i;
     tick_.normal = Force(pressed_[i].normal_n);
   }
@@ -381,7 +387,8 @@ void PushedParticles::Ticker::publish() noexcept {
   if (touched_.size() > 1 || moved_.size() > 1) {
     tick_.state = PushState::Several;
   } else {
-    if (!is_rod(setup_.species[species_[i]]) && is_alone(i)) thresholds = contact.thresholds(base_.height);
+    const bool alone = !is_rod(setup_.species[species_[i]]) && is_alone(i);
+    if (alone && pressed.normal_n > 0.0) thresholds = contact.thresholds(base_.height);
     tick_.state = !moves ? PushState::Holds : thresholds.mode == PushMode::Rolls ? PushState::Rolls : PushState::Slides;
   }
   tick_.threshold = Force(rest_threshold(i, thresholds.rest_n, thresholds.moving_n) * share_of_push(i));

@@ -14,6 +14,7 @@
 #include "outline.h"
 #include "particle_grid.h"
 #include "physics/manipulation/pushed_particles.h"
+#include "tip_holds.h"
 
 namespace afm::physics {
 
@@ -54,6 +55,11 @@ class PushedParticles::Ticker {
     std::size_t count_ = 0;
   };
 
+  struct Budget {
+    double work = 0.0;  // contacts that heaps may still look at
+    int heap_steps = 0;
+  };
+
   struct Pressed {
     double normal_n = 0.0, sine = 0.0, cosine = 1.0;
   };
@@ -68,6 +74,7 @@ class PushedParticles::Ticker {
   bool passes(std::size_t i, const Apex& to) const noexcept;
   bool lone_step(const Apex& to, std::size_t i) noexcept;
   void heap_step(const Apex& to) noexcept;
+  void tear(const Apex& to) noexcept;
   bool gather(const Apex& to) noexcept;
   bool gather_pairs_of(std::size_t place) noexcept;
   bool add_pairs(std::size_t first, std::size_t second, std::size_t particle) noexcept;
@@ -95,6 +102,7 @@ class PushedParticles::Ticker {
   std::vector<std::size_t> species_;
   std::vector<bool> pinned_;
   std::vector<Pressed> pressed_;  // load by the tip after the last sub-step
+  TipHolds holds_;
   std::unique_ptr<ParticleGrid> grid_;
   HeapContacts heap_;
   Apex base_, apex_;
@@ -104,8 +112,7 @@ class PushedParticles::Ticker {
   Few restless_;                      // unsettled heap
   std::vector<std::uint32_t> moved_;  // in this tick
   std::vector<bool> moves_;           // part of moved_
-  double work_left_ = 0.0;            // contacts that heaps may still look at
-  int heap_steps_left_ = 0;           // in this tick
+  Budget left_;                       // in this tick
   bool exhausted_ = false;
   bool settled_ = false;  // a base that rests changes nothing
   PushTick tick_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -8,6 +9,11 @@
 
 // A sub-step among several particles, or with a rod.
 namespace afm::physics {
+namespace {
+
+constexpr int kMostSprings = 64;  // steps of a lever that springs back in a tick
+
+}  // namespace
 
 bool PushedParticles::Ticker::add_body(std::size_t i, bool near_tip) noexcept {
   const LoneContact& contact = contacts_[species_[i]];
@@ -24,7 +30,8 @@ bool PushedParticles::Ticker::add_body(std::size_t i, bool near_tip) noexcept {
                                       .near_tip = near_tip,
                                       .half_m = there.half_m,
                                       .start_axis = there.axis,
-                                      .axis = there.axis});
+                                      .axis = there.axis,
+                                      .pull = holds_.pull_of(i)});
 }
 
 // Whether two particles are farther apart than `most_m`.
@@ -87,10 +94,10 @@ void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
     return;
   }
   const double loaded_j = lever_j(to, apex_) - lever_j(base_, apex_), frozen_j = heap_.stored();
-  const double share = work_left_ / std::max(1, heap_steps_left_--);
+  const double share = left_.work / std::max(1, left_.heap_steps--);
   double work = share;
   const bool at_rest = descend(heap_, heap_reach_m_, work);
-  work_left_ -= share - work;
+  left_.work -= share - work;
   if (!at_rest) exhausted_ = true;
   const Apex& now = heap_.apex();
   settled_ = at_rest && heap_.friction() == 0.0 && now.x == apex_.x && now.y == apex_.y && now.height == apex_.height;
@@ -108,10 +115,53 @@ void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
     const HeapContacts::Body& body = heap_.body(n);
     if (!body.moved()) continue;
     const double pushed = share_of_push(body.particle);
-    if (body.rest_n > body.moving_n) gave(body.rest_n * pushed, body.moving_n * pushed);
+    const bool rested = body.rest_n > body.moving_n;
+    if (rested) gave(body.rest_n * pushed, body.moving_n * pushed);
+    if (pressed_[body.particle].normal_n < 0.0 && (holds_.begins_to_follow(body.particle) || rested)) {
+      ++tick_.dragged;
+      tick_.dragged_at = Force(body.rest_n);
+    }
     const HalfTurn& turn = turns_[body.particle];
     place(body.particle, body.at, body.is_rod() ? turned(turn, half_tangent(body.turned_m, body.half_m)) : turn);
   }
+}
+
+// Contacts that pull by more than they hold tear. What they stored is lost, and so is the energy of the lever that then
+// springs back.
+void PushedParticles::Ticker::tear(const Apex& to) noexcept {
+  const auto surplus = [this] { return tick_.given - tick_.lost - tick_.stored; };
+  const auto let_go = [this] {
+    bool any = false;
+    for (const std::size_t n : heap_.near_tip()) {
+      const HeapContacts::Body& body = heap_.body(n);
+      const HeapContacts::Normal normal = heap_.normal_of(n);
+      const double holds_n = body.pull.on(normal.ball), gap_m = -normal.overlap_m;
+      if (!body.pull.holds() || !(setup_.springs.contact.si * gap_m > holds_n)) continue;
+      const Energy contact(0.5 * setup_.springs.contact.si * gap_m * gap_m);
+      tick_.stored = tick_.stored - contact;
+      tick_.lost = tick_.lost + contact;
+      // an apex on the sample does not bend the lever upwards or down
+      const double sine = apex_.height > 0.0 ? -normal.towards[2] : 0.0;
+      const double cosine = std::sqrt(normal.towards[0] * normal.towards[0] + normal.towards[1] * normal.towards[1]);
+      const Stiffness spring = stiffness_along_normal(setup_.springs, sine, cosine);
+      tick_.torn_at = Force(holds_n);
+      tick_.torn_lost = tick_.torn_lost + tear_energy(tick_.torn_at, spring);
+      ++tick_.torn;
+      holds_.tear(body.particle);
+      any = true;
+    }
+    return any;
+  };
+  if (!let_go()) return;
+  const Energy before = surplus();
+  const bool exhausted = exhausted_;
+  settled_ = false;
+  for (int i = 0; i < kMostSprings && !settled_; ++i) {
+    exhausted_ = exhausted;
+    heap_step(to);
+    if (let_go()) settled_ = false;
+  }
+  tick_.lost = tick_.lost + std::max(Energy(0.0), surplus() - before);
 }
 
 }  // namespace afm::physics

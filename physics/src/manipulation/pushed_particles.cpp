@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "outline.h"
+#include "physics/manipulation/tip_hold.h"
 #include "physics/quantity_text.h"
 #include "push_ticker.h"
 #include "require_range.h"
@@ -18,6 +19,21 @@ namespace {
 constexpr double kClearShare = 1.02;      // share of the largest diameter
 constexpr double kOverlapAllowed = 1e-6;  // share of the touching distance, at the start
 constexpr double kUnitTurn = 1e-9;        // by which the square of a turn may differ from 1
+constexpr double kMostStretch = 0.125;    // longest stretch of a contact that pulls, over the radius
+
+void validate_hold(const PushSetup& setup, const ParticleSpecies& species) {
+  if (lifts(setup.tip, species)) {
+    throw UnphysicalValue("tip_adhesion", "tip adhesion " + format_quantity(species.tip_adhesion, kSurfaceEnergyUnits) +
+                                              " would lift the spheres off the sample, which is not modelled");
+  }
+  const Length stretch = strongest_pull(setup.tip, species) / setup.springs.contact;
+  if (stretch > kMostStretch * species.contact.tip_radius) {
+    throw UnphysicalValue("contact_stiffness",
+                          "contact stiffness " + format_quantity(setup.springs.contact, kStiffnessUnits) +
+                              " is too soft for spheres that stick to the tip: their contact would stretch by " +
+                              format_quantity(stretch, kLengthUnits, 3) + " before it tears");
+  }
+}
 
 Outline outline_of(const PushSetup& setup, const PlacedParticle& particle) {
   return {{particle.position.x.si, particle.position.y.si},
@@ -28,9 +44,13 @@ Outline outline_of(const PushSetup& setup, const PlacedParticle& particle) {
 }  // namespace
 
 Length clear_height(const PushSetup& setup) noexcept {
-  Length radius;
-  for (const ParticleSpecies& species : setup.species) radius = std::max(radius, species.contact.tip_radius);
-  return kClearShare * 2.0 * radius;
+  Length radius, stretch;
+  for (const ParticleSpecies& species : setup.species) {
+    radius = std::max(radius, species.contact.tip_radius);
+    const Force pull = strongest_pull(setup.tip, species);
+    stretch = std::max(stretch, pull / setup.springs.normal + pull / setup.springs.contact);
+  }
+  return kClearShare * (2.0 * radius + stretch);
 }
 
 Length touching_distance(Length radius_a, Length radius_b) noexcept { return 2.0 * sqrt(radius_a * radius_b); }
@@ -48,6 +68,7 @@ void validate(const PushSetup& setup) {
   Length smallest{HUGE_VAL}, largest{};
   for (const ParticleSpecies& species : setup.species) {
     validate(species);
+    if (species.sticks) validate_hold(setup, species);
     smallest = std::min(smallest, species.contact.tip_radius);
     largest = std::max(largest, species.contact.tip_radius);
   }

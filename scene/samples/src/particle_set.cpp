@@ -26,6 +26,7 @@ using physics::Length;
 constexpr std::size_t kMostMoves = 1000;
 constexpr Length kWidestPlace{1e-4}, kHighestPlace{1e-5};
 constexpr double kRounding = 1e-6;
+constexpr std::int64_t kLargestSeed = 65535;
 constexpr double kWidestAngle = 360.0;  // degrees
 constexpr physics::Velocity kSlowestHand{1e-11}, kFastestHand{1e-4};
 
@@ -92,11 +93,23 @@ physics::ParticleSpecies read_rods(const TomlTable& table, SpeciesEntry& entry) 
   return species;
 }
 
+// Whether the tip holds what it has touched, and whether its pull-offs scatter.
+void read_hold(const TomlTable& table, physics::ParticleSpecies& species) {
+  species.sticks = table.has("sticks") && table.flag("sticks");
+  if (species.sticks && !(species.tip_adhesion.si > 0.0)) {
+    table.refuse("sticks", "a tip that sticks needs tip_adhesion above 0");
+  }
+  if (!table.has("pull_off_seed")) return;
+  if (!species.sticks) table.refuse("pull_off_seed", "the tip has no pull-off here: set sticks = true");
+  species.scatter_seed = static_cast<std::uint16_t>(table.whole("pull_off_seed", 1, kLargestSeed));
+}
+
 physics::ParticleSpecies read_species(const TomlTable& table, SpeciesEntry& entry) {
   if (table.has("length")) return read_rods(table, entry);
   table.allow_only({"name", "radius", "particle_modulus", "particle_poisson_ratio", "sample_modulus",
                     "sample_poisson_ratio", "work_of_adhesion", "law", "shear_strength", "coefficient",
-                    "measured_threshold", "kinetic_ratio", "ageing", "rolling_distance", "tip_adhesion"});
+                    "measured_threshold", "kinetic_ratio", "ageing", "rolling_distance", "tip_adhesion", "sticks",
+                    "pull_off_seed"});
   entry.name = table.text("name");
   SourcedValues values(table);
   physics::ParticleSpecies species;
@@ -118,6 +131,7 @@ physics::ParticleSpecies read_species(const TomlTable& table, SpeciesEntry& entr
   if (const auto xi = values.optional_quantity("rolling_distance", physics::kLengthUnits))
     species.rolling_distance = *xi;
   if (const auto w = values.optional_quantity("tip_adhesion", physics::kSurfaceEnergyUnits)) species.tip_adhesion = *w;
+  read_hold(table, species);
   try {
     species.contact.reduced_modulus = physics::reduced_modulus(particle, sample);
     physics::validate(species);
@@ -151,6 +165,7 @@ void check_setup(const ParticleSet& set, const TomlTable& top, const TomlTable& 
     if (field == "tip_radius") tip.refuse("radius", error.what());
     if (field == "half_angle") tip.refuse("half_angle_deg", error.what());
     if (field == "tip_friction") tip.refuse("friction", error.what());
+    if (field == "tip_adhesion") top.refuse("species", error.what());
     if (field == "radius") {
       top.refuse("species",
                  std::string(error.what()) + ": radii must be at least half the tip's and half the largest particle's");

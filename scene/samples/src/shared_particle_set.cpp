@@ -47,7 +47,9 @@ SharedParticles shared_particles(const ParticleSet& set) {
                                                .ageing_s = species.ageing.si,
                                                .rolling_distance_m = species.rolling_distance.si,
                                                .tip_adhesion_j_per_m2 = species.tip_adhesion.si,
-                                               .law = species.law};
+                                               .law = species.law,
+                                               .sticks = static_cast<std::uint16_t>(species.sticks ? 1 : 0),
+                                               .scatter_seed = species.scatter_seed};
     shared.length_m.at(shared.species_count) = species.length.si;
     ++shared.species_count;
   }

@@ -35,7 +35,9 @@ physics::ParticleSpecies species_of(const SharedSpecies& shared) {
           .ageing = physics::Time(shared.ageing_s),
           .rolling_distance = physics::Length(shared.rolling_distance_m),
           .tip_adhesion = physics::SurfaceEnergy(shared.tip_adhesion_j_per_m2),
-          .length = {}};
+          .length = {},
+          .sticks = shared.sticks != 0,
+          .scatter_seed = shared.scatter_seed};
 }
 
 // splitmix64 (Steele, Lea & Flood 2014).
@@ -82,6 +84,11 @@ bool has_rods(const SharedParticles& particles) {
                      [](double length_m) { return length_m != 0.0; });
 }
 
+bool has_hold(const SharedParticles& particles) {
+  return std::any_of(particles.species.begin(), particles.species.end(),
+                     [](const SharedSpecies& species) { return species.sticks != 0; });
+}
+
 physics::HalfTurn turn_of(const ParticlePose& pose) noexcept {
   return pose.rod != 0 ? physics::HalfTurn{pose.orientation[0], pose.orientation[3]} : physics::HalfTurn{};
 }
@@ -117,6 +124,7 @@ core::Result<void> validate(const SharedParticles& particles) {
     if (species.name.back() != '\0' || !core::is_enumerator(species.law)) {
       return particles_refused(fmt::format("the name or the law of particle species {} is invalid", i));
     }
+    if (species.sticks > 1) return particles_refused(fmt::format("the adhesion of particle species {} is invalid", i));
   }
   const SharedPusher& pusher = particles.pusher;
   if (!(pusher.diameter_in_hand_m >= kSmallestInHandM && pusher.diameter_in_hand_m <= kLargestInHandM &&

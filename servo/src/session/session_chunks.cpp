@@ -46,6 +46,7 @@ std::string rods_of(const scene::SharedParticles& set) {
 
 std::uint32_t version_of(const RecordedSession& session) {
   if (!session.particles) return kSessionVersion;
+  if (scene::has_hold(session.particles->set)) return kVersionWithHold;
   return scene::has_rods(session.particles->set) ? kVersionWithRods : kVersionWithParticles;
 }
 
@@ -103,7 +104,7 @@ void SessionEncoder::head(const RecordedSession& session) {
     chunk(kTopographyChunk, topography);
   }
   if (session.particles) chunk(kParticlesChunk, bytes_of(*session.particles));
-  if (version_of(session) == kVersionWithRods) chunk(kRodsChunk, rods_of(session.particles->set));
+  if (session.particles && scene::has_rods(session.particles->set)) chunk(kRodsChunk, rods_of(session.particles->set));
 }
 
 void SessionEncoder::part(const RecordedSession& session) {

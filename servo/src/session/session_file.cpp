@@ -103,7 +103,13 @@ std::string read_part(std::string_view payload, RecordedSession& session, nlohma
   return {};
 }
 
-// Reads version 6, 7 or 8; returns an error message, or nothing.
+// Whether a file of this version has such particles.
+bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
+  if (scene::has_hold(set) != (version == kVersionWithHold)) return false;
+  return version == kVersionWithHold || scene::has_rods(set) == (version == kVersionWithRods);
+}
+
+// Reads version 6, 7, 8 or 9; returns an error message, or nothing.
 std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
   const bool with_particles = version != kSessionVersion;
   SessionDecoder decoder(file);
@@ -128,12 +134,11 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
       if (!read_topography(payload, session.topography)) return "its topography is damaged";
     } else if (with_particles && decoder.name() == kParticlesChunk) {
       if (!read_particles(payload, session.particles.emplace())) return "its particles are damaged";
-    } else if (version == kVersionWithRods && decoder.name() == kRodsChunk) {
+    } else if (version >= kVersionWithRods && decoder.name() == kRodsChunk) {
       if (!session.particles || !read_rods(payload, *session.particles)) return "its rods are damaged";
     } else if (decoder.name() == kPartChunk) {
-      const bool with_rods = session.particles && scene::has_rods(session.particles->set);
-      if (with_particles != session.particles.has_value() || with_rods != (version == kVersionWithRods))
-        return "its parts are out of order";
+      if (with_particles != session.particles.has_value()) return "its parts are out of order";
+      if (with_particles && !is_of(version, session.particles->set)) return "its parts are out of order";
       if (std::string wrong = read_part(payload, session, last_frame); !wrong.empty()) return wrong;
     } else if (decoder.name() == kEndChunk) {
       session.complete = true;
@@ -265,7 +270,8 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  constexpr std::array kVersions{kVersionOf010, kSessionVersion, kVersionWithParticles, kVersionWithRods};
+  constexpr std::array kVersions{kVersionOf010, kSessionVersion, kVersionWithParticles, kVersionWithRods,
+                                 kVersionWithHold};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

@@ -24,6 +24,8 @@ enum class HeardEvent {
   ParticleGave,
   ParticleLost,
   ParticleRiddenOver,
+  ParticleDragged,
+  ParticleTorn,
   PushTakenBack,
   ParticlesPutBack,
   PatternDone  // the particles lie on the pattern of their set

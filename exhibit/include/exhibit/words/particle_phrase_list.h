@@ -22,6 +22,8 @@
   PHRASE(PushSlides, "push-slides", "", kLine)                             \
   PHRASE(PushRolls, "push-rolls", "", kLine)                               \
   PHRASE(PushSeveral, "push-several", "", kLine)                           \
+  PHRASE(PushHeld, "push-held", "", kLine)                                 \
+  PHRASE(PushDragged, "push-dragged", "", kLine)                           \
   PHRASE(PushedParticle, "pushed-particle", "number count species", kLine) \
   PHRASE(PushedNone, "pushed-none", "", kLine)                             \
   PHRASE(PushNormal, "push-normal", "", kLine)                             \
@@ -39,6 +41,8 @@
   PHRASE(ParticleRadius, "particle-radius", "", kLine)                     \
   PHRASE(ParticleShearStrength, "particle-shear-strength", "", kLine)      \
   PHRASE(ParticleCoefficient, "particle-coefficient", "", kLine)           \
+  PHRASE(ParticleTearsAt, "particle-tears-at", "", kLine)                  \
+  PHRASE(ParticleTearsBy, "particle-tears-by", "work", kLine)              \
   PHRASE(LeverSideways, "lever-sideways", "", kLine)                       \
   PHRASE(LeverSoftened, "lever-softened", "", kLine)                       \
   PHRASE(TimesSofter, "times-softer", "factor", kLine)                     \

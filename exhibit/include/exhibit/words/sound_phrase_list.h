@@ -17,6 +17,8 @@
   PHRASE(HeardParticleGave, "heard-particle-gave", kEventPlaces, kLine)              \
   PHRASE(HeardParticleLost, "heard-particle-lost", kEventPlaces, kLine)              \
   PHRASE(HeardParticleRiddenOver, "heard-particle-ridden-over", kEventPlaces, kLine) \
+  PHRASE(HeardParticleDragged, "heard-particle-dragged", kEventPlaces, kLine)        \
+  PHRASE(HeardParticleTorn, "heard-particle-torn", kEventPlaces, kLine)              \
   PHRASE(HeardPushTakenBack, "heard-push-taken-back", kEventPlaces, kLine)           \
   PHRASE(HeardParticlesPutBack, "heard-particles-put-back", kEventPlaces, kLine)     \
   PHRASE(HeardPatternDone, "heard-pattern-done", kEventPlaces, kLine)                \
@@ -34,6 +36,8 @@
   PHRASE(SayParticleGave, "say-particle-gave", kEventPlaces, kLine)                  \
   PHRASE(SayParticleLost, "say-particle-lost", kEventPlaces, kLine)                  \
   PHRASE(SayParticleRiddenOver, "say-particle-ridden-over", kEventPlaces, kLine)     \
+  PHRASE(SayParticleDragged, "say-particle-dragged", kEventPlaces, kLine)            \
+  PHRASE(SayParticleTorn, "say-particle-torn", kEventPlaces, kLine)                  \
   PHRASE(SayPushTakenBack, "say-push-taken-back", kEventPlaces, kLine)               \
   PHRASE(SayParticlesPutBack, "say-particles-put-back", kEventPlaces, kLine)         \
   PHRASE(SayPatternDone, "say-pattern-done", kEventPlaces, kLine)                    \

@@ -20,14 +20,16 @@ namespace afm::physics {
 struct ParticleSpecies {
   AdhesiveContact contact;  // its tip_radius is that of the sphere or rod, R_p
   ParticleLaw law = ParticleLaw::ContactArea;
-  Pressure shear_strength;     // tau
-  double coefficient = 0.0;    // mu
-  Force measured_threshold;    // f_s of ParticleLaw::Measured; of a rod, to move it sideways as a whole
-  double kinetic_ratio = 0.5;  // r_k = f_k/f_s, above 0 and at most 1
-  Time ageing;                 // t_a; 0: a resting sphere has f_s at once
-  Length rolling_distance;     // xi; 0: the sphere slides and never rolls
-  SurfaceEnergy tip_adhesion;  // W_t, between sphere and tip
-  Length length;               // length of a rod's axis, which rests on the sample; 0: a sphere
+  Pressure shear_strength;         // tau
+  double coefficient = 0.0;        // mu
+  Force measured_threshold;        // f_s of ParticleLaw::Measured; of a rod, to move it sideways as a whole
+  double kinetic_ratio = 0.5;      // r_k = f_k/f_s, above 0 and at most 1
+  Time ageing;                     // t_a; 0: a resting sphere has f_s at once
+  Length rolling_distance;         // xi; 0: the sphere slides and never rolls
+  SurfaceEnergy tip_adhesion;      // W_t, between sphere and tip
+  Length length;                   // length of a rod's axis, which rests on the sample; 0: a sphere
+  bool sticks = false;             // the tip holds a sphere that it has touched (tip_hold.h); needs tip_adhesion
+  std::uint16_t scatter_seed = 0;  // seed of the scatter of pull-offs; 0: none
 };
 
 inline bool is_rod(const ParticleSpecies& species) noexcept { return species.length.si > 0.0; }
@@ -47,6 +49,9 @@ Force sliding_threshold(const ParticleSpecies& species, ParticleLaw law, Force l
 inline Force sliding_threshold(const ParticleSpecies& species, Force load) {
   return sliding_threshold(species, species.law, load);
 }
+
+// The same for a sphere that is pulled up, which loses its hold on the sample at F_ad.
+Force threshold_under_pull(const ParticleSpecies& species, Force pull);
 
 // M(P) = xi sqrt(8 pi W E* a^3), 6 pi W R xi at P = 0 (Dominik & Tielens 1995; M5).
 Torque rolling_moment(const ParticleSpecies& species, Force load);

@@ -43,14 +43,15 @@ struct ParticlePlace {
 
 // Throws UnphysicalValue with the field tip_radius, half_angle, lateral_spring, normal_spring, contact_stiffness,
 // tip_friction, radius, or a member of ParticleSpecies. Radii must be at least half the tip's, and within a factor of
-// two of one another: the tick counts on few neighbours.
+// two of one another: the tick counts on few neighbours. A sphere that sticks to the tip may not be lifted by it
+// (tip_hold.h), and its contact may stretch by no more than an eighth of its radius.
 void validate(const PushSetup& setup);
 
 // Throws std::invalid_argument for more than kMostParticles, for an unknown species and for two that overlap, and as
 // above.
 void validate(const PushSetup& setup, const std::vector<PlacedParticle>& particles);
 
-// Height of an apex that touches no particle.
+// Height of a base whose apex touches no particle, and holds none.
 Length clear_height(const PushSetup& setup) noexcept;
 
 // Distance of the centres of two spheres, or of the axes of two rods, on the sample that touch, 2 sqrt(R_a R_b).
@@ -70,9 +71,9 @@ struct PushTick {
   LeverBase apex;                      // apex on the bent lever
   Sideways<Force> lateral;             // force on the lever
   Force lift;                          // force on the lever, upwards, by spheres and sample
-  std::size_t particle = kNoParticle;  // the one with the largest normal force
+  std::size_t particle = kNoParticle;  // the one with the largest normal force, either way
   PushState state = PushState::Free;
-  Force normal;      // N of that particle
+  Force normal;      // N of that particle; negative: the tip pulls it
   Force threshold;   // lateral force at which it gives or goes on
   Force gave_at;     // force that the sphere bore that gave last
   Force goes_on_at;  // force that moves that sphere since
@@ -83,6 +84,12 @@ struct PushTick {
   Energy stored;     // energy in lever and contacts
   std::uint64_t yields = 0;     // spheres that gave, since the start
   std::uint64_t exhausted = 0;  // ticks at whose end a heap was not at rest, since the start
+  std::uint64_t attached = 0;   // contacts that the tip came to hold by adhesion, since the start
+  std::uint64_t dragged = 0;    // times that a sphere began to follow a pull, since the start
+  std::uint64_t torn = 0;       // contacts that tore, since the start
+  Force dragged_at;             // lateral force at which it began to follow, the last time
+  Force torn_at;                // pull of the contact that tore last
+  Energy torn_lost;             // loss by tears of lone contacts, since the start or since hold_over(); part of `lost`
   bool lagging = false;
   bool near = false;  // spheres are within reach of the apex
 };

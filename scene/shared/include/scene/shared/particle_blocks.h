@@ -50,7 +50,8 @@ struct SharedSpecies {
   double rolling_distance_m = 0;
   double tip_adhesion_j_per_m2 = 0;
   physics::ParticleLaw law = physics::ParticleLaw::ContactArea;
-  std::uint32_t padding = 0;
+  std::uint16_t sticks = 0;        // 1: the tip holds what it has touched
+  std::uint16_t scatter_seed = 0;  // seed of the scatter of pull-offs; 0: none
 
   bool operator==(const SharedSpecies&) const = default;
 };
@@ -69,7 +70,8 @@ constexpr void for_each_field(Visit&& visit, Record&... species) {
   visit("rolling_distance_m", species.rolling_distance_m...);
   visit("tip_adhesion_J_per_m2", species.tip_adhesion_j_per_m2...);
   visit("law", species.law...);
-  visit("padding", species.padding...);
+  visit("sticks", species.sticks...);
+  visit("scatter_seed", species.scatter_seed...);
 }
 static_assert(all_fields_described<SharedSpecies>());
 
@@ -134,6 +136,9 @@ struct SharedParticles {
 
 // True if a species is one of rods.
 bool has_rods(const SharedParticles& particles);
+
+// True if spheres of a species stick to the tip.
+bool has_hold(const SharedParticles& particles);
 
 // The same for the physics; `particles` is valid (validate in scene/shared/shared_segment.h).
 physics::PushSetup push_setup(const SharedParticles& particles);
