@@ -7,6 +7,7 @@
 
 #include "curves/image_file.h"
 #include "imaging/own_models.h"
+#include "scene/graph/pose.h"
 
 namespace afm::exhibit {
 

@@ -11,6 +11,8 @@
 
 #include "core/enumerators.h"
 #include "exhibit/frame/exhibit_files.h"
+#include "exhibit/lesson/push_plan.h"
+#include "scene/samples/particle_set.h"
 #include "scene/shared/scale_modes.h"
 #include "study/step_kind.h"
 
@@ -72,6 +74,7 @@ struct LessonStep {
   int practice = 0;                    // number before the counted trials
   ThresholdPlan threshold;
   Questionnaire questionnaire = Questionnaire::Paper;
+  PushPlan push;
 };
 
 // Content of a lesson file. Const after loading; any thread.
@@ -80,8 +83,10 @@ struct Lesson {
   LessonText title;
   int minutes = 0;  // duration given by the author, 1 to kMostLessonMinutes
   std::vector<std::string> materials;
-  scene::ScaleMode scale = scene::ScaleMode::Fit;
-  std::vector<Condition> conditions;  // none, or at least two
+  scene::ScaleMode scale = scene::ScaleMode::Fit;  // Particles exactly if there are particles
+  std::string particles;                           // as in ExhibitFiles; empty: none
+  std::optional<scene::ParticleSet> set;           // those particles, all of them spheres
+  std::vector<Condition> conditions;               // none, or at least two
   std::vector<LessonStep> steps;
   std::string digest;  // FNV-1a of the file, hexadecimal
 };
