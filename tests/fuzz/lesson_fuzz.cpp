@@ -9,6 +9,7 @@
 
 #include "fuzz/accepted.h"
 #include "fuzz/memory_file.h"
+#include "scene/samples/particle_set.h"
 #include "support/places.h"
 
 namespace {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -19,6 +20,7 @@
 #include "scene/config/toml_file.h"
 #include "scene/config/toml_table.h"
 #include "scene/samples/particle_files.h"
+#include "scene/samples/particle_set.h"
 
 namespace afm::exhibit {
 
@@ -186,7 +188,7 @@ void read_particles(const TomlTable& top, const std::string& assets_dir, Lesson&
   if (std::any_of(species.begin(), species.end(), physics::is_rod)) {
     top.refuse("particles", lesson.particles + " has rods; a lesson takes spheres alone");
   }
-  lesson.set = std::move(*set);
+  lesson.set = std::make_shared<const scene::ParticleSet>(std::move(*set));
 }
 
 void refuse_push_key(const TomlTable& table, std::string_view key, PushUntil until) {

@@ -90,7 +90,7 @@ void LessonRun::begin_task(double now_s) {
   }
   const LessonStep& step = lesson_.steps[tasks_[task_].step];
   const StepContext context{step,
-                            lesson_.set ? &*lesson_.set : nullptr,
+                            lesson_.set.get(),
                             samples_,
                             phrases_,
                             random_,

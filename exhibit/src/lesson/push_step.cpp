@@ -8,6 +8,7 @@
 
 #include "core/check.h"
 #include "push_trial.h"
+#include "scene/samples/particle_set.h"
 #include "step_activity.h"
 
 namespace afm::exhibit {

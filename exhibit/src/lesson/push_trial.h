@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "exhibit/lesson/push_plan.h"
+#include "exhibit/lesson/lesson.h"
 #include "exhibit/state/particle_task.h"
 #include "physics/friction/sideways.h"
 #include "physics/units.h"

@@ -3,16 +3,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <deque>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <numbers>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "curves/sample_model.h"
 #include "exhibit/lesson/hand_force.h"
+#include "exhibit/lesson/lesson_run.h"
 #include "exhibit/state/particles_now.h"
+#include "haptics/servo_loop.h"
+#include "haptics/simulated_device.h"
 #include "physics/manipulation/pushed_particles.h"
+#include "physics/normal_generator.h"
+#include "scene/samples/particle_set.h"
 #include "scene/samples/pattern_state.h"
+#include "scene/shared/shared_segment.h"
 
 namespace afm::exhibit {
 
@@ -36,7 +46,7 @@ constexpr int kMostPushSteps = 2000;
 constexpr double kLow = 0.32, kHigh = 3.2;  // heights of the tip while it pushes, and between pushes
 constexpr double kBehind = 2.0;             // from the middle of the particle to the tip that comes down behind it
 constexpr double kNear = 0.4;               // distance from a target that the student is content with
-constexpr double kAside = 0.5;              // offset that loses a particle
+constexpr double kAside = 0.3;              // offset that loses a particle
 constexpr double kLostWay = 8.0;
 
 // The servo's constant part: one sample, face up, and the particles.
@@ -62,19 +72,54 @@ double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::
   return glm::distance(p, a + share * along);
 }
 
-}  // namespace
+class PushingHand final : public SimulatedPusher {
+ public:
+  PushingHand(const scene::ParticleSet& set, scene::SharedSegment segment, std::uint64_t seed);
 
-core::Result<std::unique_ptr<SimulatedPusher>> SimulatedPusher::create(const curves::SampleModel& sample,
-                                                                       const scene::ParticleSet& set,
-                                                                       std::uint64_t seed) {
-  auto segment = scene::SharedSegment::create(*servo_model(sample, set), 0);
-  if (!segment) return tl::unexpected(segment.error());
-  std::unique_ptr<SimulatedPusher> pusher(new SimulatedPusher(set, std::move(*segment), seed));
-  if (auto begun = pusher->begin(); !begun) return tl::unexpected(begun.error());
-  return pusher;
-}
+  core::Result<void> begin();
+  core::Result<void> push(LessonRun& run, double& now_s) override;
 
-SimulatedPusher::SimulatedPusher(const scene::ParticleSet& set, scene::SharedSegment segment, std::uint64_t seed)
+ private:
+  void make_ready();  // with all particles at their start, and the force on
+  void attempt(const PushPlan& plan);
+  void bring(std::size_t particle, const glm::dvec2& to_m);
+  void steer(std::size_t particle, const glm::dvec2& to_m);
+  void slip_past(std::size_t particle);
+  glm::dvec2 free_direction(std::size_t particle, double way_m) const;
+  glm::dvec2 place(std::size_t particle) const;
+  double radius_m(std::size_t particle) const;
+
+  void arm();
+  void select(bool release);
+  void rest(double seconds);
+  void go(const glm::dvec2& to_m, double height_m, double m_per_s);  // in metres of the hand
+  void step(const glm::dvec2& to_m, double height_m);
+  void aim(const glm::dvec2& place_m, double height_m, double seconds, bool pressed = false);
+  void tick(int count);
+  bool goes_on() const;
+
+  const scene::ParticleSet& set_;
+  std::vector<glm::dvec2> targets_m_;
+  scene::SharedSegment segment_;
+  scene::RendererSide renderer_;
+  haptics::SimulatedDevice device_;
+  std::unique_ptr<haptics::ServoLoop> loop_;
+  std::vector<scene::ParticlePage> pages_;  // newest
+  physics::NormalGenerator normal_;
+  double m_per_m_ = 0, low_m_ = 0, high_m_ = 0;  // scale and heights of the hand
+  std::int64_t now_ns_ = 1'000'000'000;
+  int ticks_ = 0;
+  std::uint32_t selection_ = 0, script_ = 0, put_back_ = 0;
+  std::uint64_t frame_ = 0;
+  glm::dvec2 at_m_{0.0}, tremor_m_{0.0};  // intended place, and the error of the tremor
+  double height_m_ = 0;
+  LessonRun* run_ = nullptr;  // only during push()
+  std::size_t task_ = 0;
+  double now_s_ = 0;
+  std::optional<glm::dvec2> end_m_;  // place to which the particle of this step is to go
+};
+
+PushingHand::PushingHand(const scene::ParticleSet& set, scene::SharedSegment segment, std::uint64_t seed)
     : set_(set),
       segment_(std::move(segment)),
       renderer_(segment_.renderer_side()),
@@ -85,7 +130,7 @@ SimulatedPusher::SimulatedPusher(const scene::ParticleSet& set, scene::SharedSeg
   }
 }
 
-core::Result<void> SimulatedPusher::begin() {
+core::Result<void> PushingHand::begin() {
   auto loop = haptics::ServoLoop::create(segment_, device_, {.rate_hz = 1.0 / kServoTickS});
   if (!loop) return tl::unexpected(loop.error());
   loop_ = std::move(*loop);
@@ -100,7 +145,7 @@ core::Result<void> SimulatedPusher::begin() {
   return {};
 }
 
-core::Result<void> SimulatedPusher::push(LessonRun& run, double& now_s) {
+core::Result<void> PushingHand::push(LessonRun& run, double& now_s) {
   run_ = &run;
   now_s_ = now_s;
   const LessonPrompt prompt = run.prompt(now_s_);
@@ -126,12 +171,12 @@ core::Result<void> SimulatedPusher::push(LessonRun& run, double& now_s) {
                        "the simulated participant does not manage a push of this lesson within ten minutes");
 }
 
-bool SimulatedPusher::goes_on() const {
+bool PushingHand::goes_on() const {
   const LessonPrompt prompt = run_->prompt(now_s_);
   return prompt.wants == LessonPrompt::Wants::Push && prompt.task == task_;
 }
 
-void SimulatedPusher::make_ready() {
+void PushingHand::make_ready() {
   if (run_->prompt(now_s_).put_back) {
     select(true);
     tick(1000);
@@ -142,7 +187,7 @@ void SimulatedPusher::make_ready() {
   go({0.0, 0.0}, high_m_, kWayMPerS);
 }
 
-void SimulatedPusher::attempt(const PushPlan& plan) {
+void PushingHand::attempt(const PushPlan& plan) {
   switch (plan.until) {
     case PushUntil::Pattern: {
       const auto pattern =
@@ -167,13 +212,13 @@ void SimulatedPusher::attempt(const PushPlan& plan) {
 }
 
 // Pushes the particle once, or rests if it is near enough.
-void SimulatedPusher::bring(std::size_t particle, const glm::dvec2& to_m) {
+void PushingHand::bring(std::size_t particle, const glm::dvec2& to_m) {
   if (glm::distance(place(particle), to_m) < kNear * radius_m(particle)) return rest(1.0);
   steer(particle, to_m);
   rest(0.5);
 }
 
-void SimulatedPusher::steer(std::size_t particle, const glm::dvec2& to_m) {
+void PushingHand::steer(std::size_t particle, const glm::dvec2& to_m) {
   const double behind_m = kBehind * radius_m(particle);
   const glm::dvec2 from_m = place(particle), along = glm::normalize(to_m - from_m);
   go(m_per_m_ * (from_m - behind_m * along), high_m_, kWayMPerS);
@@ -195,7 +240,7 @@ void SimulatedPusher::steer(std::size_t particle, const glm::dvec2& to_m) {
 }
 
 // Pushes beside the middle, without steering.
-void SimulatedPusher::slip_past(std::size_t particle) {
+void PushingHand::slip_past(std::size_t particle) {
   const double r_m = radius_m(particle);
   const glm::dvec2 from_m = place(particle), along = free_direction(particle, kLostWay * r_m);
   const glm::dvec2 across(-along.y, along.x);
@@ -208,7 +253,7 @@ void SimulatedPusher::slip_past(std::size_t particle) {
 
 // Of sixteen directions, the one with the most room for the particle, and of those the one that stays nearest to the
 // middle.
-glm::dvec2 SimulatedPusher::free_direction(std::size_t particle, double way_m) const {
+glm::dvec2 PushingHand::free_direction(std::size_t particle, double way_m) const {
   const double r_m = radius_m(particle);
   const glm::dvec2 from_m = place(particle);
   glm::dvec2 best(1.0, 0.0);
@@ -230,16 +275,16 @@ glm::dvec2 SimulatedPusher::free_direction(std::size_t particle, double way_m) c
   return best;
 }
 
-glm::dvec2 SimulatedPusher::place(std::size_t particle) const {
+glm::dvec2 PushingHand::place(std::size_t particle) const {
   const auto pose = pose_of({.set = &set_, .pages = pages_}, particle);
   return {pose->x_m, pose->y_m};
 }
 
-double SimulatedPusher::radius_m(std::size_t particle) const {
+double PushingHand::radius_m(std::size_t particle) const {
   return set_.setup.species[set_.particles[particle].species].contact.tip_radius.si;
 }
 
-void SimulatedPusher::arm() {
+void PushingHand::arm() {
   aim({0.0, 0.0}, kArmHeightM, 0.3);
   tick(900);
   aim({0.0, 0.0}, kArmHeightM, 0.0, true);
@@ -250,18 +295,18 @@ void SimulatedPusher::arm() {
   height_m_ = kArmHeightM;
 }
 
-void SimulatedPusher::select(bool release) {
+void PushingHand::select(bool release) {
   renderer_.store(scene::Selection{.material = 0,
                                    .revision = ++selection_,
                                    .scale_mode = scene::ScaleMode::Particles,
                                    .release = release ? 1U : 0U});
 }
 
-void SimulatedPusher::rest(double seconds) {
+void PushingHand::rest(double seconds) {
   for (double s = 0.0; s < seconds; s += kCommandS) step(at_m_, height_m_);
 }
 
-void SimulatedPusher::go(const glm::dvec2& to_m, double height_m, double m_per_s) {
+void PushingHand::go(const glm::dvec2& to_m, double height_m, double m_per_s) {
   const glm::dvec2 from_m = at_m_;
   const double from_height_m = height_m_;
   const double way_m = std::hypot(glm::distance(from_m, to_m), height_m - from_height_m);
@@ -272,7 +317,7 @@ void SimulatedPusher::go(const glm::dvec2& to_m, double height_m, double m_per_s
   }
 }
 
-void SimulatedPusher::step(const glm::dvec2& to_m, double height_m) {
+void PushingHand::step(const glm::dvec2& to_m, double height_m) {
   at_m_ = to_m;
   height_m_ = height_m;
   const double fresh_m = kTremorM * std::sqrt(1.0 - kHeldTremor * kHeldTremor);
@@ -282,7 +327,7 @@ void SimulatedPusher::step(const glm::dvec2& to_m, double height_m) {
   tick(kCommandTicks);
 }
 
-void SimulatedPusher::aim(const glm::dvec2& place_m, double height_m, double seconds, bool pressed) {
+void PushingHand::aim(const glm::dvec2& place_m, double height_m, double seconds, bool pressed) {
   renderer_.store(scene::HandScript{.target_m = {place_m.x, height_m, -place_m.y},
                                     .duration_s = seconds,
                                     .revision = ++script_,
@@ -290,7 +335,7 @@ void SimulatedPusher::aim(const glm::dvec2& place_m, double height_m, double sec
 }
 
 // The lesson hears every tick, and sees the particles at the end.
-void SimulatedPusher::tick(int count) {
+void PushingHand::tick(int count) {
   for (int i = 0; i < count; ++i, ++ticks_) {
     if (ticks_ % kFrameTicks == 0) renderer_.store(scene::RendererHeartbeat{.frame = ++frame_, .put_back = put_back_});
     now_ns_ += static_cast<std::int64_t>(1e9 * kServoTickS);
@@ -309,6 +354,18 @@ void SimulatedPusher::tick(int count) {
     if (const auto newer = renderer_.new_particle_page(page)) pages_[page] = *newer;
   }
   if (run_ != nullptr) run_->look(pages_, now_s_);
+}
+
+}  // namespace
+
+core::Result<std::unique_ptr<SimulatedPusher>> SimulatedPusher::create(const curves::SampleModel& sample,
+                                                                       const scene::ParticleSet& set,
+                                                                       std::uint64_t seed) {
+  auto segment = scene::SharedSegment::create(*servo_model(sample, set), 0);
+  if (!segment) return tl::unexpected(segment.error());
+  auto pusher = std::make_unique<PushingHand>(set, std::move(*segment), seed);
+  if (auto begun = pusher->begin(); !begun) return tl::unexpected(begun.error());
+  return std::unique_ptr<SimulatedPusher>(std::move(pusher));
 }
 
 }  // namespace afm::exhibit

@@ -93,7 +93,7 @@ SimulatedStudent::SimulatedStudent(const SimulatedParticipant& participant, cons
                                    std::span<const curves::SampleModel> samples)
     : abilities_(participant.abilities),
       seed_(participant.seed),
-      particles_(lesson.set ? &*lesson.set : nullptr),
+      particles_(lesson.set.get()),
       scale_(lesson.scale),
       samples_(samples),
       random_(participant.seed),

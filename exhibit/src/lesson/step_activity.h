@@ -22,7 +22,7 @@ namespace afm::exhibit {
 // Inputs of a step. All must outlive the step.
 struct StepContext {
   const LessonStep& step;
-  const scene::ParticleSet* particles;           // of the lesson; null: none
+  const scene::ParticleSet* particles;           // the lesson's; null: none
   std::span<const curves::SampleModel> samples;  // samples of the lesson
   const Phrases& phrases;
   LessonRandom& random;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ class PushStep : public ::testing::Test {
     lesson_.materials = {"mica"};
     lesson_.scale = scene::ScaleMode::Particles;
     lesson_.particles = "gold-row";
-    lesson_.set = test::particle_set("gold-row");
+    lesson_.set = std::make_shared<const scene::ParticleSet>(test::particle_set("gold-row"));
     samples_ = lesson_samples(lesson_, scene::load_materials(support::source("assets/materials.toml")).value()).value();
     pages_ = test::start_pages(*lesson_.set);
   }

@@ -59,7 +59,7 @@ class SimulatedStudent {
 
   Abilities abilities_;
   std::uint64_t seed_;
-  const scene::ParticleSet* particles_;  // of the lesson; null: none
+  const scene::ParticleSet* particles_;  // the lesson's; null: none
   scene::ScaleMode scale_;
   std::span<const curves::SampleModel> samples_;
   LessonRandom random_;
