@@ -89,7 +89,7 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   const auto participant =
       exhibit::SimulatedParticipant::parse(std::string_view(options.participant).substr(kSimulated.size()));
   if (!participant) return tl::unexpected(participant.error());
-  const auto lesson = exhibit::load_lesson(options.lesson);
+  const auto lesson = exhibit::load_lesson(options.lesson, options.view.files.assets_dir);
   if (!lesson) return tl::unexpected(lesson.error());
   const auto phrases = exhibit::load_phrases(options.view.files);
   if (!phrases) return tl::unexpected(phrases.error());
@@ -125,7 +125,7 @@ void remove_empty(const std::string& folder) {
 
 // Runs the lesson in the live window.
 core::Result<void> run_live(const LessonOptions& options, const std::string& program) {
-  auto lesson = exhibit::load_lesson(options.lesson);
+  auto lesson = exhibit::load_lesson(options.lesson, options.view.files.assets_dir);
   if (!lesson) return tl::unexpected(lesson.error());
   const auto& conditions = lesson->conditions;
   const bool heard = std::find(conditions.begin(), conditions.end(), exhibit::Condition::Sound) != conditions.end();
@@ -138,6 +138,7 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
   if (!known) return tl::unexpected(of_lesson_file(options, known.error()));
   ViewOptions view = options.view;
   view.files.shown = lesson->materials;
+  view.files.particles = lesson->particles;
   view.scale = lesson->scale;
   ViewLesson guided{.lesson = std::move(*lesson), .study = std::nullopt};
   if (options.participant.empty()) return run_view(view, program, &guided);
@@ -189,7 +190,7 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
       "         touchafm lesson assets/lessons/first-touch.toml --fullscreen --instructor 2\n"
       "         touchafm lesson --withdraw ABCDEF --out study");
   const auto options = std::make_shared<LessonOptions>();
-  command.add_option("lesson", options->lesson, "lesson file (TOML); assets/lessons holds six").type_name("FILE");
+  command.add_option("lesson", options->lesson, "lesson file (TOML); assets/lessons holds seven").type_name("FILE");
   auto participant = command.add_option(
       "--participant", options->participant,
       "who takes it: a code of six capital letters, or sim:SEED for a simulated participant in simulated time and "

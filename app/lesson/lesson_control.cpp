@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/lesson/lesson_control.h"
 
+#include <array>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -24,7 +25,7 @@ LessonControl::LessonControl(ViewParts& parts, exhibit::LiveLesson& lesson) : pa
   parts_.choice.set_guide(*this);
   parts_.servo.hear([this](const scene::TipSample& sample) { lesson_.felt(sample, parts_.servo.link()); });
   parts_.servo.hear_events([this](const scene::TipEvent& event) {
-    if (physics::is_jump(event.kind)) lesson_.happened(event, parts_.servo.link());
+    if (event.kind != physics::EventKind::Slip) lesson_.happened(event, parts_.servo.link());
   });
 }
 
@@ -42,7 +43,7 @@ void LessonControl::step(int steps) { lesson_.step(steps); }
 
 // Enter removes the force whatever else it does. Without a force, in a lesson that waits for Enter, it only continues.
 void LessonControl::enter() {
-  const bool waits = lesson_.prompt().wants != exhibit::LessonPrompt::Wants::Cycle;
+  const bool waits = !lesson_.prompt().by_hand();
   if (!waits || parts_.servo.link().tip().servo_state != scene::ServoState::Disarmed) parts_.choice.stop_force();
   if (lesson_.over()) parts_.turn.leaving = true;
   lesson_.enter();
@@ -84,8 +85,19 @@ void LessonControl::update(const ViewFrame& frame) {
   narrator.set_telling(asks() ? Telling::Faults : lesson_.prompt().hidden ? Telling::Force : Telling::All);
   if (const auto marked = lesson_.newly_marked()) narrator.note(*marked);
   if (!parts_.servo.running()) return;
+  lesson_.look(parts_.servo.link());
   lesson_.lay_sample(parts_.servo.link());
+  if (lesson_.needs_particles_back()) put_particles_back(frame.now_ns);
   if (asks() || !lesson_.has_force()) parts_.choice.keep_force_away(frame.now_ns);
+}
+
+// The servo does it without a force alone.
+void LessonControl::put_particles_back(std::int64_t now_ns) {
+  parts_.choice.keep_force_away(now_ns);
+  servo::ServoClient& servo = parts_.servo.link();
+  const scene::TipState& tip = servo.tip();
+  if (scene::is_armed(tip.servo_state) || tip.hand.force_n != std::array<double, 3>{}) return;
+  if (lesson_.orders_particles_back()) servo.put_particles_back(now_ns);
 }
 
 // A blind sample looks like the first one, whichever it is, and has no labels.
@@ -125,7 +137,7 @@ void LessonControl::add_to_picture(render::FrameState& picture, const ViewFrame&
 // While the hand has nothing to do, the line above the wall is the question, or how to continue.
 std::optional<std::string> LessonControl::guidance(const exhibit::Phrases& phrases) const {
   const exhibit::LessonPrompt& prompt = lesson_.prompt();
-  if (prompt.wants == exhibit::LessonPrompt::Wants::Cycle) {
+  if (prompt.by_hand()) {
     return lesson_.has_force() ? std::nullopt : std::optional(prompt.words);
   }
   if (prompt.wants == exhibit::LessonPrompt::Wants::GoOn) return phrases[exhibit::Phrase::LessonPressEnter];
@@ -134,7 +146,7 @@ std::optional<std::string> LessonControl::guidance(const exhibit::Phrases& phras
 
 // Speaks the text of a prompt once, before the next step of the hand.
 std::string LessonControl::spoken(const std::string& line) {
-  const bool by_hand = lesson_.prompt().wants == exhibit::LessonPrompt::Wants::Cycle;
+  const bool by_hand = lesson_.prompt().by_hand();
   std::string words = lesson_.speech();
   if (!by_hand) return words;
   if (std::exchange(said_, words) != words) line_ = line;
@@ -143,6 +155,7 @@ std::string LessonControl::spoken(const std::string& line) {
 
 void LessonControl::restart(Restart what) {
   if (what != Restart::Visitor) lesson_.forget_laid();
+  if (what == Restart::Servo && lesson_.prompt().wants == exhibit::LessonPrompt::Wants::Push) lesson_.try_again();
 }
 
 }  // namespace afm::app

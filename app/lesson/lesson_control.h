@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -40,6 +41,7 @@ class LessonControl final : public ViewControl, public ViewGuide {
  private:
   std::optional<exhibit::LessonTarget> target_at(const input::Ray& ray) const;
   void follow_hand();
+  void put_particles_back(std::int64_t now_ns);
   bool asks() const;  // an answer is due
 
   ViewParts& parts_;

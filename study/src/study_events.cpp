@@ -27,15 +27,24 @@ enum EventsColumn {
   Response,
   Correct,
   Rt,
-  Force
+  Force,
+  Strokes,
+  Losses,
+  Undos,
+  Work,
+  LargestForce,
+  Aids
 };
-constexpr std::array<std::string_view, 13> kEventsColumns{"onset",    "duration", "step",  "trial_type", "condition",
-                                                          "practice", "trial",    "level", "stimulus",   "response",
-                                                          "correct",  "rt",       "force"};
-constexpr std::size_t kNewerColumns = 1;  // force
+constexpr std::array<std::string_view, 19> kEventsColumns{
+    "onset",  "duration", "step",     "trial_type",    "condition", "practice", "trial",
+    "level",  "stimulus", "response", "correct",       "rt",        "force",    "strokes",
+    "losses", "undos",    "work",     "largest_force", "aids"};
+constexpr std::size_t kNewerColumns = 7;  // force, and those of a push
 constexpr double kLongestLesson_s = 1e7;
 constexpr double kHighestLevel = 1e3;
 constexpr double kMostTrialsOfAStep = 1e6;
+constexpr double kFarthestPush_m = 1e-3, kMostPushes = 1e6, kMostPushWork_aj = 1e12, kLargestPushForce_nn = 1e9;
+constexpr std::array<std::string_view, 4> kPushEnds{"moved", "target", "pattern", "lost"};
 
 // The items of a questionnaire are named "sus-1" and so on.
 struct ItemRange {
@@ -143,6 +152,9 @@ class EventsLine {
       case StepKind::Identify:
         if (trial.stimulus.empty()) refuse(Stimulus, "the material that was shown");
         break;
+      case StepKind::Push:
+        push(trial);
+        break;
       case StepKind::Text:
       case StepKind::Free:
         break;
@@ -161,6 +173,25 @@ class EventsLine {
     }
     trial.value = optional(Response, range->least, range->most);
     if (trial.value && *trial.value != std::floor(*trial.value)) refuse(Response, "a whole number");
+  }
+
+  void push(StudyTrial& trial) {
+    if (std::find(kPushEnds.begin(), kPushEnds.end(), trial.stimulus) == kPushEnds.end()) {
+      refuse(Stimulus, "moved, target, pattern or lost");
+    }
+    trial.value = optional(Response, 0, kFarthestPush_m);
+    trial.strokes = count(Strokes);
+    trial.losses = count(Losses);
+    trial.undos = count(Undos);
+    if (const auto work = optional(Work, -kMostPushWork_aj, kMostPushWork_aj)) trial.work_j = 1e-18 * *work;
+    if (const auto force = optional(LargestForce, 0, kLargestPushForce_nn)) trial.largest_force_n = 1e-9 * *force;
+    trial.aids = word(Aids);
+  }
+
+  std::optional<double> count(EventsColumn column) {
+    const auto value = optional(column, 0, kMostPushes);
+    if (value && *value != std::floor(*value)) refuse(column, "a whole number");
+    return value;
   }
 
   void interval(EventsColumn column) {

@@ -155,6 +155,11 @@ std::vector<PageBlock> lesson_blocks(const LessonResults& lesson) {
         fmt::format("force on the hand: not known for {} of the counted trials, whose data set has no column \"force\"",
                     lesson.force_unknown));
   }
+  if (lesson.pushes.counted > 0) {
+    facts.items.push_back(
+        fmt::format("pushes of particles: {}; aids: the wall showed the particles in {}, pushes were taken back in {}",
+                    lesson.pushes.counted, lesson.pushes.with_truth, lesson.pushes.with_undo));
+  }
   facts.items.insert(facts.items.end(), lesson.facts.begin(), lesson.facts.end());
   for (const std::string& line : lesson.left_out) facts.items.push_back("left out: " + line);
   blocks.push_back(std::move(facts));

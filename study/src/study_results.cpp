@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <initializer_list>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "study_groups.h"
@@ -87,6 +90,66 @@ void add_thresholds(const std::vector<ThresholdResult>& results, std::vector<Mea
   }
 }
 
+// Pushes named NAME-before and NAME-after are compared like two conditions of NAME.
+TrialGroups before_and_after(const TrialGroups& pushes) {
+  TrialGroups groups;
+  for (const auto& [where, people] : pushes) {
+    StepAndCondition to = where;
+    for (const std::string time : {"before", "after"}) {
+      if (!where.condition.empty() || !where.step.ends_with("-" + time)) continue;
+      to = {where.step.substr(0, where.step.size() - time.size() - 1), time};
+    }
+    groups[to] = people;
+  }
+  return groups;
+}
+
+bool has_aid(const StudyTrial& trial, std::string_view aid) {
+  return fmt::format("+{}+", trial.aids).find(fmt::format("+{}+", aid)) != std::string::npos;
+}
+
+struct PushRow {
+  const char* key;
+  const char* title;
+  const char* unit;
+  double per_si;
+  Interval scale;
+  NumberOf number;
+};
+
+void add_pushes(const TrialGroups& pushes, LessonResults& results) {
+  const auto only = [](std::initializer_list<std::string_view> ends) {
+    return [ends = std::vector<std::string_view>(ends)](const StudyTrial& trial) {
+      return std::find(ends.begin(), ends.end(), trial.stimulus) != ends.end() ? trial.value : std::nullopt;
+    };
+  };
+  const std::array rows{
+      PushRow{"distance_m", "distance from the targets", "nm", 1e9, kNotNegative, only({"target", "pattern"})},
+      PushRow{"way_m", "way of the particle", "nm", 1e9, kNotNegative, only({"moved", "lost"})},
+      PushRow{"push_time_s", "time of the push", "s", 1.0, kNotNegative, [](const auto& trial) { return trial.rt_s; }},
+      PushRow{"strokes", "pushes", "", 1.0, kNotNegative, [](const auto& trial) { return trial.strokes; }},
+      PushRow{"losses", "slipped past", "", 1.0, kNotNegative, [](const auto& trial) { return trial.losses; }},
+      PushRow{"undos", "pushes taken back", "", 1.0, kNotNegative, [](const auto& trial) { return trial.undos; }},
+      PushRow{"work_J", "work on the particles", "aJ", 1e18, {}, [](const auto& trial) { return trial.work_j; }},
+      PushRow{"largest_force_N", "largest lateral force", "nN", 1e9, kNotNegative,
+              [](const auto& trial) { return trial.largest_force_n; }}};
+  const TrialGroups groups = before_and_after(pushes);
+  for (const PushRow& row : rows) {
+    Measure like;
+    like.key = row.key, like.unit = row.unit, like.per_si = row.per_si, like.scale = row.scale;
+    add_means(groups, like, row.title, row.number, results.measures);
+  }
+  for (const auto& [where, people] : pushes) {
+    for (const auto& [id, trials] : people) {
+      for (const StudyTrial* trial : trials) {
+        ++results.pushes.counted;
+        if (has_aid(*trial, "truth")) ++results.pushes.with_truth;
+        if (has_aid(*trial, "undo")) ++results.pushes.with_undo;
+      }
+    }
+  }
+}
+
 bool has_answer(const StudyTrial& trial) {
   switch (trial.kind) {
     case StepKind::Identify:
@@ -95,6 +158,7 @@ bool has_answer(const StudyTrial& trial) {
     case StepKind::Cycle:
     case StepKind::Draw:
     case StepKind::Question:
+    case StepKind::Push:
       return trial.value.has_value();
     case StepKind::Text:
     case StepKind::Free:
@@ -168,6 +232,7 @@ LessonResults lesson_results(const std::string& task, const LessonVisits& lesson
   add_means(groups[StepKind::Threshold], seconds, "time to answer", rt, results.measures);
   add_means(groups[StepKind::Draw], score, "score of the drawing", value, results.measures);
   add_means(groups[StepKind::Cycle], newtons, "pull-off force felt", value, results.measures);
+  add_pushes(groups[StepKind::Push], results);
   std::map<std::string, std::vector<const StudyTrial*>> questions;
   for (const auto& [where, people] : groups[StepKind::Question]) {
     for (const auto& [id, trials] : people) questions[id].insert(questions[id].end(), trials.begin(), trials.end());

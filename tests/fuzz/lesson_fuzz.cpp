@@ -9,8 +9,18 @@
 
 #include "fuzz/accepted.h"
 #include "fuzz/memory_file.h"
+#include "scene/samples/particle_set.h"
+#include "support/places.h"
 
 namespace {
+
+bool can_be_pushed(const afm::exhibit::PushPlan& plan, const afm::exhibit::Lesson& lesson) {
+  using afm::exhibit::PushUntil;
+  if (!lesson.set || plan.particle >= lesson.set->particles.size()) return false;
+  if (plan.until == PushUntil::Target && plan.target >= lesson.set->targets.size()) return false;
+  if (plan.until == PushUntil::Pattern) return !lesson.set->targets.empty();
+  return plan.until != PushUntil::Moved || (std::isfinite(plan.distance_m) && plan.distance_m > 0.0);
+}
 
 bool can_be_run(const afm::exhibit::LessonStep& step, const afm::exhibit::Lesson& lesson) {
   using afm::exhibit::StepKind;
@@ -18,6 +28,7 @@ bool can_be_run(const afm::exhibit::LessonStep& step, const afm::exhibit::Lesson
   const bool of_lesson =
       std::all_of(step.materials.begin(), step.materials.end(), [&](auto i) { return i < lesson.materials.size(); });
   const bool felt = step.kind == StepKind::Cycle || step.kind == StepKind::Threshold;
+  if (step.kind == StepKind::Push && !can_be_pushed(step.push, lesson)) return false;
   return of_lesson && (!felt || step.materials.size() == 1) &&
          (step.kind != StepKind::Identify || step.materials.size() >= 2) && step.trials >= 1 && step.practice >= 0 &&
          std::isfinite(step.hint_after_s) && plan.least > 0.0 && plan.least <= plan.start && plan.start <= plan.most &&
@@ -29,7 +40,7 @@ bool can_be_run(const afm::exhibit::LessonStep& step, const afm::exhibit::Lesson
 // Whatever the bytes: a lesson of steps that can be run, with names that files can have, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const afm::fuzz::MemoryFile file(bytes, size);
-  const auto lesson = afm::exhibit::load_lesson(file.path());
+  const auto lesson = afm::exhibit::load_lesson(file.path(), afm::support::source("assets"));
   if (!lesson) return 0;
   ++afm::fuzz::accepted_inputs;
   if (lesson->minutes < 1 || lesson->minutes > afm::exhibit::kMostLessonMinutes || lesson->steps.empty()) std::abort();

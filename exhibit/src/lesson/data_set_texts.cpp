@@ -37,19 +37,35 @@ constexpr std::array kEventTexts{
         "practice", "whether the trial counts", nullptr, {{{"0", "a counted trial"}, {"1", "a practice trial"}}}},
     ColumnText{"trial", "number of the trial within its step, from 1", nullptr},
     ColumnText{"level", "w of a threshold's trial: the stronger F_ad is 1 + w times the weaker one", nullptr},
-    ColumnText{"stimulus", "identify: material shown; threshold: cycle that let go harder; question: item", nullptr},
+    ColumnText{"stimulus",
+               "identify: material shown; threshold: cycle that let go harder; question: item; push: what ended it "
+               "(moved, target, pattern, lost)",
+               nullptr},
     ColumnText{"response",
                "identify: material answered; threshold: cycle answered; question: number answered (paper 0 to 4, sus 1 "
-               "to 5, tlx 0 to 100, ssq 0 to 3); draw: share of right parts; cycle: F_ad in N",
+               "to 5, tlx 0 to 100, ssq 0 to 3); draw: share of right parts; cycle: F_ad in N; push: in m, for target "
+               "and pattern the root mean square "
+               "distance from the targets, for moved and lost the way of the particle from its start",
                nullptr},
     ColumnText{"correct", "whether the answer is right", nullptr, {{{"0", "wrong"}, {"1", "right"}}}},
-    ColumnText{"rt", "time from the question to the answer", "s"},
+    ColumnText{"rt", "time from the question to the answer; push: from the first push to the last lift of the tip",
+               "s"},
     ColumnText{"force",
-               "full force on the hand from snap-in to pull-off, in each cycle of the trial; n/a for a trial without "
-               "a cycle. An attempt that was not felt as the condition sets it has no response, and its trial was "
+               "full force on the hand from snap-in to pull-off, in each cycle of the trial; push: whenever the tip "
+               "touched a particle; n/a for a trial without either. An attempt that was not felt as the condition sets "
+               "it has no response, and its trial was "
                "repeated",
                nullptr,
-               {{{"0", "off, at least for a part of the time"}, {"1", "on"}}}}};
+               {{{"0", "off, at least for a part of the time"}, {"1", "on"}}}},
+    ColumnText{"strokes", "push: times that the tip came down and moved a particle", nullptr},
+    ColumnText{"losses", "push: times that the tip slipped past a particle that it had pushed", nullptr},
+    ColumnText{"undos", "push: number of pushes taken back", nullptr},
+    ColumnText{"work", "push: work of the hand on the particles", "aJ"},
+    ColumnText{"largest_force", "push: largest lateral force of the particles on the lever", "nN"},
+    ColumnText{"aids",
+               "push: aids used, joined by +",
+               nullptr,
+               {{{"truth", "the wall showed where the particles were"}, {"undo", "pushes were taken back"}}}}};
 
 constexpr std::array kParticipantTexts{
     ColumnText{"participant_id", "sub- and the participant's code of six letters", nullptr},
@@ -154,14 +170,32 @@ std::string events_header() {
   return line + "\n";
 }
 
+namespace {
+
+std::string aids_of(const PushFigures& push) {
+  std::string aids = push.truth ? "truth" : "";
+  if (push.undos > 0) aids += aids.empty() ? "undo" : "+undo";
+  return aids.empty() ? kMissingValue : aids;
+}
+
+// The columns of a push, each after a tab.
+std::string push_cells(const std::optional<PushFigures>& push) {
+  if (!push) return fmt::format("\t{0}\t{0}\t{0}\t{0}\t{0}\t{0}", kMissingValue);
+  return fmt::format("\t{}\t{}\t{}\t{:.6g}\t{:.6g}\t{}", push->strokes, push->losses, push->undos, 1e18 * push->work_j,
+                     1e9 * push->largest_lateral_n, aids_of(*push));
+}
+
+}  // namespace
+
 std::string line_of(const TrialRow& row) {
   const auto or_missing = [](const std::string& text) { return text.empty() ? std::string(kMissingValue) : text; };
   const auto yes_or_no = [](const std::optional<bool>& value) { return value ? (*value ? "1" : "0") : kMissingValue; };
-  return fmt::format("{:.3f}\t{:.3f}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", row.onset_s, row.duration_s,
+  return fmt::format("{:.3f}\t{:.3f}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}{}\n", row.onset_s, row.duration_s,
                      row.step, word_of(row.kind), row.condition ? word_of(*row.condition) : kMissingValue,
                      row.practice ? 1 : 0, row.trial, row.level ? fmt::format("{:.6g}", *row.level) : kMissingValue,
                      or_missing(row.stimulus), or_missing(row.response), yes_or_no(row.correct),
-                     row.rt_s ? fmt::format("{:.3f}", *row.rt_s) : kMissingValue, yes_or_no(row.force));
+                     row.rt_s ? fmt::format("{:.3f}", *row.rt_s) : kMissingValue, yes_or_no(row.force),
+                     push_cells(row.push));
 }
 
 }  // namespace afm::exhibit

@@ -26,6 +26,8 @@ Phrase awaited(Wants wants) {
       return Phrase::InstructorWaitsGoOn;
     case Wants::Cycle:
       return Phrase::InstructorWaitsCycle;
+    case Wants::Push:
+      return Phrase::InstructorWaitsPush;
     case Wants::Answer:
       return Phrase::InstructorWaitsAnswer;
     case Wants::Nothing:

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -14,9 +15,12 @@
 #include "core/fnv1a.h"
 #include "core/whole_file.h"
 #include "exhibit/lesson/questionnaire.h"
+#include "physics/manipulation/pushed_particles.h"
 #include "physics/quantity_text.h"
 #include "scene/config/toml_file.h"
 #include "scene/config/toml_table.h"
+#include "scene/samples/particle_files.h"
+#include "scene/samples/particle_set.h"
 
 namespace afm::exhibit {
 
@@ -28,6 +32,7 @@ constexpr const char* kKind = "lesson file";
 constexpr std::size_t kMostSteps = 100, kMostIdLetters = 40, kMostConditions = 4;
 constexpr int kMostTrials = 200, kMostPractice = 20;
 constexpr double kLongestHintS = 600;
+constexpr std::size_t kMostPathLetters = 1000;
 
 // A part of file names, or of columns.
 std::string read_id(const TomlTable& table, std::string_view key) {
@@ -160,6 +165,71 @@ void read_questionnaire(const TomlTable& table, LessonStep& step) {
   if (!step.id.ends_with(ending)) table.refuse("id", fmt::format("of this step must end in {}", ending));
 }
 
+// The longer side of the field on which the particles of a set lie, with a radius around it: the reach of the hand.
+physics::Length field_side(const scene::ParticleSet& set) {
+  auto least = set.particles.front().position, most = least;
+  for (const physics::PlacedParticle& particle : set.particles) {
+    least = {std::min(least.x, particle.position.x), std::min(least.y, particle.position.y)};
+    most = {std::max(most.x, particle.position.x), std::max(most.y, particle.position.y)};
+  }
+  return std::max(most.x - least.x, most.y - least.y) + 2.0 * scene::median_radius(set);
+}
+
+// The set of particles that all steps of the lesson share.
+void read_particles(const TomlTable& top, const std::string& assets_dir, Lesson& lesson) {
+  lesson.particles = top.text("particles", kMostPathLetters);
+  lesson.scale = scene::ScaleMode::Particles;
+  if (top.has("scale")) top.refuse("scale", "is that of the particles in a lesson that has some; leave it out");
+  const auto path = scene::particle_file(lesson.particles, assets_dir);
+  if (!path) top.refuse("particles", path.error().message);
+  auto set = scene::load_particle_set(*path);
+  if (!set) top.refuse("particles", set.error().message);
+  const auto& species = set->setup.species;
+  if (std::any_of(species.begin(), species.end(), physics::is_rod)) {
+    top.refuse("particles", lesson.particles + " has rods; a lesson takes spheres alone");
+  }
+  lesson.set = std::make_shared<const scene::ParticleSet>(std::move(*set));
+}
+
+void refuse_push_key(const TomlTable& table, std::string_view key, PushUntil until) {
+  if (table.has(key)) table.refuse(key, fmt::format("is of no use with until = \"{}\"", row_of(until).word));
+}
+
+PushPlan read_push(const TomlTable& table, const scene::ParticleSet& set) {
+  PushPlan plan;
+  plan.until = table.one_of("until", kPushUntils, &PushUntilRow::word).until;
+  if (row_of(plan.until).from_targets && set.targets.empty()) {
+    table.refuse("until", "needs a set of particles with targets");
+  }
+  if (plan.until == PushUntil::Pattern) {
+    refuse_push_key(table, "particle", plan.until);
+  } else {
+    const auto count = static_cast<std::int64_t>(set.particles.size());
+    plan.particle = static_cast<std::size_t>(table.whole("particle", 1, count) - 1);
+    if (set.particles[plan.particle].pinned) table.refuse("particle", "is pinned in its place, so nobody can push it");
+  }
+  if (plan.until == PushUntil::Target) {
+    plan.target = static_cast<std::size_t>(table.whole("target", 1, static_cast<std::int64_t>(set.targets.size())) - 1);
+  } else {
+    refuse_push_key(table, "target", plan.until);
+  }
+  if (plan.until != PushUntil::Moved) {
+    refuse_push_key(table, "distance", plan.until);
+    return plan;
+  }
+  const physics::Length distance = table.quantity("distance", physics::kLengthUnits), most = field_side(set);
+  if (!(distance.si > 0.0) || distance > most) {
+    table.refuse("distance", fmt::format("must be more than 0 and at most {}, the side of the field of the particles",
+                                         physics::format_quantity(most, physics::kLengthUnits, 4)));
+  }
+  plan.distance_m = distance.si;
+  return plan;
+}
+
+bool has_condition(const Lesson& lesson, Condition condition) {
+  return std::find(lesson.conditions.begin(), lesson.conditions.end(), condition) != lesson.conditions.end();
+}
+
 // The keys of each type, in addition to those of all steps.
 void allow_keys(const TomlTable& table, StepKind kind) {
   switch (kind) {
@@ -180,6 +250,9 @@ void allow_keys(const TomlTable& table, StepKind kind) {
       return table.allow_only({"id", "type", "words", "hint", "hint_after", "each_condition", "trials", "practice"});
     case StepKind::Question:
       return table.allow_only({"id", "type", "words", "hint", "hint_after", "each_condition", "questionnaire", "when"});
+    case StepKind::Push:
+      return table.allow_only(
+          {"id", "type", "words", "hint", "hint_after", "each_condition", "until", "particle", "target", "distance"});
   }
 }
 
@@ -197,9 +270,29 @@ void read_common(const TomlTable& table, const Lesson& lesson, LessonStep& step)
   }
 }
 
+// With particles, the hand is on their scale, on which the sample's force is not to be judged.
+void refuse_kind_beside_particles(const TomlTable& table, StepKind kind, const Lesson& lesson) {
+  switch (kind) {
+    case StepKind::Text:
+    case StepKind::Draw:
+    case StepKind::Question:
+      return;
+    case StepKind::Push:
+      if (!lesson.set) table.refuse("type", "push needs the lesson's particles");
+      return;
+    case StepKind::Free:
+    case StepKind::Cycle:
+    case StepKind::Identify:
+    case StepKind::Threshold:
+      if (lesson.set) table.refuse("type", fmt::format("{} is for lessons without particles", word_of(kind)));
+      return;
+  }
+}
+
 LessonStep read_step(const TomlTable& table, const Lesson& lesson) {
   LessonStep step;
   step.kind = table.one_of("type", kStepKinds, &study::StepKindRow::word).kind;
+  refuse_kind_beside_particles(table, step.kind, lesson);
   allow_keys(table, step.kind);
   read_common(table, lesson, step);
   step.trials = step.kind == StepKind::Free ? whole_or(table, "cycles", 1, kMostTrials, 1)
@@ -211,6 +304,12 @@ LessonStep read_step(const TomlTable& table, const Lesson& lesson) {
       break;
     case StepKind::Question:
       read_questionnaire(table, step);
+      break;
+    case StepKind::Push:
+      if (step.each_condition && has_condition(lesson, Condition::Picture)) {
+        table.refuse("each_condition", "is impossible for a push: the condition picture takes the force away");
+      }
+      step.push = read_push(table, *lesson.set);
       break;
     case StepKind::Threshold:
       step.threshold = read_threshold(table);
@@ -243,15 +342,19 @@ void read_steps(const TomlTable& top, Lesson& lesson) {
   }
 }
 
-Lesson read_lesson(const toml::table& root) {
+Lesson read_lesson(const toml::table& root, const std::string& assets_dir) {
   const TomlTable top(root);
-  top.allow_only({"id", "title", "minutes", "materials", "scale", "conditions", "step"});
+  top.allow_only({"id", "title", "minutes", "materials", "particles", "scale", "conditions", "step"});
   Lesson lesson;
   lesson.id = read_id(top, "id");
   lesson.title = read_words(top, "title", kLine);
   lesson.minutes = static_cast<int>(top.whole("minutes", 1, kMostLessonMinutes));
   lesson.materials = top.texts("materials", kMostMaterials);
-  lesson.scale = top.one_of("scale", kLessonScales, &ScaleWord::word).mode;
+  if (top.has("particles")) {
+    read_particles(top, assets_dir, lesson);
+  } else {
+    lesson.scale = top.one_of("scale", kLessonScales, &ScaleWord::word).mode;
+  }
   if (top.has("conditions")) {
     for (const std::string& name : top.texts("conditions", kMostConditions)) {
       lesson.conditions.push_back(top.row_named("conditions", name, kConditions, &ConditionRow::word).condition);
@@ -264,8 +367,8 @@ Lesson read_lesson(const toml::table& root) {
 
 }  // namespace
 
-core::Result<Lesson> load_lesson(const std::string& path) {
-  auto lesson = scene::read_toml(kKind, path, [](const toml::table& root) { return read_lesson(root); });
+core::Result<Lesson> load_lesson(const std::string& path, const std::string& assets_dir) {
+  auto lesson = scene::read_toml(kKind, path, [&](const toml::table& root) { return read_lesson(root, assets_dir); });
   if (!lesson) return lesson;
   const auto bytes = core::read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());

@@ -24,11 +24,14 @@ constexpr std::array kActivities{
     ActivityRow{StepKind::Text, make_text_activity},           ActivityRow{StepKind::Free, make_cycle_activity},
     ActivityRow{StepKind::Cycle, make_cycle_activity},         ActivityRow{StepKind::Identify, make_identify_activity},
     ActivityRow{StepKind::Threshold, make_threshold_activity}, ActivityRow{StepKind::Draw, make_draw_activity},
-    ActivityRow{StepKind::Question, make_question_activity}};
+    ActivityRow{StepKind::Question, make_question_activity},   ActivityRow{StepKind::Push, make_push_activity}};
 static_assert(core::has_row_for_each(kActivities, &ActivityRow::kind));
 
-// Reason why a cycle with this force does not count.
-Phrase note_of(HandForce force, HandForce wanted) {
+// Reason why a cycle or a push with this force does not count.
+Phrase note_of(StepKind kind, HandForce force, HandForce wanted) {
+  if (kind == StepKind::Push) {
+    return force == HandForce::Reduced ? Phrase::LessonPushWasWeak : Phrase::LessonPushWasOff;
+  }
   if (wanted == HandForce::None) return Phrase::LessonForceWasOn;
   return force == HandForce::Reduced ? Phrase::LessonForceWasWeak : Phrase::LessonForceWasOff;
 }
@@ -87,6 +90,7 @@ void LessonRun::begin_task(double now_s) {
   }
   const LessonStep& step = lesson_.steps[tasks_[task_].step];
   const StepContext context{step,
+                            lesson_.set.get(),
                             samples_,
                             phrases_,
                             random_,
@@ -105,6 +109,7 @@ core::Result<void> LessonRun::keep(TrialRow row) {
   row.step = lesson_.steps[task.step].id;
   row.kind = lesson_.steps[task.step].kind;
   row.condition = task.condition;
+  if (row.push) row.push->truth = task.condition != Condition::Haptics;
   if (study::row_of(row.kind).has_cycles && !row.force) row.force = counted_ && wanted_force() == HandForce::Full;
   return sink_(row);
 }
@@ -137,8 +142,8 @@ LessonPrompt LessonRun::prompt(double now_s) const {
   prompt.task = task_;
   prompt.condition = task.condition;
   activity_->describe(prompt);
-  if (unfelt_ && prompt.wants == LessonPrompt::Wants::Cycle) {
-    prompt.words = phrases_[note_of(*unfelt_, wanted_force())] + " " + prompt.words;
+  if (unfelt_ && prompt.by_hand()) {
+    prompt.words = phrases_[note_of(prompt.kind, *unfelt_, wanted_force())] + " " + prompt.words;
   }
   const bool time_for_hint = !step.hint.empty() && now_s - step_began_s_ >= step.hint_after_s;
   if (time_for_hint) prompt.hint = step.hint.in(phrases_[Phrase::Language]);
@@ -167,6 +172,24 @@ void LessonRun::force_is(HandForce force, double now_s) {
   force_ = force;
   if (end_ || error_ || stage_ != Stage::Steps || !snapped_in_) return;
   if (force_ != wanted_force()) repeat_trial(now_s);
+}
+
+void LessonRun::add(const scene::TipEvent& event) {
+  if (!end_ && !error_ && stage_ == Stage::Steps) activity_->add(event);
+}
+
+void LessonRun::add(const scene::TipSample& sample, double now_s) {
+  if (end_ || error_ || stage_ != Stage::Steps) return;
+  activity_->add(sample);
+  if (!activity_->counts_touches() || sample.push.particle == scene::kNoParticle) return;
+  if (force_ != wanted_force()) return repeat_trial(now_s);
+  unfelt_.reset();
+}
+
+void LessonRun::look(std::span<const scene::ParticlePage> pages, double now_s) {
+  if (end_ || error_ || stage_ != Stage::Steps) return;
+  activity_->look(pages, now_s);
+  if (activity_->done()) follow(now_s);
 }
 
 HandForce LessonRun::wanted_force() const {

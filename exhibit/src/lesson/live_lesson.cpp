@@ -14,6 +14,8 @@ namespace {
 
 using Wants = LessonPrompt::Wants;
 
+constexpr double kPutBackS = 1.0;  // between two orders: the servo drops one that comes too early
+
 }  // namespace
 
 LiveLesson::LiveLesson(const Lesson& lesson, const std::vector<curves::SampleModel>& samples, const Phrases& phrases,
@@ -182,7 +184,7 @@ bool LiveLesson::has_tones() const {
 bool LiveLesson::has_force() const { return prompt_.condition != Condition::Picture; }
 
 void LiveLesson::lay_sample(servo::ServoClient& servo) {
-  if (prompt_.wants != Wants::Cycle) return;
+  if (!prompt_.by_hand()) return;
   const Laid wanted{prompt_.task, prompt_.hidden ? prompt_.cycle : 0};
   if (laid_ == wanted) return;
   laid_ = wanted;
@@ -199,12 +201,26 @@ void LiveLesson::lay_sample(servo::ServoClient& servo) {
 
 void LiveLesson::felt(const scene::TipSample& sample, const servo::ServoClient& servo) {
   run_.force_is(hand_force(sample.servo_state, servo.tip().safety.thermal_gain), now_s());
+  run_.add(sample, now_s());
 }
 
 void LiveLesson::happened(const scene::TipEvent& event, const servo::ServoClient& servo) {
+  if (!physics::is_jump(event.kind)) return run_.add(event);
   if (edit_ != 0 && servo.tip().active.edit_revision != edit_) return;
   run_.happened(event, now_s());
   acted();
+}
+
+void LiveLesson::look(const servo::ServoClient& servo) {
+  if (prompt_.wants != Wants::Push) return;
+  run_.look(servo.particle_pages(), now_s());
+  acted();
+}
+
+bool LiveLesson::orders_particles_back() {
+  if (put_back_s_ && now_s() - *put_back_s_ < kPutBackS) return false;
+  put_back_s_ = now_s();
+  return true;
 }
 
 core::Result<void> LiveLesson::finish() {

@@ -13,6 +13,7 @@
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
 #include "physics/force_model.h"
+#include "simulated_pusher.h"
 
 namespace afm::exhibit {
 
@@ -91,10 +92,14 @@ std::string SimulatedParticipant::json() const {
 SimulatedStudent::SimulatedStudent(const SimulatedParticipant& participant, const Lesson& lesson,
                                    std::span<const curves::SampleModel> samples)
     : abilities_(participant.abilities),
+      seed_(participant.seed),
+      particles_(lesson.set.get()),
       scale_(lesson.scale),
       samples_(samples),
       random_(participant.seed),
       normal_(participant.seed) {}
+
+SimulatedStudent::~SimulatedStudent() = default;
 
 core::Result<void> SimulatedStudent::take(LessonRun& run) {
   const haptics::SimulatedDevice device;
@@ -116,6 +121,9 @@ core::Result<void> SimulatedStudent::take(LessonRun& run) {
       case LessonPrompt::Wants::Cycle:
         if (auto felt = feel(run, prompt); !felt) return felt;
         break;
+      case LessonPrompt::Wants::Push:
+        if (auto pushed = push(run); !pushed) return pushed;
+        break;
       case LessonPrompt::Wants::Answer: {
         const std::size_t answer = choose(prompt);
         now_s_ += 0.5 + 2.0 * random_.unit();
@@ -125,6 +133,15 @@ core::Result<void> SimulatedStudent::take(LessonRun& run) {
     }
   }
   return core::failure(core::ErrorCategory::Failed, "the simulated participant finds no end to this lesson");
+}
+
+core::Result<void> SimulatedStudent::push(LessonRun& run) {
+  if (!pusher_) {
+    auto pusher = SimulatedPusher::create(samples_.front(), *particles_, seed_);
+    if (!pusher) return tl::unexpected(pusher.error());
+    pusher_ = std::move(*pusher);
+  }
+  return pusher_->push(run, now_s_);
 }
 
 // Feels one cycle with the servo's model, tick by tick.
@@ -183,6 +200,7 @@ std::size_t SimulatedStudent::choose(const LessonPrompt& prompt) {
     case StepKind::Free:
     case StepKind::Cycle:
     case StepKind::Question:
+    case StepKind::Push:
       break;
   }
   return rate(prompt);

@@ -15,12 +15,14 @@
 #include "exhibit/lesson/lesson_random.h"
 #include "exhibit/lesson/trial_row.h"
 #include "exhibit/words/phrases.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
 
 // Inputs of a step. All must outlive the step.
 struct StepContext {
   const LessonStep& step;
+  const scene::ParticleSet* particles;           // the lesson's; null: none
   std::span<const curves::SampleModel> samples;  // samples of the lesson
   const Phrases& phrases;
   LessonRandom& random;
@@ -39,6 +41,13 @@ class StepActivity {
   virtual void go_on(double) {}
   virtual void answer(std::size_t, double) {}
   virtual void felt(const FeltCycle&, double) {}
+
+  // For a push: events and samples of the servo in order, the events of a tick before its sample; then pages.
+  virtual void add(const scene::TipEvent&) {}
+  virtual void add(const scene::TipSample&) {}
+  virtual void look(std::span<const scene::ParticlePage>, double) {}
+  virtual bool counts_touches() const { return false; }  // touching a particle now belongs to the trial
+
   virtual TrialRow trial(double) const { return {}; }  // the running trial, without its answer
   virtual void reset(double now_s) = 0;                // restarts the running trial
   virtual bool done() const = 0;
@@ -52,6 +61,7 @@ std::unique_ptr<StepActivity> make_identify_activity(const StepContext& context,
 std::unique_ptr<StepActivity> make_threshold_activity(const StepContext& context, double now_s);
 std::unique_ptr<StepActivity> make_draw_activity(const StepContext& context, double now_s);
 std::unique_ptr<StepActivity> make_question_activity(const StepContext& context, double now_s);
+std::unique_ptr<StepActivity> make_push_activity(const StepContext& context, double now_s);
 
 // Counts practice trials, then counted ones, both from 1.
 class TrialCount {

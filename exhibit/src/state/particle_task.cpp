@@ -17,11 +17,18 @@ void ParticleTask::add(const scene::TipSample& sample) {
                             .places = sample.push.digest});
 }
 
-bool ParticleTask::look(std::span<const scene::ParticlePage> pages) {
+std::optional<std::vector<physics::ParticlePlace>> ParticleTask::unjudged(
+    std::span<const scene::ParticlePage> pages) const {
   const auto rest = task_.unjudged();
-  if (!rest || pages.size() < scene::pages_of(static_cast<std::uint32_t>(set_.particles.size()))) return false;
-  if (scene::digest_of(pages, set_.particles.size()) != *rest) return false;
-  task_.judge(*places_of({.set = &set_, .pages = pages}));
+  if (!rest || pages.size() < scene::pages_of(static_cast<std::uint32_t>(set_.particles.size()))) return std::nullopt;
+  if (scene::digest_of(pages, set_.particles.size()) != *rest) return std::nullopt;
+  return places_of({.set = &set_, .pages = pages});
+}
+
+bool ParticleTask::look(std::span<const scene::ParticlePage> pages) {
+  const auto places = unjudged(pages);
+  if (!places) return false;
+  task_.judge(*places);
   return task_.score().state == scene::TaskState::Done;
 }
 

@@ -92,10 +92,13 @@ std::optional<std::uint64_t> PatternTask::unjudged() const {
 void PatternTask::judge(std::span<const physics::ParticlePlace> places) {
   rest_->judged = true;
   const auto pattern = pattern_state(set_, pattern_, places);
-  if (!pattern || !pattern->done()) return;
+  if (pattern && pattern->done()) end(pattern->match.rms);
+}
+
+void PatternTask::end(physics::Length rms) {
   task_.score = rest_->score;
   task_.score.state = TaskState::Done;
-  task_.score.rms_m = pattern->match.rms.si;
+  task_.score.rms_m = rms.si;
   task_.score.time_s = 1e-9 * static_cast<double>(rest_->lifted_ns - task_.begun_ns);
 }
 

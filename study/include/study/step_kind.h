@@ -10,7 +10,7 @@ namespace afm::study {
 
 // Types of a lesson's steps, in one table for lesson files, their data, and the study that reads them
 // (docs/adding-a-lesson-step.md).
-enum class StepKind { Text, Free, Cycle, Identify, Threshold, Draw, Question };
+enum class StepKind { Text, Free, Cycle, Identify, Threshold, Draw, Question, Push };
 struct StepKindRow {
   StepKind kind;
   std::string_view word;  // in lesson files and in the column trial_type
@@ -27,7 +27,8 @@ inline constexpr std::array kStepKinds{
     StepKindRow{StepKind::Threshold, "threshold", "two cycles, of which the one that let go harder is to be named",
                 true, false, true},
     StepKindRow{StepKind::Draw, "draw", "the curve, put together from its parts", false, false, false},
-    StepKindRow{StepKind::Question, "question", "an item of a questionnaire", false, false, false}};
+    StepKindRow{StepKind::Question, "question", "an item of a questionnaire", false, false, false},
+    StepKindRow{StepKind::Push, "push", "a particle to push, or all to form their pattern", false, false, false}};
 static_assert(core::has_row_for_each(kStepKinds, &StepKindRow::kind));
 constexpr const StepKindRow& row_of(StepKind kind) { return kStepKinds[core::index_of(kind)]; }
 constexpr std::string_view word_of(StepKind kind) { return row_of(kind).word; }

@@ -26,10 +26,15 @@ struct StudyTrial {
   int trial = 1;                  // within its step
   std::optional<double> level{};  // w
   std::string stimulus{}, response{};
-  std::optional<double> value{};  // the response of a cycle (newtons), a drawing (0..1) or a question
+  std::optional<double> value{};  // the response of a cycle (newtons), a drawing (0..1), a question or a push (metres)
   std::optional<bool> right{};    // identify and threshold only, if there is an answer
   std::optional<double> rt_s{};
-  std::optional<bool> force{};  // on from snap-in to pull-off of each of its cycles; empty: unknown, or no cycle
+  // on from snap-in to pull-off of each of its cycles, or while a particle was touched; empty: unknown, or none of
+  // these
+  std::optional<bool> force{};
+  // of a push; SI
+  std::optional<double> strokes{}, losses{}, undos{}, work_j{}, largest_force_n{};
+  std::string aids{};
 
   // Whether the hand felt what the condition sets: the force, or under "picture" none. Empty as above.
   std::optional<bool> felt_as_set() const {

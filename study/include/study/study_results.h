@@ -99,6 +99,11 @@ struct LessonResults {
   std::size_t not_felt = 0;           // left out: the force was off where it belongs on, or on where it belongs off
   std::size_t force_unknown = 0;      // counted, of a data set that does not say whether the force was on
   std::vector<std::string> left_out;  // incomplete questionnaires
+  struct Pushes {
+    std::size_t counted = 0;
+    std::size_t with_truth = 0, with_undo = 0;  // aids
+  };
+  Pushes pushes;
   std::vector<IdentifyResult> identify;
   std::vector<ThresholdResult> thresholds;
   std::vector<Measure> measures;

@@ -59,8 +59,9 @@ TEST_F(DataSetTest, HasItsTablesAndTheirDescriptions) {
                          .force = true}));
   EXPECT_EQ(
       text("sub-ABCDEF/beh/sub-ABCDEF_task-test_events.tsv"),
-      "onset\tduration\tstep\ttrial_type\tcondition\tpractice\ttrial\tlevel\tstimulus\tresponse\tcorrect\trt\tforce\n"
-      "1.500\t2.000\tblind\tidentify\tboth\t1\t3\t0.25\tmica\tgold\t0\t0.500\t1\n")
+      "onset\tduration\tstep\ttrial_type\tcondition\tpractice\ttrial\tlevel\tstimulus\tresponse\tcorrect\trt\tforce"
+      "\tstrokes\tlosses\tundos\twork\tlargest_force\taids\n"
+      "1.500\t2.000\tblind\tidentify\tboth\t1\t3\t0.25\tmica\tgold\t0\t0.500\t1\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\n")
       << "a line is there as soon as its trial is over";
   EXPECT_EQ(text("participants.tsv"), "participant_id\torder\tage_band\tcomfort\nsub-ABCDEF\t0\tn/a\tn/a\n");
   ASSERT_TRUE(data->finish(LessonEnd::Finished));

@@ -38,13 +38,14 @@ class LessonFile : public ::testing::TestWithParam<Refusal> {
 };
 
 TEST_P(LessonFile, IsRefusedByLineAndKey) {
-  const auto lesson = load_lesson(folder_.write("lesson.toml", GetParam().text));
+  const auto lesson = load_lesson(folder_.write("lesson.toml", GetParam().text), support::source("assets"));
   ASSERT_FALSE(lesson.has_value());
   EXPECT_EQ(lesson.error().category, core::ErrorCategory::BadInputFile);
   EXPECT_THAT(lesson.error().message, HasSubstr(GetParam().message));
 }
 
 const std::string kFit = "scale = \"fit\"\n", kCommon = "scale = \"common\"\n";
+const std::string kGold = "particles = \"gold-row\"\n", kPush = "type = \"push\"\n";
 const std::string kThreshold = "type = \"threshold\"\nmaterial = \"mica\"\nstaircase = \"weighted\"\n";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -93,14 +94,39 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"id = \"a\"\ntitle = { en = \"A\", de = \"B\" }\nminutes = 21\nmaterials = [\"mica\"]\n" + kFit +
                     step("type = \"text\"\n"),
                 "line 3: minutes: must be a whole number from 1 to 20"},
+        Refusal{kHead + kFit + step(kPush + "until = \"pattern\"\n"),
+                "line 9: step.type: push needs the lesson's particles"},
+        Refusal{kHead + "particles = \"gold-heap\"\n", "line 5: particles: "},
+        Refusal{kHead + "particles = \"tube-and-electrodes\"\n", "line 5: particles: tube-and-electrodes has rods"},
+        Refusal{kHead + kGold + kFit, "line 6: scale: is that of the particles"},
+        Refusal{kHead + kGold + step("type = \"cycle\"\n"),
+                "line 9: step.type: cycle is for lessons without particles"},
+        Refusal{kHead + kGold + step(kPush + "until = \"gone\"\n"),
+                "line 10: step.until: gone is unknown; known are moved, target, pattern, lost"},
+        Refusal{kHead + kGold + step(kPush + "until = \"pattern\"\nparticle = 1\n"),
+                "line 11: step.particle: is of no use with until = \"pattern\""},
+        Refusal{kHead + kGold + step(kPush + "until = \"lost\"\nparticle = 6\n"),
+                "line 11: step.particle: must be a whole number from 1 to 5"},
+        Refusal{kHead + kGold + step(kPush + "until = \"target\"\nparticle = 1\ntarget = 0\n"),
+                "line 12: step.target: must be a whole number from 1 to 5"},
+        Refusal{kHead + kGold + step(kPush + "until = \"moved\"\nparticle = 1\n"), "step.distance: is missing"},
+        Refusal{kHead + kGold + step(kPush + "until = \"moved\"\nparticle = 1\ndistance = \"80\"\n"),
+                "line 12: step.distance: "},
+        Refusal{kHead + kGold + step(kPush + "until = \"moved\"\nparticle = 1\ndistance = \"400 nm\"\n"),
+                "line 12: step.distance: must be more than 0 and at most 380 nm, the side of the field"},
+        Refusal{kHead + kGold + "conditions = [\"picture\", \"both\"]\n" +
+                    step(kPush + "until = \"pattern\"\neach_condition = true\n"),
+                "line 12: step.each_condition: is impossible for a push"},
         Refusal{kHead + kFit, "step: is missing"},
         Refusal{kHead + "scale = \"atoms\"\n" + step("type = \"text\"\n"), "line 5: scale: atoms is unknown"}));
 
 TEST(LessonSamples, RefuseAThresholdThatTheCommonScaleHasNoRoomFor) {
   const support::ScratchFolder folder;
-  const auto lesson = load_lesson(folder.write(
-      "lesson.toml", kHead + kCommon + "[[step]]\nid = \"one\"\n" + kWords +
-                         "type = \"threshold\"\nmaterial = \"gold\"\nstaircase = \"weighted\"\ndistance = \"kept\"\n"));
+  const auto lesson = load_lesson(
+      folder.write("lesson.toml",
+                   kHead + kCommon + "[[step]]\nid = \"one\"\n" + kWords +
+                       "type = \"threshold\"\nmaterial = \"gold\"\nstaircase = \"weighted\"\ndistance = \"kept\"\n"),
+      support::source("assets"));
   ASSERT_TRUE(lesson) << lesson.error().message;
   const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   const auto samples = lesson_samples(*lesson, library);
@@ -141,12 +167,12 @@ std::vector<std::string> shipped_lessons() {
   return paths;
 }
 
-TEST(ShippedLessons, AreSixThatLoadAndRunToTheirEndInBothLanguages) {
+TEST(ShippedLessons, AreSevenThatLoadAndRunToTheirEndInBothLanguages) {
   const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   std::set<StepKind> kinds;
   std::size_t lessons = 0;
   for (const std::string& path : shipped_lessons()) {
-    const auto lesson = load_lesson(path);
+    const auto lesson = load_lesson(path, support::source("assets"));
     ASSERT_TRUE(lesson) << lesson.error().message;
     EXPECT_TRUE(path.ends_with("/" + lesson->id + ".toml")) << path;
     const auto samples = lesson_samples(*lesson, library);
@@ -169,7 +195,7 @@ TEST(ShippedLessons, AreSixThatLoadAndRunToTheirEndInBothLanguages) {
     }
     ++lessons;
   }
-  EXPECT_EQ(lessons, 6U);
+  EXPECT_EQ(lessons, 7U);
   EXPECT_EQ(kinds.size(), kStepKinds.size()) << "the lessons show every type of step";
 }
 

@@ -88,7 +88,8 @@ TEST_F(LessonRunTest, GoesOnByItselfWhenTheServosEventsMeetTheCriterion) {
   EXPECT_THAT(run.prompt(6).progress, HasSubstr("Step 2 of 2"));
   run.go_on(8);
   EXPECT_EQ(run.end(), LessonEnd::Finished);
-  EXPECT_EQ(line_of(rows_[1]), "5.000\t3.000\ttext\ttext\tn/a\t0\t1\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\n");
+  EXPECT_EQ(line_of(rows_[1]),
+            "5.000\t3.000\ttext\ttext\tn/a\t0\t1\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\tn/a\n");
 }
 
 TEST_F(LessonRunTest, ShowsAHintAfterItsTimeAndCountsItAnewAfterAReset) {

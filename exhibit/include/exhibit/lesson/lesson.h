@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,10 @@
 #include "exhibit/frame/exhibit_files.h"
 #include "scene/shared/scale_modes.h"
 #include "study/step_kind.h"
+
+namespace afm::scene {
+struct ParticleSet;
+}
 
 namespace afm::exhibit {
 
@@ -60,6 +65,28 @@ struct ThresholdPlan {
   double step = 1.25;  // divisor of w after a right answer; for 1-up-3-down, the final one
 };
 
+// What ends a step Push: all but a loss once the tip has been lifted for scene::PatternTask::kRestNs.
+enum class PushUntil { Moved, Target, Pattern, Lost };
+struct PushUntilRow {
+  PushUntil until;
+  std::string_view word, meaning;
+  bool from_targets;  // judged by the distance from targets; otherwise by the way of the particle from its start
+};
+inline constexpr std::array kPushUntils{
+    PushUntilRow{PushUntil::Moved, "moved", "the particle is so far from its start", false},
+    PushUntilRow{PushUntil::Target, "target", "the particle lies on a target", true},
+    PushUntilRow{PushUntil::Pattern, "pattern", "the pattern of the set is done", true},
+    PushUntilRow{PushUntil::Lost, "lost", "the tip has slipped past the particle", false}};
+static_assert(core::has_row_for_each(kPushUntils, &PushUntilRow::until));
+constexpr const PushUntilRow& row_of(PushUntil until) { return kPushUntils[core::index_of(until)]; }
+
+struct PushPlan {
+  PushUntil until = PushUntil::Pattern;
+  std::size_t particle = 0;  // number in the set, from 0; for all but Pattern
+  std::size_t target = 0;    // the same of a target, for Target
+  double distance_m = 0;     // least way, only with Moved
+};
+
 struct LessonStep {
   std::string id;
   StepKind kind = StepKind::Text;
@@ -72,6 +99,7 @@ struct LessonStep {
   int practice = 0;                    // number before the counted trials
   ThresholdPlan threshold;
   Questionnaire questionnaire = Questionnaire::Paper;
+  PushPlan push;
 };
 
 // Content of a lesson file. Const after loading; any thread.
@@ -80,7 +108,10 @@ struct Lesson {
   LessonText title;
   int minutes = 0;  // duration given by the author, 1 to kMostLessonMinutes
   std::vector<std::string> materials;
-  scene::ScaleMode scale = scene::ScaleMode::Fit;
+  scene::ScaleMode scale = scene::ScaleMode::Fit;  // Particles exactly if there are particles
+  std::string particles;                           // as in ExhibitFiles; empty: none
+  // those particles, all of them spheres; null: none; shared, since a lesson is copied
+  std::shared_ptr<const scene::ParticleSet> set;
   std::vector<Condition> conditions;  // none, or at least two
   std::vector<LessonStep> steps;
   std::string digest;  // FNV-1a of the file, hexadecimal

@@ -20,7 +20,7 @@ struct FeltCycle {
 
 // The current request to the participant.
 struct LessonPrompt {
-  enum class Wants { GoOn, Cycle, Answer, Nothing };
+  enum class Wants { GoOn, Cycle, Push, Answer, Nothing };
   Wants wants = Wants::GoOn;
   std::string title, words, hint, progress;     // the hint is empty until it is due
   std::vector<std::string> answers;             // used with Wants::Answer; more than nine are a scale
@@ -32,11 +32,15 @@ struct LessonPrompt {
   bool in_step = false;                         // false in consent, break and end
   bool hidden = false;                          // names, curves, figures and sounds would reveal the answer
   std::optional<Condition> condition;
+  bool put_back = false;  // all particles are to be put back to their start before the push
+
+  bool by_hand() const { return wants == Wants::Cycle || wants == Wants::Push; }
   // for a simulated participant
   StepKind kind = StepKind::Text;
   std::string item;       // id of a questionnaire's item
   std::size_t right = 0;  // the right answer, if there is one
   bool has_right = false;
+  PushPlan push;
 };
 
 }  // namespace afm::exhibit

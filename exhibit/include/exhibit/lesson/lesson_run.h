@@ -60,6 +60,13 @@ class LessonRun {
   // Handles a jump of the tip on the prompt's material and variant.
   void happened(const scene::TipEvent& event, double now_s);
 
+  // A push: takes the servo's events of particles and samples in order, the events of a tick before its sample, and
+  // after them the newest pages. A push counts only if the full force was on the hand in every tick in which the tip
+  // touched a particle; otherwise it begins again, with all particles at their start.
+  void add(const scene::TipEvent& event);
+  void add(const scene::TipSample& sample, double now_s);
+  void look(std::span<const scene::ParticlePage> pages, double now_s);
+
   // Offers a break once it is due. With a real participant, call once a frame.
   void watch_time(double now_s);
 
@@ -87,7 +94,7 @@ class LessonRun {
   void follow(double now_s);  // after each event or input
   bool offer_break_where_due(double now_s);
   HandForce wanted_force() const;
-  void repeat_trial(double now_s);  // since a cycle was not felt
+  void repeat_trial(double now_s);  // since a cycle or a push was not felt
   core::Result<void> keep(TrialRow row);
 
   const Lesson& lesson_;
@@ -106,7 +113,7 @@ class LessonRun {
   bool consented_ = false;
   bool snapped_in_ = false;
   HandForce force_ = HandForce::None;
-  std::optional<HandForce> unfelt_;  // force of the cycle that did not count, until one does
+  std::optional<HandForce> unfelt_;  // force of the cycle or push that did not count, until one does
   bool counted_ = false;             // a cycle of this step counted
   std::optional<LessonEnd> end_;
   std::optional<core::Error> error_;

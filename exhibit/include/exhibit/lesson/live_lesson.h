@@ -83,11 +83,19 @@ class LiveLesson {
   void lay_sample(servo::ServoClient& servo);
   void forget_laid() { laid_.reset(); }  // after a new servo or a restart of the wall
 
-  // Follows the force on the hand: call with every sample of the servo, in order with its jumps.
+  // Follows the force on the hand: call with every sample of the servo, in order with its events.
   void felt(const scene::TipSample& sample, const servo::ServoClient& servo);
 
-  // Handles a jump of the tip on the servo's current sample.
+  // Handles an event of the tip on the servo's current sample: a jump, or what it does to a particle.
   void happened(const scene::TipEvent& event, const servo::ServoClient& servo);
+
+  // Call once a frame with the newest particles, after the servo's events and samples.
+  void look(const servo::ServoClient& servo);
+
+  // All particles are to be put back before the current push. Once there is no force, order it when the second
+  // function says so, which is once a second at most.
+  bool needs_particles_back() const { return prompt_.put_back; }
+  bool orders_particles_back();
 
   // Stops the running lesson when the window ends. Returns the error if results could not be stored.
   core::Result<void> finish();
@@ -118,8 +126,9 @@ class LiveLesson {
   HandAnswer mark_;
   std::optional<std::size_t> told_mark_;
   std::optional<Laid> laid_;
-  std::uint32_t edit_ = 0;    // revision of the variant under the tip; 0: parameters as loaded
-  std::vector<bool> varied_;  // true for materials with changed parameters
+  std::optional<double> put_back_s_;  // time of the newest order to put the particles back
+  std::uint32_t edit_ = 0;            // revision of the variant under the tip; 0: parameters as loaded
+  std::vector<bool> varied_;          // true for materials with changed parameters
 };
 
 }  // namespace afm::exhibit

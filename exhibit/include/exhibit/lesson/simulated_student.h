@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@
 #include "physics/normal_generator.h"
 
 namespace afm::exhibit {
+
+class SimulatedPusher;
 
 // An observer with known abilities (equal-variance Gaussian), which a report of its data must recover.
 struct Abilities {
@@ -34,28 +37,35 @@ struct SimulatedParticipant {
 };
 
 // Takes a whole lesson in simulated time: feels each cycle with the real force law at the lesson's scale and answers
-// from the felt forces. Repeatable for a seed on the same build. One thread.
+// from the felt forces. Pushes particles with a delay of 0.25 s and a tremor of 0.3 mm. Repeatable for a seed on the
+// same build. One thread.
 class SimulatedStudent {
  public:
+  // Lesson and samples must outlive the object.
   SimulatedStudent(const SimulatedParticipant& participant, const Lesson& lesson,
                    std::span<const curves::SampleModel> samples);
+  ~SimulatedStudent();
 
   // Fails if the scale does not suit the simulated device, or with LessonRun::error().
   core::Result<void> take(LessonRun& run);
 
  private:
   core::Result<void> feel(LessonRun& run, const LessonPrompt& prompt);
+  core::Result<void> push(LessonRun& run);
   std::size_t choose(const LessonPrompt& prompt);
   std::size_t rate(const LessonPrompt& prompt);  // answers an item without a right answer
   std::size_t stronger_of_two();
   std::size_t identify(const LessonPrompt& prompt);
 
   Abilities abilities_;
+  std::uint64_t seed_;
+  const scene::ParticleSet* particles_;  // the lesson's; null: none
   scene::ScaleMode scale_;
   std::span<const curves::SampleModel> samples_;
   LessonRandom random_;
   physics::NormalGenerator normal_;
   haptics::CommonScale common_;
+  std::unique_ptr<SimulatedPusher> pusher_;  // from the first push on
   double now_s_ = 0;
   double felt_n_[2] = {0, 0};  // forces on the hand in the last two cycles, the newer one second
 };

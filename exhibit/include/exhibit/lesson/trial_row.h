@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,6 +10,13 @@
 #include "exhibit/lesson/lesson.h"
 
 namespace afm::exhibit {
+
+// How a particle was pushed, beside the response. Work and force are those of scene::TaskScore.
+struct PushFigures {
+  std::uint32_t strokes = 0, losses = 0, undos = 0;
+  double work_j = 0, largest_lateral_n = 0;
+  bool truth = true;  // the wall showed where the particles were
+};
 
 // A line of events.tsv: a finished trial. Empty texts and missing values are written as n/a.
 struct TrialRow {
@@ -23,6 +31,7 @@ struct TrialRow {
   std::optional<bool> correct{};
   std::optional<double> rt_s{};
   std::optional<bool> force{};  // on from snap-in to pull-off of each of the trial's cycles; empty: it has no cycle
+  std::optional<PushFigures> push{};
 };
 
 using TrialSink = std::function<core::Result<void>(const TrialRow&)>;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "scene/samples/pattern_task.h"
 #include "scene/shared/tip_blocks.h"
@@ -25,6 +27,11 @@ class ParticleTask {
   // Call with the newest pages after the newest sample: ends the task if these are the places that it waits to see.
   // True if it ended.
   bool look(std::span<const scene::ParticlePage> pages);
+
+  // Places of all particles, if the pages hold those that the task waits to see; for another criterion than the
+  // pattern, which then ends the task by end().
+  std::optional<std::vector<physics::ParticlePlace>> unjudged(std::span<const scene::ParticlePage> pages) const;
+  void end(physics::Length rms) { task_.end(rms); }
 
   // All of that for a tick of a replay.
   void hear(const servo::ReplayedTick& tick);

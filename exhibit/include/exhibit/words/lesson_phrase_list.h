@@ -30,6 +30,8 @@
   PHRASE(LessonForceWasOff, "lesson-force-was-off", "", kParagraph)         \
   PHRASE(LessonForceWasWeak, "lesson-force-was-weak", "", kParagraph)       \
   PHRASE(LessonForceWasOn, "lesson-force-was-on", "", kParagraph)           \
+  PHRASE(LessonPushWasOff, "lesson-push-was-off", "", kParagraph)           \
+  PHRASE(LessonPushWasWeak, "lesson-push-was-weak", "", kParagraph)         \
   PHRASE(LessonRight, "lesson-right", "", kLine)                            \
   PHRASE(LessonWrong, "lesson-wrong", "answer", kLine)                      \
   PHRASE(InstructorTitle, "instructor-title", "lesson", kLine)              \
@@ -44,6 +46,7 @@
   PHRASE(InstructorWaits, "instructor-waits", "", kLine)                    \
   PHRASE(InstructorWaitsGoOn, "instructor-waits-go-on", "", kLine)          \
   PHRASE(InstructorWaitsCycle, "instructor-waits-cycle", "", kLine)         \
+  PHRASE(InstructorWaitsPush, "instructor-waits-push", "", kLine)           \
   PHRASE(InstructorWaitsAnswer, "instructor-waits-answer", "", kLine)       \
   PHRASE(InstructorWaitsNothing, "instructor-waits-nothing", "", kLine)     \
   PHRASE(InstructorForce, "instructor-force", "", kLine)                    \

@@ -51,6 +51,10 @@ class PatternTask {
   // the set. Only while there is something unjudged().
   void judge(std::span<const physics::ParticlePlace> places);
 
+  // Ends the task, too, by another criterion than the pattern; `rms` is the distance from what was wanted. Only while
+  // there is something unjudged().
+  void end(physics::Length rms);
+
   const TaskScore& score() const { return task_.score; }
 
  private:

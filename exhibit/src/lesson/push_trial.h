@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "exhibit/lesson/lesson.h"
+#include "exhibit/state/particle_task.h"
+#include "physics/friction/sideways.h"
+#include "physics/units.h"
+#include "scene/samples/particle_set.h"
+#include "scene/shared/tip_blocks.h"
+
+namespace afm::exhibit {
+
+// Digest of the places of a set's spheres before the first push.
+std::uint64_t start_digest(const scene::ParticleSet& set);
+
+// A push as a step of a lesson wants it, judged and scored by the task of its particles. All of them are at their
+// start when it begins. One thread.
+class PushTrial {
+ public:
+  PushTrial(const scene::ParticleSet& set, const PushPlan& plan);
+  PushTrial(const PushTrial&) = delete;
+  PushTrial& operator=(const PushTrial&) = delete;
+
+  // As in ParticleTask.
+  void add(const scene::TipEvent& event);
+  void add(const scene::TipSample& sample);
+
+  // The same; true once the push is done, then do not call it again.
+  bool look(std::span<const scene::ParticlePage> pages);
+
+  const scene::TaskScore& score() const { return lost_ ? *lost_ : task_.score(); }
+
+  // What the push is judged by once it is done: root mean square distance from the targets, or the way of the particle.
+  physics::Length result() const { return result_; }
+
+ private:
+  physics::Length way_of(const physics::Sideways<physics::Length>& place) const;
+
+  PushPlan plan_;
+  scene::ParticleSet set_;  // with the wanted target alone, if there is one
+  physics::Sideways<physics::Length> start_;
+  ParticleTask task_;
+  std::int32_t touched_ = scene::kNoParticle;  // newest particle that the tip has touched
+  std::optional<scene::TaskScore> lost_;       // score at the loss that was wanted
+  physics::Length result_{0.0};
+};
+
+}  // namespace afm::exhibit
