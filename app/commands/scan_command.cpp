@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "app/options/command.h"
 #include "app/options/enum_option.h"
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
+#include "app/tapping/tapping_command.h"
 #include "core/version.h"
 #include "core/whole_file.h"
 #include "curves/angle_units.h"
@@ -114,11 +116,44 @@ void add_own_sample_options(OptionList& command, ScanOptions& options) {
   }
 }
 
+// Returns whether the text is a number or a length.
+bool is_amplitude(const std::string& text) {
+  const auto share = physics::parse_si(text, "a share", physics::kPlainNumber.units, physics::Infinity::Refused);
+  return std::holds_alternative<double>(share) || physics::parse_quantity(text, physics::kLengthUnits).value;
+}
+
+// A force in contact mode, a share of the free amplitude or an amplitude in tapping mode.
+void add_setpoint_option(OptionList& command, ScanOptions& options, const physics::ScanField& field) {
+  const QuantityDomain domain{field.units->sort, field.units->units,
+                              QuantityRange<double>{field.smallest, field.largest}};
+  const auto read = [&options, &field, domain](const std::string& text) -> core::Result<void> {
+    const auto force = curves::parse_si(text, domain);
+    if (const double* si = std::get_if<double>(&force)) {
+      options.settings.emplace_back(&field, *si);
+    } else if (is_amplitude(text)) {
+      options.amplitude_setpoint = text;
+    } else {
+      return wrong_usage(std::get<std::string>(force));
+    }
+    return {};
+  };
+  command
+      .add_parsed_option("--" + std::string(field.option), read,
+                         fmt::format("{}; default: {}; in tapping mode the amplitude that it keeps, as a share of the "
+                                     "free one or a length; default: 0.8",
+                                     field.help, field.text(field.get({}))))
+      .type_name(fmt::format("FORCE from {}, or AMPLITUDE", curves::legal_values(domain)));
+}
+
 void add_setting_options(OptionList& command, ScanOptions& options) {
   const physics::ScanSettings usual;
   for (const physics::ScanField& field : physics::kScanFields) {
     // already an option of the contact
     if (curves::find_contact_parameter(field.option) != nullptr) continue;
+    if (field.name == "setpoint") {
+      add_setpoint_option(command, options, field);
+      continue;
+    }
     const bool of_material = field.name == "adhesion" || field.name == "snap_in";
     const QuantityDomain domain{field.units->sort, field.units->units,
                                 QuantityRange<double>{field.smallest, field.largest}};
@@ -189,13 +224,17 @@ void add_scan_command(OptionList& program, const CommandContext& context) {
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<ScanOptions>();
   const Option tip = add_scan_options(command, *options, context);
+  add_tapped_scan_options(command, options->tapping);
   add_output_options(command, *options);
   command.footer(
       "Lever, tip and adhesion are the material's; each parameter overrides its own.\n"
       "example: touchafm scan --material mica --size 40nm --pixels 256 --rate 2Hz --out image.gwy\n"
       "example: touchafm scan --material gold --rate 20Hz --integral-gain 200/s --picture blurred.png --json\n"
+      "example: touchafm scan --material mica --mode tapping --free-amplitude 20nm --resonance 300kHz "
+      "--quality-factor 400 --spring-constant 40N/m --setpoint 0.8 --integral-gain 500/s --rate 1Hz --out tapped.gwy\n"
       "example: touchafm scan --sample grating.gwy --tip cone --tip-radius 20nm --rate 1Hz --out image.gwy");
   command.when_chosen([options, tip] {
+    if (const auto checked = check_tapping_options(options->tapping); !checked) return checked;
     complete(*options, tip.given());
     return write_scan_command(*options);
   });

@@ -83,6 +83,21 @@ void add_tapping_options(OptionList& command, curves::TappingChoice& choice) {
   }
 }
 
+void add_tapped_scan_options(OptionList& command, curves::TappingChoice& choice) {
+  command
+      .add_option("--mode", choice.mode,
+                  "contact, which keeps the force; or tapping, which keeps the amplitude of a vibrating lever, with "
+                  "channels for amplitude error, phase, energy dissipated and peak force")
+      .one_of({"contact", "tapping"})
+      .type_name("MODE")
+      .show_default();
+  for (const TappingOption& option : kOptions) {
+    const std::string_view name = option.name;
+    if (!option.tapping || name == "--method" || name == "--at") continue;
+    command.add_option(option.name, option.text(choice), option.help).type_name(option.type);
+  }
+}
+
 core::Result<void> check_tapping_options(const curves::TappingChoice& choice) {
   curves::TappingChoice given = choice;
   for (const TappingOption& option : kOptions) {

@@ -12,6 +12,9 @@ namespace afm::app {
 
 void add_tapping_options(OptionList& command, curves::TappingChoice& choice);
 
+// For images: --mode contact or tapping, and the options of the drive and the contact.
+void add_tapped_scan_options(OptionList& command, curves::TappingChoice& choice);
+
 // WrongUsage, naming the option, for one that has no effect in the chosen mode.
 core::Result<void> check_tapping_options(const curves::TappingChoice& choice);
 

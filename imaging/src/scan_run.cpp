@@ -7,10 +7,14 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string_view>
+#include <utility>
+#include <variant>
 
 #include "core/log.h"
 #include "curves/angle_units.h"
+#include "curves/tapping/tapping_output.h"
 #include "physics/imaging/scan_truth.h"
 
 namespace afm::imaging {
@@ -48,6 +52,46 @@ std::string words(std::string_view name) {
   return text;
 }
 
+bool taps(const ScanRequest& request) { return request.tapping.mode == "tapping"; }
+
+// In tapping mode the law of force decides instead.
+bool only_in_contact(const physics::ScanField& field) {
+  return field.name == "setpoint" || field.name == "adhesion" || field.name == "snap_in" || field.name == "friction";
+}
+
+// The amplitude that the feedback keeps, of a share of the free amplitude or a length.
+core::Result<physics::Length> setpoint_of(const std::string& text, physics::Length free_amplitude) {
+  const auto share = physics::parse_si(text, "a share", physics::kPlainNumber.units, physics::Infinity::Refused);
+  if (const double* number = std::get_if<double>(&share)) return *number * free_amplitude;
+  const auto length = physics::parse_quantity(text, physics::kLengthUnits);
+  if (length.value) return *length.value;
+  return wrong_usage(
+      fmt::format("--setpoint {}: --mode tapping takes a share of the free amplitude, such as 0.8, or "
+                  "an amplitude, such as 16nm",
+                  text));
+}
+
+core::Result<physics::TappingDetector> detector_of(const ScanRequest& request, const curves::ContactSetup& setup) {
+  const auto driven = curves::driven_sample(setup, request.tapping.numbers);
+  if (!driven) return tl::unexpected(driven.error());
+  const physics::DrivenLever& lever = driven->lever;
+  if (lever.quality_factor < physics::AveragedFlow::kLeastQuality) {
+    return wrong_usage(
+        fmt::format("--mode tapping takes images with a quality factor of at least {:g}, not {:g}: below "
+                    "it the averaged motion misses the harmonics; touchafm curve --mode tapping "
+                    "--method direct computes its curve",
+                    physics::AveragedFlow::kLeastQuality, lever.quality_factor));
+  }
+  const auto setpoint =
+      setpoint_of(request.amplitude_setpoint.empty() ? "0.8" : request.amplitude_setpoint, lever.free_amplitude);
+  if (!setpoint) return tl::unexpected(setpoint.error());
+  try {
+    return physics::TappingDetector(driven->surface, lever, *setpoint);
+  } catch (const physics::UnphysicalValue& error) {
+    return wrong_usage(error.what());
+  }
+}
+
 void describe(const ScanRequest& request, const curves::ContactSetup& setup, const physics::TipShape& tip, Scan& scan) {
   auto& metadata = scan.image.metadata;
   metadata.emplace_back("Material", setup.material.name);
@@ -61,7 +105,24 @@ void describe(const ScanRequest& request, const curves::ContactSetup& setup, con
   if (tip.kind != physics::TipKind::Paraboloid && tip.kind != physics::TipKind::Sphere) {
     metadata.emplace_back("Tip half angle", physics::format_si(tip.half_angle_rad, curves::kAngleUnits.units));
   }
+  metadata.emplace_back("Mode", request.tapping.mode);
+  if (scan.tapping) {
+    const physics::DrivenLever& lever = scan.tapping->lever();
+    const auto add = [&](const char* name, const auto& quantity, const auto& units) {
+      metadata.emplace_back(name, physics::format_quantity(quantity, units));
+    };
+    add("Free amplitude", lever.free_amplitude, physics::kLengthUnits);
+    add("Amplitude setpoint", physics::Length(scan.tapping->setpoint_m()), physics::kLengthUnits);
+    add("Resonance", lever.resonance, physics::kFrequencyUnits);
+    add("Drive", lever.ratio * lever.resonance, physics::kFrequencyUnits);
+    metadata.emplace_back("Quality factor", fmt::format("{:g}", lever.quality_factor));
+    const auto conventions = curves::tapping_conventions();
+    for (const auto& [key, text] : conventions.items()) {
+      metadata.emplace_back("Convention of " + key, text.get<std::string>());
+    }
+  }
   for (const physics::ScanField& field : physics::kScanFields) {
+    if (scan.tapping && only_in_contact(field)) continue;
     metadata.emplace_back(words(field.name), field.text(field.get(scan.settings)));
   }
   metadata.emplace_back("Feedback", scan.settings.feedback == physics::Feedback::On ? "on" : "off");
@@ -79,6 +140,39 @@ nlohmann::json channel_json(const physics::ImageChannel& channel) {
           {"rms", std::sqrt(square)}, {"min", *least},        {"max", *most}};
 }
 
+nlohmann::json tapping_json(const Scan& scan) {
+  const physics::DrivenLever& lever = scan.tapping->lever();
+  const double free_deg = lever.free_phase * 180.0 / std::numbers::pi;
+  nlohmann::json result{{"free_amplitude_m", lever.free_amplitude.si},
+                        {"setpoint_m", scan.tapping->setpoint_m()},
+                        {"setpoint_ratio", scan.tapping->setpoint_m() / lever.free_amplitude.si},
+                        {"resonance_Hz", lever.resonance.si},
+                        {"frequency_Hz", (lever.ratio * lever.resonance).si},
+                        {"quality_factor", lever.quality_factor},
+                        {"free_phase_deg", free_deg},
+                        {"relaxation_time_s", lever.relaxation().si},
+                        {"integral_gain_without_overshoot_per_s", 0.25 / lever.relaxation().si},
+                        {"conventions", curves::tapping_conventions()}};
+  for (const physics::ImageChannel& channel : scan.image.channels) {
+    const auto count = static_cast<double>(channel.values.size());
+    const auto of_values = [&](const auto& rule) {
+      return static_cast<double>(std::count_if(channel.values.begin(), channel.values.end(), rule));
+    };
+    if (channel.name == "Phase") {
+      const auto apart = [&](double one, double other) { return (one > free_deg) != (other > free_deg); };
+      std::size_t changes = 0;
+      for (std::size_t i = 1; i < channel.values.size(); ++i) {
+        changes += i % scan.image.columns != 0 && apart(channel.values[i - 1], channel.values[i]) ? 1U : 0U;
+      }
+      result["regime_changes"] = changes;
+      result["attractive_share"] = of_values([&](double phase_deg) { return phase_deg > free_deg; }) / count;
+    } else if (channel.name == "Peak force") {
+      result["largest_peak_force_N"] = *std::max_element(channel.values.begin(), channel.values.end());
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 void complete(ScanRequest& request, bool tip_is_given) {
@@ -87,13 +181,24 @@ void complete(ScanRequest& request, bool tip_is_given) {
 }
 
 core::Result<void> check(const ScanRequest& request) {
+  for (const auto& [field, si] : request.settings) {
+    if (!taps(request) || !only_in_contact(*field)) continue;
+    if (field->name == "setpoint") return tl::unexpected(setpoint_of(field->text(si), {}).error());
+    return wrong_usage(fmt::format("--{} has no effect on --mode tapping; remove it", field->option));
+  }
+  if (!taps(request) && !request.amplitude_setpoint.empty()) {
+    return wrong_usage(
+        fmt::format("--setpoint {}: in contact mode it is a force, such as 2nN; in --mode tapping a "
+                    "share of the free amplitude or an amplitude",
+                    request.amplitude_setpoint));
+  }
   if (!request.contact.material.empty()) return {};
   return wrong_usage("--material is required, such as mica or gold; or name a sample of your own with --sample");
 }
 
 core::Result<Scan> take_scan(const ScanRequest& request, const std::stop_token& stop) {
   if (const auto checked = check(request); !checked) return tl::unexpected(checked.error());
-  const auto setup = contact_setup(request.contact);
+  const auto setup = taps(request) ? driven_setup(request.tapping, request.contact) : contact_setup(request.contact);
   if (!setup) return tl::unexpected(setup.error());
   const auto surface = scan_surface(*setup, tip_of(request, *setup, {}), request.contact.assets_dir, request.sample);
   if (!surface) return tl::unexpected(surface.error());
@@ -101,6 +206,11 @@ core::Result<Scan> take_scan(const ScanRequest& request, const std::stop_token& 
   Scan scan;
   scan.settings = settings_of(request, *setup, *surface);
   scan.surface = surface->height_m;
+  if (taps(request)) {
+    auto detector = detector_of(request, *setup);
+    if (!detector) return tl::unexpected(detector.error());
+    scan.tapping = std::move(*detector);
+  }
   physics::ScanArea area;
   const double drawn_m = std::min(surface->width_m, surface->depth_m);
   area.width = area.height = request.size.si > 0.0 ? request.size : physics::Length(drawn_m);
@@ -113,14 +223,14 @@ core::Result<Scan> take_scan(const ScanRequest& request, const std::stop_token& 
                                physics::format_quantity(physics::Length(drawn_m), physics::kLengthUnits, 3)));
   }
   try {
-    physics::Scanner scanner(area, scan.settings, surface->height_m, request.seed);
+    physics::Scanner scanner(area, scan.settings, surface->height_m, request.seed, scan.tapping);
     scanner.begin_frame(request.direction);
     std::size_t lines = 0;
     physics::NewestLines newest;
     scan.image = physics::scan_frame(scanner, [&](const physics::ScanLine& line) {
       newest.add(line, scanner.time().si);
-      ++scan.lines_with[physics::main_artefact({scan.settings, area, scanner.loop().largest_integral_gain()},
-                                               newest.evidence())];
+      ++scan.lines_with[physics::main_artefact(
+          {scan.settings, area, scanner.loop().largest_integral_gain(), scan.tapping.has_value()}, newest.evidence())];
       ++lines;
       if (area.rows >= kManyLines && lines % (area.rows / 8) == 0 && lines < area.rows) {
         core::log_line(fmt::format("scanned {} of {} lines", lines, area.rows));
@@ -142,11 +252,14 @@ nlohmann::json scan_json(const Scan& scan) {
   for (const physics::ScanField& field : physics::kScanFields) {
     settings[std::string(field.json_key)] = field.get(scan.settings);
   }
+  if (scan.tapping) {
+    for (const char* key : {"setpoint_N", "adhesion_N", "snap_in_m", "friction_coefficient"}) settings.erase(key);
+  }
   settings["feedback"] = scan.settings.feedback == physics::Feedback::On;
   for (const physics::ImageChannel& channel : scan.image.channels) channels.push_back(channel_json(channel));
   for (const auto& [artefact, lines] : scan.lines_with) artefacts[std::string(physics::name_of(artefact))] = lines;
   for (const auto& [key, value] : scan.image.metadata) metadata[key] = value;
-  return nlohmann::json{{"columns", scan.image.columns},
+  nlohmann::json result{{"columns", scan.image.columns},
                         {"rows", scan.image.rows},
                         {"width_m", scan.image.width_m},
                         {"height_m", scan.image.height_m},
@@ -157,6 +270,8 @@ nlohmann::json scan_json(const Scan& scan) {
                         {"metadata", metadata},
                         {"channels", channels},
                         {"lines_with", artefacts}};
+  if (scan.tapping) result["tapping"] = tapping_json(scan);
+  return result;
 }
 
 // The same grid without artefacts: at time zero, so that drift is one.

@@ -232,6 +232,8 @@ std::string frequency_shift_csv(const FrequencyShiftRun& run) {
   return fmt::to_string(text);
 }
 
+nlohmann::ordered_json tapping_conventions() { return conventions_json(true); }
+
 nlohmann::ordered_json tapping_json(const TappingRun& run) {
   json result = base_json(run, "tapping");
   result["drive"] = drive_json(run);

@@ -90,14 +90,20 @@ std::vector<TapStateRow> states_at(const std::shared_ptr<const physics::TapSurfa
   return rows;
 }
 
-core::Result<void> compute(const PathOptions& path, const TappingOptions& options, TappingRun& run) {
-  const auto& contact = run.setup.material.contact;
+core::Result<physics::DrivenLever> read_lever(const ContactSetup& setup, const TappingOptions& options) {
+  const auto& [contact, lever] = std::tie(setup.material.contact, setup.material.lever);
   const auto amplitude = read_quantity("--free-amplitude", options.free_amplitude, physics::kLengthUnits);
   if (!amplitude) return tl::unexpected(amplitude.error());
-  const auto drive =
-      read_quantity_or("--drive", options.drive, physics::kFrequencyUnits, run.setup.material.lever.resonance);
+  const auto drive = read_quantity_or("--drive", options.drive, physics::kFrequencyUnits, lever.resonance);
   if (!drive) return tl::unexpected(drive.error());
-  run.lever = physics::driven_lever(contact.spring_constant, run.setup.material.lever, {*amplitude, *drive});
+  return physics::driven_lever(contact.spring_constant, lever, {*amplitude, *drive});
+}
+
+core::Result<void> compute(const PathOptions& path, const TappingOptions& options, TappingRun& run) {
+  const auto& contact = run.setup.material.contact;
+  const auto lever = read_lever(run.setup, options);
+  if (!lever) return tl::unexpected(lever.error());
+  run.lever = *lever;
   const auto method = read_method(options.method, run.lever);
   if (!method) return tl::unexpected(method.error());
   run.method = *method;
@@ -173,6 +179,21 @@ core::Result<physics::SurfaceEnergy> work_of_adhesion_for(const ContactSetup& se
   }
   const physics::VanDerWaals attraction(contact.hamaker, contact.tip_radius, setup.law_options);
   return -attraction.force(contact_gap) / (2.0 * std::numbers::pi * contact.tip_radius);
+}
+
+core::Result<DrivenSample> driven_sample(const ContactSetup& setup, const TappingOptions& options) {
+  const auto viscosity = read_viscosity(options.viscosity);
+  if (!viscosity) return tl::unexpected(viscosity.error());
+  try {
+    physics::validate(setup.material.contact);
+    const auto lever = read_lever(setup, options);
+    if (!lever) return tl::unexpected(lever.error());
+    return DrivenSample{
+        std::make_shared<const physics::TapSurface>(setup.law(), setup.material.contact, setup.law_options, *viscosity),
+        *lever};
+  } catch (const std::invalid_argument& error) {
+    return wrong_usage(error.what());
+  }
 }
 
 core::Result<TappingRun> run_tapping(const ContactSetup& setup, const PathOptions& path,

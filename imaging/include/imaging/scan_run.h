@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <numbers>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "core/result.h"
 #include "curves/contact_options.h"
 #include "curves/quantity_domain.h"
+#include "curves/tapping/driven_setup.h"
 #include "imaging/scan_surface.h"
 #include "physics/imaging/scan_artefact.h"
 #include "physics/imaging/scan_image.h"
@@ -33,7 +35,9 @@ struct ScanRequest {
   physics::SlowDirection direction = physics::SlowDirection::Down;
   physics::Feedback feedback = physics::Feedback::On;
   std::vector<std::pair<const physics::ScanField*, double>> settings;  // explicitly given settings, in SI
-  physics::TipShape tip;  // without radius and second apex, which come from contact and settings
+  curves::TappingChoice tapping;                                       // mode is contact or tapping
+  std::string amplitude_setpoint;  // in tapping mode: share of the free amplitude, or a length, as typed
+  physics::TipShape tip;           // without radius and second apex, which come from contact and settings
   std::uint32_t seed = 1;
   bool show_truth = false;
 };
@@ -53,7 +57,7 @@ inline constexpr curves::QuantityRange<double> kScanSizesM{1e-10, 1e-4}, kScanPl
 // What follows from the rest: an image of one's own is traced unless a tip is given, and the contact is mica's.
 void complete(ScanRequest& request, bool tip_is_given);
 
-// WrongUsage for a request without a material.
+// WrongUsage for a request without a material, and for a setting without effect in its mode.
 core::Result<void> check(const ScanRequest& request);
 
 // An image, its settings, and the lines with each detected artefact.
@@ -61,6 +65,7 @@ struct Scan {
   physics::ScanImage image;
   physics::ScanSettings settings;
   std::map<physics::ScanArtefact, std::size_t> lines_with;
+  std::optional<physics::TappingDetector> tapping;  // empty: contact mode
   double time_s = 0;
   physics::Scanner::Surface surface{};  // surface that the apex would trace without any artefact
 };

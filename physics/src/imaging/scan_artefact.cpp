@@ -134,7 +134,8 @@ ScanArtefact main_artefact(const ScanConditions& conditions, const ScanEvidence&
   if (drifts(conditions, evidence)) return ScanArtefact::Drift;
   if (settings.noise.si > 0.0 && evidence.noise_m > kNoiseShare * evidence.relief_m) return ScanArtefact::Noise;
   if (evidence.off_surface > kParachuteShare) return ScanArtefact::Parachuting;
-  if (evidence.highest_force_n > kOverloadFactor * std::abs(settings.setpoint.si)) return ScanArtefact::Overload;
+  if (!conditions.tapping && evidence.highest_force_n > kOverloadFactor * std::abs(settings.setpoint.si))
+    return ScanArtefact::Overload;
   const double lag = 2.0 * settings.line_rate.si / settings.integral_gain.si;
   if (follows && lag > kLagShare && evidence.apart_m > kApartShare * evidence.relief_m) return ScanArtefact::Blur;
   return evidence.bluntness > kBluntFactor ? ScanArtefact::BluntTip : ScanArtefact::None;

@@ -9,7 +9,8 @@
 
 namespace afm::physics {
 
-ScanLoop::ScanLoop(const ScanSettings& settings, Time tick, std::uint64_t seed) : normal_(seed) {
+ScanLoop::ScanLoop(const ScanSettings& settings, Time tick, std::uint64_t seed, std::optional<TappingDetector> tapping)
+    : normal_(seed), tapping_(std::move(tapping)) {
   change(settings, tick);
   engage(0.0);
 }
@@ -19,7 +20,14 @@ void ScanLoop::change(const ScanSettings& settings, Time tick) {
   tick_s_ = tick.si;
   spring_ = settings.spring_constant.si;
   setpoint_m_ = settings.setpoint.si / spring_;
-  pull_off_m_ = settings.adhesion.si / spring_;
+  held_gap_m_ = -setpoint_m_;
+  if (tapping_) {
+    spring_ = 1.0;
+    setpoint_m_ = tapping_->lever().free_amplitude.si - tapping_->setpoint_m();
+    held_gap_m_ = tapping_->engaged_gap_m();
+    angle_of_tick_ = tapping_->lever().angular_resonance() * tick_s_;
+  }
+  pull_off_m_ = settings.adhesion.si / settings.spring_constant.si;
   snap_in_m_ = settings.snap_in.si;
   integral_ = settings.integral_gain.si * tick_s_;
   proportional_ = settings.proportional_gain;
@@ -45,7 +53,8 @@ void ScanLoop::set_swing(const ScanSettings& settings) noexcept {
 }
 
 // The loop oscillates with z = exp(i theta) per tick if (z - 1) + (Kp (1 - 1/z) + g) z^-delay G(z) = 0, g = Ki dt and G
-// the response of the z scanner to its command.
+// the response of the z scanner to its command. In tapping mode G includes the envelope: of one relaxation, on a slope
+// of one.
 void ScanLoop::find_limit() {
   const auto gain_at = [this](double theta) {
     const std::complex<double> z = std::polar(1.0, theta);
@@ -53,6 +62,10 @@ void ScanLoop::find_limit() {
     if (resonant_) {
       const double cross = swing_.zv * swing_.vz;
       scanner = z * ((1.0 - swing_.zz) * (z - swing_.vv) - cross) / ((z - swing_.zz) * (z - swing_.vv) - cross);
+    }
+    if (tapping_) {
+      const double kept = std::exp(-tick_s_ / tapping_->lever().relaxation().si);
+      scanner *= (1.0 - kept) / (1.0 - kept / z);
     }
     const std::complex<double> delay = std::polar(1.0, theta * static_cast<double>(delay_ticks_));
     return -((z - 1.0) * delay / scanner + proportional_ * (1.0 - 1.0 / z));
@@ -81,11 +94,12 @@ void ScanLoop::find_limit() {
 }
 
 void ScanLoop::engage(double height_m) noexcept {
-  command(height_m - setpoint_m_);
+  command(height_m + held_gap_m_);
   z_m_ = command_m_;
   velocity_ = 0.0;
   touching_ = true;
-  deflection_m_ = height_m - z_m_;
+  if (tapping_) tapping_->engage();
+  deflection_m_ = tapping_ ? setpoint_m_ : height_m - z_m_;
   error_m_ = deflection_m_ - setpoint_m_;
   noise_now_m_ = 0.0;
   detected_m_.fill(deflection_m_);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -12,7 +14,8 @@ namespace afm::physics {
 namespace {
 
 void resize(ScanTrack& track, std::size_t columns) {
-  for (auto* channel : {&track.height_m, &track.error_n, &track.lateral_n}) {
+  for (auto* channel :
+       {&track.height_m, &track.error_n, &track.lateral_n, &track.phase_deg, &track.energy_j, &track.peak_force_n}) {
     channel->assign(columns, std::numeric_limits<double>::quiet_NaN());
   }
   track.lowest_force_n = std::numeric_limits<double>::infinity();
@@ -24,6 +27,9 @@ void put(const ScanPixel& pixel, ScanTrack& track) {
   track.height_m[pixel.column] = pixel.height_m;
   track.error_n[pixel.column] = pixel.error_n;
   track.lateral_n[pixel.column] = pixel.lateral_n;
+  track.phase_deg[pixel.column] = pixel.phase_deg;
+  track.energy_j[pixel.column] = pixel.energy_j;
+  track.peak_force_n[pixel.column] = pixel.peak_force_n;
   track.lowest_force_n = std::min(track.lowest_force_n, pixel.lowest_force_n);
   track.highest_force_n = std::max(track.highest_force_n, pixel.highest_force_n);
   track.off_surface += pixel.off_surface / static_cast<double>(track.height_m.size());
@@ -40,11 +46,12 @@ Force lateral_force(Force normal, Force adhesion, double slope, double mu, ScanP
   return Force((normal.si * sine + signed_mu * pressed) / (cosine - signed_mu * sine));
 }
 
-Scanner::Scanner(const ScanArea& area, const ScanSettings& settings, Surface surface, std::uint64_t seed)
+Scanner::Scanner(const ScanArea& area, const ScanSettings& settings, Surface surface, std::uint64_t seed,
+                 std::optional<TappingDetector> tapping)
     : area_((validate(area), area)),
       settings_((validate(settings), settings)),
       surface_(std::move(surface)),
-      loop_(settings, Time(tick_length()), seed) {
+      loop_(settings, Time(tick_length()), seed, std::move(tapping)) {
   look_for_swings();
   begin_frame(SlowDirection::Down);
 }
@@ -52,7 +59,8 @@ Scanner::Scanner(const ScanArea& area, const ScanSettings& settings, Surface sur
 // A loop beyond its limit grows until the tip leaves the sample in each period.
 void Scanner::look_for_swings() noexcept {
   constexpr double kShareOfHold = 0.5, kSmallestN = 1e-15;
-  const double hold_n = std::abs(settings_.setpoint.si) + settings_.adhesion.si;
+  const double hold_n =
+      loop_.tapping() != nullptr ? loop_.setpoint_m() : std::abs(settings_.setpoint.si) + settings_.adhesion.si;
   swings_.look_for(std::max(kShareOfHold * hold_n, kSmallestN), loop_.ringing_period_ticks());
 }
 
@@ -122,7 +130,7 @@ void Scanner::scan_segment(double x_m, double y_m, ScanPixel& pixel) {
   pixel.lowest_force_n = lowest_n;
   pixel.highest_force_n = highest_n;
   const double share = 1.0 / static_cast<double>(segments_ * ticks_of_segment_);
-  pixel.error_n += noise_m * share * settings_.spring_constant.si;
+  pixel.error_n += noise_m * share * loop_.per_metre();
   pixel.off_surface += static_cast<double>(off) * share;
   pixel.ringing += static_cast<double>(swings) * swings_.period_ticks() * share;
   if (there.second_apex) pixel.on_second_apex += static_cast<double>(ticks_of_segment_ - off) * share;
@@ -167,8 +175,15 @@ std::optional<ScanPixel> Scanner::next() {
   }
 
   pixel.height_m = loop_.topography_m();
-  pixel.error_n += loop_.force_n() - settings_.setpoint.si;
-  if (loop_.touching()) {
+  if (const TappingDetector* tapping = loop_.tapping()) {
+    pixel.error_n += loop_.deflection_m() - loop_.setpoint_m();
+    pixel.phase_deg = tapping->phase_rad() * 180.0 / std::numbers::pi;
+    pixel.energy_j = tapping->lost_j();
+    pixel.peak_force_n = tapping->peak_force_n();
+  } else {
+    pixel.error_n += loop_.force_n() - settings_.setpoint.si;
+  }
+  if (loop_.tapping() == nullptr && loop_.touching()) {
     pixel.lateral_n =
         lateral_force(Force(loop_.force_n()), settings_.adhesion, slope_, settings_.friction, pixel.pass).si;
   }
@@ -198,9 +213,16 @@ ScanImage scan_frame(Scanner& scanner, const std::function<bool(const ScanLine&)
     const char* unit;
     std::vector<double> ScanTrack::* values;
   };
-  constexpr Recorded kRecorded[] = {{"Height", "m", &ScanTrack::height_m},
-                                    {"Error", "N", &ScanTrack::error_n},
-                                    {"Lateral force", "N", &ScanTrack::lateral_n}};
+  static constexpr Recorded kContact[] = {{"Height", "m", &ScanTrack::height_m},
+                                          {"Error", "N", &ScanTrack::error_n},
+                                          {"Lateral force", "N", &ScanTrack::lateral_n}};
+  static constexpr Recorded kTapping[] = {{"Height", "m", &ScanTrack::height_m},
+                                          {"Amplitude error", "m", &ScanTrack::error_n},
+                                          {"Phase", "deg", &ScanTrack::phase_deg},
+                                          {"Energy dissipated", "J", &ScanTrack::energy_j},
+                                          {"Peak force", "N", &ScanTrack::peak_force_n}};
+  const bool tapping = scanner.loop().tapping() != nullptr;
+  const std::span<const Recorded> kept = tapping ? std::span<const Recorded>(kTapping) : kContact;
   const ScanArea& area = scanner.area();
   ScanImage image;
   image.columns = area.columns;
@@ -209,7 +231,7 @@ ScanImage scan_frame(Scanner& scanner, const std::function<bool(const ScanLine&)
   image.height_m = area.height.si;
   image.x_offset_m = area.x_centre.si - 0.5 * area.width.si;
   image.y_offset_m = area.y_centre.si + 0.5 * area.height.si;
-  for (const Recorded& recorded : kRecorded) {
+  for (const Recorded& recorded : kept) {
     for (const char* pass : {"", " (retrace)"}) {
       image.channels.push_back(
           {recorded.name + std::string(pass), recorded.unit,
@@ -218,7 +240,7 @@ ScanImage scan_frame(Scanner& scanner, const std::function<bool(const ScanLine&)
   }
   for (ScanLine line; scanner.next_line(line);) {
     std::size_t channel = 0;
-    for (const Recorded& recorded : kRecorded) {
+    for (const Recorded& recorded : kept) {
       for (const ScanTrack* track : {&line.trace, &line.retrace}) {
         std::copy((track->*recorded.values).begin(), (track->*recorded.values).end(),
                   image.channels[channel++].values.begin() + static_cast<std::ptrdiff_t>(line.row * area.columns));

@@ -19,6 +19,9 @@ std::string frequency_shift_csv(const FrequencyShiftRun& run);
 nlohmann::ordered_json tapping_json(const TappingRun& run);
 nlohmann::ordered_json frequency_shift_json(const FrequencyShiftRun& run);
 
+// What amplitude, phase, force, virial and heights mean.
+nlohmann::ordered_json tapping_conventions();
+
 // Approach dashed and retract solid: amplitude above phase; frequency shift.
 std::vector<SvgPlot> tapping_plots(const TappingRun& run);
 std::vector<SvgPlot> frequency_shift_plots(const FrequencyShiftRun& run);

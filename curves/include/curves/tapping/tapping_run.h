@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,15 @@ struct TappingOptions {
   std::string method{};          // tapping: averaged or direct; empty: by the quality factor
   std::string at{};              // a single height instead of a path
 };
+
+// A lever under its drive over a sample.
+struct DrivenSample {
+  std::shared_ptr<const physics::TapSurface> surface;
+  physics::DrivenLever lever;
+};
+
+// For the setup of driven_setup(). WrongUsage, naming the option, for a number that is none or not possible.
+core::Result<DrivenSample> driven_sample(const ContactSetup& setup, const TappingOptions& options);
 
 // One resting swing at a height.
 struct TapStateRow {

@@ -18,7 +18,8 @@ enum class ScanArtefact {
   None,
   LostContact,  // the tip is above the sample: setpoint too low, or the sample drifted away
   Ringing,      // the loop oscillates: gain too high for the z scanner or the tick rate
-  Parachuting,  // behind a step down the tip is off and the image a slope: too fast, or setpoint too low
+  Parachuting,  // behind a step down the tip is off (tapping: the error saturates) and the image a slope: too fast, or
+                // setpoint too near to the free state
   Overload,     // in front of a step up the lever presses harder than three times the setpoint
   DoubleTip,    // a second apex causes ghosts
   Drift,        // the sample moves during the scan: the image is sheared or stretched
@@ -90,6 +91,7 @@ struct ScanConditions {
   const ScanSettings& settings;
   const ScanArea& area;
   Frequency largest_integral_gain;  // ScanLoop::largest_integral_gain()
+  bool tapping = false;             // forces are then losses of amplitude, which cannot overload a tip
 };
 
 // The only judge for wall and --json: of the artefacts found, the one that hides all others. First a tip that is off or

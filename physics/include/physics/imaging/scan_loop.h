@@ -5,14 +5,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "physics/imaging/scan_settings.h"
+#include "physics/imaging/tapping_detector.h"
 #include "physics/normal_generator.h"
 #include "physics/units.h"
 
 namespace afm::physics {
 
-// Lever, controller and z scanner of a microscope in static contact mode, tick by tick of the controller.
+// Lever, controller and z scanner of a microscope in static contact or tapping mode, tick by tick of the controller.
 //
 //   lever       d = h - z while the tip touches; it leaves at d < -F_ad/k and touches again at a gap of snap_in; free:
 //               d = 0. h is the height traced by the apex, z the height of the unbent lever's apex.
@@ -21,6 +23,10 @@ namespace afm::physics {
 //               prevents integral windup at an end of the z range
 //   z scanner   z'' + (w0/Q) z' + w0^2 z = w0^2 u, exact for a command that is constant for a tick; z = u without
 //               resonance
+//
+// In tapping mode d is A0 - A, the loss of amplitude, d_set that of the setpoint, and `settings.setpoint` unused: the
+// error cannot exceed A0 - A_set in flight. force_n() is then d in metres, and the tip "touches" where it has lost a
+// tenth of d_set.
 //
 // - On a rigid contact and without Kp the loop is z' = (d - d_set)/tau, tau = 1/Ki, to first order in dt/tau.
 // - The same seed, settings and heights give the same path, bit for bit.
@@ -31,7 +37,8 @@ class ScanLoop {
   static constexpr std::size_t kMostDelayTicks = 64;
 
   // Starts engaged on z = 0. Throws UnphysicalValue as validate() does.
-  ScanLoop(const ScanSettings& settings, Time tick, std::uint64_t seed);
+  ScanLoop(const ScanSettings& settings, Time tick, std::uint64_t seed,
+           std::optional<TappingDetector> tapping = std::nullopt);
 
   // Takes effect from the next tick on; the motion continues. Throws as the constructor does, without any change.
   void change(const ScanSettings& settings, Time tick);
@@ -46,8 +53,14 @@ class ScanLoop {
   void tick(double height_m) noexcept {
     follow_command();
     const double gap_m = z_m_ - height_m;
-    touching_ = gap_m <= (touching_ ? pull_off_m_ : snap_in_m_);
-    deflection_m_ = touching_ ? -gap_m : 0.0;
+    if (tapping_) {
+      tapping_->advance(gap_m, angle_of_tick_);
+      deflection_m_ = tapping_->lever().free_amplitude.si - tapping_->amplitude_m();
+      touching_ = deflection_m_ > kLeastLoss * setpoint_m_;
+    } else {
+      touching_ = gap_m <= (touching_ ? pull_off_m_ : snap_in_m_);
+      deflection_m_ = touching_ ? -gap_m : 0.0;
+    }
     noise_now_m_ = noise_of_tick_m_ > 0.0 ? noise_of_tick_m_ * normal_() : 0.0;
     const double error_m = delayed(deflection_m_ + noise_now_m_) - setpoint_m_;
     if (feedback_) command(command_m_ + proportional_ * (error_m - error_m_) + integral_ * error_m);
@@ -66,10 +79,14 @@ class ScanLoop {
   double force_n() const noexcept { return spring_ * deflection_m_; }  // lever; negative: it holds the tip back
   double noise_m() const noexcept { return noise_now_m_; }             // detection noise in this tick
   double setpoint_m() const noexcept { return setpoint_m_; }
-  double topography_m() const noexcept { return z_m_ + setpoint_m_; }  // recorded height
+  double topography_m() const noexcept { return z_m_ - held_gap_m_; }  // recorded height
   bool touching() const noexcept { return touching_; }
+  double per_metre() const noexcept { return spring_; }  // of the error: k, or 1 in tapping mode
+  const TappingDetector* tapping() const noexcept { return tapping_ ? &*tapping_ : nullptr; }  // null: contact mode
 
  private:
+  static constexpr double kLeastLoss = 0.1;  // share of the loss of amplitude at the setpoint
+
   void set_swing(const ScanSettings& settings) noexcept;
   void find_limit();
   void follow_command() noexcept {
@@ -89,9 +106,9 @@ class ScanLoop {
     return detected_m_[(newest_ + detected_m_.size() - delay_ticks_) % detected_m_.size()];
   }
 
-  double tick_s_ = 0, spring_ = 0, setpoint_m_ = 0, pull_off_m_ = 0, snap_in_m_ = 0;
+  double tick_s_ = 0, spring_ = 0, setpoint_m_ = 0, held_gap_m_ = 0, pull_off_m_ = 0, snap_in_m_ = 0;
   double integral_ = 0, proportional_ = 0;  // per tick
-  double noise_of_tick_m_ = 0;
+  double noise_of_tick_m_ = 0, angle_of_tick_ = 0;
   double reach_m_ = 0;
   Frequency largest_gain_;
   double ringing_period_ticks_ = 2.0;
@@ -108,6 +125,7 @@ class ScanLoop {
   std::array<double, kMostDelayTicks + 1> detected_m_{};
   std::size_t newest_ = 0;
   NormalGenerator normal_;
+  std::optional<TappingDetector> tapping_;
 };
 
 }  // namespace afm::physics

@@ -25,6 +25,10 @@ struct ScanPixel {
   double height_m = 0;   // z + d_set
   double error_n = 0;    // k (d - d_set), with the detector's noise averaged over the pixel
   double lateral_n = 0;  // positive along -x: against the trace
+  // in tapping mode alone, where error_n is the amplitude error A_set - A in metres
+  double phase_deg = 0;     // lag behind the drive
+  double energy_j = 0;      // lost in the sample per swing
+  double peak_force_n = 0;  // at the lowest point of the swing
   // over all ticks since the previous pixel
   double lowest_force_n = 0;   // lever force
   double highest_force_n = 0;  // lever force
@@ -38,6 +42,7 @@ struct ScanTrack {
   std::vector<double> height_m;
   std::vector<double> error_n;
   std::vector<double> lateral_n;
+  std::vector<double> phase_deg, energy_j, peak_force_n;  // in tapping mode alone
   double lowest_force_n = 0;
   double highest_force_n = 0;
   double off_surface = 0;
@@ -51,8 +56,9 @@ struct ScanLine {
   ScanTrack retrace;
 };
 
-// Takes an image of a surface, pixel by pixel, like a microscope in static contact mode. Its time advances with the
-// pixels: a live window calls next() until time() has caught up with the clock, a batch calls it without waiting.
+// Takes an image of a surface, pixel by pixel, like a microscope in static contact or tapping mode. Its time advances
+// with the pixels: a live window calls next() until time() has caught up with the clock, a batch calls it without
+// waiting.
 //
 // - A line is a trace along +x and a retrace along -x at the same speed; between lines the tip moves to the next row
 //   within one pixel's time. Pixel (column, row) is at ((column + 1/2)/columns, (row + 1/2)/rows) of the area.
@@ -69,7 +75,8 @@ class Scanner {
   static constexpr std::size_t kSurfaceSamples = 16;
 
   // Throws UnphysicalValue as validate() does. `surface` must not be empty.
-  Scanner(const ScanArea& area, const ScanSettings& settings, Surface surface, std::uint64_t seed = 1);
+  Scanner(const ScanArea& area, const ScanSettings& settings, Surface surface, std::uint64_t seed = 1,
+          std::optional<TappingDetector> tapping = std::nullopt);
 
   // Throws UnphysicalValue as validate() does, without any change.
   void change(const ScanSettings& settings);
@@ -129,7 +136,8 @@ class Scanner {
 // latsim stores the value of the retrace with the other sign. `slope` is dh/dx = tan(theta).
 Force lateral_force(Force normal, Force adhesion, double slope, double mu, ScanPass pass) noexcept;
 
-// Scans the rest of a frame into channels "Height", "Error" and "Lateral force", each also with " (retrace)"; without
+// Scans the rest of a frame into channels "Height", "Error" and "Lateral force", in tapping mode "Height", "Amplitude
+// error", "Phase" (deg), "Energy dissipated" and "Peak force", each also with " (retrace)"; without
 // metadata, NaN where it was not scanned. Calls `taken` with each line; the scan ends if it returns false.
 ScanImage scan_frame(Scanner& scanner, const std::function<bool(const ScanLine&)>& taken = nullptr);
 

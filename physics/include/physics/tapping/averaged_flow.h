@@ -58,6 +58,9 @@ class AveragedFlow {
   // A resting swing in full.
   RestingTap describe(const TapState& state, Length z) noexcept;
 
+  // Averages of a swing of this amplitude, shifted as its lowest point is. The reference is valid until the next call.
+  const SwingAverages& averages(Length amplitude, Length z) noexcept { return averages_at(amplitude.si, z.si); }
+
   // Every resting swing at `z`, the smallest amplitude first, stable or not.
   std::vector<RestingTap> resting_at(Length z);
 

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/commands/scan_command.h"
+#include "support/places.h"
+#include "support/scratch_folder.h"
+
+namespace afm::app {
+namespace tapping_scan_command_test {
+
+using testing::HasSubstr;
+
+ScanOptions tapping_options() {
+  ScanOptions options;
+  options.contact.assets_dir = support::source("assets");
+  options.contact.material = "mica";
+  options.contact.values["spring-constant"] = "40N/m";
+  options.contact.values["resonance"] = "300kHz";
+  options.contact.values["quality-factor"] = "400";
+  options.tapping.mode = "tapping";
+  options.tapping.numbers.free_amplitude = "20nm";
+  options.amplitude_setpoint = "0.8";
+  options.pixels = 8;
+  return options;
+}
+
+std::string refusal(const ScanOptions& options) {
+  const auto scan = imaging::take_scan(options);
+  return scan ? "taken" : scan.error().message;
+}
+
+TEST(TappingScanCommand, SaysWhatItDidWithItsConventions) {
+  const auto scan = imaging::take_scan(tapping_options());
+  ASSERT_TRUE(scan) << scan.error().message;
+  const nlohmann::json json = imaging::scan_json(*scan);
+  EXPECT_DOUBLE_EQ(json["tapping"]["setpoint_m"].get<double>(), 16e-9);
+  EXPECT_THAT(json["tapping"]["conventions"]["phase"].get<std::string>(), HasSubstr("lag of the tip"));
+  EXPECT_EQ(json["tapping"]["conventions"]["amplitude"], "zero-to-peak");
+  EXPECT_EQ(json["tapping"]["regime_changes"], 0);
+  EXPECT_EQ(json["tapping"]["attractive_share"], 0.0);
+  EXPECT_GT(json["tapping"]["largest_peak_force_N"].get<double>(), 1e-9);
+  EXPECT_FALSE(json["settings"].contains("setpoint_N"));
+  EXPECT_EQ(json["channels"].size(), 10U);
+}
+
+TEST(TappingScanCommand, TakesALengthForTheSetpointToo) {
+  ScanOptions options = tapping_options();
+  const auto share = imaging::take_scan(options);
+  options.amplitude_setpoint = "16nm";
+  const auto length = imaging::take_scan(options);
+  ASSERT_TRUE(share && length);
+  EXPECT_EQ(share->image.channels[0].values, length->image.channels[0].values);
+}
+
+TEST(TappingScanCommand, RefusesWithTheReason) {
+  ScanOptions soft = tapping_options();
+  soft.contact.values["quality-factor"] = "50";
+  EXPECT_THAT(refusal(soft), HasSubstr("quality factor of at least 100, not 50"));
+  for (const char* model : {"paper", "hao"}) {
+    ScanOptions options = tapping_options();
+    options.contact.model = model;
+    EXPECT_THAT(refusal(options), HasSubstr("needs the force as a function of the tip's height")) << model;
+  }
+  ScanOptions high = tapping_options();
+  high.amplitude_setpoint = "1.2";
+  EXPECT_THAT(refusal(high), HasSubstr("setpoint"));
+  ScanOptions contact = tapping_options();
+  contact.tapping = {};
+  EXPECT_THAT(refusal(contact), HasSubstr("in contact mode it is a force"));
+  ScanOptions sticky = tapping_options();
+  sticky.settings.emplace_back(&physics::kScanFields[9], 1e-9);
+  ASSERT_EQ(physics::kScanFields[9].name, "adhesion");
+  EXPECT_THAT(refusal(sticky), HasSubstr("--adhesion has no effect on --mode tapping"));
+}
+
+}  // namespace tapping_scan_command_test
+}  // namespace afm::app
