@@ -130,7 +130,8 @@ void add_pushes(const TrialGroups& pushes, LessonResults& results) {
       PushRow{"strokes", "pushes", "", 1.0, kNotNegative, [](const auto& trial) { return trial.strokes; }},
       PushRow{"losses", "slipped past", "", 1.0, kNotNegative, [](const auto& trial) { return trial.losses; }},
       PushRow{"undos", "pushes taken back", "", 1.0, kNotNegative, [](const auto& trial) { return trial.undos; }},
-      PushRow{"work_J", "work on the particles", "aJ", 1e18, {}, [](const auto& trial) { return trial.work_j; }},
+      PushRow{"work_J", "work on the particles", "aJ", 1e18, Interval{-kUnbounded, kUnbounded},
+              [](const auto& trial) { return trial.work_j; }},
       PushRow{"largest_force_N", "largest lateral force", "nN", 1e9, kNotNegative,
               [](const auto& trial) { return trial.largest_force_n; }}};
   const TrialGroups groups = before_and_after(pushes);

@@ -69,6 +69,11 @@ TEST_F(DataSetTest, HasItsTablesAndTheirDescriptions) {
   const auto json = nlohmann::json::parse(text("sub-ABCDEF/beh/sub-ABCDEF_task-test_events.json"));
   EXPECT_EQ(json["onset"]["Units"], "s");
   EXPECT_EQ(json["trial_type"]["Levels"].size(), kStepKinds.size());
+  for (const char* column : {"strokes", "losses", "undos", "work", "largest_force", "aids"}) {
+    EXPECT_TRUE(json.contains(column) && json[column].contains("Description")) << column;
+  }
+  EXPECT_EQ(json["work"]["Units"], "aJ");
+  EXPECT_EQ(json["largest_force"]["Units"], "nN");
   EXPECT_EQ(json["Lesson"]["title"]["de"], "Prüfung");
   EXPECT_EQ(json["Lesson"]["seed"], 12);
   EXPECT_EQ(json["Lesson"]["device"], "mouse");
