@@ -16,6 +16,7 @@
 #include "curves/angle_units.h"
 #include "curves/tapping/tapping_output.h"
 #include "physics/imaging/scan_truth.h"
+#include "physics/tapping/averaged_flow.h"
 
 namespace afm::imaging {
 namespace {

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "curves/curve_run.h"
+#include "curves/tapping/tapping_run.h"
 #include "physics/law.h"
 #include "physics/quantity_text.h"
 

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "physics/tapping/driven_lever.h"
+
 namespace afm::physics {
 
 ScanLoop::ScanLoop(const ScanSettings& settings, Time tick, std::uint64_t seed, std::optional<TappingDetector> tapping)

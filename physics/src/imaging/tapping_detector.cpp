@@ -6,6 +6,9 @@
 #include <numbers>
 
 #include "physics/quantity_text.h"
+#include "physics/tapping/averaged_flow.h"
+#include "physics/tapping/driven_lever.h"
+#include "physics/tapping/tap_surface.h"
 #include "require_range.h"
 
 namespace afm::physics {
@@ -14,10 +17,10 @@ namespace {
 constexpr std::size_t kAmplitudes = 48;
 constexpr double kFinestGap = 0.1e-9;    // m; from contact this far the columns are evenly spaced, then by factors
 constexpr double kGapStep = 0.025;       // step in asinh(gap/kFinestGap)
-constexpr double kFirstShare = 0.01;     // of the free amplitude, the first row
-constexpr double kLastShare = 1.25;      // of the free amplitude, the last row
+constexpr double kFirstShare = 0.01;     // first row, as a share of the free amplitude
+constexpr double kLastShare = 1.25;      // last row, as a share of the free amplitude
 constexpr double kFarthestGap = 300e-9;  // gap of the last column
-constexpr double kLongestShare = 0.1;    // of the relaxation, a step
+constexpr double kLongestShare = 0.1;    // longest step, as a share of the relaxation
 constexpr double kLargestTurn = 0.25;    // rad a step
 constexpr double kMostTapSteps = 48.0;   // per call
 
@@ -25,7 +28,10 @@ constexpr double kMostTapSteps = 48.0;   // per call
 
 TappingDetector::TappingDetector(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
                                  Length setpoint)
-    : lever_(lever), setpoint_m_(setpoint.si), contact_m_(surface->contact_height().si) {
+    : lever_(std::make_shared<const DrivenLever>(lever)),
+      free_amplitude_m_(lever.free_amplitude.si),
+      setpoint_m_(setpoint.si),
+      contact_m_(surface->contact_height().si) {
   const double a0 = lever.free_amplitude.si;
   require_range("quality_factor", lever.quality_factor, AveragedFlow::kLeastQuality, 1e5, kPlainNumber);
   require_range("setpoint", setpoint, Length(0.01 * a0), Length(0.999 * a0), kLengthUnits);
@@ -36,8 +42,8 @@ TappingDetector::TappingDetector(const std::shared_ptr<const TapSurface>& surfac
 }
 
 void TappingDetector::find_setpoint(AveragedFlow& flow) {
-  const double a0 = lever_.free_amplitude.si, step = a0 / 200.0;
-  TapState state{lever_.free_amplitude, lever_.free_phase};
+  const double a0 = lever_->free_amplitude.si, step = a0 / 200.0;
+  TapState state{lever_->free_amplitude, lever_->free_phase};
   double above = contact_m_ + a0 + std::max(2e-9, 0.5 * a0);
   const double end = contact_m_ - a0;
   for (double z = above - step; z > end; z -= step) {
@@ -69,7 +75,7 @@ void TappingDetector::find_setpoint(AveragedFlow& flow) {
 }
 
 void TappingDetector::build_table(AveragedFlow& flow) {
-  const double a0 = lever_.free_amplitude.si;
+  const double a0 = lever_->free_amplitude.si;
   least_amplitude_m_ = kFirstShare * a0;
   amplitude_step_m_ = (kLastShare - kFirstShare) * a0 / static_cast<double>(kAmplitudes - 1);
   least_x_ = -std::asinh(2.0 * a0 / kFinestGap);
@@ -107,8 +113,8 @@ TappingDetector::Node TappingDetector::sample(double amplitude_m, double gap_m) 
 }
 
 void TappingDetector::advance(double gap_m, double angle) noexcept {
-  const double k = lever_.spring_constant.si, r = lever_.ratio, q = lever_.quality_factor;
-  const double drive = lever_.base_amplitude.si / (2.0 * r);
+  const double k = lever_->spring_constant.si, r = lever_->ratio, q = lever_->quality_factor;
+  const double drive = lever_->base_amplitude.si / (2.0 * r);
   const double lowest = least_amplitude_m_ * 1e-3;
   struct Rates {
     double g, w;

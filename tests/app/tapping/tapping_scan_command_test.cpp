@@ -72,8 +72,8 @@ TEST(TappingScanCommand, RefusesWithTheReason) {
   contact.tapping = {};
   EXPECT_THAT(refusal(contact), HasSubstr("in contact mode it is a force"));
   ScanOptions sticky = tapping_options();
-  sticky.settings.emplace_back(&physics::kScanFields[9], 1e-9);
-  ASSERT_EQ(physics::kScanFields[9].name, "adhesion");
+  sticky.settings.emplace_back(&physics::kScanFields[10], 1e-9);
+  ASSERT_EQ(physics::kScanFields[10].name, "adhesion");
   EXPECT_THAT(refusal(sticky), HasSubstr("--adhesion has no effect on --mode tapping"));
 }
 

@@ -5,9 +5,12 @@
 
 #include "core/result.h"
 #include "curves/contact_options.h"
-#include "curves/tapping/tapping_run.h"
+#include "curves/contact_setup.h"
+#include "curves/tapping/tapping_options.h"
 
 namespace afm::curves {
+
+struct PathOptions;
 
 // A vibrating lever as a user describes it; empty text: not given.
 struct TappingChoice {

@@ -9,21 +9,12 @@
 #include "core/result.h"
 #include "curves/contact_setup.h"
 #include "curves/curve_run.h"
+#include "curves/tapping/tapping_options.h"
 #include "physics/adhesion_map.h"
 #include "physics/tapping/frequency_shift.h"
 #include "physics/tapping/tapping_curve.h"
 
 namespace afm::curves {
-
-// Numbers of a vibrating lever, as typed; empty: not given.
-struct TappingOptions {
-  std::string free_amplitude{};  // tapping: needed
-  std::string amplitude{};       // fm: needed
-  std::string drive{};           // tapping; empty: at the resonance
-  std::string viscosity{};       // viscosity of the contact; empty: none
-  std::string method{};          // tapping: averaged or direct; empty: by the quality factor
-  std::string at{};              // a single height instead of a path
-};
 
 // A lever under its drive over a sample.
 struct DrivenSample {

@@ -55,7 +55,7 @@ class ScanLoop {
     const double gap_m = z_m_ - height_m;
     if (tapping_) {
       tapping_->advance(gap_m, angle_of_tick_);
-      deflection_m_ = tapping_->lever().free_amplitude.si - tapping_->amplitude_m();
+      deflection_m_ = tapping_->free_amplitude_m() - tapping_->amplitude_m();
       touching_ = deflection_m_ > kLeastLoss * setpoint_m_;
     } else {
       touching_ = gap_m <= (touching_ ? pull_off_m_ : snap_in_m_);
@@ -81,7 +81,7 @@ class ScanLoop {
   double setpoint_m() const noexcept { return setpoint_m_; }
   double topography_m() const noexcept { return z_m_ - held_gap_m_; }  // recorded height
   bool touching() const noexcept { return touching_; }
-  double per_metre() const noexcept { return spring_; }  // of the error: k, or 1 in tapping mode
+  double per_metre() const noexcept { return spring_; }  // unit of the error per metre: k, or 1 in tapping mode
   const TappingDetector* tapping() const noexcept { return tapping_ ? &*tapping_ : nullptr; }  // null: contact mode
 
  private:

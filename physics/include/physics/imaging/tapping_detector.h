@@ -5,12 +5,13 @@
 #include <memory>
 #include <vector>
 
-#include "physics/tapping/averaged_flow.h"
-#include "physics/tapping/driven_lever.h"
-#include "physics/tapping/tap_surface.h"
 #include "physics/units.h"
 
 namespace afm::physics {
+
+class AveragedFlow;
+class TapSurface;
+struct DrivenLever;
 
 // What a microscope in tapping mode detects over a surface whose height changes: the averaged flow of AveragedFlow in
 // the variables u = A cos(phi), v = A sin(phi), time in 1/w0:
@@ -42,7 +43,8 @@ class TappingDetector {
   double lost_j() const noexcept { return contact_.lost; }        // in the sample, per swing
   double peak_force_n() const noexcept { return contact_.peak; }  // at the lowest point of the swing
 
-  const DrivenLever& lever() const noexcept { return lever_; }
+  const DrivenLever& lever() const noexcept { return *lever_; }
+  double free_amplitude_m() const noexcept { return free_amplitude_m_; }
   double setpoint_m() const noexcept { return setpoint_m_; }
   double engaged_gap_m() const noexcept { return engaged_gap_m_; }  // height of the base after engage()
 
@@ -55,14 +57,14 @@ class TappingDetector {
   void find_setpoint(AveragedFlow& flow);
   Node sample(double amplitude_m, double gap_m) const noexcept;
 
-  DrivenLever lever_;
-  double setpoint_m_ = 0, contact_m_ = 0;
+  std::shared_ptr<const DrivenLever> lever_;
+  double free_amplitude_m_ = 0, setpoint_m_ = 0, contact_m_ = 0;
   double least_amplitude_m_ = 0, amplitude_step_m_ = 0, least_x_ = 0;
   std::size_t columns_ = 0;
   std::shared_ptr<const std::vector<Node>> table_;
   double engaged_gap_m_ = 0, engaged_u_ = 0, engaged_v_ = 0;
   double u_ = 0, v_ = 0;
-  Node contact_;  // of the newest swing
+  Node contact_;  // newest swing
 };
 
 }  // namespace afm::physics
