@@ -14,7 +14,7 @@ constexpr double kNm = 1e-9;
 constexpr double kDiscRadius = 5e-3, kDiscThickness = 0.36e-3;
 constexpr double kInnermost = 0.4 * kNm;
 constexpr double kRingRatio = 1.07;  // cells about as long as wide before the tip
-constexpr int kHalvings = 6;                                       // 256 directions, of which half are used before the tip
+constexpr int kHalvings = 6;         // 256 directions, of which half are used before the tip
 constexpr double kAtomsReach = 3.3 * kNm, kAtomsSink = 2.0 * kNm;  // from there outwards fewer and fewer are seen
 constexpr double kBelowAtoms = 0.36 * kNm;                         // depth of the ground below the atoms
 constexpr std::int64_t kAtomRows = 15, kAtomColumns = 21;          // enough for that reach
