@@ -172,7 +172,7 @@ TEST(FrictionPanel, ShowsThreePeriodsOfALatticeAroundTheTipInWholePeriods) {
   for (const double at_m : {3.1e-9, 3.4e-9}) {
     hand.to(at_m);
     const render::ForcePanel panel = panel_of(history, FrictionLaw::Lattice);
-    EXPECT_EQ(panel.stage, "atom by atom: 3 of 20 periods");
+    EXPECT_EQ(panel.stage, "3 of 20 periods");
     EXPECT_EQ(values(panel)[0], "half width 700 pN") << "of the whole loop";
     for (const render::PlotCurve& curve : panel.curves) {
       for (const auto* points : {&curve.approach, &curve.retract}) {

@@ -66,7 +66,7 @@ TEST_F(ParticlesPanel, SaysThatATipWhichSticksHoldsOrDrags) {
   EXPECT_EQ(row(panel(push), Phrase::PushNormal).value, "-0.26 nN");
   const render::DataRow tears = row(panel(push), Phrase::ParticleTearsAt);
   EXPECT_EQ(tears.value, "1.49 nN");
-  EXPECT_THAT(tears.source, StartsWith("on its flank, by 20 mJ/m\u00b2; estimated: silicon oxide on gold"));
+  EXPECT_THAT(tears.source, StartsWith("20 mJ/m\u00b2; estimated: silicon oxide on gold"));
   push.state = PushState::Holds;
   EXPECT_EQ(row(panel(push), Phrase::PushStateName).value, "holds the tip");
 }

@@ -53,7 +53,9 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   Painter painter(2.0 * width_px / stage.screen.width_m(), stage.wall_scene.panel_millimetre_m());
   const auto expect_whole = [&](const auto& panel, const render::PanelPlacement& placement, const char* name) {
     const Painted painted = painter.paint(panel, placement);
-    EXPECT_TRUE(painted.inside()) << where << ": " << name;
+    EXPECT_TRUE(painted.inside()) << where << ": " << name << " covers " << painted.low.x << ", " << painted.low.y
+                                  << " to " << painted.high.x << ", " << painted.high.y << " of " << painted.size.x
+                                  << ", " << painted.size.y;
     EXPECT_FALSE(painted.cut) << where << ": " << name << " is cut";
   };
   const render::Banner shown = full_banner(phrases, frame.panels.banner.content);

@@ -57,24 +57,27 @@ void add_strokes(const Run& run, const physics::FrictionLoop& loop, const Phrase
                     .retract = {}});
 }
 
-// Shows whole periods around a place, so that the teeth stay where they are while the tip moves on.
-void zoom_to(double place_nm, double period_nm, render::ForcePanel& panel) {
-  const double low_nm = (std::floor(place_nm / period_nm) - kPeriodsBeside) * period_nm;
-  const double high_nm = low_nm + kShownPeriods * period_nm;
-  const auto outside = [&](const render::PlotPoint& point) {
-    return point.place_nm < low_nm || point.place_nm > high_nm;
-  };
-  for (render::PlotCurve& curve : panel.curves) {
-    std::erase_if(curve.approach, outside);
-    std::erase_if(curve.retract, outside);
-  }
-}
-
+// Places along a stroke, or a part of it.
 struct Stroke {
   double low_nm = std::numeric_limits<double>::infinity(), high_nm = -low_nm;
 
   double length_nm() const { return high_nm - low_nm; }
 };
+
+// Shows whole periods around a place, so that the teeth stay where they are while the tip moves on.
+Stroke zoom_to(double place_nm, double period_nm, render::ForcePanel& panel) {
+  const double low_nm = (std::floor(place_nm / period_nm) - kPeriodsBeside) * period_nm;
+  const Stroke shown{.low_nm = low_nm, .high_nm = low_nm + kShownPeriods * period_nm};
+  const auto outside = [&](const render::PlotPoint& point) {
+    return point.place_nm < shown.low_nm || point.place_nm > shown.high_nm;
+  };
+  for (render::PlotCurve& curve : panel.curves) {
+    std::erase_if(curve.approach, outside);
+    std::erase_if(curve.retract, outside);
+  }
+  return shown;
+}
+
 Stroke stroke_of(const render::ForcePanel& panel) {
   Stroke stroke;
   for (const render::PlotCurve& curve : panel.curves) {
@@ -88,9 +91,9 @@ Stroke stroke_of(const render::ForcePanel& panel) {
   return stroke;
 }
 
-void fit_axes(render::ForcePanel& panel) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  double left = kNone, right = -kNone, low = -kLeastForceNn, high = kLeastForceNn;
+// `along`: the places to show, those of the curves at least.
+void fit_axes(Stroke along, render::ForcePanel& panel) {
+  double &left = along.low_nm, &right = along.high_nm, low = -kLeastForceNn, high = kLeastForceNn;
   for (const render::PlotCurve& curve : panel.curves) {
     for (const auto* points : {&curve.approach, &curve.retract}) {
       for (const render::PlotPoint& point : *points) {
@@ -138,7 +141,7 @@ render::ForcePanel friction_panel(const FrictionHistory& history, const physics:
                  .decimal_mark = phrases.decimal_mark()};
   if (law == physics::FrictionLaw::None) {
     panel.stage = phrases[Phrase::FrictionOff];
-    fit_axes(panel);
+    fit_axes({}, panel);
     return panel;
   }
   const Run now = physics::along_main_line(history.contact());
@@ -159,14 +162,15 @@ render::ForcePanel friction_panel(const FrictionHistory& history, const physics:
                                    : phrases[Phrase::FrictionAdvice];
   if (history.attached() && !now.empty()) panel.cursor = plotted(now.back());
   const Stroke stroke = stroke_of(panel);
+  Stroke shown = stroke;
   const double period_nm = friction.period.si * curves::kNmPerM;
   if (law == physics::FrictionLaw::Lattice && stroke.length_nm() > kManyPeriods * period_nm) {
-    zoom_to(panel.cursor ? panel.cursor->place_nm : 0.5 * (stroke.low_nm + stroke.high_nm), period_nm, panel);
+    shown = zoom_to(panel.cursor ? panel.cursor->place_nm : 0.5 * (stroke.low_nm + stroke.high_nm), period_nm, panel);
     if (growing || earlier)
       panel.stage = phrases.text<Phrase::FrictionZoomed>(fmt::format("{:.0f}", kShownPeriods),
                                                          fmt::format("{:.0f}", stroke.length_nm() / period_nm));
   }
-  fit_axes(panel);
+  fit_axes(shown, panel);
   return panel;
 }
 

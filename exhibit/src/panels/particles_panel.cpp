@@ -159,7 +159,7 @@ class ParticleRows {
       const std::string work = quantity_text(kind.tip_adhesion, physics::kSurfaceEnergyUnits, phrases_);
       const std::string source = source_text(now_.set->species[species_index()].sources, "tip_adhesion", phrases_);
       add(Phrase::ParticleTearsAt, force_text(physics::tip_pull_off(now_.set->setup.tip, kind, true), phrases_),
-          phrases_.text<Phrase::ParticleTearsBy>(work) + (source.empty() ? "" : "; " + source));
+          work + (source.empty() ? "" : "; " + source));
     }
     const std::string lever =
         phrases_.number(format_quantity(now_.set->setup.springs.lateral, physics::kStiffnessUnits, kDigits));

@@ -126,7 +126,7 @@ void TappingDetector::advance(double gap_m, double angle) noexcept {
                  (r * r - 1.0) / (2.0 * r) + contact_.virial / stored};
   };
   double left = angle;
-  for (double steps = 0.0; left > 0.0; ++steps) {
+  while (left > 0.0) {
     const Rates first = rates(u_, v_);
     const double turn = kLargestTurn / std::max(std::abs(first.w), 1e-12);
     const double wanted = std::min({left, 2.0 * q * kLongestShare, turn});

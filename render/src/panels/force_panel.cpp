@@ -178,7 +178,9 @@ void paint_axes(Canvas& canvas, const Plot& plot, double place_step, double forc
     const float x = plot.x(at);
     canvas.line({x, plot.top_left.y}, {x, plot.bottom_right.y}, 1.5F, palette::kGrid);
     canvas.line({x, plot.bottom_right.y}, {x, plot.bottom_right.y + 9.0F}, 2.5F, palette::kAxis);
-    canvas.text({x, plot.bottom_right.y + 12.0F}, TextStyle::Body, palette::kMuted, tick_text(at, place_step, mark),
+    const std::string number = tick_text(at, place_step, mark);
+    const float right = canvas.size_mm().x - 0.5F * canvas.text_width_mm(TextStyle::Body, number);
+    canvas.text({std::min(x, right), plot.bottom_right.y + 12.0F}, TextStyle::Body, palette::kMuted, number,
                 Align::Center);
   }
   for (double f = std::ceil(plot.force_min / force_step - 1e-9) * force_step; f <= plot.force_max + 1e-9 * force_step;

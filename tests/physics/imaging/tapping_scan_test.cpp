@@ -148,7 +148,7 @@ TEST(TappingDetector, RestsWhereTheAveragedFlowDoes) {
 
 // T47
 TEST(TappingScan, AFlippedStateIsAFalseStepOnFlatGround) {
-  // the reference is without the shift of the lowest point by mean deflection and harmonics, which makes 2 %
+  // 2 % from the reference, which leaves out the shift of the lowest point by mean deflection and harmonics
   EXPECT_NEAR(held(18.0, false).z_nm - held(18.0, true).z_nm, -1.5127, 0.035);
   EXPECT_NEAR(held(18.0, false).phase_deg - held(18.0, true).phase_deg, -51.68, 0.2);
   TappingDetector detector = detector_at(18.0);

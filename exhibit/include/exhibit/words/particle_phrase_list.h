@@ -42,7 +42,6 @@
   PHRASE(ParticleShearStrength, "particle-shear-strength", "", kLine)      \
   PHRASE(ParticleCoefficient, "particle-coefficient", "", kLine)           \
   PHRASE(ParticleTearsAt, "particle-tears-at", "", kLine)                  \
-  PHRASE(ParticleTearsBy, "particle-tears-by", "work", kLine)              \
   PHRASE(LeverSideways, "lever-sideways", "", kLine)                       \
   PHRASE(LeverSoftened, "lever-softened", "", kLine)                       \
   PHRASE(TimesSofter, "times-softer", "factor", kLine)                     \
