@@ -60,7 +60,7 @@ bool is_fine(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room
   const double pixels_per_unit =
       0.5 * pixels_high * std::abs(eye.projection[1][1]) * scale_of(room_from_node).most / middle.w;
   return static_cast<double>(draw.usual_edge) * pixels_per_unit < kFineEdgePx &&
-         static_cast<double>(draw.longest_edge) * pixels_per_unit < kLongestEdgePx;
+         (draw.reshaped || static_cast<double>(draw.longest_edge) * pixels_per_unit < kLongestEdgePx);
 }
 
 // True if the light varies slowly enough to be computed per vertex: along an edge, the direction in which the eye sees
@@ -77,6 +77,7 @@ bool is_smooth(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& ro
 
 Shading shading(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node, double pixels_high) {
   if (is_fine(draw, eye, room_from_node, pixels_high)) return Shading::ByVertex;
+  if (draw.reshaped) return Shading::ByFragment;  // how far its normals turn is not known
   return is_smooth(draw, eye, room_from_node) ? Shading::LightByVertex : Shading::ByFragment;
 }
 
@@ -118,8 +119,7 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
     }
     if (seen) {
       const bool copied = draw.most_copies > 0;
-      if (!list.hazy && !copied && !draw.reshaped)
-        list.shading[i] = shading(draw, frame.eyes[0], room_from_node, pixels_high);
+      if (!list.hazy && !copied) list.shading[i] = shading(draw, frame.eyes[0], room_from_node, pixels_high);
       // copies that move among themselves keep their place in the order
       const glm::dvec3 middle = copied ? glm::dvec3(0.0) : box.center;
       const double distance = glm::distance(viewer, glm::dvec3(room_from_node * glm::dvec4(middle, 1.0)));

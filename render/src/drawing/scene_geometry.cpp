@@ -164,6 +164,7 @@ void reshape(Draw& draw, std::uint32_t first_vertex) {
   AFM_CHECK(!draw.variant);  // drawn by the plain pipelines
   draw.reshaped = true;
   draw.casts_shadow = false;
+  draw.longest_edge = 2.0F * glm::length(draw.half_size);
   draw.first_vertex = static_cast<std::int32_t>(first_vertex);
 }
 
