@@ -14,9 +14,11 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "core/clock.h"
@@ -60,6 +62,17 @@ bool until(ServoClient& link, const std::function<bool(const scene::TipState&)>&
   return eventually([&] { return link.poll(core::MonotonicClock().now_ns()) && condition(link.tip()); });
 }
 
+bool no_thread_runs(pid_t process) {
+  std::error_code gone;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task", gone)) {
+    std::ifstream file(thread.path() / "stat");
+    const std::string stat{std::istreambuf_iterator<char>(file), {}};
+    const std::size_t state = stat.rfind(") ");  // after the name
+    if (state != std::string::npos && std::string("TtZX").find(stat[state + 2]) == std::string::npos) return false;
+  }
+  return true;
+}
+
 // A renderer in a separate process: it has chosen gold, edited mica, holds the hand at a place where no servo starts,
 // and sends heartbeats until it is killed. Its servo then becomes a child of this process.
 class Predecessor {
@@ -93,7 +106,11 @@ class Predecessor {
     return WEXITSTATUS(status);
   }
 
-  void stop_servo() const { ::kill(servo_, SIGSTOP); }
+  // A signal reaches a process's threads one after the other.
+  void stop_servo() const {
+    ::kill(servo_, SIGSTOP);
+    EXPECT_TRUE(eventually([this] { return no_thread_runs(servo_); }));
+  }
   void kill_servo() {
     ::kill(servo_, SIGKILL);
     ::waitpid(servo_, nullptr, 0);
