@@ -68,6 +68,7 @@ HeightRelief relief_of(std::span<const double> height_m, double side_m, const Re
     return std::isfinite(measured_m) ? std::optional(unit(measured_m)) : std::nullopt;
   };
   std::vector<glm::vec4> colours;
+  colours.reserve(kColours);
   for (int i = 0; i < kColours; ++i) colours.push_back(linear_colour(height_colour(i / (kColours - 1.0))));
   relief.vertices.reserve(height_m.size());
   for (std::size_t row = 0; row < kReliefSide; ++row) {
