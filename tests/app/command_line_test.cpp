@@ -18,7 +18,7 @@
 #include "haptics/device_registry.h"
 #include "scene/shared/scale_modes.h"
 #include "support/places.h"
-#include "support/run_touchafm.h"
+#include "support/programs/run_touchafm.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {

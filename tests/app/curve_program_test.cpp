@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "support/run_touchafm.h"
+#include "support/programs/run_touchafm.h"
 #include "support/scratch_folder.h"
 
 // `touchafm curve` and `touchafm material` as people run them: exit codes, one line for what is refused, and nothing

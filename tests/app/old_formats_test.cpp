@@ -6,7 +6,7 @@
 #include <string>
 
 #include "support/places.h"
-#include "support/run_touchafm.h"
+#include "support/programs/run_touchafm.h"
 #include "support/scratch_folder.h"
 
 // Every file that an earlier version wrote is still read: tests/formats/README.md.

@@ -7,7 +7,7 @@
 
 #include "core/whole_file.h"
 #include "support/places.h"
-#include "support/run_touchafm.h"
+#include "support/programs/run_touchafm.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {

@@ -19,7 +19,7 @@
 #include "core/whole_file.h"
 #include "support/live_program.h"
 #include "support/places.h"
-#include "support/run_touchafm.h"
+#include "support/programs/run_touchafm.h"
 #include "support/scratch_folder.h"
 
 // `touchafm generate`: the truth is what `touchafm analyse` finds, and files come with their truth or not at all.

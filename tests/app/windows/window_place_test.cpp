@@ -169,12 +169,11 @@ TEST(WindowOfADisplay, With30BitsShowsThePictureOfOneWith24) {
       return std::count_if(image.rgba.begin(), image.rgba.end(), [](std::uint8_t value) { return value > 40; }) >
              std::ptrdiff_t{320} * 240 * 3 / 2;
     };
-    render::Image image = display.screenshot();
-    for (int i = 0; i < 200 && !bright(image); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    render::Image image;
+    EXPECT_TRUE(eventually([&] {
       image = display.screenshot();
-    }
-    EXPECT_TRUE(bright(image)) << depth;
+      return bright(image);
+    })) << depth;
     program.signal(SIGTERM);
     EXPECT_EQ(program.ends(), 0) << program.said();
     return image;
