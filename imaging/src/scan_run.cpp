@@ -160,10 +160,10 @@ nlohmann::json tapping_json(const Scan& scan) {
       return static_cast<double>(std::count_if(channel.values.begin(), channel.values.end(), rule));
     };
     if (channel.name == "Phase") {
-      const auto apart = [&](double one, double other) { return (one > free_deg) != (other > free_deg); };
       std::size_t changes = 0;
-      for (std::size_t i = 1; i < channel.values.size(); ++i) {
-        changes += i % scan.image.columns != 0 && apart(channel.values[i - 1], channel.values[i]) ? 1U : 0U;
+      for (std::size_t row = 0; row < scan.image.rows; ++row) {
+        changes += physics::changes_of_state(
+            std::span(channel.values).subspan(row * scan.image.columns, scan.image.columns), free_deg);
       }
       result["regime_changes"] = changes;
       result["attractive_share"] = of_values([&](double phase_deg) { return phase_deg > free_deg; }) / count;
@@ -227,11 +227,11 @@ core::Result<Scan> take_scan(const ScanRequest& request, const std::stop_token& 
     physics::Scanner scanner(area, scan.settings, surface->height_m, request.seed, scan.tapping);
     scanner.begin_frame(request.direction);
     std::size_t lines = 0;
-    physics::NewestLines newest;
+    physics::NewestLines newest(scanner.loop().tapping());
     scan.image = physics::scan_frame(scanner, [&](const physics::ScanLine& line) {
       newest.add(line, scanner.time().si);
       ++scan.lines_with[physics::main_artefact(
-          {scan.settings, area, scanner.loop().largest_integral_gain(), scan.tapping.has_value()}, newest.evidence())];
+          {scan.settings, area, scanner.loop().largest_integral_gain(), scanner.loop().tapping()}, newest.evidence())];
       ++lines;
       if (area.rows >= kManyLines && lines % (area.rows / 8) == 0 && lines < area.rows) {
         core::log_line(fmt::format("scanned {} of {} lines", lines, area.rows));

@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
+
+#include "physics/imaging/tapping_detector.h"
+#include "physics/tapping/driven_lever.h"
 
 namespace afm::physics {
 namespace {
@@ -18,6 +22,8 @@ constexpr double kNoiseShare = 0.03;       // ratio of the noise's standard devi
 constexpr double kOnlyNoise = 10.0;        // ratio of a relief to the noise that alone could make it
 constexpr double kParachuteShare = 0.004;  // share of a line's time; a shorter flight is invisible
 constexpr double kOverloadFactor = 3.0;    // multiple of the setpoint
+constexpr double kStoppedShare = 0.9;      // share of the free amplitude that a stopped swing has lost
+constexpr double kNeitherDeg = 2.0;        // phases nearer to that of the free swing belong to neither state
 constexpr double kLagShare = 0.015;        // share of a side; trace and retrace then differ visibly
 constexpr double kApartShare = 0.003;      // share of the relief; less is invisible
 constexpr double kBluntFactor = 1.5;       // multiple of the sharper tip's radius
@@ -83,20 +89,37 @@ double mean_apart_m(std::span<const double> passes_m) {
 
 namespace {
 
-ScanEvidence evidence_of(const ScanLine& line) {
+ScanEvidence evidence_of(const ScanLine& line, double free_phase_deg) {
   ScanEvidence evidence;
   evidence.off_surface = 0.5 * (line.trace.off_surface + line.retrace.off_surface);
   evidence.on_second_apex = 0.5 * (line.trace.on_second_apex + line.retrace.on_second_apex);
   evidence.ringing = 0.5 * (line.trace.ringing + line.retrace.ringing);
   evidence.highest_force_n = std::max(line.trace.highest_force_n, line.retrace.highest_force_n);
+  evidence.state_changes = static_cast<double>(changes_of_state(line.trace.phase_deg, free_phase_deg) +
+                                               changes_of_state(line.retrace.phase_deg, free_phase_deg));
   return evidence;
 }
 
 }  // namespace
 
+std::size_t changes_of_state(std::span<const double> phase_deg, double free_phase_deg) {
+  std::size_t changes = 0;
+  double before_deg = 0.0;  // from the free phase; 0: no state yet
+  for (const double phase : phase_deg) {
+    const double from_free_deg = phase - free_phase_deg;
+    if (!(std::abs(from_free_deg) > kNeitherDeg)) continue;
+    if (from_free_deg * before_deg < 0.0) ++changes;
+    before_deg = from_free_deg;
+  }
+  return changes;
+}
+
+NewestLines::NewestLines(const TappingDetector* tapping)
+    : free_phase_deg_(tapping == nullptr ? 90.0 : tapping->lever().free_phase * 180.0 / std::numbers::pi) {}
+
 void NewestLines::add(const ScanLine& line, double time_s) {
   std::vector<double> passes_m = difference_of_passes(line.trace.height_m, line.retrace.height_m);
-  newest_[next_] = evidence_of(line);
+  newest_[next_] = evidence_of(line, free_phase_deg_);
   newest_[next_].apart_m = mean_apart_m(passes_m);
   newest_[next_].noise_m = noise_of_lines_m(passes_m, passes_m_);
   passes_m_ = std::move(passes_m);
@@ -115,6 +138,7 @@ ScanEvidence NewestLines::evidence() const {
     all.on_second_apex = std::max(all.on_second_apex, line.on_second_apex);
     all.ringing = std::max(all.ringing, line.ringing);
     all.highest_force_n = std::max(all.highest_force_n, line.highest_force_n);
+    all.state_changes = std::max(all.state_changes, line.state_changes);
     all.noise_m = std::max(all.noise_m, line.noise_m);
     all.apart_m = std::max(all.apart_m, line.apart_m);
   }
@@ -134,8 +158,14 @@ ScanArtefact main_artefact(const ScanConditions& conditions, const ScanEvidence&
   if (drifts(conditions, evidence)) return ScanArtefact::Drift;
   if (settings.noise.si > 0.0 && evidence.noise_m > kNoiseShare * evidence.relief_m) return ScanArtefact::Noise;
   if (evidence.off_surface > kParachuteShare) return ScanArtefact::Parachuting;
-  if (!conditions.tapping && evidence.highest_force_n > kOverloadFactor * std::abs(settings.setpoint.si))
+  if (conditions.tapping != nullptr) {
+    if (evidence.state_changes > 0.0) return ScanArtefact::StateFlips;
+    if (evidence.highest_force_n > kStoppedShare * conditions.tapping->free_amplitude_m()) {
+      return ScanArtefact::Saturation;
+    }
+  } else if (evidence.highest_force_n > kOverloadFactor * std::abs(settings.setpoint.si)) {
     return ScanArtefact::Overload;
+  }
   const double lag = 2.0 * settings.line_rate.si / settings.integral_gain.si;
   if (follows && lag > kLagShare && evidence.apart_m > kApartShare * evidence.relief_m) return ScanArtefact::Blur;
   return evidence.bluntness > kBluntFactor ? ScanArtefact::BluntTip : ScanArtefact::None;

@@ -246,6 +246,8 @@ double shown(const Image& image, ScanArtefact artefact) {
           return square(image.height_m(0, c, r) - image.height_m(1, there, r));
         });
       });
+    case ScanArtefact::StateFlips:  // in tapping mode alone
+    case ScanArtefact::Saturation:
     case ScanArtefact::None:
       break;
   }

@@ -64,7 +64,8 @@ TEST(ScanArtefact, ComesWithItsCauseAndGoesWithIt) {
       {ScanArtefact::Noise, [](ScanSettings& s) { s.noise = Length(2e-9); }},
       {ScanArtefact::Blur, [](ScanSettings& s) { s.integral_gain = Frequency(30.0); }},
   };
-  std::set<ScanArtefact> seen{ScanArtefact::None, ScanArtefact::BluntTip};  // unknown to a scanner
+  std::set<ScanArtefact> seen{ScanArtefact::None, ScanArtefact::BluntTip,           // unknown to a scanner
+                              ScanArtefact::StateFlips, ScanArtefact::Saturation};  // in tapping mode
   for (const Cause& cause : causes) {
     ScanSettings settings = good_settings();
     EXPECT_EQ(artefact_of(settings, cause.surface), ScanArtefact::None) << name_of(cause.artefact);

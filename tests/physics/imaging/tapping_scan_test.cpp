@@ -146,11 +146,24 @@ TEST(TappingDetector, RestsWhereTheAveragedFlowDoes) {
   }
 }
 
-// T47
+// Height of the base for the same swing if the lever were deflected by its mean force alone.
+double without_harmonics_nm(const HeldState& state, double setpoint_nm) {
+  const TappedSample sample;
+  AveragedFlow flow(sample.surface(), sample.lever());
+  for (const RestingTap& tap : flow.resting_at(Length(state.z_nm * 1e-9))) {
+    if (!tap.stable || std::abs(nm_of(tap.state.amplitude) - setpoint_nm) > 0.001) continue;
+    const Force more = tap.averages.shift_at_lowest - tap.averages.mean;
+    return state.z_nm + more.si / sample.lever().spring_constant.si * 1e9;
+  }
+  return std::nan("");
+}
+
+// T47, which has no harmonics
 TEST(TappingScan, AFlippedStateIsAFalseStepOnFlatGround) {
-  // 2 % from the reference, which leaves out the shift of the lowest point by mean deflection and harmonics
-  EXPECT_NEAR(held(18.0, false).z_nm - held(18.0, true).z_nm, -1.5127, 0.035);
-  EXPECT_NEAR(held(18.0, false).phase_deg - held(18.0, true).phase_deg, -51.68, 0.2);
+  const HeldState attractive = held(18.0, true), repulsive = held(18.0, false);
+  EXPECT_NEAR(without_harmonics_nm(repulsive, 18.0) - without_harmonics_nm(attractive, 18.0), -1.5127, 0.003);
+  EXPECT_NEAR(repulsive.z_nm - attractive.z_nm, -1.480, 0.003);
+  EXPECT_NEAR(repulsive.phase_deg - attractive.phase_deg, -51.68, 0.2);
   TappingDetector detector = detector_at(18.0);
   ScanLoop loop(ideal(50.0), Time(kTickS), 1, detector);
   loop.engage(0.0);
@@ -161,7 +174,7 @@ TEST(TappingScan, AFlippedStateIsAFalseStepOnFlatGround) {
   for (int i = 0; i < 500; ++i) loop.tick(3e-9);
   for (int i = 0; i < 50000; ++i) loop.tick(0.0);
   EXPECT_LT(loop.tapping()->phase_rad(), std::numbers::pi / 2.0);
-  EXPECT_NEAR(loop.topography_m() * 1e9, held(18.0, false).z_nm - held(18.0, true).z_nm, 0.005);
+  EXPECT_NEAR(loop.topography_m() * 1e9, repulsive.z_nm - attractive.z_nm, 0.005);
 }
 
 // T45
@@ -201,27 +214,42 @@ TEST(TappingScan, HasChannelsInTheirUnits) {
             image_of(ideal(500.0), [](double x, double) { return 2e-9 * std::sin(x / 30e-9); }).channels[0].values);
 }
 
-// The judge, both ways: a step down is flown over where the error saturates, and only there.
-ScanArtefact artefact_of(double line_rate_hz, double setpoint_nm) {
+// What the judge says of a surface and a sample.
+struct JudgedTap {
+  double line_rate_hz = 1.0, setpoint_nm = 16.0;
+  TappedSample sample{.h_zj = 1.0};
+};
+ScanArtefact artefact_of(const JudgedTap& tap, const Scanner::Surface& surface) {
   ScanArea area;
   area.columns = 64;
   area.rows = 4;
   ScanSettings settings = ideal(500.0);
-  settings.line_rate = Frequency(line_rate_hz);
-  Scanner scanner(
-      area, settings, [](double x, double) { return x < 0.0 ? 10e-9 : 0.0; }, 1,
-      detector_at(setpoint_nm, {.h_zj = 1.0}));
-  NewestLines newest;
+  settings.line_rate = Frequency(tap.line_rate_hz);
+  Scanner scanner(area, settings, surface, 1, detector_at(tap.setpoint_nm, tap.sample));
+  NewestLines newest(scanner.loop().tapping());
   scan_frame(scanner, [&](const ScanLine& line) {
     newest.add(line, scanner.time().si);
     return true;
   });
-  return main_artefact({settings, area, scanner.loop().largest_integral_gain(), true}, newest.evidence());
+  return main_artefact({settings, area, scanner.loop().largest_integral_gain(), scanner.loop().tapping()},
+                       newest.evidence());
 }
 
+double step_m(double x_m, double /*y_m*/) { return x_m < 0.0 ? 10e-9 : 0.0; }
+
 TEST(TappingScan, ParachutesAboveASetpointNearTheFreeSwingAndNotBelowALowerOne) {
-  EXPECT_EQ(artefact_of(1.0, 19.0), ScanArtefact::Parachuting);
-  EXPECT_EQ(artefact_of(0.2, 8.0), ScanArtefact::None);
+  EXPECT_EQ(artefact_of({.line_rate_hz = 1.0, .setpoint_nm = 19.0}, step_m), ScanArtefact::Parachuting);
+  EXPECT_EQ(artefact_of({.line_rate_hz = 0.2, .setpoint_nm = 8.0}, step_m), ScanArtefact::None);
+}
+
+TEST(TappingScan, SaturatesAtAStepUpUnlessItIsSlow) {
+  EXPECT_EQ(artefact_of({.line_rate_hz = 20.0, .setpoint_nm = 8.0}, step_m), ScanArtefact::Saturation);
+}
+
+TEST(TappingScan, FlipsItsStateOverAParticleWhereThereAreTwo) {
+  const auto particle = [](double x_m, double) { return std::abs(x_m) < 20e-9 ? 3e-9 : 0.0; };
+  EXPECT_EQ(artefact_of({.setpoint_nm = 18.0, .sample = {}}, particle), ScanArtefact::StateFlips);
+  EXPECT_EQ(artefact_of({.setpoint_nm = 18.0}, particle), ScanArtefact::None) << "without attraction there is one";
 }
 
 }  // namespace tapping_scan_test

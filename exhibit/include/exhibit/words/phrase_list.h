@@ -257,6 +257,8 @@
   PHRASE(CauseLostContact, "scan-cause-lost-contact", "", kLine)       \
   PHRASE(CauseRinging, "scan-cause-ringing", "", kLine)                \
   PHRASE(CauseParachuting, "scan-cause-parachuting", "", kLine)        \
+  PHRASE(CauseStateFlips, "scan-cause-state-flips", "", kLine)         \
+  PHRASE(CauseSaturation, "scan-cause-saturation", "", kLine)          \
   PHRASE(CauseOverload, "scan-cause-overload", "", kLine)              \
   PHRASE(CauseDoubleTip, "scan-cause-double-tip", "", kLine)           \
   PHRASE(CauseDrift, "scan-cause-drift", "", kLine)                    \

@@ -13,6 +13,8 @@
 
 namespace afm::physics {
 
+class TappingDetector;
+
 // Artefacts of an image. Names and phrases of the wall are in this order.
 enum class ScanArtefact {
   None,
@@ -20,6 +22,8 @@ enum class ScanArtefact {
   Ringing,      // the loop oscillates: gain too high for the z scanner or the tick rate
   Parachuting,  // behind a step down the tip is off (tapping: the error saturates) and the image a slope: too fast, or
                 // setpoint too near to the free state
+  StateFlips,   // tapping: the swing changes between its two states, which have different heights at one amplitude
+  Saturation,   // tapping: in front of a step up the swing stops, and the image is a slope: too fast
   Overload,     // in front of a step up the lever presses harder than three times the setpoint
   DoubleTip,    // a second apex causes ghosts
   Drift,        // the sample moves during the scan: the image is sheared or stretched
@@ -34,11 +38,18 @@ struct ScanArtefactName {
 };
 
 inline constexpr std::array kScanArtefacts{
-    ScanArtefactName{ScanArtefact::None, "none"},         ScanArtefactName{ScanArtefact::LostContact, "lost-contact"},
-    ScanArtefactName{ScanArtefact::Ringing, "ringing"},   ScanArtefactName{ScanArtefact::Parachuting, "parachuting"},
-    ScanArtefactName{ScanArtefact::Overload, "overload"}, ScanArtefactName{ScanArtefact::DoubleTip, "double-tip"},
-    ScanArtefactName{ScanArtefact::Drift, "drift"},       ScanArtefactName{ScanArtefact::Noise, "noise"},
-    ScanArtefactName{ScanArtefact::Blur, "blur"},         ScanArtefactName{ScanArtefact::BluntTip, "blunt-tip"},
+    ScanArtefactName{ScanArtefact::None, "none"},
+    ScanArtefactName{ScanArtefact::LostContact, "lost-contact"},
+    ScanArtefactName{ScanArtefact::Ringing, "ringing"},
+    ScanArtefactName{ScanArtefact::Parachuting, "parachuting"},
+    ScanArtefactName{ScanArtefact::StateFlips, "state-flips"},
+    ScanArtefactName{ScanArtefact::Saturation, "saturation"},
+    ScanArtefactName{ScanArtefact::Overload, "overload"},
+    ScanArtefactName{ScanArtefact::DoubleTip, "double-tip"},
+    ScanArtefactName{ScanArtefact::Drift, "drift"},
+    ScanArtefactName{ScanArtefact::Noise, "noise"},
+    ScanArtefactName{ScanArtefact::Blur, "blur"},
+    ScanArtefactName{ScanArtefact::BluntTip, "blunt-tip"},
 };
 static_assert(has_row_for_each(kScanArtefacts, &ScanArtefactName::artefact));
 
@@ -49,7 +60,8 @@ struct ScanEvidence {
   double off_surface = 0;      // largest share of a line's time without contact
   double on_second_apex = 0;   // largest share of a line's time on the second apex
   double ringing = 0;          // largest share of a line's time in which the error rings
-  double highest_force_n = 0;  // force of the lever
+  double highest_force_n = 0;  // force of the lever; tapping: loss of amplitude, metres
+  double state_changes = 0;    // tapping: largest number of changes of state in a line's two passes
   double relief_m = 0;         // range of the measured heights
   double noise_m = 0;          // largest noise_of_lines_m() of two neighbouring lines
   double apart_m = 0;          // largest mean difference of a line's trace and retrace, a magnitude
@@ -67,6 +79,10 @@ double noise_of_lines_m(std::span<const double> passes_m, std::span<const double
 // Mean magnitude of the difference of a line's passes.
 double mean_apart_m(std::span<const double> passes_m);
 
+// How often a swing changes from repulsive to attractive or back, of the phases of one pass in degrees; 90 is the free
+// swing's at resonance, near which a swing belongs to neither.
+std::size_t changes_of_state(std::span<const double> phase_deg, double free_phase_deg);
+
 // Number of newest lines that are judged, so that a single different line does not change the verdict.
 inline constexpr std::size_t kJudgedLines = 6;
 
@@ -74,11 +90,15 @@ inline constexpr std::size_t kJudgedLines = 6;
 // all.
 class NewestLines {
  public:
+  // `tapping`: the detector of a scan in tapping mode.
+  explicit NewestLines(const TappingDetector* tapping = nullptr);
+
   // `time_s`: at the end of the line, since the start of the scan.
   void add(const ScanLine& line, double time_s);
   ScanEvidence evidence() const;
 
  private:
+  double free_phase_deg_;
   std::array<ScanEvidence, kJudgedLines> newest_{};
   std::size_t next_ = 0;          // place of the next line in newest_
   std::vector<double> passes_m_;  // difference of the newest line's passes
@@ -90,8 +110,8 @@ class NewestLines {
 struct ScanConditions {
   const ScanSettings& settings;
   const ScanArea& area;
-  Frequency largest_integral_gain;  // ScanLoop::largest_integral_gain()
-  bool tapping = false;             // forces are then losses of amplitude, which cannot overload a tip
+  Frequency largest_integral_gain;           // ScanLoop::largest_integral_gain()
+  const TappingDetector* tapping = nullptr;  // of a scan in tapping mode
 };
 
 // The only judge for wall and --json: of the artefacts found, the one that hides all others. First a tip that is off or
