@@ -115,7 +115,7 @@ afm_precompiled(afm_cold_headers OPTIONS ${AFM_COLD_CODE} LIBRARIES fmt::fmt nlo
                 HEADERS <fmt/format.h> <nlohmann/json.hpp>)
 
 # Ten sources of a module are compiled as one, which takes a third of the time: what they name for themselves must differ within the
-# module. `cmake --preset release -DAFM_UNITY_BUILD=OFF` finds a source that lacks an include. CMake's own unity builds name the sources
+# module. `scripts/compile-alone` finds a source that lacks an include. CMake's own unity builds name the sources
 # by their absolute paths, and ccache would find none of them for another clone.
 option(AFM_UNITY_BUILD "compile ten sources of a module as one" ON)
 # afm_compile_together(TARGET [SOURCE that is compiled alone ...])

@@ -93,6 +93,7 @@ void ScanControl::end() {
 }
 
 void ScanControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
+  now.wall.false_colours = false_colours_;
   if (scan_) exhibit::show_scan(*scan_, now);
 }
 
@@ -106,6 +107,7 @@ std::optional<std::string> ScanControl::guidance(const exhibit::Phrases& phrases
 
 // A hand-painted image counts the previous servo's ticks, so another servo begins a new one.
 void ScanControl::restart(Restart what) {
+  if (what != Restart::Servo) false_colours_ = false;
   if (what == Restart::Everything || (what == Restart::Servo && has_hand())) end();
 }
 
@@ -140,6 +142,11 @@ void ScanControl::toggle_feedback() {
   feedback_ = !feedback_;
   core::log_line(feedback_ ? "scan: feedback on" : "scan: feedback off");
   begin();
+}
+
+void ScanControl::toggle_colours() {
+  false_colours_ = !false_colours_;
+  core::log_line(false_colours_ ? "sample: heights in false colours" : "sample: its own colour");
 }
 
 void ScanControl::toggle_truth() {

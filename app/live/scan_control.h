@@ -23,6 +23,7 @@ class ScanControl final : public ViewControl {
   void toggle_truth();
   void next_hand();
   void toggle_feedback();
+  void toggle_colours();
 
   void take(const ViewInput& input, const ViewFrame& frame) override;
   void update(const ViewFrame& frame) override;
@@ -46,7 +47,8 @@ class ScanControl final : public ViewControl {
   std::int64_t scanned_ns_ = 0;  // time up to which the scan was advanced
   scene::ScanHand hand_ = scene::ScanHand::Apart;
   bool feedback_ = true;
-  exhibit::HandSize size_;  // as at the beginning of this scan
+  bool false_colours_ = false;  // of the sample, while no image is taken
+  exhibit::HandSize size_;      // as at the beginning of this scan
   exhibit::LeadingScan leading_;
   scene::HandScript script_;  // moves the simulated hand; revision 0: inactive
   glm::dvec3 aim_m_{0.0};

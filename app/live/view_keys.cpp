@@ -44,6 +44,8 @@ constexpr std::array kRows{
         .outside_lessons(),
     LiveKey{Key::U, "U", Phrase::KeyTruth, [](KeyOwners& owners, std::size_t) { owners.scan->toggle_truth(); }}
         .outside_lessons(),
+    LiveKey{Key::E, "E", Phrase::KeyFalseColours, [](KeyOwners& owners, std::size_t) { owners.scan->toggle_colours(); }}
+        .outside_lessons(),
     LiveKey{Key::F, "F", Phrase::KeyFriction,
             [](KeyOwners& owners, std::size_t) { owners.parts.choice.toggle_friction_loop(); }}
         .outside_lessons(),

@@ -106,6 +106,8 @@ TEST_F(ViewScan, IsDrawnAgainFromItsSession) {
   ASSERT_TRUE(program.says("chosen: Gold")) << program.said();
   lift_hand();
   ASSERT_TRUE(turn_on(program)) << program.said();
+  xdotool("key e");
+  ASSERT_TRUE(program.says("sample: heights in false colours")) << program.said();
   xdotool("key i");
   ASSERT_TRUE(program.says("scan: Gold")) << program.said();
   // a line a second: the tip is where it was when the picture is drawn from the last frame of a slow machine
@@ -124,6 +126,8 @@ TEST_F(ViewScan, IsDrawnAgainFromItsSession) {
   ASSERT_TRUE(session->wall.back().scan.has_value());
   EXPECT_TRUE(session->wall.back().scan->truth);
   EXPECT_FALSE(session->wall.front().scan.has_value());
+  EXPECT_TRUE(session->wall.back().false_colours);
+  EXPECT_FALSE(session->wall.front().false_colours);
   const double end_s =
       session->seconds_since_start(std::min(session->wall.back().time_ns, session->samples.back().time_ns));
   const auto draw = [&](double at_s, const std::string& name) {

@@ -82,6 +82,7 @@ class Painter {
     for (int i = 0; i + 3 < list.VtxBuffer.Size; ++i) {
       const ImDrawVert &a = list.VtxBuffer[i], &b = list.VtxBuffer[i + 1], &c = list.VtxBuffer[i + 2];
       if (a.uv.y != b.uv.y || a.uv.x == b.uv.x || b.uv.x != c.uv.x || b.uv.y == c.uv.y) continue;
+      if (c.uv.x > 1.0F) continue;  // a colour grid, whose places are texels
       sum += c.pos.y - a.pos.y;
       ++letters;
     }

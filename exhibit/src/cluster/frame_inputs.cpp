@@ -52,6 +52,7 @@ void copy_moment(const Copy& copy, Moment& moment, Shown& shown) {
   copy(wall.fade, shown.fade);
   copy(wall.centerpiece, shown.centerpiece);
   copy(wall.hovered, shown.hovered);
+  copy.flag(wall.false_colours, shown.flags, M::kFalseColours);
   copy.flag(moment.by_wand, shown.flags, M::kByWand);
   copy.flag(moment.retracting, shown.flags, M::kRetracting);
   copy.flag(moment.stopped, shown.flags, M::kStopped);

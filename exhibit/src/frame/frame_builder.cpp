@@ -13,6 +13,7 @@
 #include "exhibit/panels/particles_panel.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_relief.h"
+#include "exhibit/scan/scan_subject.h"
 #include "exhibit/scenery/journey.h"
 #include "exhibit/scenery/wall_scene.h"
 #include "exhibit/words/guidance.h"
@@ -148,6 +149,8 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
     const std::string& title = (*materials_)[*moment.wall.material].setup.material.title;
     frame.panels.image.content = image_panel(*moment.scan, phrases_->word(title), *phrases_);
     wall_scene_->lay_on_sample(relief_of(*moment.scan), moment.wall, frame);
+  } else if (moment.wall.false_colours && moment.wall.material) {
+    wall_scene_->lay_on_sample(sample_in_colours(*moment.wall.material), moment.wall, frame);
   }
   if (moment.wall.centerpiece == Centerpiece::Plot) {
     frame.panels.data.content = results_panel(moment.results, *phrases_);
@@ -164,6 +167,16 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
   }
   frame.panels.banner.content = banner(moment);
   return frame;
+}
+
+// The heights are sampled anew only where another sample, or another size of it, is shown.
+const HeightRelief& FrameBuilder::sample_in_colours(std::size_t material) const {
+  const curves::SampleModel& model = (*materials_)[material];
+  const double release_z_m = model.scaling.release_z_m();
+  if (!coloured_ || coloured_->material != material || coloured_->release_z_m != release_z_m) {
+    coloured_ = {material, release_z_m, relief_of(scan_subject(*wall_scene_, material, model))};
+  }
+  return coloured_->relief;
 }
 
 render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {

@@ -123,6 +123,7 @@ servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::
   frame.time_ns = time_ns;
   copy_moment(scene::CopyOut(), moment, frame);
   frame.centerpiece = name_of(moment.wall.centerpiece);
+  if (moment.wall.false_colours) frame.false_colours = true;
   if (moment.wall.hovered) frame.hovered = materials[*moment.wall.hovered];
   if (moment.scan != nullptr) {
     const ScanProgress& scan = moment.scan->progress();
@@ -157,6 +158,7 @@ RecordedMoment moment_on_wall(const servo::RecordedSession& session, std::span<c
   copy_moment(scene::CopyBack(), then, frame);
   then.wall.hovered = index_of(materials, frame.hovered);
   then.wall.centerpiece = centerpiece_of(frame.centerpiece);
+  then.wall.false_colours = frame.false_colours.value_or(false);
   for (const auto& [name, value, source] : frame.servo_row) then.servo.push_back({name, value, source});
   return {.frame = &frame,
           .curves = curves_until(session, materials, own, frame.time_ns),

@@ -235,7 +235,9 @@ struct ControlPanel {
   bool operator==(const ControlPanel&) const = default;
 };
 
-// Grid of colours, row by row from the top.
+inline constexpr std::uint32_t kMostGridCells = 510;  // each way; no panel shows more
+
+// Grid of colours, row by row from the top; at most kMostGridCells each way.
 struct ColorGrid {
   std::uint32_t columns = 0;
   std::uint32_t rows = 0;

@@ -64,13 +64,13 @@ void PanelQuads::record(const vk::raii::CommandBuffer& command) const {
     if (!shown.chain || !shown.chain->taken()) continue;
     const vk::Image to = shown.chain->image();
     constexpr vk::ImageSubresourceLayers kWhole{.aspectMask = kColorAspect, .layerCount = 1};
-    record_barriers(command, {image_barrier(panel.texture, kColorAspect, kPanelShown, kCopiedFrom),
+    record_barriers(command, {image_barrier(panel.texture, kColorAspect, kPanelSampled, kCopiedFrom),
                               image_barrier(to, kColorAspect, kRuntimes.discarded(), kCopiedTo)});
     command.copyImage(panel.texture, kCopiedFrom.layout, to, kCopiedTo.layout,
                       vk::ImageCopy{.srcSubresource = kWhole,
                                     .dstSubresource = kWhole,
                                     .extent = {panel.extent.width, panel.extent.height, 1}});
-    record_barriers(command, {image_barrier(panel.texture, kColorAspect, kCopiedFrom, kPanelShown),
+    record_barriers(command, {image_barrier(panel.texture, kColorAspect, kCopiedFrom, kPanelSampled),
                               image_barrier(to, kColorAspect, kCopiedTo, kRuntimes)});
   }
 }

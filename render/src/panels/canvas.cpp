@@ -206,35 +206,13 @@ void Canvas::polygon(std::span<const glm::vec2> convex, Color color) {
   list_.AddConvexPolyFilled(texels.data(), static_cast<int>(texels.size()), packed(color));
 }
 
-// Draws in bands of rows, so that the vertices of each can be indexed in 16 bits.
 void Canvas::grid(glm::vec2 from, glm::vec2 to, const ColorGrid& grid) {
   if (grid.columns < 2 || grid.rows < 2) return;
-  const std::uint32_t most_rows = std::max(2U, 32768U / grid.columns);
-  const ImVec2 uv = ImGui::GetFontTexUvWhitePixel();
-  const auto along = [](float a, float b, std::uint32_t i, std::uint32_t count) {
-    const float middle = (static_cast<float>(i) + 0.5F) / static_cast<float>(count);
-    return i == 0 ? a : i + 1 == count ? b : a + (b - a) * middle;
-  };
-  for (std::uint32_t first = 0; first + 1 < grid.rows; first += most_rows - 1) {
-    const std::uint32_t rows = std::min(most_rows, grid.rows - first);
-    list_.PrimReserve(static_cast<int>(6 * (rows - 1) * (grid.columns - 1)), static_cast<int>(rows * grid.columns));
-    const unsigned int corner = list_._VtxCurrentIdx;
-    for (std::uint32_t row = first; row < first + rows; ++row) {
-      for (std::uint32_t column = 0; column < grid.columns; ++column) {
-        const auto& [r, g, b, a] = grid.colors[std::size_t{row} * grid.columns + column];
-        list_.PrimWriteVtx(texel({along(from.x, to.x, column, grid.columns), along(from.y, to.y, row, grid.rows)}), uv,
-                           IM_COL32(r, g, b, a));
-      }
-    }
-    for (std::uint32_t row = 0; row + 1 < rows; ++row) {
-      for (std::uint32_t column = 0; column + 1 < grid.columns; ++column) {
-        const unsigned int at = corner + row * grid.columns + column, below = at + grid.columns;
-        for (const unsigned int index : {at, at + 1, below + 1, at, below + 1, below}) {
-          list_.PrimWriteIdx(static_cast<ImDrawIdx>(index));
-        }
-      }
-    }
-  }
+  const GridSheet::Place place = memory_.grids.add(grid);
+  list_.PushTextureID(&memory_.grids);
+  list_.PrimReserve(6, 4);
+  list_.PrimRectUV(texel(from), texel(to), {place.from.x, place.from.y}, {place.to.x, place.to.y}, place.digest);
+  list_.PopTextureID();
 }
 
 void Canvas::push_clip(glm::vec2 from, glm::vec2 to) { list_.PushClipRect(texel(from), texel(to), true); }

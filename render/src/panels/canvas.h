@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "panels/grid_sheet.h"
 #include "panels/marker_layout.h"
 #include "panels/panel_fonts.h"
 #include "render/frame.h"
@@ -39,8 +40,9 @@ Color shown(Color color, PanelContrast contrast);
 
 enum class Align { Left, Center, Right };
 
-// Scratch memory, kept so that repainting allocates nothing.
+// Scratch memory, kept so that repainting allocates nothing, and the grids of all paintings since its clear().
 struct CanvasMemory {
+  GridSheet grids;
   std::vector<ImVec2> texels;
   std::vector<glm::vec2> points, dash;
   std::vector<MarkerLabel> labels;
@@ -90,7 +92,7 @@ class Canvas {
   void polygon(std::span<const glm::vec2> convex, Color color);
 
   // Draws the grid's colours, one at the centre of each cell and blended in between; the outer half cells are constant.
-  // Uses as many vertices as the grid has points.
+  // The shape's texture is CanvasMemory::grids, its places are texels there, and its colour is the grid's digest.
   void grid(glm::vec2 from, glm::vec2 to, const ColorGrid& grid);
 
   // Draws nothing outside the rectangle until pop_clip().

@@ -8,8 +8,6 @@
 namespace afm::render {
 namespace {
 
-constexpr std::size_t kMostCorners = 200'000;  // a scan image has more, and changes in many places
-
 bool same(const ImVec4& a, const ImVec4& b) { return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w; }
 
 bool same(const ImDrawVert& a, const ImDrawVert& b) {
@@ -39,13 +37,10 @@ void widen(CanvasBox& box, std::span<const ImDrawVert> corners, const ImVec4& cl
 void PaintedShapes::clear() {
   corners_.clear();
   groups_.clear();
-  too_many_ = false;
 }
 
 void PaintedShapes::add(const ImDrawList& list) {
   for (const ImDrawCmd& command : list.CmdBuffer) {
-    too_many_ = too_many_ || corners_.size() + command.ElemCount > kMostCorners;
-    if (too_many_) return;
     for (unsigned int i = 0; i < command.ElemCount; ++i) {
       const auto index = static_cast<unsigned int>(list.IdxBuffer[static_cast<int>(command.IdxOffset + i)]);
       corners_.push_back(list.VtxBuffer[static_cast<int>(command.VtxOffset + index)]);
@@ -60,7 +55,7 @@ std::span<const ImDrawVert> PaintedShapes::corners_of(std::size_t group) const {
 }
 
 std::optional<CanvasBox> PaintedShapes::difference(const PaintedShapes& other) const {
-  if (too_many_ || other.too_many_ || groups_.size() != other.groups_.size()) return std::nullopt;
+  if (groups_.size() != other.groups_.size()) return std::nullopt;
   CanvasBox box;
   for (std::size_t i = 0; i < groups_.size(); ++i) {
     const ImVec4& clip = groups_[i].clip;

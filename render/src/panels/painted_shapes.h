@@ -37,7 +37,6 @@ class PaintedShapes {
 
   std::vector<ImDrawVert> corners_;  // three per triangle
   std::vector<Group> groups_;
-  bool too_many_ = false;
 };
 
 }  // namespace afm::render

@@ -13,6 +13,7 @@
 #include "panels/panel_painting.h"
 #include "shaders/canvas_frag.h"
 #include "shaders/canvas_vert.h"
+#include "shaders/grid_frag.h"
 #include "shaders/panel_frag.h"
 #include "shaders/panel_vert.h"
 #include "shaders/panel_vert_one_view.h"
@@ -39,10 +40,11 @@ vk::raii::DescriptorSetLayout create_texture_layout(const Device& device) {
   return vk::raii::DescriptorSetLayout(*device, {.bindingCount = 1, .pBindings = &binding});
 }
 
-vk::raii::Pipeline create_canvas_pipeline(const Device& device, vk::PipelineLayout layout) {
-  return create_pipeline(device, {.name = "panel canvas",
+vk::raii::Pipeline create_canvas_pipeline(const Device& device, const char* name,
+                                          std::span<const std::uint32_t> fragment, vk::PipelineLayout layout) {
+  return create_pipeline(device, {.name = name,
                                   .vertex_code = shaders::canvas_vert,
-                                  .fragment_code = shaders::canvas_frag,
+                                  .fragment_code = fragment,
                                   .layout = layout,
                                   .bindings = kPanelBindings,
                                   .attributes = kPanelAttributes,
@@ -113,7 +115,8 @@ Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout f
       canvas_layout_(create_pipeline_layout(device, {.sets = {&*texture_layout_, 1},
                                                      .push_stages = vk::ShaderStageFlagBits::eVertex,
                                                      .push_size = sizeof(CanvasBlock)})),
-      canvas_pipeline_(create_canvas_pipeline(device, *canvas_layout_)),
+      canvas_pipeline_(create_canvas_pipeline(device, "panel canvas", shaders::canvas_frag, *canvas_layout_)),
+      grid_pipeline_(create_canvas_pipeline(device, "panel grids", shaders::grid_frag, *canvas_layout_)),
       rectangle_layout_(create_rectangle_layout(device, frame_set_layout, *texture_layout_)),
       rectangle_pipeline_(device, rectangle_request(*rectangle_layout_, "panels", DepthUse::TestOnly), kRectangleVertex,
                           kRectangleFragment),
@@ -144,60 +147,18 @@ void Panels::upload_atlas() {
   const Buffer staging =
       create_host_buffer(device_, "font atlas staging", bytes, vk::BufferUsageFlagBits::eTransferSrc);
   std::memcpy(staging.mapped, pixels, bytes);
-  atlas_.image = create_image(device_, "font atlas",
-                              {.format = vk::Format::eR8Unorm,
-                               .extent = extent,
-                               .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
+  atlas_ = create_panel_texture(
+      device_, "font atlas",
+      {.format = vk::Format::eR8Unorm, .extent = extent, .usage = vk::ImageUsageFlagBits::eTransferDst},
+      *texture_layout_, *sampler_);
   const ImageUse fresh{};
-  const ImageUse copied{vk::PipelineStageFlagBits2::eCopy, vk::AccessFlagBits2::eTransferWrite,
-                        vk::ImageLayout::eTransferDstOptimal};
-  const ImageUse sampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
-                         vk::ImageLayout::eShaderReadOnlyOptimal};
   device_.run_once([&](const vk::raii::CommandBuffer& command) {
-    record_barriers(command, {image_barrier(*atlas_.image.image, kColorAspect, fresh, copied)});
-    command.copyBufferToImage(*staging.buffer, *atlas_.image.image, copied.layout,
+    record_barriers(command, {image_barrier(*atlas_.image.image, kColorAspect, fresh, kCopiedTo)});
+    command.copyBufferToImage(*staging.buffer, *atlas_.image.image, kCopiedTo.layout,
                               vk::BufferImageCopy{.imageSubresource = {.aspectMask = kColorAspect, .layerCount = 1},
                                                   .imageExtent = {extent.width, extent.height, 1}});
-    record_barriers(command, {image_barrier(*atlas_.image.image, kColorAspect, copied, sampled)});
+    record_barriers(command, {image_barrier(*atlas_.image.image, kColorAspect, kCopiedTo, kPanelSampled)});
   });
-  atlas_.view = create_view(device_, atlas_.image, kColorAspect, 0, 1);
-  atlas_.pool = create_pool();
-  atlas_.set = create_set(atlas_.pool, *atlas_.view);
-}
-
-vk::raii::DescriptorPool Panels::create_pool() const {
-  const vk::DescriptorPoolSize size{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = 1};
-  return vk::raii::DescriptorPool(*device_, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-                                             .maxSets = 1,
-                                             .poolSizeCount = 1,
-                                             .pPoolSizes = &size});
-}
-
-vk::raii::DescriptorSet Panels::create_set(const vk::raii::DescriptorPool& pool, vk::ImageView view) const {
-  vk::raii::DescriptorSets sets(*device_,
-                                {.descriptorPool = *pool, .descriptorSetCount = 1, .pSetLayouts = &*texture_layout_});
-  const vk::DescriptorImageInfo image{
-      .sampler = *sampler_, .imageView = view, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
-  device_->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = *sets.front(),
-                                                       .dstBinding = AFM_BINDING_TEXTURE,
-                                                       .descriptorCount = 1,
-                                                       .descriptorType = vk::DescriptorType::eCombinedImageSampler,
-                                                       .pImageInfo = &image},
-                                nullptr);
-  return std::move(sets.front());
-}
-
-Panels::Texture Panels::create_texture(vk::Extent2D extent) const {
-  Texture texture;
-  texture.image = create_image(device_, "panel",
-                               {.format = kPanelFormat,
-                                .extent = extent,
-                                .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled |
-                                         vk::ImageUsageFlagBits::eTransferSrc});
-  texture.view = create_view(device_, texture.image, kColorAspect, 0, 1);
-  texture.pool = create_pool();
-  texture.set = create_set(texture.pool, *texture.view);
-  return texture;
 }
 
 // Gives the panel a texture for its placement's size; true if it is a new one.
@@ -211,7 +172,10 @@ bool Panels::resize(Panel& panel) {
   if (panel.texture.image.extent == extent) {
     return false;
   }
-  retired_[slot_].push_back(std::exchange(panel.texture, create_texture(extent)));
+  const vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc;
+  retired_[slot_].push_back(std::exchange(
+      panel.texture, create_panel_texture(device_, "panel", {.format = kPanelFormat, .extent = extent, .usage = usage},
+                                          *texture_layout_, *sampler_)));
   ++revision_;
   return true;
 }
@@ -228,24 +192,24 @@ void Panels::paint_on(Panel& panel, const Content& content, Texels texels) {
 
   const ImDrawData* data = ImGui::GetDrawData();
   Painting painting{.panel = &panel,
-                    .first_vertex = vertices_.size(),
-                    .first_index = indices_.size(),
-                    .first_command = commands_.size()};
-  shapes_.clear();
+                    .first_vertex = shapes_.vertices.size(),
+                    .first_index = shapes_.indices.size(),
+                    .first_command = shapes_.commands.size()};
+  latest_.clear();
   for (int i = 0; i < data->CmdListsCount; ++i) {
     const ImDrawList& list = *data->CmdLists[i];
-    shapes_.add(list);
+    latest_.add(list);
     for (ImDrawCmd command : list.CmdBuffer) {
-      command.VtxOffset += static_cast<unsigned int>(vertices_.size() - painting.first_vertex);
-      command.IdxOffset += static_cast<unsigned int>(indices_.size() - painting.first_index);
-      commands_.push_back(command);
+      command.VtxOffset += static_cast<unsigned int>(shapes_.vertices.size() - painting.first_vertex);
+      command.IdxOffset += static_cast<unsigned int>(shapes_.indices.size() - painting.first_index);
+      shapes_.commands.push_back(command);
     }
-    vertices_.insert(vertices_.end(), list.VtxBuffer.begin(), list.VtxBuffer.end());
-    indices_.insert(indices_.end(), list.IdxBuffer.begin(), list.IdxBuffer.end());
+    shapes_.vertices.insert(shapes_.vertices.end(), list.VtxBuffer.begin(), list.VtxBuffer.end());
+    shapes_.indices.insert(shapes_.indices.end(), list.IdxBuffer.begin(), list.IdxBuffer.end());
   }
-  painting.command_count = commands_.size() - painting.first_command;
-  const std::optional<CanvasBox> changed = shapes_.difference(panel.shapes);
-  std::swap(shapes_, panel.shapes);
+  painting.command_count = shapes_.commands.size() - painting.first_command;
+  const std::optional<CanvasBox> changed = latest_.difference(panel.shapes);
+  std::swap(latest_, panel.shapes);
   painting.whole = texels == Texels::Fresh || !changed;
   panel.part = painting.whole ? PanelPart{} : part_of(*changed, panel.canvas_texels, panel.texture.image.extent);
   painting.whole = painting.whole || redraw_ == Redraw::Everything;
@@ -277,9 +241,10 @@ bool Panels::update(const FrameState& frame, std::size_t slot) {
   slot_ = slot;
   retired_[slot].clear();
   paintings_.clear();
-  vertices_.clear();
-  indices_.clear();
-  commands_.clear();
+  shapes_.vertices.clear();
+  shapes_.indices.clear();
+  shapes_.commands.clear();
+  memory_.grids.clear();
   std::size_t slot_index = 0;
   core::for_each_member(
       [&](auto& painted, const auto& shown) {
@@ -304,12 +269,13 @@ bool Panels::update(const FrameState& frame, std::size_t slot) {
 
 void Panels::record_textures(const vk::raii::CommandBuffer& command, std::size_t slot) {
   Geometry& geometry = geometry_[slot];
-  const std::size_t vertex_bytes = vertices_.size() * sizeof(ImDrawVert);
-  const std::size_t index_bytes = indices_.size() * sizeof(ImDrawIdx);
+  const std::size_t vertex_bytes = shapes_.vertices.size() * sizeof(ImDrawVert);
+  const std::size_t index_bytes = shapes_.indices.size() * sizeof(ImDrawIdx);
   reserve(device_, geometry.vertices, "panel vertices", vertex_bytes, vk::BufferUsageFlagBits::eVertexBuffer);
   reserve(device_, geometry.indices, "panel indices", index_bytes, vk::BufferUsageFlagBits::eIndexBuffer);
-  std::memcpy(geometry.vertices.mapped, vertices_.data(), vertex_bytes);
-  std::memcpy(geometry.indices.mapped, indices_.data(), index_bytes);
+  std::memcpy(geometry.vertices.mapped, shapes_.vertices.data(), vertex_bytes);
+  std::memcpy(geometry.indices.mapped, shapes_.indices.data(), index_bytes);
+  geometry.grids.record_upload(command, device_, memory_.grids, *texture_layout_, *sampler_);
   for (const Painting& painting : paintings_) {
     record_painting(command, geometry, painting);
   }
@@ -319,28 +285,30 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
                              const Painting& painting) const {
   const Panel& panel = *painting.panel;
   const vk::Extent2D extent = panel.texture.image.extent;
-  const ImageUse& sampled = kPanelShown;
   const PixelBox part =
       painting.whole ? PixelBox::whole(extent) : texels_of(panel.part, extent).within(PixelBox::whole(extent));
   if (part.empty()) return;
   record_barriers(command, {image_barrier(*panel.texture.image.image, kColorAspect,
-                                          painting.whole ? sampled.discarded() : sampled, kColorDrawn)});
+                                          painting.whole ? kPanelSampled.discarded() : kPanelSampled, kColorDrawn)});
   const vk::RenderingAttachmentInfo color{.imageView = *panel.texture.view,
                                           .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
                                           .loadOp = vk::AttachmentLoadOp::eClear,
                                           .storeOp = vk::AttachmentStoreOp::eStore};
   command.beginRendering(
       {.renderArea = part.rect(), .layerCount = 1, .colorAttachmentCount = 1, .pColorAttachments = &color});
-  command.bindPipeline(vk::PipelineBindPoint::eGraphics, *canvas_pipeline_);
+  const auto bind = [&](const vk::raii::Pipeline& pipeline, vk::DescriptorSet texture) {
+    command.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
+    command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *canvas_layout_, 0, texture, nullptr);
+  };
+  bind(canvas_pipeline_, *atlas_.set);
   set_viewport(command, extent);
-  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *canvas_layout_, 0, *atlas_.set, nullptr);
   const CanvasBlock block{.scale = {2.0F / panel.canvas_texels.x, 2.0F / panel.canvas_texels.y, 0.0F, 0.0F}};
   command.pushConstants<CanvasBlock>(*canvas_layout_, vk::ShaderStageFlagBits::eVertex, 0, block);
   command.bindVertexBuffers(0, *geometry.vertices.buffer, vk::DeviceSize{0});
   command.bindIndexBuffer(*geometry.indices.buffer, 0,
                           sizeof(ImDrawIdx) == 2 ? vk::IndexType::eUint16 : vk::IndexType::eUint32);
   for (std::size_t i = 0; i < painting.command_count; ++i) {
-    const ImDrawCmd& draw = commands_[painting.first_command + i];
+    const ImDrawCmd& draw = shapes_.commands[painting.first_command + i];
     const glm::vec2 limit(static_cast<float>(extent.width), static_cast<float>(extent.height));
     const glm::vec2 shrink = limit / panel.canvas_texels;
     const glm::vec2 from = glm::clamp(shrink * glm::vec2(draw.ClipRect.x, draw.ClipRect.y), glm::vec2(0.0F), limit);
@@ -348,11 +316,14 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
     const PixelBox clip = PixelBox{glm::ivec2(from), glm::ivec2(from) + glm::ivec2(to - glm::floor(from))}.within(part);
     if (clip.empty()) continue;
     command.setScissor(0, clip.rect());
+    const bool is_grid = draw.GetTexID() == &memory_.grids;
+    if (is_grid) bind(grid_pipeline_, geometry.grids.set());
     command.drawIndexed(draw.ElemCount, 1, static_cast<std::uint32_t>(painting.first_index) + draw.IdxOffset,
                         static_cast<std::int32_t>(painting.first_vertex + draw.VtxOffset), 0);
+    if (is_grid) bind(canvas_pipeline_, *atlas_.set);
   }
   command.endRendering();
-  record_barriers(command, {image_barrier(*panel.texture.image.image, kColorAspect, kColorDrawn, sampled)});
+  record_barriers(command, {image_barrier(*panel.texture.image.image, kColorAspect, kColorDrawn, kPanelSampled)});
 }
 
 void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,

@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "core/members.h"
-#include "device/memory.h"
 #include "drawing/eye_targets.h"
 #include "drawing/panel_sight.h"
+#include "panels/grid_texture.h"
 #include "panels/painted_shapes.h"
 #include "panels/panel_fonts.h"
 #include "panels/panel_painting.h"
 #include "panels/panel_part.h"
+#include "panels/panel_texture.h"
 #include "render/frame.h"
 #include "render/renderer.h"
 
@@ -24,10 +25,8 @@ namespace afm::render {
 
 inline constexpr std::size_t kFramesInFlight = 2;
 
-// Format of the panels' textures, which hold premultiplied sRGB values, and their use between paintings.
+// Format of the panels' textures, which hold premultiplied sRGB values.
 inline constexpr vk::Format kPanelFormat = vk::Format::eR8G8B8A8Unorm;
-inline constexpr ImageUse kPanelShown{vk::PipelineStageFlagBits2::eFragmentShader,
-                                      vk::AccessFlagBits2::eShaderSampledRead, vk::ImageLayout::eShaderReadOnlyOptimal};
 
 // Contribution of one panel to the eyes' pictures.
 struct PanelState {
@@ -84,16 +83,10 @@ class Panels {
   struct ContextDeleter {
     void operator()(ImGuiContext* context) const;
   };
-  struct Texture {
-    DeviceImage image;
-    vk::raii::ImageView view{nullptr};
-    vk::raii::DescriptorPool pool{nullptr};  // pool for one set, because panels come and go with the labels
-    vk::raii::DescriptorSet set{nullptr};
-  };
   struct Panel {
     PanelPlacement placement;
     PanelLayer layer = PanelLayer::InScene;
-    Texture texture;
+    PanelTexture texture;
     PaintedShapes shapes;           // shapes of the last painting
     glm::vec2 canvas_texels{1.0F};  // canvas size; a texture of the largest size shows it reduced
     std::uint64_t painting = 0;     // number of paintings so far
@@ -109,10 +102,17 @@ class Panels {
     std::vector<Label> labels;
     std::array<EyeMark, 2> marks;
   };
-  // Vertices and indices of everything painted in one frame.
+  // Everything painted in one frame.
+  struct Shapes {
+    std::vector<ImDrawVert> vertices;
+    std::vector<ImDrawIdx> indices;
+    std::vector<ImDrawCmd> commands;
+  };
+  // The same on the device.
   struct Geometry {
     Buffer vertices;
     Buffer indices;
+    GridTexture grids;
   };
   struct Painting {
     const Panel* panel = nullptr;
@@ -124,15 +124,12 @@ class Panels {
   };
 
   void upload_atlas();
-  vk::raii::DescriptorPool create_pool() const;
-  vk::raii::DescriptorSet create_set(const vk::raii::DescriptorPool& pool, vk::ImageView view) const;
   template <class Content>
   void update(Panel& panel, const PanelPlacement& placement, const Content& content, Content& painted);
   enum class Texels { Kept, Fresh };
   template <class Content>
   void paint_on(Panel& panel, const Content& content, Texels texels);
   bool resize(Panel& panel);
-  Texture create_texture(vk::Extent2D extent) const;
   void record_painting(const vk::raii::CommandBuffer& command, const Geometry& geometry,
                        const Painting& painting) const;
 
@@ -145,11 +142,12 @@ class Panels {
   vk::raii::DescriptorSetLayout texture_layout_;
   vk::raii::PipelineLayout canvas_layout_;
   vk::raii::Pipeline canvas_pipeline_;
+  vk::raii::Pipeline grid_pipeline_;  // draws the colour grids of a canvas
   vk::raii::PipelineLayout rectangle_layout_;
   EyePipeline rectangle_pipeline_;
   EyePipeline over_all_pipeline_;  // draws the banner, which nothing covers
   vk::raii::Sampler sampler_;
-  Texture atlas_;
+  PanelTexture atlas_;
   std::array<Geometry, kFramesInFlight> geometry_;
   std::array<Panel, kSlots> slots_;  // in the order of FramePanels
   std::vector<Panel> labels_;
@@ -159,16 +157,14 @@ class Panels {
   std::vector<Panel*> order_, drawn_;  // used by set_apart(); kept to reuse their memory
 
   // possibly still in use by older frames; freed when the slot is used again
-  std::array<std::vector<Texture>, kFramesInFlight> retired_;
+  std::array<std::vector<PanelTexture>, kFramesInFlight> retired_;
   std::size_t slot_ = 0;
 
   // content painted in this frame; kept to reuse its memory
   CanvasMemory memory_;
   std::vector<Painting> paintings_;
-  PaintedShapes shapes_;
-  std::vector<ImDrawVert> vertices_;
-  std::vector<ImDrawIdx> indices_;
-  std::vector<ImDrawCmd> commands_;
+  PaintedShapes latest_;
+  Shapes shapes_;
 };
 
 }  // namespace afm::render

@@ -122,6 +122,7 @@ struct WallFrame {
   std::optional<RecordedScan> scan{};
   std::vector<RecordedScanChange> scan_changes{};  // changes of `scan`
   std::optional<RecordedHandPart> scan_hand{};
+  std::optional<bool> false_colours{};  // of the sample's heights; absent from older files
 
   bool operator==(const WallFrame&) const = default;
 };
@@ -148,6 +149,7 @@ constexpr void for_each_field(Visit&& visit, Record&... frame) {
   visit("scan", frame.scan...);
   visit("scan_changes", frame.scan_changes...);
   visit("scan_hand", frame.scan_hand...);
+  visit("false_colours", frame.false_colours...);
 }
 static_assert(scene::all_fields_described<WallFrame>());
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 namespace afm::servo {
 
@@ -37,13 +38,20 @@ json to_json_value(const T& value) {
   }
 }
 
-// `to` is new, and stays empty if nothing was written.
+// `to` is new, and stays empty if nothing was written, or by a version that did not know it.
 template <class T>
 void from_json_value(const json& value, T& to) {
   if constexpr (kIsOptional<T>) {
     if (!value.is_null()) from_json_value(value, to.emplace());
   } else if constexpr (scene::Described<T>) {
-    for_each_field([&](const char* key, auto& member) { from_json_value(value.at(key), member); }, to);
+    for_each_field(
+        [&](const char* key, auto& member) {
+          if constexpr (kIsOptional<std::remove_reference_t<decltype(member)>>) {
+            if (!value.contains(key)) return;
+          }
+          from_json_value(value.at(key), member);
+        },
+        to);
   } else if constexpr (kIsList<T>) {
     for (const json& entry : value) from_json_value(entry, to.emplace_back());
   } else {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: the image that grows on the sample lies on its surface, in the colours of the panel
+// Invariant: an image, and the false colours of a sample, lie on its surface with their scale beside it
 #include "exhibit/scan/scan_relief.h"
 
 #include <gtest/gtest.h>
@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/frame_builder.h"
 #include "exhibit/scan/scan_subject.h"
 #include "support/places.h"
 
-// What key I lays on the sample.
+// What keys I and E lay on the sample.
 namespace afm::exhibit {
 namespace scan_relief_test {
 
@@ -102,6 +103,34 @@ TEST(ScanRelief, GrowsLineByLineOnTheSurfaceThatTheTipTraces) {
   stage().wall_scene.update(moment.wall, frame);
   stage().wall_scene.lay_on_sample(relief, moment.wall, frame);
   EXPECT_TRUE(frame.shapes.empty()) << "no sample there";
+}
+
+TEST(SampleInFalseColours, HasTheHeightsThatAreDrawnAndItsScaleAtAnySize) {
+  std::vector<curves::SampleModel> models;
+  for (const scene::MaterialEntry& entry : stage().materials.materials) {
+    models.push_back(curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value());
+  }
+  const FrameBuilder frames(stage().wall_scene, models, stage().eyes);
+  Moment moment;
+  for (std::size_t material = 0; material < models.size(); ++material) {
+    moment.wall.material = material;
+    moment.wall.false_colours = false;
+    EXPECT_TRUE(frames.build(moment).shapes.empty());
+    moment.wall.false_colours = true;
+    const render::FrameState frame = frames.build(moment);
+    ASSERT_EQ(frame.shapes.size(), 1U);
+
+    const ScanSubject subject = scan_subject(stage().wall_scene, material, models[material]);
+    const HeightRelief relief = relief_of(subject);
+    ASSERT_EQ(frame.shapes[0].vertices.size(), relief.vertices.size());
+    for (const std::size_t vertex : {0U, 64U * 128U + 31U, 100U * 128U + 99U}) {
+      EXPECT_EQ(frame.shapes[0].vertices[vertex].position, relief.vertices[vertex].position);
+      const glm::dvec2 place_m = relief.side_m * glm::dvec2(glm::vec2(relief.vertices[vertex].position));
+      EXPECT_NEAR(height_m(relief, vertex), subject.drawn_m(place_m.x, place_m.y), 1e-3 * relief.range_m);
+    }
+  }
+  moment.wall.centerpiece = Centerpiece::Analogy;
+  EXPECT_TRUE(frames.build(moment).shapes.empty()) << "no sample there";
 }
 
 }  // namespace scan_relief_test

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "curves/sample_model.h"
+#include "exhibit/models/relief.h"
 #include "exhibit/state/moment.h"
 #include "exhibit/words/phrases.h"
 #include "render/frame.h"
@@ -20,7 +21,7 @@ class WallScene;
 // Phase of the cycle, with the letters of the paper's Fig. 2.
 Phrase stage_of_cycle(const Moment& moment, double z_jtc_m);
 
-// Converts moments to frames for one wall and one viewer.
+// Converts moments to frames for one wall and one viewer. One thread.
 class FrameBuilder {
  public:
   // `wall_scene`, whose language it uses, and `materials` must outlive the object. A material's parameters may change
@@ -31,6 +32,14 @@ class FrameBuilder {
   render::FrameState build(const Moment& moment) const;
 
  private:
+  // Sample that was shown last in false colours.
+  struct ColouredSample {
+    std::size_t material = 0;
+    double release_z_m = 0;  // as in WallState: its size
+    HeightRelief relief;
+  };
+
+  const HeightRelief& sample_in_colours(std::size_t material) const;
   render::ForcePanel force_panel(const Moment& moment) const;
   render::Banner banner(const Moment& moment) const;
 
@@ -38,6 +47,7 @@ class FrameBuilder {
   const Phrases* phrases_;
   const std::vector<curves::SampleModel>* materials_;
   std::array<scene::EyeView, 2> eyes_;
+  mutable std::optional<ColouredSample> coloured_;
 };
 
 // Eyes of the wall's first viewer at the sweet spot, for the first screen.

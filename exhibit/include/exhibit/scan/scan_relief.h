@@ -9,4 +9,7 @@ namespace afm::exhibit {
 // The image so far, as it lies on the sample: the heights of the trace in the colours of its panel.
 HeightRelief relief_of(const LiveScan& scan);
 
+// The whole sample as it is drawn, on the square that a scan would take.
+HeightRelief relief_of(const ScanSubject& subject);
+
 }  // namespace afm::exhibit

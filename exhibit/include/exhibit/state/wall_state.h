@@ -33,7 +33,8 @@ struct WallState {
   double fade = 0;             // dissolved share of the picture, 0 to 1
   glm::dmat4 navigation{1.0};  // room from room: the user's motion, rotation and scaling of sample and instrument
   std::optional<JumpCue> cue{};
-  bool scan = false;  // a scan is running: its panel replaces the curve
+  bool false_colours = false;  // the sample's heights lie on it as colours; an image that is taken has its own
+  bool scan = false;           // a scan is running: its panel replaces the curve
   // the scan line, from left to right, at the height of the highest place below it; sample's frame, metres
   std::optional<std::array<glm::dvec3, 2>> scan_line{};
   const ParticlesNow* particles = nullptr;  // replaces the sample's data by its panel; may be null
@@ -52,6 +53,7 @@ constexpr void for_each_field(Visit&& visit, Record&... wall) {
   visit("fade", wall.fade...);
   visit("navigation", wall.navigation...);
   visit("cue", wall.cue...);
+  visit("false_colours", wall.false_colours...);
   visit("scan", wall.scan...);
   visit("scan_line", wall.scan_line...);
   visit("particles", wall.particles...);

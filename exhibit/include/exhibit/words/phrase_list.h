@@ -279,6 +279,7 @@
   PHRASE(KeyParameters, "key-parameters", "", kLine)         \
   PHRASE(KeyScan, "key-scan", "", kLine)                     \
   PHRASE(KeyTruth, "key-truth", "", kLine)                   \
+  PHRASE(KeyFalseColours, "key-false-colours", "", kLine)    \
   PHRASE(KeyFriction, "key-friction", "", kLine)             \
   PHRASE(KeyScanHand, "key-scan-hand", "", kLine)            \
   PHRASE(KeyScanFeedback, "key-scan-feedback", "", kLine)    \

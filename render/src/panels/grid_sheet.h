@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+#include "render/frame.h"
+
+namespace afm::render {
+
+// The colour grids of the panels that a frame paints, side by side in one picture, each with a rim that repeats its
+// outermost cells: filtering blends no grid with another. Keeps its memory.
+class GridSheet {
+ public:
+  static constexpr std::uint32_t kWidth = 1024;  // texels
+  static_assert(kWidth >= 2 * (kMostGridCells + 2));
+
+  struct Place {
+    glm::vec2 from{0.0F}, to{0.0F};  // corners of the cells, in texels
+    std::uint32_t digest = 0;        // of the colours: a painting that differs in nothing else has another one
+  };
+
+  void clear();
+
+  // Adds a grid of at most kMostGridCells each way; another is a bug of ours.
+  Place add(const ColorGrid& grid);
+
+  bool empty() const { return texels_.empty(); }
+  std::uint32_t height() const { return static_cast<std::uint32_t>(texels_.size() / kWidth); }
+  std::span<const std::array<std::uint8_t, 4>> texels() const { return texels_; }  // row by row
+
+ private:
+  glm::uvec2 next_{0};            // corner of the next grid's rim
+  std::uint32_t row_bottom_ = 0;  // end of the row of grids that is being filled
+  std::vector<std::array<std::uint8_t, 4>> texels_;
+};
+
+}  // namespace afm::render
