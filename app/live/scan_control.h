@@ -47,7 +47,7 @@ class ScanControl final : public ViewControl {
   std::int64_t scanned_ns_ = 0;  // time up to which the scan was advanced
   scene::ScanHand hand_ = scene::ScanHand::Apart;
   bool feedback_ = true;
-  bool false_colours_ = false;  // of the sample, while no image is taken
+  bool false_colours_ = false;  // colours of the sample while no image is taken
   exhibit::HandSize size_;      // as at the beginning of this scan
   exhibit::LeadingScan leading_;
   scene::HandScript script_;  // moves the simulated hand; revision 0: inactive

@@ -24,6 +24,7 @@ constexpr double kParachuteShare = 0.004;  // share of a line's time; a shorter 
 constexpr double kOverloadFactor = 3.0;    // multiple of the setpoint
 constexpr double kStoppedShare = 0.9;      // share of the free amplitude that a stopped swing has lost
 constexpr double kNeitherDeg = 2.0;        // phases nearer to that of the free swing belong to neither state
+constexpr std::size_t kSteadyPixels = 4;   // a swing that a step disturbs passes through both states in fewer
 constexpr double kLagShare = 0.015;        // share of a side; trace and retrace then differ visibly
 constexpr double kApartShare = 0.003;      // share of the relief; less is invisible
 constexpr double kBluntFactor = 1.5;       // multiple of the sharper tip's radius
@@ -103,13 +104,16 @@ ScanEvidence evidence_of(const ScanLine& line, double free_phase_deg) {
 }  // namespace
 
 std::size_t changes_of_state(std::span<const double> phase_deg, double free_phase_deg) {
-  std::size_t changes = 0;
-  double before_deg = 0.0;  // from the free phase; 0: no state yet
+  std::size_t changes = 0, lasts = 0;
+  double state = 0.0, candidate = 0.0;  // 1 attractive, -1 repulsive, 0 neither
   for (const double phase : phase_deg) {
     const double from_free_deg = phase - free_phase_deg;
-    if (!(std::abs(from_free_deg) > kNeitherDeg)) continue;
-    if (from_free_deg * before_deg < 0.0) ++changes;
-    before_deg = from_free_deg;
+    const double here = std::abs(from_free_deg) > kNeitherDeg ? std::copysign(1.0, from_free_deg) : 0.0;
+    lasts = here == candidate ? lasts + 1 : 1;
+    candidate = here;
+    if (here == 0.0 || here == state || lasts < kSteadyPixels) continue;
+    if (state != 0.0) ++changes;
+    state = here;
   }
   return changes;
 }
@@ -159,10 +163,10 @@ ScanArtefact main_artefact(const ScanConditions& conditions, const ScanEvidence&
   if (settings.noise.si > 0.0 && evidence.noise_m > kNoiseShare * evidence.relief_m) return ScanArtefact::Noise;
   if (evidence.off_surface > kParachuteShare) return ScanArtefact::Parachuting;
   if (conditions.tapping != nullptr) {
-    if (evidence.state_changes > 0.0) return ScanArtefact::StateFlips;
     if (evidence.highest_force_n > kStoppedShare * conditions.tapping->free_amplitude_m()) {
       return ScanArtefact::Saturation;
     }
+    if (evidence.state_changes > 0.0) return ScanArtefact::StateFlips;
   } else if (evidence.highest_force_n > kOverloadFactor * std::abs(settings.setpoint.si)) {
     return ScanArtefact::Overload;
   }

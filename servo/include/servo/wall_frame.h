@@ -122,7 +122,7 @@ struct WallFrame {
   std::optional<RecordedScan> scan{};
   std::vector<RecordedScanChange> scan_changes{};  // changes of `scan`
   std::optional<RecordedHandPart> scan_hand{};
-  std::optional<bool> false_colours{};  // of the sample's heights; absent from older files
+  std::optional<bool> false_colours{};  // colours of the sample's heights; absent from older files
 
   bool operator==(const WallFrame&) const = default;
 };

@@ -21,6 +21,7 @@
 #include "exhibit/scan/scan_cause.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
+#include "scanned_sample.h"
 #include "support/image_files.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
@@ -31,20 +32,6 @@ namespace live_scan_test {
 
 constexpr std::size_t kMica = 0, kGold = 1;
 constexpr double kFrameS = 1.0 / 60.0;
-
-const Stage& stage() {
-  static const Stage loaded = [] {
-    ExhibitFiles files;
-    files.assets_dir = support::source("assets");
-    return load_exhibit(files).value();
-  }();
-  return loaded;
-}
-
-LiveScan scan_of(std::size_t material) {
-  const auto model = curves::make_sample_model(curves::ContactSetup{stage().materials.materials[material], {}, {}});
-  return LiveScan(scan_subject(stage().wall_scene, material, model.value()));
-}
 
 void scan_for(LiveScan& scan, double seconds) {
   for (double t = 0; t < seconds; t += kFrameS) scan.advance(kFrameS);

@@ -12,22 +12,13 @@
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/scan/scan_subject.h"
-#include "support/places.h"
+#include "scanned_sample.h"
 
 // What keys I and E lay on the sample.
 namespace afm::exhibit {
 namespace scan_relief_test {
 
 constexpr std::size_t kGold = 1;
-
-const Stage& stage() {
-  static const Stage loaded = [] {
-    ExhibitFiles files;
-    files.assets_dir = support::source("assets");
-    return load_exhibit(files).value();
-  }();
-  return loaded;
-}
 
 std::vector<double> ramp() {
   std::vector<double> heights(kReliefSide * kReliefSide);
@@ -69,8 +60,7 @@ TEST(Relief, IsInsideTheSampleWhereNothingHasBeenMeasuredAndInsideItsBoxWhatever
 }
 
 TEST(ScanRelief, GrowsLineByLineOnTheSurfaceThatTheTipTraces) {
-  const auto model = curves::make_sample_model(curves::ContactSetup{stage().materials.materials[kGold], {}, {}});
-  LiveScan scan(scan_subject(stage().wall_scene, kGold, model.value()));
+  LiveScan scan = scan_of(kGold);
   const auto measured = [&] {
     const HeightRelief relief = relief_of(scan);
     return std::count_if(relief.vertices.begin(), relief.vertices.end(),

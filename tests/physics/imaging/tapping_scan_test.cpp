@@ -244,6 +244,9 @@ TEST(TappingScan, ParachutesAboveASetpointNearTheFreeSwingAndNotBelowALowerOne) 
 
 TEST(TappingScan, SaturatesAtAStepUpUnlessItIsSlow) {
   EXPECT_EQ(artefact_of({.line_rate_hz = 20.0, .setpoint_nm = 8.0}, step_m), ScanArtefact::Saturation);
+  EXPECT_EQ(changes_of_state(std::vector<double>{60, 60, 60, 60, 120, 91, 88, 60, 60, 60, 60}, 90.0), 0U)
+      << "disturbed";
+  EXPECT_EQ(changes_of_state(std::vector<double>{60, 60, 60, 60, 91, 120, 120, 120, 120, 90}, 90.0), 1U);
 }
 
 TEST(TappingScan, FlipsItsStateOverAParticleWhereThereAreTwo) {
