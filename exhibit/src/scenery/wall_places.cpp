@@ -164,7 +164,7 @@ glm::dvec3 WallPlaces::swatch(std::size_t i, std::size_t count) const {
 
 // As far to the right as a narrow wall with panels below leaves room for the numbers.
 double WallPlaces::height_bar_x() const {
-  return std::min(kHeightBarX, half_width_ - kPanelMargin - kHeightBarWidth - kHeightBarTextGap - kHeightBarTextWidth);
+  return std::max(kHeightBarX, kPanelMargin + kHeightBarTextWidth + kHeightBarTextGap - half_width_);
 }
 
 double WallPlaces::unit_m() const { return glm::length(dvec3(room_from_layout_[0])); }

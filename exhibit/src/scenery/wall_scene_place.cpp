@@ -97,7 +97,7 @@ void add_height_labels(const WallPlaces& places, const Phrases& phrases, double 
     if (const auto micro = text.find("um"); micro != std::string::npos) text.replace(micro, 1, "\u00b5");
     return text;
   };
-  const double left = places.height_bar_x() + kHeightBarWidth + kHeightBarTextGap;
+  const double left = places.height_bar_x() - kHeightBarTextGap - kHeightBarTextWidth;
   const auto beside = [&](double height) {
     return places.in_wall(left, kHeightBarBottom + height - 0.5 * kHeightBarTextHeight, kHeightBarTextWidth,
                           kHeightBarTextHeight);
