@@ -18,12 +18,14 @@
 #include "app/options/pixel_size_option.h"
 #include "app/view/view_panels.h"
 #include "core/log.h"
+#include "curves/live_parameters.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/recorded_wall.h"
 #include "exhibit/frame/wall_drawing.h"
 #include "exhibit/frame/wall_pictures.h"
 #include "exhibit/models/model_view.h"
+#include "exhibit/panels/parameter_panel.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 #include "exhibit/state/particle_task.h"
@@ -287,7 +289,10 @@ core::Result<void> run_render(const RenderOptions& options) {
   moment.guidance = stage->phrases().text<exhibit::Phrase::ReplayedMoment>(stage->phrases().word(found->title),
                                                                            fmt::format("{:.2f} s", options.at_s));
   if (options.analogy) moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
-  return draw(*stage, models, moment, options.picture, options.out);
+  return draw(*stage, models, moment, options.picture, options.out, [&](render::FrameState& frame) {
+    if (session->curve) return;  // the recorded law is no forecast
+    exhibit::add_forecast(curves::LiveParameters(models[material]), stage->phrases(), frame.panels.force.content);
+  });
 }
 
 // Options for drawing a model.
