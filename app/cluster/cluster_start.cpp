@@ -49,7 +49,7 @@ core::Result<exhibit::WallModel> wall_model(const exhibit::ExhibitFiles& files, 
     model.meshes.emplace(output.warp_file, std::move(*mesh));
   }
   model.files = files;
-  for (std::string* own : {&model.files.probe, &model.files.sample}) {
+  for (std::string* own : {&model.files.probe, &model.files.sample, &model.files.force_map}) {
     if (!own->empty()) *own = std::filesystem::absolute(*own).string();
   }
   if (std::string& own = model.files.particles; scene::is_particle_path(own)) {

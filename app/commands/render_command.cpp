@@ -19,6 +19,7 @@
 #include "app/view/view_panels.h"
 #include "core/log.h"
 #include "curves/live_parameters.h"
+#include "curves/measured_material.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/recorded_wall.h"
@@ -57,13 +58,17 @@ struct RenderOptions {
 // The wall as far as the session records it: the paper's three materials together, any other material by itself.
 core::Result<exhibit::ExhibitFiles> files_for(const servo::RecordedSession& session, exhibit::ExhibitFiles files) {
   const auto& paper = scene::kPaperMaterials;
-  if (!session.wall.empty() && files.shown.empty()) files.shown = session.shown;
+  if (!session.wall.empty() && files.shown.empty()) {
+    files.shown = session.shown;
+    std::erase(files.shown, curves::kMeasuredName);  // in no material file: drawn with the session's curve
+  }
   const bool shown_anyway = !files.materials.empty() || !files.shown.empty() ||
                             std::find(paper.begin(), paper.end(), session.material) != paper.end();
   if (session.curve) {
     scene::MaterialEntry entry;
     entry.name = session.material;
     entry.title = "Measured curve";
+    if (session.curve->column >= 0) entry.title += fmt::format(" ({},{})", session.curve->column, session.curve->row);
     entry.look = paper.front();
     entry.contact = session.parameters.contact;
     files.added.push_back(entry);

@@ -31,6 +31,14 @@ struct ReplayOptions {
   SoundOptions sound_options;
 };
 
+bool is_of_map(const servo::RecordedSession& session) { return session.curve && session.curve->column >= 0; }
+
+// Null if the material is not of a force map.
+nlohmann::json pixel_of(const servo::RecordedSession& session) {
+  if (!is_of_map(session)) return nullptr;
+  return {session.curve->column, session.curve->row};
+}
+
 nlohmann::json json_of(const std::optional<servo::Difference>& first) {
   if (!first) return nullptr;
   return {{"index", first->index},
@@ -69,6 +77,7 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
   }
   return nlohmann::json{
              {"material", session.material},
+             {"pixel", pixel_of(session)},
              {"rate_Hz", session.rate_hz},
              {"device", session.device.name.data()},
              {"seconds", seconds(session)},
@@ -96,6 +105,9 @@ std::string plain(const servo::RecordedSession& session, const servo::Replay& re
       fmt::format("{}, recorded with {} at {:g} Hz: {:.3f} s, {} ticks, force on in {} of them, {} events\n",
                   session.material, core::printable_line(session.device.name.data()), session.rate_hz, seconds(session),
                   session.samples.size(), with_force, session.events.size());
+  if (is_of_map(session)) {
+    text += fmt::format("felt at pixel {},{} of a force map\n", session.curve->column, session.curve->row);
+  }
   if (range.from_s > 0 || range.to_s < seconds(session)) {
     text += fmt::format("compared from {:.3f} s to {:.3f} s: {} ticks\n", range.from_s,
                         std::min(range.to_s, seconds(session)), replayed.ticks);

@@ -35,7 +35,6 @@
 #include "exhibit/lesson/lesson_samples.h"
 #include "exhibit/lesson/live_lesson.h"
 #include "exhibit/models/shared_model.h"
-#include "exhibit/models/topography_model.h"
 #include "render/context.h"
 #include "render/monitor.h"
 #include "render/renderer.h"
@@ -229,10 +228,18 @@ servo::ServoChoice servo_of(const ViewOptions& options) {
   return servo;
 }
 
-// A person who asks for particles wants to push them: one sample is under the tip from the start, on their scale.
-void set_start(const ViewOptions& options, bool particles, ViewSettings& settings) {
+// A person who asks for particles or a force map wants to feel them: their sample is under the tip from the start,
+// particles on their scale.
+void set_start(const ViewOptions& options, const exhibit::Stage& stage, ViewSettings& settings) {
+  const bool particles = stage.particles != nullptr;
   settings.scale = options.scale.value_or(particles ? scene::ScaleMode::Particles : scene::ScaleMode::Fit);
-  if (particles && !settings.first_material) settings.first_material = 0;
+  if (settings.first_material) return;
+  if (particles) settings.first_material = 0;
+  const auto& materials = stage.materials.materials;
+  const auto pixel = std::find_if(materials.begin(), materials.end(), [&](const scene::MaterialEntry& entry) {
+    return stage.pixel && entry.name == stage.pixel->setup.material.name;
+  });
+  if (pixel != materials.end()) settings.first_material = static_cast<std::size_t>(pixel - materials.begin());
 }
 
 // Null without --headset.
@@ -242,23 +249,6 @@ core::Result<std::unique_ptr<render::HeadsetRuntime>> headset_of(const ViewOptio
 }
 
 }  // namespace
-
-core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction) {
-  std::vector<curves::SampleModel> materials;
-  // the paper's law has no friction: with friction, begins with the law of the adhesion map
-  curves::ModelName law;
-  law.automatic = friction != physics::FrictionLaw::None;
-  for (const scene::MaterialEntry& entry : stage.materials.materials) {
-    auto model = curves::make_sample_model(curves::ContactSetup{entry, {}, law, friction});
-    if (!model) return tl::unexpected(model.error());
-    stage.wall_scene.lay_surface_on(model->parameters, materials.size());
-    if (stage.wall_scene.topography().columns > 0) {
-      core::log_line(exhibit::smoothing_note(*model, stage.wall_scene.topography()));
-    }
-    materials.push_back(std::move(*model));
-  }
-  return materials;
-}
 
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson) {
   const core::CodeOfInterruption released(core::ExitCode::Done);
@@ -270,7 +260,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   if (!options.headset) files.aspect = expected_aspect(options.display);
   auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
-  const auto samples = felt_samples(*stage, options.friction);
+  const auto samples = exhibit::felt_samples(*stage, options.friction);
   if (!samples) return tl::unexpected(samples.error());
   const std::vector<curves::SampleModel>& materials = *samples;
   if (lesson != nullptr) {
@@ -280,12 +270,13 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   const auto wand_choice = parse_wand_choice(options.wand);
   if (!wand_choice) return tl::unexpected(wand_choice.error());
   settings.head_script = wand_choice->head_script;
-  set_start(options, stage->particles != nullptr, settings);
+  set_start(options, *stage, settings);
   if (auto set = set_people(options, *stage, settings); !set) return set;
   auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
   if (!wand) return tl::unexpected(wand.error());
   auto model = exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
-                                     stage->wall_scene.height_fields(), {}, stage->wall_scene.topography().size());
+                                     stage->wall_scene.height_fields(), stage->recorded_curves(),
+                                     stage->wall_scene.topography().size());
   if (!model) return tl::unexpected(model.error());
   if (stage->particles) model->particles = scene::shared_particles(*stage->particles);
 
@@ -348,6 +339,7 @@ void add_view_command(OptionList& program, const CommandContext& context) {
   add_stage_options(command, options->files, context);
   add_own_model_options(command, options->files);
   add_particles_option(command, options->files);
+  add_force_map_options(command, options->files);
   command
       .add_option("--material", options->files.shown,
                   "material to show; repeatable, up to nine; default: the paper's mica, gold and silicon nitride")

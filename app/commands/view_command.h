@@ -48,9 +48,6 @@ struct ViewOptions {
 // Opens the window and runs it until it ends; `lesson` may be null. `program` is the running touchafm.
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson = nullptr);
 
-// The samples of the stage as the servo needs them, with the surfaces that the stage draws.
-core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction);
-
 // Window options that a lesson shares: picture, wand, device, sound and speech.
 void add_window_options(OptionList& command, ViewOptions& options);
 

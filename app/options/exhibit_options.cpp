@@ -9,6 +9,7 @@
 #include "app/options/enum_option.h"
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
+#include "curves/curve_map.h"
 #include "curves/image_file.h"
 
 namespace afm::app {
@@ -68,6 +69,30 @@ void add_particles_option(OptionList& command, exhibit::ExhibitFiles& files) {
           "particles on a level sample, to push with the tip: a particle file (TOML), or the name of a built-in "
           "set, such as gold-row; the scale is then particles unless --scale chooses another")
       .type_name("FILE");
+}
+
+void add_force_map_options(OptionList& command, exhibit::ExhibitFiles& files) {
+  const Option map =
+      command
+          .add_option("--force-map", files.force_map,
+                      "map of force curves from an instrument (.jpk-force-map, .jpk-qi-data or .h5), felt pixel by "
+                      "pixel: the panel shows its picture, and the curve of the chosen pixel is the force law")
+          .type_name("FILE");
+  const auto read = [&files](const std::string& text) -> core::Result<void> {
+    const auto place = curves::parse_map_place(text);
+    if (!place) {
+      return core::wrong_usage(fmt::format("\"{}\" is not COLUMN,ROW, two whole numbers such as 12,3", text));
+    }
+    files.pixel = {place->column, place->row};
+    return {};
+  };
+  command
+      .add_parsed_option(
+          "--pixel", read,
+          "pixel of the force map to feel first, counted from 0 at the left and at the bottom, as touchafm "
+          "analyse prints it; default: the middle")
+      .needs(map)
+      .type_name("COLUMN,ROW");
 }
 
 void add_scale_option(OptionList& command, std::optional<scene::ScaleMode>& mode) {

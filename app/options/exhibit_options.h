@@ -25,6 +25,9 @@ void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files);
 // Adds --particles.
 void add_particles_option(OptionList& command, exhibit::ExhibitFiles& files);
 
+// Adds --force-map and --pixel.
+void add_force_map_options(OptionList& command, exhibit::ExhibitFiles& files);
+
 // Adds --scale.
 void add_scale_option(OptionList& command, std::optional<scene::ScaleMode>& mode);
 

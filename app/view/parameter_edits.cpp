@@ -5,7 +5,10 @@
 #include <array>
 
 #include "cluster/messages.h"
+#include "core/log.h"
+#include "curves/curve_map.h"
 #include "exhibit/panels/parameter_panel.h"
+#include "exhibit/scan/map_picture.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
@@ -56,29 +59,52 @@ bool ParameterEdits::changed(std::size_t material) const {
   return edit.parameters && edit.parameters->changed();
 }
 
-void ParameterEdits::apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo) {
+bool ParameterEdits::apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo) {
+  using Control = render::ControlTarget::Kind;
   curves::LiveParameters& now = parameters(material);
+  if (holds_pixel(material, servo.tip())) {
+    core::log_line("force map: lift the tip off the sample before you choose another pixel");
+    return false;
+  }
+  // a pixel is read from its file: no force waits for that
+  if (now.model().pixel && scene::is_armed(servo.tip().servo_state)) servo.take_force_away();
   bool changed = false;
-  if (target.kind != render::ControlTarget::Kind::Button) {
-    changed = now.step(static_cast<curves::LiveParameters::Row>(target.index),
-                       target.kind == render::ControlTarget::Kind::More ? 1 : -1);
+  if (target.kind == Control::Pixel) {
+    const auto before = now.model().tables;
+    if (const auto chosen = now.choose(exhibit::place_of(target, *now.model().pixel->map)); !chosen) {
+      core::log_line(chosen.error().message);
+      return false;
+    }
+    changed = now.model().tables != before;
+  } else if (target.kind != Control::Button) {
+    changed = now.step(now.rows()[target.index], target.kind == Control::More ? 1 : -1);
   } else if (static_cast<exhibit::PanelButton>(target.index) == exhibit::PanelButton::Reset) {
     changed = now.reset();
   }
-  if (changed) edits_[material].revision = servo.change(material, now.model().parameters);
+  if (changed) send(material, servo);
+  return true;
+}
+
+void ParameterEdits::send(std::size_t material, servo::ServoClient& servo) {
+  const curves::SampleModel& model = parameters(material).model();
+  edits_[material].revision = servo.change(material, model.parameters, curves::shared_curve(model));
+}
+
+bool ParameterEdits::holds_pixel(std::size_t material, const scene::TipState& tip) const {
+  return loaded_[material].pixel && tip.material == static_cast<std::int32_t>(material) &&
+         tip.phase == physics::Phase::Attached;
 }
 
 void ParameterEdits::reset(servo::ServoClient& servo) {
   for (std::size_t i = 0; i < edits_.size(); ++i) {
-    if (edits_[i].parameters && edits_[i].parameters->reset()) {
-      edits_[i].revision = servo.change(i, edits_[i].parameters->model().parameters);
-    }
+    if (edits_[i].parameters && edits_[i].parameters->reset()) send(i, servo);
   }
 }
 
 void ParameterEdits::resend(servo::ServoClient& servo) {
   for (std::size_t i = 0; i < edits_.size(); ++i) {
-    edits_[i].revision = changed(i) ? servo.change(i, edits_[i].parameters->model().parameters) : 0;
+    edits_[i].revision = 0;
+    if (changed(i)) send(i, servo);
   }
 }
 
@@ -89,6 +115,10 @@ exhibit::ChangeState ParameterEdits::state(std::size_t material, const scene::Ti
   if (edit.revision != 0 && tip.acknowledged.refused_edit == edit.revision) return exhibit::ChangeState::Refused;
   if (!taken) return exhibit::ChangeState::Waiting;
   return changed(material) ? exhibit::ChangeState::Applied : exhibit::ChangeState::AsLoaded;
+}
+
+exhibit::ChangeState ParameterEdits::shown_state(std::size_t material, const scene::TipState& tip) const {
+  return holds_pixel(material, tip) ? exhibit::ChangeState::Held : state(material, tip);
 }
 
 }  // namespace afm::app

@@ -30,8 +30,10 @@ class ParameterEdits {
   explicit ParameterEdits(std::vector<curves::SampleModel> loaded)
       : loaded_(std::move(loaded)), edits_(loaded_.size()) {}
 
-  // Applies the button of the panel, except Close, to the parameters and to the servo.
-  void apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo);
+  // Applies the button of the panel, except Close, to the parameters and to the servo. Refuses another pixel of a force
+  // map while the tip touches, and otherwise takes the force away before it reads one. Returns false if it has logged
+  // why it changes nothing.
+  bool apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo);
 
   // Restores the loaded parameters of every material.
   void reset(servo::ServoClient& servo);
@@ -52,7 +54,10 @@ class ParameterEdits {
   bool take_felt(const scene::TipState& tip, std::vector<curves::SampleModel>& felt);
 
   bool changed(std::size_t material) const;
+
+  // State of the newest change; for the panel: Held where a pixel of a force map cannot be left.
   exhibit::ChangeState state(std::size_t material, const scene::TipState& tip) const;
+  exhibit::ChangeState shown_state(std::size_t material, const scene::TipState& tip) const;
 
  private:
   struct Edit {
@@ -60,6 +65,8 @@ class ParameterEdits {
     std::uint32_t revision = 0;  // newest edit sent to the servo; 0: none
   };
   curves::LiveParameters& parameters(std::size_t material);
+  void send(std::size_t material, servo::ServoClient& servo);
+  bool holds_pixel(std::size_t material, const scene::TipState& tip) const;
 
   std::vector<curves::SampleModel> loaded_;
   std::vector<Edit> edits_;

@@ -10,11 +10,13 @@
 #include "cluster/frame_message.h"
 #include "core/enumerators.h"
 #include "core/log.h"
+#include "curves/curve_map.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/friction/friction_panel.h"
 #include "exhibit/panels/panel_hit.h"
 #include "exhibit/panels/parameter_panel.h"
 #include "exhibit/scan/live_scan.h"
+#include "exhibit/scan/map_picture.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scenery/wall_scene.h"
 #include "exhibit/state/moment.h"
@@ -51,10 +53,14 @@ void copy_pointed(const Copy& copy, Told& told, Shown& shown) {
 }
 
 void log_parameters(const curves::LiveParameters& parameters) {
+  if (const auto& pixel = parameters.model().pixel) {
+    const bool doubtful = pixel->measured.features.contact_doubtful;
+    return core::log_line(fmt::format("force map: pixel {}{}", curves::text_of(pixel->place),
+                                      doubtful ? ", whose contact point is doubtful" : ""));
+  }
   std::string line = "parameters:";
-  for (std::size_t i = 0; i < curves::LiveParameters::kRows; ++i) {
-    const auto row = static_cast<curves::LiveParameters::Row>(i);
-    line += fmt::format("{} {}", i == 0 ? "" : ",", parameters.value(row));
+  for (const curves::LiveParameters::Row row : parameters.rows()) {
+    line += fmt::format("{} {}", row == parameters.rows().front() ? "" : ",", parameters.value(row));
   }
   core::log_line(line);
 }
@@ -72,7 +78,10 @@ void log_scan(const exhibit::LiveScan& scan) {
 
 ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
                        KeyList key_list)
-    : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials), key_list_(key_list) {}
+    : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials), key_list_(key_list) {
+  const auto is_of_map = [](const curves::SampleModel& material) { return material.pixel != nullptr; };
+  if (std::any_of(materials.begin(), materials.end(), is_of_map)) right_ = RightPanel::Parameters;
+}
 
 const exhibit::Phrases& ViewPanels::phrases() const { return wall_scene_.phrases(); }
 
@@ -149,11 +158,23 @@ void ViewPanels::press(const Pointed& pointed, std::size_t material, servo::Serv
 
 render::ControlPanel ViewPanels::control_panel(std::size_t material, const std::string& title,
                                                exhibit::ChangeState state) {
-  render::ControlPanel panel = scan_ != nullptr
-                                   ? exhibit::scan_panel(*scan_, title, phrases())
-                                   : exhibit::parameter_panel(edits_.of(material), title, state, phrases(), drawn_by_);
+  const curves::SampleModel& chosen = edits_.of(material).model();
+  render::ControlPanel panel =
+      scan_ != nullptr
+          ? exhibit::scan_panel(*scan_, title, phrases())
+          : exhibit::parameter_panel(edits_.of(material), chosen.pixel ? chosen.setup.material.title : title, state,
+                                     phrases(), drawn_by_);
+  if (scan_ == nullptr && chosen.pixel) panel.picture = picture_of(*chosen.pixel);
   if (marking_) panel.marked = std::min(marked_, panel.rows.size() - 1);
   return panel;
+}
+
+const render::MapPicture& ViewPanels::picture_of(const curves::MapCurve& pixel) {
+  if (std::exchange(pictured_, pixel.map) != pixel.map) {
+    picture_ = exhibit::map_picture(*pixel.map, pixel.place, phrases());
+  }
+  picture_.marked = exhibit::target_index(pixel.place, *pixel.map);
+  return picture_;
 }
 
 void ViewPanels::mark_next(std::size_t material) {
@@ -187,7 +208,7 @@ void ViewPanels::change(const render::ControlTarget& target, std::size_t materia
     return log_scan(*scan_);
   }
   if (servo == nullptr) return;
-  edits_.apply(target, material, *servo);
+  if (!edits_.apply(target, material, *servo)) return;
   const curves::LiveParameters& parameters = edits_.of(material);
   if (parameters.refusal().empty()) return log_parameters(parameters);
   core::log_line("parameters: not changed: " + parameters.refusal());
@@ -198,9 +219,11 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
   const curves::LiveParameters& parameters = edits_.of(material);
   const bool open = right_ == RightPanel::Parameters;
   if (!open && !covered()) {
-    frame.labels.push_back({.text = phrases()[exhibit::Phrase::ChangeParameters],
-                            .highlighted = pointed.tab,
-                            .placement = wall_scene_.places().parameter_tab()});
+    const bool of_map = parameters.model().pixel != nullptr;
+    frame.labels.push_back(
+        {.text = phrases()[of_map ? exhibit::Phrase::ChangePixel : exhibit::Phrase::ChangeParameters],
+         .highlighted = pointed.tab,
+         .placement = wall_scene_.places().parameter_tab()});
   }
   render::ForcePanel& plot = frame.panels.force.content;
   if (open || parameters.changed()) return exhibit::add_prediction(parameters, phrases(), plot);
@@ -220,7 +243,7 @@ void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, 
     case RightPanel::Data:
       return;
     case RightPanel::Parameters:
-      show_right(panels, panels.control, control_panel(material, material_title, edits_.state(material, tip)));
+      show_right(panels, panels.control, control_panel(material, material_title, edits_.shown_state(material, tip)));
       panels.control.content.pointed = pointed.control;
       return;
     case RightPanel::FrictionLoop:
@@ -250,7 +273,7 @@ void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece center
 void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
                         const std::string& material_title, const scene::TipState& tip, HandSource hand,
                         std::string_view letters) {
-  const bool changeable = material && use_ != WallUse::Lesson;
+  const bool changeable = material && use_ != WallUse::Lesson && !edits_.of(*material).rows().empty();
   if (changeable) add_parameters(frame, pointed, *material);
   render::FramePanels& panels = frame.panels;
   if (covered()) {

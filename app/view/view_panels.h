@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,10 @@
 namespace afm::cluster {
 struct ShownPanels;
 }
+namespace afm::curves {
+class CurveMap;
+struct MapCurve;
+}  // namespace afm::curves
 namespace afm::exhibit {
 enum class Centerpiece;
 class FrictionHistory;
@@ -109,6 +114,7 @@ class ViewPanels {
   bool covered() const { return hidden_ || keys_shown_; }
   const exhibit::Phrases& phrases() const;
   render::ControlPanel control_panel(std::size_t material, const std::string& title, exhibit::ChangeState state);
+  const render::MapPicture& picture_of(const curves::MapCurve& pixel);
   void change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo);
   void add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material);
   void add_right(render::FramePanels& panels, const Pointed& pointed, std::size_t material,
@@ -125,6 +131,8 @@ class ViewPanels {
   exhibit::LiveScan* scan_ = nullptr;
   const exhibit::FrictionHistory* friction_ = nullptr;
   std::string drawn_by_;
+  std::shared_ptr<const curves::CurveMap> pictured_;  // map of the picture; null: none yet
+  render::MapPicture picture_;
   std::size_t marked_ = 0;
   bool marking_ = false;  // a key has marked a row
   bool hidden_ = false;

@@ -13,9 +13,9 @@ namespace afm::cluster {
 
 namespace {
 
-constexpr double kLargestSent = 1e9;         // same limit as in the shared scene
-constexpr double kUnitTolerance = 1e-3;      // deviation of an orientation's length from 1
-constexpr std::int32_t kFarthestStep = 100;  // steps between an edited and the loaded value
+constexpr double kLargestSent = 1e9;          // same limit as in the shared scene
+constexpr double kUnitTolerance = 1e-3;       // deviation of an orientation's length from 1
+constexpr std::int32_t kFarthestStep = 8192;  // steps between an edited and the loaded value: the side of a map
 
 template <std::floating_point Number>
 bool sound(Number value) {
@@ -104,7 +104,7 @@ bool is_valid(const ShownView& view) {
 bool is_valid(const ShownPanels& panels) {
   return panels.flags <= ShownPanels::kAllFlags && panels.right < ShownPanels::kMostRight &&
          panels.marked < ShownPanels::kMostRows && panels.hand < ShownPanels::kMostHands &&
-         panels.control_kind < ShownPanels::kMostControls && panels.control_index < ShownPanels::kMostRows;
+         panels.control_kind < ShownPanels::kMostControls && panels.control_index < ShownPanels::kMostTargets;
 }
 
 bool is_valid(const FrameMessage& frame) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <span>
@@ -11,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "curves/curve_map.h"
+#include "curves/recorded_curve.h"
 #include "physics/adhesion_map.h"
 #include "physics/force_model.h"
 #include "physics/quantity_text.h"
@@ -51,6 +54,15 @@ double cycle_reach_m(const SampleModel& material) { return material.scaling.rele
 
 LiveParameters::LiveParameters(const SampleModel& loaded) : loaded_(loaded), now_(loaded), curve_(predict(loaded)) {}
 
+std::span<const LiveParameters::Row> LiveParameters::rows() const {
+  static constexpr std::array kOfLaw{Row::TipRadius,      Row::SpringConstant, Row::Hamaker,
+                                     Row::WorkOfAdhesion, Row::ReducedModulus, Row::Law};
+  static constexpr std::array kOfMap{Row::PixelColumn, Row::PixelRow};
+  if (loaded_.pixel) return kOfMap;
+  if (loaded_.parameters.law == Law::Measured) return {};
+  return kOfLaw;
+}
+
 std::optional<Law> LiveParameters::law_after(int steps) const {
   const std::optional<Law> first = loaded_.setup.model.automatic ? std::nullopt : std::optional(loaded_.parameters.law);
   const auto choices = choices_of_law();
@@ -58,7 +70,48 @@ std::optional<Law> LiveParameters::law_after(int steps) const {
   return choices[static_cast<std::size_t>(place + steps) % choices.size()];
 }
 
+std::optional<MapPlace> LiveParameters::place_after(const Steps& steps) const {
+  const auto moved = [&](std::size_t from, Row row) { return from + static_cast<std::size_t>(steps[index(row)]); };
+  const MapCurve& loaded = *loaded_.pixel;
+  // left of the first column or below the first row lies a huge number
+  const MapPlace place{moved(loaded.place.column, Row::PixelColumn), moved(loaded.place.row, Row::PixelRow)};
+  return loaded.map->holds(place) ? std::optional(place) : std::nullopt;
+}
+
+bool LiveParameters::take_pixel(const Steps& steps) {
+  const auto place = place_after(steps);
+  if (!place) {
+    refusal_ = "the map ends here";
+    return false;
+  }
+  auto model = make_sample_model(loaded_.pixel->map, *place, loaded_.setup.material);
+  if (!model) {
+    refusal_ = model.error().message;
+    return false;
+  }
+  model->parameters.height_field = loaded_.parameters.height_field;
+  model->parameters.topography = loaded_.parameters.topography;
+  model->parameters.surface_release_m = loaded_.parameters.surface_release_m;
+  curve_ = predict(*model);
+  now_ = std::move(*model);
+  steps_ = steps;
+  refusal_.clear();
+  return true;
+}
+
+core::Result<void> LiveParameters::choose(const MapPlace& place) {
+  const auto away = [](std::size_t to, std::size_t from) { return static_cast<int>(to) - static_cast<int>(from); };
+  Steps next{};
+  next[index(Row::PixelColumn)] = away(place.column, loaded_.pixel->place.column);
+  next[index(Row::PixelRow)] = away(place.row, loaded_.pixel->place.row);
+  refused_.reset();
+  refused_direction_ = 0;
+  if (next == steps_ || take(next)) return {};
+  return core::failure(core::ErrorCategory::BadInputFile, std::exchange(refusal_, {}));
+}
+
 bool LiveParameters::take(const Steps& steps) {
+  if (loaded_.pixel) return take_pixel(steps);
   const auto scaled = [&](Row row, auto quantity) {
     quantity.si *= std::exp2(kOctavesOfStep * steps[index(row)]);
     return quantity;
@@ -100,11 +153,15 @@ bool LiveParameters::step(Row row, int direction) {
 
 bool LiveParameters::restore(const State& state) {
   const auto laws = static_cast<int>(choices_of_law().size());
-  for (std::size_t row = 0; row < kRows; ++row) {
-    const int steps = state.steps[row];
-    const bool known = static_cast<Row>(row) == Row::Law ? steps >= 0 && steps < laws : std::abs(steps) <= kMostSteps;
-    if (!known) return false;
+  for (std::size_t i = 0; i < kRows; ++i) {
+    const auto row = static_cast<Row>(i);
+    const int steps = state.steps[i];
+    const int most = loaded_.pixel ? static_cast<int>(kMostMapSide) : kMostSteps;
+    const bool known = row == Row::Law ? steps >= 0 && steps < laws : std::abs(steps) <= most;
+    const bool has_row = std::find(rows().begin(), rows().end(), row) != rows().end();
+    if (!known || (!has_row && steps != 0)) return false;
   }
+  if (state.refused && std::find(rows().begin(), rows().end(), *state.refused) == rows().end()) return false;
   if (state.steps != steps_ && !take(state.steps)) return false;
   refusal_.clear();
   refused_.reset();
@@ -116,6 +173,14 @@ bool LiveParameters::restore(const State& state) {
 bool LiveParameters::try_step(Row row, int direction) {
   Steps next = steps_;
   int& steps = next[index(row)];
+  if (loaded_.pixel) {
+    std::optional<MapPlace> place;
+    do {
+      steps += direction;
+      place = place_after(next);
+    } while (place && !loaded_.pixel->map->has_curve(*place));
+    return take(next);
+  }
   if (row != Row::Law) {
     steps += direction;
     const bool stiffer_than_rigid = std::isinf(loaded_.parameters.contact.reduced_modulus.si) && steps > 0;
@@ -159,6 +224,10 @@ std::string LiveParameters::value(Row row) const {
       return std::isfinite(in.reduced_modulus.si)
                  ? format_quantity(in.reduced_modulus, physics::kPressureUnits, kDigits)
                  : "rigid";
+    case Row::PixelColumn:
+      return fmt::format("{}", now_.pixel->place.column);
+    case Row::PixelRow:
+      return fmt::format("{}", now_.pixel->place.row);
     case Row::Law:
       break;
   }

@@ -18,7 +18,7 @@ namespace {
 scene::MaterialEntry entry_of(const std::string& path, const CurveMetadata& metadata,
                               const scene::MaterialEntry& like) {
   scene::MaterialEntry entry;
-  entry.name = "measured";
+  entry.name = kMeasuredName;
   entry.title = std::filesystem::path(path).stem().string();
   entry.look = like.look;
   entry.note = metadata.instrument;
@@ -36,10 +36,15 @@ scene::MaterialEntry entry_of(const std::string& path, const CurveMetadata& meta
 core::Result<MeasuredMaterial> load_measured_material(const std::string& path, const scene::MaterialEntry& like) {
   const auto recorded = load_curve(path);
   if (!recorded) return tl::unexpected(recorded.error());
-  for (const std::string& remark : recorded->metadata.remarks) core::log_line(fmt::format("{}: {}", path, remark));
+  return measured_material(*recorded, path, like);
+}
+
+core::Result<MeasuredMaterial> measured_material(const RecordedCurve& recorded, const std::string& path,
+                                                 const scene::MaterialEntry& like) {
+  for (const std::string& remark : recorded.metadata.remarks) core::log_line(fmt::format("{}: {}", path, remark));
   try {
-    const auto branches = physics::measured_branches(recorded->points, scene::kMaxMeasuredPoints);
-    MeasuredMaterial measured{entry_of(path, recorded->metadata, like), {}, physics::analyse(recorded->points)};
+    const auto branches = physics::measured_branches(recorded.points, scene::kMaxMeasuredPoints);
+    MeasuredMaterial measured{entry_of(path, recorded.metadata, like), {}, physics::analyse(recorded.points)};
     measured.curve.approach_count = static_cast<std::uint32_t>(branches.approach.size());
     measured.curve.retract_count = static_cast<std::uint32_t>(branches.retract.size());
     measured.curve.jumps = branches.jumps;

@@ -51,6 +51,7 @@ const std::vector<Input> kInputs{
     {"view", "--sample", "--sample @", ".glb"},
     {"view", "--sample", "--sample @", ".spm"},
     {"view", "--particles", "--particles @"},
+    {"view", "--force-map", "--force-map @", ".jpk-force-map"},
     {"view", "--wand-file", "--wand-file @"},
     {"view", "--head", "--head sim:@", ".csv"},
     {"view", "--haptics", "--haptics replay:@", ".afms"},

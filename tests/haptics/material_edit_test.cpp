@@ -8,9 +8,11 @@
 #include <cstdlib>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "haptics/edit_thread.h"
 #include "servo_bench.h"
+#include "support/measured_curve_of.h"
 
 namespace material_edit_test {
 
@@ -129,6 +131,58 @@ TEST(MaterialEdit, ThatCannotBeFeltIsRefusedAndChangesNothing) {
   EXPECT_EQ(bench.state().acknowledged.refused_edit, 3U);
   EXPECT_EQ(bench.state().active.edit_revision, 0U);
   EXPECT_NEAR(bench.hand_force_n(), force_n, 1e-3);
+}
+
+// Mica with the curve of an instrument, which tears off at 14 nm.
+SharedModel measured_model() {
+  SharedModel model = paper_model();
+  model.materials[kMica].law = afm::physics::Law::Measured;
+  afm::test::add_measured_curve(model, kMica);
+  return model;
+}
+
+// The same curve, tearing off at 10 nm: that of another pixel.
+SharedMeasuredCurve other_curve(const SharedModel& model) {
+  SharedMeasuredCurve curve = model.curves[0];
+  for (auto& point : curve.retract) {
+    if (point.z.si > 10e-9) point.force = afm::physics::Force();
+  }
+  return curve;
+}
+
+TEST(MaterialEdit, BringsAnotherMeasuredCurveOnceTheTipIsOffAndTheForceGone) {
+  const SharedModel model = measured_model();
+  ServoBench bench(model);
+  bench.hold_attached(kMica);
+  bench.edit(kMica, model.materials[kMica], other_curve(model));
+  bench.run(0.3);
+  EXPECT_EQ(bench.state().active.edit_revision, 0U) << "in contact";
+  EXPECT_EQ(bench.state().servo_state, ServoState::Running);
+  bench.move(0.072, 0.5);
+  bench.run(0.2);
+  EXPECT_EQ(bench.state().active.edit_revision, 1U);
+  EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
+  EXPECT_EQ(bench.hand_force_n(), 0.0);
+
+  bench.hold_attached(kMica);
+  bench.move(0.072, 2.0);
+  EXPECT_NEAR(pull_off_m(bench, 0), 14e-9, 0.3e-9);
+  EXPECT_NEAR(pull_off_m(bench, 1), 10e-9, 0.3e-9);
+}
+
+TEST(MaterialEdit, OfACurveThatIsNoneIsRefused) {
+  const SharedModel model = measured_model();
+  ServoBench bench(model);
+  bench.arm(kMica);
+  SharedMeasuredCurve backwards = other_curve(model);
+  std::swap(backwards.retract[3], backwards.retract[4]);
+  bench.edit(kMica, model.materials[kMica], backwards);
+  SharedMeasuredCurve endless = other_curve(model);
+  endless.approach_count = 0xFFFFFFFFU;
+  bench.edit(kMica, model.materials[kMica], endless);
+  bench.run(0.1);
+  EXPECT_EQ(bench.state().acknowledged.refused_edit, 2U);
+  EXPECT_EQ(bench.state().active.edit_revision, 0U);
 }
 
 TEST(MaterialEdit, OfAThousandInAStormTheNewestIsFelt) {

@@ -79,9 +79,10 @@ class ServoBench {
     renderer.store(scene::Selection{.material = material, .revision = ++selection, .scale_mode = mode});
   }
 
-  // Sends other parameters for a material and lets the builder work.
-  void edit(std::int32_t material, const scene::SharedContact& parameters) {
-    renderer.store(scene::MaterialEdit{.material = parameters, .revision = ++edits},
+  // Sends other parameters for a material, and another curve if it has one, and lets the builder work.
+  void edit(std::int32_t material, const scene::SharedContact& parameters,
+            const scene::SharedMeasuredCurve& curve = {}) {
+    renderer.store(scene::MaterialEdit{.material = parameters, .revision = ++edits, .curve = curve},
                    static_cast<std::uint32_t>(material));
     loop->edits().build();
   }

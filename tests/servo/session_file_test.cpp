@@ -268,6 +268,8 @@ TEST(SessionFile, CarriesTheCurveThatWasFelt) {
   curve.approach_count = curve.retract_count = 2;
   curve.approach[1] = curve.retract[1] = {physics::Length(3e-9), physics::Force(-0.2e-9)};
   curve.jumps = {.approach = 1, .retract = 2};
+  curve.column = 3;
+  curve.row = 12;
   ASSERT_TRUE(save_session(session, folder.file("m.afms")).has_value());
   const auto loaded = load_session(folder.file("m.afms"));
   ASSERT_TRUE(loaded.has_value()) << loaded.error().message;
@@ -276,6 +278,8 @@ TEST(SessionFile, CarriesTheCurveThatWasFelt) {
   EXPECT_EQ(loaded->curve->retract[1].force.si, -0.2e-9);
   EXPECT_EQ(loaded->curve->jumps.approach, 1U);
   EXPECT_EQ(loaded->curve->jumps.retract, 2U);
+  EXPECT_EQ(loaded->curve->column, 3);
+  EXPECT_EQ(loaded->curve->row, 12);
 }
 
 TEST(SessionFile, CarriesTheSurfaceThatWasFelt) {

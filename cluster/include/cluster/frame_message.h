@@ -51,7 +51,7 @@ static_assert(scene::all_fields_described<ShownTip>());
 struct ShownPanels {
   static constexpr std::uint32_t kKeys = 1, kHidden = 2, kKeysKnown = 4, kMarking = 8, kUnattended = 16, kTab = 32,
                                  kControl = 64, kAllFlags = 127;
-  static constexpr std::uint32_t kMostRows = 64;
+  static constexpr std::uint32_t kMostRows = 64, kMostTargets = 8192U * 8192U;  // those of a map's pixels
 
   std::uint32_t flags = 0;
   std::uint32_t right = 0;   // panel in the place of the sample's data, below kMostRight
@@ -60,7 +60,7 @@ struct ShownPanels {
   std::uint32_t control_kind = 0;
   std::uint32_t control_index = 0;
 
-  static constexpr std::uint32_t kMostRight = 8, kMostHands = 3, kMostControls = 3;
+  static constexpr std::uint32_t kMostRight = 8, kMostHands = 3, kMostControls = 4;
 };
 
 template <class Visit, scene::RecordOf<ShownPanels>... Record>

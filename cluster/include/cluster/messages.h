@@ -22,7 +22,7 @@ namespace afm::cluster {
 inline constexpr std::size_t kMostDatagramBytes = 1300;
 
 // Increase whenever the meaning of a message changes.
-inline constexpr std::uint32_t kClusterVersion = 4;
+inline constexpr std::uint32_t kClusterVersion = 5;
 
 // Header of every message. Each master draws a random `session` when it starts.
 struct ClusterHeader {
@@ -97,7 +97,7 @@ static_assert(scene::all_fields_described<SwapMessage>());
 struct EditRecord {
   std::uint32_t material = 0;
   std::uint32_t revision = 0;
-  std::array<std::int32_t, 6> steps{};
+  std::array<std::int32_t, 8> steps{};
   std::int32_t refused_row = -1;
   std::int32_t refused_direction = 0;
 

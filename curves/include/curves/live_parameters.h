@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
+#include "curves/map_place.h"
 #include "curves/sample_model.h"
 #include "physics/force_curve.h"
 
@@ -19,19 +21,26 @@ double cycle_reach_m(const SampleModel& material);
 // A quantity of physics/quantity_text.h in correct typography: "31.8 mJ/m²" for "31.8 mJ/m2".
 std::string typographic(std::string text);
 
-// The parameters of a material that a user may change while it is felt, and the resulting curve. Always valid: a step
-// that would leave the laws' ranges changes nothing and gives the reason.
+// The parameters of a material that a user may change while it is felt, and the resulting curve; of a force map, the
+// pixel. Always valid: a step that would leave the laws' ranges or the map changes nothing and gives the reason.
 class LiveParameters {
  public:
-  enum class Row { TipRadius, SpringConstant, Hamaker, WorkOfAdhesion, ReducedModulus, Law };
-  static constexpr std::size_t kRows = 6;
+  enum class Row { TipRadius, SpringConstant, Hamaker, WorkOfAdhesion, ReducedModulus, Law, PixelColumn, PixelRow };
+  static constexpr std::size_t kRows = 8;
 
-  // `loaded` is the servo's initial model; its law must not be a recorded curve.
+  // `loaded` is the servo's initial model.
   explicit LiveParameters(const SampleModel& loaded);
 
-  // One step down (-1) or up (+1): a factor of the fourth root of two, or the next law. Returns whether anything
-  // changed.
+  // The rows that this material has; a recorded curve that is no pixel of a force map has none.
+  std::span<const Row> rows() const;
+
+  // One step down (-1) or up (+1): a factor of the fourth root of two, the next law, or the next pixel with a curve.
+  // Returns whether anything changed. A pixel is read from its file, which takes milliseconds.
   bool step(Row row, int direction);
+
+  // Goes to a pixel of the force map, for a material of one. Errors as of CurveMap::material(); nothing has changed
+  // then.
+  core::Result<void> choose(const MapPlace& place);
 
   // Returns to the loaded parameters. Returns whether anything changed.
   bool reset();
@@ -66,6 +75,8 @@ class LiveParameters {
   static std::size_t index(Row row) { return static_cast<std::size_t>(row); }
   std::optional<physics::Law> law_after(int steps) const;  // empty: the adhesion map's
   bool take(const Steps& steps);
+  bool take_pixel(const Steps& steps);
+  std::optional<MapPlace> place_after(const Steps& steps) const;  // empty: outside the map
   bool try_step(Row row, int direction);
 
   SampleModel loaded_;

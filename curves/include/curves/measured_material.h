@@ -4,15 +4,18 @@
 #include <string>
 
 #include "core/result.h"
+#include "curves/recorded_curve.h"
 #include "physics/curve_analysis.h"
 #include "scene/samples/material_library.h"
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::curves {
 
+inline constexpr const char* kMeasuredName = "measured";
+
 // An instrument's curve as a material for the exhibit.
 struct MeasuredMaterial {
-  scene::MaterialEntry entry;  // named "measured", with the file's name as title
+  scene::MaterialEntry entry;  // named kMeasuredName, with the file's name as title
   scene::SharedMeasuredCurve curve;
   physics::CurveFeatures features;  // as printed by `touchafm analyse`
 };
@@ -20,5 +23,9 @@ struct MeasuredMaterial {
 // Reads any format of curves/curve_file.h. Lever, tip and look are those of `like`, except for a spring constant given
 // in the file. Fails as load_curve() does, and with BadInputFile for a curve without contact.
 core::Result<MeasuredMaterial> load_measured_material(const std::string& path, const scene::MaterialEntry& like);
+
+// The same for a curve that was read from the file, whose remarks are logged.
+core::Result<MeasuredMaterial> measured_material(const RecordedCurve& recorded, const std::string& path,
+                                                 const scene::MaterialEntry& like);
 
 }  // namespace afm::curves

@@ -16,6 +16,8 @@
 
 namespace afm::curves {
 
+struct MapCurve;
+
 // A material as it is felt and shown: its entries in files and on the command line, the current parameters, the
 // resulting law and the derived figures. A new one is created for other parameters; cheap to copy.
 struct SampleModel {
@@ -24,6 +26,7 @@ struct SampleModel {
   physics::LawChoice contact;                        // position on the adhesion map, and the law that suits it
   std::shared_ptr<const physics::LawTables> tables;  // dynamic lever: tables of the same lever at rest
   haptics::Scaling scaling;                          // Fit, on the simulated hand
+  std::shared_ptr<const MapCurve> pixel;             // pixel of a force map (curves/curve_map.h); null: none
 
   const physics::CycleFigures& figures() const { return tables->figures; }
   bool dynamic() const { return parameters.dynamic != 0; }

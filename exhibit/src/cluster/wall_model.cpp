@@ -59,6 +59,10 @@ WallModel model_of(const json& root) {
   model.files.probe = checked_name(root.at("probe"));
   model.files.sample = checked_name(root.at("sample"));
   model.files.particles = checked_name(root.at("particles"));
+  model.files.force_map = checked_name(root.at("force_map"));
+  if (const auto pixel = root.at("pixel").get<std::vector<std::size_t>>(); pixel.size() == 2) {
+    model.files.pixel = {pixel[0], pixel[1]};
+  }
   root.at("sample_channel").get_to(model.files.sample_channel);
   model.files.sample_levelling = enumerator_of<physics::Levelling>(root.at("sample_levelling"));
   root.at("shown").get_to(model.files.shown);
@@ -103,6 +107,8 @@ bool lies_beside(const std::string& name) {
 }
 
 std::vector<std::byte> document_of(const WallModel& model) {
+  std::vector<std::size_t> pixel;
+  if (const auto& chosen = model.files.pixel) pixel = {chosen->front(), chosen->back()};
   const json root{{"build", model.build},
                   {"scene", model.scene},
                   {"wall", model.wall},
@@ -113,6 +119,8 @@ std::vector<std::byte> document_of(const WallModel& model) {
                   {"probe", model.files.probe},
                   {"sample", model.files.sample},
                   {"particles", model.files.particles},
+                  {"force_map", model.files.force_map},
+                  {"pixel", pixel},
                   {"sample_channel", model.files.sample_channel},
                   {"sample_levelling", static_cast<std::uint32_t>(model.files.sample_levelling)},
                   {"shown", model.files.shown},
@@ -140,8 +148,8 @@ core::Result<ExhibitFiles> unpack(const WallModel& model, const std::string& ass
   ExhibitFiles files = model.files;
   files.assets_dir = assets_dir;
   const std::string particles = scene::is_particle_path(files.particles) ? files.particles : "";
-  for (const auto& [file, what] :
-       {std::pair(files.probe, "probe"), std::pair(files.sample, "sample"), std::pair(particles, "particle file")}) {
+  for (const auto& [file, what] : {std::pair(files.probe, "probe"), std::pair(files.sample, "sample"),
+                                   std::pair(particles, "particle file"), std::pair(files.force_map, "force map")}) {
     if (auto here = own_file_is_here(file, what); !here) return tl::unexpected(here.error());
   }
   const std::filesystem::path beside = std::filesystem::path(folder) / "wall";

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <glm/common.hpp>
@@ -12,9 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/interruption.h"
 #include "core/log.h"
+#include "curves/curve_map.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/wall_pictures.h"
+#include "exhibit/models/topography_model.h"
 #include "exhibit/models/user_models.h"
 #include "physics/quantity_text.h"
 #include "render/renderer.h"
@@ -29,6 +33,11 @@ std::vector<std::string> Stage::titles() const {
   titles.reserve(materials.materials.size());
   for (const scene::MaterialEntry& entry : materials.materials) titles.push_back(phrases().word(entry.title));
   return titles;
+}
+
+std::span<const scene::SharedMeasuredCurve> Stage::recorded_curves() const {
+  if (!pixel) return {};
+  return {&pixel->pixel->measured.curve, 1};
 }
 
 render::RendererOptions Stage::renderer_options(std::uint32_t eye_width) const {
@@ -93,6 +102,48 @@ core::Result<std::shared_ptr<const scene::ParticleSet>> load_particles(const Exh
   return std::make_shared<const scene::ParticleSet>(std::move(*set));
 }
 
+// A line a second on what is read; ends after an interruption.
+curves::CurveMap::Progress progress_of(const std::string& file) {
+  return [file, told = std::chrono::steady_clock::now()](std::size_t read, std::size_t count) mutable {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told >= std::chrono::seconds(1)) {
+      told = now;
+      core::log_line(fmt::format("force map {}: {} of {} curves, {} %", file, read, count, 100 * read / count));
+    }
+    return !core::interrupted();
+  };
+}
+
+// Null if no force map is wanted.
+core::Result<std::shared_ptr<const curves::SampleModel>> load_pixel(const ExhibitFiles& files) {
+  if (files.force_map.empty()) return nullptr;
+  if (!files.particles.empty())
+    return core::wrong_usage("--force-map: its law is no particle's: leave --particles out");
+  const auto library = scene::load_materials(files.assets_dir + "/materials.toml");
+  if (!library) return tl::unexpected(library.error());
+  auto read = curves::CurveMap::load(files.force_map, progress_of(files.force_map));
+  if (!read) return tl::unexpected(read.error());
+  const auto map = std::make_shared<const curves::CurveMap>(std::move(*read));
+  const curves::MapPlace place = files.pixel ? curves::MapPlace{(*files.pixel)[0], (*files.pixel)[1]} : map->middle();
+  auto model = curves::make_sample_model(map, place, library->materials.front());
+  if (!model && !files.pixel) {
+    return core::failure(model.error().category, model.error().message + "; choose another with --pixel");
+  }
+  if (!model) return tl::unexpected(model.error());
+  core::log_line(
+      fmt::format("force map {}: {} x {} pixels; felt first: {}{}", files.force_map, map->grid().columns,
+                  map->grid().rows, curves::text_of(model->pixel->place),
+                  model->pixel->measured.features.contact_doubtful ? ", whose contact point is doubtful" : ""));
+  return std::make_shared<const curves::SampleModel>(std::move(*model));
+}
+
+// Without a pixel in its title: it may change.
+scene::MaterialEntry entry_of(const curves::SampleModel& pixel) {
+  scene::MaterialEntry entry = pixel.setup.material;
+  entry.title = std::filesystem::path(pixel.pixel->map->path()).stem().string();
+  return entry;
+}
+
 // Fits the screen to the ratio at the same height. Nearly the same ratio keeps the screen unchanged.
 void take_aspect(double aspect, scene::Screen& screen) {
   constexpr double kSame = 0.01;
@@ -132,7 +183,11 @@ core::Result<LoadedPhrases> load_phrases(const ExhibitFiles& files) {
 core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
   auto phrases = load_phrases(files);
   if (!phrases) return tl::unexpected(phrases.error());
-  auto materials = shown_materials(files);
+  auto pixel = load_pixel(files);
+  if (!pixel) return tl::unexpected(pixel.error());
+  ExhibitFiles with_pixel = files;
+  if (*pixel) with_pixel.added.push_back(entry_of(**pixel));
+  auto materials = shown_materials(with_pixel);
   if (!materials) return tl::unexpected(materials.error());
   auto wall = scene::load_wall(files.wall.empty() ? files.assets_dir + "/walls/powerwall.toml" : files.wall);
   if (!wall) return tl::unexpected(wall.error());
@@ -151,8 +206,27 @@ core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
   auto wall_scene = WallScene::load(files.assets_dir, *materials, place, phrases->wall, *own);
   if (!wall_scene) return tl::unexpected(wall_scene.error());
   wall_scene->set_text_size(files.text_size);
-  return Stage{std::move(*materials),       std::move(*wall), place.main, *eyes, std::move(*wall_scene),
-               std::move(phrases->english), *particles};
+  return Stage{std::move(*materials),       std::move(*wall), place.main,       *eyes, std::move(*wall_scene),
+               std::move(phrases->english), *particles,       std::move(*pixel)};
+}
+
+core::Result<std::vector<curves::SampleModel>> felt_samples(const Stage& stage, physics::FrictionLaw friction) {
+  std::vector<curves::SampleModel> materials;
+  // the paper's law has no friction: with friction, begins with the law of the adhesion map
+  curves::ModelName law;
+  law.automatic = friction != physics::FrictionLaw::None;
+  for (const scene::MaterialEntry& entry : stage.materials.materials) {
+    const bool is_pixel = stage.pixel && entry.name == stage.pixel->setup.material.name;
+    auto model = is_pixel ? core::Result<curves::SampleModel>(*stage.pixel)
+                          : curves::make_sample_model(curves::ContactSetup{entry, {}, law, friction});
+    if (!model) return tl::unexpected(model.error());
+    stage.wall_scene.lay_surface_on(model->parameters, materials.size());
+    if (stage.wall_scene.topography().columns > 0) {
+      core::log_line(smoothing_note(*model, stage.wall_scene.topography()));
+    }
+    materials.push_back(std::move(*model));
+  }
+  return materials;
 }
 
 bool is_model_file(const std::string& name) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/enumerators.h"
+#include "curves/curve_map.h"
 #include "curves/plot_units.h"
 #include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
@@ -27,6 +28,11 @@ std::string pull(physics::Force value) {
 
 std::vector<std::string> notes(const curves::LiveParameters& parameters, const Phrases& phrases) {
   using enum Phrase;
+  // of a pixel, the plot has the jumps; the picture needs the room
+  if (const auto& pixel = parameters.model().pixel) {
+    return pixel->measured.features.contact_doubtful ? std::vector{phrases[ContactDoubtful]}
+                                                     : std::vector<std::string>();
+  }
   const physics::CycleFigures& figures = parameters.model().figures();
   const physics::LawChoice& suited = parameters.model().contact;
   std::vector<std::string> lines;
@@ -48,9 +54,9 @@ std::vector<std::string> notes(const curves::LiveParameters& parameters, const P
 }
 
 // In the order of LiveParameters::Row, and of ChangeState.
-constexpr std::array<Phrase, curves::LiveParameters::kRows> kNames{Phrase::TipRadius,       Phrase::SpringConstant,
-                                                                   Phrase::HamakerConstant, Phrase::WorkOfAdhesion,
-                                                                   Phrase::ReducedModulus,  Phrase::ForceLaw};
+constexpr std::array<Phrase, curves::LiveParameters::kRows> kNames{
+    Phrase::TipRadius,      Phrase::SpringConstant, Phrase::HamakerConstant, Phrase::WorkOfAdhesion,
+    Phrase::ReducedModulus, Phrase::ForceLaw,       Phrase::PixelColumn,     Phrase::PixelRow};
 static_assert(after(Phrase::ParametersLoaded, core::kEnumerators<ChangeState>.size()) == Phrase::NoSuchParameters);
 
 std::string value_text(const curves::LiveParameters& parameters, curves::LiveParameters::Row row,
@@ -63,6 +69,14 @@ std::string value_text(const curves::LiveParameters& parameters, curves::LivePar
     return parameters.automatic_law() ? phrases.text<Phrase::AutomaticLaw>(law) : law;
   }
   return phrases.number(parameters.value(row));
+}
+
+// Outcome of the last change.
+Phrase status_of(const curves::LiveParameters& parameters, ChangeState state) {
+  const bool of_map = parameters.model().pixel != nullptr;
+  if (!parameters.refusal().empty()) return of_map ? Phrase::NoSuchPixel : Phrase::NoSuchParameters;
+  if (of_map && state == ChangeState::AsLoaded) return Phrase::PixelLoaded;
+  return after(Phrase::ParametersLoaded, core::index_of(state));
 }
 
 double strongest_pull_n(const physics::ForceCurve& curve) {
@@ -78,16 +92,15 @@ render::ControlPanel parameter_panel(const curves::LiveParameters& parameters, c
                                      ChangeState state, const Phrases& phrases, const std::string& drawn_by) {
   render::ControlPanel panel;
   panel.title = title;
-  panel.status = parameters.refusal().empty() ? phrases[after(Phrase::ParametersLoaded, core::index_of(state))]
-                                              : phrases[Phrase::NoSuchParameters];
-  for (std::size_t i = 0; i < curves::LiveParameters::kRows; ++i) {
-    const auto row = static_cast<curves::LiveParameters::Row>(i);
-    panel.rows.push_back({.name = phrases[kNames[i]],
+  panel.status = phrases[status_of(parameters, state)];
+  for (const curves::LiveParameters::Row row : parameters.rows()) {
+    panel.rows.push_back({.name = phrases[kNames[core::index_of(row)]],
                           .value = value_text(parameters, row, phrases),
                           .changed = parameters.changed(row)});
   }
   panel.notes = notes(parameters, phrases);
-  if (!drawn_by.empty()) panel.notes.push_back(phrases.text<Phrase::NoteDrawnBy>(drawn_by));
+  if (!drawn_by.empty() && !parameters.model().pixel)
+    panel.notes.push_back(phrases.text<Phrase::NoteDrawnBy>(drawn_by));
   panel.buttons = {phrases[Phrase::ButtonReset], phrases[Phrase::ButtonClose]};
   return panel;
 }

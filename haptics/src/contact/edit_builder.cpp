@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <span>
 
 #include "core/log.h"
 #include "haptics/edit_thread.h"
@@ -17,10 +18,18 @@ constexpr auto kLookEvery = std::chrono::milliseconds(5);
 }  // namespace
 
 core::Result<std::unique_ptr<ContactModel>> EditBuilder::model_of(const scene::MaterialEdit& edit) const {
-  auto tables = build_tables(edit.material, curves_);
+  const bool has_curve = edit.curve.approach_count > 0;
+  if (has_curve && !scene::is_valid(edit.curve)) {
+    return core::failure(core::ErrorCategory::Failed, "its measured curve is not in order of increasing Z");
+  }
+  scene::SharedContact material = edit.material;
+  if (has_curve) material.measured_curve = 0;
+  std::span<const scene::SharedMeasuredCurve> curves = curves_;
+  if (has_curve) curves = std::span(&edit.curve, 1);
+  auto tables = build_tables(material, curves);
   if (!tables) return tl::unexpected(tables.error());
-  return ContactModel::create(edit.material, edit.revision, std::move(*tables),
-                              scene::surface_of(edit.material, surfaces_, topography_), common_, device_, period_ns_);
+  return ContactModel::create(material, edit.revision, std::move(*tables),
+                              scene::surface_of(material, surfaces_, topography_), common_, device_, period_ns_);
 }
 
 void EditBuilder::build() {

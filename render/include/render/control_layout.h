@@ -17,6 +17,9 @@ struct ControlBox {
 // Drawn position of a target on a control panel of this size. The target must belong to the panel.
 ControlBox control_box(const ControlPanel& panel, const glm::dvec2& size_mm, const ControlTarget& target);
 
+// Place of the panel's picture. The panel must have one.
+ControlBox picture_box(const ControlPanel& panel, const glm::dvec2& size_mm);
+
 // Target at a point of the panel, if there is one.
 std::optional<ControlTarget> control_at(const ControlPanel& panel, const glm::dvec2& size_mm,
                                         const glm::dvec2& point_mm);

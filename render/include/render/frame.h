@@ -207,10 +207,21 @@ struct Label {  // short text in the room, such as a swatch's name
   bool operator==(const Label&) const = default;
 };
 
+inline constexpr std::uint32_t kMostGridCells = 510;  // each way; no panel shows more
+
+// Grid of colours, row by row from the top; at most kMostGridCells each way.
+struct ColorGrid {
+  std::uint32_t columns = 0;
+  std::uint32_t rows = 0;
+  std::vector<std::array<std::uint8_t, 4>> colors;  // sRGB and coverage; columns * rows entries
+
+  bool operator==(const ColorGrid&) const = default;
+};
+
 // Target that a ray can hit on a ControlPanel.
 struct ControlTarget {
-  enum class Kind { Less, More, Button } kind = Kind::Less;
-  std::size_t index = 0;  // index of the row or the button
+  enum class Kind { Less, More, Button, Pixel } kind = Kind::Less;
+  std::size_t index = 0;  // index of the row or the button; of a map's pixel, row by row from the top left
 
   bool operator==(const ControlTarget&) const = default;
 };
@@ -222,6 +233,19 @@ struct ControlRow {  // value with one target to decrease it and one to increase
   bool operator==(const ControlRow&) const = default;
 };
 
+// A map in false colours, each of whose pixels can be pointed at.
+struct MapPicture {
+  std::string title;
+  std::uint32_t columns = 1, rows = 1;  // size of the map; its grid may have fewer
+  double aspect = 1;                    // width to height
+  ColorGrid grid;
+  std::size_t marked = 0;       // pixel that is felt, as ControlTarget::index
+  std::vector<glm::vec3> bar;   // colours from the lowest to the highest value
+  std::string lowest, highest;  // those values with their unit
+
+  bool operator==(const MapPicture&) const = default;
+};
+
 // Panel of values that are changed by pointing; render/control_layout.h has the positions of its targets.
 struct ControlPanel {
   std::string title;
@@ -231,19 +255,9 @@ struct ControlPanel {
   std::string status;              // outcome of the last change
   std::optional<ControlTarget> pointed;
   std::optional<std::size_t> marked;  // row changed by keys
+  std::optional<MapPicture> picture;  // below the notes
 
   bool operator==(const ControlPanel&) const = default;
-};
-
-inline constexpr std::uint32_t kMostGridCells = 510;  // each way; no panel shows more
-
-// Grid of colours, row by row from the top; at most kMostGridCells each way.
-struct ColorGrid {
-  std::uint32_t columns = 0;
-  std::uint32_t rows = 0;
-  std::vector<std::array<std::uint8_t, 4>> colors;  // sRGB and coverage; columns * rows entries
-
-  bool operator==(const ColorGrid&) const = default;
 };
 
 // One quantity of a scan as a picture. Unmeasured pixels have no coverage.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/common.hpp>
 
 #include "panels/panel_painting.h"
 #include "render/control_layout.h"
@@ -17,12 +20,25 @@ constexpr double kGap = 10.0;
 constexpr double kNoteHeight = 41.0;
 constexpr double kBelowNotes = 16.0;  // distance from the notes to the rounded edge
 constexpr float kValueScale = 0.8F;
+constexpr double kBesidePicture = 190.0;  // room for the bar with its values
+constexpr double kBarWidth = 30.0;
+constexpr double kSmallestPicture = 1.0;
 
 // Distance between rows in the height that the notes leave.
 double row_pitch(const ControlPanel& panel, double height_mm) {
   const double notes = kNoteHeight * static_cast<double>(panel.notes.size() + 1) + kGap + kBelowNotes;
   const double rows = static_cast<double>(std::max<std::size_t>(panel.rows.size(), 1));
   return std::clamp((height_mm - kTop - notes) / rows, 1.0, kTallestRow);
+}
+
+double end_of_notes(const ControlPanel& panel, const glm::dvec2& size_mm) {
+  const double rows = row_pitch(panel, size_mm.y) * static_cast<double>(panel.rows.size());
+  return kTop + rows + kGap + kNoteHeight * static_cast<double>(panel.notes.size() + 1);
+}
+
+bool holds(const ControlBox& box, const glm::dvec2& point_mm) {
+  return point_mm.x >= box.from_mm.x && point_mm.x < box.to_mm.x && point_mm.y >= box.from_mm.y &&
+         point_mm.y < box.to_mm.y;
 }
 
 glm::vec2 f(const glm::dvec2& v) { return glm::vec2(v); }
@@ -65,7 +81,22 @@ void paint_row(Canvas& canvas, const ControlPanel& panel, std::size_t row, doubl
 
 }  // namespace
 
+ControlBox picture_box(const ControlPanel& panel, const glm::dvec2& size_mm) {
+  const glm::dvec2 from(kControlMargin, end_of_notes(panel, size_mm) + kNoteHeight);  // below its title
+  const glm::dvec2 room = glm::max(size_mm - from - glm::dvec2(kControlMargin + kBesidePicture, kControlMargin),
+                                   glm::dvec2(kSmallestPicture));
+  const double width = std::min(room.x, room.y * panel.picture->aspect);
+  return {from, from + glm::dvec2(width, width / panel.picture->aspect)};
+}
+
 ControlBox control_box(const ControlPanel& panel, const glm::dvec2& size_mm, const ControlTarget& target) {
+  if (target.kind == ControlTarget::Kind::Pixel) {
+    const MapPicture& picture = *panel.picture;
+    const ControlBox box = picture_box(panel, size_mm);
+    const glm::dvec2 pixel = (box.to_mm - box.from_mm) / glm::dvec2(picture.columns, picture.rows);
+    const glm::dvec2 at(target.index % picture.columns, target.index / picture.columns);
+    return {box.from_mm + at * pixel, box.from_mm + (at + 1.0) * pixel};
+  }
   if (target.kind == ControlTarget::Kind::Button) {
     const auto from_right = static_cast<double>(panel.buttons.size() - target.index);
     const double left = size_mm.x - kControlMargin + kGap - from_right * (kButtonWidth + kGap);
@@ -80,11 +111,7 @@ ControlBox control_box(const ControlPanel& panel, const glm::dvec2& size_mm, con
 
 std::optional<ControlTarget> control_at(const ControlPanel& panel, const glm::dvec2& size_mm,
                                         const glm::dvec2& point_mm) {
-  const auto hit = [&](const ControlTarget& target) {
-    const ControlBox box = control_box(panel, size_mm, target);
-    return point_mm.x >= box.from_mm.x && point_mm.x < box.to_mm.x && point_mm.y >= box.from_mm.y &&
-           point_mm.y < box.to_mm.y;
-  };
+  const auto hit = [&](const ControlTarget& target) { return holds(control_box(panel, size_mm, target), point_mm); };
   for (std::size_t row = 0; row < panel.rows.size(); ++row) {
     for (const auto kind : {ControlTarget::Kind::Less, ControlTarget::Kind::More}) {
       if (hit({kind, row})) return ControlTarget{kind, row};
@@ -94,8 +121,65 @@ std::optional<ControlTarget> control_at(const ControlPanel& panel, const glm::dv
     const ControlTarget target{ControlTarget::Kind::Button, button};
     if (hit(target)) return target;
   }
-  return std::nullopt;
+  if (!panel.picture) return std::nullopt;
+  const ControlBox box = picture_box(panel, size_mm);
+  if (!holds(box, point_mm)) return std::nullopt;
+  const std::size_t columns = panel.picture->columns, rows = panel.picture->rows;
+  const glm::dvec2 share = (point_mm - box.from_mm) / (box.to_mm - box.from_mm);
+  const auto at = [](double part, std::size_t count) {
+    return std::min(static_cast<std::size_t>(part * static_cast<double>(count)), count - 1);
+  };
+  return ControlTarget{ControlTarget::Kind::Pixel, at(share.y, rows) * columns + at(share.x, columns)};
 }
+
+namespace {
+
+// A frame around a pixel that is seen however small the pixel is.
+void frame_pixel(Canvas& canvas, const ControlPanel& panel, std::size_t index, Color color) {
+  constexpr double kSmallestFrame = 9.0;
+  const ControlBox box = control_box(panel, glm::dvec2(canvas.size_mm()), {ControlTarget::Kind::Pixel, index});
+  const glm::dvec2 middle = 0.5 * (box.from_mm + box.to_mm);
+  const glm::dvec2 half = glm::max(0.5 * (box.to_mm - box.from_mm), glm::dvec2(kSmallestFrame));
+  canvas.outline(f(middle - half), f(middle + half), 4.0F, color);
+}
+
+// From the highest value at the top to the lowest.
+void paint_bar(Canvas& canvas, const MapPicture& picture, const glm::dvec2& from, double height) {
+  if (picture.bar.size() < 2) return;
+  ColorGrid grid{.columns = 2, .rows = static_cast<std::uint32_t>(picture.bar.size()), .colors = {}};
+  const auto byte = [](float share) { return static_cast<std::uint8_t>(std::lround(255.0F * share)); };
+  for (auto c = picture.bar.rbegin(); c != picture.bar.rend(); ++c) {
+    grid.colors.insert(grid.colors.end(), 2, {byte(c->r), byte(c->g), byte(c->b), 255});
+  }
+  const glm::dvec2 to = from + glm::dvec2(kBarWidth, height);
+  canvas.grid(f(from), f(to), grid);
+  canvas.outline(f(from), f(to), 2.0F, palette::kAxis);
+  const auto left = static_cast<float>(to.x + kGap), bottom = static_cast<float>(to.y);
+  const auto width = static_cast<float>(kBesidePicture - kBarWidth - 2.0 * kGap);
+  const float em = text_height_mm(TextStyle::Small);
+  canvas.shrunk_text({left, static_cast<float>(from.y)}, TextStyle::Small, palette::kMuted, picture.highest, width);
+  canvas.shrunk_text({left, bottom - em}, TextStyle::Small, palette::kMuted, picture.lowest, width);
+}
+
+void paint_picture(Canvas& canvas, const ControlPanel& panel) {
+  const MapPicture& picture = *panel.picture;
+  const glm::dvec2 size(canvas.size_mm());
+  const ControlBox box = picture_box(panel, size);
+  const auto width = static_cast<float>(size.x - 2.0 * kControlMargin);
+  canvas.shrunk_text(f(box.from_mm - glm::dvec2(0.0, kNoteHeight)), TextStyle::Small, palette::kMuted, picture.title,
+                     width);
+  canvas.push_clip(f(box.from_mm), f(box.to_mm));
+  canvas.grid(f(box.from_mm), f(box.to_mm), picture.grid);
+  canvas.pop_clip();
+  canvas.outline(f(box.from_mm), f(box.to_mm), 2.0F, palette::kAxis);
+  frame_pixel(canvas, panel, picture.marked, palette::kSkyBlue);
+  if (panel.pointed && panel.pointed->kind == ControlTarget::Kind::Pixel) {
+    frame_pixel(canvas, panel, panel.pointed->index, palette::kInk);
+  }
+  paint_bar(canvas, picture, {box.to_mm.x + kGap, box.from_mm.y}, box.to_mm.y - box.from_mm.y);
+}
+
+}  // namespace
 
 void paint(Canvas& canvas, const ControlPanel& panel) {
   canvas.panel_background();
@@ -117,6 +201,7 @@ void paint(Canvas& canvas, const ControlPanel& panel) {
     const ControlTarget target{ControlTarget::Kind::Button, button};
     paint_target(canvas, control_box(panel, size, target), panel.buttons[button], panel.pointed == target);
   }
+  if (panel.picture) paint_picture(canvas, panel);
 }
 
 }  // namespace afm::render

@@ -78,14 +78,6 @@ bool rising_and_sane(std::span<const physics::MeasuredPoint> branch) {
   return true;
 }
 
-bool is_valid(const SharedMeasuredCurve& curve) {
-  const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxMeasuredPoints; };
-  return counted(curve.approach_count) && counted(curve.retract_count) &&
-         curve.jumps.approach <= curve.approach_count && curve.jumps.retract <= curve.retract_count &&
-         rising_and_sane(std::span(curve.approach).first(curve.approach_count)) &&
-         rising_and_sane(std::span(curve.retract).first(curve.retract_count));
-}
-
 bool is_valid(const SharedHeightField& field) {
   const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxHeightFieldSide; };
   if (!counted(field.columns) || !counted(field.rows) || !positive(field.spacing_m)) return false;
@@ -246,6 +238,15 @@ core::Result<void> validate(const SharedModel& model) {
     }
   }
   return {};
+}
+
+bool is_valid(const SharedMeasuredCurve& curve) {
+  const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxMeasuredPoints; };
+  const bool placed = curve.column >= -1 && curve.row >= -1;
+  return placed && counted(curve.approach_count) && counted(curve.retract_count) &&
+         curve.jumps.approach <= curve.approach_count && curve.jumps.retract <= curve.retract_count &&
+         rising_and_sane(std::span(curve.approach).first(curve.approach_count)) &&
+         rising_and_sane(std::span(curve.retract).first(curve.retract_count));
 }
 
 bool is_valid(const SceneTransforms& transforms, const SharedModel& model) {

@@ -79,6 +79,9 @@ class ServoClient {
   // Parameters of a material after this edit; edit 0: as loaded.
   const scene::SharedContact& parameters(std::size_t material, std::uint32_t edit_revision) const;
 
+  // The curve of a material with the law Measured, as of its parameters.
+  const scene::SharedMeasuredCurve& curve(std::size_t material, std::uint32_t edit_revision) const;
+
   std::uint64_t lost_samples() const { return side_.lost_samples() + (listener_ ? listener_->lost_samples() : 0); }
 
   // Selects the material under the tip and its scale; both take effect once the tip is off the sample, after the force
@@ -95,8 +98,9 @@ class ServoClient {
   // Like a selection, it takes effect once the tip is off the sample, after the force has been removed, so that the
   // hand has to lift and press Turn-On again. tip().edit_revision shows when. tip().edit_refused is set if the
   // parameters cannot be felt; the servo logs the reason. Edits may come at any rate: the newest one for each material
-  // counts.
-  std::uint32_t change(std::size_t material, const scene::SharedContact& parameters);
+  // counts. `curve` replaces that of a material with the law Measured; null: does not.
+  std::uint32_t change(std::size_t material, const scene::SharedContact& parameters,
+                       std::shared_ptr<const scene::SharedMeasuredCurve> curve = nullptr);
   void place(const scene::SceneTransforms& transforms);
   void script(const scene::HandScript& script);
 
@@ -111,6 +115,12 @@ class ServoClient {
     std::int64_t time_ns = 0;
     int polls = 0;  // since then
   };
+  struct Edit {
+    scene::SharedContact parameters;
+    std::shared_ptr<const scene::SharedMeasuredCurve> curve;  // null: that of the model
+  };
+
+  const Edit* edit_of(std::uint32_t revision) const;  // null: none of ours
 
   void go_on();
   void take_state(std::int64_t now_ns);
@@ -121,8 +131,8 @@ class ServoClient {
   scene::SharedSegment segment_;
   scene::RendererSide side_;
   scene::Selection selection_;
-  std::vector<scene::SharedContact> edits_;  // all edits sent
-  std::uint32_t edit_base_ = 0;              // newest edit of the predecessor; our first edit is the next one
+  std::vector<Edit> edits_;      // all edits sent
+  std::uint32_t edit_base_ = 0;  // newest edit of the predecessor; our first edit is the next one
   std::array<double, 16> room_from_sample_{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   scene::SharedDevice device_;
   scene::TipState tip_;

@@ -146,17 +146,32 @@ void ServoClient::take_particles() {
   }
 }
 
-std::uint32_t ServoClient::change(std::size_t material, const scene::SharedContact& parameters) {
+std::uint32_t ServoClient::change(std::size_t material, const scene::SharedContact& parameters,
+                                  std::shared_ptr<const scene::SharedMeasuredCurve> curve) {
   AFM_CHECK(material < segment_.model().material_count);
-  edits_.push_back(parameters);
-  const std::uint32_t revision = edit_base_ + static_cast<std::uint32_t>(edits_.size());
-  side_.store(scene::MaterialEdit{.material = parameters, .revision = revision}, static_cast<std::uint32_t>(material));
-  return revision;
+  edits_.push_back({parameters, std::move(curve)});
+  scene::MaterialEdit edit{.material = parameters, .revision = edit_base_ + static_cast<std::uint32_t>(edits_.size())};
+  if (edits_.back().curve) edit.curve = *edits_.back().curve;
+  side_.store(edit, static_cast<std::uint32_t>(material));
+  return edit.revision;
+}
+
+const ServoClient::Edit* ServoClient::edit_of(std::uint32_t revision) const {
+  const std::size_t index = std::size_t{revision} - edit_base_ - 1;  // huge if the revision is not ours
+  return index < edits_.size() ? &edits_[index] : nullptr;
 }
 
 const scene::SharedContact& ServoClient::parameters(std::size_t material, std::uint32_t edit_revision) const {
-  const std::size_t index = std::size_t{edit_revision} - edit_base_ - 1;  // huge if the revision is not ours
-  return index < edits_.size() ? edits_[index] : segment_.model().materials[material];
+  const Edit* const edit = edit_of(edit_revision);
+  return edit != nullptr ? edit->parameters : segment_.model().materials[material];
+}
+
+const scene::SharedMeasuredCurve& ServoClient::curve(std::size_t material, std::uint32_t edit_revision) const {
+  const Edit* const edit = edit_of(edit_revision);
+  if (edit != nullptr && edit->curve) return *edit->curve;
+  const std::uint32_t index = parameters(material, edit_revision).measured_curve;
+  AFM_CHECK(index < segment_.model().curve_count);
+  return segment_.model().curves[index];
 }
 
 void ServoClient::place(const scene::SceneTransforms& transforms) {

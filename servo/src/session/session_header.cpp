@@ -172,6 +172,7 @@ nlohmann::json header_of(const RecordedSession& session) {
     header["measured"] = {{"approach", json_of(std::span(curve->approach).first(curve->approach_count))},
                           {"retract", json_of(std::span(curve->retract).first(curve->retract_count))},
                           {"jumps", {curve->jumps.approach, curve->jumps.retract}}};
+    if (curve->column >= 0) header["measured"]["pixel"] = {curve->column, curve->row};
   }
   if (!session.shown.empty()) header["shown"] = session.shown;
   if (!session.earlier_curves.empty()) header["earlier_curves"] = json_of(session.earlier_curves);
@@ -203,6 +204,9 @@ RecordedSession session_of(const nlohmann::json& header) {
     // missing from files of 0.1.0
     const auto jumps = measured->value("jumps", std::array<std::uint32_t, 2>{});
     curve.jumps = {.approach = jumps[0], .retract = jumps[1]};
+    const auto pixel = measured->value("pixel", std::array<std::int32_t, 2>{-1, -1});
+    curve.column = pixel[0];
+    curve.row = pixel[1];
   }
   if (const auto shown = header.find("shown"); shown != header.end()) shown->get_to(session.shown);
   if (const auto curves = header.find("earlier_curves"); curves != header.end()) {

@@ -100,7 +100,8 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo) {
   session_.parameters = servo.parameters(static_cast<std::size_t>(sample.material), sample.edit_revision);
   session_.material = session_.parameters.name.data();
   if (session_.parameters.measured_curve != scene::kNoMeasuredCurve) {
-    session_.curve = model.curves[std::exchange(session_.parameters.measured_curve, 0)];
+    session_.curve = servo.curve(static_cast<std::size_t>(sample.material), sample.edit_revision);
+    session_.parameters.measured_curve = 0;
   }
   if (session_.parameters.height_field == scene::kTopography) {
     session_.topography = servo.topography();

@@ -240,6 +240,7 @@ TEST(WallModelTest, ComesBackAndRefusesWhatIsNotValid) {
   model.picture.mode = scene::StereoMode::SideBySide;
   model.picture.order = scene::EyeOrder::Swapped;
   model.files.text_size = 1.25;
+  model.files.pixel = {3, 1};
   model.contrast = render::PanelContrast::High;
   const auto document = document_of(model);
   const auto came = read_wall_model(document);
@@ -249,6 +250,7 @@ TEST(WallModelTest, ComesBackAndRefusesWhatIsNotValid) {
   EXPECT_EQ(came->picture.mode, model.picture.mode);
   EXPECT_EQ(came->picture.order, model.picture.order);
   EXPECT_EQ(came->files.text_size, 1.25);
+  EXPECT_EQ(came->files.pixel, model.files.pixel);
   EXPECT_EQ(came->contrast, render::PanelContrast::High);
   for (std::size_t length = 0; length < document.size(); ++length) {
     EXPECT_FALSE(read_wall_model(std::span(document).first(length))) << length;

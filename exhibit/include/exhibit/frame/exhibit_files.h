@@ -51,6 +51,9 @@ struct ExhibitFiles {
   physics::Levelling sample_levelling = physics::Levelling::Plane;
   std::string particles;  // set of assets/particles, or a user's file, on a level sample; empty: none
   std::shared_ptr<const scene::ParticleSet> recorded_particles;  // those of a session instead; null: none
+  std::string force_map;                                         // curves of a map, one more sample; empty: none
+  std::optional<std::array<std::size_t, 2>>
+      pixel;                                // its column and row to feel first (curves::MapPlace); empty: the middle
   std::vector<std::string> shown;           // names; empty: all of the user's file, or the paper's three
   std::vector<scene::MaterialEntry> added;  // shown after the others
 };

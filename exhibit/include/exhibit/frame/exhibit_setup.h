@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,14 @@
 #include "exhibit/words/phrases.h"
 #include "scene/display/wall.h"
 #include "scene/samples/material_library.h"
+
+namespace afm::curves {
+struct SampleModel;
+}
+
+namespace afm::physics {
+enum class FrictionLaw : std::uint32_t;
+}
 
 namespace afm::render {
 struct RendererOptions;
@@ -39,11 +48,16 @@ struct Stage {
   WallScene wall_scene;
   Phrases english;                                      // language of the log, for staff and bug reports
   std::shared_ptr<const scene::ParticleSet> particles;  // null: none
+  std::shared_ptr<const curves::SampleModel>
+      pixel;  // first pixel of the force map, whose material has its name; null: none
 
   const Phrases& phrases() const { return wall_scene.phrases(); }
 
   // Titles of the materials in the language of the wall.
   std::vector<std::string> titles() const;
+
+  // Curves of measured materials, for SharedModel.
+  std::span<const scene::SharedMeasuredCurve> recorded_curves() const;
 
   // Pixels are square: the height follows from the wall's proportions.
   render::RendererOptions renderer_options(std::uint32_t eye_width) const;
@@ -52,7 +66,11 @@ struct Stage {
   glm::uvec2 eye_size_within(scene::StereoMode mode, glm::uvec2 window_px) const;
 };
 
+// A force map is read whole: that of a large one takes minutes, with progress in the log; Failed if it is interrupted.
 core::Result<Stage> load_exhibit(const ExhibitFiles& files);
+
+// The samples of the stage as the servo needs them, with the surfaces that the stage draws.
+core::Result<std::vector<curves::SampleModel>> felt_samples(const Stage& stage, physics::FrictionLaw friction);
 
 // Returns whether the name is that of a glTF file: .glb or .gltf.
 bool is_model_file(const std::string& name);

@@ -10,7 +10,7 @@
 namespace afm::exhibit {
 
 // State of a parameter change, for display.
-enum class ChangeState { AsLoaded, Waiting, Applied, Refused };
+enum class ChangeState { AsLoaded, Waiting, Applied, Refused, Held };
 
 // Buttons of the panel, in order.
 enum class PanelButton { Reset, Close };

@@ -184,7 +184,15 @@
   PHRASE(ParametersWait, "parameters-wait", "", kLine)                   \
   PHRASE(ParametersApplied, "parameters-applied", "", kLine)             \
   PHRASE(ParametersRefused, "parameters-refused", "", kLine)             \
+  PHRASE(ParametersHeld, "parameters-held", "", kLine)                   \
   PHRASE(NoSuchParameters, "no-such-parameters", "", kLine)              \
+  PHRASE(ChangePixel, "change-pixel", "", kLine)                         \
+  PHRASE(PixelColumn, "pixel-column", "", kLine)                         \
+  PHRASE(PixelRow, "pixel-row", "", kLine)                               \
+  PHRASE(PixelLoaded, "pixel-loaded", "", kLine)                         \
+  PHRASE(NoSuchPixel, "no-such-pixel", "", kLine)                        \
+  PHRASE(MapHeights, "map-heights", "", kLine)                           \
+  PHRASE(ContactDoubtful, "contact-doubtful", "", kLine)                 \
   PHRASE(ButtonReset, "button-reset", "", kLine)                         \
   PHRASE(ButtonClose, "button-close", "", kLine)                         \
   PHRASE(AnalogySpring, "analogy-spring", "", kLine)                     \

@@ -69,6 +69,8 @@ struct SharedContact {
 struct SharedMeasuredCurve {
   std::uint32_t approach_count = 0;
   std::uint32_t retract_count = 0;
+  std::int32_t column = -1;  // pixel of a map, as in curves::MapPixel; -1: not of a map
+  std::int32_t row = -1;
   physics::MeasuredJumps jumps{};
   std::array<physics::MeasuredPoint, kMaxMeasuredPoints> approach{};
   std::array<physics::MeasuredPoint, kMaxMeasuredPoints> retract{};
@@ -134,6 +136,7 @@ struct MaterialEdit {
   SharedContact material{};
   std::uint32_t revision = 0;
   std::uint32_t padding = 0;
+  SharedMeasuredCurve curve{};  // Law::Measured only: replaces that of the SharedModel; without points: does not
 };
 
 // Motion that the simulated user makes with the simulated hand; real devices ignore it. A new `revision` starts a

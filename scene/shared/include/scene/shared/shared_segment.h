@@ -18,7 +18,7 @@
 namespace afm::scene {
 
 // Increase whenever the meaning of a block changes; changes of a block's size are detected automatically.
-inline constexpr std::uint32_t kSegmentVersion = 10;
+inline constexpr std::uint32_t kSegmentVersion = 11;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;
@@ -41,6 +41,7 @@ core::Result<void> validate(const SharedParticles& particles);
 physics::LawOptions law_options(const SharedContact& material);
 
 // True if a block is valid: indices within counts, enumerators known, numbers finite.
+bool is_valid(const SharedMeasuredCurve& curve);
 bool is_valid(const SceneTransforms& transforms, const SharedModel& model);
 bool is_valid(const Selection& selection, const SharedModel& model);
 bool is_valid(const HandScript& script);

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// A force map in the real window, on an X server without a screen: a pixel chosen, felt, recorded, replayed.
+// Invariant: a pixel of a force map is changed only while the tip is off the sample, and without force
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "servo/session_file.h"
+#include "support/archives/sticky_map.h"
+#include "support/archives/stored_zip.h"
+#include "support/live_program.h"
+#include "support/places.h"
+#include "support/run_program.h"
+#include "support/scratch_folder.h"
+#include "support/virtual_display.h"
+
+namespace afm::app {
+namespace view_force_map_test {
+
+using testing::HasSubstr;
+
+constexpr int kWidth = 640, kHeight = 480;
+constexpr double kHandPerPixel = 0.085 / 0.30 / kHeight;  // docs/manual/demonstrate.md: a drag over 0.30 of the wall
+
+class ViewForceMap : public ::testing::Test {
+ protected:
+  void xdotool(const std::string& what) const {
+    const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool " + what);
+    ASSERT_EQ(done.exit_code, 0) << "xdotool " << what << ": " << done.err << " (package xdotool)";
+  }
+
+  // Moves the hand upwards by this, in steps of a pixel with pauses, or at once.
+  void lift(double up_m, int steps = 1) const {
+    std::string moves = "mousemove 320 240 mousedown 3";
+    for (int i = 1; i <= steps; ++i) {
+      moves += " sleep 0.04 mousemove 320 " + std::to_string(240 - std::lround(up_m / kHandPerPixel) * i / steps);
+    }
+    xdotool(moves + " mouseup 3");
+  }
+
+  // Lifts, switches the force on, and presses the tip onto the sample. Repeats what a busy machine has stopped.
+  bool touch(support::LiveProgram& view) const {
+    for (int tries = 0; tries < 10; ++tries) {
+      lift(0.130);
+      bool on = false;
+      for (int presses = 0; presses < 20 && !on; ++presses) {
+        xdotool("key t");
+        on = view.says("force on", std::chrono::seconds(2));
+      }
+      if (!on) return false;
+      lift(-0.072, 10);
+      if (view.says_one_of({"jump to contact", "force off"}) == "jump to contact") return true;
+    }
+    return false;
+  }
+
+  std::string write_map() const {
+    return folder_.write("gel.jpk-force-map", test::stored_zip(test::jpk_map(test::sticky_curve)));
+  }
+
+  support::ScratchFolder folder_;
+  support::VirtualDisplay display_{kWidth, kHeight};
+};
+
+TEST_F(ViewForceMap, IsFeltPixelByPixelAndReplayedBitForBit) {
+  support::LiveProgram view(
+      {support::touchafm(), "view", "--force-map", write_map(), "--size", "640x480", "--eye-width", "320",
+       "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
+      display_.name());
+  ASSERT_TRUE(view.says("3 x 2 pixels; felt first: 1,1")) << view.said();
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  ASSERT_TRUE(touch(view)) << view.said();
+  xdotool("key plus");
+  ASSERT_TRUE(view.says("force map: lift the tip off the sample")) << view.said();
+  lift(0.130);
+  ASSERT_NE(view.says_one_of({"jump off contact", "force off"}), "") << view.said();
+  xdotool("key plus");
+  ASSERT_TRUE(view.says("force map: pixel 2,1")) << view.said();
+  ASSERT_TRUE(view.says("the changed parameters are now in effect")) << view.said();
+  ASSERT_TRUE(touch(view)) << view.said();
+  lift(0.130);
+  ASSERT_NE(view.says_one_of({"jump off contact", "force off"}), "") << view.said();
+  xdotool("key Escape");
+  ASSERT_EQ(view.ends(), 0) << view.said();
+
+  std::size_t first = 0, second = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder_.file("kept"))) {
+    if (file.path().extension() != ".afms") continue;
+    const auto session = servo::load_session(file.path());
+    ASSERT_TRUE(session) << session.error().message;
+    ASSERT_TRUE(session->curve);
+    const bool touched = session->find(physics::EventKind::JumpToContact) != nullptr;
+    if (touched && session->curve->column == 1) ++first;
+    if (touched && session->curve->column == 2) ++second;
+    EXPECT_EQ(session->curve->row, 1);
+    const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+    EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
+    EXPECT_THAT(replayed.out, HasSubstr("felt at pixel " + std::to_string(session->curve->column) + ",1"));
+    const auto drawn = support::run_program(support::touchafm() + " render --eye-width 64 --session " +
+                                            file.path().string() + " --out " + folder_.file("moment.png"));
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  }
+  EXPECT_GE(first, 1U) << "no session of the pixel of the start touches";
+  EXPECT_GE(second, 1U) << "no session of the chosen pixel touches";
+}
+
+TEST(ViewForceMapFiles, AreRefusedWithTheReason) {
+  const support::ScratchFolder folder;
+  const std::string bytes = test::stored_zip(test::holed_map());
+  folder.write("holed.jpk-force-map", bytes);
+  folder.write("cut.jpk-force-map", bytes.substr(0, bytes.size() / 2));
+  const auto view = [&](const std::string& file, const std::string& more) {
+    return support::run_program(support::touchafm() + " view --force-map " + folder.file(file) + " " + more);
+  };
+  const auto outside = view("holed.jpk-force-map", "--pixel 3,0");
+  EXPECT_EQ(outside.exit_code, 2);
+  EXPECT_THAT(outside.err, HasSubstr("pixel 3,0 is outside the force map"));
+  const auto hole = view("holed.jpk-force-map", "--pixel 2,0");
+  EXPECT_EQ(hole.exit_code, 3);
+  EXPECT_THAT(hole.err, HasSubstr("has no curve at pixel 2,0"));
+  const auto cut = view("cut.jpk-force-map", "");
+  EXPECT_EQ(cut.exit_code, 3);
+  EXPECT_THAT(cut.err, HasSubstr("damaged"));
+  const auto words = view("holed.jpk-force-map", "--pixel middle");
+  EXPECT_EQ(words.exit_code, 2);
+  EXPECT_THAT(words.err, HasSubstr("is not COLUMN,ROW"));
+}
+
+}  // namespace view_force_map_test
+}  // namespace afm::app

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/scan/map_picture.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "curves/live_parameters.h"
+
+#include "exhibit/models/height_colours.h"
+#include "exhibit/panels/parameter_panel.h"
+#include "render/control_layout.h"
+#include "scene/samples/material_library.h"
+#include "support/archives/sticky_map.h"
+#include "support/archives/stored_zip.h"
+#include "support/phrases.h"
+#include "support/places.h"
+#include "support/scratch_folder.h"
+
+namespace afm::exhibit {
+namespace map_picture_test {
+
+using Target = render::ControlTarget;
+
+class MapPictureTest : public testing::Test {
+ protected:
+  const support::ScratchFolder folder_;
+  const curves::CurveMap map_ =
+      curves::CurveMap::load(folder_.write("gel.jpk-force-map", test::stored_zip(test::holed_map())), [](std::size_t,
+                                                                                                         std::size_t) {
+        return true;
+      }).value();
+  const render::MapPicture picture_ = map_picture(map_, {1, 0}, test::english());
+
+  // Colour in the middle of a pixel.
+  Srgb color(std::size_t column, std::size_t row_from_top) const {
+    const std::size_t across = picture_.grid.columns / 3, down = picture_.grid.rows / 2;
+    const auto& c =
+        picture_.grid.colors[(row_from_top * down + down / 2) * picture_.grid.columns + column * across + across / 2];
+    return {c[0], c[1], c[2]};
+  }
+};
+
+TEST_F(MapPictureTest, HasTheHighestPixelAtTheTopLeftAndAHoleAtTheBottomRight) {
+  EXPECT_EQ(picture_.columns, 3U);
+  EXPECT_EQ(picture_.rows, 2U);
+  EXPECT_DOUBLE_EQ(picture_.aspect, 1.5);
+  EXPECT_EQ(color(0, 0), height_colour(1.0));
+  EXPECT_EQ(color(0, 1), height_colour(0.0));
+  EXPECT_EQ(color(2, 1), kNoHeightColour);
+  EXPECT_EQ(color(1, 0), height_colour(0.8));
+  EXPECT_EQ(picture_.highest, "50 nm");
+  EXPECT_EQ(picture_.marked, 4U);
+}
+
+TEST_F(MapPictureTest, IsPointedAtPixelByPixel) {
+  constexpr glm::dvec2 kSize{600.0, 920.0};
+  const render::ControlPanel panel{.title = "gel (1,0)",
+                                   .buttons = {"Reset", "Close"},
+                                   .rows = {{.name = "column", .value = "1"}, {.name = "row", .value = "0"}},
+                                   .notes = {"Snap-in", "Pull-off", "Loop", "doubtful"},
+                                   .status = "felt",
+                                   .pointed = {},
+                                   .marked = {},
+                                   .picture = picture_};
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Target target{Target::Kind::Pixel, i};
+    const auto box = render::control_box(panel, kSize, target);
+    EXPECT_GT(box.to_mm.x - box.from_mm.x, 70.0);
+    EXPECT_LT(box.to_mm.x, kSize.x - 150.0) << "no room for the bar";
+    EXPECT_LT(box.to_mm.y, kSize.y);
+    EXPECT_EQ(render::control_at(panel, kSize, 0.5 * (box.from_mm + box.to_mm)), target);
+    const curves::MapPlace place = place_of(target, map_);
+    EXPECT_EQ(target_index(place, map_), i);
+    EXPECT_TRUE(map_.holds(place));
+  }
+  EXPECT_FALSE(map_.holds(place_of({Target::Kind::Pixel, 6}, map_)));
+  for (const auto kind : {Target::Kind::Less, Target::Kind::More}) {
+    const auto box = render::control_box(panel, kSize, {kind, 1});
+    EXPECT_EQ(render::control_at(panel, kSize, 0.5 * (box.from_mm + box.to_mm)), (Target{kind, 1}));
+  }
+}
+
+TEST_F(MapPictureTest, LiesBesideTheRowsOfThePixelAlone) {
+  const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
+  const auto map = std::make_shared<const curves::CurveMap>(map_);
+  const auto model = curves::make_sample_model(map, {1, 0}, library.materials.front());
+  ASSERT_TRUE(model) << model.error().message;
+  curves::LiveParameters pixel(*model);
+  const render::ControlPanel panel = parameter_panel(pixel, "gel", ChangeState::Held, test::english());
+  ASSERT_EQ(panel.rows.size(), 2U);
+  EXPECT_EQ(panel.rows[0].value, "1");
+  EXPECT_EQ(panel.rows[1].value, "0");
+  EXPECT_EQ(panel.status, "lift the tip to choose another pixel");
+  for (const std::string& note : panel.notes) {
+    EXPECT_THAT(note, testing::Not(testing::HasSubstr("Tabor"))) << "of a law that is not felt";
+  }
+  ASSERT_FALSE(pixel.step(curves::LiveParameters::Row::PixelColumn, 1));
+  EXPECT_EQ(parameter_panel(pixel, "gel", ChangeState::AsLoaded, test::english()).status,
+            "not changed: no curve there that can be felt");
+}
+
+}  // namespace map_picture_test
+}  // namespace afm::exhibit
