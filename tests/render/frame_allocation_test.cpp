@@ -68,7 +68,8 @@ class FrameAllocation : public testing::Test {
                                       .notes = {"what follows from " + number},
                                       .status = "felt since " + number,
                                       .pointed = {},
-                                      .marked = {}};
+                                      .marked = {},
+                                      .picture = {}};
       if (i % 3 == 0) frame.panels.control.content.pointed = render::ControlTarget{};
       frame.panels.control.placement = frame.panels.data.placement;
       for (render::Label& label : frame.labels) label.highlighted = i % 2 == 0;

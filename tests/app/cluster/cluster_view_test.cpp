@@ -14,6 +14,8 @@
 #include "core/clock.h"
 #include "core/whole_file.h"
 #include "exhibit/cluster/wall_model.h"
+#include "support/archives/sticky_map.h"
+#include "support/archives/stored_zip.h"
 #include "support/faulty_device.h"
 #include "support/places.h"
 
@@ -120,6 +122,27 @@ TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   EXPECT_EQ(right->ends(), 0) << right->said();
   left->signal(SIGTERM);
   EXPECT_EQ(left->ends(), 0) << left->said();
+}
+
+TEST_F(ClusterViewTest, ShowsThePixelOfAForceMapThatIsFelt) {
+  const auto left = node("left"), right = node("right");
+  std::vector<std::string> command = master_command();
+  command.insert(command.end(), {"--force-map", folder_.write("gel.jpk-force-map",
+                                                              test::stored_zip(test::jpk_map(test::sticky_curve)))});
+  const auto hand = start(command);
+  expect_both_shown(*hand);
+  ASSERT_TRUE(hand->within(std::chrono::minutes(1), [&] {
+    return hand->said().find("Press Turn-On") != std::string::npos;
+  })) << hand->said();
+  left->skip_what_it_said();
+  press_at_master("plus");
+  ASSERT_TRUE(hand->says("force map: pixel 2,1")) << hand->said();
+  EXPECT_TRUE(left->says("it is curve 3 of 6")) << "the node does not read the pixel: " << left->said();
+  EXPECT_TRUE(all_same()) << hand->said();
+  press_at_master("Escape");
+  EXPECT_EQ(hand->ends(), 0) << hand->said();
+  EXPECT_THAT(hand->said(), HasSubstr(" 0 built otherwise"));
+  EXPECT_THAT(hand->said(), Not(HasSubstr("otherwise: ")));
 }
 
 // Junk, another build, and a wall that names what this machine lacks.
