@@ -12,6 +12,7 @@
 #include "app/options/command.h"
 #include "app/view/wand_options.h"
 #include "core/result.h"
+#include "curves/tapping/driven_setup.h"
 #include "exhibit/frame/exhibit_files.h"
 #include "physics/friction/friction.h"
 #include "servo/servo_choice.h"
@@ -34,6 +35,7 @@ struct ViewOptions {
   ViewSettings settings;                  // without the scale
   std::optional<scene::ScaleMode> scale;  // empty: particles where there are any, otherwise fit
   physics::FrictionLaw friction = physics::FrictionLaw::None;
+  curves::TappedHand tapping;
   double frame_rate = 0;  // 0: the display's
   bool speech = false;
   bool headset = false;
@@ -48,8 +50,10 @@ struct ViewOptions {
 // Opens the window and runs it until it ends; `lesson` may be null. `program` is the running touchafm.
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson = nullptr);
 
-// The samples of the stage as the servo needs them, with the surfaces that the stage draws.
-core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction);
+// The samples of the stage as the servo needs them, with the surfaces that the stage draws; in tapping mode under the
+// lever of `tapping`, without friction.
+core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stage, physics::FrictionLaw friction,
+                                                            const curves::TappedHand& tapping = {});
 
 // Window options that a lesson shares: picture, wand, device, sound and speech.
 void add_window_options(OptionList& command, ViewOptions& options);
