@@ -25,6 +25,7 @@
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"
+#include "app/tapping/tapping_command.h"
 #include "app/view/view_wand.h"
 #include "core/clock.h"
 #include "core/exit_code.h"
@@ -202,6 +203,7 @@ void add_exhibition_options(OptionList& command, ViewOptions& options) {
       .type_name("SECONDS");
   add_scale_option(command, options.scale);
   add_friction_option(command, options.friction);
+  add_tapped_view_options(command, options.tapping);
 }
 
 // The wall's other machines; null if this machine shows the wall by itself.
@@ -253,14 +255,17 @@ core::Result<std::unique_ptr<render::HeadsetRuntime>> headset_of(const ViewOptio
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson) {
   const core::CodeOfInterruption released(core::ExitCode::Done);
   const core::MonotonicClock clock;
-  // first, so that nothing else is loaded if there is no headset
+  const bool alone = options.files.particles.empty() && options.files.force_map.empty() && !options.cluster.wanted &&
+                     options.friction == physics::FrictionLaw::None;
+  if (auto checked = check_tapped_view(options.tapping, alone); !checked) return checked;
+  // before the rest, so that nothing else is loaded if there is no headset
   const auto runtime = headset_of(options);
   if (!runtime) return tl::unexpected(runtime.error());
   exhibit::ExhibitFiles files = options.files;
   if (!options.headset) files.aspect = expected_aspect(options.display);
   auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
-  const auto samples = exhibit::felt_samples(*stage, options.friction);
+  const auto samples = exhibit::felt_samples(*stage, options.friction, options.tapping);
   if (!samples) return tl::unexpected(samples.error());
   const std::vector<curves::SampleModel>& materials = *samples;
   if (lesson != nullptr) {

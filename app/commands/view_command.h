@@ -12,6 +12,7 @@
 #include "app/options/command.h"
 #include "app/view/wand_options.h"
 #include "core/result.h"
+#include "curves/tapping/driven_setup.h"
 #include "exhibit/frame/exhibit_files.h"
 #include "physics/friction/friction.h"
 #include "servo/servo_choice.h"
@@ -34,6 +35,7 @@ struct ViewOptions {
   ViewSettings settings;                  // without the scale
   std::optional<scene::ScaleMode> scale;  // empty: particles where there are any, otherwise fit
   physics::FrictionLaw friction = physics::FrictionLaw::None;
+  curves::TappedHand tapping;
   double frame_rate = 0;  // 0: the display's
   bool speech = false;
   bool headset = false;

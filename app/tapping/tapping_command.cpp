@@ -98,6 +98,38 @@ void add_tapped_scan_options(OptionList& command, curves::TappingChoice& choice)
   }
 }
 
+void add_tapped_view_options(OptionList& command, curves::TappedHand& hand) {
+  command
+      .add_option("--mode", hand.choice.mode,
+                  "contact; or tapping, in which a drive swings the lever and the hand feels how much the sample takes "
+                  "of its amplitude")
+      .one_of({"contact", "tapping"})
+      .type_name("MODE")
+      .show_default();
+  for (const TappingOption& option : kOptions) {
+    const std::string_view name = option.name;
+    if (name != "--free-amplitude" && name != "--drive" && name != "--viscosity") continue;
+    command.add_option(option.name, option.text(hand.choice), option.help).type_name(option.type);
+  }
+  command
+      .add_option("--model", hand.model, "tapping: law of force, auto (by the Tabor parameter), hertz, dmt, jkr, maugis")
+      .type_name("NAME")
+      .show_default();
+  for (const char* option : {"spring-constant", "resonance", "quality-factor"}) {
+    command
+        .add_option(fmt::format("--{}", option), hand.values[option],
+                    "tapping: " + curves::find_contact_parameter(option)->help)
+        .type_name("VALUE");
+  }
+}
+
+core::Result<void> check_tapped_view(const curves::TappedHand& hand, bool alone) {
+  if (const auto checked = check_tapping_options(hand.choice); !checked) return checked;
+  if (hand.choice.mode == "contact") return curves::check_contact_mode(hand);
+  if (alone) return {};
+  return wrong_usage("--mode tapping is felt without --particles, --force-map, --friction and --cluster; remove them");
+}
+
 core::Result<void> check_tapping_options(const curves::TappingChoice& choice) {
   curves::TappingChoice given = choice;
   for (const TappingOption& option : kOptions) {

@@ -15,6 +15,11 @@ void add_tapping_options(OptionList& command, curves::TappingChoice& choice);
 // For images: --mode contact or tapping, and the options of the drive and the contact.
 void add_tapped_scan_options(OptionList& command, curves::TappingChoice& choice);
 
+// For the live window: --mode contact or tapping, and the options of lever, drive and contact. The second function
+// checks them; `alone`: without particles, a force map, friction and other machines, which tapping excludes.
+void add_tapped_view_options(OptionList& command, curves::TappedHand& hand);
+core::Result<void> check_tapped_view(const curves::TappedHand& hand, bool alone);
+
 // WrongUsage, naming the option, for one that has no effect in the chosen mode.
 core::Result<void> check_tapping_options(const curves::TappingChoice& choice);
 

@@ -22,6 +22,11 @@ constexpr std::size_t kMostRestarts = 3;  // per minute
 std::string log_text(const scene::TipEvent& event) {
   if (event.kind == physics::EventKind::PushTakenBack) return "the last push was taken back";
   if (event.kind == physics::EventKind::ParticlesPutBack) return "all pushes were taken back";
+  if (event.kind == physics::EventKind::JumpToRepulsion || event.kind == physics::EventKind::JumpToAttraction) {
+    const bool in = event.kind == physics::EventKind::JumpToRepulsion;
+    return fmt::format("jump to the {} state at Z = {:.3f} nm, mean force {:.4f} nN", in ? "repulsive" : "attractive",
+                       event.z_m * 1e9, event.force_after_n * 1e9);
+  }
   if (!physics::is_jump(event.kind)) return {};
   const bool in = event.kind == physics::EventKind::JumpToContact;
   return fmt::format("{} at Z = {:.3f} nm, pull {:.4f} nN", in ? "jump to contact" : "jump off contact",

@@ -33,6 +33,11 @@ scene::SharedContact parameters_of(const ContactSetup& setup) {
   shared.dynamic = setup.model.dynamic ? 1 : 0;
   shared.lever = setup.material.lever;
   shared.friction = setup.felt_friction();
+  if (setup.drive) {
+    shared.free_amplitude_m = setup.drive->free_amplitude.si;
+    shared.drive_hz = setup.drive->frequency.si;
+    shared.viscosity_pa_s = setup.drive->viscosity.si;
+  }
   return shared;
 }
 
@@ -92,7 +97,8 @@ core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry,
 }
 
 std::string law_name(const scene::SharedContact& parameters) {
-  return fmt::format("{}{}", parameters.dynamic != 0 ? "dynamic-" : "", physics::name_of(parameters.law));
+  const char* lever = parameters.dynamic != 0 ? "dynamic-" : scene::taps(parameters) ? "tapping-" : "";
+  return fmt::format("{}{}", lever, physics::name_of(parameters.law));
 }
 
 }  // namespace afm::curves

@@ -33,12 +33,20 @@ enum class ModelUse { Curve, Device };
 // "auto, paper-rule, paper, ...", for help and messages.
 std::string known_models(ModelUse use);
 
+// The drive of a lever that taps under a hand.
+struct FeltDrive {
+  physics::Length free_amplitude;  // A0, zero-to-peak
+  physics::Frequency frequency;
+  physics::Viscosity viscosity;  // of the contact
+};
+
 // One tip, lever, sample and medium, and the model for its curve.
 struct ContactSetup {
   scene::MaterialEntry material;  // includes probe and overrides in its numbers, with their sources
   physics::LawOptions law_options;
   ModelName model;
   physics::FrictionLaw friction = physics::FrictionLaw::None;  // used only for the hand, not for force curves
+  std::optional<FeltDrive> drive = std::nullopt;               // likewise; none: the lever does not tap
 
   // The chosen friction law with the material's numbers; Amontons' law instead of a lattice if the material has none.
   physics::FrictionParameters felt_friction() const;

@@ -13,6 +13,7 @@
 #include "physics/law_tables.h"
 #include "scene/samples/material_library.h"
 #include "scene/shared/shared_blocks.h"
+#include "scene/shared/shared_segment.h"
 
 namespace afm::curves {
 
@@ -24,12 +25,13 @@ struct SampleModel {
   ContactSetup setup;                                // as loaded
   scene::SharedContact parameters;                   // parameters for the servo
   physics::LawChoice contact;                        // position on the adhesion map, and the law that suits it
-  std::shared_ptr<const physics::LawTables> tables;  // dynamic lever: tables of the same lever at rest
+  std::shared_ptr<const physics::LawTables> tables;  // dynamic lever: the same lever at rest; tapping: its push
   haptics::Scaling scaling;                          // Fit, on the simulated hand
   std::shared_ptr<const MapCurve> pixel;             // pixel of a force map (curves/curve_map.h); null: none
 
   const physics::CycleFigures& figures() const { return tables->figures; }
   bool dynamic() const { return parameters.dynamic != 0; }
+  bool taps() const { return scene::taps(parameters); }
 };
 
 // Takes milliseconds. Fails with one line that names the material if no such law exists for it or it cannot be felt.
@@ -46,7 +48,7 @@ core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry, c
 core::Result<SampleModel> make_sample_model(const scene::MaterialEntry& entry,
                                             std::span<const scene::SharedMeasuredCurve> curves, std::uint32_t index);
 
-// "dmt", "dynamic-dmt", "measured": the law that is felt.
+// "dmt", "dynamic-dmt", "tapping-dmt", "measured": the law that is felt.
 std::string law_name(const scene::SharedContact& parameters);
 
 }  // namespace afm::curves

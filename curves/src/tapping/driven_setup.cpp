@@ -8,6 +8,8 @@
 #include "curves/curve_run.h"
 #include "curves/tapping/tapping_run.h"
 #include "physics/law.h"
+#include "physics/tapping/averaged_flow.h"
+#include "physics/tapping/tapping_model.h"
 #include "physics/quantity_text.h"
 
 namespace afm::curves {
@@ -55,6 +57,55 @@ core::Result<ContactSetup> driven_setup(const TappingChoice& choice, const Conta
   override_parameter(*setup, *find_contact_parameter("work-of-adhesion"), work->si,
                      physics::format_quantity(*work, physics::kSurfaceEnergyUnits),
                      fmt::format("--contact-gap {} on the command line", choice.contact_gap));
+  return setup;
+}
+
+core::Result<void> check_contact_mode(const TappedHand& hand) {
+  const auto useless = [&](std::string_view option) {
+    return wrong_usage(fmt::format("--{} has no effect on --mode {}; add --mode tapping", option, hand.choice.mode));
+  };
+  if (hand.model != "auto") return useless("model");
+  for (const auto& [option, text] : hand.values) {
+    if (!text.empty()) return useless(option);
+  }
+  return {};
+}
+
+core::Result<ContactSetup> tapped_setup(const scene::MaterialEntry& entry, const TappedHand& hand) {
+  ContactOptions contact;
+  contact.model = hand.model;
+  const auto checked = driven_contact(hand.choice, contact);
+  if (!checked) return tl::unexpected(checked.error());
+  const auto model = ModelName::parse(hand.model);
+  if (!model) return wrong_usage(fmt::format("--model {} is unknown; choose auto, hertz, dmt, jkr or maugis", hand.model));
+  ContactSetup setup{entry, {}, *model};
+  setup.model.driven = true;
+  for (const auto& [option, text] : hand.values) {
+    if (text.empty()) continue;
+    const ContactParameter& parameter = *find_contact_parameter(option);
+    const auto value = parse_parameter(parameter, text);
+    if (!value) return tl::unexpected(value.error());
+    override_parameter(setup, parameter, *value, text, fmt::format("--{} on the command line", option));
+  }
+  const double q = setup.material.lever.quality_factor;
+  if (!(q >= physics::AveragedFlow::kLeastQuality)) {
+    return wrong_usage(fmt::format("--quality-factor: a hand feels the average over many swings, which needs at least "
+                                   "{:g}, not {:g}; give a higher one, or record the curve by touchafm curve",
+                                   physics::AveragedFlow::kLeastQuality, q));
+  }
+  const auto driven = driven_sample(setup, hand.choice.numbers);
+  if (!driven) return tl::unexpected(driven.error());
+  const physics::Time relaxation = driven->lever.relaxation();
+  if (relaxation > physics::kLongestFeltRelaxation) {
+    return wrong_usage(fmt::format(
+        "--quality-factor: the swing follows a hand within 2Q/w0 = {}; at most {} can be felt safely; give a "
+        "lower one, or a higher --resonance",
+        physics::format_quantity(relaxation, physics::kTimeUnits, 3),
+        physics::format_quantity(physics::kLongestFeltRelaxation, physics::kTimeUnits, 3)));
+  }
+  setup.drive = FeltDrive{.free_amplitude = driven->lever.free_amplitude,
+                          .frequency = driven->lever.ratio * driven->lever.resonance,
+                          .viscosity = driven->viscosity};
   return setup;
 }
 

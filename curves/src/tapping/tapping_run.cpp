@@ -190,7 +190,7 @@ core::Result<DrivenSample> driven_sample(const ContactSetup& setup, const Tappin
     if (!lever) return tl::unexpected(lever.error());
     return DrivenSample{
         std::make_shared<const physics::TapSurface>(setup.law(), setup.material.contact, setup.law_options, *viscosity),
-        *lever};
+        *lever, *viscosity};
   } catch (const std::invalid_argument& error) {
     return wrong_usage(error.what());
   }

@@ -210,15 +210,19 @@ core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
                std::move(phrases->english), *particles,       std::move(*pixel)};
 }
 
-core::Result<std::vector<curves::SampleModel>> felt_samples(const Stage& stage, physics::FrictionLaw friction) {
+core::Result<std::vector<curves::SampleModel>> felt_samples(const Stage& stage, physics::FrictionLaw friction,
+                                                            const curves::TappedHand& tapping) {
   std::vector<curves::SampleModel> materials;
   // the paper's law has no friction: with friction, begins with the law of the adhesion map
   curves::ModelName law;
   law.automatic = friction != physics::FrictionLaw::None;
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
     const bool is_pixel = stage.pixel && entry.name == stage.pixel->setup.material.name;
-    auto model = is_pixel ? core::Result<curves::SampleModel>(*stage.pixel)
-                          : curves::make_sample_model(curves::ContactSetup{entry, {}, law, friction});
+    const auto setup = tapping.choice.mode == "tapping"
+                           ? curves::tapped_setup(entry, tapping)
+                           : core::Result<curves::ContactSetup>(curves::ContactSetup{entry, {}, law, friction});
+    if (!setup) return tl::unexpected(setup.error());
+    auto model = is_pixel ? core::Result<curves::SampleModel>(*stage.pixel) : curves::make_sample_model(*setup);
     if (!model) return tl::unexpected(model.error());
     stage.wall_scene.lay_surface_on(model->parameters, materials.size());
     if (stage.wall_scene.topography().columns > 0) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/trigonometric.hpp>
+#include <utility>
 
 #include "core/enumerators.h"
 #include "curves/plot_units.h"
@@ -32,6 +34,7 @@ using physics::format_quantity;
 constexpr double kAxisBelow = 0.42, kAxisAbove = 1.42;
 constexpr double kPushShare = 0.4;  // deepest push, as a share of the reach
 constexpr double kHardlyPulled = 0.05;
+constexpr double kFreeSwing = 0.002;  // share of the amplitude that a swing may lose and count as free
 constexpr const char* kApart = "     ";  // separates two facts on a line
 
 struct StateSign {
@@ -136,6 +139,39 @@ Phrase stage_of_cycle(const Moment& moment, double z_jtc_m) {
   return moment.wall.tip.z_m > 0.0 ? StageAdhesion : StageRetract;
 }
 
+// Amplitude of the swing, its phase and the state that it is in, in place of the force.
+void show_swing(const Moment& moment, const curves::SampleModel& material, const Phrases& phrases,
+                render::ForcePanel& panel) {
+  using Kind = render::PlotMarker::Kind;
+  const double a0_nm = material.parameters.free_amplitude_m * curves::kNmPerM;
+  panel.title = phrases[Phrase::PlotTitleTapping];
+  panel.words.force_axis = "A (nm)";
+  panel.force_min_nn = 0.0;
+  panel.force_max_nn = kAxisAbove * a0_nm;
+  const physics::CycleFigures& figures = material.figures();
+  if (figures.hysteretic) {
+    for (const auto& [arrow, z] : {std::pair{"\u2193", figures.z_jtc}, {"\u2191", figures.z_joc}}) {
+      const double z_nm = z.si * curves::kNmPerM;
+      panel.markers.push_back({Kind::VerticalLine, z_nm, phrases.number(fmt::format("Z {} {:.2f} nm", arrow, z_nm))});
+    }
+  }
+  if (moment.phase == physics::Phase::WaitForLift) {
+    panel.stage = phrases[Phrase::StageLift];
+    return;
+  }
+  const double a_nm = moment.swing.amplitude_m * curves::kNmPerM;
+  const bool free = std::abs(a_nm / a0_nm - 1.0) < kFreeSwing;
+  const bool repelled = moment.phase == physics::Phase::Attached;
+  const std::string amplitude = phrases.number(fmt::format("{:.2f} nm", a_nm));
+  panel.stage = phrases[repelled ? Phrase::SwingRepulsive : free ? Phrase::SwingFree : Phrase::SwingAttractive];
+  panel.live = amplitude;
+  panel.figures = {{phrases[Phrase::SwingAmplitude], amplitude, ""},
+                   {phrases[Phrase::SwingPhase],
+                    phrases.number(fmt::format("{:.1f}\u00b0", glm::degrees(moment.swing.phase_rad))), ""},
+                   {phrases[Phrase::SwingState], panel.stage, ""}};
+  panel.cursor = render::PlotPoint{moment.wall.tip.z_m * curves::kNmPerM, a_nm};
+}
+
 FrameBuilder::FrameBuilder(const WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
                            const std::array<scene::EyeView, 2>& eyes)
     : wall_scene_(&wall_scene), phrases_(&wall_scene.phrases()), materials_(&materials), eyes_(eyes) {}
@@ -204,7 +240,12 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   }
   if (!moment.wall.material) return panel;
 
-  const physics::CycleFigures& figures = (*materials_)[*moment.wall.material].figures();
+  const curves::SampleModel& material = (*materials_)[*moment.wall.material];
+  if (material.taps()) {
+    show_swing(moment, material, phrases, panel);
+    return panel;
+  }
+  const physics::CycleFigures& figures = material.figures();
   if (figures.hysteretic) panel.markers = jump_markers(figures, phrases);
   panel.stage = phrases[stage_of_cycle(moment, figures.z_jtc.si)];
   panel.live = phrases.number(force_text(moment.wall.tip.force_n));

@@ -115,7 +115,8 @@ render::DataPanel data_panel(const curves::SampleModel& material, const scene::T
   add_contact_rows(material, phrases, panel);
   panel.rows.push_back({phrases[Phrase::ForceLaw], law_word(curves::law_name(material.parameters), phrases),
                         law_text(material, phrases)});
-  if (figures.hysteretic) {
+  // tapping: the figures are those of the push on the hand
+  if (figures.hysteretic && !material.taps()) {
     panel.rows.push_back(
         {phrases[Phrase::SnapInAndPullOff],
          phrases.number(fmt::format("{:.3f} / {:.3f} nN", std::abs(figures.force_after_jtc.si) * curves::kNnPerN,
@@ -123,9 +124,11 @@ render::DataPanel data_panel(const curves::SampleModel& material, const scene::T
          phrases.text<Phrase::AtHeights>(fmt::format("{:.2f} nm", figures.z_jtc.si * curves::kNmPerM),
                                          fmt::format("{:.2f} nm", figures.z_joc.si * curves::kNmPerM))});
   }
-  panel.rows.push_back({phrases[Phrase::LoopEnergy],
-                        phrases.number(fmt::format("{:.3g} aJ", figures.loop_energy.si * curves::kAjPerJ)),
-                        hysteresis_text(figures, phrases)});
+  if (!material.taps()) {
+    panel.rows.push_back({phrases[Phrase::LoopEnergy],
+                          phrases.number(fmt::format("{:.3g} aJ", figures.loop_energy.si * curves::kAjPerJ)),
+                          hysteresis_text(figures, phrases)});
+  }
   panel.rows.push_back({phrases[Phrase::ForceOnTip],
                         phrases.number(signed_text(tip.force_n * curves::kNnPerN, 3, "nN")),
                         bend_text(tip.deflection_m, phrases)});

@@ -110,15 +110,21 @@ void add_forecast(const curves::LiveParameters& parameters, const Phrases& phras
   predicted.label = phrases[Phrase::PlotPredicted];
   predicted.color = kPredictionColor;
   predicted.faded = true;
+  const curves::SampleModel& model = parameters.model();
+  const double a0_nm = model.parameters.free_amplitude_m * curves::kNmPerM;
   for (const physics::CurveSample& sample : parameters.curve().samples) {
     auto& branch = sample.branch == physics::Branch::Approach ? predicted.approach : predicted.retract;
-    branch.push_back({.place_nm = sample.z.si * curves::kNmPerM, .force_nn = sample.force.si * curves::kNnPerN});
+    // tapping: the amplitude, from the push
+    const double height = model.taps() ? a0_nm * (1.0 - sample.force / model.tables->tapped_full)
+                                       : sample.force.si * curves::kNnPerN;
+    branch.push_back({.place_nm = sample.z.si * curves::kNmPerM, .force_nn = height});
   }
   panel.curves.insert(panel.curves.begin(), std::move(predicted));
 }
 
 void add_prediction(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel) {
   add_forecast(parameters, phrases, panel);
+  if (parameters.model().taps()) return;  // the axes are those of the swing
   const physics::CycleFigures& figures = parameters.model().figures();
   const double reach_nm = curves::cycle_reach_m(parameters.model()) * curves::kNmPerM;
   const double deepest_nn = std::abs(parameters.curve().samples.back().force.si) * curves::kNnPerN;

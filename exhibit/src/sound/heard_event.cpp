@@ -14,7 +14,7 @@ using enum HeardEvent;
 // Notes of the equal temperament, rounded to a hertz: a glide down for closing, up for opening; two notes up for a
 // possible start, down for an end; a rough low note, three times, for a failure; a click for a repeated event. Of
 // particles: a soft knock for a touch, two for a ride over, a click for a first slip, a long fall for a loss, which a
-// rise takes back; a short rise for a pull that moves one, a pluck for a contact that tears; three notes up for a
+// rise takes back; of a tapping lever a click with a glide down or up; a short rise for a pull that moves one, a pluck for a contact that tears; three notes up for a
 // pattern.
 constexpr std::array kRows{
     HeardEventRow{
@@ -106,6 +106,16 @@ constexpr std::array kRows{
                   Spoken::AtOnce,
                   {{SignalNote{0, 0.090, 659, 659, 0.24, 0}, SignalNote{0.110, 0.090, 880, 880, 0.24, 0},
                     SignalNote{0.220, 0.240, 1319, 1319, 0.24, 0}}}},
+    HeardEventRow{JumpToRepulsion,
+                  Phrase::HeardJumpToRepulsion,
+                  Phrase::SayJumpToRepulsion,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.012, 2349, 1175, 0.26, 0}, SignalNote{0.020, 0.080, 587, 392, 0.26, 0.3}}}},
+    HeardEventRow{JumpToAttraction,
+                  Phrase::HeardJumpToAttraction,
+                  Phrase::SayJumpToAttraction,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.012, 1175, 2349, 0.26, 0}, SignalNote{0.020, 0.080, 392, 587, 0.26, 0.3}}}},
 };
 static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
 static_assert([] {

@@ -43,6 +43,14 @@ Heard heard_of(const scene::TipEvent& event) {
       heard.event = HeardEvent::ParticleTorn;
       heard.force_n = event.force_before_n;
       break;
+    case physics::EventKind::JumpToRepulsion:
+      heard.event = HeardEvent::JumpToRepulsion;
+      heard.force_n = event.force_after_n;
+      break;
+    case physics::EventKind::JumpToAttraction:
+      heard.event = HeardEvent::JumpToAttraction;
+      heard.force_n = event.force_after_n;
+      break;
     case physics::EventKind::PushTakenBack:
       heard.event = HeardEvent::PushTakenBack;
       break;
@@ -84,7 +92,8 @@ std::optional<HeardEvent> TipEar::change_of_force(scene::ServoState state) {
 
 bool TipEar::touches(const scene::TipSample& sample) {
   const bool pushed = sample.tip.force_n > 0.0;
-  const bool felt = is_audible(sample);
+  const bool taps = sample.swing.amplitude_m > 0.0;  // touches in every swing
+  const bool felt = is_audible(sample) && !taps;
   // under a law without a pull, the push begins at contact
   if (!felt || sample.phase == physics::Phase::Free) may_touch_ = felt && !pushed;
   const bool touch = felt && pushed && may_touch_;

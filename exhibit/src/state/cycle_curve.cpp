@@ -25,8 +25,10 @@ std::vector<std::array<double, 2>> CycleCurve::points() const {
 void CycleCurve::add(const scene::TipSample& sample) {
   const bool with_force =
       sample.servo_state == scene::ServoState::Running && sample.phase != physics::Phase::WaitForLift;
-  if (with_force)
-    add_point({.place_nm = sample.tip.z_m * curves::kNmPerM, .force_nn = sample.tip.force_n * curves::kNnPerN});
+  if (!with_force) return;
+  const double amplitude_m = sample.swing.amplitude_m;
+  add_point({.place_nm = sample.tip.z_m * curves::kNmPerM,
+             .force_nn = amplitude_m > 0.0 ? amplitude_m * curves::kNmPerM : sample.tip.force_n * curves::kNnPerN});
 }
 
 void CycleCurve::add(const scene::TipEvent& event) {

@@ -23,8 +23,10 @@
 #include "physics/dynamic_model.h"
 #include "physics/force_model.h"
 #include "physics/law_tables.h"
+#include "physics/tapping/tapping_model.h"
 #include "scene/shared/felt_heights.h"
 #include "scene/shared/shared_blocks.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::haptics {
 
@@ -34,9 +36,10 @@ class FeltParticles;
 // bends, a force on it acts as a lateral stiffness. `fit` is the scale of Fit.
 double largest_curvature_per_m(const Scaling& fit, const DeviceSpec& device);
 
-// Tables of the felt and displayed law; for a dynamic lever, those of the same lever at rest. Checks everything in
+// Tables of the felt and displayed law; for a dynamic lever, those of the same lever at rest, and for one that taps,
+// those of its push (physics/tapping/tapping_model.h). Checks everything in
 // `material`; `curves` are those of its SharedModel. Fails with a line that begins with the material's name if its
-// parameters have no such law. Takes milliseconds and allocates.
+// parameters have no such law. Takes milliseconds, or for a lever that taps tenths of a second, and allocates.
 core::Result<std::shared_ptr<const physics::LawTables>> build_tables(
     const scene::SharedContact& material, std::span<const scene::SharedMeasuredCurve> curves);
 
@@ -51,7 +54,8 @@ struct ScanFeedback {
 // One step of the tip over the sample; positions and forces in the sample's frame.
 struct Touch {
   physics::TipResponse response;
-  double z_m = 0;  // above the surface below the tip
+  scene::Swing swing;  // of a lever that taps
+  double z_m = 0;      // above the surface below the tip
   glm::dvec2 tip_xy_m{0.0};
   FeltFriction::Step friction;
   ParticlePush push;
@@ -80,7 +84,10 @@ struct Touch {
 // felt residual waits. Feedback begins and ends only where the step is not felt: with the tip off the sample, or
 // without force.
 //
-// create() takes milliseconds (on a topography, tenths of a second) and allocates; everything else may be called in a
+// A lever that taps is felt by its push, not by its mean force, which would give energy to the hand. What the push gives
+// by following the hand later is excess energy for the passivity observer.
+//
+// create() takes milliseconds (on a topography or with a lever that taps, tenths of a second) and allocates; everything else may be called in a
 // tick of the servo.
 class ContactModel {
  public:
@@ -120,7 +127,7 @@ class ContactModel {
   std::uint32_t edit_revision() const noexcept { return edit_revision_; }
 
  private:
-  using Model = std::variant<physics::ApproachRetractModel, physics::DynamicModel>;
+  using Model = std::variant<physics::ApproachRetractModel, physics::DynamicModel, physics::TappingModel>;
 
   using Scalings = std::array<Scaling, scene::kScaleModes.size()>;  // in the order of scene::kScaleModes
 
@@ -131,6 +138,7 @@ class ContactModel {
                std::uint32_t edit_revision);
 
   physics::TipResponse step_law(physics::Length z) noexcept;
+  physics::Force felt_force(Touch& touch) const noexcept;
   bool may_change_level(double hand_z_m, double height_m, const ScanFeedback& feedback) const noexcept;
   void follow_surface(double hand_z_m, double height_m, const ScanFeedback& feedback, Touch& touch) noexcept;
   void meet_particles(const glm::dvec2& slope, const ScanFeedback& feedback, Touch& touch) noexcept;

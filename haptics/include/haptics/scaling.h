@@ -26,7 +26,8 @@ struct CommonScale {
 // The map of Z is linear, so that events keep their relative positions. The attraction fills a stroke: up to Z_joc, or
 // up to where the force before contact has fallen to kFaintShare of the strongest pull, if that is higher. Without
 // any attraction (Hertz), a push of 20 mm corresponds to a tenth of the tip's radius, the depth to which a contact law
-// is valid, on a stroke of 50 mm.
+// is valid, on a stroke of 50 mm. For a lever that taps the stroke begins where its free swing clears the sample, and
+// its push at an amplitude of zero is three quarters of the largest force.
 //
 // - Fit: each material has a stroke of 50 mm, and its strongest pull becomes the largest force allowed on the device,
 //   at most 2.0 N. For the paper's law that is a single spring, 2.0 N / 50 mm = 40 N/m, for every material: only the

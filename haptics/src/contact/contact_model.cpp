@@ -27,8 +27,16 @@ tl::unexpected<core::Error> refusal(const scene::SharedContact& material, core::
   return core::failure(category, fmt::format("cannot build the contact model for {}: {}", name, why));
 }
 
+std::shared_ptr<const physics::TapSurface> tapped_surface(const scene::SharedContact& material) {
+  return std::make_shared<const physics::TapSurface>(material.law, material.contact, scene::law_options(material),
+                                                     physics::Viscosity(material.viscosity_pa_s));
+}
+
 std::shared_ptr<const physics::LawTables> build(const scene::SharedContact& material,
                                                 std::span<const scene::SharedMeasuredCurve> curves) {
+  if (scene::taps(material)) {
+    return physics::tapped_law_tables(material.law, tapped_surface(material), scene::tapping_lever(material));
+  }
   if (material.law != physics::Law::Measured) {
     return physics::build_law_tables(material.law, material.contact, scene::law_options(material));
   }
@@ -41,6 +49,12 @@ std::shared_ptr<const physics::LawTables> build(const scene::SharedContact& mate
 physics::DynamicModel dynamic_model(const scene::SharedContact& material, std::int64_t period_ns) {
   return physics::DynamicModel(material.law, material.contact, material.lever,
                                physics::Time(1e-9 * static_cast<double>(period_ns)), scene::law_options(material));
+}
+
+physics::TappingModel tapping_model(const scene::SharedContact& material,
+                                    const std::shared_ptr<const physics::LawTables>& tables, std::int64_t period_ns) {
+  return {tapped_surface(material), scene::tapping_lever(material), tables,
+          physics::Time(1e-9 * static_cast<double>(period_ns))};
 }
 
 // Covers every height that the hand can reach, for any orientation of the sample.
@@ -77,6 +91,7 @@ double turn_energy_j(const physics::LawTables& tables, const Scaling& scaling, p
 
 double slow_motion_of(const physics::ApproachRetractModel& /*at rest at any time*/) { return 1.0; }
 double slow_motion_of(const physics::DynamicModel& model) { return model.slow_motion(); }
+double slow_motion_of(const physics::TappingModel& model) { return model.slow_motion(); }
 
 }  // namespace
 
@@ -115,6 +130,7 @@ core::Result<std::unique_ptr<ContactModel>> ContactModel::create(
   try {
     Model model(std::in_place_type<physics::ApproachRetractModel>, tables);
     if (material.dynamic != 0) model = dynamic_model(material, period_ns);
+    if (scene::taps(material)) model = tapping_model(material, tables, period_ns);
     const Scalings scalings{*common_scaling, *fit, *compressed, *atoms, *particles};
     SampleSurface surface(drawn.scaled(scene::surface_scale(material, fit->release_z_m())),
                           material.contact.tip_radius.si, largest_curvature_per_m(*fit, device));
@@ -161,7 +177,7 @@ Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback)
   touch.response = step_law(physics::Length(touch.z_m));
   touch.normal = glm::normalize(glm::dvec3(-below.slope, 1.0));
   const glm::dvec3 gradient(-below.slope * scale.flattening(), 1.0);
-  touch.hand_force_n = scale.hand_force_n(touch.response.force.si) * gradient;
+  touch.hand_force_n = scale.hand_force_n(felt_force(touch).si) * gradient;
   if (friction_) {
     // the loop keeps the load constant
     const double load_z_m = level_ ? scale.z_m(hand_m.z) : touch.z_m;
@@ -236,6 +252,14 @@ physics::TipResponse ContactModel::step_law(physics::Length z) noexcept {
   return std::visit([z](auto& model) { return model.step(z); }, model_);
 }
 
+physics::Force ContactModel::felt_force(Touch& touch) const noexcept {
+  const auto* tapping = std::get_if<physics::TappingModel>(&model_);
+  if (tapping == nullptr) return touch.response.force;
+  if (tapping->phase() == physics::Phase::WaitForLift) return {};
+  touch.swing = {.amplitude_m = tapping->amplitude().si, .phase_rad = tapping->phase_lag()};
+  return tapping->push();
+}
+
 void ContactModel::wait_for_lift() noexcept {
   std::visit([](auto& model) { model.wait_for_lift(); }, model_);
   if (friction_) friction_->lift();
@@ -262,7 +286,9 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
     law.stiffness_n_per_m += particles_->stiffness_n_per_m();
   }
   if (level_) law.given_j += touch.level_given_j;
-  if (law.is_dynamic) {
+  if (std::holds_alternative<physics::TappingModel>(model_)) {
+    law.is_dynamic = true;  // the branch changes when the swing has left it
+  } else if (law.is_dynamic) {
     const auto& branch = attached ? tables_->attached : tables_->free;
     const double at_rest_n = scaling().hand_force_n(branch.force(physics::Length(touch.z_m)).si);
     law.oscillation_n = std::abs(touch.hand_force_n.z - at_rest_n) / touch.normal.z;

@@ -59,6 +59,11 @@ struct Extent {
 };
 
 Extent extent_of(const physics::LawTables& tables) {
+  if (tables.tapped_from.si > 0.0) {
+    // an amplitude of zero stays below the bend of the force map
+    const double strong_n = tables.tapped_full.si / kKneeShare;
+    return {tables.tapped_from.si, strong_n, strong_n};
+  }
   const double pull_n = strongest_pull_n(tables);
   const double push_n = tables.turn.si > 0.0 ? force_n(tables.pressed, tables.pressed_to.si) : 0.0;
   if (pull_n > Scaling::kFaintShare * push_n) {

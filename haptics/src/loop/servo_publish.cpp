@@ -53,6 +53,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                 .height_m = response.tip_height.si,
                 .deflection_m = response.cantilever_deflection.si,
                 .sample_deformation_m = response.sample_deformation.si};
+  state_.swing = touch_.swing;
   state_.surface = {.xy_m = {touch_.tip_xy_m.x, touch_.tip_xy_m.y}, .height_m = touch_.surface_height_m};
   state_.normal = array_of(sample_.in_device(touch_.normal));
   state_.hand.position_m = array_of(hand_.position_m);
@@ -100,7 +101,8 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                 .changing = changing_ ? 1U : 0U,
                                 .lateral_force_n = {touch_.friction.lateral.x.si, touch_.friction.lateral.y.si},
                                 .scan = scan_,
-                                .push = particles_ ? particles_->sample() : scene::PushSample{}});
+                                .push = particles_ ? particles_->sample() : scene::PushSample{},
+                                .swing = state_.swing});
 }
 
 // Only pages that changed.

@@ -9,7 +9,7 @@ namespace afm::physics {
 // Free: not touching. Attached: on the surface, pressed or adhering. Session files and curves contain the numbers.
 enum class Phase : std::uint32_t { WaitForLift = 0, Free = 1, Attached = 2 };
 
-// A jump from one branch of the law to the other, or sideways from one well of a lattice to the next
+// A jump from one branch of the law to the other, or between the states of a tapping lever, or sideways from one well of a lattice to the next
 // (physics/friction/lattice_tip.h); or what a tip does to a particle on the sample (physics/manipulation). Session
 // files contain the numbers.
 enum class EventKind : std::uint32_t {
@@ -24,6 +24,8 @@ enum class EventKind : std::uint32_t {
   ParticlesPutBack = 9,    // all particles are where they were at the start
   ParticleDragged = 10,    // a particle at rest began to follow a tip that pulls it by adhesion
   ParticleTorn = 11,       // the contact by which the tip pulled a particle tore
+  JumpToRepulsion = 12,    // a tapping lever fell from the attractive into the repulsive state
+  JumpToAttraction = 13,   // and back
 };
 
 // Name in reports and replays.
@@ -51,11 +53,16 @@ constexpr const char* name_of(EventKind kind) {
       return "particle-dragged";
     case EventKind::ParticleTorn:
       return "particle-torn";
+    case EventKind::JumpToRepulsion:
+      return "jump-to-repulsion";
+    case EventKind::JumpToAttraction:
+      return "jump-to-attraction";
   }
   return "unknown";
 }
 
-// The forces of all others are lateral; those of particles that are put somewhere are 0.
+// The forces of all others are lateral; those of particles that are put somewhere are 0, those of a tapping lever means
+// over a swing.
 constexpr bool is_jump(EventKind kind) { return kind == EventKind::JumpToContact || kind == EventKind::JumpOffContact; }
 
 }  // namespace afm::physics

@@ -29,6 +29,10 @@ struct LawTables {
   Length pressed_to;  // deepest recorded position
   CycleFigures figures;
   Length contact_gap;  // D while attached
+  // A lever that taps (physics/tapping/tapping_model.h): the Z above which its push is not felt, and the push at an
+  // amplitude of zero. Zero: it does not tap.
+  Length tapped_from;
+  Force tapped_full;
 
   // Force in contact at `z`, after the tip was pressed down to `lowest`, at or below `z`. Depends on the deepest place
   // and not on the direction of motion, so an oscillation costs no work. Never below the attached branch, so no path

@@ -130,6 +130,11 @@ physics::LawOptions law_options(const SharedContact& material) {
   return options;
 }
 
+physics::DrivenLever tapping_lever(const SharedContact& material) {
+  return physics::driven_lever(material.contact.spring_constant, material.lever,
+                               {physics::Length(material.free_amplitude_m), physics::Frequency(material.drive_hz)});
+}
+
 std::string why_no_friction(physics::FrictionLaw friction, physics::Law law, physics::Pressure reduced_modulus) {
   if (friction == physics::FrictionLaw::None) return "";
   if (law == physics::Law::Paper) {
@@ -156,6 +161,14 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
   if (material.dynamic != 0 && !physics::has_dynamics(material.law)) {
     return model_refused(fmt::format("the law {} has no dynamics", physics::name_of(material.law)));
   }
+  // written so that NaN fails
+  if (!(material.free_amplitude_m >= 0.0 && material.viscosity_pa_s >= 0.0)) {
+    return model_refused("its swing is not a valid one");
+  }
+  if (taps(material) && (material.dynamic != 0 || material.friction.law != physics::FrictionLaw::None ||
+                         !physics::has_dynamics(material.law))) {
+    return model_refused(fmt::format("the law {} cannot be tapped on", physics::name_of(material.law)));
+  }
   const bool traced = material.height_field == kTopography && topography.columns > 0;
   if (material.height_field != kNoHeightField && material.height_field >= height_field_count && !traced) {
     return model_refused("its surface does not exist");
@@ -179,6 +192,7 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
     physics::validate(material.contact);
     physics::validate(law_options(material));
     if (material.dynamic != 0) physics::validate(material.lever);
+    if (taps(material)) (void)tapping_lever(material);
     physics::validate(material.friction);
   } catch (const std::invalid_argument& error) {
     return model_refused(error.what());

@@ -45,6 +45,7 @@ std::string rods_of(const scene::SharedParticles& set) {
 }
 
 std::uint32_t version_of(const RecordedSession& session) {
+  if (scene::taps(session.parameters)) return kVersionWithSwing;
   if (!session.particles) return kSessionVersion;
   if (scene::has_hold(session.particles->set)) return kVersionWithHold;
   return scene::has_rods(session.particles->set) ? kVersionWithRods : kVersionWithParticles;
@@ -83,7 +84,8 @@ bool read_rods(std::string_view payload, RecordedParticles& particles) {
 }
 
 std::size_t sample_bytes_of(const RecordedSession& session) {
-  return session.particles ? sizeof(scene::TipSample) : kSampleBytesWithoutPush;
+  if (scene::taps(session.parameters)) return sizeof(scene::TipSample);
+  return session.particles ? kSampleBytesWithoutSwing : kSampleBytesWithoutPush;
 }
 
 void SessionEncoder::head(const RecordedSession& session) {

@@ -109,9 +109,15 @@ bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
   return version == kVersionWithHold || scene::has_rods(set) == (version == kVersionWithRods);
 }
 
-// Reads version 6, 7, 8 or 9; returns an error message, or nothing.
+// Size of a sample in a file of this version of chunks.
+std::size_t sample_bytes_in(std::uint32_t version) {
+  if (version == kVersionWithSwing) return sizeof(TipSample);
+  return version == kSessionVersion ? kSampleBytesWithoutPush : kSampleBytesWithoutSwing;
+}
+
+// Reads version 6, 7, 8, 9 or 10; returns an error message, or nothing.
 std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
-  const bool with_particles = version != kSessionVersion;
+  const bool with_particles = version != kSessionVersion && version != kVersionWithSwing;
   SessionDecoder decoder(file);
   nlohmann::json last_frame;
   for (bool first = true;; first = false) {
@@ -124,8 +130,8 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
     if (first != (decoder.name() == kHeadChunk)) return "its parts are out of order";
     std::string_view payload = decoder.payload();
     if (first) {
-      const std::size_t sample_bytes = with_particles ? sizeof(TipSample) : kSampleBytesWithoutPush;
-      if (std::string wrong = read_header(payload, sample_bytes, session); !wrong.empty()) return wrong;
+      if (std::string wrong = read_header(payload, sample_bytes_in(version), session); !wrong.empty()) return wrong;
+      if (scene::taps(session.parameters) != (version == kVersionWithSwing)) return "its lever is of another version";
     } else if (decoder.name() == kSurfaceChunk) {
       if (payload.size() != sizeof(SharedHeightField) || !take(payload, session.surface.emplace())) {
         return "the size of its surface differs from this program's";
@@ -134,7 +140,7 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
       if (!read_topography(payload, session.topography)) return "its topography is damaged";
     } else if (with_particles && decoder.name() == kParticlesChunk) {
       if (!read_particles(payload, session.particles.emplace())) return "its particles are damaged";
-    } else if (version >= kVersionWithRods && decoder.name() == kRodsChunk) {
+    } else if (with_particles && version >= kVersionWithRods && decoder.name() == kRodsChunk) {
       if (!session.particles || !read_rods(payload, *session.particles)) return "its rods are damaged";
     } else if (decoder.name() == kPartChunk) {
       if (with_particles != session.particles.has_value()) return "its parts are out of order";
@@ -271,7 +277,7 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
   constexpr std::array kVersions{kVersionOf010, kSessionVersion, kVersionWithParticles, kVersionWithRods,
-                                 kVersionWithHold};
+                                 kVersionWithHold, kVersionWithSwing};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

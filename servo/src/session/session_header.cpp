@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "scene/shared/shared_segment.h"
 #include "session_chunks.h"
 
 namespace afm::servo {
@@ -50,6 +51,12 @@ physics::FrictionParameters friction_of(const nlohmann::json& json) {
           .lateral_stiffness = physics::Stiffness(json.at("lateral_stiffness_N_per_m").get<double>())};
 }
 
+nlohmann::json json_of(const physics::LeverDynamics& lever) {
+  return {{"resonance_Hz", lever.resonance.si},
+          {"quality_factor", lever.quality_factor},
+          {"temperature_K", lever.temperature.si}};
+}
+
 nlohmann::json json_of(const scene::SharedContact& m) {
   nlohmann::json json{{"law", static_cast<std::uint32_t>(m.law)},
                       {"interaction", json_of(m.contact)},
@@ -64,13 +71,21 @@ nlohmann::json json_of(const scene::SharedContact& m) {
     json["topography"] = {{"lateral", m.topography.lateral}, {"vertical", m.topography.vertical}};
   }
   if (m.surface_release_m != 0.0) json["surface_release_m"] = m.surface_release_m;
-  if (m.dynamic != 0) {
-    json["dynamics"] = {{"resonance_Hz", m.lever.resonance.si},
-                        {"quality_factor", m.lever.quality_factor},
-                        {"temperature_K", m.lever.temperature.si}};
+  if (m.dynamic != 0) json["dynamics"] = json_of(m.lever);
+  if (scene::taps(m)) {
+    json["tapping"] = json_of(m.lever);
+    json["tapping"].update({{"free_amplitude_m", m.free_amplitude_m},
+                            {"drive_Hz", m.drive_hz},
+                            {"viscosity_Pa_s", m.viscosity_pa_s}});
   }
   if (m.friction.law != physics::FrictionLaw::None) json["friction"] = json_of(m.friction);
   return json;
+}
+
+physics::LeverDynamics lever_of(const nlohmann::json& json) {
+  return {.resonance = physics::Frequency(json.at("resonance_Hz").get<double>()),
+          .quality_factor = json.at("quality_factor").get<double>(),
+          .temperature = physics::Temperature(json.at("temperature_K").get<double>())};
 }
 
 scene::SharedContact parameters_of(const nlohmann::json& json, const std::string& name) {
@@ -94,9 +109,13 @@ scene::SharedContact parameters_of(const nlohmann::json& json, const std::string
   m.surface_release_m = json.value("surface_release_m", 0.0);
   if (const auto dynamics = json.find("dynamics"); dynamics != json.end()) {
     m.dynamic = 1;
-    m.lever = {.resonance = physics::Frequency(dynamics->at("resonance_Hz").get<double>()),
-               .quality_factor = dynamics->at("quality_factor").get<double>(),
-               .temperature = physics::Temperature(dynamics->at("temperature_K").get<double>())};
+    m.lever = lever_of(*dynamics);
+  }
+  if (const auto tapping = json.find("tapping"); tapping != json.end()) {
+    m.free_amplitude_m = tapping->at("free_amplitude_m").get<double>();
+    m.drive_hz = tapping->at("drive_Hz").get<double>();
+    m.viscosity_pa_s = tapping->at("viscosity_Pa_s").get<double>();
+    m.lever = lever_of(*tapping);
   }
   if (const auto friction = json.find("friction"); friction != json.end()) m.friction = friction_of(*friction);
   return m;

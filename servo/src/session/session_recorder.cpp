@@ -51,7 +51,8 @@ bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
   const bool fresh = previous_ && !same_contact(*previous_, sample) && sample.tick == previous_->tick + 1;
   previous_ = sample;
   const auto is_dynamic = [&] {
-    return servo.parameters(static_cast<std::size_t>(sample.material), sample.edit_revision).dynamic != 0;
+    const auto& felt = servo.parameters(static_cast<std::size_t>(sample.material), sample.edit_revision);
+    return felt.dynamic != 0 || scene::taps(felt);
   };
   if (begins && !fresh && !can_begin_with(sample, servo.tip(), is_dynamic())) return false;
   if (begins && !has_poses_of(sample, servo)) return false;

@@ -28,7 +28,9 @@ enum class HeardEvent {
   ParticleTorn,
   PushTakenBack,
   ParticlesPutBack,
-  PatternDone  // the particles lie on the pattern of their set
+  PatternDone,       // the particles lie on the pattern of their set
+  JumpToRepulsion,   // a tapping lever fell into the repulsive state
+  JumpToAttraction,  // and back into the attractive one
 };
 
 // One note of a signal: a sine that glides between two pitches, with a smooth envelope.

@@ -29,6 +29,7 @@ class LiveScan;
 // One moment of the demonstration, from the live servo or from a session: everything that the wall shows.
 struct Moment {
   WallState wall;
+  scene::Swing swing{};  // of a lever that taps
   scene::ServoState servo_state = scene::ServoState::Disarmed;
   bool stopped = false;  // in Fault: a person has stopped the force
   physics::Phase phase = physics::Phase::WaitForLift;
@@ -48,6 +49,7 @@ struct Moment {
 template <class Visit, scene::RecordOf<Moment>... Record>
 constexpr void for_each_field(Visit&& visit, Record&... moment) {
   visit("wall", moment.wall...);
+  visit("swing", moment.swing...);
   visit("servo_state", moment.servo_state...);
   visit("stopped", moment.stopped...);
   visit("phase", moment.phase...);

@@ -125,6 +125,13 @@
 #define AFM_FOR_EACH_PANEL_PHRASE(PHRASE)                                \
   PHRASE(PlotTitle, "plot-title", "", kLine)                             \
   PHRASE(PlotTitleAll, "plot-title-all", "", kLine)                      \
+  PHRASE(PlotTitleTapping, "plot-title-tapping", "", kLine)              \
+  PHRASE(SwingAmplitude, "swing-amplitude", "", kLine)                   \
+  PHRASE(SwingPhase, "swing-phase", "", kLine)                           \
+  PHRASE(SwingState, "swing-state", "", kLine)                           \
+  PHRASE(SwingAttractive, "swing-attractive", "", kLine)                 \
+  PHRASE(SwingRepulsive, "swing-repulsive", "", kLine)                   \
+  PHRASE(SwingFree, "swing-free", "", kLine)                             \
   PHRASE(PlotApproach, "plot-approach", "", kLine)                       \
   PHRASE(PlotRetract, "plot-retract", "", kLine)                         \
   PHRASE(PlotPredicted, "plot-predicted", "", kLine)                     \

@@ -22,6 +22,8 @@
   PHRASE(HeardPushTakenBack, "heard-push-taken-back", kEventPlaces, kLine)           \
   PHRASE(HeardParticlesPutBack, "heard-particles-put-back", kEventPlaces, kLine)     \
   PHRASE(HeardPatternDone, "heard-pattern-done", kEventPlaces, kLine)                \
+  PHRASE(HeardJumpToRepulsion, "heard-jump-to-repulsion", kEventPlaces, kLine)       \
+  PHRASE(HeardJumpToAttraction, "heard-jump-to-attraction", kEventPlaces, kLine)     \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -41,6 +43,8 @@
   PHRASE(SayPushTakenBack, "say-push-taken-back", kEventPlaces, kLine)               \
   PHRASE(SayParticlesPutBack, "say-particles-put-back", kEventPlaces, kLine)         \
   PHRASE(SayPatternDone, "say-pattern-done", kEventPlaces, kLine)                    \
+  PHRASE(SayJumpToRepulsion, "say-jump-to-repulsion", kEventPlaces, kLine)           \
+  PHRASE(SayJumpToAttraction, "say-jump-to-attraction", kEventPlaces, kLine)         \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <memory>
-#include <vector>
 
+#include "physics/tapping/tap_envelope.h"
 #include "physics/units.h"
 
 namespace afm::physics {
@@ -13,13 +12,8 @@ class AveragedFlow;
 class TapSurface;
 struct DrivenLever;
 
-// What a microscope in tapping mode detects over a surface whose height changes: the averaged flow of AveragedFlow in
-// the variables u = A cos(phi), v = A sin(phi), time in 1/w0:
-//
-//   u' = -g u - w v,   v' = -g v + w u + a/2r,   g = 1/2Q + E/(2 pi k r A^2),   w = (r^2 - 1)/2r + V/(r k A^2)
-//
-// V and E come from a table over amplitude and gap, which the constructor builds. At rest the amplitude is that of
-// AveragedFlow within 0.2 %.
+// What a microscope in tapping mode detects over a surface whose height changes: the swing of TapEnvelope, which the
+// feedback keeps at a setpoint.
 //
 // One thread. Only the constructor and copies allocate.
 class TappingDetector {
@@ -30,41 +24,32 @@ class TappingDetector {
   TappingDetector(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever, Length setpoint);
 
   // Puts the swing at rest at the setpoint, in the state that a tip from above finds first.
-  void engage() noexcept {
-    u_ = engaged_u_, v_ = engaged_v_;
-    contact_ = sample(setpoint_m_, engaged_gap_m_);
-  }
+  void engage() noexcept { envelope_.place(engaged_.u_m, engaged_.v_m, engaged_.gap_m); }
 
   // Lets the swing follow for `angle`, in w0 t, with the base `gap_m` above the surface.
-  void advance(double gap_m, double angle) noexcept;
+  void advance(double gap_m, double angle) noexcept { envelope_.advance(gap_m, gap_m, angle); }
 
-  double amplitude_m() const noexcept;
-  double phase_rad() const noexcept;                              // lag behind the drive, 0 to 2 pi
-  double lost_j() const noexcept { return contact_.lost; }        // in the sample, per swing
-  double peak_force_n() const noexcept { return contact_.peak; }  // at the lowest point of the swing
+  double amplitude_m() const noexcept { return envelope_.amplitude_m(); }
+  double phase_rad() const noexcept { return envelope_.phase_rad(); }        // lag behind the drive, 0 to 2 pi
+  double lost_j() const noexcept { return envelope_.lost_j(); }              // in the sample, per swing
+  double peak_force_n() const noexcept { return envelope_.peak_force_n(); }  // at the lowest point of the swing
 
-  const DrivenLever& lever() const noexcept { return *lever_; }
+  const DrivenLever& lever() const noexcept { return envelope_.lever(); }
   double free_amplitude_m() const noexcept { return free_amplitude_m_; }
   double setpoint_m() const noexcept { return setpoint_m_; }
-  double engaged_gap_m() const noexcept { return engaged_gap_m_; }  // height of the base after engage()
+  double engaged_gap_m() const noexcept { return engaged_.gap_m; }  // height of the base after engage()
 
  private:
-  // Of one swing: virial and energy over sqrt(A), whose changes with A are then slow.
-  struct Node {
-    double virial = 0, lost = 0, peak = 0;
+  // A swing at rest at the setpoint.
+  struct Engaged {
+    double gap_m, u_m, v_m;
   };
-  void build_table(AveragedFlow& flow);
-  void find_setpoint(AveragedFlow& flow);
-  Node sample(double amplitude_m, double gap_m) const noexcept;
+  Engaged find_setpoint(AveragedFlow& flow, double contact_m) const;
+  TappingDetector(AveragedFlow&& flow, Length contact_height, Length setpoint);
 
-  std::shared_ptr<const DrivenLever> lever_;
-  double free_amplitude_m_ = 0, setpoint_m_ = 0, contact_m_ = 0;
-  double least_amplitude_m_ = 0, amplitude_step_m_ = 0, least_x_ = 0;
-  std::size_t columns_ = 0;
-  std::shared_ptr<const std::vector<Node>> table_;
-  double engaged_gap_m_ = 0, engaged_u_ = 0, engaged_v_ = 0;
-  double u_ = 0, v_ = 0;
-  Node contact_;  // newest swing
+  double free_amplitude_m_ = 0, setpoint_m_ = 0;
+  Engaged engaged_;
+  TapEnvelope envelope_;
 };
 
 }  // namespace afm::physics

@@ -62,6 +62,10 @@ struct SharedContact {
   physics::LeverDynamics lever{};
   TopographyScale topography{};  // kTopography only
   double surface_release_m = 0;  // Z of the release at which the surface has its own size (surface_scale); 0: at any
+  // The lever taps: a drive swings it, with the resonance and the damping of `lever`. Not dynamic, without friction.
+  double free_amplitude_m = 0;  // zero-to-peak; 0: it does not tap
+  double drive_hz = 0;
+  double viscosity_pa_s = 0;  // of the contact
   physics::FrictionParameters friction{};
 };
 

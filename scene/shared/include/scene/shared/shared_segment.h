@@ -11,6 +11,7 @@
 #include "core/file_descriptor.h"
 #include "core/result.h"
 #include "physics/law.h"
+#include "physics/tapping/driven_lever.h"
 #include "scene/shared/felt_heights.h"
 #include "scene/shared/tip_blocks.h"
 
@@ -39,6 +40,10 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
 core::Result<void> validate(const SharedParticles& particles);
 
 physics::LawOptions law_options(const SharedContact& material);
+
+// Whether the material is felt by a lever in tapping mode; and that lever, which throws as physics::driven_lever().
+constexpr bool taps(const SharedContact& material) { return material.free_amplitude_m > 0.0; }
+physics::DrivenLever tapping_lever(const SharedContact& material);
 
 // True if a block is valid: indices within counts, enumerators known, numbers finite.
 bool is_valid(const SharedMeasuredCurve& curve);

@@ -16,7 +16,7 @@ namespace afm::scene {
 // Tip and lever, computed by the force law. Heights along +z of the sample.
 struct Tip {
   double z_m = 0;      // piezo displacement Z above the surface below the tip: the hand's input
-  double force_n = 0;  // on the tip, positive away from the sample
+  double force_n = 0;  // on the tip, positive away from the sample; tapping: its mean over a swing
   double height_m = 0;
   double deflection_m = 0;          // delta_c, positive towards the sample
   double sample_deformation_m = 0;  // delta_s
@@ -31,6 +31,19 @@ constexpr void for_each_field(Visit&& visit, Record&... tip) {
   visit("sample_deformation_m", tip.sample_deformation_m...);
 }
 static_assert(all_fields_described<Tip>());
+
+// Swing of a lever in tapping mode; zero without tapping.
+struct Swing {
+  double amplitude_m = 0;  // zero-to-peak
+  double phase_rad = 0;    // lag behind the drive
+};
+
+template <class Visit, RecordOf<Swing>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... swing) {
+  visit("amplitude_m", swing.amplitude_m...);
+  visit("phase_rad", swing.phase_rad...);
+}
+static_assert(all_fields_described<Swing>());
 
 // Point of the sample's surface below the tip, in the sample's frame. The heights of a Tip are measured from it.
 struct SurfacePoint {
@@ -132,6 +145,7 @@ struct TipState {
   std::int64_t time_ns = 0;  // CLOCK_MONOTONIC when the device was read
   std::uint64_t tick = 0;
   Tip tip{};
+  Swing swing{};
   SurfacePoint surface{};
   std::array<double, 3> normal{0.0, 1.0, 0.0};  // outward normal of the surface below the tip, device frame, unit
   HandState hand{};
@@ -156,6 +170,7 @@ constexpr void for_each_field(Visit&& visit, Record&... state) {
   visit("time_ns", state.time_ns...);
   visit("tick", state.tick...);
   visit("tip", state.tip...);
+  visit("swing", state.swing...);
   visit("surface", state.surface...);
   visit("normal", state.normal...);
   visit("hand", state.hand...);
@@ -217,6 +232,7 @@ struct TipSample {
   std::array<double, 2> lateral_force_n{};  // friction of the sample on the lever, along the sample's x and y
   ScanLead scan{};                          // in effect in this tick; default: none
   PushSample push{};                        // by particles; default: none
+  Swing swing{};                            // of a tapping lever; default: none
 };
 
 // Results of the tick: a replay must reproduce them bit for bit.
@@ -231,6 +247,7 @@ constexpr void for_each_result(Visit&& visit, Record&... sample) {
   visit("lateral_x_N", sample.lateral_force_n[0]...);
   visit("lateral_y_N", sample.lateral_force_n[1]...);
   visit("push", sample.push...);
+  visit("swing", sample.swing...);
 }
 
 // Inputs of the tick: a replay begins with them.

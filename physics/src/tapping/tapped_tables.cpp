@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "physics/quantity_text.h"
+#include "physics/tapping/averaged_flow.h"
+#include "physics/tapping/tapping_model.h"
+#include "require_range.h"
+#include "tapping/tap_walk.h"
+
+namespace afm::physics {
+namespace {
+
+constexpr int kHeights = 400;               // of a walk
+constexpr std::size_t kNodes = 1200;        // of a branch
+constexpr Length kClearOfSample{2e-9};      // of the free swing, above which no push is felt
+constexpr double kFaintReduction = 0.02;    // share of the free amplitude
+constexpr double kMostReachOfSwing = 10.0;  // in free amplitudes, for an attraction with a long range
+
+// A slow walk down and up again.
+struct Walk {
+  TappingCurve curve;
+  std::vector<TapPoint> down, up;  // each from the highest Z
+  std::optional<TapJump> in, off;  // between the attractive and the repulsive state
+};
+
+Walk walk_of(AveragedFlow& flow, Length from, Length to) {
+  TapDirection down{Branch::Approach, {}}, up{Branch::Retract, {}};
+  for (int i = 0; i <= kHeights; ++i) down.heights.push_back(from + (to - from) * (static_cast<double>(i) / kHeights));
+  up.heights.assign(down.heights.rbegin(), down.heights.rend());
+  Walk walk;
+  const DrivenLever& lever = flow.lever();
+  TapState state = flow.settle({lever.free_amplitude, lever.free_phase}, from).state;
+  walk_slowly(flow, down, state, walk.curve);
+  walk_slowly(flow, up, state, walk.curve);
+  for (const TapPoint& point : walk.curve.points) {
+    (point.branch == Branch::Approach ? walk.down : walk.up).push_back(point);
+  }
+  std::reverse(walk.up.begin(), walk.up.end());
+  // a branch may end a little beyond the lag of the free lever, so the ends count that the jumps lead to
+  for (const TapJump& jump : walk.curve.jumps) {
+    const bool rises = jump.after.phase > jump.before.phase, attracted = jump.after.phase > lever.free_phase;
+    if (jump.branch == Branch::Approach && !rises && !attracted) walk.in = jump;
+    if (jump.branch == Branch::Retract && rises && attracted) walk.off = jump;
+  }
+  return walk;
+}
+
+// P over falling Z, between the points of a walk.
+double push_at(const std::vector<TapPoint>& points, const DrivenLever& lever, double z) {
+  const auto below =
+      std::find_if(points.begin(), points.end(), [&](const TapPoint& point) { return point.z.si <= z; });
+  if (below == points.begin()) return tap_push(lever, points.front().state.amplitude).si;
+  if (below == points.end()) return tap_push(lever, points.back().state.amplitude).si;
+  const TapPoint &a = *std::prev(below), &b = *below;
+  const double share = a.z.si > b.z.si ? (z - b.z.si) / (a.z.si - b.z.si) : 0.0;
+  return tap_push(lever, b.state.amplitude + share * (a.state.amplitude - b.state.amplitude)).si;
+}
+
+// Table of P from its end outwards over `length`.
+BranchTable table_of(const std::vector<TapPoint>& points, const DrivenLever& lever, Length end, BranchTable::Side side,
+                     Length length) {
+  const double spacing = length.si / static_cast<double>(kNodes - 1);
+  const double sign = side == BranchTable::Side::Above ? 1.0 : -1.0;
+  std::vector<BranchTable::Node> nodes(kNodes);
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    nodes[i].force_n = push_at(points, lever, end.si + sign * spacing * static_cast<double>(i));
+  }
+  for (std::size_t i = 1; i + 1 < kNodes; ++i) {
+    // no overshoot beside a fold
+    const double before = nodes[i].force_n - nodes[i - 1].force_n, after = nodes[i + 1].force_n - nodes[i].force_n;
+    if (before * after > 0.0) nodes[i].slope = 2.0 * before * after / (before + after) / spacing;
+  }
+  nodes.front().slope = (nodes[1].force_n - nodes[0].force_n) / spacing;
+  return {end, side, Length(spacing), std::move(nodes)};
+}
+
+// Z at which the walk down passes from attraction to repulsion; the lowest Z if it never does.
+Length meeting_of(const Walk& walk, const DrivenLever& lever) {
+  const auto repelled =
+      std::find_if(walk.down.begin(), walk.down.end(), [&](const TapPoint& p) { return p.state.phase < lever.free_phase; });
+  return repelled == walk.down.end() ? walk.down.back().z : repelled->z;
+}
+
+}  // namespace
+
+Force tap_push(const DrivenLever& lever, Length amplitude) noexcept {
+  return lever.spring_constant * lever.base_amplitude * (1.0 - amplitude / lever.free_amplitude);
+}
+
+std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_ptr<const TapSurface>& surface,
+                                                   const DrivenLever& lever) {
+  require_range("quality_factor", lever.quality_factor, AveragedFlow::kLeastQuality, 1e5, kPlainNumber);
+  require_range("relaxation", lever.relaxation().si, 0.0, kLongestFeltRelaxation.si, kTimeUnits);
+  AveragedFlow flow(surface, lever);
+  const Length a0 = lever.free_amplitude, floor = surface->contact_height();
+  Length from = floor + a0 + std::max(kClearOfSample, 0.5 * a0);
+  // above the attraction, if its range is long
+  while (from < kMostReachOfSwing * a0) {
+    const Length amplitude = flow.settle({a0, lever.free_phase}, from).state.amplitude;
+    if (std::abs(amplitude / a0 - 1.0) < 0.5 * kFaintReduction) break;
+    from = from + 0.5 * a0;
+  }
+  const Walk walk = walk_of(flow, from, floor);
+
+  LawTables tables;
+  tables.law = law;
+  tables.contact = surface->contact();
+  tables.contact_gap = surface->zero_of_indentation();
+  tables.tapped_full = tap_push(lever, Length());
+  CycleFigures& figures = tables.figures;
+  figures.hysteretic = walk.in && walk.off && walk.off->z > walk.in->z;
+  if (figures.hysteretic) {
+    figures.z_jtc = walk.in->z;
+    figures.z_joc = walk.off->z;
+    figures.force_before_jtc = tap_push(lever, walk.in->before.amplitude);
+    figures.force_after_jtc = tap_push(lever, walk.in->after.amplitude);
+    figures.force_before_joc = tap_push(lever, walk.off->before.amplitude);
+    figures.force_after_joc = tap_push(lever, walk.off->after.amplitude);
+  } else {
+    figures.z_jtc = figures.z_joc = meeting_of(walk, lever);
+    figures.force_before_jtc = figures.force_after_jtc = Force(push_at(walk.down, lever, figures.z_jtc.si));
+    figures.force_before_joc = figures.force_after_joc = figures.force_before_jtc;
+  }
+  figures.tip_height_before_jtc = figures.tip_height_after_jtc = figures.z_jtc;
+  figures.tip_height_before_joc = figures.tip_height_after_joc = figures.z_joc;
+  figures.critical_stiffness = Stiffness(HUGE_VAL);
+
+  tables.free = table_of(walk.down, lever, figures.z_jtc, BranchTable::Side::Above, from - figures.z_jtc);
+  const Length pressed = std::max(figures.z_joc - floor, Length(1e-3 * a0.si));
+  tables.attached = table_of(figures.hysteretic ? walk.up : walk.down, lever, figures.z_joc, BranchTable::Side::Below,
+                             pressed);
+  double loop = 0.0;
+  for (std::size_t i = 1; i < walk.curve.points.size(); ++i) {
+    const TapPoint &a = walk.curve.points[i - 1], &b = walk.curve.points[i];
+    loop -= 0.5 * (tap_push(lever, a.state.amplitude) + tap_push(lever, b.state.amplitude)).si * (b.z - a.z).si;
+  }
+  figures.loop_energy = figures.lost_at_jtc = Energy(std::max(0.0, loop));
+
+  const auto felt = std::find_if(walk.down.begin(), walk.down.end(), [&](const TapPoint& point) {
+    return std::abs(point.state.amplitude / a0 - 1.0) > kFaintReduction;
+  });
+  const Length faint_above = felt == walk.down.end() ? figures.z_joc : felt->z;
+  tables.tapped_from = std::max({a0 + kClearOfSample, faint_above, figures.z_joc});
+  return std::make_shared<const LawTables>(std::move(tables));
+}
+
+}  // namespace afm::physics

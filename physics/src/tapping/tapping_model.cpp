@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/tapping/tapping_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/tapping/averaged_flow.h"
+
+namespace afm::physics {
+namespace {
+
+// Sine of the phase's excess beyond which the lever is in the other state: no chatter of a free swing.
+constexpr double kClearState = 0.02;
+
+constexpr int kLooks = 24;  // at the state, in a step
+
+TapEnvelope envelope_of(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever) {
+  AveragedFlow flow(surface, lever);
+  return {flow, surface->contact_height()};
+}
+
+}  // namespace
+
+TappingModel::TappingModel(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
+                           std::shared_ptr<const LawTables> tables, Time tick_period)
+    : tables_(std::move(tables)), envelope_(envelope_of(surface, lever)), floor_(surface->contact_height()) {
+  const double whole = lever.angular_resonance() * tick_period.si;
+  angle_ = std::min(whole, kMostSteps * TapEnvelope::longest_step(lever));
+  slow_motion_ = whole / angle_;
+}
+
+void TappingModel::watch(Length before, Length after, double fraction, TipResponse& response) noexcept {
+  const double attraction = envelope_.attraction();
+  if ((attraction > 0.0) != (previous_attraction_ > 0.0)) {
+    const double share = previous_attraction_ / (previous_attraction_ - attraction);
+    crossed_z_ = before + share * (after - before);
+    crossed_fraction_ = fraction;
+  }
+  previous_attraction_ = attraction;
+  const bool repelled = phase_ == Phase::Attached;
+  const bool away = after >= tables_->figures.z_joc && attraction > -kClearState;
+  const bool changes = repelled ? attraction > kClearState || away : attraction < -kClearState;
+  if (!changes) return;
+  phase_ = repelled ? Phase::Free : Phase::Attached;
+  if (!tables_->figures.hysteretic || response.event_count == response.events.size()) return;
+  response.add({.kind = repelled ? EventKind::JumpToAttraction : EventKind::JumpToRepulsion,
+                .z = crossed_z_,
+                .force_before = previous_mean_,
+                .force_after = Force(envelope_.mean_force_n()),
+                .fraction = crossed_fraction_});
+}
+
+TipResponse TappingModel::step(Length z) noexcept {
+  TipResponse response;
+  push_ = Force();
+  if (!isfinite(z)) {
+    wait_for_lift();
+    return response;
+  }
+  const DrivenLever& lever = envelope_.lever();
+  if (phase_ == Phase::WaitForLift) {
+    response.tip_height = z;
+    if (z <= tables_->figures.z_joc) return response;
+    envelope_.place({lever.free_amplitude, lever.free_phase}, z.si);
+    phase_ = Phase::Free;
+    previous_z_ = crossed_z_ = z;
+    previous_mean_ = Force(envelope_.mean_force_n());
+    previous_attraction_ = 0.0;
+  }
+  crossed_fraction_ = 0.0;
+  const Length from = previous_z_, way = z - previous_z_;
+  for (int i = 1; i <= kLooks; ++i) {
+    const Length before = previous_z_, after = i == kLooks ? z : from + (static_cast<double>(i) / kLooks) * way;
+    envelope_.advance(std::max(before, floor_).si, std::max(after, floor_).si, angle_ / kLooks, kMostSteps / kLooks);
+    watch(before, after, static_cast<double>(i) / kLooks, response);
+    previous_z_ = after;
+  }
+  const Force mean(envelope_.mean_force_n());
+  // written so that NaN fails
+  if (!(isfinite(mean) && amplitude() <= 2.0 * lever.free_amplitude)) {
+    wait_for_lift();
+    return response;
+  }
+  previous_mean_ = mean;
+  push_ = tap_push(lever, amplitude());
+  response.phase = phase_;
+  response.force = mean;
+  response.cantilever_deflection = -mean / lever.spring_constant;
+  response.tip_height = z - response.cantilever_deflection;
+  response.sample_deformation = -(mean / tables_->contact.sample_stiffness);
+  return response;
+}
+
+}  // namespace afm::physics

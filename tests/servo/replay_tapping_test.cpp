@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/whole_file.h"
+#include "servo/recorded_servo.h"
+#include "servo/session_file.h"
+#include "support/paper_model.h"
+#include "support/scratch_folder.h"
+
+namespace afm::servo {
+namespace replay_tapping_test {
+
+// The sample of docs/tapping.md under a lever of 40 N/m at 300 kHz, Q = 400, A0 = 20 nm.
+scene::SharedModel tapped_model() {
+  auto model = test::paper_model();
+  scene::SharedContact& mica = model.materials[test::kMica];
+  mica.law = physics::Law::Dmt;
+  mica.contact.tip_radius = physics::Length(20e-9);
+  mica.contact.spring_constant = physics::Stiffness(40.0);
+  mica.contact.hamaker = physics::Energy(64e-21);
+  mica.contact.mean_surface_energy = physics::SurfaceEnergy(0.0312);
+  mica.contact.reduced_modulus = physics::Pressure(1.5e9);
+  mica.lever = {physics::Frequency(300e3), 400.0, physics::Temperature(295.0)};
+  mica.free_amplitude_m = 20e-9;
+  mica.drive_hz = 300e3;
+  return model;
+}
+
+TEST(Replay, GivesASwingAgain) {
+  Recording recording(tapped_model());
+  recording.choose(test::kMica);
+  recording.arm();
+  recording.aim(0.002, 2.0);
+  recording.run(2400);
+  recording.aim(0.065, 2.0);
+  recording.run(2400);
+  const support::ScratchFolder folder;
+  const std::string path = folder.file("tapping.afms");
+  ASSERT_TRUE(save_session(recording.sessions.front(), path));
+  const auto bytes = core::read_file(path);
+  ASSERT_TRUE(bytes);
+  EXPECT_EQ(bytes->at(4), 10);  // version
+  const auto loaded = load_session(path);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->parameters.free_amplitude_m, 20e-9);
+
+  // both jumps, and a push that grows up to the first and is never a pull
+  ASSERT_NE(loaded->find(physics::EventKind::JumpToRepulsion), nullptr);
+  ASSERT_NE(loaded->find(physics::EventKind::JumpToAttraction), nullptr);
+  EXPECT_NEAR(loaded->find(physics::EventKind::JumpToRepulsion)->z_m, 16.5e-9, 0.4e-9);
+  EXPECT_NEAR(loaded->find(physics::EventKind::JumpToAttraction)->z_m, 18.83e-9, 0.4e-9);
+  EXPECT_EQ(loaded->find(physics::EventKind::JumpToContact), nullptr);
+  double strongest_n = 0.0, weakest_n = HUGE_VAL, smallest_m = HUGE_VAL;
+  for (const scene::TipSample& sample : loaded->samples) {
+    if (sample.servo_state != scene::ServoState::Running) continue;
+    strongest_n = std::max(strongest_n, sample.hand_force_n);
+    weakest_n = std::min(weakest_n, sample.hand_force_n);
+    smallest_m = std::min(smallest_m, sample.swing.amplitude_m);
+  }
+  EXPECT_GT(strongest_n, 0.3);
+  EXPECT_LT(strongest_n, 2.0);
+  EXPECT_GT(weakest_n, -0.05);
+  EXPECT_LT(smallest_m, 6e-9);
+  expect_same(*loaded);
+}
+
+TEST(Replay, RefusesASwingThatNoHandCanFeel) {
+  auto model = tapped_model();
+  model.materials[test::kMica].lever.quality_factor = 50.0;
+  auto segment = scene::SharedSegment::create(model, 0);
+  ASSERT_TRUE(segment);
+  FaultyDevice device;
+  const auto loop = haptics::ServoLoop::create(*segment, device, {.rate_hz = 1000.0});
+  ASSERT_FALSE(loop);
+  EXPECT_NE(loop.error().message.find("quality factor"), std::string::npos) << loop.error().message;
+}
+
+}  // namespace replay_tapping_test
+}  // namespace afm::servo
