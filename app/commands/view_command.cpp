@@ -270,8 +270,8 @@ core::Result<std::vector<curves::SampleModel>> felt_samples(exhibit::Stage& stag
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson) {
   const core::CodeOfInterruption released(core::ExitCode::Done);
   const core::MonotonicClock clock;
-  const bool alone = options.files.particles.empty() && !options.cluster.wanted &&
-                     options.friction == physics::FrictionLaw::None;
+  const bool alone =
+      options.files.particles.empty() && !options.cluster.wanted && options.friction == physics::FrictionLaw::None;
   if (auto checked = check_tapped_view(options.tapping, alone); !checked) return checked;
   // before the rest, so that nothing else is loaded if there is no headset
   const auto runtime = headset_of(options);
