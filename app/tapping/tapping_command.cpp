@@ -112,7 +112,8 @@ void add_tapped_view_options(OptionList& command, curves::TappedHand& hand) {
     command.add_option(option.name, option.text(hand.choice), option.help).type_name(option.type);
   }
   command
-      .add_option("--model", hand.model, "tapping: law of force, auto (by the Tabor parameter), hertz, dmt, jkr, maugis")
+      .add_option("--model", hand.model,
+                  "tapping: law of force, auto (by the Tabor parameter), hertz, dmt, jkr, maugis")
       .type_name("NAME")
       .show_default();
   for (const char* option : {"spring-constant", "resonance", "quality-factor"}) {

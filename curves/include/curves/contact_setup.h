@@ -37,7 +37,7 @@ std::string known_models(ModelUse use);
 struct FeltDrive {
   physics::Length free_amplitude;  // A0, zero-to-peak
   physics::Frequency frequency;
-  physics::Viscosity viscosity;  // of the contact
+  physics::Viscosity viscosity;  // viscosity under the tip
 };
 
 // One tip, lever, sample and medium, and the model for its curve.
@@ -46,7 +46,7 @@ struct ContactSetup {
   physics::LawOptions law_options;
   ModelName model;
   physics::FrictionLaw friction = physics::FrictionLaw::None;  // used only for the hand, not for force curves
-  std::optional<FeltDrive> drive = std::nullopt;               // likewise; none: the lever does not tap
+  std::optional<FeltDrive> drive = std::nullopt;               // none: the lever does not tap under the hand
 
   // The chosen friction law with the material's numbers; Amontons' law instead of a lattice if the material has none.
   physics::FrictionParameters felt_friction() const;

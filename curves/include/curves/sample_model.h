@@ -13,7 +13,6 @@
 #include "physics/law_tables.h"
 #include "scene/samples/material_library.h"
 #include "scene/shared/shared_blocks.h"
-#include "scene/shared/shared_segment.h"
 
 namespace afm::curves {
 

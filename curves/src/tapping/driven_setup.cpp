@@ -8,9 +8,9 @@
 #include "curves/curve_run.h"
 #include "curves/tapping/tapping_run.h"
 #include "physics/law.h"
+#include "physics/quantity_text.h"
 #include "physics/tapping/averaged_flow.h"
 #include "physics/tapping/tapping_model.h"
-#include "physics/quantity_text.h"
 
 namespace afm::curves {
 namespace {
@@ -77,7 +77,8 @@ core::Result<ContactSetup> tapped_setup(const scene::MaterialEntry& entry, const
   const auto checked = driven_contact(hand.choice, contact);
   if (!checked) return tl::unexpected(checked.error());
   const auto model = ModelName::parse(hand.model);
-  if (!model) return wrong_usage(fmt::format("--model {} is unknown; choose auto, hertz, dmt, jkr or maugis", hand.model));
+  if (!model)
+    return wrong_usage(fmt::format("--model {} is unknown; choose auto, hertz, dmt, jkr or maugis", hand.model));
   ContactSetup setup{entry, {}, *model};
   setup.model.driven = true;
   for (const auto& [option, text] : hand.values) {
@@ -89,9 +90,10 @@ core::Result<ContactSetup> tapped_setup(const scene::MaterialEntry& entry, const
   }
   const double q = setup.material.lever.quality_factor;
   if (!(q >= physics::AveragedFlow::kLeastQuality)) {
-    return wrong_usage(fmt::format("--quality-factor: a hand feels the average over many swings, which needs at least "
-                                   "{:g}, not {:g}; give a higher one, or record the curve by touchafm curve",
-                                   physics::AveragedFlow::kLeastQuality, q));
+    return wrong_usage(
+        fmt::format("--quality-factor: a hand feels the average over many swings, which needs at least "
+                    "{:g}, not {:g}; give a higher one, or record the curve by touchafm curve",
+                    physics::AveragedFlow::kLeastQuality, q));
   }
   const auto driven = driven_sample(setup, hand.choice.numbers);
   if (!driven) return tl::unexpected(driven.error());

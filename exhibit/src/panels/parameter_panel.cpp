@@ -115,8 +115,8 @@ void add_forecast(const curves::LiveParameters& parameters, const Phrases& phras
   for (const physics::CurveSample& sample : parameters.curve().samples) {
     auto& branch = sample.branch == physics::Branch::Approach ? predicted.approach : predicted.retract;
     // tapping: the amplitude, from the push
-    const double height = model.taps() ? a0_nm * (1.0 - sample.force / model.tables->tapped_full)
-                                       : sample.force.si * curves::kNnPerN;
+    const double height =
+        model.taps() ? a0_nm * (1.0 - sample.force / model.tables->tapped_full) : sample.force.si * curves::kNnPerN;
     branch.push_back({.place_nm = sample.z.si * curves::kNmPerM, .force_nn = height});
   }
   panel.curves.insert(panel.curves.begin(), std::move(predicted));

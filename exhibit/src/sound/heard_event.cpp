@@ -14,8 +14,8 @@ using enum HeardEvent;
 // Notes of the equal temperament, rounded to a hertz: a glide down for closing, up for opening; two notes up for a
 // possible start, down for an end; a rough low note, three times, for a failure; a click for a repeated event. Of
 // particles: a soft knock for a touch, two for a ride over, a click for a first slip, a long fall for a loss, which a
-// rise takes back; of a tapping lever a click with a glide down or up; a short rise for a pull that moves one, a pluck for a contact that tears; three notes up for a
-// pattern.
+// rise takes back; of a tapping lever a click with a glide down or up; a short rise for a pull that moves one, a pluck
+// for a contact that tears; three notes up for a pattern.
 constexpr std::array kRows{
     HeardEventRow{
         SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},

@@ -54,7 +54,7 @@ struct ScanFeedback {
 // One step of the tip over the sample; positions and forces in the sample's frame.
 struct Touch {
   physics::TipResponse response;
-  scene::Swing swing;  // of a lever that taps
+  scene::Swing swing;  // none: the lever does not tap
   double z_m = 0;      // above the surface below the tip
   glm::dvec2 tip_xy_m{0.0};
   FeltFriction::Step friction;
@@ -84,11 +84,11 @@ struct Touch {
 // felt residual waits. Feedback begins and ends only where the step is not felt: with the tip off the sample, or
 // without force.
 //
-// A lever that taps is felt by its push, not by its mean force, which would give energy to the hand. What the push gives
-// by following the hand later is excess energy for the passivity observer.
+// A lever that taps is felt by its push, not by its mean force, which would give energy to the hand. What the push
+// gives by following the hand later is excess energy for the passivity observer.
 //
-// create() takes milliseconds (on a topography or with a lever that taps, tenths of a second) and allocates; everything else may be called in a
-// tick of the servo.
+// create() takes milliseconds (on a topography or with a lever that taps, tenths of a second) and allocates; everything
+// else may be called in a tick of the servo.
 class ContactModel {
  public:
   // `tables` are build_tables() of `material`, `drawn` is its surface (scene::surface_of); `common` is the scale shared

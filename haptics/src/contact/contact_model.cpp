@@ -13,6 +13,8 @@
 #include <utility>
 
 #include "haptics/felt_particles.h"
+#include "physics/tapping/driven_lever.h"
+#include "physics/tapping/tap_surface.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::haptics {

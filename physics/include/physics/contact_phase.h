@@ -9,9 +9,9 @@ namespace afm::physics {
 // Free: not touching. Attached: on the surface, pressed or adhering. Session files and curves contain the numbers.
 enum class Phase : std::uint32_t { WaitForLift = 0, Free = 1, Attached = 2 };
 
-// A jump from one branch of the law to the other, or between the states of a tapping lever, or sideways from one well of a lattice to the next
-// (physics/friction/lattice_tip.h); or what a tip does to a particle on the sample (physics/manipulation). Session
-// files contain the numbers.
+// A jump from one branch of the law to the other, or between the states of a tapping lever, or sideways from one well
+// of a lattice to the next (physics/friction/lattice_tip.h); or what a tip does to a particle on the sample
+// (physics/manipulation). Session files contain the numbers.
 enum class EventKind : std::uint32_t {
   JumpToContact = 1,
   JumpOffContact = 2,

@@ -8,6 +8,7 @@
 #include "physics/quantity_text.h"
 #include "physics/tapping/averaged_flow.h"
 #include "physics/tapping/driven_lever.h"
+#include "physics/tapping/tap_envelope.h"
 #include "physics/tapping/tap_surface.h"
 #include "require_range.h"
 
@@ -31,9 +32,28 @@ TappingDetector::TappingDetector(AveragedFlow&& flow, Length contact_height, Len
     : free_amplitude_m_(flow.lever().free_amplitude.si),
       setpoint_m_(setpoint.si),
       engaged_(find_setpoint(flow, contact_height.si)),
-      envelope_(flow, contact_height) {
+      envelope_(std::make_unique<TapEnvelope>(flow, contact_height)) {
   engage();
 }
+
+TappingDetector::~TappingDetector() = default;
+TappingDetector::TappingDetector(const TappingDetector& other)
+    : free_amplitude_m_(other.free_amplitude_m_),
+      setpoint_m_(other.setpoint_m_),
+      engaged_(other.engaged_),
+      envelope_(std::make_unique<TapEnvelope>(*other.envelope_)) {}
+TappingDetector::TappingDetector(TappingDetector&& other) noexcept = default;
+TappingDetector& TappingDetector::operator=(const TappingDetector& other) { return *this = TappingDetector(other); }
+TappingDetector& TappingDetector::operator=(TappingDetector&& other) noexcept = default;
+
+void TappingDetector::engage() noexcept { envelope_->place(engaged_.u_m, engaged_.v_m, engaged_.gap_m); }
+void TappingDetector::advance(double gap_m, double angle) noexcept { envelope_->advance(gap_m, gap_m, angle); }
+
+double TappingDetector::amplitude_m() const noexcept { return envelope_->amplitude_m(); }
+double TappingDetector::phase_rad() const noexcept { return envelope_->phase_rad(); }
+double TappingDetector::lost_j() const noexcept { return envelope_->lost_j(); }
+double TappingDetector::peak_force_n() const noexcept { return envelope_->peak_force_n(); }
+const DrivenLever& TappingDetector::lever() const noexcept { return envelope_->lever(); }
 
 TappingDetector::Engaged TappingDetector::find_setpoint(AveragedFlow& flow, double contact_m) const {
   const double a0 = free_amplitude_m_, step = a0 / 200.0;

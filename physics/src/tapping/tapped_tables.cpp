@@ -8,6 +8,8 @@
 
 #include "physics/quantity_text.h"
 #include "physics/tapping/averaged_flow.h"
+#include "physics/tapping/driven_lever.h"
+#include "physics/tapping/tap_surface.h"
 #include "physics/tapping/tapping_model.h"
 #include "require_range.h"
 #include "tapping/tap_walk.h"
@@ -15,9 +17,9 @@
 namespace afm::physics {
 namespace {
 
-constexpr int kHeights = 400;               // of a walk
-constexpr std::size_t kNodes = 1200;        // of a branch
-constexpr Length kClearOfSample{2e-9};      // of the free swing, above which no push is felt
+constexpr int kHeights = 400;               // heights in a walk
+constexpr std::size_t kNodes = 1200;        // nodes in a branch
+constexpr Length kClearOfSample{2e-9};      // distance from the free swing without a push
 constexpr double kFaintReduction = 0.02;    // share of the free amplitude
 constexpr double kMostReachOfSwing = 10.0;  // in free amplitudes, for an attraction with a long range
 
@@ -52,8 +54,7 @@ Walk walk_of(AveragedFlow& flow, Length from, Length to) {
 
 // P over falling Z, between the points of a walk.
 double push_at(const std::vector<TapPoint>& points, const DrivenLever& lever, double z) {
-  const auto below =
-      std::find_if(points.begin(), points.end(), [&](const TapPoint& point) { return point.z.si <= z; });
+  const auto below = std::find_if(points.begin(), points.end(), [&](const TapPoint& point) { return point.z.si <= z; });
   if (below == points.begin()) return tap_push(lever, points.front().state.amplitude).si;
   if (below == points.end()) return tap_push(lever, points.back().state.amplitude).si;
   const TapPoint &a = *std::prev(below), &b = *below;
@@ -81,8 +82,8 @@ BranchTable table_of(const std::vector<TapPoint>& points, const DrivenLever& lev
 
 // Z at which the walk down passes from attraction to repulsion; the lowest Z if it never does.
 Length meeting_of(const Walk& walk, const DrivenLever& lever) {
-  const auto repelled =
-      std::find_if(walk.down.begin(), walk.down.end(), [&](const TapPoint& p) { return p.state.phase < lever.free_phase; });
+  const auto repelled = std::find_if(walk.down.begin(), walk.down.end(),
+                                     [&](const TapPoint& p) { return p.state.phase < lever.free_phase; });
   return repelled == walk.down.end() ? walk.down.back().z : repelled->z;
 }
 
@@ -132,8 +133,8 @@ std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_pt
 
   tables.free = table_of(walk.down, lever, figures.z_jtc, BranchTable::Side::Above, from - figures.z_jtc);
   const Length pressed = std::max(figures.z_joc - floor, Length(1e-3 * a0.si));
-  tables.attached = table_of(figures.hysteretic ? walk.up : walk.down, lever, figures.z_joc, BranchTable::Side::Below,
-                             pressed);
+  tables.attached =
+      table_of(figures.hysteretic ? walk.up : walk.down, lever, figures.z_joc, BranchTable::Side::Below, pressed);
   double loop = 0.0;
   for (std::size_t i = 1; i < walk.curve.points.size(); ++i) {
     const TapPoint &a = walk.curve.points[i - 1], &b = walk.curve.points[i];

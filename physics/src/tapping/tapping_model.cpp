@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "physics/tapping/averaged_flow.h"
+#include "physics/tapping/driven_lever.h"
+#include "physics/tapping/tap_envelope.h"
+#include "physics/tapping/tap_surface.h"
 
 namespace afm::physics {
 namespace {
@@ -24,14 +27,23 @@ TapEnvelope envelope_of(const std::shared_ptr<const TapSurface>& surface, const 
 
 TappingModel::TappingModel(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
                            std::shared_ptr<const LawTables> tables, Time tick_period)
-    : tables_(std::move(tables)), envelope_(envelope_of(surface, lever)), floor_(surface->contact_height()) {
+    : tables_(std::move(tables)),
+      envelope_(std::make_unique<TapEnvelope>(envelope_of(surface, lever))),
+      floor_(surface->contact_height()) {
   const double whole = lever.angular_resonance() * tick_period.si;
   angle_ = std::min(whole, kMostSteps * TapEnvelope::longest_step(lever));
   slow_motion_ = whole / angle_;
 }
 
+TappingModel::~TappingModel() = default;
+TappingModel::TappingModel(TappingModel&& other) noexcept = default;
+TappingModel& TappingModel::operator=(TappingModel&& other) noexcept = default;
+
+Length TappingModel::amplitude() const noexcept { return Length(envelope_->amplitude_m()); }
+double TappingModel::phase_lag() const noexcept { return envelope_->phase_rad(); }
+
 void TappingModel::watch(Length before, Length after, double fraction, TipResponse& response) noexcept {
-  const double attraction = envelope_.attraction();
+  const double attraction = envelope_->attraction();
   if ((attraction > 0.0) != (previous_attraction_ > 0.0)) {
     const double share = previous_attraction_ / (previous_attraction_ - attraction);
     crossed_z_ = before + share * (after - before);
@@ -47,7 +59,7 @@ void TappingModel::watch(Length before, Length after, double fraction, TipRespon
   response.add({.kind = repelled ? EventKind::JumpToAttraction : EventKind::JumpToRepulsion,
                 .z = crossed_z_,
                 .force_before = previous_mean_,
-                .force_after = Force(envelope_.mean_force_n()),
+                .force_after = Force(envelope_->mean_force_n()),
                 .fraction = crossed_fraction_});
 }
 
@@ -58,25 +70,25 @@ TipResponse TappingModel::step(Length z) noexcept {
     wait_for_lift();
     return response;
   }
-  const DrivenLever& lever = envelope_.lever();
+  const DrivenLever& lever = envelope_->lever();
   if (phase_ == Phase::WaitForLift) {
     response.tip_height = z;
     if (z <= tables_->figures.z_joc) return response;
-    envelope_.place({lever.free_amplitude, lever.free_phase}, z.si);
+    envelope_->place({lever.free_amplitude, lever.free_phase}, z.si);
     phase_ = Phase::Free;
     previous_z_ = crossed_z_ = z;
-    previous_mean_ = Force(envelope_.mean_force_n());
+    previous_mean_ = Force(envelope_->mean_force_n());
     previous_attraction_ = 0.0;
   }
   crossed_fraction_ = 0.0;
   const Length from = previous_z_, way = z - previous_z_;
   for (int i = 1; i <= kLooks; ++i) {
     const Length before = previous_z_, after = i == kLooks ? z : from + (static_cast<double>(i) / kLooks) * way;
-    envelope_.advance(std::max(before, floor_).si, std::max(after, floor_).si, angle_ / kLooks, kMostSteps / kLooks);
+    envelope_->advance(std::max(before, floor_).si, std::max(after, floor_).si, angle_ / kLooks, kMostSteps / kLooks);
     watch(before, after, static_cast<double>(i) / kLooks, response);
     previous_z_ = after;
   }
-  const Force mean(envelope_.mean_force_n());
+  const Force mean(envelope_->mean_force_n());
   // written so that NaN fails
   if (!(isfinite(mean) && amplitude() <= 2.0 * lever.free_amplitude)) {
     wait_for_lift();

@@ -13,6 +13,7 @@
 
 #include "core/check.h"
 #include "core/enumerators.h"
+#include "physics/tapping/driven_lever.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::scene {

@@ -74,9 +74,8 @@ nlohmann::json json_of(const scene::SharedContact& m) {
   if (m.dynamic != 0) json["dynamics"] = json_of(m.lever);
   if (scene::taps(m)) {
     json["tapping"] = json_of(m.lever);
-    json["tapping"].update({{"free_amplitude_m", m.free_amplitude_m},
-                            {"drive_Hz", m.drive_hz},
-                            {"viscosity_Pa_s", m.viscosity_pa_s}});
+    json["tapping"].update(
+        {{"free_amplitude_m", m.free_amplitude_m}, {"drive_Hz", m.drive_hz}, {"viscosity_Pa_s", m.viscosity_pa_s}});
   }
   if (m.friction.law != physics::FrictionLaw::None) json["friction"] = json_of(m.friction);
   return json;

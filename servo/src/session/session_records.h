@@ -23,8 +23,8 @@ static_assert(std::endian::native == std::endian::little, "session records are l
 inline constexpr std::size_t kSampleBytesOf010 = 216;
 inline constexpr std::size_t kSampleBytesWithoutPush = 288;
 inline constexpr std::size_t kSampleBytesWithoutSwing = 336;
-static_assert(sizeof(scene::TipSample) == 352 && offsetof(scene::TipSample, swing) == kSampleBytesWithoutSwing && offsetof(scene::TipSample, push) == kSampleBytesWithoutPush &&
-              offsetof(scene::TipSample, scan) == 232 &&
+static_assert(sizeof(scene::TipSample) == 352 && offsetof(scene::TipSample, swing) == kSampleBytesWithoutSwing &&
+              offsetof(scene::TipSample, push) == kSampleBytesWithoutPush && offsetof(scene::TipSample, scan) == 232 &&
               offsetof(scene::TipSample, lateral_force_n) == kSampleBytesOf010 &&
               offsetof(scene::TipSample, tip) == 16 && offsetof(scene::TipSample, hand_height_m) == 56 &&
               offsetof(scene::TipSample, servo_state) == 72 && offsetof(scene::TipSample, hand_from_contact_m) == 104 &&

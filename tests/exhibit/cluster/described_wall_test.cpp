@@ -60,17 +60,18 @@ constexpr std::array<LeftOut, 9> kNotRecorded{{{"curves", "follow from the sessi
                                                {"wall.particles", "follow from a replay of the session's ticks"},
                                                {"results", "shown in films, which are made without a live wall"}}};
 
-constexpr std::array<LeftOut, 11> kNotDrawn{{{"stopped", "drawn in the state Fault alone"},
-                                            {"swing.amplitude_m", "drawn of a lever that taps alone"},
-                                            {"swing.phase_rad", "drawn of a lever that taps alone"},
-                                            {"by_wand", "drawn without a sample alone"},
-                                            {"letters", "drawn by the list of keys alone"},
-                                            {"wall.tip.tip_height_m", "the lever is drawn by Z and deflection"},
-                                            {"wall.tip.sample_deformation_m", "the lever is drawn by Z and deflection"},
-                                            {"wall.wand.orientation_valid", "the wand is drawn by its pose alone"},
-                                            {"wall.wand.position_valid", "the wand is drawn by its pose alone"},
-                                            {"wall.wand.connected", "the wand is drawn by its pose alone"},
-                                            {"wall.wand.buttons", "the wand is drawn by its pose alone"}}};
+constexpr std::array<LeftOut, 11> kNotDrawn{
+    {{"stopped", "drawn in the state Fault alone"},
+     {"swing.amplitude_m", "drawn of a lever that taps alone"},
+     {"swing.phase_rad", "drawn of a lever that taps alone"},
+     {"by_wand", "drawn without a sample alone"},
+     {"letters", "drawn by the list of keys alone"},
+     {"wall.tip.tip_height_m", "the lever is drawn by Z and deflection"},
+     {"wall.tip.sample_deformation_m", "the lever is drawn by Z and deflection"},
+     {"wall.wand.orientation_valid", "the wand is drawn by its pose alone"},
+     {"wall.wand.position_valid", "the wand is drawn by its pose alone"},
+     {"wall.wand.connected", "the wand is drawn by its pose alone"},
+     {"wall.wand.buttons", "the wand is drawn by its pose alone"}}};
 
 template <std::size_t first, std::size_t second>
 std::vector<LeftOut> joined(const std::array<LeftOut, first>& a, const std::array<LeftOut, second>& b) {

@@ -189,7 +189,8 @@ TEST(TappingModel, StaysFiniteUnderAHandThatLeapsAndPresses) {
 }
 
 TEST(TappingModel, IsInSlowMotionWhereItsLeverIsTooFastForTheTick) {
-  // 2 pi 300 kHz 1 ms = 1885 = 23.6 steps of a tenth of 2Q = 800; with Q = 100 it is 94.2 steps, of which a tick makes 48
+  // 2 pi 300 kHz 1 ms = 1885 = 23.6 steps of a tenth of 2Q = 800; with Q = 100 it is 94.2 steps, of which a tick makes
+  // 48
   EXPECT_EQ(Tapped().model.slow_motion(), 1.0);
   EXPECT_NEAR(Tapped(TappedSample{.q = 100.0}).model.slow_motion(), 94.2478 / 48.0, 1e-4);
 }

@@ -20,7 +20,7 @@ namespace afm::curves {
 struct DrivenSample {
   std::shared_ptr<const physics::TapSurface> surface;
   physics::DrivenLever lever;
-  physics::Viscosity viscosity;  // of the contact
+  physics::Viscosity viscosity;  // viscosity under the tip
 };
 
 // For the setup of driven_setup(). WrongUsage, naming the option, for a number that is none or not possible.

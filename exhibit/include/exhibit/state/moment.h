@@ -29,7 +29,7 @@ class LiveScan;
 // One moment of the demonstration, from the live servo or from a session: everything that the wall shows.
 struct Moment {
   WallState wall;
-  scene::Swing swing{};  // of a lever that taps
+  scene::Swing swing{};  // none: the lever does not tap
   scene::ServoState servo_state = scene::ServoState::Disarmed;
   bool stopped = false;  // in Fault: a person has stopped the force
   physics::Phase phase = physics::Phase::WaitForLift;

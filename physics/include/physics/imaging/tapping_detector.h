@@ -3,12 +3,12 @@
 
 #include <memory>
 
-#include "physics/tapping/tap_envelope.h"
 #include "physics/units.h"
 
 namespace afm::physics {
 
 class AveragedFlow;
+class TapEnvelope;
 class TapSurface;
 struct DrivenLever;
 
@@ -23,18 +23,24 @@ class TappingDetector {
   // above finds a height with this amplitude.
   TappingDetector(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever, Length setpoint);
 
+  ~TappingDetector();
+  TappingDetector(const TappingDetector& other);
+  TappingDetector(TappingDetector&& other) noexcept;
+  TappingDetector& operator=(const TappingDetector& other);
+  TappingDetector& operator=(TappingDetector&& other) noexcept;
+
   // Puts the swing at rest at the setpoint, in the state that a tip from above finds first.
-  void engage() noexcept { envelope_.place(engaged_.u_m, engaged_.v_m, engaged_.gap_m); }
+  void engage() noexcept;
 
   // Lets the swing follow for `angle`, in w0 t, with the base `gap_m` above the surface.
-  void advance(double gap_m, double angle) noexcept { envelope_.advance(gap_m, gap_m, angle); }
+  void advance(double gap_m, double angle) noexcept;
 
-  double amplitude_m() const noexcept { return envelope_.amplitude_m(); }
-  double phase_rad() const noexcept { return envelope_.phase_rad(); }        // lag behind the drive, 0 to 2 pi
-  double lost_j() const noexcept { return envelope_.lost_j(); }              // in the sample, per swing
-  double peak_force_n() const noexcept { return envelope_.peak_force_n(); }  // at the lowest point of the swing
+  double amplitude_m() const noexcept;
+  double phase_rad() const noexcept;     // lag behind the drive, 0 to 2 pi
+  double lost_j() const noexcept;        // in the sample, per swing
+  double peak_force_n() const noexcept;  // at the lowest point of the swing
 
-  const DrivenLever& lever() const noexcept { return envelope_.lever(); }
+  const DrivenLever& lever() const noexcept;
   double free_amplitude_m() const noexcept { return free_amplitude_m_; }
   double setpoint_m() const noexcept { return setpoint_m_; }
   double engaged_gap_m() const noexcept { return engaged_.gap_m; }  // height of the base after engage()
@@ -49,7 +55,7 @@ class TappingDetector {
 
   double free_amplitude_m_ = 0, setpoint_m_ = 0;
   Engaged engaged_;
-  TapEnvelope envelope_;
+  std::unique_ptr<TapEnvelope> envelope_;
 };
 
 }  // namespace afm::physics

@@ -46,7 +46,7 @@ class TapEnvelope {
   double phase_rad() const noexcept;                              // lag behind the drive, 0 to 2 pi
   double lost_j() const noexcept { return contact_.lost; }        // in the sample, per swing
   double peak_force_n() const noexcept { return contact_.peak; }  // at the lowest point of the swing
-  double mean_force_n() const noexcept { return contact_.mean; }  // of the sample on the tip, over a swing
+  double mean_force_n() const noexcept { return contact_.mean; }  // force of the sample on the tip, over a swing
 
   // Sine of the phase's excess over that of the free lever: positive where the sample attracts on balance.
   double attraction() const noexcept;

@@ -7,12 +7,13 @@
 #include "physics/force_model.h"
 #include "physics/law.h"
 #include "physics/law_tables.h"
-#include "physics/tapping/driven_lever.h"
-#include "physics/tapping/tap_envelope.h"
-#include "physics/tapping/tap_surface.h"
 #include "physics/units.h"
 
 namespace afm::physics {
+
+class TapEnvelope;
+class TapSurface;
+struct DrivenLever;
 
 // Longest relaxation 2Q/w0 of a lever that taps under a hand: a push that follows the hand later acts as negative
 // damping, by its stiffness times this time.
@@ -41,7 +42,7 @@ std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_pt
 // - A step simulates at most kMostSteps of TapEnvelope::longest_step(); a faster lever is in slow motion.
 // - A Z that is not finite gives zero force and the wait state.
 //
-// step() and wait_for_lift() do not allocate, lock or throw: they are for one servo thread. Copies share the tables.
+// step() and wait_for_lift() do not allocate, lock or throw: they are for one servo thread.
 class TappingModel {
  public:
   static constexpr int kMostSteps = 48;
@@ -49,6 +50,9 @@ class TappingModel {
   // `tables` are tapped_law_tables() of this surface and lever. Starts in WaitForLift. Takes tenths of a second.
   TappingModel(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
                std::shared_ptr<const LawTables> tables, Time tick_period);
+  ~TappingModel();
+  TappingModel(TappingModel&& other) noexcept;
+  TappingModel& operator=(TappingModel&& other) noexcept;
 
   // The response at Z after a straight path from the previous step's Z.
   TipResponse step(Length z) noexcept;
@@ -57,16 +61,16 @@ class TappingModel {
   void wait_for_lift() noexcept { phase_ = Phase::WaitForLift; }
 
   Phase phase() const noexcept { return phase_; }
-  Length amplitude() const noexcept { return Length(envelope_.amplitude_m()); }
-  double phase_lag() const noexcept { return envelope_.phase_rad(); }  // rad, behind the drive
-  Force push() const noexcept { return push_; }                        // zero while waiting
-  double slow_motion() const noexcept { return slow_motion_; }         // as in DynamicModel
+  Length amplitude() const noexcept;
+  double phase_lag() const noexcept;                            // rad, behind the drive
+  Force push() const noexcept { return push_; }                 // zero while waiting
+  double slow_motion() const noexcept { return slow_motion_; }  // as in DynamicModel
 
  private:
   void watch(Length before, Length after, double fraction, TipResponse& response) noexcept;
 
   std::shared_ptr<const LawTables> tables_;
-  TapEnvelope envelope_;
+  std::unique_ptr<TapEnvelope> envelope_;
   double angle_ = 0;  // w0 t of a step
   double slow_motion_ = 1;
   Phase phase_ = Phase::WaitForLift;

@@ -65,9 +65,12 @@ struct SharedContact {
   // The lever taps: a drive swings it, with the resonance and the damping of `lever`. Not dynamic, without friction.
   double free_amplitude_m = 0;  // zero-to-peak; 0: it does not tap
   double drive_hz = 0;
-  double viscosity_pa_s = 0;  // of the contact
+  double viscosity_pa_s = 0;  // viscosity under the tip
   physics::FrictionParameters friction{};
 };
+
+// Whether the material is felt by a lever in tapping mode.
+constexpr bool taps(const SharedContact& material) { return material.free_amplitude_m > 0.0; }
 
 // Curve recorded by an instrument, to be felt; each branch in the order of increasing Z.
 struct SharedMeasuredCurve {

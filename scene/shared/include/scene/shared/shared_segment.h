@@ -11,9 +11,12 @@
 #include "core/file_descriptor.h"
 #include "core/result.h"
 #include "physics/law.h"
-#include "physics/tapping/driven_lever.h"
 #include "scene/shared/felt_heights.h"
 #include "scene/shared/tip_blocks.h"
+
+namespace afm::physics {
+struct DrivenLever;
+}
 
 // Memory shared by touchafm and touchafm-servo: a header page, the constant SharedModel, and one channel per block.
 namespace afm::scene {
@@ -41,8 +44,7 @@ core::Result<void> validate(const SharedParticles& particles);
 
 physics::LawOptions law_options(const SharedContact& material);
 
-// Whether the material is felt by a lever in tapping mode; and that lever, which throws as physics::driven_lever().
-constexpr bool taps(const SharedContact& material) { return material.free_amplitude_m > 0.0; }
+// The lever of a material that taps; throws as physics::driven_lever().
 physics::DrivenLever tapping_lever(const SharedContact& material);
 
 // True if a block is valid: indices within counts, enumerators known, numbers finite.

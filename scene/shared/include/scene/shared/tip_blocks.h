@@ -232,7 +232,7 @@ struct TipSample {
   std::array<double, 2> lateral_force_n{};  // friction of the sample on the lever, along the sample's x and y
   ScanLead scan{};                          // in effect in this tick; default: none
   PushSample push{};                        // by particles; default: none
-  Swing swing{};                            // of a tapping lever; default: none
+  Swing swing{};                            // default: the lever does not tap
 };
 
 // Results of the tick: a replay must reproduce them bit for bit.
