@@ -151,6 +151,37 @@ TEST_P(AtRate, N32LosesASphereBesideThePath) {
   }
 }
 
+// Angle of the sphere from the tip's direction, in degrees, after a travel round a bend to its side; radius and travel
+// over rho.
+double alpha_round_a_bend(double radius, double alpha_deg, double travel, double rate_hz) {
+  const PushSetup setup =
+      setup_of(constant(Force(1e-12)), flank_tip(Length(10e-9)), {Stiffness(1e3), Stiffness(1e3), Stiffness(1e3)});
+  const double rho = touch_m(setup), bend = radius * rho, alpha = alpha_deg * pi / 180.0, speed_m_per_s = 2e-7;
+  PushedParticles particles(setup, {{0, {Length(bend - rho * std::sin(alpha)), Length(rho * std::cos(alpha))}}},
+                            base_at(bend));
+  const int ticks = static_cast<int>(std::ceil(travel * rho / speed_m_per_s * rate_hz));
+  for (int i = 1; i <= ticks; ++i) {
+    const double turn = travel / radius * i / ticks;
+    particles.move_to(base_at(bend * std::cos(turn), bend * std::sin(turn)), Time(1.0 / rate_hz));
+  }
+  const double turn = travel / radius;
+  const double x = particles.position(0).x.si - bend * std::cos(turn);
+  const double y = particles.position(0).y.si - bend * std::sin(turn);
+  const double ahead = y * std::cos(turn) - x * std::sin(turn), aside = -x * std::cos(turn) - y * std::sin(turn);
+  return degrees(std::atan2(aside, ahead));
+}
+
+TEST_P(AtRate, N36BalancesRoundABend) {
+  const double radius[] = {2.0, 5.0}, alpha_deg[] = {30.0, 11.53695903}, growth[] = {0.8660254038, 0.9797958971};
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(alpha_round_a_bend(radius[i], alpha_deg[i], 3.0, GetParam()), alpha_deg[i], degrees(1e-4));
+    // a deviation grows by e within rho over that rate
+    const double more = alpha_round_a_bend(radius[i], alpha_deg[i] + 0.1, 1.0, GetParam());
+    const double less = alpha_round_a_bend(radius[i], alpha_deg[i] - 0.1, 1.0, GetParam());
+    EXPECT_NEAR(std::log((more - less) / 0.2), growth[i], 1e-4);
+  }
+}
+
 TEST_P(AtRate, N75AClosedPathTakesWork) {
   for (const double ratio : {1.0, 0.5}) {
     ParticleSpecies species = constant(Force(3e-9), ratio, Length(50e-9));
