@@ -51,7 +51,7 @@ void LiveSound::attach(servo::ServoClient& servo, const std::vector<curves::Samp
 }
 
 void LiveSound::set_ear(std::size_t material, const curves::SampleModel& model) {
-  if (output_) mixer_->set_ear(material, exhibit::Ear(*model.tables));
+  if (output_) mixer_->set_ear(material, exhibit::Ear(*model.tables, model.parameters.free_amplitude_m));
 }
 
 void LiveSound::check_card() {

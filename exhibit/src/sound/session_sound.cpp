@@ -31,7 +31,7 @@ class Stream {
 
   void hold(const scene::TipSample& sample) {
     if (const auto heard = tip_ear_.add(sample)) play(*heard);
-    const Tone tone = is_audible(sample) ? ear_.tone(sample.tip.force_n) : Tone{.hz = hz_, .level = 0};
+    const Tone tone = is_audible(sample) ? ear_.tone(sample) : Tone{.hz = hz_, .level = 0};
     hz_ = tone.hz;
     const std::int64_t at = sample_at(sample.time_ns, start_ns_);
     synthesizer_.set_tone(at, tone);
@@ -71,7 +71,7 @@ core::Result<std::vector<float>> sound_of(const servo::RecordedSession& session,
   const auto tables =
       haptics::build_tables(model->materials.front(), std::span(model->curves).first(session.curve ? 1 : 0));
   if (!tables) return core::failure(core::ErrorCategory::BadInputFile, tables.error().message);
-  Stream stream(session, Ear(**tables), channels, gain);
+  Stream stream(session, Ear(**tables, model->materials.front().free_amplitude_m), channels, gain);
   auto event = session.events.begin();
   for (const scene::TipSample& sample : session.samples) {
     for (; event != session.events.end() && event->time_ns <= sample.time_ns; ++event) stream.play(heard_of(*event));

@@ -15,6 +15,7 @@ constexpr float kVoiceStep = 1.0F / (0.004F * kSoundRateHz);  // fades an interr
 void SoundMixer::heard(const scene::TipSample& sample) noexcept {
   tip_updates_.push({.time_ns = sample.time_ns,
                      .force_n = sample.tip.force_n,
+                     .swing = sample.swing,
                      .material = sample.material,
                      .event = false,
                      .audible = is_audible(sample)});
@@ -59,7 +60,7 @@ void SoundMixer::take(const TipUpdate& update) noexcept {
     return;
   }
   // without a force the tone fades at its pitch
-  Tone tone = ear.tone(update.force_n);
+  Tone tone = ear.tone(update.force_n, update.swing);
   if (!update.audible) tone = {.hz = last_hz_, .level = 0};
   last_hz_ = tone.hz;
   synthesizer_.set_tone(at, tone);

@@ -123,6 +123,23 @@ TEST(SoundTime, FollowsACardWhoseClockIsNotTheSystems) {
   EXPECT_LT(std::abs(sample_at(now_ns + 1'000'000'000, clock.start_ns()) - 20'000 * 256), 48) << "after a pause";
 }
 
+TEST(Ear, HearsTheStatesOfALeverThatTaps) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const Ear ear(1e-10, 1e-9, 20e-9);
+  const Tone free = ear.tone(0.0, {.amplitude_m = 20e-9, .phase_rad = 90.0 * kDegree});
+  const Tone attractive = ear.tone(-0.5e-9, {.amplitude_m = 17e-9, .phase_rad = 135.0 * kDegree});
+  const Tone repulsive = ear.tone(0.4e-9, {.amplitude_m = 18e-9, .phase_rad = 45.0 * kDegree});
+  EXPECT_NEAR(free.hz, 440.0, 1e-9);
+  EXPECT_NEAR(free.level, 1.0, 1e-12);
+  EXPECT_NEAR(attractive.hz, 440.0 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(repulsive.hz, 440.0 / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(attractive.level, 0.85, 1e-12);
+  EXPECT_EQ(attractive.edge, 0.0);
+  EXPECT_NEAR(repulsive.edge, 0.5, 1e-12);
+  EXPECT_EQ(ear.tone(0.4e-9, scene::Swing{}), ear.tone(0.4e-9)) << "without a swing, the force";
+  EXPECT_EQ(Ear(1e-10, 1e-9).tone(0.4e-9, {.amplitude_m = 1e-9}), ear.tone(0.4e-9)) << "a lever that does not tap";
+}
+
 TEST(Envelope, RisesWithoutAClick) {  // D09
   double largest = 0, last = 0;
   for (int i = 0; i <= 240; ++i) {

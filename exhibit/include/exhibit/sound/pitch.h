@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/law_tables.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
 
@@ -21,23 +22,31 @@ struct Tone {
 // Mapping of forces to tones: the pitch rises by three octaves, from C3 without force to C6 at the strongest pull,
 // along the asinh of the hand's compressed scale (haptics::compression_bend_n), so that ear and hand share one scale. A
 // push may exceed the strongest pull and rises by up to another octave. A pull is on the left, a push on the right.
+//
+// A lever that taps sounds in the middle instead: the free swing, 90 degrees behind its drive, as A4, an octave higher
+// or lower for 90 degrees more or less, as loud as the share of the free amplitude that is left. A repulsive swing,
+// below 90 degrees, gains the octave, so that the ear tells both states even in mono.
 class Ear {
  public:
   static constexpr double kLowestNote = 48, kNotesToPull = 36, kNotesBeyond = 12;
 
-  // Forces on the tip, newtons, both above 0: the compression's bend, and the strongest pull.
-  Ear(double bend_n, double strongest_n);
-  explicit Ear(const physics::LawTables& tables);
+  // Forces on the tip, newtons, both above 0: the compression's bend, and the strongest pull. `free_amplitude_m`: of a
+  // lever that taps, otherwise 0.
+  Ear(double bend_n, double strongest_n, double free_amplitude_m = 0);
+  explicit Ear(const physics::LawTables& tables, double free_amplitude_m = 0);
 
   // Frequency for a force on the tip, newtons, positive away from the sample (a push).
   double hz(double force_n) const;
   Tone tone(double force_n) const;
+  Tone tone(const scene::TipSample& sample) const { return tone(sample.tip.force_n, sample.swing); }
+  Tone tone(double force_n, const scene::Swing& swing) const;
 
  private:
   double share(double force_n) const;  // position between no force (0) and the strongest pull (1)
 
   double bend_n_;
   double whole_;  // asinh of the strongest pull
+  double free_amplitude_m_;
 };
 
 }  // namespace afm::exhibit

@@ -58,6 +58,7 @@ class SoundMixer final : public servo::TipAudience {
   struct TipUpdate {
     std::int64_t time_ns = 0;
     double force_n = 0;
+    scene::Swing swing{};
     std::int32_t material = -1;
     bool event = false;  // false: a sample, which has a force
     bool audible = false;
