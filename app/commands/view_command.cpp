@@ -265,7 +265,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   if (!options.headset) files.aspect = expected_aspect(options.display);
   auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
-  const auto samples = exhibit::felt_samples(*stage, options.friction, options.tapping);
+  const auto samples = exhibit::felt_samples(*stage, options.friction, &options.tapping);
   if (!samples) return tl::unexpected(samples.error());
   const std::vector<curves::SampleModel>& materials = *samples;
   if (lesson != nullptr) {

@@ -16,6 +16,7 @@
 #include "core/interruption.h"
 #include "core/log.h"
 #include "curves/curve_map.h"
+#include "curves/tapping/driven_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/wall_pictures.h"
 #include "exhibit/models/topography_model.h"
@@ -211,15 +212,15 @@ core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
 }
 
 core::Result<std::vector<curves::SampleModel>> felt_samples(const Stage& stage, physics::FrictionLaw friction,
-                                                            const curves::TappedHand& tapping) {
+                                                            const curves::TappedHand* tapping) {
   std::vector<curves::SampleModel> materials;
   // the paper's law has no friction: with friction, begins with the law of the adhesion map
   curves::ModelName law;
   law.automatic = friction != physics::FrictionLaw::None;
   for (const scene::MaterialEntry& entry : stage.materials.materials) {
     const bool is_pixel = stage.pixel && entry.name == stage.pixel->setup.material.name;
-    const auto setup = tapping.choice.mode == "tapping"
-                           ? curves::tapped_setup(entry, tapping)
+    const auto setup = tapping != nullptr && tapping->choice.mode == "tapping"
+                           ? curves::tapped_setup(entry, *tapping)
                            : core::Result<curves::ContactSetup>(curves::ContactSetup{entry, {}, law, friction});
     if (!setup) return tl::unexpected(setup.error());
     auto model = is_pixel ? core::Result<curves::SampleModel>(*stage.pixel) : curves::make_sample_model(*setup);

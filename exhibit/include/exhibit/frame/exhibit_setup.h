@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/result.h"
-#include "curves/tapping/driven_setup.h"
 #include "exhibit/frame/exhibit_files.h"
 #include "exhibit/scenery/wall_scene.h"
 #include "exhibit/words/phrases.h"
@@ -18,6 +17,7 @@
 
 namespace afm::curves {
 struct SampleModel;
+struct TappedHand;
 }
 
 namespace afm::physics {
@@ -70,10 +70,10 @@ struct Stage {
 // A force map is read whole: that of a large one takes minutes, with progress in the log; Failed if it is interrupted.
 core::Result<Stage> load_exhibit(const ExhibitFiles& files);
 
-// The samples of the stage as the servo needs them, with the surfaces that the stage draws; in tapping mode under the
-// lever of `tapping`, without friction.
+// The samples of the stage as the servo needs them, with the surfaces that the stage draws; where `tapping` has that
+// mode, under its lever and without friction.
 core::Result<std::vector<curves::SampleModel>> felt_samples(const Stage& stage, physics::FrictionLaw friction,
-                                                             const curves::TappedHand& tapping = {});
+                                                            const curves::TappedHand* tapping = nullptr);
 
 // Returns whether the name is that of a glTF file: .glb or .gltf.
 bool is_model_file(const std::string& name);
