@@ -10,7 +10,8 @@
 // a NoAllocation lives, an allocation or a release by its thread ends the program with a message.
 namespace afm::test {
 
-inline thread_local bool allocation_forbidden = false;
+// Aligned as the section behind it: mold 1.10 may leave a lone byte in a page that is not mapped.
+alignas(16) inline thread_local bool allocation_forbidden = false;
 
 class NoAllocation {
  public:

@@ -14,7 +14,8 @@
 // the exception were caught.
 namespace afm::test {
 
-inline thread_local bool lock_forbidden = false;
+// Aligned as the section behind it: mold 1.10 may leave a lone byte in a page that is not mapped.
+alignas(16) inline thread_local bool lock_forbidden = false;
 
 class NoLock {
  public:

@@ -18,7 +18,7 @@
 namespace afm::curves {
 struct SampleModel;
 struct TappedHand;
-}
+}  // namespace afm::curves
 
 namespace afm::physics {
 enum class FrictionLaw : std::uint32_t;
