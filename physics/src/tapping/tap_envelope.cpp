@@ -20,6 +20,8 @@ constexpr double kLastShare = 1.25;      // last row, as a share of the free amp
 constexpr double kFarthestGap = 300e-9;  // gap of the last column
 constexpr double kLongestShare = 0.1;    // longest step, as a share of the relaxation
 constexpr double kLargestTurn = 0.25;    // rad a step
+constexpr double kLargestRing = 0.4;     // rad a step; more, and a step gives a stiff contact more than a swing loses
+constexpr double kNudge = 0.05;          // of a row, for the slope of w
 
 }  // namespace
 
@@ -92,17 +94,30 @@ void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int 
     return Rates{0.5 / q + contact_.lost / (2.0 * std::numbers::pi * stored),
                  (r * r - 1.0) / (2.0 * r) + contact_.virial / stored};
   };
+  // angular rate at which amplitude and phase ring about a contact, from w' = dw/dA at this height: sqrt(|w' a/2r cos
+  // phi|)
+  const auto ringing = [&](double u, double v, double gap_m, double w) {
+    const double amplitude = std::max(lowest, std::sqrt(u * u + v * v)), more = amplitude + amplitude_step_m_ * kNudge;
+    const double steeper = sample(more, gap_m).virial / (k * r * more * more) - (w - (r * r - 1.0) / (2.0 * r));
+    return std::sqrt(std::abs(steeper / (more - amplitude) * drive * u / amplitude));
+  };
   const double way_m = to_gap_m - from_gap_m;
   double left = angle;
-  while (left > 0.0) {
-    const double gap_m = from_gap_m + way_m * (1.0 - left / angle);
+  // the base arrives also where the steps are used up and the swing is in slow motion
+  const auto gap_at = [&](double undone, int steps) {
+    return from_gap_m +
+           way_m * std::max(1.0 - undone / angle, static_cast<double>(steps) / static_cast<double>(most_steps));
+  };
+  for (int i = 0; left > 0.0 && i < most_steps; ++i) {
+    const double gap_m = gap_at(left, i);
     const Rates first = rates(u_, v_, gap_m);
     const double turn = kLargestTurn / std::max(std::abs(first.w), 1e-12);
-    const double wanted = std::min({left, 2.0 * q * kLongestShare, turn});
-    const double step = std::max(wanted, std::min(left, angle / static_cast<double>(most_steps)));
+    const double ring = kLargestRing / std::max(ringing(u_, v_, gap_m, first.w), 1e-12);
+    const double step = std::min({left, 2.0 * q * kLongestShare, turn, ring});
+    const double middle_m = 0.5 * (gap_m + gap_at(left - step, i + 1));
     const double half = 0.5 * step;
-    const Rates middle = rates(u_ + half * (-first.g * u_ - first.w * v_),
-                               v_ + half * (-first.g * v_ + first.w * u_ + drive), gap_m + way_m * (half / angle));
+    const Rates middle =
+        rates(u_ + half * (-first.g * u_ - first.w * v_), v_ + half * (-first.g * v_ + first.w * u_ + drive), middle_m);
     // towards the swing at which these rates rest, turning about it: exact at rest, and no step lets the swing grow
     const double decay = 1.0 / (1.0 + step * middle.g * (1.0 + half * middle.g)), tangent = half * middle.w;
     const double scale = 1.0 / (1.0 + tangent * tangent);

@@ -16,7 +16,8 @@ namespace {
 // Sine of the phase's excess beyond which the lever is in the other state: no chatter of a free swing.
 constexpr double kClearState = 0.02;
 
-constexpr int kLooks = 24;  // at the state, in a step
+constexpr double kLeastSwing = 0.05;  // share of the free amplitude; a swing that is nearly stopped keeps its state
+constexpr int kLooks = 24;            // at the state, in a step
 
 TapEnvelope envelope_of(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever) {
   AveragedFlow flow(surface, lever);
@@ -43,6 +44,7 @@ Length TappingModel::amplitude() const noexcept { return Length(envelope_->ampli
 double TappingModel::phase_lag() const noexcept { return envelope_->phase_rad(); }
 
 void TappingModel::watch(Length before, Length after, double fraction, TipResponse& response) noexcept {
+  if (envelope_->amplitude_m() < kLeastSwing * envelope_->lever().free_amplitude.si) return;
   const double attraction = envelope_->attraction();
   if ((attraction > 0.0) != (previous_attraction_ > 0.0)) {
     const double share = previous_attraction_ / (previous_attraction_ - attraction);

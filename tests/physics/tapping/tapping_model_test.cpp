@@ -13,6 +13,7 @@
 #include <random>
 #include <vector>
 
+#include "physics/tapping/averaged_flow.h"
 #include "physics/tapping/tapped_sample.h"
 #include "support/no_alloc.h"
 
@@ -212,6 +213,29 @@ TEST(TappingModel, StepsWithoutAllocationInMicroseconds) {
   std::sort(us.begin(), us.end());
   RecordProperty("step_p50_us", std::to_string(us[us.size() / 2]));
   RecordProperty("step_p99_us", std::to_string(us[us.size() * 99 / 100]));
+}
+
+// Mica under the program's own tip, in water: the ring of a contact of 50 GPa is much faster than the relaxation.
+TEST(TappingModel, RestsOnAStiffSampleAndJumpsOnce) {
+  const TappedSample mica{.r_nm = 50.0, .h_zj = 24.5, .e_gpa = 51.5, .gap_nm = 0.3};
+  Tapped tapped(mica);
+  AveragedFlow flow(tapped.surface, tapped.lever);
+  for (const double nm_per_tick : {0.01, 0.1}) {
+    Path path;
+    tapped.model.wait_for_lift();
+    (void)tapped.model.step(24_nm);
+    move(tapped.model, 24.0, 20.0, nm_per_tick, path);
+    for (const double z_nm : {16.0, 10.0, 5.0, 2.0}) {
+      move(tapped.model, z_nm + 4.0, z_nm, nm_per_tick, path);
+      for (int i = 0; i < 300; ++i) (void)tapped.model.step(Length(z_nm * 1e-9));
+      double rest_nm = 0.0;
+      for (const RestingTap& tap : flow.resting_at(Length(z_nm * 1e-9))) {
+        if (tap.stable) rest_nm = std::max(rest_nm, tap.state.amplitude.si * 1e9);
+      }
+      EXPECT_NEAR(tapped.model.amplitude().si * 1e9, rest_nm, 0.02) << z_nm << " nm, " << nm_per_tick << " nm a tick";
+    }
+    EXPECT_LE(path.events.size(), 1U) << nm_per_tick;
+  }
 }
 
 }  // namespace tapping_model_test

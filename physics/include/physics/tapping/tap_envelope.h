@@ -39,7 +39,7 @@ class TapEnvelope {
   void place(const TapState& state, double gap_m) noexcept;
 
   // Lets the swing follow for `angle`, in w0 t, while the base moves evenly from one height above the surface to
-  // another, in at most so many steps (and one more by rounding).
+  // another, in at most so many steps: a contact so stiff that it needs more is in slow motion.
   void advance(double from_gap_m, double to_gap_m, double angle, int most_steps = kUsualSteps) noexcept;
 
   double amplitude_m() const noexcept;
