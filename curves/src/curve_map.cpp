@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <mutex>
 #include <span>
@@ -165,7 +164,7 @@ core::Result<MeasuredMaterial> CurveMap::material(const MapPlace& place, const s
   if (!measured) return at_pixel(measured.error());
   measured->curve.column = static_cast<std::int32_t>(place.column);
   measured->curve.row = static_cast<std::int32_t>(place.row);
-  measured->entry.title = fmt::format("{} ({})", std::filesystem::path(path_).stem().string(), text_of(place));
+  measured->entry.title = fmt::format("{} ({})", title_of(path_), text_of(place));
   return measured;
 }
 

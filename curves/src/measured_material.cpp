@@ -13,13 +13,19 @@
 
 namespace afm::curves {
 
+std::string title_of(const std::string& path) {
+  std::string title = std::filesystem::path(path).stem().string();
+  std::replace(title.begin(), title.end(), '_', ' ');
+  return title;
+}
+
 namespace {
 
 scene::MaterialEntry entry_of(const std::string& path, const CurveMetadata& metadata,
                               const scene::MaterialEntry& like) {
   scene::MaterialEntry entry;
   entry.name = kMeasuredName;
-  entry.title = std::filesystem::path(path).stem().string();
+  entry.title = title_of(path);
   entry.look = like.look;
   entry.note = metadata.instrument;
   entry.contact = like.contact;

@@ -195,5 +195,9 @@ TEST(MapPlaces, AreReadAsTheyAreWritten) {
     EXPECT_FALSE(parse_map_place(wrong)) << wrong;
 }
 
+TEST(TitleOfAFile, HasNoUnderscoreWhichWouldBeginASubscript) {
+  EXPECT_EQ(title_of("day 1/fd_map_2.jpk-force-map"), "fd map 2");
+}
+
 }  // namespace curve_map_test
 }  // namespace afm::curves

@@ -13,6 +13,9 @@ namespace afm::curves {
 
 inline constexpr const char* kMeasuredName = "measured";
 
+// The file's name without folder and ending, for the wall, where an underscore would begin a subscript.
+std::string title_of(const std::string& path);
+
 // An instrument's curve as a material for the exhibit.
 struct MeasuredMaterial {
   scene::MaterialEntry entry;  // named kMeasuredName, with the file's name as title

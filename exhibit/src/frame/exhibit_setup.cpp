@@ -16,6 +16,7 @@
 #include "core/interruption.h"
 #include "core/log.h"
 #include "curves/curve_map.h"
+#include "curves/measured_material.h"
 #include "curves/tapping/driven_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/wall_pictures.h"
@@ -141,7 +142,7 @@ core::Result<std::shared_ptr<const curves::SampleModel>> load_pixel(const Exhibi
 // Without a pixel in its title: it may change.
 scene::MaterialEntry entry_of(const curves::SampleModel& pixel) {
   scene::MaterialEntry entry = pixel.setup.material;
-  entry.title = std::filesystem::path(pixel.pixel->map->path()).stem().string();
+  entry.title = curves::title_of(pixel.pixel->map->path());
   return entry;
 }
 
