@@ -21,7 +21,7 @@ constexpr double kFarthestGap = 300e-9;  // gap of the last column
 constexpr double kLongestShare = 0.1;    // longest step, as a share of the relaxation
 constexpr double kLargestTurn = 0.25;    // rad a step
 constexpr double kLargestRing = 0.4;     // rad a step; more, and a step gives a stiff contact more than a swing loses
-constexpr double kNudge = 0.05;          // of a row, for the slope of w
+constexpr double kNudge = 0.05;          // share of a row, for the slope of w
 
 }  // namespace
 
