@@ -237,6 +237,24 @@ core::Result<std::int64_t> time_of(const servo::RecordedSession& session, double
   return session.samples.front().time_ns + static_cast<std::int64_t>(at_s * 1e9);
 }
 
+// Draws a moment of a session without pictures of a wall, such as the demonstration's.
+core::Result<void> draw_replayed(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& models,
+                                 const servo::RecordedSession& session, std::size_t material,
+                                 const exhibit::ParticlesNow* particles, std::int64_t time_ns,
+                                 const RenderOptions& options) {
+  std::vector<exhibit::CycleCurve> curves(models.size());
+  curves[material] = exhibit::curve_until(session, time_ns);
+  exhibit::Moment moment = exhibit::moment_of(session, material, time_ns, curves);
+  moment.wall.particles = particles;
+  moment.guidance = stage.phrases().text<exhibit::Phrase::ReplayedMoment>(
+      stage.phrases().word(stage.materials.materials[material].title), fmt::format("{:.2f} s", options.at_s));
+  if (options.analogy) moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
+  return draw(stage, models, moment, options.picture, options.out, [&](render::FrameState& frame) {
+    if (session.curve) return;  // the recorded law is no forecast
+    exhibit::add_forecast(curves::LiveParameters(models[material]), stage.phrases(), frame.panels.force.content);
+  });
+}
+
 core::Result<void> run_render(const RenderOptions& options) {
   if (options.journey_orders) return run_journey(options);
   auto session = servo::load_session(options.session);
@@ -287,17 +305,7 @@ core::Result<void> run_render(const RenderOptions& options) {
                                         .score = task ? task->score() : scene::TaskScore{}};
   const exhibit::ParticlesNow* shown = session->particles ? &particles : nullptr;
   if (!session->wall.empty()) return draw_frame(*stage, models, *session, shown, time_ns, options);
-  std::vector<exhibit::CycleCurve> curves(materials.size());
-  curves[material] = exhibit::curve_until(*session, time_ns);
-  exhibit::Moment moment = exhibit::moment_of(*session, material, time_ns, curves);
-  moment.wall.particles = shown;
-  moment.guidance = stage->phrases().text<exhibit::Phrase::ReplayedMoment>(stage->phrases().word(found->title),
-                                                                           fmt::format("{:.2f} s", options.at_s));
-  if (options.analogy) moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
-  return draw(*stage, models, moment, options.picture, options.out, [&](render::FrameState& frame) {
-    if (session->curve) return;  // the recorded law is no forecast
-    exhibit::add_forecast(curves::LiveParameters(models[material]), stage->phrases(), frame.panels.force.content);
-  });
+  return draw_replayed(*stage, models, *session, material, shown, time_ns, options);
 }
 
 // Options for drawing a model.

@@ -250,14 +250,22 @@ core::Result<std::unique_ptr<render::HeadsetRuntime>> headset_of(const ViewOptio
   return connect_headset();
 }
 
+// Whether nothing is asked for that tapping excludes.
+bool taps_alone(const ViewOptions& options) {
+  return options.files.particles.empty() && options.files.force_map.empty() && !options.cluster.wanted &&
+         options.friction == physics::FrictionLaw::None;
+}
+
+core::Result<void> check_lesson(const ViewLesson* lesson, const std::vector<curves::SampleModel>& materials) {
+  return lesson == nullptr ? core::Result<void>() : exhibit::check_samples(lesson->lesson, materials);
+}
+
 }  // namespace
 
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson) {
   const core::CodeOfInterruption released(core::ExitCode::Done);
   const core::MonotonicClock clock;
-  const bool alone = options.files.particles.empty() && options.files.force_map.empty() && !options.cluster.wanted &&
-                     options.friction == physics::FrictionLaw::None;
-  if (auto checked = check_tapped_view(options.tapping, alone); !checked) return checked;
+  if (auto checked = check_tapped_view(options.tapping, taps_alone(options)); !checked) return checked;
   // before the rest, so that nothing else is loaded if there is no headset
   const auto runtime = headset_of(options);
   if (!runtime) return tl::unexpected(runtime.error());
@@ -268,9 +276,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   const auto samples = exhibit::felt_samples(*stage, options.friction, &options.tapping);
   if (!samples) return tl::unexpected(samples.error());
   const std::vector<curves::SampleModel>& materials = *samples;
-  if (lesson != nullptr) {
-    if (auto checked = exhibit::check_samples(lesson->lesson, materials); !checked) return checked;
-  }
+  if (auto checked = check_lesson(lesson, materials); !checked) return checked;
   ViewSettings settings = options.settings;
   const auto wand_choice = parse_wand_choice(options.wand);
   if (!wand_choice) return tl::unexpected(wand_choice.error());

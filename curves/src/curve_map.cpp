@@ -123,7 +123,10 @@ core::Result<CurveMap> CurveMap::load(const std::string& path, const Progress& p
 }
 
 MapPlace CurveMap::middle() const {
-  const auto middle = [](std::size_t count) { return static_cast<double>(count / 2); };
+  const auto middle = [](std::size_t count) {
+    const std::size_t half = count / 2;
+    return static_cast<double>(half);
+  };
   MapPlace nearest;
   double least = std::numeric_limits<double>::infinity();
   for (MapPlace place; place.row < grid_.rows; ++place.row) {
