@@ -34,8 +34,9 @@ GridSheet::Place GridSheet::add(const ColorGrid& grid) {
   texels_.resize(std::size_t{kWidth} * row_bottom_);
   for (std::uint32_t y = 0; y < size.y; ++y) {
     const std::uint32_t row = std::clamp(y, 1U, cells.y) - 1;
-    const auto from = grid.colors.begin() + static_cast<std::ptrdiff_t>(row * cells.x);
-    const auto to = texels_.begin() + static_cast<std::ptrdiff_t>((next_.y + y) * kWidth + next_.x);
+    const std::size_t first = std::size_t{row} * cells.x, place = std::size_t{kWidth} * (next_.y + y) + next_.x;
+    const auto from = grid.colors.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto to = texels_.begin() + static_cast<std::ptrdiff_t>(place);
     *to = *from;
     std::copy_n(from, cells.x, to + 1);
     *(to + 1 + cells.x) = *(from + cells.x - 1);
