@@ -79,7 +79,7 @@ TEST_F(ForceMap, HasTheCurveOfEachPixelAsItIsReadAlone) {
     const MapPlace place{test::map_column(index), test::map_row(index)};
     const auto pixel = map->material(place, mica());
     ASSERT_TRUE(pixel) << pixel.error().message;
-    // as a file of its own, in a format that keeps every bit
+    // the same curve in a separate file, whose format loses no bit
     const std::string alone = folder_.file("alone.tab");
     CurveReading reading;
     reading.index = index;

@@ -20,7 +20,7 @@ class GridSheet {
 
   struct Place {
     glm::vec2 from{0.0F}, to{0.0F};  // corners of the cells, in texels
-    std::uint32_t digest = 0;        // hash of the colours: tells paintings apart that differ in nothing else
+    std::uint32_t digest = 0;        // hash of the colours, the only difference between some paintings
   };
 
   void clear();

@@ -24,8 +24,8 @@ struct Tone {
 // push may exceed the strongest pull and rises by up to another octave. A pull is on the left, a push on the right.
 //
 // A lever that taps sounds in the middle instead: the free swing, 90 degrees behind its drive, as A4, an octave higher
-// or lower for 90 degrees more or less, as loud as the share of the free amplitude that is left. A repulsive swing,
-// below 90 degrees, gains the octave, so that the ear tells both states even in mono.
+// or lower for 90 degrees more or less, and as loud as the share of the free amplitude that is left. The tone of a
+// repulsive swing, below 90 degrees, has its octave added, which makes the two states different even in mono.
 class Ear {
  public:
   static constexpr double kLowestNote = 48, kNotesToPull = 36, kNotesBeyond = 12;
