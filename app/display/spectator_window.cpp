@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <thread>
 #include <utility>
 
@@ -72,6 +73,7 @@ void SpectatorWindow::take(double frame_s) {
   }
   if (shown_.image.number != image_number_) {
     image_number_ = shown_.image.number;
+    line_ = {};
     image_ =
         std::make_unique<exhibit::ServedImage>(exhibit::ServedImage::Size{.columns = shown_.image.columns,
                                                                           .rows = shown_.image.rows,
@@ -79,25 +81,49 @@ void SpectatorWindow::take(double frame_s) {
                                                                           .height_m = shown_.image.height_m,
                                                                           .line_rate_hz = shown_.image.line_rate_hz});
   }
-  for (const physics::ScanLine& line : shown_.lines) {
-    if (image_) image_->add(line);
-  }
+  line_.advance(frame_s);
+  take_lines();
   // the newest thing that happened is in front
   if (player_.playing() && !shown_.image.running && shown_.lines.empty()) image_.reset();
 }
 
+void SpectatorWindow::take_lines() {
+  if (!image_ || shown_.lines.empty()) return;
+  for (const physics::ScanLine& line : shown_.lines) image_->add(line);
+  if (!line_.playing()) line_.begin(shown_.lines.back());
+}
+
+// The tip on the line that is shown, otherwise where the instrument has it.
+void SpectatorWindow::put_tip(exhibit::WallState& wall) const {
+  const scene::TopographyScale scale = stage_.wall_scene.topography_scale(material_.value_or(0));
+  const double stiffness_n_per_m =
+      materials_[material_.value_or(0)].parameters.contact.spring_constant.si;
+  const double apex_m = shown_.z_m + shown_.force_n / stiffness_n_per_m;
+  double x_m = shown_.x_m, y_m = shown_.y_m, surface_m = shown_.surface_m, force_n = shown_.force_n;
+  if (image_ && line_.playing()) {
+    const instrument::Shown::Image& image = shown_.image;
+    const exhibit::LinePlayer::Place at = line_.place();
+    const double right_m = (at.along - 0.5) * image.width_m;
+    const double up_m =
+        (0.5 - (static_cast<double>(line_.row()) + 0.5) / static_cast<double>(image.rows)) * image.height_m;
+    const double cosine = std::cos(image.turn_rad), sine = std::sin(image.turn_rad);
+    x_m += cosine * right_m - sine * up_m;
+    y_m += sine * right_m + cosine * up_m;
+    surface_m = at.height_m;
+    force_n += at.error_n;
+  }
+  const double bend_m = force_n / stiffness_n_per_m;
+  wall.surface = {.xy_m = {scale.lateral * x_m, scale.lateral * y_m}, .height_m = scale.vertical * surface_m};
+  wall.tip = {.z_m = apex_m - bend_m, .force_n = force_n, .height_m = apex_m, .deflection_m = -bend_m};
+}
+
 void SpectatorWindow::draw() {
   exhibit::Moment now;
-  const scene::TopographyScale scale = stage_.wall_scene.topography_scale(material_.value_or(0));
   now.wall.material = material_;
-  now.wall.surface = {.xy_m = {scale.lateral * shown_.x_m, scale.lateral * shown_.y_m},
-                      .height_m = scale.vertical * shown_.surface_m};
+  put_tip(now.wall);
   if (material_) now.wall.release_z_m = materials_[*material_].figures().z_joc.si;
   now.realtime = true;  // simulated time is late for nobody
   now.phase = shown_.touching ? physics::Phase::Attached : physics::Phase::Free;
-  const double bend_m = material_ ? shown_.force_n / materials_[*material_].parameters.contact.spring_constant.si : 0.0;
-  now.wall.tip = {
-      .z_m = shown_.z_m, .force_n = shown_.force_n, .height_m = shown_.z_m + bend_m, .deflection_m = -bend_m};
   if (player_.playing()) {
     now.wall.tip = player_.tip();
     now.phase = player_.phase();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "exhibit/state/curve_player.h"
+#include "exhibit/state/line_player.h"
 #include "instrument/showcase.h"
 
 namespace afm::curves {
@@ -21,6 +22,7 @@ namespace afm::exhibit {
 class FrameBuilder;
 class ServedImage;
 struct Stage;
+struct WallState;
 }  // namespace afm::exhibit
 
 namespace afm::app {
@@ -43,7 +45,9 @@ class SpectatorWindow {
  private:
   bool leaves();
   void take(double frame_s);
+  void take_lines();
   bool follow_contact();
+  void put_tip(exhibit::WallState& wall) const;
   void draw();
 
   const exhibit::Stage& stage_;
@@ -59,6 +63,7 @@ class SpectatorWindow {
   exhibit::CurvePlayer player_;
   std::uint64_t image_number_ = 0;
   std::unique_ptr<exhibit::ServedImage> image_;  // null: the curve is in front
+  exhibit::LinePlayer line_;                     // newest one when the last was over
 };
 
 }  // namespace afm::app

@@ -28,7 +28,7 @@ void Showcase::put_curve(const physics::ForceCurve& curve) {
   ++newest_.curves;
 }
 
-void Showcase::begin_image(const physics::ScanArea& area, double line_rate_hz) {
+void Showcase::begin_image(const physics::ScanArea& area, double line_rate_hz, double turn_rad) {
   const std::lock_guard lock(mutex_);
   newest_.image = {.number = newest_.image.number + 1,
                    .columns = area.columns,
@@ -36,6 +36,7 @@ void Showcase::begin_image(const physics::ScanArea& area, double line_rate_hz) {
                    .width_m = area.width.si,
                    .height_m = area.height.si,
                    .line_rate_hz = line_rate_hz,
+                   .turn_rad = turn_rad,
                    .running = true};
   newest_.lines.clear();
 }

@@ -46,7 +46,7 @@ void SimulatedInstrument::show_in(Showcase& showcase) {
 void SimulatedInstrument::show_place() const {
   if (showcase_ == nullptr) return;
   const double surface_m = surface_below(), force_n = touching_ ? settings_.scan.setpoint.si : 0.0;
-  showcase_->put_place(at_.x_m, at_.y_m, surface_m, at_.z_m - surface_m, force_n, touching_);
+  showcase_->put_place(at_.x_m - drift_x_m_, at_.y_m - drift_y_m_, surface_m, at_.z_m - surface_m, force_n, touching_);
 }
 
 core::Result<void> SimulatedInstrument::reset(std::uint64_t seed) {
@@ -274,7 +274,7 @@ core::Result<physics::ScanImage> SimulatedInstrument::scan(const TakeLine& taken
   try {
     physics::Scanner scanner(area, scan_settings(), surface_now(), chance_());
     scanner.begin_frame(settings_.upwards ? physics::SlowDirection::Up : physics::SlowDirection::Down);
-    if (showcase_ != nullptr) showcase_->begin_image(area, settings_.scan.line_rate.si);
+    if (showcase_ != nullptr) showcase_->begin_image(area, settings_.scan.line_rate.si, settings_.turn_rad);
     std::optional<core::Error> error;
     physics::ScanImage image = physics::scan_frame(scanner, [&](const physics::ScanLine& line) {
       if (showcase_ != nullptr) showcase_->put_line(line);

@@ -16,7 +16,7 @@ namespace afm::instrument {
 // What an instrument does, for a window that shows it. SI.
 struct Shown {
   std::shared_ptr<const curves::ContactSetup> setup;  // shared with the showcase; with the worn tip
-  double x_m = 0, y_m = 0, surface_m = 0;             // place of the tip, and the sample's height below it
+  double x_m = 0, y_m = 0, surface_m = 0;             // place of the tip on the sample, whose height it is
   double z_m = 0;                                     // lever's base above the surface below it
   double force_n = 0;                                 // on the lever
   bool touching = false;
@@ -26,6 +26,7 @@ struct Shown {
     std::uint64_t number = 0;  // zero: there is none
     std::size_t columns = 0, rows = 0;
     double width_m = 0, height_m = 0, line_rate_hz = 0;
+    double turn_rad = 0;  // from the sample's x to the image's
     bool running = false;
   };
   Image image;
@@ -41,7 +42,7 @@ class Showcase {
   void put_contact(const curves::ContactSetup& setup);
   void put_place(double x_m, double y_m, double surface_m, double z_m, double force_n, bool touching);
   void put_curve(const physics::ForceCurve& curve);
-  void begin_image(const physics::ScanArea& area, double line_rate_hz);
+  void begin_image(const physics::ScanArea& area, double line_rate_hz, double turn_rad);
   void put_line(const physics::ScanLine& line);
   void end_image();
 
