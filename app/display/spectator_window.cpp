@@ -96,8 +96,7 @@ void SpectatorWindow::take_lines() {
 // The tip on the line that is shown, otherwise where the instrument has it.
 void SpectatorWindow::put_tip(exhibit::WallState& wall) const {
   const scene::TopographyScale scale = stage_.wall_scene.topography_scale(material_.value_or(0));
-  const double stiffness_n_per_m =
-      materials_[material_.value_or(0)].parameters.contact.spring_constant.si;
+  const double stiffness_n_per_m = materials_[material_.value_or(0)].parameters.contact.spring_constant.si;
   const double apex_m = shown_.z_m + shown_.force_n / stiffness_n_per_m;
   double x_m = shown_.x_m, y_m = shown_.y_m, surface_m = shown_.surface_m, force_n = shown_.force_n;
   if (image_ && line_.playing()) {

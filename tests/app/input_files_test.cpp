@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every command and option that reads a file, with each thing that a path can name instead of one.
-// Invariant: every option that reads a file refuses at once what is no plain file
+// Invariant: every option that reads a file refuses at once all but plain files
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>

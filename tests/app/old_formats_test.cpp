@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: sessions and files of 0.1.0 and 0.2.0 are read and replayed as they were
+// Invariant: sessions and files of 0.1.0 and 0.2.0 are read and replayed unchanged
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a slow image of the virtual microscope is the felt surface
+// Invariant: a slow scan of the microscope shows the felt surface
 #include "app/commands/scan_command.h"
 
 #include <gmock/gmock.h>

@@ -2,7 +2,7 @@
 // The live window for a long time under random but legal hands: keys, mouse, wands that are plugged in and pulled out,
 // a tracker that falls silent, and the window's own changes, with Vulkan's calls validated. AFM_SOAK_ACTIONS says how
 // many actions; without it a few, for every run of the tests. Run by umockdev-wrapper.
-// Invariant: random input, hot-plugged wands and a silent tracker neither lose a sample nor leak memory
+// Invariant: random input, hot-plugged wands and a silent tracker lose no sample and leak no memory
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

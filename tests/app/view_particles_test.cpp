@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Particles in the real window, on an X server without a screen: pushed with the mouse, taken back, recorded, replayed.
-// Invariant: a person pushes a particle and takes the push back with keys and hand alone
+// Invariant: a person can push a particle and undo the push with only keys and hand
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

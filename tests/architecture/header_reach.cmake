@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DROOT=... -P header_reach.cmake: a header of a production folder pulls in few others of ours, through however many, so that a
 # change of one is compiled anew in few places.
-# Invariant: a header pulls in at most 60 others of ours
+# Invariant: a header pulls in at most 60 of our headers
 cmake_minimum_required(VERSION 3.25)
 
 set(max_headers 60)

@@ -2,7 +2,7 @@
 # cmake -DROOT=... -P include_rules.cmake: which folder may include which folder and which library (ARCHITECTURE.md).
 # Include roots hide only what is ours; the libraries' headers lie in the compiler's default path, so they need this list.
 # Invariant: a folder includes only what its row allows; physics uses the standard library alone
-# Invariant: Vulkan is known in render alone, DDS, SDL, cminpack and Boost in one file each, and only the programs
+# Invariant: only render uses Vulkan; DDS, SDL, cminpack and Boost are used in one file each; only the programs
 # read the environment
 
 cmake_minimum_required(VERSION 3.25)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DROOT=... -P mutants.cmake: each edit of tests/mutants/holes.toml finds its text once in its file
-# Invariant: every edit with which the tests are tested fits the sources (tests/mutants/holes.toml)
+# Invariant: every edit that tests the tests (tests/mutants/holes.toml) still fits the sources
 cmake_minimum_required(VERSION 3.25)
 
 file(STRINGS ${ROOT}/tests/mutants/holes.toml lines)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DROOT=... -P subfolders.cmake: which subfolder of a production folder may include which other one of it. A subfolder is a folder
 # below include/FOLDER and src alike; "." is what lies in none.
-# Invariant: a subfolder includes only lower ones of its folder, so that there is no circle
+# Invariant: a subfolder includes only lower ones of its folder, so there is no cycle
 cmake_minimum_required(VERSION 3.25)
 
 # Subfolders of a folder, lowest first; then the arrows of each, which lead down alone, so that they close no circle.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a node that is killed is given up after three frames and comes back with every curve
+// Invariant: a killed node is dropped after three frames and comes back with every curve
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: no message between machines is used before all of it is checked; none leads to the servo
+// Invariant: no message between machines is used before it is fully checked; none reaches the servo
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: no reader of the log delays a release
+// Invariant: a blocked log never delays a release
 #include "core/log.h"
 
 #include <fcntl.h>

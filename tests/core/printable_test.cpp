@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: no text of a file or a device commands a terminal or adds a line to a log, a table or another file
+// Invariant: no text from a file or a device controls a terminal or adds a line to a log, table or other file
 #include "core/printable.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Curves and images in another format, read again.
-// Invariant: a converted curve has the points, the calibration and the place of the original, or a remark that says
-// what is lost
+// Invariant: a converted curve has the points, calibration and place of the original, or a remark on what is lost
 #include "curves/conversion.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A map of force curves, felt pixel by pixel.
-// Invariant: the pixel of a map is felt as its curve alone would be
+// Invariant: a pixel of a map feels the same as its curve alone
 #include "curves/curve_map.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a computed curve was made from: written into every format, and read back.
-// Invariant: every number that a computed curve was made from is read back from every format
+// Invariant: every input of a computed curve is read back from every format
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The image files of four programs, put together here byte by byte from their published layouts.
-// Invariant: an image file of any of seven programs is read as its layout has it, or refused in one line
+// Invariant: an image file of any of seven programs is read as its format says, or refused in one line
 #include "curves/image_file.h"
 
 #include <gmock/gmock.h>

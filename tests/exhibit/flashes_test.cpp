@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // That nothing on the wall flashes more than three times a second (WCAG 2.3.1), however fast a tip chatters in and out
 // of contact. Lever, cursor and curve move with the tip, which nothing may hold back.
-// Invariant: nothing on the wall changes more than three times a second, however fast the tip chatters
+// Invariant: nothing on the wall flashes more than three times a second, however fast the tip chatters
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: the friction loop of the wall is that of its session, with the figures of the last closed one
+// Invariant: the friction loop on the wall is that of its session, with the figures of the last closed one
 #include "exhibit/friction/friction_panel.h"
 
 #include <gtest/gtest.h>

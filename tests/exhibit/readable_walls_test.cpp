@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is painted on the panels of every wall, as Dear ImGui is given it: no word leaves its panel or is cut, and the
 // servo's state is large enough on the smallest picture.
-// Invariant: at 400 to 7680 pixels no preset cuts off a word in any language, not with large texts either
+// Invariant: at 400 to 7680 pixels no preset cuts off a word in any language, even with large text
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <imgui.h>

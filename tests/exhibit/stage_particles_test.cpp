@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: particles lie where the servo has them, on every machine
+// Invariant: every machine draws particles where the servo has them
 #include "exhibit/scenery/stage_particles.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: the live window keeps moved scenes within the limit of disparity
+// Invariant: the live window keeps moved scenes within the disparity limit
 #include "exhibit/frame/wall_pictures.h"
 
 #include <gmock/gmock.h>

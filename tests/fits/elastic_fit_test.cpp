@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: the 95 % interval of a modulus holds the truth in 93 to 97.5 of 100 curves for white, low-passed and
-// quantised noise
-// Invariant: a curve of no contact is refused or not trusted
+// Invariant: the 95 % interval of a modulus is right in 93 to 97.5 of 100 curves with white, low-passed or quantised
+// noise
+// Invariant: a curve without contact is refused or untrusted
 #include "fits/elastic_fit.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: the 95 % interval of a thermal area holds it in 93 to 97 of 100 spectra for Q from 1.5 to 500, behind a
-// window too
+// Invariant: the 95 % interval of a thermal area is right in 93 to 97 of 100 spectra for Q from 1.5 to 500, even with a
+// window
 // Invariant: a spectrum that shows no resonance is refused
 #include "fits/thermal_fit.h"
 

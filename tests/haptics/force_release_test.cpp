@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wall takes the force away without another sample: for a lesson's question, on the journey of scale, for a
 // visitor.
-// Invariant: the wall takes the force away whether or not the sample changes
+// Invariant: the wall removes the force whether or not the sample changes
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Invariant: a scan leads a hand only while Turn-On is held, within spring, force, speed and energy
-// Invariant: a scan lets go of a path that ends, is late, jumps or leaves the workspace
+// Invariant: a scan lets go if its path ends, is late, jumps or leaves the workspace
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The servo among particles: a simulated hand that pushes them, and what it publishes.
-// Invariant: places of particles outlive an edit and a change of scale
+// Invariant: particles stay put after an edit or a change of scale
 #include <gmock/gmock.h>
 
 #include <algorithm>

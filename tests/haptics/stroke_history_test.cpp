@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a push is taken back bit for bit, and only without a force
+// Invariant: a push is undone bit for bit, and only without a force
 #include "haptics/stroke_history.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: every way to lose a headset ends in a free hand within 350 ms and a program that finds it again
+// Invariant: however a headset is lost, the hand is free within 350 ms, and the program finds it again
 #include <algorithm>
 
 #include "headset_fixture.h"

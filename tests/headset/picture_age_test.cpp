@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a runtime that keeps a frame does not keep the heartbeat
+// Invariant: a runtime that stalls a frame cannot keep the force on
 #include "app/display/picture_age.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a panel that nothing hides is shown from its texture; every other one stays in the eyes' pictures, and
-// none is in both
+// Invariant: a fully visible panel is shown from its texture, any other in the eyes' pictures, and none in both
 // Invariant: the depth that a headset gets is the drawn distance
 #include <algorithm>
 #include <cmath>

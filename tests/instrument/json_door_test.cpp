@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: whatever a client of `touchafm serve` sends, it is answered on one line, and a refused request changes
-// nothing
+// Invariant: every request to `touchafm serve` is answered on one line, and a refused one changes nothing
 #include "instrument/json_door.h"
 
 #include <gmock/gmock.h>

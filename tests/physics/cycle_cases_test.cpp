@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: each of the 272 reference cases of the physics is a test of the same name
+// Invariant: each of the 272 physics reference cases is a test with the same name
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a mesh whose vertices a frame gives looks like one that was loaded with them, and redraws what all would
+// Invariant: a mesh with vertices from a frame looks and redraws like one that was loaded with them
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

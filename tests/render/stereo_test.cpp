@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a point on the wall has zero parallax in the picture, nearer is crossed
+// Invariant: points on the wall have no parallax; nearer ones have crossed parallax
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a wall and a headset's field of view have one projection; an eye that a runtime cannot mean is refused
+// Invariant: a wall and a headset's field of view have one projection; implausible eyes from a runtime are refused
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a point on the wall has zero parallax, nearer is crossed
+// Invariant: points on the wall have no parallax; nearer is crossed
 // Invariant: an impossible head position does not move the picture
 #include "scene/display/wall.h"
 

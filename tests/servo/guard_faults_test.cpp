@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: renderer, servo and watchdog may be killed, stopped or hung up in any order: who is left releases the
-// hand
+// Invariant: renderer, servo and watchdog may be killed, stopped or hung up in any order: the rest release the hand
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a kiosk reopens a window that fails or hangs, ends one that does not end, and leaves none behind
+// Invariant: a kiosk reopens a window that fails or hangs, kills one that will not end and leaves none behind
 #include "servo/keep_running.h"
 
 #include <gmock/gmock.h>

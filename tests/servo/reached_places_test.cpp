@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: places that particles reached outlive a servo
+// Invariant: the end of a servo leaves particles in place
 #include "servo/reached_places.h"
 
 #include <gtest/gtest.h>

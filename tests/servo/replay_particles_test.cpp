@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sessions with particles: recorded, stored, and replayed bit for bit.
-// Invariant: a replay finds and takes back the pushes of its session
+// Invariant: a replay finds and undoes the pushes of its session
 #include <gmock/gmock.h>
 
 #include <algorithm>

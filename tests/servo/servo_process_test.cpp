@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: the death of either process ends in zero force, a message, exit code 1, and no orphan
+// Invariant: if either process dies: zero force, a message, exit code 1, and no orphan
 // Invariant: touchafm-servo and touchafm-guard need neither Vulkan nor a window
 #include "servo/servo_process.h"
 

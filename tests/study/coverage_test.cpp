@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How often the report's 95 % intervals hold the truth: a thousand simulated people with 40 trials each.
-// Invariant: 95 % intervals of a study hold the truth in at least 93 of 100 simulated cases, exact ones in 95
+// Invariant: 95 % intervals of a study are right in at least 93 of 100 simulated cases, exact ones in 95
 #include <gtest/gtest.h>
 
 #include <algorithm>

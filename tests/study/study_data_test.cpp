@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a study's files are read as their columns have it, or refused in one line with file and line
+// Invariant: a study's files are read as their columns say, or refused in one line with file and line
 #include "study/study_data.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: no frame of any test of pictures causes a validation or synchronisation message
+// Invariant: no frame in any picture test causes a validation or synchronisation message
 #pragma once
 
 #include <gtest/gtest.h>

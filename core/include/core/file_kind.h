@@ -20,11 +20,11 @@ struct FileKind {
 // Bytes of a file's beginning that file_kind() looks at.
 inline constexpr std::size_t kFileKindBytes = 4096;
 
-// By the signatures in each format's specification; a binary STL has none, and is told by its size in bytes. Empty for
-// any other file.
+// By the signatures in each format's specification; a binary STL has none and is recognised by its size in bytes. Empty
+// for any other file.
 std::optional<FileKind> file_kind(std::string_view beginning, std::uint64_t file_size);
 
-// What to do with a file of a role, whatever was to be read from it: "unpack it first". Empty where that depends on the
+// Advice for a file of a role, whatever was to be read from it: "unpack it first". Empty where that depends on the
 // reader.
 std::string_view remedy_of(FileRole role);
 

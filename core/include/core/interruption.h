@@ -50,9 +50,9 @@ class CodeOfInterruption {
   ~CodeOfInterruption();
 };
 
-// Lets a run end by itself during its lifetime: the run polls interrupted() and ends in good order once it returns
-// true. If it has not polled within 400 ms, the registered clean-ups run. After 5 s more, or at a signal more than a
-// second after the first, the process ends as above.
+// Lets a run end in good order during its lifetime: the run polls interrupted() and ends once it returns true. If it
+// has not polled within 400 ms, the registered clean-ups run. After 5 s more, or at a signal more than a second after
+// the first, the process ends as above.
 class OrderlyEnd {
  public:
   OrderlyEnd();

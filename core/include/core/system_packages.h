@@ -24,7 +24,8 @@ std::string read_os_release();
 // ID_LIKE. Null: none that we know.
 const PackageSystem* package_system_of(std::string_view os_release);
 
-// What to do for these parts: "sudo dnf install SDL2 espeak-ng". Where `system` is null, names Debian's packages.
+// Command that installs these parts: "sudo dnf install SDL2 espeak-ng". Where `system` is null, names Debian's
+// packages.
 std::string install_command(const PackageSystem* system, std::span<const SystemPart> parts);
 
 // Name with its use: "SDL2 (gamepads, sound)".

@@ -30,10 +30,10 @@ inline constexpr const char* kConvertedFiles =
 // Most points of all curves together: they are converted in memory.
 inline constexpr std::size_t kMostConvertedPoints = 8'000'000;
 
-// Converts a file of curves or an image into the format whose ending `name` has, with all metadata that both hold. One
-// curve is read back and compared, so that a remark gives what the format rounds. WrongUsage if the format does not
-// hold what the file has, or an option is for another kind of file; BadInputFile if it cannot be read. A curve of
-// several that cannot be read costs itself alone, with a remark. Any thread but the servo's.
+// Converts a file of curves or an image into the format whose ending `name` has, with all metadata that both support.
+// One curve is read back and compared, so that a remark gives what the format rounds. WrongUsage if the format does not
+// hold what the file has, or an option is for another kind of file; BadInputFile if it cannot be read. One of several
+// curves that cannot be read is left out, with a remark. Any thread but the servo's.
 core::Result<Converted> converted(const std::string& file, const std::string& name, const ConversionOptions& options);
 
 }  // namespace afm::curves

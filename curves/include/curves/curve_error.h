@@ -12,7 +12,7 @@ class CurveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The file ends before its data do: all of it is refused, even where one channel alone is incomplete.
+// The file ends before its data do: all of it is refused, even if only one channel is incomplete.
 class CutShort : public CurveError {
  public:
   using CurveError::CurveError;

@@ -26,12 +26,12 @@ struct SeriesPart {
   std::size_t step = 1;
 };
 
-// Gets a curve and its index, or the reason why it cannot be read; returns whether it wants the next one.
+// Gets a curve and its index, or the reason why it cannot be read; returns false to end the series.
 using TakeCurve = std::function<bool(std::size_t index, core::Result<RecordedCurve> curve)>;
 
-// Reads a part of the curves of a file with `count` curves, in order, one in memory at a time, in a confined process
-// that stays; a curve that kills it costs itself alone, eight in a row all that follow. `reading.index` is not used.
-// One call a thread; any thread but the servo's.
+// Reads a part of the curves of a file with `count` curves, in order, one in memory at a time, in one confined process;
+// a curve that kills it is lost, and after eight in a row all that follow. `reading.index` is not used. One call a
+// thread; any thread but the servo's.
 void read_curves(const std::string& path, std::size_t count, const SeriesPart& part, const CurveReading& reading,
                  const TakeCurve& take);
 

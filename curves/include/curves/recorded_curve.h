@@ -55,7 +55,7 @@ struct CurveMetadata {
   std::optional<MapPixel> pixel;
   // Inputs of a computed curve and other entries of TouchAFM's own files: keys with their units, "tip_radius_m".
   std::vector<std::pair<std::string, std::string>> parameters;
-  // What a reader left out or turned, and what it doubts: one sentence each, for the person who brought the file.
+  // Remarks on what a reader left out, reversed or doubts: one sentence each, for the user.
   std::vector<std::string> remarks;
 };
 

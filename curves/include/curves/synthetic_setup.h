@@ -13,7 +13,7 @@
 
 namespace afm::curves {
 
-// What a synthetic curve is made from, in SI. Numbers are those of kSyntheticFields; zero: none, or not used.
+// Inputs of a synthetic curve, in SI. Numbers are those of kSyntheticFields; zero: none, or not used.
 struct SyntheticSetup {
   fits::Shape shape = fits::Shape::Paraboloid;  // not Auto
   fits::Base base = fits::Base::Bonded;         // support of an exact layer

@@ -8,7 +8,7 @@
 
 namespace afm::curves {
 
-// What a column of a plain table holds. Retract: of the way back, at the same heights in reverse order.
+// Content of a column of a plain table. Retract: the way back, at the same heights in reverse order.
 enum class ColumnKind { Height, Force, Deflection, RetractForce, RetractDeflection, Segment, Time, Nothing };
 
 struct TableColumn {

@@ -17,7 +17,7 @@ inline constexpr double kMostUncertainty = 0.5;  // share beyond which the first
 
 struct UncertainKey {
   std::string_view name;
-  std::span<const physics::Unit> units;  // accepted beside per cent
+  std::span<const physics::Unit> units;  // accepted, as is per cent
 };
 
 // Positive standard uncertainty: a share of up to kMostUncertainty, or in SI.

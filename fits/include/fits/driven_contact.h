@@ -30,7 +30,7 @@ class DrivenContact {
   // Way at which the tip comes off: zero without adhesion, otherwise negative.
   double way_off_m() const { return way_off_m_; }
 
-  // Hardest pull of a soft lever, a magnitude: zero without adhesion. Tabor's parameter of the contact; zero likewise.
+  // Hardest pull of a soft lever, a magnitude: zero without adhesion. Tabor's parameter of the contact; also zero then.
   double pull_off_n() const;
   double tabor() const { return tabor_; }
 

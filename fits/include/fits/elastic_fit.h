@@ -17,10 +17,10 @@
 // Any thread; allocates.
 namespace afm::fits {
 
-// What the force is a function of.
+// Variable of which the force is a function.
 enum class Against {
   Z,    // height of the lever's base: lever and contact in series, and only the force is noisy
-  Tip,  // tip position Z + F/k, as in nanite and AtomicJ: its noise is that of the force, too
+  Tip,  // tip position Z + F/k, as in nanite and AtomicJ: its noise is also that of the force
 };
 
 struct AgainstName {
@@ -33,7 +33,7 @@ inline constexpr std::array kAgainst{AgainstName{Against::Z, "z"}, AgainstName{A
 struct Sample {
   double z_m = 0;       // base of the lever; smaller is deeper
   double force_n = 0;   // force of the lever, positive away from the sample, with any zero
-  bool sticks = false;  // the tip touches; for a law of adhesion alone, whose force is not a function of the height
+  bool sticks = false;  // the tip touches; only for a law of adhesion, whose force is not a function of the height
 };
 
 struct FitSetup {
@@ -42,7 +42,7 @@ struct FitSetup {
   double spring_n_per_m = 0;             // stiffness of the lever, positive
   double pull_off_n = 0;                 // hardest pull of the retract, a magnitude; 0: unknown, or none
   std::optional<double> pull_off_z_m{};  // height of the base at which the recorded tip lets go
-  double zero_n = 0;                     // force of the free lever, for the tip position alone
+  double zero_n = 0;                     // force of the free lever, only for the tip position
   Against against = Against::Z;
   bool tilt = false;           // also fits a slope of the baseline
   bool white = false;          // takes the noise as white: ordinary least squares, as in nanite and AtomicJ
@@ -70,7 +70,7 @@ enum class Doubt {
   BelowJkr,
 };
 
-// What a doubt compares.
+// Comparison behind a doubt.
 struct DoubtRow {
   enum class Side { Above, Below };
 
@@ -93,7 +93,7 @@ struct Found {
   std::optional<Shape> advised;  // law of adhesion to try instead
 };
 
-// Results of a law of adhesion beside the modulus.
+// Results of a law of adhesion in addition to the modulus.
 struct Adhesion {
   double work_j_per_m2 = 0;  // work of adhesion
   Interval work_interval;    // J/m^2

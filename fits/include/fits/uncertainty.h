@@ -7,7 +7,7 @@
 
 namespace afm::fits {
 
-// What a fit is given, and what may be wrong with it.
+// Inputs of a fit that may be wrong.
 enum class Given {
   SpringConstant,  // forces scale with it
   Sensitivity,     // the optical lever's; the spring constant is that of a thermal tune with it, k ~ 1/sensitivity^2
@@ -41,7 +41,7 @@ double error_share(double relative, const std::array<double, 2>& factors, const 
 // Relative deviation by independent shares, which add in squares.
 double sum_of_shares(std::span<const double> shares);
 
-// What it makes of the results, to first order: relative standard deviations. The interval of the noise is apart.
+// First-order effect on the results: relative standard deviations. The noise has its own interval.
 struct Systematic {
   Uncertainty uncertainty;
   double modulus_share = 0;

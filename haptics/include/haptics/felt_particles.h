@@ -48,13 +48,13 @@ class FeltParticles {
   // Takes the tip off the particles, wherever it is.
   void lift() noexcept;
 
-  // Puts the particles back where they lay before the newest stroke that moved any; a wait for a lift begins. Call
-  // without force alone. False if the tip is among the particles, or if there is no such stroke since the constructor
-  // or resume().
+  // Puts the particles back where they lay before the newest stroke that moved any; a wait for a lift begins. Call only
+  // without force. False if the tip is among the particles, or if there is no such stroke since the constructor or
+  // resume().
   bool take_back() noexcept;
 
-  // The same for all strokes: puts every particle where it lay in the constructor. This is a stroke, too, which can be
-  // taken back. False if the tip is among the particles, or if none has moved.
+  // The same for all strokes: puts every particle where it lay in the constructor. This is also a stroke, which can be
+  // undone. False if the tip is among the particles, or if none has moved.
   bool put_back() noexcept;
 
   const ParticleScale& scale() const noexcept { return scale_; }

@@ -21,7 +21,7 @@ struct HapticPort {
 // Reads /dev and /sys below `root`. Any thread that may wait.
 std::vector<HapticPort> find_haptic_ports(const std::string& root = "/");
 
-// What is to be said of the rights on these ports, for the first one that cannot be opened.
+// Message about the rights on these ports, for the first one that cannot be opened.
 struct PortRights {
   bool open = true;       // all can be opened, or there are none
   std::string said;       // lower case, no full stop

@@ -54,7 +54,7 @@ inline constexpr std::size_t kFewestPixels = 2;
 inline constexpr curves::QuantityRange<double> kScanSizesM{1e-10, 1e-4}, kScanPlacesM{-1e-4, 1e-4},
     kTipAnglesRad{std::numbers::pi / 180.0, std::numbers::pi * 0.45};
 
-// What follows from the rest: an image of one's own is traced unless a tip is given, and the contact is mica's.
+// Fills in what follows from the rest: a user's image is traced unless a tip is given, with mica's contact.
 void complete(ScanRequest& request, bool tip_is_given);
 
 // WrongUsage for a request without a material, and for a setting without effect in its mode.

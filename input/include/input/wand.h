@@ -35,7 +35,7 @@ struct WandState {
   bool connected = false;
   WandMotion motion = WandMotion::Absolute;
   std::uint32_t buttons = 0;  // bits of WandButton
-  std::uint32_t stops = 0;    // presses of Stop so far; counts those shorter than a frame, too
+  std::uint32_t stops = 0;    // presses of Stop so far; includes those shorter than a frame
   // deflection of the cap or stick along, and about, the room's axes: -1 to 1
   glm::dvec3 push{0.0};
   glm::dvec3 turn{0.0};

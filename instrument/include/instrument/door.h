@@ -9,7 +9,7 @@
 
 namespace afm::instrument {
 
-// A protocol by which a client controls an instrument. What comes is hostile input. One thread.
+// A protocol through which a client controls an instrument. All input is untrusted. One thread.
 class Door {
  public:
   Door() = default;
@@ -31,8 +31,8 @@ class Door {
   // Answers one request of request_size() bytes, whatever it is.
   virtual Then answer(std::string_view request, const Send& send) = 0;
 
-  // What the client has sent after the request that is being answered; does not wait. For work that the next request
-  // may stop.
+  // Input that the client has sent after the request being answered; does not wait. For work that the next request may
+  // stop.
   using Look = std::function<std::string_view()>;
   void look_with(Look look) { look_ = std::move(look); }
 

@@ -13,7 +13,7 @@
 
 namespace afm::instrument {
 
-// What can go wrong on purpose; zero: it does not.
+// Faults that occur on purpose; zero: none.
 struct Faults {
   double force_noise_n = 0;       // rms of the white noise of each point of a curve
   double detector_range_n = 0;    // a curve shows no force beyond it, either way; zero: unlimited

@@ -13,7 +13,7 @@
 
 namespace afm::instrument {
 
-// What an instrument does, for a window that shows it. SI.
+// State of an instrument, for a window that shows it. SI.
 struct Shown {
   std::shared_ptr<const curves::ContactSetup> setup;  // shared with the showcase; with the worn tip
   double x_m = 0, y_m = 0, surface_m = 0;             // place of the tip on the sample, whose height it is
@@ -30,7 +30,7 @@ struct Shown {
     bool running = false;
   };
   Image image;
-  std::vector<physics::ScanLine> lines;  // lines of the newest image that nobody has looked at yet
+  std::vector<physics::ScanLine> lines;  // lines of the newest image, not yet shown
 };
 
 // Carries the newest state from the instrument's thread to a window's. Whatever is not looked at in time is replaced by

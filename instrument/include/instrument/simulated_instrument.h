@@ -49,7 +49,7 @@ class SimulatedInstrument {
   struct Position {
     double x_m = 0, y_m = 0;
     double z_m = 0;        // lever's base, above the mean level of the sample
-    bool engaged = false;  // the feedback holds the setpoint, as far as the microscope can know
+    bool engaged = false;  // the feedback holds the setpoint, as far as it can detect
     double time_s = 0;
   };
   const Position& position() const noexcept { return at_; }
@@ -87,7 +87,7 @@ class SimulatedInstrument {
   // m^2/Hz: the mean of `averages` periodograms (physics/flexural_modes.h, fits/thermal_fit.h).
   std::vector<fits::SpectrumPoint> thermal(std::size_t points, double most_hz, std::size_t averages);
 
-  // What no microscope shows.
+  // True values, which no microscope shows.
   struct Truth {
     double tip_radius_m = 0;                // as worn as it is
     double tip_growth_m = 0;                // by wear since the start
@@ -125,7 +125,7 @@ class SimulatedInstrument {
   Position at_;
   std::mt19937_64 chance_;
   physics::NormalGenerator noise_;
-  Showcase* showcase_ = nullptr;  // null: nobody looks
+  Showcase* showcase_ = nullptr;  // null: not shown
 };
 
 }  // namespace afm::instrument

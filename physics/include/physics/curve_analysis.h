@@ -65,7 +65,7 @@ struct Baseline {
 
 enum class BaselineShape {
   Tilted,  // a straight line
-  Flat,    // a level alone
+  Flat,    // a level only
   Waves,   // a straight line and one wave
 };
 

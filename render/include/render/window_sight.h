@@ -36,7 +36,7 @@ class WindowSight {
 
  private:
   struct Watch;
-  std::unique_ptr<Watch> watch_;  // null: the window system does not tell
+  std::unique_ptr<Watch> watch_;  // null: the window system does not say
 };
 
 }  // namespace afm::render

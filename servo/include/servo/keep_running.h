@@ -20,8 +20,8 @@ struct KeepLimits {
 };
 
 // Runs `program` with `arguments` and restarts it after each failure, crash or silence, until it exits with success or
-// with a permanent error (exit codes 2 to 4), or until SIGINT, SIGTERM or SIGHUP ends both. A program that has beaten
-// and falls silent is killed, and so is one that does not end in time; if this process is killed, the program is, too.
+// with a permanent error (exit codes 2 to 4), or until SIGINT, SIGTERM or SIGHUP ends both. A program that falls silent
+// after a heartbeat is killed, and so is one that does not end in time; if this process is killed, the program is, too.
 // Failed: more than kMostRestarts failures within a minute. Main thread only.
 core::Result<void> keep_running(const std::string& program, const std::vector<std::string>& arguments,
                                 const KeepLimits& limits = {});

@@ -20,7 +20,7 @@ class ReleaseLink {
 
   void offer(const haptics::ReleasePath& path) noexcept;
 
-  // A new renderer takes the place of one that died: it gets the newest path, too.
+  // A new renderer takes the place of one that died: it also gets the newest path.
   void set_renderer(int socket) noexcept;
 
   // Announces that the servo ticks no more, and closes its device within kWatchdogCloseMs.

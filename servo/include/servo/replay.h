@@ -46,7 +46,7 @@ struct ReplayRange {
 };
 
 // A tick of a replay as the session has it, the events since the tick before it, and the particles after it in the
-// replay. For the call alone.
+// replay. Valid only in the call.
 struct ReplayedTick {
   const scene::TipSample& sample;
   std::span<const scene::TipEvent> events;
@@ -60,7 +60,7 @@ using HearTick = std::function<void(const ReplayedTick& tick)>;
 // set.
 core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& range = {}, const HearTick& hear = {});
 
-// Particles after a tick. A session has their poses at its start alone: all others follow from its hand.
+// Particles after a tick. A session has their poses only at its start: all others follow from its hand.
 struct ReplayedParticles {
   std::vector<scene::ParticlePage> pages;
   scene::TipPush push;

@@ -45,7 +45,7 @@ struct TestResult {
   double p = kNoValue;      // two-sided unless the name says one-sided
   std::string effect_name{};
   Estimate effect{};
-  double holm_p = kNoValue;  // among the tests that stand beside it; NaN for a test that stands alone
+  double holm_p = kNoValue;  // among the tests next to it; NaN for a single test
 };
 
 }  // namespace afm::study

@@ -44,7 +44,7 @@ Interval standardised_interval(double t, double degrees, double scale);
 // p times the number of comparisons not yet rejected, in order of p (Holm 1979); NaN stays.
 std::vector<double> holm_adjusted(std::span<const double> p);
 
-// Corrects tests that stand side by side for their number; a single one stays as it is.
+// Corrects tests that are reported side by side for their number; leaves a single one unchanged.
 void correct_by_holm(std::span<TestResult* const> tests);
 
 // (post - pre)/(1 - pre) of proportions (Hake 1998); NaN for a pre of 1.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: the whole procedure can be done by what is said alone, with a blank picture
+// Invariant: the whole procedure can be followed by speech alone, with a blank picture
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

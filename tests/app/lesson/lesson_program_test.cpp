@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lessons by the real program: the same bytes for a seed, and what is left when it is killed.
-// Invariant: a lesson by a simulated student is the same bytes for a seed; no lesson overwrites another
+// Invariant: a simulated student's lesson has the same bytes for a seed; no lesson overwrites another
 #include <gmock/gmock.h>
 #include <signal.h>
 

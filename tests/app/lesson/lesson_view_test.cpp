@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lesson in the real window, on an X server without a screen: keys answer, the servo's events meet the criteria, and
 // what a blind step hides is not on the picture.
-// Invariant: a blind step shows, says and sounds nothing that names its sample
+// Invariant: a blind step shows, says or plays nothing that reveals its sample
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

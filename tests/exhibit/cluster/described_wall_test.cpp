@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every described field of the wall's state is set to something else, one at a time: message and session give it back,
 // and the digest notices it. A field that is left out on purpose is listed with its reason.
-// Invariant: a field of the wall's state is sent, recorded and part of the digest, or is listed with the reason
+// Invariant: every field of the wall's state is sent, recorded and in the digest, or is listed with the reason
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a question is answered by the hand alone, and by nobody who has not moved
+// Invariant: a question can be answered by hand alone, but only after a movement
 #include "exhibit/lesson/hand_answer.h"
 
 #include <gtest/gtest.h>

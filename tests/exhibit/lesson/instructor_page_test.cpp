@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: an instructor skips, stops and keeps the force off, but neither consents nor answers for a participant
+// Invariant: an instructor can skip, stop and keep the force off, but not consent or answer for a participant
 #include "exhibit/lesson/instructor_page.h"
 
 #include <gmock/gmock.h>

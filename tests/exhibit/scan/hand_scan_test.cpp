@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: an image that the hand takes is a function of the servo's samples; what it has not visited stays empty
+// Invariant: an image taken by hand depends only on the servo's samples; places not visited stay empty
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a scan on the wall is a function of its sample and what a session records of it
+// Invariant: a scan on the wall depends only on its sample and on what a session records
 #include "exhibit/scan/live_scan.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Events as they are heard, shown and spoken.
-// Invariant: every event has a sound, a caption and a phrase in every language: one table
+// Invariant: one table gives each event a sound, a caption and a phrase in every language
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: the pitch is that of the hand's compressed scale
+// Invariant: the pitch follows the hand's compressed scale
 #include "exhibit/sound/pitch.h"
 
 #include <gtest/gtest.h>

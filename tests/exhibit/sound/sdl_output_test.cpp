@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a missing or lost sound card is one line
+// Invariant: a missing or lost sound card logs a line
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: sound is a function of samples and events, without a click, at most -1 dBFS; its thread neither
-// allocates nor locks
+// Invariant: sound depends only on samples and events, without clicks, at most -1 dBFS; its thread neither allocates
+// nor locks
 #include "exhibit/sound/synthesizer.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: friction takes energy on every closed path
+// Invariant: friction costs energy on every closed path
 #include "physics/friction/anchored_tip.h"
 
 #include <gtest/gtest.h>

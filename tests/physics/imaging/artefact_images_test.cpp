@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: every artefact of a scan comes with its cause and goes with it, in the image itself
+// Invariant: in an image, too, every artefact of a scan comes and goes with its cause
 #include <gtest/gtest.h>
 
 #include <algorithm>

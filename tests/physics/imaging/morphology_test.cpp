@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: dilation and erosion are adjoint; what is certain is the sample; a blind tip is nowhere sharper than the
+// Invariant: dilation and erosion are adjoint; certain places are the sample; a blind tip is nowhere sharper than the
 // true one
 #include "physics/imaging/morphology.h"
 

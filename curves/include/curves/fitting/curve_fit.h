@@ -49,7 +49,7 @@ std::span<const FitNumber> fit_numbers();
 // the shape lacks a size, or has one that it does not need.
 core::Result<void> prepare(FitOptions& options);
 
-// Fits the approach of a curve, or both branches to a law of adhesion. `options` is prepared and wants a fit.
+// Fits the approach of a curve, or both branches to a law of adhesion. `options` is prepared and asks for a fit.
 // BadInputFile, naming the curve, if it has no spring constant or nothing fits.
 core::Result<fits::ElasticFit> fit_of(const AnalysedCurve& curve, const FitOptions& options);
 

@@ -57,10 +57,10 @@ struct CalibratedConstant {
 
 struct ThermalConstant {
   CalibratedConstant corrected;
-  fits::Interval interval_n_per_m;  // 95 % of the fit's statistics alone
+  fits::Interval interval_n_per_m;  // 95 %, from the statistics only
   double uncorrected_n_per_m = 0;   // k_B T/(sensitivity^2 area)
   double floor_bias = 0;            // relative error of k, had the floor been taken for the lever's
-  double force_by_sensitivity = 0;  // relative uncertainty of forces k s V by that of the sensitivity s alone
+  double force_by_sensitivity = 0;  // relative uncertainty of forces k s V by that of only s, the sensitivity
 };
 
 struct SensitivityFound {

@@ -19,7 +19,7 @@ std::string frequency_shift_csv(const FrequencyShiftRun& run);
 nlohmann::ordered_json tapping_json(const TappingRun& run);
 nlohmann::ordered_json frequency_shift_json(const FrequencyShiftRun& run);
 
-// What amplitude, phase, force, virial and heights mean.
+// Meaning of amplitude, phase, force, virial and heights.
 nlohmann::ordered_json tapping_conventions();
 
 // Approach dashed and retract solid: amplitude above phase; frequency shift.

@@ -37,7 +37,7 @@ core::Result<std::size_t> order_of(const std::string& folder, const std::string&
 // WrongUsage if this participant has already done the lesson.
 core::Result<void> check_not_done(const Lesson& lesson, const std::string& folder, const std::string& code);
 
-// Files of one participant's lesson in a study's folder, as the Brain Imaging Data Structure 1.8.0 wants them (columns:
+// Files of one participant's lesson in a study's folder, as the Brain Imaging Data Structure 1.8.0 requires (columns:
 // docs/manual/teach.md): dataset_description.json, README, participants.tsv and .json, and for each participant
 // sub-CODE/beh/sub-CODE_task-NAME_events.tsv and .json, where NAME is the lesson's id without dashes. Whole files are
 // replaced in one step, and a line of events.tsv is written when its trial ends, so a killed program loses at most the

@@ -65,7 +65,7 @@ struct ThresholdPlan {
   double step = 1.25;  // divisor of w after a right answer; for 1-up-3-down, the final one
 };
 
-// What ends a step Push: all but a loss once the tip has been lifted for scene::PatternTask::kRestNs.
+// Events that end a step Push: all but a loss once the tip has been lifted for scene::PatternTask::kRestNs.
 enum class PushUntil { Moved, Target, Pattern, Lost };
 struct PushUntilRow {
   PushUntil until;

@@ -73,7 +73,7 @@ class LiveLesson {
   // Records in the kept data that sound was requested but is no longer available. Call once a frame.
   void sound_is_lost();
 
-  // What the current prompt allows a participant: the scene on the wall, tones, the force.
+  // Whether the current prompt allows the scene on the wall, tones and the force.
   bool shows_scene() const;
   bool has_tones() const;
   bool has_force() const;

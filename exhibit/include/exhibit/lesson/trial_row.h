@@ -11,7 +11,7 @@
 
 namespace afm::exhibit {
 
-// How a particle was pushed, beside the response. Work and force are those of scene::TaskScore.
+// Details of a push, in addition to the response. Work and force are those of scene::TaskScore.
 struct PushFigures {
   std::uint32_t strokes = 0, losses = 0, undos = 0;
   double work_j = 0, largest_lateral_n = 0;

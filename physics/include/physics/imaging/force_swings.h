@@ -8,7 +8,7 @@ namespace afm::physics {
 
 // Counts the swings of a force, tick by tick: rises by at least a given size within one period, each after a fall by at
 // least as much. A steady oscillation has one in each period; a loop that bounces has fewer, and a step of the sample
-// one alone.
+// only one.
 class ForceSwings {
  public:
   // Takes effect from the next tick on. Both are positive.

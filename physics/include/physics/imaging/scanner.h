@@ -25,7 +25,7 @@ struct ScanPixel {
   double height_m = 0;   // z + d_set
   double error_n = 0;    // k (d - d_set), with the detector's noise averaged over the pixel
   double lateral_n = 0;  // positive along -x: against the trace
-  // in tapping mode alone, where error_n is the amplitude error A_set - A in metres
+  // in tapping mode only, where error_n is the amplitude error A_set - A in metres
   double phase_deg = 0;     // lag behind the drive
   double energy_j = 0;      // lost in the sample per swing
   double peak_force_n = 0;  // at the lowest point of the swing

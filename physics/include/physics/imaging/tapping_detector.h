@@ -12,7 +12,7 @@ class TapEnvelope;
 class TapSurface;
 struct DrivenLever;
 
-// What a microscope in tapping mode detects over a surface whose height changes: the swing of TapEnvelope, which the
+// Signal of a microscope in tapping mode over a surface whose height changes: the swing of TapEnvelope, which the
 // feedback keeps at a setpoint.
 //
 // One thread. Only the constructor and copies allocate.

@@ -56,8 +56,8 @@ Force threshold_under_pull(const ParticleSpecies& species, Force pull);
 // M(P) = xi sqrt(8 pi W E* a^3), 6 pi W R xi at P = 0 (Dominik & Tielens 1995; M5).
 Torque rolling_moment(const ParticleSpecies& species, Force load);
 
-// Moment that spins the sphere about the vertical, 2/3 f a, over f R: a few percent, so that a sphere spins under a tip
-// beside its centre and is pushed as if without friction there.
+// Moment that spins the sphere about the vertical, 2/3 f a, over f R: a few percent, so that a sphere spins under an
+// off-centre tip and is pushed as if without friction there.
 double spinning_share(const ParticleSpecies& species, Force load);
 
 enum class PushMode : std::uint32_t { Slides = 0, Rolls = 1, Jams = 2 };

@@ -5,7 +5,7 @@
 #include "physics/manipulation/tip_contact.h"
 #include "physics/units.h"
 
-// What a user has to know before a push: how gently to look, how stiff a lever to take, how well to aim. Any thread;
+// Figures that a user needs before a push: how gently to look, how stiff a lever to take, how well to aim. Any thread;
 // never in a tick.
 namespace afm::physics {
 
@@ -44,7 +44,7 @@ double travel_until_lost(double offset_over_rho) noexcept;
 // The fastest hand that steers with the delay T can balance a sphere: rho/T (M14).
 Velocity fastest_steering(Length rho, Time delay) noexcept;
 
-// What the slip of a sphere at rest costs on the way to f_s: travel of the base, jump of the sphere, energy lost (M15).
+// Cost of the slip of a sphere at rest on the way to f_s: travel of the base, jump of the sphere, energy lost (M15).
 struct FirstSlip {
   Length travel;
   Length jump;

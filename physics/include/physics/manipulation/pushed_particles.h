@@ -74,8 +74,8 @@ struct PushTick {
   std::size_t particle = kNoParticle;  // the one with the largest normal force, either way
   PushState state = PushState::Free;
   Force normal;      // N of that particle; negative: the tip pulls it
-  Force threshold;   // lateral force at which it gives or goes on
-  Force gave_at;     // force that the sphere bore that gave last
+  Force threshold;   // lateral force at which it gives or moves
+  Force gave_at;     // force on the sphere that last gave, then
   Force goes_on_at;  // force that moves that sphere since
   Energy given;      // energy from the hand since the start, or since hold_over(), at a frozen tip in each sub-step: an
                      // upper bound
@@ -113,7 +113,7 @@ class PushedParticles {
 
   // Takes the tip off all particles and holds it over the place, so high that it touches none: base.z is at least
   // clear_height(setup). Every particle then counts as fully rested, and given, work, lost and stored start at zero.
-  // What follows depends on the places of the particles alone.
+  // All else depends only on the places of the particles.
   void hold_over(const LeverBase& base) noexcept;
 
   // Puts every particle at a place, for a tip held over them; particles that touch may overlap a little. Then calls

@@ -13,7 +13,7 @@
 
 namespace afm::physics {
 
-// What becomes of the contact with the particle that a tip presses hardest: touched, ridden over, lost. The constructor
+// Fate of the contact with the particle that a tip presses hardest: touched, ridden over, lost. The constructor
 // allocates, nothing else does. One thread.
 class TipMeeting {
  public:

@@ -43,7 +43,7 @@ struct TapJump {
   TapState after;
 };
 
-// A stable state beside the path at some heights.
+// A stable state off the path, at some heights.
 struct TapIsland {
   Length lowest_z, highest_z;  // range of the sampled heights
   Length z;                    // height of the example, in the middle

@@ -13,7 +13,7 @@
 
 namespace afm::physics {
 
-// What one swing was, by direct integration.
+// Result of one swing, by direct integration.
 struct DirectSwing {
   TapState state;                        // first harmonic
   Length deflection;                     // x0, mean

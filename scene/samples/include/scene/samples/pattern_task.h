@@ -26,12 +26,12 @@ struct TaskTick {
 };
 
 // A task: to push the particles of a set to its pattern. It begins with the first push, ends once the pattern is done
-// and the hand has been lifted for kRestNs, and begins anew when all particles are put back. If that is taken back,
-// too, the task before goes on, with its clock.
+// and the hand has been lifted for kRestNs, and begins again when all particles are put back. If that is undone, the
+// task before continues, with its clock.
 //
-// The score follows from ticks and events alone, so that a replay gives the same score. A caller that sees the
-// particles less often than every tick, as a frame of the wall does, misses the end only if a push moves a particle
-// after the rest and before the caller looks. One thread.
+// The score follows only from ticks and events, so that a replay gives the same score. A caller that sees the particles
+// less often than every tick, as a frame of the wall does, misses the end only if a push moves a particle after the
+// rest and before the caller looks. One thread.
 class PatternTask {
  public:
   static constexpr std::int64_t kRestNs = 500'000'000;
@@ -51,8 +51,8 @@ class PatternTask {
   // the set. Only while there is something unjudged().
   void judge(std::span<const physics::ParticlePlace> places);
 
-  // Ends the task, too, by another criterion than the pattern; `rms` is the distance from what was wanted. Only while
-  // there is something unjudged().
+  // Also ends the task, by a criterion other than the pattern; `rms` is the distance from the goal. Only while there is
+  // something unjudged().
   void end(physics::Length rms);
 
   const TaskScore& score() const { return task_.score; }

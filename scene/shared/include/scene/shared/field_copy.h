@@ -43,7 +43,7 @@ inline void convert(const std::optional<std::size_t>& from, std::int32_t& to) {
 inline void convert(std::int32_t from, std::optional<std::size_t>& to) {
   to = from < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(from));
 }
-// What is read has been checked before: it is an enumerator, and no index is too large.
+// The value read has been checked before: it is an enumerator, and no index is too large.
 template <class Value>
 concept EnumOrIndex = std::is_enum_v<Value> || std::is_same_v<Value, std::size_t> || std::is_same_v<Value, bool>;
 template <EnumOrIndex Value>

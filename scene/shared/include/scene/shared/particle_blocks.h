@@ -127,7 +127,7 @@ struct SharedParticles {
   SharedPusher pusher{};
   std::array<SharedSpecies, kMaxSpecies> species{};
   std::array<SharedParticle, kMaxParticles> particles{};
-  // of rods alone; sessions keep them apart, so that those without rods stay as they were
+  // for rods only; sessions store them separately, so that those without rods are unchanged
   std::array<double, kMaxSpecies> length_m{};     // length of a species' axis; 0: spheres
   std::array<double, kMaxParticles> angle_rad{};  // angle of a rod's axis from x
 
@@ -151,7 +151,7 @@ struct ParticlePose {
   double y_m = 0;
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: sample's frame from particle
   physics::PushState moved = physics::PushState::Free;    // latest motion: Slides, Rolls or Several; Free: none yet
-  std::uint32_t rod = 0;                                  // 1: along x of its frame, turns about the vertical alone
+  std::uint32_t rod = 0;                                  // 1: along x of its frame, turns only about the vertical
 
   bool operator==(const ParticlePose&) const = default;
 };
@@ -200,7 +200,7 @@ struct TipPush {
   std::array<double, 2> lateral_n{};  // force on the lever, along the sample's x and y
   double lift_n = 0;                  // force on the lever by the particles, upwards
   double normal_n = 0;                // N of `particle`
-  double threshold_n = 0;             // lateral force at which `particle` gives, or goes on
+  double threshold_n = 0;             // lateral force at which `particle` gives, or moves
   double other_threshold_n = 0;       // threshold at rest, without load, by the law of other_law(); 0: unknown
   double given_j = 0;                 // by the hand, upper bound
   double work_j = 0;                  // by the hand
