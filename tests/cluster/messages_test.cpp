@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: no message between machines is used before it is fully checked; none reaches the servo
+// Invariant: no message between machines is used before it is fully checked; the servo gets none but a Stop
 #include <gtest/gtest.h>
 
 #include <algorithm>
