@@ -12,7 +12,7 @@
 
 namespace afm::curves {
 
-// Curves of a file: one of most formats, several of an .h5 and of JPK's maps. Known files that cannot hold several are
+// Curves of a file: one of most formats, several of an .h5, of JPK's maps and of a force volume. Known files that cannot hold several are
 // not opened. BadInputFile as load_curve().
 core::Result<std::size_t> curve_count(const std::string& path, const CurveReading& reading = {});
 
