@@ -26,6 +26,8 @@
 #include "formats/igor_wave.h"
 #include "formats/jpk_file.h"
 #include "formats/nanoscope_curve.h"
+#include "formats/nanosurf_curve.h"
+#include "formats/nanosurf_header.h"
 #include "formats/segments.h"
 #include "formats/tab_file.h"
 #include "formats/touchafm_csv_file.h"
@@ -77,7 +79,8 @@ RecordedCurve read_one(std::string_view bytes, const CurveReading& reading) {
 }
 
 constexpr SeriesRow kHdf5Series{count_hdf5, stream_hdf5, hdf5_bytes}, kJpkSeries = series_of<JpkArchive>(),
-                                                                      kNanoscopeSeries = series_of<NanoscopeCurves>();
+                                                                      kNanoscopeSeries = series_of<NanoscopeCurves>(),
+                                                                      kNanosurfSeries = series_of<NanosurfCurves>();
 
 enum class Reader { Ours, Foreign };  // Foreign: formats of other programs, read in a confined child
 
@@ -119,6 +122,8 @@ constexpr FormatTable kCurves{
         CurveRow{CurveFormat::NanoscopeForce, "Nanoscope .spm or .000", "", "",
                  [](std::string_view b) { return b.starts_with(kNanoscopeForceMagic); }, Reader::Foreign,
                  &kNanoscopeSeries, read_one<NanoscopeCurves>, nullptr},
+        CurveRow{CurveFormat::Nanosurf, "Nanosurf .nid", "", "", has_nanosurf_spectroscopy, Reader::Foreign,
+                 &kNanosurfSeries, read_one<NanosurfCurves>, nullptr},
         CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", "", looks_like_igor, Reader::Foreign, nullptr, read_igor,
                  nullptr}}};
 // Not known by its content: the user says what it is.

@@ -19,6 +19,7 @@
 #include "curves/curve_file.h"
 #include "formats/format_table.h"
 #include "formats/igor_wave.h"
+#include "formats/nanosurf_header.h"
 #include "images/gsf_image.h"
 #include "images/gwy_image.h"
 #include "images/igor_image.h"
@@ -62,7 +63,8 @@ constexpr FormatTable kImages{
         FormatRow{ImageFormat::Igor, "Igor", "Igor .ibw",
                   [](std::string_view b) { return looks_like_igor_image(b) || is_old_igor(b); }, read_igor_image},
         FormatRow{ImageFormat::Nanosurf, "Nanosurf", "Nanosurf .nid",
-                  [](std::string_view b) { return b.starts_with(kNanosurfMagic); }, read_nanosurf_image},
+                  [](std::string_view b) { return b.starts_with(kNanosurfMagic) && !is_nanosurf_spectroscopy(b); },
+                  read_nanosurf_image},
         FormatRow{ImageFormat::Park, "Park", "Park .tiff", looks_like_park, read_park_image},
         FormatRow{ImageFormat::Jpk, "JPK", "JPK .jpk", looks_like_tiff, read_jpk_image}}};
 static_assert(core::has_row_for_each(kImages.rows, &FormatRow::format));
