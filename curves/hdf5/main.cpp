@@ -6,6 +6,7 @@
 // touchafm-hdf5 count               writes the number of its curves
 // touchafm-hdf5 stream FIRST STEP   writes every STEP-th curve from FIRST on, each as a message of a ConfinedStream
 // touchafm-hdf5 write               reads .tabs, each ended by a NUL, writes an .h5
+// touchafm-hdf5 image               reads a .nhf of Nanosurf from stdin, writes its image as .gwy
 //
 // Exit codes are those of confined/confined_child.h; a fault of the file is reported on stdout.
 #include <unistd.h>
@@ -24,9 +25,11 @@
 #include "core/log.h"
 #include "core/write_all.h"
 #include "curves/curve_error.h"
+#include "curves/image_output.h"
 #include "formats/segments.h"
 #include "formats/tab_file.h"
 #include "hdf5_file.h"
+#include "nhf_image.h"
 
 namespace {
 
@@ -73,6 +76,7 @@ std::string converted(std::string_view how, std::size_t first, std::size_t step)
   const std::string bytes = read_stdin();
   curves::confine_this_process((how == "stream" ? curves::kStreamTime : curves::kMapTime).processor_time);
   if (how == "write") return curves::hdf5_bytes(read_tabs(bytes));
+  if (how == "image") return curves::gwy_bytes(curves::nhf_image(bytes));
   const curves::Hdf5Curves file(bytes);
   if (how == "count") {
     const std::size_t count = file.size();
@@ -107,7 +111,7 @@ curves::ChildExit convert(std::string_view how, std::size_t first, std::size_t s
 }  // namespace
 
 int main(int count, char** arguments) {
-  constexpr std::array<std::string_view, 4> kWays{"read", "count", "stream", "write"};
+  constexpr std::array<std::string_view, 5> kWays{"read", "count", "stream", "write", "image"};
   const std::string_view how = count > 1 ? arguments[1] : "";
   if (std::find(kWays.begin(), kWays.end(), how) == kWays.end()) {
     core::log_line("touchafm-hdf5 is started by touchafm; run 'touchafm analyse FILE.h5' instead");

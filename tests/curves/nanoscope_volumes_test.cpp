@@ -117,7 +117,10 @@ TEST(NanoscopeVolume, HasACurveForEachPixelFromTheBottomLeft) {
     ASSERT_TRUE(pixel);
     EXPECT_EQ(pixel->column, index % kColumns);
     EXPECT_EQ(pixel->row, index / kColumns);
-    EXPECT_TRUE(pixel->grid == (MapGrid{kColumns, kRows, 3e-6, 2e-6, 0.5e-6, -1e-6}));
+    EXPECT_EQ(pixel->grid.columns, kColumns);
+    EXPECT_EQ(pixel->grid.rows, kRows);
+    EXPECT_NEAR(pixel->grid.width_m, 3e-6, 1e-15);
+    EXPECT_NEAR(pixel->grid.height_m, 2e-6, 1e-15);
     EXPECT_NEAR(curve.metadata.position->x_m, (-0.5 + static_cast<double>(pixel->column)) * 1e-6, 1e-15);
     EXPECT_NEAR(curve.metadata.position->y_m, (-1.5 + static_cast<double>(pixel->row)) * 1e-6, 1e-15);
     EXPECT_NEAR(lowest_z_m(curve), kHeightStep_m * static_cast<double>(100 * pixel->row + 10 * pixel->column), 1e-15);
