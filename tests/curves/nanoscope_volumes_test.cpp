@@ -12,6 +12,7 @@
 #include "curves/curve_file.h"
 #include "curves/curve_map.h"
 #include "curves/curve_series.h"
+#include "damaged_curves.h"
 #include "support/image_files.h"
 #include "support/scratch_folder.h"
 
@@ -200,6 +201,15 @@ TEST(NanoscopeVolume, IsRefusedInOneLineIfItsCurvesAreNotUnderstood) {
     Volume damaged;
     damaged.per_line = wrong;
     EXPECT_THAT(refusal(damaged), HasSubstr("cannot read the curve a.spm: its")) << wrong;
+  }
+}
+
+TEST(NanoscopeVolume, SurvivesAnyChangeOfItsHeader) {
+  Volume sensed;
+  sensed.sensor_scale = "V [Sens. ZsensSens] (0.0001 V/LSB) 6.5536 V";
+  for (const Volume& volume : {Volume(), sensed}) {
+    const std::string file = file_of(volume);
+    EXPECT_GT(test::read_after_damage(file, file.find('\x1a'), kCurves - 1), 1000);
   }
 }
 

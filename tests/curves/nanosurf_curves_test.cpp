@@ -12,6 +12,7 @@
 #include "curves/curve_map.h"
 #include "curves/curve_series.h"
 #include "curves/image_file.h"
+#include "damaged_curves.h"
 #include "support/scratch_folder.h"
 #include "vendor_image_files.h"
 
@@ -178,6 +179,11 @@ TEST(NanosurfCurve, IsACurveAndBesideAScanAnImageToo) {
   EXPECT_EQ(load_image(both)->image.channels.size(), 1U);
   EXPECT_EQ(curve_count(both).value(), 6U);
   EXPECT_TRUE(load_curve(both));
+}
+
+TEST(NanosurfCurve, SurvivesAnyChangeOfItsHeader) {
+  const std::string file = nanosurf_file(usual("V"), std::string(kSpring) + kHead + kMap);
+  EXPECT_GT(test::read_after_damage(file, file.find("#!"), kCurves - 1), 1000);
 }
 
 TEST(NanosurfCurve, IsRefusedInOneLineIfItIsNotUnderstood) {
