@@ -161,30 +161,22 @@ std::vector<double> column_of(hid_t group, const char* name) {
 
 }  // namespace
 
-Hdf5Curves::Hdf5Curves(std::string_view bytes) : file_(H5I_INVALID_HID) {
-  const Handle access = access_to_memory();
-  // HDF5 copies the image
-  must_do(H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()), "take the file");
-  file_ = H5Fopen("curve", H5F_ACC_RDONLY, access.get());
-  if (file_ < 0) throw CurveError("it is damaged or cut short");
-}
-
-Hdf5Curves::~Hdf5Curves() { H5Fclose(file_); }
+Hdf5Curves::Hdf5Curves(std::string_view bytes) : file_(open_in_memory(bytes)) {}
 
 std::size_t Hdf5Curves::size() const {
   std::size_t curves = 0;
-  while (curves < kMostCurves && has(file_, std::to_string(curves).c_str())) ++curves;
+  while (curves < kMostCurves && has(file_.get(), std::to_string(curves).c_str())) ++curves;
   return curves;
 }
 
 RecordedCurve Hdf5Curves::curve(std::size_t index) const {
   const std::string name = std::to_string(index);
-  if (!has(file_, name.c_str())) throw CurveError(missing_curve(file_, name, size()));
-  const Handle group(H5Gopen2(file_, name.c_str(), H5P_DEFAULT));
+  if (!has(file_.get(), name.c_str())) throw CurveError(missing_curve(file_.get(), name, size()));
+  const Handle group(H5Gopen2(file_.get(), name.c_str(), H5P_DEFAULT));
   if (!group.is_open()) throw CurveError(fmt::format("its curve \"{}\" is damaged", name));
 
   RecordedCurve curve;
-  read_parameters(file_, curve.metadata);
+  read_parameters(file_.get(), curve.metadata);
   read_afmformats_metadata(metadata_of(group.get()), curve.metadata);
   const std::vector<double> force = column_of(group.get(), "force"), segment = column_of(group.get(), "segment");
   const std::vector<double> height =

@@ -15,6 +15,15 @@ Handle access_to_memory() {
   return access;
 }
 
+Handle open_in_memory(std::string_view bytes) {
+  const Handle access = access_to_memory();
+  // HDF5 copies the image
+  must_do(H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()), "take the file");
+  Handle file(H5Fopen("file", H5F_ACC_RDONLY, access.get()));
+  if (!file.is_open()) throw CurveError("it is damaged or cut short");
+  return file;
+}
+
 std::string text_of(hid_t attribute, hid_t type) {
   constexpr std::size_t kLongestText = 65536;
   const Handle memory = must(H5Tcopy(H5T_C_S1), "make a type");

@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 // What readers and writers of HDF5 share: owned identifiers, and checks that all data lie in the file itself.
@@ -16,7 +17,10 @@ class Handle {
  public:
   explicit Handle(hid_t id) : id_(id) {}
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)) {}
-  Handle& operator=(Handle&&) = delete;
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
   ~Handle() {
     if (id_ >= 0) H5Idec_ref(id_);
   }
@@ -39,6 +43,9 @@ inline void must_do(herr_t status, const char* what) {
 
 // Access to a file that exists only in memory.
 Handle access_to_memory();
+
+// A file of these bytes, for reading; they are copied. Throws CurveError.
+Handle open_in_memory(std::string_view bytes);
 
 // A text of fixed or variable length. Throws CurveError beyond 64 KiB.
 std::string text_of(hid_t attribute, hid_t type);

@@ -12,35 +12,17 @@
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/image_file.h"
+#include "nhf_pieces.h"
 #include "support/scratch_folder.h"
 
 namespace afm::curves {
 namespace nhf_images_test {
 
+using test::put;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr std::int32_t kUnmeasured = std::numeric_limits<std::int32_t>::min();
-
-void put(hid_t at, const char* name, const std::string& text) {
-  const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-  H5Tset_size(type, H5T_VARIABLE);
-  const hid_t attribute = H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  const char* characters = text.c_str();
-  EXPECT_GE(H5Awrite(attribute, type, static_cast<const void*>(&characters)), 0);
-  H5Aclose(attribute);
-  H5Sclose(space);
-  H5Tclose(type);
-}
-
-void put(hid_t at, const char* name, const std::vector<double>& numbers) {
-  const hsize_t count = numbers.size();
-  const hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr);
-  const hid_t attribute = H5Acreate2(at, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT);
-  EXPECT_GE(H5Awrite(attribute, H5T_NATIVE_DOUBLE, numbers.data()), 0);
-  H5Aclose(attribute);
-  H5Sclose(space);
-}
 
 struct Channel {
   std::string name = "Topography", unit = "Meter (m)";
@@ -172,7 +154,7 @@ TEST_F(NhfImage, CountsLinesOfAStoppedScanAsNotMeasured) {
 
 TEST_F(NhfImage, IsRefusedInOneLineIfItIsNotUnderstood) {
   EXPECT_THAT(refusal(write({{}}, 3)), HasSubstr("a Nanosurf file of version 3; 1 and 2 are read"));
-  EXPECT_THAT(refusal(write({{}}, 2, "spectroscopy")), HasSubstr("it holds no image; spectroscopy"));
+  EXPECT_THAT(refusal(write({{}}, 2, "spectroscopy")), HasSubstr("it is a curve, not an image"));
   EXPECT_THAT(refusal(write({{.direction = "Forward", .channels = {}}})), HasSubstr("its image has no channels"));
   EXPECT_THAT(refusal(write({{.direction = "Forward", .channels = {{.calibrated = false}}}})),
               HasSubstr("its channel Topography cannot be read: it has no calibration"));

@@ -9,10 +9,21 @@
 
 namespace afm::curves {
 
+namespace {
+
+bool has_near_the_front(std::string_view bytes, std::string_view text) {
+  constexpr std::size_t kNear = 65536;
+  return bytes.substr(0, kNear).find(text) != std::string_view::npos;
+}
+
+}  // namespace
+
+bool is_nhf(std::string_view bytes) {
+  return bytes.starts_with("\x89HDF\r\n\x1a\n") && has_near_the_front(bytes, "nsf_file_version_major");
+}
+
 bool begins_as_nhf(std::string_view bytes) {
-  constexpr std::size_t kNearTheFront = 65536;
-  return bytes.starts_with("\x89HDF\r\n\x1a\n") &&
-         bytes.substr(0, kNearTheFront).find("nsf_file_version_major") != std::string_view::npos;
+  return is_nhf(bytes) && (has_near_the_front(bytes, "image_line_based") || !has_near_the_front(bytes, "spectroscopy"));
 }
 
 std::string nhf_as_gwy(std::string_view bytes) {

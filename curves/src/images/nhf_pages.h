@@ -12,6 +12,9 @@ namespace afm::curves {
 inline constexpr std::string_view kUnreadPrefix = "Not read: ";
 
 // Returns whether a file is HDF5 of Nanosurf Studio (.nhf), whose root has the version of the format.
+bool is_nhf(std::string_view bytes);
+
+// Returns whether such a file begins with an image: without one, it has spectroscopy.
 bool begins_as_nhf(std::string_view bytes);
 
 // The file's image as .gwy, made by the program touchafm-hdf5 in a confined process. Throws CurveError.
