@@ -152,6 +152,19 @@ TEST(NanoscopeVolume, MayHaveTwoBytesInFour) {
   }
 }
 
+// As after an editor that lost or added a character of the header.
+TEST(NanoscopeVolume, IsRefusedIfItsDataHaveMoved) {
+  Volume wide;
+  wide.bytes = 4;
+  wide.version = "0x09200000";
+  std::string file = file_of(wide);
+  file.erase(file.size() - 1);
+  file.insert(4000, 1, '\0');
+  const auto curve = parse_curve(file, "a.spm");
+  ASSERT_FALSE(curve);
+  EXPECT_THAT(curve.error().message, HasSubstr("more than the two bytes that its header states"));
+}
+
 TEST(NanoscopeVolume, MayHaveSeveralPointsOfTheImageForACurve) {
   Volume fine;
   fine.image_columns = 2 * kColumns;

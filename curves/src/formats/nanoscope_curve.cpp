@@ -250,6 +250,11 @@ NanoscopeCurves::Signal NanoscopeCurves::signal(const NanoscopeBlock& channel, s
     values.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       const double integer = nanoscope_integer(data, first + i, size);
+      if (volume_ && std::abs(integer) > -lowest_of_two) {
+        throw CurveError(fmt::format(
+            "its channel {} has numbers of more than the two bytes that its header states: was its header altered?",
+            nanoscope_channel(channel)));
+      }
       const bool recorded = integer != lowest && integer != lowest_of_two;
       values.push_back(recorded ? integer : std::numeric_limits<double>::quiet_NaN());
     }
