@@ -89,11 +89,7 @@ void FitMaps::add(const FittedCurve& curve) {
   cell.trust = curve.fit->trust;
 }
 
-// The grid is the file's word: one curve must not claim the memory of a million.
-bool FitMaps::is_drawn() const {
-  constexpr std::size_t kSmall = 4096, kCellsACurve = 16;
-  return curves_ > 1 && grid_->columns * grid_->rows <= std::max(kSmall, kCellsACurve * curves_);
-}
+bool FitMaps::is_drawn() const { return curves_ > 1 && curves::is_map_of(curves_, *grid_); }
 
 core::Result<void> FitMaps::write(const std::string& folder, const std::string& file) const {
   if (!grid_ || curves_ == 1) return {};
@@ -101,6 +97,10 @@ core::Result<void> FitMaps::write(const std::string& folder, const std::string& 
     core::log_line(fmt::format("{}: no map is drawn of {} curves on a grid of {} x {} pixels", file, curves_,
                                grid_->columns, grid_->rows));
     return {};
+  }
+  if (curves_ < cells_.size()) {
+    core::log_line(fmt::format("{}: {} curves on a grid of {} x {} pixels: the other pixels are empty", file, curves_,
+                               grid_->columns, grid_->rows));
   }
   if (elsewhere_ > 0) {
     core::log_line(fmt::format("{}: {} of its curves are on another grid, and not on the map", file, elsewhere_));

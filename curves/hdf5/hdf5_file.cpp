@@ -13,47 +13,13 @@
 #include "curves/curve_error.h"
 #include "formats/afmformats_metadata.h"
 #include "formats/segments.h"
+#include "hdf5_handles.h"
 
 namespace afm::curves {
 
 namespace {
 
 constexpr std::size_t kMostCurves = 1'000'000;
-
-// Owns an HDF5 identifier of any kind; all kinds are reference-counted in the same way.
-class Handle {
- public:
-  explicit Handle(hid_t id) : id_(id) {}
-  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)) {}
-  Handle& operator=(Handle&&) = delete;
-  ~Handle() {
-    if (id_ >= 0) H5Idec_ref(id_);
-  }
-
-  hid_t get() const { return id_; }
-  bool is_open() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-};
-
-Handle must(hid_t id, const char* what) {
-  if (id < 0) throw std::runtime_error(fmt::format("HDF5 cannot {}", what));
-  return Handle(id);
-}
-
-void must_do(herr_t status, const char* what) {
-  if (status < 0) throw std::runtime_error(fmt::format("HDF5 cannot {}", what));
-}
-
-// Access to a file that exists only in memory.
-Handle access_to_memory() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // no error stack on stderr
-  H5PLset_loading_state(0);                     // no filters from plug-ins
-  Handle access = must(H5Pcreate(H5P_FILE_ACCESS), "prepare a file");
-  must_do(H5Pset_fapl_core(access.get(), std::size_t{1} << 20U, 0), "keep a file in memory");
-  return access;
-}
 
 // Writes a text of variable length: h5py returns texts of fixed length as bytes, which afmformats does not recognise.
 void put_attribute(hid_t at, const std::string& name, const std::string& text) {
@@ -120,26 +86,6 @@ void put_parameters(hid_t file, const CurveMetadata& metadata) {
   }
 }
 
-std::string text_of(hid_t attribute, hid_t type) {
-  constexpr std::size_t kLongestText = 65536;
-  const Handle memory = must(H5Tcopy(H5T_C_S1), "make a type");
-  H5Tset_cset(memory.get(), H5Tget_cset(type));
-  if (H5Tis_variable_str(type) > 0) {
-    char* text = nullptr;
-    H5Tset_size(memory.get(), H5T_VARIABLE);
-    if (H5Aread(attribute, memory.get(), static_cast<void*>(&text)) < 0 || text == nullptr) return {};
-    std::string copy(text);
-    H5free_memory(text);
-    return copy;
-  }
-  const std::size_t size = H5Tget_size(type);
-  if (size > kLongestText) throw CurveError("one of its attributes is too long");
-  std::string text(size + 1, '\0');
-  H5Tset_size(memory.get(), text.size());
-  if (H5Aread(attribute, memory.get(), text.data()) < 0) return {};
-  return text.substr(0, text.find('\0'));
-}
-
 // The attributes that afmformats may have written, as JSON in its format.
 nlohmann::json metadata_of(hid_t group) {
   constexpr std::array kKeys{"imaging mode",  "spring constant", "sensitivity",  "speed approach",   "speed retract",
@@ -186,16 +132,6 @@ void read_parameters(hid_t file, CurveMetadata& metadata) {
   }
 }
 
-// Returns whether the link exists and stays within the file; external links are not followed.
-bool has(hid_t group, const char* name) {
-  if (H5Lexists(group, name, H5P_DEFAULT) <= 0) return false;
-  H5L_info_t link{};
-  if (H5Lget_info(group, name, &link, H5P_DEFAULT) < 0)
-    throw CurveError(fmt::format("its link \"{}\" is damaged", name));
-  if (link.type == H5L_TYPE_HARD) return true;
-  throw CurveError(fmt::format("its \"{}\" is a link, which is not followed; copy the data into the file", name));
-}
-
 // afmformats' files have the groups "0", "1", ...; other programs' files have others.
 std::string missing_curve(hid_t file, const std::string& name, std::size_t curves) {
   if (curves > 0) return fmt::format("it has no curve \"{}\"; it has {}, counted from 0", name, curves);
@@ -204,13 +140,6 @@ std::string missing_curve(hid_t file, const std::string& name, std::size_t curve
       H5Lget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, 0, first.data(), first.size(), H5P_DEFAULT);
   return fmt::format("it is HDF5, but no curve file of afmformats, whose curves are groups \"0\", \"1\" and so on; {}",
                      size > 0 ? fmt::format("it begins with \"{}\"", first.data()) : std::string("it is empty"));
-}
-
-// Rejects a data set whose data are in another file.
-void must_hold_its_data(hid_t column, const char* name) {
-  const Handle made = must(H5Dget_create_plist(column), "read how a data set was made");
-  if (H5Pget_layout(made.get()) != H5D_VIRTUAL && H5Pget_external_count(made.get()) == 0) return;
-  throw CurveError(fmt::format("its column \"{}\" lies in another file, which is not read", name));
 }
 
 std::vector<double> column_of(hid_t group, const char* name) {
@@ -232,30 +161,22 @@ std::vector<double> column_of(hid_t group, const char* name) {
 
 }  // namespace
 
-Hdf5Curves::Hdf5Curves(std::string_view bytes) : file_(H5I_INVALID_HID) {
-  const Handle access = access_to_memory();
-  // HDF5 copies the image
-  must_do(H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()), "take the file");
-  file_ = H5Fopen("curve", H5F_ACC_RDONLY, access.get());
-  if (file_ < 0) throw CurveError("it is damaged or cut short");
-}
-
-Hdf5Curves::~Hdf5Curves() { H5Fclose(file_); }
+Hdf5Curves::Hdf5Curves(std::string_view bytes) : file_(open_in_memory(bytes)) {}
 
 std::size_t Hdf5Curves::size() const {
   std::size_t curves = 0;
-  while (curves < kMostCurves && has(file_, std::to_string(curves).c_str())) ++curves;
+  while (curves < kMostCurves && has(file_.get(), std::to_string(curves).c_str())) ++curves;
   return curves;
 }
 
 RecordedCurve Hdf5Curves::curve(std::size_t index) const {
   const std::string name = std::to_string(index);
-  if (!has(file_, name.c_str())) throw CurveError(missing_curve(file_, name, size()));
-  const Handle group(H5Gopen2(file_, name.c_str(), H5P_DEFAULT));
+  if (!has(file_.get(), name.c_str())) throw CurveError(missing_curve(file_.get(), name, size()));
+  const Handle group(H5Gopen2(file_.get(), name.c_str(), H5P_DEFAULT));
   if (!group.is_open()) throw CurveError(fmt::format("its curve \"{}\" is damaged", name));
 
   RecordedCurve curve;
-  read_parameters(file_, curve.metadata);
+  read_parameters(file_.get(), curve.metadata);
   read_afmformats_metadata(metadata_of(group.get()), curve.metadata);
   const std::vector<double> force = column_of(group.get(), "force"), segment = column_of(group.get(), "segment");
   const std::vector<double> height =

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "curves/recorded_curve.h"
+#include "hdf5_handles.h"
 
 namespace afm::curves {
 
@@ -21,11 +21,7 @@ std::string hdf5_bytes(std::span<const RecordedCurve> curves);
 // A file in memory. Rejects data in other files. HDF5 may crash on a damaged file. Throws CurveError.
 class Hdf5Curves {
  public:
-  // The bytes must outlive the object.
   explicit Hdf5Curves(std::string_view bytes);
-  Hdf5Curves(const Hdf5Curves&) = delete;
-  Hdf5Curves& operator=(const Hdf5Curves&) = delete;
-  ~Hdf5Curves();
 
   // Number of the groups "0", "1" and so on, at most a million.
   std::size_t size() const;
@@ -34,7 +30,7 @@ class Hdf5Curves {
   RecordedCurve curve(std::size_t index) const;
 
  private:
-  std::int64_t file_;  // HDF5's hid_t
+  Handle file_;
 };
 
 }  // namespace afm::curves

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// touchafm-hdf5: reads and writes afmformats' HDF5 curves for touchafm in a confined process, because HDF5 1.10 crashes
-// on damaged files, and Debian's library loads curl, Kerberos and LDAP, which no other command needs.
+// touchafm-hdf5: reads and writes afmformats' HDF5 curves, and reads Nanosurf's .nhf, for touchafm in a confined
+// process, because HDF5 1.10 crashes on damaged files, and Debian's library loads curl, Kerberos and LDAP, which no
+// other command needs.
 //
-// touchafm-hdf5 read INDEX          reads an .h5 from stdin, writes its curve as afmformats .tab to stdout
+// touchafm-hdf5 read INDEX          reads an .h5 or .nhf from stdin, writes its curve as afmformats .tab to stdout
 // touchafm-hdf5 count               writes the number of its curves
 // touchafm-hdf5 stream FIRST STEP   writes every STEP-th curve from FIRST on, each as a message of a ConfinedStream
 // touchafm-hdf5 write               reads .tabs, each ended by a NUL, writes an .h5
+// touchafm-hdf5 image               reads a .nhf of Nanosurf from stdin, writes its image as .gwy
 //
 // Exit codes are those of confined/confined_child.h; a fault of the file is reported on stdout.
 #include <unistd.h>
@@ -24,9 +26,13 @@
 #include "core/log.h"
 #include "core/write_all.h"
 #include "curves/curve_error.h"
+#include "curves/image_output.h"
 #include "formats/segments.h"
 #include "formats/tab_file.h"
 #include "hdf5_file.h"
+#include "images/nhf_pages.h"
+#include "nhf_curves.h"
+#include "nhf_image.h"
 
 namespace {
 
@@ -57,7 +63,8 @@ std::vector<curves::RecordedCurve> read_tabs(std::string_view bytes) {
   return read;
 }
 
-void stream(const curves::Hdf5Curves& file, std::size_t first, std::size_t step) {
+template <class Curves>
+void stream(const Curves& file, std::size_t first, std::size_t step) {
   const std::size_t count = file.size();
   for (std::size_t i = first; i < count; i += step) {
     try {
@@ -68,12 +75,8 @@ void stream(const curves::Hdf5Curves& file, std::size_t first, std::size_t step)
   }
 }
 
-// What is written to stdout at the end; a stream has written everything before.
-std::string converted(std::string_view how, std::size_t first, std::size_t step) {
-  const std::string bytes = read_stdin();
-  curves::confine_this_process((how == "stream" ? curves::kStreamTime : curves::kMapTime).processor_time);
-  if (how == "write") return curves::hdf5_bytes(read_tabs(bytes));
-  const curves::Hdf5Curves file(bytes);
+template <class Curves>
+std::string converted_curves(const Curves& file, std::string_view how, std::size_t first, std::size_t step) {
   if (how == "count") {
     const std::size_t count = file.size();
     if (count == 0) return tab_bytes(file.curve(0));  // throws the reason
@@ -86,6 +89,16 @@ std::string converted(std::string_view how, std::size_t first, std::size_t step)
   }
   stream(file, first, std::max<std::size_t>(1, step));
   return {};
+}
+
+// What is written to stdout at the end; a stream has written everything before.
+std::string converted(std::string_view how, std::size_t first, std::size_t step) {
+  const std::string bytes = read_stdin();
+  curves::confine_this_process((how == "stream" ? curves::kStreamTime : curves::kMapTime).processor_time);
+  if (how == "write") return curves::hdf5_bytes(read_tabs(bytes));
+  if (how == "image") return curves::gwy_bytes(curves::nhf_image(bytes));
+  if (curves::is_nhf(bytes)) return converted_curves(curves::NhfCurves(bytes), how, first, step);
+  return converted_curves(curves::Hdf5Curves(bytes), how, first, step);
 }
 
 curves::ChildExit convert(std::string_view how, std::size_t first, std::size_t step) {
@@ -107,7 +120,7 @@ curves::ChildExit convert(std::string_view how, std::size_t first, std::size_t s
 }  // namespace
 
 int main(int count, char** arguments) {
-  constexpr std::array<std::string_view, 4> kWays{"read", "count", "stream", "write"};
+  constexpr std::array<std::string_view, 5> kWays{"read", "count", "stream", "write", "image"};
   const std::string_view how = count > 1 ? arguments[1] : "";
   if (std::find(kWays.begin(), kWays.end(), how) == kWays.end()) {
     core::log_line("touchafm-hdf5 is started by touchafm; run 'touchafm analyse FILE.h5' instead");

@@ -83,12 +83,6 @@ tl::unexpected<core::Error> no_map(const std::string& path, const std::string& w
   return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot use {} as a force map: {}", path, why));
 }
 
-// The grid is the file's word: one curve must not claim the memory of a million.
-bool is_dense(const MapGrid& grid, std::size_t curves) {
-  constexpr std::size_t kSmall = 4096, kCellsACurve = 16;
-  return grid.columns * grid.rows <= std::max(kSmall, kCellsACurve * curves);
-}
-
 }  // namespace
 
 core::Result<CurveMap> CurveMap::load(const std::string& path, const Progress& progress) {
@@ -107,7 +101,7 @@ core::Result<CurveMap> CurveMap::load(const std::string& path, const Progress& p
   CurveMap map;
   map.path_ = path;
   map.grid_ = first->pixel->grid;
-  if (!is_dense(map.grid_, seen.size())) {
+  if (!is_map_of(seen.size(), map.grid_)) {
     return no_map(path, fmt::format("it has {} curves on a grid of {} x {} pixels", seen.size(), map.grid_.columns,
                                     map.grid_.rows));
   }
@@ -120,6 +114,10 @@ core::Result<CurveMap> CurveMap::load(const std::string& path, const Progress& p
     map.indexes_[cell] = static_cast<std::uint32_t>(i);
   }
   return map;
+}
+
+std::size_t CurveMap::pixels_with_curve() const {
+  return indexes_.size() - static_cast<std::size_t>(std::count(indexes_.begin(), indexes_.end(), kNoCurve));
 }
 
 MapPlace CurveMap::middle() const {

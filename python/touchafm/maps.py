@@ -57,7 +57,7 @@ def _places(curves: Sequence[Curve]) -> tuple[tuple[int, int], list[tuple[int, i
     if len(grids) != 1:
         raise ValueError(f"the curves are of {len(grids)} grids; give those of one map")
     columns, rows = next(iter(grids))
-    if columns * rows > max(4096, 16 * len(curves)):
+    if columns * rows > max(512 * 512, 16 * len(curves)):
         raise ValueError(f"{len(curves)} curves on a grid of {columns} x {rows} pixels are no map")
     pixels = [curve.metadata["pixel"] for curve in curves]
     return (rows, columns), [(rows - 1 - row, column) for column, row in pixels]

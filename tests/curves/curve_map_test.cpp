@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -116,6 +117,21 @@ TEST_F(ForceMap, RefusesAPixelThatItLacks) {
   EXPECT_EQ(hole.error().category, ErrorCategory::BadInputFile);
   EXPECT_THAT(hole.error().message, HasSubstr("has no curve at pixel 2,0"));
   EXPECT_TRUE(std::isnan(map->heights_m()[5]));
+}
+
+// As of a few curves extracted from a map of quantitative imaging.
+TEST_F(ForceMap, OfAFewCurvesOnALargeGridHasPixelsWithoutOne) {
+  const auto map = load(test::on_finer_grid(test::jpk_map(test::sticky_curve), 129));
+  EXPECT_EQ(map->grid().columns, 387U);
+  EXPECT_EQ(map->grid().rows, 258U);
+  EXPECT_EQ(map->pixels_with_curve(), 6U);
+  const auto& heights = map->heights_m();
+  EXPECT_EQ(std::count_if(heights.begin(), heights.end(), [](double m) { return std::isfinite(m); }), 6);
+  EXPECT_TRUE(map->has_curve(map->middle()));
+  EXPECT_TRUE(map->material({129 * 2 + 64, 64}, mica()));
+  EXPECT_THAT(map->material({0, 0}, mica()).error().message, HasSubstr("has no curve at pixel 0,0"));
+  EXPECT_THAT(refusal(write(test::on_finer_grid(test::jpk_map(test::sticky_curve), 1025))).message,
+              HasSubstr("it has 6 curves on a grid of 3075 x 2050 pixels"));
 }
 
 TEST_F(ForceMap, RefusesAPixelWithoutContactWithTheReason) {

@@ -170,13 +170,24 @@ TEST(NanoscopeCurve, TakesACalibrationThatItDoesNotHold) {
   EXPECT_DOUBLE_EQ(read(usual(), reading).points[kPoints - 1].force.si, 500 * kLsb_v * 50e-9 * 0.1);
 }
 
+TEST(NanoscopeCurve, NamesASensitivityWithoutAUnit) {
+  Ramp ramp = usual();
+  ramp.sensitivity = "\\@Sens. DeflSens: V 27.39000 \r\n";
+  EXPECT_THAT(refusal(file_of(ramp)), HasSubstr("give --sensitivity (its \"Sens. DeflSens\" of 27.39 has no unit)"));
+}
+
+TEST(NanoscopeCurve, IsNoVolumeForTheImageThatItsPlaceWasChosenIn) {
+  Ramp ramp = usual();
+  ramp.other = "\\force/line: 16\r\n\\*Ciao image list\r\n\\Samps/line: 64\r\n\\Number of lines: 64\r\n";
+  EXPECT_FALSE(read(ramp).metadata.pixel);
+}
+
 TEST(NanoscopeCurve, RefusesWhatItDoesNotUnderstand) {
   const auto changed = [](const auto& change) {
     Ramp ramp = usual();
     change(ramp);
     return refusal(file_of(ramp));
   };
-  EXPECT_THAT(changed([](Ramp& r) { r.other = "\\*Ciao image list\r\n"; }), HasSubstr("force volume of many curves"));
   EXPECT_THAT(changed([](Ramp& r) { r.channels[0].integers.resize(60); }), HasSubstr("120 bytes, which are not two"));
   EXPECT_THAT(changed([](Ramp& r) { r.channels[0].scale = "C none"; }), HasSubstr("no \"@4:Z scale\""));
   EXPECT_THAT(changed([](Ramp& r) { r.list.clear(); }), HasSubstr("neither a channel of the height nor"));

@@ -77,8 +77,8 @@ struct NanosurfChannel {
   std::string numbers = little_numbers<std::int16_t>({1, 2, 3, 10, 20, -30});
 };
 
-// Every channel is in a separate group, whose count includes one channel that was not saved.
-inline std::string nanosurf_file(const std::vector<NanosurfChannel>& channels) {
+// Every channel is in a separate group, whose count includes one channel that was not saved. `more` are other sections.
+inline std::string nanosurf_file(const std::vector<NanosurfChannel>& channels, const std::string& more = "") {
   std::string set = "[DataSet]\r\nVersion=2\r\nGroupCount=" + std::to_string(channels.size()) + "\r\n";
   std::string sections, data;
   for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -93,7 +93,8 @@ inline std::string nanosurf_file(const std::vector<NanosurfChannel>& channels) {
                 "\r\nDim2Min=" + channel.lowest + "\r\n" + channel.save;
     data += channel.numbers;
   }
-  return set + "\r\n[DataSet-Info]\r\n-- Scan --=--------\r\nHead type=EZ2-AFM\r\n" + sections + "\r\n\r\n#!" + data;
+  return set + "\r\n[DataSet-Info]\r\n-- Scan --=--------\r\nHead type=EZ2-AFM\r\n" + sections + more + "\r\n\r\n#!" +
+         data;
 }
 
 }  // namespace afm::test

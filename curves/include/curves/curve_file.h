@@ -19,17 +19,18 @@ namespace afm::curves {
 enum class CurveFormat {
   TouchAfmCsv,     // output of `touchafm curve`
   Tab,             // afmformats, text
-  Hdf5,            // afmformats, HDF5
+  Hdf5,            // afmformats, HDF5; Nanosurf Studio's .nhf, read only
   JpkForce,        // JPK's .jpk-force and its maps; read only
   AfmWorkshop,     // AFM Workshop's .csv; Gwyddion reads it too
-  NanoscopeForce,  // Bruker's single ramps, .spm, .000, .pfc; read only
+  NanoscopeForce,  // Bruker's ramps and force volumes, .spm, .000, .pfc; read only
+  Nanosurf,        // Nanosurf's spectroscopy, .nid; read only
   IgorBinaryWave,  // Asylum Research's .ibw; read only
 };
 
 // All formats, for help and error messages.
 inline constexpr const char* kCurveFiles =
     "TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, .jpk-force-map or .jpk-qi-data, "
-    "Nanoscope .spm or .000, Igor .ibw";
+    "Nanoscope .spm or .000, Nanosurf .nid or .nhf, Igor .ibw";
 
 // Returns whether a regular file begins like a curve.
 bool is_curve_file(const std::string& path);

@@ -32,6 +32,9 @@ class CurveMap {
   const std::string& path() const { return path_; }
   const MapGrid& grid() const { return grid_; }
 
+  // Number of pixels with a curve.
+  std::size_t pixels_with_curve() const;
+
   // Height of the lever's base where each curve was pressed hardest, metres, row by row from the top; NaN: no curve.
   const std::vector<double>& heights_m() const { return heights_m_; }
 

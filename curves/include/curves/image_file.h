@@ -19,13 +19,14 @@ enum class ImageFormat {
   Nanoscope,  // Bruker, .spm, .001
   Igor,       // Asylum Research, .ibw
   Nanosurf,   // Nanosurf, .nid
+  Nhf,        // Nanosurf Studio, .nhf
   Park,       // Park Systems, .tiff
   Jpk         // JPK, .jpk
 };
 
 // All of them, as help and refusals list them.
 inline constexpr const char* kImageFiles =
-    "Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, Nanosurf .nid, Park .tiff, JPK .jpk";
+    "Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, Nanosurf .nid or .nhf, Park .tiff, JPK .jpk";
 
 // "Nanoscope", for use in a sentence.
 std::string_view name_of(ImageFormat format);

@@ -33,6 +33,10 @@ struct MapPixel {
   std::size_t column = 0, row = 0;
 };
 
+// Whether a file of so many curves may claim a map of this grid: of up to 512 x 512 pixels, most of which may lack a
+// curve, or of 16 for each curve. The grid is the file's word: one curve must not claim the memory of a million.
+bool is_map_of(std::size_t curves, const MapGrid& grid);
+
 // Pixel of a grid that is turned by `turn_rad` about its center, counterclockwise, with `reflected` rows from the top.
 // Empty outside the grid.
 std::optional<MapPixel> pixel_at(const CurvePosition& position, const MapGrid& grid, double turn_rad = 0,

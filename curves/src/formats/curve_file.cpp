@@ -26,6 +26,8 @@
 #include "formats/igor_wave.h"
 #include "formats/jpk_file.h"
 #include "formats/nanoscope_curve.h"
+#include "formats/nanosurf_curve.h"
+#include "formats/nanosurf_header.h"
 #include "formats/segments.h"
 #include "formats/tab_file.h"
 #include "formats/touchafm_csv_file.h"
@@ -64,8 +66,10 @@ std::string hdf5_bytes(std::span<const RecordedCurve> curves) {
   return from_confined_program(kHdf5Program, {"write"}, tabs, "HDF5 could not make it", kMapTime);
 }
 
-RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
-  const JpkArchive archive(bytes);
+// A curve of a format whose files may hold several.
+template <class Archive>
+RecordedCurve read_one(std::string_view bytes, const CurveReading& reading) {
+  const Archive archive(bytes);
   if (reading.index >= archive.size()) {
     throw CurveError(fmt::format("it has no curve {}; it has {}, counted from 0", reading.index, archive.size()));
   }
@@ -74,7 +78,9 @@ RecordedCurve read_jpk(std::string_view bytes, const CurveReading& reading) {
   return curve;
 }
 
-constexpr SeriesRow kHdf5Series{count_hdf5, stream_hdf5, hdf5_bytes}, kJpkSeries = series_of<JpkArchive>();
+constexpr SeriesRow kHdf5Series{count_hdf5, stream_hdf5, hdf5_bytes}, kJpkSeries = series_of<JpkArchive>(),
+                                                                      kNanoscopeSeries = series_of<NanoscopeCurves>(),
+                                                                      kNanosurfSeries = series_of<NanosurfCurves>();
 
 enum class Reader { Ours, Foreign };  // Foreign: formats of other programs, read in a confined child
 
@@ -107,15 +113,17 @@ constexpr FormatTable kCurves{
                  [](std::string_view b) { return b.starts_with("\x89HDF\r\n\x1a\n"); }, Reader::Ours, &kHdf5Series,
                  read_hdf5, [](const RecordedCurve& curve) { return hdf5_bytes({&curve, 1}); }, true},
         CurveRow{CurveFormat::JpkForce, "JPK .jpk-force, .jpk-force-map or .jpk-qi-data", "", "",
-                 [](std::string_view b) { return b.starts_with("PK\x03\x04"); }, Reader::Foreign, &kJpkSeries, read_jpk,
-                 nullptr},
+                 [](std::string_view b) { return b.starts_with("PK\x03\x04"); }, Reader::Foreign, &kJpkSeries,
+                 read_one<JpkArchive>, nullptr},
         CurveRow{
             CurveFormat::AfmWorkshop, "AFM Workshop .csv", "afm-workshop", ".csv",
             [](std::string_view b) { return b.substr(0, 64).find("Force-Distance Curve") != std::string_view::npos; },
             Reader::Foreign, nullptr, read_workshop, workshop_bytes},
         CurveRow{CurveFormat::NanoscopeForce, "Nanoscope .spm or .000", "", "",
-                 [](std::string_view b) { return b.starts_with(kNanoscopeForceMagic); }, Reader::Foreign, nullptr,
-                 read_nanoscope_curve, nullptr},
+                 [](std::string_view b) { return b.starts_with(kNanoscopeForceMagic); }, Reader::Foreign,
+                 &kNanoscopeSeries, read_one<NanoscopeCurves>, nullptr},
+        CurveRow{CurveFormat::Nanosurf, "Nanosurf .nid", "", "", has_nanosurf_spectroscopy, Reader::Foreign,
+                 &kNanosurfSeries, read_one<NanosurfCurves>, nullptr},
         CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", "", looks_like_igor, Reader::Foreign, nullptr, read_igor,
                  nullptr}}};
 // Not known by its content: the user says what it is.

@@ -30,24 +30,16 @@ using NanoscopeBlocks = std::vector<NanoscopeBlock>;
 constexpr std::string_view kForceChannel = "ciao force image list", kForceList = "ciao force list";
 constexpr std::array<std::size_t, 2> kIntegerSizes{2, 4};
 
-// The name in S [DeflectionError] "Deflection Error".
-std::string_view channel_name(const NanoscopeBlock& channel) {
-  for (const char* key : {"@4:image data", "@2:image data"}) {
-    const std::string_view* data = channel.find(key);
-    if (data == nullptr) continue;
-    const std::size_t open = data->find('"'), close = data->rfind('"');
-    if (open != std::string_view::npos && close > open) return data->substr(open + 1, close - open - 1);
-  }
-  return {};
+// Integers of two bytes may be stored in four.
+bool has_two_bytes(const NanoscopeBlock& channel) {
+  const std::string_view* text = channel.find("bytes/pixel");
+  return text != nullptr && trimmed(*text) == "2";
 }
 
 std::vector<const NanoscopeBlock*> force_channels(const NanoscopeBlocks& blocks) {
   std::vector<const NanoscopeBlock*> channels;
   for (const NanoscopeBlock& block : blocks) {
     if (lower_key(block.name) == kForceChannel) channels.push_back(&block);
-    if (lower_key(block.name) == "ciao image list") {
-      throw CurveError("it is a Nanoscope force volume of many curves; export one of them as a single curve");
-    }
   }
   return channels;
 }
@@ -56,72 +48,10 @@ std::vector<const NanoscopeBlock*> force_channels(const NanoscopeBlocks& blocks)
 const NanoscopeBlock* channel_named(const std::vector<const NanoscopeBlock*>& channels,
                                     std::initializer_list<std::string_view> names) {
   const auto found = std::find_if(channels.begin(), channels.end(), [&](const NanoscopeBlock* channel) {
-    const std::string own = lower_key(channel_name(*channel));
+    const std::string own = lower_key(nanoscope_channel(*channel));
     return std::any_of(names.begin(), names.end(), [&](std::string_view name) { return own.starts_with(name); });
   });
   return found != channels.end() ? *found : nullptr;
-}
-
-struct BranchLengths {
-  std::size_t extend = 0, retract = 0;
-  std::size_t longer() const { return std::max(extend, retract); }
-};
-
-// "512 512", or one number for both.
-BranchLengths branch_lengths(const NanoscopeBlock& channel) {
-  const std::string_view* text = channel.find("samps/line");
-  if (text == nullptr) throw CurveError("a channel of it has no \"Samps/line\"");
-  std::string_view rest = *text;
-  const auto length_in = [&](std::optional<double> number) {
-    if (!number || !(*number >= 2.0 && *number <= static_cast<double>(kMostCurvePoints)) ||
-        *number != std::floor(*number)) {
-      throw CurveError(
-          fmt::format("its branches have \"{}\" points; 2 to {} are read", text->substr(0, 40), kMostCurvePoints));
-    }
-    return static_cast<std::size_t>(*number);
-  };
-  const std::size_t retract = length_in(take_number(rest));
-  return {trimmed(rest).empty() ? retract : length_in(take_number(rest)), retract};
-}
-
-// The integers of both branches in the order of time.
-struct ChannelIntegers {
-  std::vector<double> extend, retract;  // NaN: not recorded
-  std::size_t integer_size = 0;
-};
-
-template <class Integer>
-std::vector<double> branch_integers(std::string_view data, std::size_t count) {
-  std::vector<double> values;
-  values.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto integer = number_at<Integer>(data, i * sizeof(Integer));
-    const bool recorded = integer != std::numeric_limits<Integer>::min();
-    values.push_back(recorded ? static_cast<double>(integer) : std::numeric_limits<double>::quiet_NaN());
-  }
-  return values;
-}
-
-ChannelIntegers channel_integers(std::string_view bytes, const NanoscopeBlock& channel, const BranchLengths& lengths) {
-  const double offset = nanoscope_number(channel, "data offset"), length = nanoscope_number(channel, "data length");
-  const std::size_t points = 2 * lengths.longer();
-  const auto size = std::find_if(kIntegerSizes.begin(), kIntegerSizes.end(),
-                                 [&](std::size_t each) { return length == static_cast<double>(points * each); });
-  if (size == kIntegerSizes.end()) {
-    throw CurveError(
-        fmt::format("its channel {} has {:g} bytes, which are not two branches of {} points: single ramps without a "
-                    "hold are read, no force volumes",
-                    channel_name(channel), length, lengths.longer()));
-  }
-  if (!(offset >= 0.0 && offset <= static_cast<double>(bytes.size()))) throw CutShort("it is cut short");
-  const std::string_view data = part(bytes, static_cast<std::size_t>(offset), points * *size);
-  const std::string_view far_half = data.substr(data.size() / 2);
-  const auto branch = [&](std::string_view half, std::size_t count) {
-    return *size == 2 ? branch_integers<std::int16_t>(half, count) : branch_integers<std::int32_t>(half, count);
-  };
-  ChannelIntegers integers{branch(data, lengths.extend), branch(far_half, lengths.retract), *size};
-  std::reverse(integers.extend.begin(), integers.extend.end());
-  return integers;
 }
 
 // The value of one integer, before any sensitivity. The header prints it rounded, and its full range exactly, which in
@@ -129,7 +59,7 @@ ChannelIntegers channel_integers(std::string_view bytes, const NanoscopeBlock& c
 double value_per_integer(const NanoscopeBlock& channel, std::size_t integer_size) {
   const auto scale = hard_scale(channel.find("@4:z scale"));
   if (!scale || (!scale->per_lsb && !scale->value)) {
-    throw CurveError(fmt::format("its channel {} has no \"@4:Z scale\"", channel_name(channel)));
+    throw CurveError(fmt::format("its channel {} has no \"@4:Z scale\"", nanoscope_channel(channel)));
   }
   constexpr double kRounding = 0.01;
   const double unit = scaled_unit(scale->unit).factor;
@@ -160,41 +90,12 @@ double ramp_length_m(const NanoscopeBlock& channel, const NanoscopeBlocks& block
   throw CurveError("it has neither a channel of the height nor a \"Ramp size\"");
 }
 
-// Heights of the base in the order of time, falling while the tip approaches.
-std::pair<std::vector<double>, std::vector<double>> ramp_heights(std::string_view bytes, const NanoscopeBlock* sensor,
-                                                                 const NanoscopeBlock& deflection,
-                                                                 const NanoscopeBlocks& blocks,
-                                                                 const BranchLengths& lengths) {
-  std::vector<double> extend, retract;
-  if (sensor == nullptr) {
-    const double step_m = ramp_length_m(deflection, blocks) / static_cast<double>(lengths.longer());
-    for (std::size_t i = lengths.extend; i-- > 0;) extend.push_back(static_cast<double>(i) * step_m);
-    for (std::size_t i = 0; i < lengths.retract; ++i) retract.push_back(static_cast<double>(i) * step_m);
-    return {extend, retract};
-  }
-  const auto scale = hard_scale(sensor->find("@4:z scale"));
-  const auto per_volt = scale ? length_sensitivity(blocks, scale->soft_name) : std::nullopt;
-  if (!per_volt)
-    throw CurveError(fmt::format("it does not say how to convert its {} to metres", channel_name(*sensor)));
-  ChannelIntegers integers = channel_integers(bytes, *sensor, lengths);
-  double factor = value_per_integer(*sensor, integers.integer_size) * *per_volt;
-  // the sensor may count towards the sample
-  const auto recorded = [](double value) { return !std::isnan(value); };
-  const auto first = std::find_if(integers.extend.begin(), integers.extend.end(), recorded);
-  const auto last = std::find_if(integers.extend.rbegin(), integers.extend.rend(), recorded);
-  if (first != integers.extend.end() && factor * (*last - *first) > 0.0) factor = -factor;
-  for (auto* branch : {&integers.extend, &integers.retract}) {
-    for (double& value : *branch) value *= factor;
-  }
-  return {std::move(integers.extend), std::move(integers.retract)};
-}
-
 // The file's calibration, otherwise that of `reading`, which both are written into the metadata.
 double newton_per_volt(const NanoscopeBlock& deflection, const NanoscopeBlocks& blocks, const CurveReading& reading,
                        CurveMetadata& metadata) {
   const auto scale = hard_scale(deflection.find("@4:z scale"));
-  metadata.sensitivity_m_per_v =
-      length_sensitivity(blocks, scale && !scale->soft_name.empty() ? scale->soft_name : "Sens. DeflSens");
+  const std::string_view sensitivity = scale && !scale->soft_name.empty() ? scale->soft_name : "Sens. DeflSens";
+  metadata.sensitivity_m_per_v = length_sensitivity(blocks, sensitivity);
   if (deflection.find("spring constant") != nullptr) {
     const double k = nanoscope_number(deflection, "spring constant");
     if (k != 0.0) metadata.spring_constant = physics::Stiffness(k);
@@ -203,8 +104,12 @@ double newton_per_volt(const NanoscopeBlock& deflection, const NanoscopeBlocks& 
   if (!metadata.spring_constant) metadata.spring_constant = reading.spring_constant;
   const bool no_sensitivity = !metadata.sensitivity_m_per_v, no_spring = !metadata.spring_constant;
   if (no_sensitivity || no_spring) {
-    throw CurveError(fmt::format("its lever is not calibrated; give {}{}{}", no_spring ? "--spring-constant" : "",
-                                 no_spring && no_sensitivity ? " and " : "", no_sensitivity ? "--sensitivity" : ""));
+    const auto bare = soft_scale(blocks, sensitivity, "V");  // some files leave its unit out
+    const bool has_bare = no_sensitivity && bare && bare->unit.empty() && bare->factor != 1.0;
+    throw CurveError(
+        fmt::format("its lever is not calibrated; give {}{}{}{}", no_spring ? "--spring-constant" : "",
+                    no_spring && no_sensitivity ? " and " : "", no_sensitivity ? "--sensitivity" : "",
+                    has_bare ? fmt::format(" (its \"{}\" of {:g} has no unit)", sensitivity, bare->factor) : ""));
   }
   return *metadata.sensitivity_m_per_v * metadata.spring_constant->si;
 }
@@ -251,42 +156,183 @@ CurveMetadata nanoscope_metadata(const NanoscopeBlocks& blocks) {
 
 }  // namespace
 
-RecordedCurve read_nanoscope_curve(std::string_view bytes, const CurveReading& reading) {
-  const NanoscopeBlocks blocks = nanoscope_blocks(bytes);
-  const auto channels = force_channels(blocks);
-  const NanoscopeBlock* deflection = channel_named(channels, {"deflection"});
-  if (deflection == nullptr) {
+// Integers or heights of both branches, in the order of time; NaN: not recorded.
+struct NanoscopeCurves::Signal {
+  std::vector<double> extend, retract;
+  std::size_t integer_size = 0;
+};
+
+std::size_t NanoscopeCurves::Lengths::longer() const { return std::max(extend, retract); }
+
+// "512 512", or one number for both.
+NanoscopeCurves::Lengths NanoscopeCurves::lengths_of(const NanoscopeBlock& channel) {
+  const std::string_view* text = channel.find("samps/line");
+  if (text == nullptr) throw CurveError("a channel of it has no \"Samps/line\"");
+  std::string_view rest = *text;
+  const auto length_in = [&](std::optional<double> number) {
+    if (!number || !(*number >= 2.0 && *number <= static_cast<double>(kMostCurvePoints)) ||
+        *number != std::floor(*number)) {
+      throw CurveError(
+          fmt::format("its branches have \"{}\" points; 2 to {} are read", text->substr(0, 40), kMostCurvePoints));
+    }
+    return static_cast<std::size_t>(*number);
+  };
+  const std::size_t retract = length_in(take_number(rest));
+  return {trimmed(rest).empty() ? retract : length_in(take_number(rest)), retract};
+}
+
+NanoscopeCurves::NanoscopeCurves(std::string_view bytes) : bytes_(bytes), blocks_(nanoscope_blocks(bytes)) {
+  const auto channels = force_channels(blocks_);
+  deflection_ = channel_named(channels, {"deflection"});
+  if (deflection_ == nullptr) {
     std::string names;
     for (const NanoscopeBlock* channel : channels) {
-      names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", channel_name(*channel).substr(0, 40));
+      names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", nanoscope_channel(*channel).substr(0, 40));
       if (names.size() > 200) break;
     }
     throw CurveError(fmt::format("it is a Nanoscope force curve without a deflection; its channels are {}",
                                  names.empty() ? "none" : names));
   }
-  const BranchLengths lengths = branch_lengths(*deflection);
-  RecordedCurve curve{{}, {}, nanoscope_metadata(blocks)};
-  const double per_volt = newton_per_volt(*deflection, blocks, reading, curve.metadata);
-  const ChannelIntegers volts = channel_integers(bytes, *deflection, lengths);
-  const double factor = value_per_integer(*deflection, volts.integer_size) * per_volt;
-  const auto [extend_m, retract_m] = ramp_heights(
-      bytes, channel_named(channels, {"height sensor", "zsensor", "z sensor"}), *deflection, blocks, lengths);
+  sensor_ = channel_named(channels, {"height sensor", "zsensor", "z sensor"});
+  lengths_ = lengths_of(*deflection_);
+  volume_ = nanoscope_volume(bytes, blocks_);
+  const double length = nanoscope_number(*deflection_, "data length");
+  const auto holds = [&](std::size_t curves, std::size_t size) {
+    return length == static_cast<double>(curves * 2 * lengths_.longer() * size);
+  };
+  // a ramp may have the image beside it in which its place was chosen
+  if (holds(1, kIntegerSizes.front()) || holds(1, kIntegerSizes.back())) volume_.reset();
+  if (!volume_) return;
+  for (const NanoscopeBlock& block : blocks_) {
+    const std::string_view* capture = block.find("peakforce capture");
+    if (capture != nullptr && *capture == "Allow") {
+      throw CurveError("its curves are those of PeakForce tapping, whose base swings; force volumes of ramps are read");
+    }
+  }
+  if (volume_->columns > 0 && volume_->rows > 0) {
+    count_ = volume_->columns * volume_->rows;
+    return;
+  }
+  // without a grid, as many as its data hold
+  const double curve = 2.0 * static_cast<double>(lengths_.longer() * nanoscope_integers(*deflection_, blocks_).size);
+  const double count = length / curve;
+  if (!(count >= 1.0 && count <= static_cast<double>(kMostMapSide * kMostMapSide)) || count != std::floor(count)) {
+    throw CurveError(fmt::format("its data are {:g} curves of two branches of {} points", count, lengths_.longer()));
+  }
+  count_ = static_cast<std::size_t>(count);
+}
+
+std::size_t NanoscopeCurves::integer_size(const NanoscopeBlock& channel) const {
+  const double length = nanoscope_number(channel, "data length");
+  const std::size_t points = 2 * lengths_.longer();
+  const auto size = std::find_if(kIntegerSizes.begin(), kIntegerSizes.end(), [&](std::size_t each) {
+    return length == static_cast<double>(count_ * points * each);
+  });
+  if (size != kIntegerSizes.end()) return *size;
+  const std::string curves =
+      volume_ ? fmt::format("{} x {} curves of ", volume_->columns, volume_->rows) : std::string();
+  throw CurveError(
+      fmt::format("its channel {} has {:g} bytes, which are not {}two branches of {} points; ramps with a hold, and "
+                  "volumes that were stopped, are not read",
+                  nanoscope_channel(channel), length, curves, lengths_.longer()));
+}
+
+NanoscopeCurves::Signal NanoscopeCurves::signal(const NanoscopeBlock& channel, std::size_t index) const {
+  const std::size_t size = integer_size(channel), half = lengths_.longer();
+  const double offset = nanoscope_number(channel, "data offset");
+  if (!(offset >= 0.0 && offset <= static_cast<double>(bytes_.size()))) throw CutShort("it is cut short");
+  const std::string_view all = part(bytes_, static_cast<std::size_t>(offset), count_ * 2 * half * size);
+  const std::string_view data = all.substr(index * 2 * half * size, 2 * half * size);
+  const double lowest = -0.5 * std::pow(256.0, static_cast<double>(size));
+  const double lowest_of_two = has_two_bytes(channel) ? std::numeric_limits<std::int16_t>::min() : lowest;
+  const auto branch = [&](std::size_t first, std::size_t count) {
+    std::vector<double> values;
+    values.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double integer = nanoscope_integer(data, first + i, size);
+      if (volume_ && std::abs(integer) > -lowest_of_two) {
+        throw CurveError(fmt::format(
+            "its channel {} has numbers of more than the two bytes that its header states: was its header altered?",
+            nanoscope_channel(channel)));
+      }
+      const bool recorded = integer != lowest && integer != lowest_of_two;
+      values.push_back(recorded ? integer : std::numeric_limits<double>::quiet_NaN());
+    }
+    return values;
+  };
+  Signal integers{branch(0, lengths_.extend), branch(half, lengths_.retract), size};
+  std::reverse(integers.extend.begin(), integers.extend.end());
+  return integers;
+}
+
+// Heights of the base, falling while the tip approaches.
+NanoscopeCurves::Signal NanoscopeCurves::heights(std::size_t index) const {
+  if (sensor_ == nullptr) {
+    const double step_m = ramp_length_m(*deflection_, blocks_) / static_cast<double>(lengths_.longer());
+    const double lowest_m = volume_ ? volume_->surface_m(index) : 0.0;
+    Signal ramp;
+    for (std::size_t i = lengths_.extend; i-- > 0;) ramp.extend.push_back(lowest_m + static_cast<double>(i) * step_m);
+    for (std::size_t i = 0; i < lengths_.retract; ++i) {
+      ramp.retract.push_back(lowest_m + static_cast<double>(i) * step_m);
+    }
+    return ramp;
+  }
+  const auto scale = hard_scale(sensor_->find("@4:z scale"));
+  const auto per_volt = scale ? length_sensitivity(blocks_, scale->soft_name) : std::nullopt;
+  if (!per_volt)
+    throw CurveError(fmt::format("it does not say how to convert its {} to metres", nanoscope_channel(*sensor_)));
+  Signal heights = signal(*sensor_, index);
+  double factor = value_per_integer(*sensor_, heights.integer_size) * *per_volt;
+  // the sensor may count towards the sample
+  const auto recorded = [](double value) { return !std::isnan(value); };
+  const auto first = std::find_if(heights.extend.begin(), heights.extend.end(), recorded);
+  const auto last = std::find_if(heights.extend.rbegin(), heights.extend.rend(), recorded);
+  if (first != heights.extend.end() && factor * (*last - *first) > 0.0) factor = -factor;
+  for (auto* branch : {&heights.extend, &heights.retract}) {
+    for (double& value : *branch) value *= factor;
+  }
+  return heights;
+}
+
+// Pixel of a force volume's curve, and its position unless the scan was rotated.
+void NanoscopeCurves::place(std::size_t index, RecordedCurve& curve) const {
+  if (!volume_) return;
+  for (const std::string& remark : volume_->remarks) curve.metadata.remarks.push_back(remark);
+  if (!volume_->grid) return;
+  const MapGrid& grid = *volume_->grid;
+  const std::size_t column = index % grid.columns, row = index / grid.columns;
+  curve.metadata.pixel = MapPixel{grid, column, row};
+  if (volume_->turn_deg != 0.0) return;
+  const auto at = [](std::size_t place, std::size_t count, double side_m, double center_m) {
+    return center_m + side_m * ((static_cast<double>(place) + 0.5) / static_cast<double>(count) - 0.5);
+  };
+  curve.metadata.position = CurvePosition{at(column, grid.columns, grid.width_m, grid.center_x_m),
+                                          at(row, grid.rows, grid.height_m, grid.center_y_m)};
+}
+
+RecordedCurve NanoscopeCurves::curve(std::size_t index, const CurveReading& reading) const {
+  RecordedCurve curve{{}, {}, nanoscope_metadata(blocks_)};
+  const double per_volt = newton_per_volt(*deflection_, blocks_, reading, curve.metadata);
+  const Signal volts = signal(*deflection_, index), z = heights(index);
+  const double factor = value_per_integer(*deflection_, volts.integer_size) * per_volt;
   std::size_t unrecorded = 0;
-  const auto add_branch = [&](const std::vector<double>& z, const std::vector<double>& signal, physics::Branch branch) {
-    for (std::size_t i = 0; i < z.size(); ++i) {
-      if (std::isnan(z[i]) || std::isnan(signal[i])) {
+  const auto add_branch = [&](const std::vector<double>& z_m, const std::vector<double>& values,
+                              physics::Branch branch) {
+    for (std::size_t i = 0; i < z_m.size(); ++i) {
+      if (std::isnan(z_m[i]) || std::isnan(values[i])) {
         ++unrecorded;
         continue;
       }
-      curve.points.push_back({physics::Length(z[i]), physics::Force(factor * signal[i]), branch});
+      curve.points.push_back({physics::Length(z_m[i]), physics::Force(factor * values[i]), branch});
     }
   };
-  add_branch(extend_m, volts.extend, physics::Branch::Approach);
-  add_branch(retract_m, volts.retract, physics::Branch::Retract);
+  add_branch(z.extend, volts.extend, physics::Branch::Approach);
+  add_branch(z.retract, volts.retract, physics::Branch::Retract);
   if (unrecorded > 0) {
     curve.metadata.remarks.push_back(fmt::format("{} of its {} points were not recorded: they are left out", unrecorded,
                                                  unrecorded + curve.points.size()));
   }
+  place(index, curve);
   return curve;
 }
 

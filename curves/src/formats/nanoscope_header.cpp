@@ -68,6 +68,16 @@ std::vector<NanoscopeBlock> nanoscope_blocks(std::string_view bytes) {
   return blocks;
 }
 
+std::string_view nanoscope_channel(const NanoscopeBlock& channel) {
+  for (const char* key : {"@4:image data", "@2:image data"}) {
+    const std::string_view* data = channel.find(key);
+    if (data == nullptr) continue;
+    const std::size_t open = data->find('"'), close = data->rfind('"');
+    if (open != std::string_view::npos && close > open) return data->substr(open + 1, close - open - 1);
+  }
+  return {};
+}
+
 std::uint32_t nanoscope_version(const std::vector<NanoscopeBlock>& blocks) {
   for (const NanoscopeBlock& block : blocks) {
     const std::string_view* text = block.find("version");

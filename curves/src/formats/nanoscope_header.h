@@ -27,6 +27,9 @@ std::string lower_key(std::string_view text);
 
 std::vector<NanoscopeBlock> nanoscope_blocks(std::string_view bytes);
 
+// The name "Deflection Error" in S [DeflectionError] "Deflection Error"; empty without one.
+std::string_view nanoscope_channel(const NanoscopeBlock& channel);
+
 // Version, such as 0x09300201; 0 if no block has it.
 std::uint32_t nanoscope_version(const std::vector<NanoscopeBlock>& blocks);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "curves/recorded_curve.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -17,6 +18,11 @@ RecordedCurve recorded_curve(const physics::ForceCurve& curve, physics::Stiffnes
   recorded.metadata.software = kComputedBy;
   recorded.metadata.software_version = core::kVersion;
   return recorded;
+}
+
+bool is_map_of(std::size_t curves, const MapGrid& grid) {
+  constexpr std::size_t kSmall = std::size_t{512} * 512, kPixelsACurve = 16;
+  return grid.columns * grid.rows <= std::max(kSmall, kPixelsACurve * curves);
 }
 
 std::optional<MapPixel> pixel_at(const CurvePosition& position, const MapGrid& grid, double turn_rad, bool reflected) {

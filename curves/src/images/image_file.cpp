@@ -19,6 +19,7 @@
 #include "curves/curve_file.h"
 #include "formats/format_table.h"
 #include "formats/igor_wave.h"
+#include "formats/nanosurf_header.h"
 #include "images/gsf_image.h"
 #include "images/gwy_image.h"
 #include "images/igor_image.h"
@@ -26,13 +27,14 @@
 #include "images/jpk_image.h"
 #include "images/nanoscope_image.h"
 #include "images/nanosurf_image.h"
+#include "images/nhf_pages.h"
 #include "images/park_image.h"
 
 namespace afm::curves {
 
 namespace {
 
-constexpr std::size_t kLongestBeginning = 512;
+constexpr std::size_t kLongestBeginning = 65536;
 constexpr std::size_t kMostTextBytes = 4096;  // limit for a name, a key or a value
 
 struct FormatRow {
@@ -41,6 +43,7 @@ struct FormatRow {
   std::string_view files;  // as kImageFiles lists them
   bool (*begins)(std::string_view bytes);
   ImagePages (*read)(std::string_view bytes);
+  std::string (*convert)(std::string_view bytes) = nullptr;  // makes what `read` gets in a confined program; null: none
 };
 
 constexpr FormatTable kImages{
@@ -62,7 +65,9 @@ constexpr FormatTable kImages{
         FormatRow{ImageFormat::Igor, "Igor", "Igor .ibw",
                   [](std::string_view b) { return looks_like_igor_image(b) || is_old_igor(b); }, read_igor_image},
         FormatRow{ImageFormat::Nanosurf, "Nanosurf", "Nanosurf .nid",
-                  [](std::string_view b) { return b.starts_with(kNanosurfMagic); }, read_nanosurf_image},
+                  [](std::string_view b) { return b.starts_with(kNanosurfMagic) && !is_nanosurf_spectroscopy(b); },
+                  read_nanosurf_image},
+        FormatRow{ImageFormat::Nhf, "Nanosurf", ".nhf", begins_as_nhf, read_nhf_pages, nhf_as_gwy},
         FormatRow{ImageFormat::Park, "Park", "Park .tiff", looks_like_park, read_park_image},
         FormatRow{ImageFormat::Jpk, "JPK", "JPK .jpk", looks_like_tiff, read_jpk_image}}};
 static_assert(core::has_row_for_each(kImages.rows, &FormatRow::format));
@@ -350,8 +355,10 @@ core::Result<LoadedImage> load_image(const std::string& path, const ImageReading
 
 core::Result<LoadedImage> parse_image(std::string_view bytes, const std::string& name, const ImageReading& reading) {
   return kImages.parse(bytes, name, [&](const FormatRow& row, std::string_view text) {
+    const std::string converted = row.convert != nullptr ? row.convert(text) : std::string();
+    const std::string_view readable = row.convert != nullptr ? std::string_view(converted) : text;
     LoadedImage loaded = read_confined(
-        reading.confined, [&] { return assembled(row.read(text), reading.channel, row.format); }, handed_over,
+        reading.confined, [&] { return assembled(row.read(readable), reading.channel, row.format); }, handed_over,
         taken_over);
     check_image(loaded);
     make_texts_printable(loaded);

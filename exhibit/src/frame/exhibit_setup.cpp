@@ -132,9 +132,13 @@ core::Result<std::shared_ptr<const curves::SampleModel>> load_pixel(const Exhibi
     return core::failure(model.error().category, model.error().message + "; choose another with --pixel");
   }
   if (!model) return tl::unexpected(model.error());
+  const std::size_t pixels = map->heights_m().size();
+  const std::string missing = map->pixels_with_curve() < pixels
+                                  ? fmt::format(", {} without a curve", pixels - map->pixels_with_curve())
+                                  : std::string();
   core::log_line(
-      fmt::format("force map {}: {} x {} pixels; felt first: {}{}", files.force_map, map->grid().columns,
-                  map->grid().rows, curves::text_of(model->pixel->place),
+      fmt::format("force map {}: {} x {} pixels{}; felt first: {}{}", files.force_map, map->grid().columns,
+                  map->grid().rows, missing, curves::text_of(model->pixel->place),
                   model->pixel->measured.features.contact_doubtful ? ", whose contact point is doubtful" : ""));
   return std::make_shared<const curves::SampleModel>(std::move(*model));
 }

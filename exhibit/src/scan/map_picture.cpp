@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,26 @@ Range inner_range(std::vector<double> heights_m) {
   return {heights_m[cut], heights_m[heights_m.size() - 1 - cut], false};
 }
 
+// Pixels that one cell covers along a side.
+struct Covered {
+  std::size_t first = 0, end = 0;
+};
+Covered covered_by(std::size_t cell, std::size_t cells, std::size_t pixels) {
+  const std::size_t first = cell * pixels / cells;
+  return {first, std::max(first + 1, (cell + 1) * pixels / cells)};
+}
+
+// The first measured height of a cell: a single curve among many pixels without one must be seen. NaN: none.
+double height_in(const curves::CurveMap& map, const Covered& rows, const Covered& columns) {
+  for (std::size_t row = rows.first; row < rows.end; ++row) {
+    for (std::size_t column = columns.first; column < columns.end; ++column) {
+      const double height_m = map.heights_m()[row * map.grid().columns + column];
+      if (std::isfinite(height_m)) return height_m;
+    }
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 std::string height_text(double height_m, const Phrases& phrases) {
   constexpr int kDigits = 3;
   return phrases.number(
@@ -54,10 +75,9 @@ render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPla
                              .lowest = "0",
                              .highest = height_text(range.high - range.low, phrases)};
   for (std::size_t y = 0; y < picture.grid.rows; ++y) {
-    const std::size_t row = y * pixels.rows / picture.grid.rows;
+    const Covered rows = covered_by(y, picture.grid.rows, pixels.rows);
     for (std::size_t x = 0; x < picture.grid.columns; ++x) {
-      const std::size_t column = x * pixels.columns / picture.grid.columns;
-      const double height_m = map.heights_m()[row * pixels.columns + column];
+      const double height_m = height_in(map, rows, covered_by(x, picture.grid.columns, pixels.columns));
       const auto [r, g, b] = height_colour((height_m - range.low) / (range.high - range.low));
       picture.grid.colors.push_back({r, g, b, 255});
     }

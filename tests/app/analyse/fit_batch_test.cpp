@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "support/hertz_curve.h"
 #include "support/live_program.h"
 #include "support/places.h"
+#include "support/run_program.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
@@ -130,6 +132,21 @@ std::string map_in(const support::ScratchFolder& folder) {
                           point.z = point.z + physics::Length(10e-9 * static_cast<double>(index));
                         return curve;
                       })));
+}
+
+TEST(FitBatch, OfAFewCurvesOnALargeGridDrawsTheOthersEmpty) {
+  const support::ScratchFolder folder;
+  const auto hertz = [](std::size_t) { return test::hertz_curve(200); };
+  const std::string map =
+      folder.write("few.jpk-qi-data", test::stored_zip(test::on_finer_grid(test::jpk_map(hertz), 65)));
+  const auto program = support::run_program(support::touchafm() + " analyse " + map +
+                                            " --fit paraboloid --radius 5um --out " + folder.file("out"));
+  ASSERT_EQ(program.exit_code, 0) << program.err;
+  EXPECT_THAT(program.err, HasSubstr("6 curves on a grid of 195 x 130 pixels: the other pixels are empty"));
+  const auto image = curves::load_image(folder.file("out/few.gwy"), {.channel = "Modulus"});
+  ASSERT_TRUE(image) << image.error().message;
+  const auto& moduli = image->image.channels[image->chosen].values;
+  EXPECT_EQ(std::count_if(moduli.begin(), moduli.end(), [](double pa) { return std::isfinite(pa); }), 6);
 }
 
 TEST(FitBatch, KeepsItsRowsWhenItIsInterrupted) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "curves/live_parameters.h"
@@ -52,6 +53,19 @@ TEST_F(MapPictureTest, HasTheHighestPixelAtTheTopLeftAndAHoleAtTheBottomRight) {
   EXPECT_EQ(color(1, 0), height_colour(0.8));
   EXPECT_EQ(picture_.highest, "50 nm");
   EXPECT_EQ(picture_.marked, 4U);
+}
+
+TEST_F(MapPictureTest, ShowsEachOfAFewCurvesOnALargeGrid) {
+  const auto entries = test::on_finer_grid(test::jpk_map(test::sticky_curve), 129);
+  const auto map = curves::CurveMap::load(folder_.write("few.jpk-force-map", test::stored_zip(entries)),
+                                          [](std::size_t, std::size_t) { return true; });
+  ASSERT_TRUE(map) << map.error().message;
+  const auto cells = map_picture(*map, map->middle(), test::english()).grid;
+  EXPECT_EQ(cells.colors.size(), 128U * 128U);
+  const auto& none = kNoHeightColour;
+  EXPECT_EQ(std::count_if(cells.colors.begin(), cells.colors.end(),
+                          [&](const auto& c) { return Srgb{c[0], c[1], c[2]} != none; }),
+            6);
 }
 
 TEST_F(MapPictureTest, IsPointedAtPixelByPixel) {

@@ -69,4 +69,12 @@ inline std::map<std::string, std::string> jpk_map(
   return entries;
 }
 
+// The same curves on a grid with so many times as many pixels a side, most of which have none.
+inline std::map<std::string, std::string> on_finer_grid(std::map<std::string, std::string> entries, std::size_t finer) {
+  entries["header.properties"] +=
+      fmt::format("{0}ilength={1}\n{0}jlength={2}\n", "force-scan-map.position-pattern.grid.", finer * kMapColumns,
+                  finer * kMapRows);
+  return entries;
+}
+
 }  // namespace afm::test

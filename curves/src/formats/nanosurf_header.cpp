@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/nanosurf_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <system_error>
+
+#include "bytes/file_bytes.h"
+#include "bytes/text_table.h"
+#include "curves/curve_error.h"
+
+namespace afm::curves {
+
+namespace {
+
+constexpr std::string_view kDataMark = "\n#!", kInfo = "DataSet-Info";
+constexpr double kMostGroups = 64, kMostChannelNumber = 256;
+
+// Whether the first section has this text.
+bool names_group(std::string_view bytes, std::string_view text) {
+  constexpr std::size_t kFirstSection = 4096;
+  return bytes.substr(0, kFirstSection).find(text) != std::string_view::npos;
+}
+
+void read_sections(std::string_view text, std::size_t most_infos, NanosurfFile& file) {
+  std::string_view line, name;
+  for (Lines lines(text); lines.next(line);) {
+    if (line.starts_with('[') && line.ends_with(']')) {
+      name = line.substr(1, line.size() - 2);
+      continue;
+    }
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos || equals == 0) continue;
+    const std::string_view key = line.substr(0, equals), value = trimmed(line.substr(equals + 1));
+    file.sections[name].values.emplace(key, value);
+    const bool is_heading = key.starts_with("--");
+    if (name == kInfo && !is_heading && file.infos.size() < most_infos) file.infos.emplace_back(key, value);
+  }
+}
+
+// Bytes of a channel, which may be one line.
+std::size_t size_of(const NanosurfSection& channel) {
+  constexpr double kMostPoints = 1e9;
+  const double points = channel.needed("Points") * channel.needed("Lines");
+  if (!(points >= 0 && points <= kMostPoints)) throw CurveError("it is damaged: a channel has no number of points");
+  return static_cast<std::size_t>(points) * nanosurf_integers(channel).size;
+}
+
+}  // namespace
+
+bool is_nanosurf_spectroscopy(std::string_view bytes) {
+  return has_nanosurf_spectroscopy(bytes) && names_group(bytes, "Gr0-Name=Spec ");
+}
+
+bool has_nanosurf_spectroscopy(std::string_view bytes) {
+  return bytes.starts_with(kNanosurfMagic) && names_group(bytes, "-Name=Spec forward");
+}
+
+std::optional<std::string_view> NanosurfSection::text(std::string_view key) const {
+  const auto found = values.find(key);
+  return found == values.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<double> NanosurfSection::number(std::string_view key) const {
+  const auto found = text(key);
+  if (!found) return std::nullopt;
+  double value = 0;
+  const auto [end, error] = std::from_chars(found->data(), found->data() + found->size(), value);
+  return error == std::errc() && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+double NanosurfSection::needed(std::string_view key) const {
+  const auto value = number(key);
+  if (!value) throw CurveError(fmt::format("it has no number \"{}\"", key));
+  return *value;
+}
+
+const NanosurfSection* NanosurfFile::section(std::string_view name) const {
+  const auto found = sections.find(name);
+  return found == sections.end() ? nullptr : &found->second;
+}
+
+NanosurfFile nanosurf_file(std::string_view bytes, std::size_t most_infos) {
+  const std::size_t mark = bytes.find(kDataMark);
+  if (mark == std::string_view::npos) throw CutShort("it is cut short: it has no data");
+  NanosurfFile file;
+  read_sections(bytes.substr(0, mark), most_infos, file);
+  std::string_view rest = bytes.substr(mark + kDataMark.size());
+  const NanosurfSection* set = file.section("DataSet");
+  if (set == nullptr) throw CurveError("it has no section [DataSet]");
+  const double groups = std::min(set->needed("GroupCount"), kMostGroups);
+  for (int group = 0; group < groups; ++group) {
+    const std::string_view group_name = set->text(fmt::format("Gr{}-Name", group)).value_or("");
+    const double channels = std::min(set->number(fmt::format("Gr{}-Count", group)).value_or(0.0), kMostChannelNumber);
+    for (int number = 0; number < channels; ++number) {
+      const auto name = set->text(fmt::format("Gr{}-Ch{}", group, number));
+      if (!name) continue;  // a count includes the channels that were not saved
+      const NanosurfSection* channel = file.section(*name);
+      if (channel == nullptr) throw CurveError(fmt::format("it has no section [{}]", *name));
+      const std::size_t size = size_of(*channel);
+      file.channels.push_back({group_name, channel, part(rest, 0, size)});
+      rest.remove_prefix(size);
+    }
+  }
+  return file;
+}
+
+NanosurfIntegers nanosurf_integers(const NanosurfSection& channel) {
+  const double bits = channel.needed("SaveBits");
+  if (bits != 8 && bits != 16 && bits != 32) {
+    throw CurveError(fmt::format("its numbers have {:g} bits; 8, 16 and 32 are read", bits));
+  }
+  if (const auto mode = channel.text("SaveMode").value_or("Binary"); mode != "Binary") {
+    throw CurveError(fmt::format("its numbers are saved as \"{}\"; Binary is read", mode.substr(0, 40)));
+  }
+  return {.size = static_cast<std::size_t>(bits) / 8,
+          .is_signed = channel.text("SaveSign").value_or("Signed") != "Unsigned",
+          .order = channel.text("SaveOrder").value_or("Intel") == "Motorola" ? std::endian::big : std::endian::little};
+}
+
+double nanosurf_share(std::string_view numbers, std::size_t index, const NanosurfIntegers& integers) {
+  const std::size_t at = index * integers.size;
+  const double range = std::exp2(8.0 * static_cast<double>(integers.size));
+  const double unsigned_number = integers.size == 1   ? number_at<std::uint8_t>(numbers, at)
+                                 : integers.size == 2 ? number_at<std::uint16_t>(numbers, at, integers.order)
+                                                      : number_at<std::uint32_t>(numbers, at, integers.order);
+  if (!integers.is_signed) return unsigned_number / range;
+  return std::fmod(unsigned_number / range + 0.5, 1.0);  // two's complement, from the lowest number on
+}
+
+}  // namespace afm::curves
