@@ -72,8 +72,8 @@ inline constexpr double kRulerTextGap = 0.04;
 inline constexpr double kRulerTextWidth = 0.22;
 inline constexpr double kRulerTextHeight = 0.08;
 // colour scale of heights, in the wall's plane, to the left of the plate: the wand rests at its right
-inline constexpr double kHeightBarX = -0.945, kHeightBarBottom = -0.46;
-inline constexpr double kHeightBarHeight = 0.20, kHeightBarWidth = 0.045;
+inline constexpr double kHeightBarX = -0.945, kHeightBarBottom = -0.515;
+inline constexpr double kHeightBarHeight = 0.15, kHeightBarWidth = 0.045;
 inline constexpr double kHeightBarTextWidth = 0.24, kHeightBarTextHeight = 0.07;
 inline constexpr double kHeightBarTextGap = 0.02;
 inline constexpr double kUnbentBeyond = 0.16;
