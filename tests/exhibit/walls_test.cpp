@@ -261,7 +261,7 @@ TEST_F(PixelsOfAWall, AreRedrawnWhereTheTipMovesAndAsIfAllWere) {
     ASSERT_EQ(test::where_differ(changes.read_composed(anaglyph), everything.read_composed(anaglyph)), "")
         << "frame " << i;
   }
-  EXPECT_LT(redrawn / static_cast<double>(frames - kSettling), 0.6);
+  EXPECT_LT(redrawn / static_cast<double>(frames - kSettling), 0.7);
 }
 
 TEST_F(PixelsOfAWall, MayBeFewAndMany) {

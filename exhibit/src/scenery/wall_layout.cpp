@@ -11,14 +11,22 @@ namespace afm::exhibit {
 using glm::dmat4;
 using glm::dvec3;
 
-WallShape wall_shape(const StagePlace& stage) {
+WallShape wall_shape(const StagePlace& stage, std::size_t swatches) {
   const double width_m = stage.main.width_m(), height_m = stage.main.height_m();
   if (stage.left && stage.right) {
-    return {Arrangement::SideScreens, std::min(width_m / kNarrowWidth, height_m / kReferenceWallHeightM)};
+    return {.arrangement = Arrangement::SideScreens,
+            .unit_m = std::min(width_m / kNarrowWidth, height_m / (kDeepRoomBelow + kRoomAbove)),
+            .room_below = kDeepRoomBelow};
   }
-  const double beside_m = std::min(width_m / kReferenceWallWidthM, height_m / kReferenceWallHeightM);
-  const double below_m = std::min(width_m / kNarrowWidth, height_m / (kRoomBelowPanels + kRoomAboveNarrow));
-  return beside_m >= below_m ? WallShape{Arrangement::Beside, beside_m} : WallShape{Arrangement::Below, below_m};
+  const double room_below = swatches <= kFrontSwatches ? kRoomBelow : kDeepRoomBelow;
+  const WallShape beside{.arrangement = Arrangement::Beside,
+                         .unit_m = std::min(width_m / kReferenceWallWidthM, height_m / (room_below + kRoomAbove)),
+                         .room_below = room_below};
+  const double narrow_height = kRoomBelowPanels + kRoomAboveNarrow;
+  const WallShape below{.arrangement = Arrangement::Below,
+                        .unit_m = std::min(width_m / kNarrowWidth, height_m / narrow_height),
+                        .room_below = kDeepRoomBelow};
+  return beside.unit_m >= below.unit_m ? beside : below;
 }
 
 dmat4 frame_matrix(const dvec3& x, const dvec3& y, const dvec3& z, const dvec3& origin) {

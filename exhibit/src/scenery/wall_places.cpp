@@ -40,11 +40,11 @@ render::PanelPlacement in_frame(const glm::dmat4& room_from_frame, double left, 
 
 }  // namespace
 
-WallPlaces::WallPlaces(const StagePlace& stage) {
-  // the contact point: in the middle at eye height, moved to leave room above and below, but within the wall's middle
-  // third
+WallPlaces::WallPlaces(const StagePlace& stage, std::size_t swatches) {
+  // the contact point: in the middle, no higher than the eyes, and at their height above a deep shelf; moved to leave
+  // room above and below, but within the wall's middle third
   const scene::Screen& screen = stage.main;
-  shape_ = wall_shape(stage);
+  shape_ = wall_shape(stage, swatches);
   const double unit = shape_.unit_m;
   const bool narrow = shape_.arrangement == Arrangement::Below;
   const dvec3 right = glm::normalize(screen.lower_right - screen.lower_left);
@@ -52,9 +52,12 @@ WallPlaces::WallPlaces(const StagePlace& stage) {
   const dvec3 up = glm::cross(out, right);
   const double eye_height = glm::dot(stage.viewer_m - screen.lower_left, up);
   const double third_m = screen.height_m() / 3.0;
-  const double lowest = std::max((narrow ? kRoomBelowPanels : kRoomBelow) * unit, third_m);
+  const bool deep = shape_.room_below > kRoomBelow;
+  const double below = narrow ? kRoomBelowPanels : shape_.room_below;
+  const double lowest = std::max(below * unit, third_m);
   const double highest = std::min(screen.height_m() - (narrow ? kRoomAboveNarrow : kRoomAbove) * unit, 2.0 * third_m);
-  const double contact_height = std::min(std::max(eye_height, lowest), std::max(lowest, highest));
+  const double most = std::max(lowest, highest), middle = 0.5 * (lowest + most);
+  const double contact_height = std::clamp(deep ? eye_height : std::min(eye_height, middle), lowest, most);
   const dvec3 contact = screen.lower_left + 0.5 * screen.width_m() * right + contact_height * up;
   room_from_wall_ = frame_matrix(unit * right, unit * up, unit * out, contact);
   const dvec3 to_eye = glm::transpose(glm::dmat3(right, up, out)) * (stage.viewer_m - contact);
@@ -62,12 +65,13 @@ WallPlaces::WallPlaces(const StagePlace& stage) {
   room_from_layout_ =
       look < -kLowestLookRad ? glm::rotate(room_from_wall_, -look, dvec3(1.0, 0.0, 0.0)) : room_from_wall_;
   wall_top_ = (screen.height_m() - contact_height) / unit;
-  lay_out_front(stage, contact_height);
+  wall_bottom_ = -contact_height / unit;
+  lay_out_front(stage);
   lay_out_panels(stage);
 }
 
 // Places shelf and wand in front of the wall, no nearer than the eyes can look without strain.
-void WallPlaces::lay_out_front(const StagePlace& stage, double contact_height_m) {
+void WallPlaces::lay_out_front(const StagePlace& stage) {
   const double unit = shape_.unit_m;
   const dvec3 eye(glm::inverse(room_from_layout_) * glm::dvec4(stage.viewer_m, 1.0));
   const scene::ComfortZone zone =
@@ -79,9 +83,10 @@ void WallPlaces::lay_out_front(const StagePlace& stage, double contact_height_m)
   wand_grip_.z = std::clamp(nearest - kWandReach, kLeastShelfZ, kWandGrip.z);
 
   // objects in front of the wall appear lower to a viewer above them, so the shelf is raised
-  const double bottom = shape_.arrangement == Arrangement::Below ? -kRoomBelow : -contact_height_m / unit;
+  const double bottom = shape_.arrangement == Arrangement::Below ? -shape_.room_below : wall_bottom_;
   const double lowest_seen = eye.y + (bottom + kPanelMargin - eye.y) * (eye.z - shelf_z_) / eye.z;
-  shelf_y_ = std::clamp(lowest_seen + kShelfHeight, kShelfY, kHighestShelfY);
+  const bool deep = shape_.room_below > kRoomBelow || shelf_z_ < kNearShelfZ;
+  shelf_y_ = std::clamp(lowest_seen + kShelfHeight, deep ? kLowestShelfY : kShelfY, kHighestShelfY);
 }
 
 // Limits the width of panels to 1.6 times their height on wide walls.
@@ -134,7 +139,7 @@ render::PanelPlacement WallPlaces::parameter_tab() const {
 }
 
 render::PanelPlacement WallPlaces::keys() const {
-  const double bottom = (shape_.arrangement == Arrangement::Below ? kBelowBottom : -kRoomBelow) + kPanelMargin;
+  const double bottom = (shape_.arrangement == Arrangement::Below ? kBelowBottom : wall_bottom_) + kPanelMargin;
   const double top = wall_top_ - kBannerHeight - 2.0 * kPanelMargin;
   return in_wall(-half_width_ + kPanelMargin, bottom, 2.0 * (half_width_ - kPanelMargin), top - bottom);
 }

@@ -94,7 +94,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
                                         const StagePlace& place, const Phrases& phrases, const UserModels& own) {
   WallScene w;
   w.phrases_ = phrases;
-  w.places_ = WallPlaces(place);
+  w.places_ = WallPlaces(place, materials.materials.size());
   ModelBuilder build(assets_dir + "/models", w.scene_);
   w.add_frames(build, own);
   for (const scene::MaterialEntry& material : materials.materials) {
@@ -173,13 +173,12 @@ double WallScene::layout_per_m(const WallState& state) const {
 }
 
 std::vector<input::Target> WallScene::swatch_targets() const {
-  const double radius = looks_.size() <= kFewSwatches ? kSwatchRadius : kSlimSwatchRadius;
   std::vector<input::Target> targets;
   targets.reserve(looks_.size());
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     targets.push_back(
         {dvec3(places_.room_from_layout() * glm::dvec4(places_.swatch(i, looks_.size()) + kSwatchCenter, 1.0)),
-         radius * places_.unit_m()});
+         kSwatchRadius * places_.unit_m()});
   }
   return targets;
 }

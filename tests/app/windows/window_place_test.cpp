@@ -162,7 +162,8 @@ TEST(WindowPlace, OfAFullScreenFollowsANewModeWithoutAManager) {
 TEST(WindowOfADisplay, With30BitsShowsThePictureOfOneWith24) {
   const auto shown = [](int depth) {
     const support::VirtualDisplay display(640, 480, depth);
-    support::LiveProgram program(view({"--size", "320x240", "--eye-width", "320"}), display.name());
+    support::LiveProgram program(view({"--size", "320x240", "--eye-width", "320", "--frame-budget", "none"}),
+                                 display.name());
     EXPECT_TRUE(program.says("Choose a sample")) << program.said();
     EXPECT_EQ(run_on(display.name(), "xdotool search --onlyvisible --name '^TouchAFM$'").exit_code, 0);
     const auto bright = [](const render::Image& image) {

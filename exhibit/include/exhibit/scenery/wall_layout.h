@@ -33,7 +33,9 @@ inline constexpr double kSpotReach = 0.8;  // share of the half size at the defl
 inline constexpr double kBeamRadius = 0.007;
 inline constexpr double kSpotRadius = 0.032;
 inline constexpr glm::dvec3 kWandGrip(0.66, -0.18, 1.00);
-inline constexpr double kShelfY = -0.79, kHighestShelfY = -0.45;
+// in front of the plate; below it where the eyes allow no place that near
+inline constexpr double kShelfY = -0.52, kLowestShelfY = -0.79, kHighestShelfY = -0.45;
+inline constexpr double kNearShelfZ = 0.50;
 inline constexpr double kShelfHeight = 0.10;  // includes the swatches' names
 inline constexpr double kShelfZ = 0.62;
 inline constexpr double kSwatchSpacing = 0.42;
@@ -41,9 +43,7 @@ inline constexpr std::size_t kFrontSwatches = 5;  // number in one row of the sh
 inline constexpr double kBackRise = 0.25;
 inline constexpr double kBackZ = 0.52;  // distance in front of the stage
 inline constexpr double kBackSpacing = 0.38;
-inline constexpr double kSwatchRadius = 0.16;
-inline constexpr std::size_t kFewSwatches = 3;
-inline constexpr double kSlimSwatchRadius = 0.11;  // with more than kFewSwatches, so that the ray passes them
+inline constexpr double kSwatchRadius = 0.11;  // small enough for the wand's ray to pass
 inline constexpr glm::dvec3 kSwatchCenter(0.0, 0.13, 0.0);
 inline constexpr double kSwatchReach = 0.17, kWandReach = 0.15;  // extent towards the viewer
 inline constexpr double kLeastShelfZ = 0.10;
@@ -72,8 +72,8 @@ inline constexpr double kRulerTextGap = 0.04;
 inline constexpr double kRulerTextWidth = 0.22;
 inline constexpr double kRulerTextHeight = 0.08;
 // colour scale of heights, in the wall's plane, to the left of the plate: the wand rests at its right
-inline constexpr double kHeightBarX = -0.945, kHeightBarBottom = -0.57;
-inline constexpr double kHeightBarHeight = 0.20, kHeightBarWidth = 0.045;
+inline constexpr double kHeightBarX = -0.945, kHeightBarBottom = -0.515;
+inline constexpr double kHeightBarHeight = 0.15, kHeightBarWidth = 0.045;
 inline constexpr double kHeightBarTextWidth = 0.24, kHeightBarTextHeight = 0.07;
 inline constexpr double kHeightBarTextGap = 0.02;
 inline constexpr double kUnbentBeyond = 0.16;
@@ -104,12 +104,14 @@ inline constexpr double kGapLabelWidth = 0.34, kGapLabelHeight = 0.075, kGapLabe
 inline constexpr double kGapFromOrders = 8.4;
 inline constexpr float kFogBegin = 3.5F, kFogEnd = 14.0F;  // distances behind the wall in the journey
 inline constexpr double kBannerHeight = 0.21;
-// extent of the wall below and above the contact point: the whole shelf is visible, and the banner is above the panels
-inline constexpr double kRoomBelow = 1.20;
-inline constexpr double kRoomAbove = kPanelBottom + kPanelHeight + kBannerHeight + 2.0 * kPanelMargin;
+// extent of the wall below and above the contact point: the whole shelf is visible, and the banner is above panels and
+// photodiode
+inline constexpr double kRoomBelow = 0.86;
+inline constexpr double kDeepRoomBelow = 1.20;  // with the shelf below the plate
+inline constexpr double kRoomAbove = kPhotodiode.y + 0.3 * kPhotodiodeHalfSize + kBannerHeight + kPanelMargin;
 
 // The same with the panels below the shelf. The contact point is then a third of the height from the top.
-inline constexpr double kBelowBottom = -kRoomBelow - 0.08 - kPanelHeight;  // leaves the stage's foot visible
+inline constexpr double kBelowBottom = -kDeepRoomBelow - 0.08 - kPanelHeight;  // leaves the stage's foot visible
 inline constexpr double kRoomBelowPanels = -kBelowBottom + 2.0 * kPanelMargin + kTabHeight;
 inline constexpr double kRoomAboveNarrow = 0.5 * kRoomBelowPanels;
 inline constexpr double kNarrowWidth = 1.75;  // width of a composition without panels at its sides
@@ -126,10 +128,12 @@ enum class Arrangement { Beside, Below, SideScreens };
 struct WallShape {
   Arrangement arrangement = Arrangement::Beside;
   double unit_m = 1.0;  // size of a layout unit in the room
+  double room_below = kRoomBelow;
 };
 
-// The arrangement that allows the largest scale. Uses the side screens if there are two.
-WallShape wall_shape(const StagePlace& stage);
+// The arrangement that allows the largest scale. Uses the side screens if there are two. The shelf is in front of the
+// plate if `swatches` fit in one row and the screens do not surround the viewer.
+WallShape wall_shape(const StagePlace& stage, std::size_t swatches = kFrontSwatches);
 
 // Elevation of the view, radians, below which only the sample's edge would be visible, as in front of a floor screen.
 // Below it, instrument and shelf are rotated to look as from the paper's wall.

@@ -17,8 +17,8 @@ class WallPlaces {
  public:
   WallPlaces() = default;
 
-  // Computes the layout from the screens and the viewer in front of them.
-  explicit WallPlaces(const StagePlace& stage);
+  // Computes the layout for so many swatches from the screens and the viewer in front of them.
+  WallPlaces(const StagePlace& stage, std::size_t swatches);
 
   // Origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre.
   const glm::dmat4& room_from_layout() const { return room_from_layout_; }
@@ -51,7 +51,7 @@ class WallPlaces {
   void place_panels(const WallState& state, render::FrameState& frame) const;
 
  private:
-  void lay_out_front(const StagePlace& stage, double contact_height_m);
+  void lay_out_front(const StagePlace& stage);
   void lay_out_panels(const StagePlace& stage);
   render::PanelPlacement finale() const;  // the large plot
   render::PanelPlacement right_of_data(double inset) const;
@@ -60,7 +60,7 @@ class WallPlaces {
   glm::dmat4 room_from_wall_{1.0};  // the same with y along the main screen; differs if that lies flat
   WallShape shape_;
   double half_width_ = 0;  // half width of the composition in layout units
-  double wall_top_ = 0;
+  double wall_bottom_ = 0, wall_top_ = 0;
   double shelf_y_ = 0, shelf_z_ = 0, back_z_ = 0;
   glm::dvec3 wand_grip_{0.0};
   render::PanelPlacement force_placement_, data_placement_;
