@@ -65,6 +65,11 @@ void log_parameters(const curves::LiveParameters& parameters) {
   core::log_line(line);
 }
 
+void log_change(const curves::LiveParameters& parameters) {
+  if (parameters.refusal().empty()) return log_parameters(parameters);
+  core::log_line("parameters: not changed: " + parameters.refusal());
+}
+
 void log_scan(const exhibit::LiveScan& scan) {
   std::string line = "scan:";
   for (const exhibit::ScanRow row : core::kEnumerators<exhibit::ScanRow>) {
@@ -208,10 +213,11 @@ void ViewPanels::change(const render::ControlTarget& target, std::size_t materia
     return log_scan(*scan_);
   }
   if (servo == nullptr) return;
-  if (!edits_.apply(target, material, *servo)) return;
-  const curves::LiveParameters& parameters = edits_.of(material);
-  if (parameters.refusal().empty()) return log_parameters(parameters);
-  core::log_line("parameters: not changed: " + parameters.refusal());
+  if (edits_.apply(target, material, *servo)) log_change(edits_.of(material));
+}
+
+void ViewPanels::take_built(servo::ServoClient& servo) {
+  for (const std::size_t material : edits_.take_built(servo)) log_change(edits_.of(material));
 }
 
 // The tab that opens the parameters, and the curve computed from them.
