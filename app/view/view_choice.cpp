@@ -94,7 +94,9 @@ void ViewChoice::step_setting(int steps) {
 void ViewChoice::toggle_friction_loop() {
   const auto material = parts_.servo.material();
   if (!material) return core::log_line("friction loop: choose a sample first");
-  if (!parts_.panels.toggle_friction_loop()) return core::log_line("friction loop: hidden");
+  const bool shown = parts_.panels.toggle_friction_loop();
+  if (felt_[*material].taps()) return core::log_line(fmt::format("dial of the swing: {}", shown ? "shown" : "hidden"));
+  if (!shown) return core::log_line("friction loop: hidden");
   const physics::FrictionLaw law = felt_[*material].parameters.friction.law;
   core::log_line(law == physics::FrictionLaw::None
                      ? std::string("friction loop: friction is off; start with --friction lattice, area or amontons")

@@ -15,6 +15,7 @@
 #include "exhibit/friction/friction_panel.h"
 #include "exhibit/panels/panel_hit.h"
 #include "exhibit/panels/parameter_panel.h"
+#include "exhibit/panels/swing_panel.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/map_picture.h"
 #include "exhibit/scan/scan_panels.h"
@@ -253,6 +254,9 @@ void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, 
       panels.control.content.pointed = pointed.control;
       return;
     case RightPanel::FrictionLoop:
+      if (const curves::SampleModel& model = edits_.of(material).model(); model.taps()) {
+        return show_right(panels, panels.loop, exhibit::swing_panel(model, tip, phrases()));
+      }
       if (friction_ == nullptr) return;
       const physics::FrictionParameters& friction = edits_.of(material).model().parameters.friction;
       show_right(panels, panels.loop, exhibit::friction_panel(*friction_, friction, phrases()));
