@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -52,8 +54,33 @@ physics::Length length(const std::optional<double>& si, const char* option,
             {physics::kLengthUnits.sort, physics::kLengthUnits.units, si ? std::optional(range) : std::nullopt}));
 }
 
-void set_fields(const py::kwargs& given, ScanRequest& request) {
-  for (const auto& [option, si] : numbers_of(given)) {
+using Numbers = std::map<std::string, double, std::less<>>;
+
+// Takes the numbers of a lever that taps out of the keywords.
+void set_tapping(Numbers& numbers, ScanRequest& request) {
+  const auto take = [&](const char* option) -> std::optional<double> {
+    const auto found = numbers.find(option);
+    if (found == numbers.end()) return std::nullopt;
+    const double si = found->second;
+    numbers.erase(found);
+    return si;
+  };
+  curves::TappingChoice& choice = request.tapping;
+  choice.mode = "tapping";
+  choice.numbers.free_amplitude = typed(take("free-amplitude"), "m");
+  if (choice.numbers.free_amplitude.empty()) refuse("--mode tapping needs --free-amplitude");
+  choice.numbers.drive = typed(take("drive"), "Hz");
+  choice.numbers.viscosity = typed(take("viscosity"), "Pa*s");
+  choice.contact_gap = typed(take("contact-gap"), "m");
+  if (!choice.contact_gap.empty()) request.contact.si_values.erase("work-of-adhesion");
+  for (const char* option : {"resonance", "quality-factor"}) {
+    if (const auto si = take(option)) request.contact.si_values[option] = *si;
+  }
+  request.amplitude_setpoint = typed(take("amplitude-setpoint"), "m");
+}
+
+void set_fields(const Numbers& numbers, ScanRequest& request) {
+  for (const auto& [option, si] : numbers) {
     const auto* const field = std::find_if(physics::kScanFields.begin(), physics::kScanFields.end(),
                                            [&](const physics::ScanField& each) { return each.option == option; });
     if (field == physics::kScanFields.end() || curves::find_contact_parameter(option) != nullptr) {
@@ -80,7 +107,7 @@ std::shared_ptr<Scan> make_scan(const std::optional<Contact>& contact,
                                 std::optional<std::size_t> pixels, std::optional<double> x, std::optional<double> y,
                                 const std::optional<std::string>& direction, bool feedback,
                                 const std::optional<std::string>& tip, std::optional<double> tip_angle, bool show_truth,
-                                std::optional<std::uint32_t> seed, const py::kwargs& numbers) {
+                                std::optional<std::uint32_t> seed, const std::string& mode, const py::kwargs& given) {
   ScanRequest request;
   if (contact) request.contact = contact->options();
   request.contact.assets_dir = assets_dir();
@@ -105,6 +132,12 @@ std::shared_ptr<Scan> make_scan(const std::optional<Contact>& contact,
   }
   request.show_truth = show_truth;
   request.seed = seed.value_or(request.seed);
+  Numbers numbers = numbers_of(given);
+  if (mode == "tapping") {
+    set_tapping(numbers, request);
+  } else if (mode != "contact") {
+    refuse(fmt::format("unknown mode \"{}\"; choose contact or tapping", mode));
+  }
   set_fields(numbers, request);
   imaging::complete(request, tip.has_value());
   return std::make_shared<Scan>(
@@ -215,12 +248,16 @@ void add_scans(py::module_& module) {
       py::arg("pixels") = py::none(), py::arg("x") = py::none(), py::arg("y") = py::none(),
       py::arg("direction") = py::none(), py::arg("feedback") = true, py::arg("tip") = py::none(),
       py::arg("tip_angle") = py::none(), py::arg("show_truth") = false, py::arg("seed") = py::none(),
+      py::arg("mode") = "contact",
       "An image of a contact's sample, or of one's own, as touchafm scan takes it.\n\n"
       "contact: of a material, such as Contact.material(\"gold\"); with sample it may be left out. sample: a glTF\n"
       "model or an image, with sample_channel and level (\"none\", \"plane\", \"lines\") of that image.\n"
       "size, x and y, m; pixels of a line, and lines; direction \"down\" or \"up\"; tip: \"paraboloid\", \"sphere\",\n"
       "\"cone\", \"pyramid-3\" or \"pyramid-4\" of the contact's radius, with tip_angle, rad; show_truth adds "
       "channels.\n"
+      "mode: \"contact\", or \"tapping\", which needs free_amplitude, m, and takes amplitude_setpoint, m (default: "
+      "0.8\n"
+      "of it), drive, Hz, viscosity, Pa*s, contact_gap, m, resonance, Hz, and quality_factor.\n"
       "Further numbers in SI have the names of the command's options: rate Hz, setpoint N, integral_gain 1/s, ...\n"
       "Raises ValueError as the command refuses its options, FileError for a file that cannot be used.");
   module.def("level", &level_heights, py::arg("heights"), py::arg("how") = "plane",

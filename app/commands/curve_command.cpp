@@ -20,6 +20,7 @@
 #include "curves/curve_report.h"
 #include "curves/plot_units.h"
 #include "curves/sweep.h"
+#include "curves/tapping/tapping_sweep.h"
 #include "physics/quantity_text.h"
 
 namespace afm::app {
@@ -156,29 +157,46 @@ core::Result<void> write_sweep(const CurveOptions& options, const curves::Contac
       options.out);
 }
 
-core::Result<void> write_tapping(const CurveOptions& options, const std::string& format) {
-  if (!options.sweeps.empty()) {
-    return wrong_usage(
-        fmt::format("--sweep computes events of contact mode; remove it or --mode {}", options.tapping.mode));
-  }
-  if (!options.overlay.empty()) {
-    return wrong_usage(fmt::format("--overlay has no effect on --mode {}; remove it", options.tapping.mode));
-  }
-  const auto text = tapping_text(options.tapping, options.contact, options.path, format);
-  if (!text) return tl::unexpected(text.error());
-  return write_text(*text, options.out);
-}
-
 // Sets each swept value to the sweep's first, so that the user need not give it as well.
 curves::ContactOptions with_swept_values(curves::ContactOptions contact, const std::vector<std::string>& sweeps) {
   for (const std::string& sweep : sweeps) {
     const std::size_t equals = sweep.find('='), colon = sweep.find(':');
     if (!contact.material.empty() || equals == std::string::npos || colon == std::string::npos || colon < equals)
       continue;
+    if (curves::find_contact_parameter(sweep.substr(0, equals)) == nullptr) continue;
     std::string& value = contact.values[sweep.substr(0, equals)];
     if (value.empty()) value = sweep.substr(equals + 1, colon - equals - 1);
   }
   return contact;
+}
+
+// The same for the free amplitude of a lever that taps.
+CurveOptions with_swept_amplitude(CurveOptions options) {
+  for (const std::string& sweep : options.sweeps) {
+    if (options.tapping.numbers.free_amplitude.empty()) {
+      options.tapping.numbers.free_amplitude = curves::swept_free_amplitude(sweep);
+    }
+  }
+  return options;
+}
+
+core::Result<void> write_tapping(const CurveOptions& options, const std::string& format) {
+  if (const auto checked = check_tapping_options(options.tapping); !checked) return checked;
+  if (!options.overlay.empty()) {
+    return wrong_usage(fmt::format("--overlay has no effect on --mode {}; remove it", options.tapping.mode));
+  }
+  if (!options.sweeps.empty()) {
+    if (!options.path.speed.empty()) {
+      return wrong_usage("--speed has no effect with --sweep in --mode tapping: the swing is at rest; remove it");
+    }
+    if (const auto checked = curves::check_path(options.tapping, options.path); !checked) return checked;
+  }
+  const auto text = options.sweeps.empty()
+                        ? tapping_text(options.tapping, options.contact, options.path, format)
+                        : tapping_sweep_text(options.tapping, with_swept_values(options.contact, options.sweeps),
+                                             options.sweeps, format);
+  if (!text) return tl::unexpected(text.error());
+  return write_text(*text, options.out);
 }
 
 void add_output_options(OptionList& command, CurveOptions& options) {
@@ -202,8 +220,8 @@ void add_output_options(OptionList& command, CurveOptions& options) {
 core::Result<void> write_curve_command(const CurveOptions& options) {
   const auto format = output_format(options);
   if (!format) return tl::unexpected(format.error());
+  if (options.tapping.mode != "contact") return write_tapping(with_swept_amplitude(options), *format);
   if (const auto checked = check_tapping_options(options.tapping); !checked) return tl::unexpected(checked.error());
-  if (options.tapping.mode != "contact") return write_tapping(options, *format);
   const auto setup = contact_setup(with_swept_values(options.contact, options.sweeps));
   if (!setup) return tl::unexpected(setup.error());
   return options.sweeps.empty() ? write_curve(options, *setup, *format) : write_sweep(options, *setup, *format);
@@ -248,7 +266,8 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
   command
       .add_option("--sweep", options->sweeps,
                   "key=from:to:count computes the events of one cycle for each value of a parameter (its option "
-                  "without the dashes); append :log for equal ratios; repeat for a grid; at most a million points")
+                  "without the dashes); append :log for equal ratios; repeat for a grid; at most a million points; "
+                  "tapping: the regimes, also over free-amplitude and the height z")
       .excludes(from)
       .excludes(to)
       .excludes(step)
@@ -261,6 +280,9 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
       "example: touchafm curve --mode tapping --free-amplitude 20nm --resonance 300kHz --quality-factor 400 "
       "--model dmt --spring-constant 40N/m --tip-radius 20nm --hamaker 64zJ --contact-gap 0.165nm --reduced-modulus "
       "1.5GPa --json\n"
+      "example: touchafm curve --mode tapping --sweep free-amplitude=5nm:40nm:36 --sweep z=2nm:42nm:41 --resonance "
+      "300kHz --quality-factor 400 --model dmt --spring-constant 40N/m --tip-radius 20nm --hamaker 64zJ --contact-gap "
+      "0.165nm --reduced-modulus 1.5GPa --out map.svg\n"
       "example: touchafm curve --material pdms-air --sweep spring-constant=0.01N/m:100N/m:50:log --out sweep.csv");
   command.when_chosen([options] { return write_curve_command(*options); });
 }

@@ -136,10 +136,15 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
   if (!library) return tl::unexpected(library.error());
   const auto known = library->only(lesson->materials);
   if (!known) return tl::unexpected(of_lesson_file(options, known.error()));
+  for (const scene::MaterialEntry& entry : known->materials) {
+    const auto setup = exhibit::lesson_setup(*lesson, entry);
+    if (!setup) return tl::unexpected(of_lesson_file(options, setup.error()));
+  }
   ViewOptions view = options.view;
   view.files.shown = lesson->materials;
   view.files.particles = lesson->particles;
   view.scale = lesson->scale;
+  if (lesson->tapping) view.tapping = *lesson->tapping;
   ViewLesson guided{.lesson = std::move(*lesson), .study = std::nullopt};
   if (options.participant.empty()) return run_view(view, program, &guided);
 
@@ -190,7 +195,7 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
       "         touchafm lesson assets/lessons/first-touch.toml --fullscreen --instructor 2\n"
       "         touchafm lesson --withdraw ABCDEF --out study");
   const auto options = std::make_shared<LessonOptions>();
-  command.add_option("lesson", options->lesson, "lesson file (TOML); assets/lessons holds seven").type_name("FILE");
+  command.add_option("lesson", options->lesson, "lesson file (TOML); assets/lessons holds eight").type_name("FILE");
   auto participant = command.add_option(
       "--participant", options->participant,
       "who takes it: a code of six capital letters, or sim:SEED for a simulated participant in simulated time and "

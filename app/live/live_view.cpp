@@ -160,7 +160,7 @@ exhibit::Moment LiveView::moment(ViewFrame& frame) {
 
 void LiveView::draw(const ViewInput& input, ViewFrame& frame) {
   const ViewControl::Beat beat = heartbeat_of(parts_);
-  parts_.choice.follow_edits();
+  parts_.choice.follow_edits(frame.now_ns);
   parts_.turn.hint = next_hint(frame.now_ns);
   for (ViewControl* control : parts_.controls) control->update(frame);
   beat();

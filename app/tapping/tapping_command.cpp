@@ -12,6 +12,8 @@
 #include "curves/svg_plot.h"
 #include "curves/tapping/driven_setup.h"
 #include "curves/tapping/tapping_output.h"
+#include "curves/tapping/tapping_run.h"
+#include "curves/tapping/tapping_sweep.h"
 
 namespace afm::app {
 namespace {
@@ -163,6 +165,20 @@ core::Result<std::string> tapping_text(const curves::TappingChoice& choice, cons
   const auto run = curves::run_tapping(*setup, path, choice.numbers);
   if (!run) return tl::unexpected(run.error());
   return text_of_run(*run, format, curves::tapping_csv, curves::tapping_json, curves::tapping_plots);
+}
+
+core::Result<std::string> tapping_sweep_text(const curves::TappingChoice& choice, const curves::ContactOptions& contact,
+                                             const std::vector<std::string>& sweeps, const std::string& format) {
+  if (format != "csv" && format != "json" && format != "svg") {
+    return wrong_usage(fmt::format("a sweep of --mode {} is written as csv, json or svg, not {}", choice.mode, format));
+  }
+  const auto setup = curves::driven_setup(choice, contact);
+  if (!setup) return tl::unexpected(setup.error());
+  const auto sweep = curves::run_tapping_sweep(*setup, choice, sweeps);
+  if (!sweep) return tl::unexpected(sweep.error());
+  if (format == "csv") return curves::tapping_sweep_csv(*sweep);
+  if (format == "json") return curves::tapping_sweep_json(*sweep).dump(1) + "\n";
+  return curves::svg(curves::tapping_sweep_plot(*sweep));
 }
 
 }  // namespace afm::app

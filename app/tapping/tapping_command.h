@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/options/command.h"
 #include "core/result.h"
@@ -26,5 +27,9 @@ core::Result<void> check_tapping_options(const curves::TappingChoice& choice);
 // The curve of a vibrating lever as csv, json or svg. `choice.mode` is tapping or fm.
 core::Result<std::string> tapping_text(const curves::TappingChoice& choice, const curves::ContactOptions& contact,
                                        const curves::PathOptions& path, const std::string& format);
+
+// The map of regimes over the axes of --sweep, likewise.
+core::Result<std::string> tapping_sweep_text(const curves::TappingChoice& choice, const curves::ContactOptions& contact,
+                                             const std::vector<std::string>& sweeps, const std::string& format);
 
 }  // namespace afm::app

@@ -68,6 +68,12 @@ bool ParameterEdits::apply(const render::ControlTarget& target, std::size_t mate
   }
   // a pixel is read from its file: no force waits for that
   if (now.model().pixel && scene::is_armed(servo.tip().servo_state)) servo.take_force_away();
+  curves::ParameterBuild& build = edits_[material].build;
+  const bool steps = target.kind == Control::More || target.kind == Control::Less;
+  if (steps && now.model().taps()) {
+    build.step(now, now.rows()[target.index], target.kind == Control::More ? 1 : -1);
+    return false;
+  }
   bool changed = false;
   if (target.kind == Control::Pixel) {
     const auto before = now.model().tables;
@@ -76,9 +82,10 @@ bool ParameterEdits::apply(const render::ControlTarget& target, std::size_t mate
       return false;
     }
     changed = now.model().tables != before;
-  } else if (target.kind != Control::Button) {
+  } else if (steps) {
     changed = now.step(now.rows()[target.index], target.kind == Control::More ? 1 : -1);
   } else if (static_cast<exhibit::PanelButton>(target.index) == exhibit::PanelButton::Reset) {
+    build.drop();
     changed = now.reset();
   }
   if (changed) send(material, servo);
@@ -90,6 +97,31 @@ void ParameterEdits::send(std::size_t material, servo::ServoClient& servo) {
   edits_[material].revision = servo.change(material, model.parameters, curves::shared_curve(model));
 }
 
+std::vector<std::size_t> ParameterEdits::take_built(servo::ServoClient& servo) {
+  std::vector<std::size_t> taken;
+  for (std::size_t i = 0; i < edits_.size(); ++i) {
+    Edit& edit = edits_[i];
+    if (!edit.parameters) continue;
+    auto built = edit.build.take(*edit.parameters);
+    if (!built) continue;
+    const bool changed = built->model().tables != edit.parameters->model().tables;
+    edit.parameters = std::move(built);
+    if (changed) send(i, servo);
+    taken.push_back(i);
+  }
+  return taken;
+}
+
+bool ParameterEdits::keeps_force_off(const scene::TipState& tip) {
+  if (tip.material < 0) return false;
+  const auto material = static_cast<std::size_t>(tip.material);
+  Edit& edit = edits_[material];
+  const bool sent = edit.revision != 0 && state(material, tip) == exhibit::ChangeState::Waiting;
+  const bool changes = loaded_[material].taps() && (edit.build.running() || sent);
+  edit.force_off = changes && (edit.force_off || !scene::is_armed(tip.servo_state));
+  return edit.force_off;
+}
+
 bool ParameterEdits::holds_pixel(std::size_t material, const scene::TipState& tip) const {
   return loaded_[material].pixel && tip.material == static_cast<std::int32_t>(material) &&
          tip.phase == physics::Phase::Attached;
@@ -97,6 +129,7 @@ bool ParameterEdits::holds_pixel(std::size_t material, const scene::TipState& ti
 
 void ParameterEdits::reset(servo::ServoClient& servo) {
   for (std::size_t i = 0; i < edits_.size(); ++i) {
+    edits_[i].build.drop();
     if (edits_[i].parameters && edits_[i].parameters->reset()) send(i, servo);
   }
 }
@@ -110,6 +143,7 @@ void ParameterEdits::resend(servo::ServoClient& servo) {
 
 exhibit::ChangeState ParameterEdits::state(std::size_t material, const scene::TipState& tip) const {
   const Edit& edit = edits_[material];
+  if (edit.build.running()) return exhibit::ChangeState::Waiting;
   const bool under_tip = tip.material == static_cast<std::int32_t>(material);
   const bool taken = under_tip ? tip.active.edit_revision == edit.revision : edit.revision == 0;
   if (edit.revision != 0 && tip.acknowledged.refused_edit == edit.revision) return exhibit::ChangeState::Refused;

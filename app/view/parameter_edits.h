@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "curves/live_parameters.h"
+#include "curves/parameter_build.h"
 #include "render/frame.h"
 
 namespace afm::cluster {
@@ -23,7 +24,8 @@ class ServoClient;
 
 namespace afm::app {
 
-// The user's parameters for every material, and the servo's response to each change.
+// The user's parameters for every material, and the servo's response to each change. No call waits for the law of a
+// lever that taps: a thread builds it. Main thread only.
 class ParameterEdits {
  public:
   // `loaded`: the models with which the servo was started.
@@ -32,8 +34,16 @@ class ParameterEdits {
 
   // Applies the button of the panel, except Close, to the parameters and to the servo. Refuses another pixel of a force
   // map while the tip touches, and otherwise takes the force away before it reads one. Returns false if it has logged
-  // why it changes nothing.
+  // why it changes nothing, or if the change of a lever that taps has only begun.
   bool apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo);
+
+  // Call once a frame: takes the parameters that have been built, and sends them to the servo. Returns the materials
+  // whose change has been made or refused.
+  std::vector<std::size_t> take_built(servo::ServoClient& servo);
+
+  // Call once a frame. Returns whether the force must not begin: it was off after a change of the lever that taps under
+  // the tip, and the servo does not have the new law yet.
+  bool keeps_force_off(const scene::TipState& tip);
 
   // Restores the loaded parameters of every material.
   void reset(servo::ServoClient& servo);
@@ -63,6 +73,8 @@ class ParameterEdits {
   struct Edit {
     std::optional<curves::LiveParameters> parameters;
     std::uint32_t revision = 0;  // newest edit sent to the servo; 0: none
+    curves::ParameterBuild build{};
+    bool force_off = false;  // no force since some frame of the newest change
   };
   curves::LiveParameters& parameters(std::size_t material);
   void send(std::size_t material, servo::ServoClient& servo);

@@ -26,7 +26,11 @@ constexpr std::int64_t kForceTakenNs = 500'000'000;  // longest time a new selec
 ViewChoice::ViewChoice(ViewParts& parts, const std::vector<curves::SampleModel>& materials, const Settings& settings)
     : parts_(parts), felt_(materials), scale_(settings.scale), first_material_(settings.first_material) {}
 
-void ViewChoice::follow_edits() {
+void ViewChoice::follow_edits(std::int64_t now_ns) {
+  if (parts_.servo.running()) {
+    parts_.panels.take_built(parts_.servo.link());
+    if (parts_.panels.edits().keeps_force_off(parts_.servo.link().tip())) keep_force_away(now_ns);
+  }
   if (!parts_.panels.edits().take_felt(parts_.servo.link().tip(), felt_)) return;
   const std::size_t current = *parts_.servo.material();
   parts_.sound.set_ear(current, felt_[current]);
@@ -90,7 +94,9 @@ void ViewChoice::step_setting(int steps) {
 void ViewChoice::toggle_friction_loop() {
   const auto material = parts_.servo.material();
   if (!material) return core::log_line("friction loop: choose a sample first");
-  if (!parts_.panels.toggle_friction_loop()) return core::log_line("friction loop: hidden");
+  const bool shown = parts_.panels.toggle_friction_loop();
+  if (felt_[*material].taps()) return core::log_line(fmt::format("dial of the swing: {}", shown ? "shown" : "hidden"));
+  if (!shown) return core::log_line("friction loop: hidden");
   const physics::FrictionLaw law = felt_[*material].parameters.friction.law;
   core::log_line(law == physics::FrictionLaw::None
                      ? std::string("friction loop: friction is off; start with --friction lattice, area or amontons")

@@ -31,8 +31,9 @@ class ViewChoice {
   // The samples as the servo renders them.
   const std::vector<curves::SampleModel>& felt() const { return felt_; }
 
-  // Applies changed parameters that the servo uses to felt(). Call once a frame.
-  void follow_edits();
+  // Sends changed parameters that have been built, applies those that the servo uses to felt(), and keeps the force of
+  // a lever that taps away until the servo has its new law. Call once a frame.
+  void follow_edits(std::int64_t now_ns);
 
   // The guide takes a person's answers first; it must outlive the object.
   void set_guide(ViewGuide& guide) { guide_ = &guide; }

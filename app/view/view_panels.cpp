@@ -15,6 +15,7 @@
 #include "exhibit/friction/friction_panel.h"
 #include "exhibit/panels/panel_hit.h"
 #include "exhibit/panels/parameter_panel.h"
+#include "exhibit/panels/swing_panel.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/map_picture.h"
 #include "exhibit/scan/scan_panels.h"
@@ -63,6 +64,11 @@ void log_parameters(const curves::LiveParameters& parameters) {
     line += fmt::format("{} {}", row == parameters.rows().front() ? "" : ",", parameters.value(row));
   }
   core::log_line(line);
+}
+
+void log_change(const curves::LiveParameters& parameters) {
+  if (parameters.refusal().empty()) return log_parameters(parameters);
+  core::log_line("parameters: not changed: " + parameters.refusal());
 }
 
 void log_scan(const exhibit::LiveScan& scan) {
@@ -208,10 +214,11 @@ void ViewPanels::change(const render::ControlTarget& target, std::size_t materia
     return log_scan(*scan_);
   }
   if (servo == nullptr) return;
-  if (!edits_.apply(target, material, *servo)) return;
-  const curves::LiveParameters& parameters = edits_.of(material);
-  if (parameters.refusal().empty()) return log_parameters(parameters);
-  core::log_line("parameters: not changed: " + parameters.refusal());
+  if (edits_.apply(target, material, *servo)) log_change(edits_.of(material));
+}
+
+void ViewPanels::take_built(servo::ServoClient& servo) {
+  for (const std::size_t material : edits_.take_built(servo)) log_change(edits_.of(material));
 }
 
 // The tab that opens the parameters, and the curve computed from them.
@@ -247,6 +254,9 @@ void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, 
       panels.control.content.pointed = pointed.control;
       return;
     case RightPanel::FrictionLoop:
+      if (const curves::SampleModel& model = edits_.of(material).model(); model.taps()) {
+        return show_right(panels, panels.loop, exhibit::swing_panel(model, tip, phrases()));
+      }
       if (friction_ == nullptr) return;
       const physics::FrictionParameters& friction = edits_.of(material).model().parameters.friction;
       show_right(panels, panels.loop, exhibit::friction_panel(*friction_, friction, phrases()));

@@ -84,6 +84,9 @@ class ViewPanels {
   // Handles a press on a panel or its tab. Sends a change to the servo, if it is not null.
   void press(const Pointed& pointed, std::size_t material, servo::ServoClient* servo);
 
+  // Call once a frame: takes and logs the changed parameters that have been built (ParameterEdits::take_built()).
+  void take_built(servo::ServoClient& servo);
+
   ParameterEdits& edits() { return edits_; }
 
   // The state of the panels for the other machines of a wall, and its counterpart there. `pointed` and `hand` as in

@@ -196,7 +196,11 @@ bool LiveParameters::try_step(Row row, int direction) {
 }
 
 bool LiveParameters::reset() {
-  if (!changed() || !take({})) return false;
+  if (!changed()) return false;
+  now_ = loaded_;
+  curve_ = predict(loaded_);
+  steps_ = {};
+  refusal_.clear();
   refused_.reset();
   refused_direction_ = 0;
   return true;

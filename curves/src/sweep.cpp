@@ -4,22 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <charconv>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
 #include <iterator>
 #include <limits>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
-#include "core/log.h"
 #include "core/version.h"
 #include "curves/curve_output.h"
+#include "over_all_cores.h"
 #include "physics/law_tables.h"
 
 namespace afm::curves {
@@ -43,10 +38,13 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-std::string sweepable(const ModelName& model) {
+std::string sweepable(const ModelName& model, std::span<const ContactParameter> more) {
   std::string names;
+  for (const ContactParameter& parameter : more) names += std::string(parameter.option) + ", ";
+  const std::size_t own = names.size();
   for (const ContactParameter& parameter : contact_parameters()) {
-    if (changes_force(parameter, model)) names += fmt::format("{}{}", names.empty() ? "" : ", ", parameter.option);
+    if (changes_force(parameter, model))
+      names += fmt::format("{}{}", names.size() == own ? "" : ", ", parameter.option);
   }
   return names;
 }
@@ -113,28 +111,6 @@ ContactSetup at_point(ContactSetup setup, const std::vector<SweepAxis>& axes, co
   return setup;
 }
 
-// Runs work(i) for every i below `count` on all cores, until it is asked to stop.
-template <class Work>
-void over_all_cores(std::uint64_t count, const std::stop_token& stop, const Work& work) {
-  std::atomic<std::uint64_t> next{0}, done{0};
-  std::mutex mutex;
-  std::condition_variable changed;
-  unsigned running = std::max(1U, std::thread::hardware_concurrency());
-  const auto run = [&] {
-    for (std::uint64_t i; !stop.stop_requested() && (i = next.fetch_add(1)) < count; done.fetch_add(1)) work(i);
-    const std::lock_guard lock(mutex);
-    --running;
-    changed.notify_one();
-  };
-  std::vector<std::jthread> threads;
-  for (unsigned t = running; t > 0; --t) threads.emplace_back(run);
-  std::unique_lock lock(mutex);
-  while (!changed.wait_for(lock, std::chrono::seconds(1), [&] { return running == 0; })) {
-    const std::uint64_t finished = done.load();
-    core::log_line(fmt::format("sweep: {} of {} points, {} %", finished, count, 100 * finished / count));
-  }
-}
-
 }  // namespace
 
 double SweepAxis::value(std::uint64_t index) const {
@@ -144,7 +120,8 @@ double SweepAxis::value(std::uint64_t index) const {
   return logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
 }
 
-core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelName& model) {
+core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelName& model,
+                                         std::span<const ContactParameter> more) {
   const std::size_t equals = text.find('=');
   const auto parts = equals == std::string::npos ? std::vector<std::string>() : split(text.substr(equals + 1), ':');
   if (parts.size() != 3 && !(parts.size() == 4 && parts[3] == "log")) {
@@ -152,11 +129,14 @@ core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelNam
                       "write key=from:to:count, as in spring-constant=0.01N/m:1N/m:50, with :log for equal ratios");
   }
   SweepAxis axis;
-  axis.parameter = find_contact_parameter(text.substr(0, equals));
-  if (axis.parameter == nullptr || !changes_force(*axis.parameter, model)) {
-    return wrong_axis(text,
-                      fmt::format("\"{}\" is no number of the model {}; it has {}",
-                                  text.substr(0, std::min<std::size_t>(equals, 40)), model.text, sweepable(model)));
+  const std::string key = text.substr(0, equals);
+  const auto beside = std::find_if(more.begin(), more.end(),
+                                   [&](const ContactParameter& parameter) { return parameter.option == key; });
+  axis.parameter = beside != more.end() ? &*beside : find_contact_parameter(key);
+  if (axis.parameter == nullptr || (beside == more.end() && !changes_force(*axis.parameter, model))) {
+    return wrong_axis(
+        text, fmt::format("\"{}\" is no number of the model {}; it has {}",
+                          text.substr(0, std::min<std::size_t>(equals, 40)), model.text, sweepable(model, more)));
   }
   const auto from = parse_parameter(*axis.parameter, parts[0]);
   if (!from) return wrong_axis(text, from.error().message);

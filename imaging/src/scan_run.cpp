@@ -8,10 +8,12 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <variant>
 
+#include "core/check.h"
 #include "core/log.h"
 #include "curves/angle_units.h"
 #include "curves/tapping/tapping_output.h"
@@ -141,6 +143,29 @@ nlohmann::json channel_json(const physics::ImageChannel& channel) {
           {"rms", std::sqrt(square)}, {"min", *least},        {"max", *most}};
 }
 
+// States and forces of one pass, whose channels and keys have these endings.
+void add_pass(const Scan& scan, std::string_view of_channel, std::string_view of_key, double free_deg,
+              nlohmann::json& result) {
+  const auto values_of = [&](std::string_view name) -> const std::vector<double>& {
+    const std::string wanted = fmt::format("{}{}", name, of_channel);
+    const auto& channels = scan.image.channels;
+    const auto found = std::find_if(channels.begin(), channels.end(), [&](const auto& c) { return c.name == wanted; });
+    AFM_CHECK(found != channels.end());
+    return found->values;
+  };
+  const std::vector<double>&phase_deg = values_of("Phase"), &peak_n = values_of("Peak force");
+  std::size_t changes = 0;
+  for (std::size_t row = 0; row < scan.image.rows; ++row) {
+    changes +=
+        physics::changes_of_state(std::span(phase_deg).subspan(row * scan.image.columns, scan.image.columns), free_deg);
+  }
+  const auto attracted = std::count_if(phase_deg.begin(), phase_deg.end(), [&](double deg) { return deg > free_deg; });
+  result[fmt::format("regime_changes{}", of_key)] = changes;
+  result[fmt::format("attractive_share{}", of_key)] =
+      static_cast<double>(attracted) / static_cast<double>(phase_deg.size());
+  result[fmt::format("largest_peak_force{}_N", of_key)] = *std::max_element(peak_n.begin(), peak_n.end());
+}
+
 nlohmann::json tapping_json(const Scan& scan) {
   const physics::DrivenLever& lever = scan.tapping->lever();
   const double free_deg = lever.free_phase * 180.0 / std::numbers::pi;
@@ -154,23 +179,8 @@ nlohmann::json tapping_json(const Scan& scan) {
                         {"relaxation_time_s", lever.relaxation().si},
                         {"integral_gain_without_overshoot_per_s", 0.25 / lever.relaxation().si},
                         {"conventions", curves::tapping_conventions()}};
-  for (const physics::ImageChannel& channel : scan.image.channels) {
-    const auto count = static_cast<double>(channel.values.size());
-    const auto of_values = [&](const auto& rule) {
-      return static_cast<double>(std::count_if(channel.values.begin(), channel.values.end(), rule));
-    };
-    if (channel.name == "Phase") {
-      std::size_t changes = 0;
-      for (std::size_t row = 0; row < scan.image.rows; ++row) {
-        changes += physics::changes_of_state(
-            std::span(channel.values).subspan(row * scan.image.columns, scan.image.columns), free_deg);
-      }
-      result["regime_changes"] = changes;
-      result["attractive_share"] = of_values([&](double phase_deg) { return phase_deg > free_deg; }) / count;
-    } else if (channel.name == "Peak force") {
-      result["largest_peak_force_N"] = *std::max_element(channel.values.begin(), channel.values.end());
-    }
-  }
+  add_pass(scan, "", "", free_deg, result);
+  add_pass(scan, " (retrace)", "_retrace", free_deg, result);
   return result;
 }
 

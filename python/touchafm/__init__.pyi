@@ -498,6 +498,7 @@ def scan(
     tip_angle: Optional[float] = ...,
     show_truth: bool = ...,
     seed: Optional[int] = ...,
+    mode: Literal["contact", "tapping"] = ...,
     **numbers: float,
 ) -> Scan: ...
 def level(heights: ArrayLike, how: Literal["none", "plane", "lines"] = ...) -> _Floats: ...

@@ -122,11 +122,13 @@ rect = [96, 0, 96, 72]
 class InterruptedDemonstration : public testing::TestWithParam<milliseconds> {};
 
 TEST(Interruption, OfASweepLeavesNoFile) {
-  const auto interrupted = [](int number) {
+  std::vector<std::string> mode{"--material", "mica"};
+  const auto interrupted = [&](int number) {
     const support::ScratchFolder folder;
-    support::LiveProgram sweep({support::touchafm(), "curve", "--material", "mica", "--sweep",
-                                "tip-radius=1nm:100nm:1000000", "--out", folder.file("sweep.csv")},
-                               "");
+    std::vector<std::string> words{support::touchafm(), "curve"};
+    words.insert(words.end(), mode.begin(), mode.end());
+    words.insert(words.end(), {"--sweep", "tip-radius=1nm:100nm:1000000", "--out", folder.file("sweep.csv")});
+    support::LiveProgram sweep(words, "");
     EXPECT_TRUE(sweep.says("sweep: "));
     const Ended ended = interrupt(sweep, number);
     EXPECT_EQ(ended.exit_code, 1);
@@ -134,6 +136,9 @@ TEST(Interruption, OfASweepLeavesNoFile) {
     EXPECT_TRUE(fs::is_empty(folder.path()));
   };
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) interrupted(number);
+  mode.insert(mode.end(), {"--mode", "tapping", "--free-amplitude", "20nm", "--resonance", "300kHz", "--quality-factor",
+                           "400", "--spring-constant", "40N/m"});
+  interrupted(SIGINT);
 }
 
 TEST(Interruption, ByHangupIsNoneUnderNohup) {

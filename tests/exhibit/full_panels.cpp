@@ -9,10 +9,12 @@
 #include "exhibit/panels/parameter_panel.h"
 #include "exhibit/panels/particles_panel.h"
 #include "exhibit/panels/servo_rows.h"
+#include "exhibit/panels/swing_panel.h"
 #include "exhibit/scan/scan_subject.h"
 #include "exhibit/words/guidance.h"
 #include "scene/shared/shared_blocks.h"
 #include "support/particles/particle_sets.h"
+#include "support/tapped_sample.h"
 
 namespace afm::exhibit {
 
@@ -74,6 +76,14 @@ render::ForcePanel full_friction_loop(physics::FrictionLaw law, const Phrases& p
   friction.law = law;
   friction.period = physics::Length(0.5e-9);
   return friction_panel(history, friction, phrases);
+}
+
+render::ForcePanel full_dial(const Phrases& phrases) {
+  static const curves::SampleModel sample = test::tapped_sample();
+  scene::TipState tip;
+  tip.tip.z_m = 17.4e-9;
+  tip.swing = {.amplitude_m = 16e-9, .phase_rad = 2.0};
+  return swing_panel(sample, tip, phrases);
 }
 
 std::vector<render::DataPanel> full_particles(const Phrases& phrases) {

@@ -19,6 +19,8 @@ render::ControlPanel full_parameters(const Stage& stage);
 LiveScan full_scan(const Stage& stage);
 // Three loops there and back, the last one open, with the longest numbers.
 render::ForcePanel full_friction_loop(physics::FrictionLaw law, const Phrases& phrases);
+// The dial of a lever that taps, with both states.
+render::ForcePanel full_dial(const Phrases& phrases);
 // Of either built-in set, with a softened lever.
 std::vector<render::DataPanel> full_particles(const Phrases& phrases);
 // The questions of a lesson with most words and most answers.

@@ -56,6 +56,7 @@ TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWal
   expect_large(scan_panel(scan, phrases.word("Silicon nitride"), phrases), right, "the settings of a scan");
   expect_large(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.panels.force.placement, "the images");
   expect_large(full_friction_loop(physics::FrictionLaw::Lattice, phrases), right, "the friction loop");
+  expect_large(full_dial(phrases), right, "the dial");
   for (const LessonPrompt& prompt : full_prompts(phrases)) {
     const auto targets = lesson_targets(prompt, std::nullopt, phrases);
     const LessonPlaces places = lesson_places(right, targets.size());

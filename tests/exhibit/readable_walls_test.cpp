@@ -85,6 +85,7 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   for (const auto law : {physics::FrictionLaw::None, physics::FrictionLaw::Lattice}) {
     expect_whole(full_friction_loop(law, phrases), stage.wall_scene.places().parameters(), "the friction loop");
   }
+  expect_whole(full_dial(phrases), stage.wall_scene.places().parameters(), "the dial");
   for (const render::DataPanel& particles : full_particles(phrases)) {
     expect_whole(particles, frame.panels.data.placement, "the particles");
   }

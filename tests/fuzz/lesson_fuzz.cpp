@@ -30,9 +30,11 @@ bool can_be_run(const afm::exhibit::LessonStep& step, const afm::exhibit::Lesson
   const bool felt = step.kind == StepKind::Cycle || step.kind == StepKind::Threshold;
   if (step.kind == StepKind::Push && !can_be_pushed(step.push, lesson)) return false;
   return of_lesson && (!felt || step.materials.size() == 1) &&
-         (step.kind != StepKind::Identify || step.materials.size() >= 2) && step.trials >= 1 && step.practice >= 0 &&
-         std::isfinite(step.hint_after_s) && plan.least > 0.0 && plan.least <= plan.start && plan.start <= plan.most &&
-         plan.step > 1.0 && (!step.each_condition || lesson.conditions.size() >= 2);
+         (step.kind != StepKind::Identify ||
+          (step.states ? lesson.tapping && step.materials.size() == 1 : step.materials.size() >= 2)) &&
+         step.trials >= 1 && step.practice >= 0 && std::isfinite(step.hint_after_s) && plan.least > 0.0 &&
+         plan.least <= plan.start && plan.start <= plan.most && plan.step > 1.0 &&
+         (!step.each_condition || lesson.conditions.size() >= 2);
 }
 
 }  // namespace

@@ -27,6 +27,21 @@ class Scan(unittest.TestCase):
         self.assertEqual(coned.as_dict()["metadata"]["Slow direction"], "up")
         self.assertEqual(coned.as_dict()["settings"]["noise_m"], command["settings"]["noise_m"])
 
+    def test_takes_images_in_tapping_mode(self):
+        tapped = {"mode": "tapping", "free_amplitude": 20 / 1e9, "resonance": 300e3, "quality_factor": 400.0}
+        stiff = touchafm.Contact.material("mica", spring_constant=40.0)
+        command = ("scan", "--material", "mica", "--spring-constant", "40N/m", "--mode", "tapping", "--free-amplitude", "20nm",
+                   "--resonance", "300kHz", "--quality-factor", "400", *SMALL_COMMAND, "--json")
+        self.assertEqual(touchafm.scan(stiff, **tapped, **SMALL).as_dict(), json_of(*command))
+        low = touchafm.scan(stiff, amplitude_setpoint=12e-9, **tapped, **SMALL)
+        self.assertAlmostEqual(low.as_dict()["tapping"]["setpoint_ratio"], 0.6)
+        self.assertIn("Phase (retrace)", low.channels)
+        for given in ({"mode": "fm"}, {"mode": "tapping"}, {**tapped, "adhesion": 1e-9}, {**tapped, "quality_factor": 50.0}):
+            with self.assertRaises(ValueError):
+                touchafm.scan(stiff, **given, **SMALL)
+        with self.assertRaises(TypeError):
+            touchafm.scan(stiff, free_amplitude=20e-9, **SMALL)  # of no mode but tapping
+
     def test_has_the_channels_of_its_file(self):
         scan = touchafm.scan(MICA, **SMALL)
         height = scan["Height"]

@@ -30,8 +30,10 @@ struct SweepAxis {
 inline constexpr std::uint64_t kLargestParameterSweep = 1'000'000;
 
 // Parses "spring-constant=0.01N/m:1N/m:50", with ":log" at the end for equal ratios. WrongUsage quotes the text and
-// explains the fault; the caller adds the option's name.
-core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelName& model);
+// explains the fault; the caller adds the option's name. `more`: parameters beside those of the contact, which outlive
+// the axis; their functions are not called.
+core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelName& model,
+                                         std::span<const ContactParameter> more = {});
 
 // Results of one cycle at one point of a sweep; forces signed. Without hysteresis the jumps are null.
 struct SweepRow {

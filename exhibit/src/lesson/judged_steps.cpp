@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -105,6 +107,98 @@ class IdentifyActivity final : public StepActivity {
   bool felt_ = false;
   std::string note_;
   double began_s_, asked_s_ = 0;
+};
+
+// The hand moves the swing through both states. At a height at which both exist, drawn for each trial, and in the drawn
+// state, the lesson asks which it is, so that no height gives the answer.
+class StateActivity final : public StepActivity {
+ public:
+  StateActivity(StepContext context, double now_s) : context_(std::move(context)), count_(context_.step) {
+    for (int i = 0; i < context_.step.practice; ++i) shown_.push_back(context_.random.below(kStates.size()));
+    std::vector<std::size_t> counted;
+    for (int i = 0; i < context_.step.trials; ++i) counted.push_back(static_cast<std::size_t>(i) % kStates.size());
+    context_.random.shuffle(std::span<std::size_t>(counted));
+    shown_.insert(shown_.end(), counted.begin(), counted.end());
+    reset(now_s);
+  }
+
+  void describe(LessonPrompt& prompt) const override {
+    prompt.hidden = prompt.of_states = true;
+    prompt.material = context_.step.materials.front();
+    prompt.cycle = static_cast<std::uint32_t>(trial_);
+    prompt.progress = count_.text(context_.phrases);
+    prompt.right = shown_[trial_];
+    prompt.has_right = true;
+    if (!asked_s_) {
+      prompt.wants = LessonPrompt::Wants::Cycle;
+      prompt.words = joined(note_, context_.words());
+      return;
+    }
+    prompt.wants = LessonPrompt::Wants::Answer;
+    prompt.words = context_.phrases[Phrase::LessonState];
+    for (const StateRow& row : kStates) prompt.answers.push_back(context_.phrases[row.title]);
+  }
+  void add(const scene::TipSample& sample) override {
+    if (asked_s_) return;
+    const double z_m = sample.tip.z_m;
+    const bool shown = sample.material == static_cast<std::int32_t>(context_.step.materials.front()) &&
+                       sample.phase == kStates.at(shown_[trial_]).phase;
+    const bool passed = shown && before_m_ && (*before_m_ < ask_m_) != (z_m < ask_m_);
+    before_m_ = shown ? std::optional(z_m) : std::nullopt;
+    if (passed) asked_s_ = static_cast<double>(sample.time_ns) * 1e-9;
+  }
+  bool waits_for_state() const override { return !asked_s_; }
+  void answer(std::size_t answer, double now_s) override {
+    if (!asked_s_ || answer >= kStates.size()) return;
+    const bool right = answer == shown_[trial_];
+    const std::string& right_answer = context_.phrases[kStates.at(shown_[trial_]).title];
+    note_ = count_.practice() ? feedback(context_.phrases, right, right_answer) : "";
+    TrialRow row = trial(now_s);
+    row.response = kStates.at(answer).word;
+    row.correct = right;
+    row.rt_s = now_s - *asked_s_;
+    context_.keep(std::move(row));
+    count_.next();
+    if (count_.done()) return;
+    ++trial_;
+    reset(now_s);
+  }
+  TrialRow trial(double now_s) const override {
+    return {.onset_s = began_s_,
+            .duration_s = now_s - began_s_,
+            .practice = count_.practice(),
+            .trial = count_.number(),
+            .stimulus = std::string(kStates.at(shown_[trial_]).word)};
+  }
+  void reset(double now_s) override {
+    const physics::CycleFigures& figures = context_.samples[context_.step.materials.front()].figures();
+    const double share = 0.3 + 0.4 * context_.random.unit();
+    ask_m_ = figures.z_jtc.si + share * (figures.z_joc - figures.z_jtc).si;
+    asked_s_.reset();
+    before_m_.reset();
+    began_s_ = now_s;
+  }
+  bool done() const override { return count_.done(); }
+  bool may_pause() const override { return !asked_s_; }
+
+ private:
+  struct StateRow {
+    physics::Phase phase;
+    std::string_view word;  // word in the results
+    Phrase title;
+  };
+  static constexpr std::array kStates{StateRow{physics::Phase::Free, "attractive", Phrase::SwingAttractive},
+                                      StateRow{physics::Phase::Attached, "repulsive", Phrase::SwingRepulsive}};
+
+  StepContext context_;
+  TrialCount count_;
+  std::vector<std::size_t> shown_;  // index into kStates for each trial
+  std::size_t trial_ = 0;
+  double ask_m_ = 0;                // Z of the question
+  std::optional<double> before_m_;  // Z of the previous sample, in the state of the trial
+  std::optional<double> asked_s_;   // time of the question
+  std::string note_;
+  double began_s_ = 0;
 };
 
 // A trial is two cycles, one of which has the stronger pull-off.
@@ -264,6 +358,7 @@ static_assert(after(Phrase::DrawPart1, DrawActivity::kParts) == Phrase::DrawShap
 }  // namespace
 
 std::unique_ptr<StepActivity> make_identify_activity(const StepContext& context, double now_s) {
+  if (context.step.states) return std::make_unique<StateActivity>(context, now_s);
   return std::make_unique<IdentifyActivity>(context, now_s);
 }
 

@@ -15,6 +15,7 @@
 #include "core/fnv1a.h"
 #include "core/whole_file.h"
 #include "exhibit/lesson/questionnaire.h"
+#include "lesson_tapping.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/quantity_text.h"
 #include "scene/config/toml_file.h"
@@ -139,7 +140,7 @@ std::vector<std::size_t> read_materials(const TomlTable& table, const LessonStep
     }
     places.push_back(static_cast<std::size_t>(found - lesson.materials.begin()));
   };
-  if (step.kind == StepKind::Cycle || step.kind == StepKind::Threshold) {
+  if (step.kind == StepKind::Cycle || step.kind == StepKind::Threshold || step.states) {
     place_of("material", table.text("material", kMostIdLetters));
     return places;
   }
@@ -241,8 +242,8 @@ void allow_keys(const TomlTable& table, StepKind kind) {
       return table.allow_only(
           {"id", "type", "words", "hint", "hint_after", "each_condition", "material", "trials", "practice"});
     case StepKind::Identify:
-      return table.allow_only(
-          {"id", "type", "words", "hint", "hint_after", "each_condition", "materials", "trials", "practice"});
+      return table.allow_only({"id", "type", "words", "hint", "hint_after", "each_condition", "materials", "trials",
+                               "practice", "of", "material"});
     case StepKind::Threshold:
       return table.allow_only({"id", "type", "words", "hint", "hint_after", "each_condition", "material", "trials",
                                "practice", "staircase", "distance", "rove", "start", "least", "most", "step"});
@@ -293,6 +294,7 @@ LessonStep read_step(const TomlTable& table, const Lesson& lesson) {
   LessonStep step;
   step.kind = table.one_of("type", kStepKinds, &study::StepKindRow::word).kind;
   refuse_kind_beside_particles(table, step.kind, lesson);
+  if (lesson.tapping) refuse_kind_in_tapping(table, step.kind);
   allow_keys(table, step.kind);
   read_common(table, lesson, step);
   step.trials = step.kind == StepKind::Free ? whole_or(table, "cycles", 1, kMostTrials, 1)
@@ -317,10 +319,11 @@ LessonStep read_step(const TomlTable& table, const Lesson& lesson) {
     case StepKind::Free:
     case StepKind::Cycle:
     case StepKind::Identify:
+      step.states = step.kind == StepKind::Identify && read_states(table, lesson);
       step.materials = read_materials(table, step, lesson);
       break;
   }
-  if (row_of(step.kind).compares_forces && lesson.scale != scene::ScaleMode::Common) {
+  if (row_of(step.kind).compares_forces && !step.states && lesson.scale != scene::ScaleMode::Common) {
     table.refuse("type", fmt::format("{} needs the lesson's scale = \"common\": on {} every material lets go at the "
                                      "same force of the hand, so that no one can tell them apart",
                                      word_of(step.kind), scene::text_of(lesson.scale).word));
@@ -344,7 +347,7 @@ void read_steps(const TomlTable& top, Lesson& lesson) {
 
 Lesson read_lesson(const toml::table& root, const std::string& assets_dir) {
   const TomlTable top(root);
-  top.allow_only({"id", "title", "minutes", "materials", "particles", "scale", "conditions", "step"});
+  top.allow_only({"id", "title", "minutes", "materials", "particles", "tapping", "scale", "conditions", "step"});
   Lesson lesson;
   lesson.id = read_id(top, "id");
   lesson.title = read_words(top, "title", kLine);
@@ -354,6 +357,10 @@ Lesson read_lesson(const toml::table& root, const std::string& assets_dir) {
     read_particles(top, assets_dir, lesson);
   } else {
     lesson.scale = top.one_of("scale", kLessonScales, &ScaleWord::word).mode;
+  }
+  if (top.has("tapping")) {
+    if (lesson.set) top.refuse("tapping", "is for lessons without particles");
+    lesson.tapping = std::make_shared<const curves::TappedHand>(read_tapping(top));
   }
   if (top.has("conditions")) {
     for (const std::string& name : top.texts("conditions", kMostConditions)) {

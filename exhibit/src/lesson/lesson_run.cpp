@@ -157,11 +157,11 @@ void LessonRun::happened(const scene::TipEvent& event, double now_s) {
   const LessonPrompt wanted = prompt(now_s);
   const auto material = static_cast<std::size_t>(event.material);
   if (wanted.wants != LessonPrompt::Wants::Cycle || (wanted.material && *wanted.material != material)) return;
-  if (event.kind == physics::EventKind::JumpToContact) {
+  if (physics::begins_cycle(event.kind)) {
     snapped_in_ = true;
     if (force_ != wanted_force()) return repeat_trial(now_s);
   }
-  if (event.kind != physics::EventKind::JumpOffContact || !std::exchange(snapped_in_, false)) return;
+  if (!physics::ends_cycle(event.kind) || !std::exchange(snapped_in_, false)) return;
   unfelt_.reset();
   counted_ = true;
   activity_->felt({.material = material, .f_ad_n = std::abs(event.force_before_n)}, now_s);
@@ -180,7 +180,15 @@ void LessonRun::add(const scene::TipEvent& event) {
 
 void LessonRun::add(const scene::TipSample& sample, double now_s) {
   if (end_ || error_ || stage_ != Stage::Steps) return;
+  const bool waited = activity_->waits_for_state();
+  if (waited && force_ != wanted_force()) return;
   activity_->add(sample);
+  if (waited && !activity_->waits_for_state()) {
+    // the question ends the cycle: the force that the lesson takes away now is no fault
+    snapped_in_ = false;
+    unfelt_.reset();
+    counted_ = true;
+  }
   if (!activity_->counts_touches() || sample.push.particle == scene::kNoParticle) return;
   if (force_ != wanted_force()) return repeat_trial(now_s);
   unfelt_.reset();

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curves/tapping/driven_setup.h"
+
 namespace afm::exhibit {
 
 namespace {
@@ -31,14 +33,22 @@ core::Result<void> check_samples(const Lesson& lesson, std::span<const curves::S
   for (const LessonStep& step : lesson.steps) {
     for (const std::size_t material : step.materials) {
       if (samples[material].figures().hysteretic) continue;
-      return core::failure(core::ErrorCategory::BadInputFile,
-                           fmt::format("lesson step {}: {} neither snaps in nor pulls off, so that no cycle of it ends",
-                                       step.id, lesson.materials[material]));
+      return core::failure(
+          core::ErrorCategory::BadInputFile,
+          fmt::format("lesson step {}: {} {}, so that no cycle of it ends", step.id, lesson.materials[material],
+                      lesson.tapping ? "has one state of the swing at each height" : "neither snaps in nor pulls off"));
     }
     if (step.kind != StepKind::Threshold) continue;
     if (auto checked = check_threshold(step, samples[step.materials.front()], strongest_n); !checked) return checked;
   }
   return {};
+}
+
+core::Result<curves::ContactSetup> lesson_setup(const Lesson& lesson, const scene::MaterialEntry& entry) {
+  if (!lesson.tapping) return curves::ContactSetup{entry, {}, {}};
+  auto setup = curves::tapped_setup(entry, *lesson.tapping);
+  if (setup) return setup;
+  return core::failure(core::ErrorCategory::BadInputFile, "tapping: " + setup.error().message);
 }
 
 core::Result<std::vector<curves::SampleModel>> lesson_samples(const Lesson& lesson,
@@ -47,7 +57,9 @@ core::Result<std::vector<curves::SampleModel>> lesson_samples(const Lesson& less
   for (const std::string& name : lesson.materials) {
     const auto entry = library.require(name);
     if (!entry) return tl::unexpected(entry.error());
-    auto sample = curves::make_sample_model(curves::ContactSetup{**entry, {}, {}});
+    const auto setup = lesson_setup(lesson, **entry);
+    if (!setup) return tl::unexpected(setup.error());
+    auto sample = curves::make_sample_model(*setup);
     if (!sample) return tl::unexpected(sample.error());
     samples.push_back(std::move(*sample));
   }

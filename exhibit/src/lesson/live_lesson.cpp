@@ -178,7 +178,7 @@ bool LiveLesson::shows_scene() const {
 bool LiveLesson::has_tones() const {
   if (takes_hand()) return false;
   if (prompt_.condition) return *prompt_.condition == Condition::Sound;
-  return !prompt_.hidden;
+  return !prompt_.hidden || prompt_.of_states;
 }
 
 bool LiveLesson::has_force() const { return prompt_.condition != Condition::Picture; }
@@ -205,7 +205,7 @@ void LiveLesson::felt(const scene::TipSample& sample, const servo::ServoClient& 
 }
 
 void LiveLesson::happened(const scene::TipEvent& event, const servo::ServoClient& servo) {
-  if (!physics::is_jump(event.kind)) return run_.add(event);
+  if (!physics::begins_cycle(event.kind) && !physics::ends_cycle(event.kind)) return run_.add(event);
   if (edit_ != 0 && servo.tip().active.edit_revision != edit_) return;
   run_.happened(event, now_s());
   acted();

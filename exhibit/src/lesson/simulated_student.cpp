@@ -43,6 +43,12 @@ constexpr std::array kAbilities{AbilityRow{"d-prime", &Abilities::d_prime, 0, 10
                                 AbilityRow{"weber", &Abilities::weber_fraction, 0.001, 10},
                                 AbilityRow{"bias", &Abilities::bias, -10, 10}};
 
+// A jump of the law's branches, as the servo reports it under a lever that taps.
+physics::EventKind kind_of_jump(physics::EventKind kind, bool taps) {
+  if (!taps) return kind;
+  return physics::begins_cycle(kind) ? physics::EventKind::JumpToRepulsion : physics::EventKind::JumpToAttraction;
+}
+
 core::Error bad_participant(std::string_view text) {
   return {core::ErrorCategory::WrongUsage,
           fmt::format("sim:{} is no simulated participant; write sim:SEED, where SEED is a whole number, or sim:SEED "
@@ -144,7 +150,7 @@ core::Result<void> SimulatedStudent::push(LessonRun& run) {
   return pusher_->push(run, now_s_);
 }
 
-// Feels one cycle with the servo's model, tick by tick.
+// Feels one cycle with the servo's model, tick by tick; under a lever that taps, with its push at rest.
 core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& prompt) {
   const std::size_t material = prompt.material.value_or(random_.below(samples_.size()));
   std::shared_ptr<const physics::LawTables> tables = samples_[material].tables;
@@ -166,14 +172,15 @@ core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& pr
   physics::ApproachRetractModel model(tables);
   for (std::int64_t tick = 0; tick <= 2 * strokes; ++tick) {
     const double share = static_cast<double>(std::abs(tick - strokes)) / static_cast<double>(strokes);
-    const physics::TipResponse response = model.step(physics::Length(scaling->z_m(low_m + share * (high_m - low_m))));
+    const double z_m = scaling->z_m(low_m + share * (high_m - low_m));
+    const physics::TipResponse response = model.step(physics::Length(z_m));
     for (std::uint32_t i = 0; i < response.event_count; ++i) {
       const physics::ModelEvent& event = response.events[i];
       if (event.kind == physics::EventKind::JumpOffContact) {
         felt_n_[0] = std::exchange(felt_n_[1], -scaling->hand_force_n(event.force_before.si));
       }
       const double at_s = now_s_ + (static_cast<double>(tick) - 1.0 + event.fraction) * kTickS;
-      run.happened({.kind = event.kind,
+      run.happened({.kind = kind_of_jump(event.kind, samples_[material].taps()),
                     .material = static_cast<std::int32_t>(material),
                     .time_ns = static_cast<std::int64_t>(at_s * 1e9),
                     .z_m = event.z.si,
@@ -181,6 +188,18 @@ core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& pr
                     .force_after_n = event.force_after.si},
                    at_s);
     }
+    if (!prompt.of_states) continue;
+    const double at_s = now_s_ + static_cast<double>(tick) * kTickS;
+    scene::TipSample sample;
+    sample.time_ns = static_cast<std::int64_t>(at_s * 1e9);
+    sample.material = static_cast<std::int32_t>(material);
+    sample.phase = response.phase;
+    sample.tip.z_m = z_m;
+    run.add(sample, at_s);
+    if (run.prompt(at_s).wants == LessonPrompt::Wants::Cycle) continue;
+    // the question ends the cycle
+    now_s_ = at_s;
+    return {};
   }
   now_s_ += static_cast<double>(2 * strokes) * kTickS;
   return {};

@@ -42,11 +42,13 @@ class StepActivity {
   virtual void answer(std::size_t, double) {}
   virtual void felt(const FeltCycle&, double) {}
 
-  // For a push: events and samples of the servo in order, the events of a tick before its sample; then pages.
+  // For a push, and for samples the state of a swing: events and samples of the servo in order, the events of a tick
+  // before its sample; then pages.
   virtual void add(const scene::TipEvent&) {}
   virtual void add(const scene::TipSample&) {}
   virtual void look(std::span<const scene::ParticlePage>, double) {}
-  virtual bool counts_touches() const { return false; }  // touching a particle now belongs to the trial
+  virtual bool counts_touches() const { return false; }   // touching a particle now belongs to the trial
+  virtual bool waits_for_state() const { return false; }  // needs samples with the condition's force
 
   virtual TrialRow trial(double) const { return {}; }  // the running trial, without its answer
   virtual void reset(double now_s) = 0;                // restarts the running trial

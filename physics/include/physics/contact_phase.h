@@ -65,4 +65,12 @@ constexpr const char* name_of(EventKind kind) {
 // over a swing.
 constexpr bool is_jump(EventKind kind) { return kind == EventKind::JumpToContact || kind == EventKind::JumpOffContact; }
 
+// Both ends of a cycle: a jump, or a change of the state of a tapping lever.
+constexpr bool begins_cycle(EventKind kind) {
+  return kind == EventKind::JumpToContact || kind == EventKind::JumpToRepulsion;
+}
+constexpr bool ends_cycle(EventKind kind) {
+  return kind == EventKind::JumpOffContact || kind == EventKind::JumpToAttraction;
+}
+
 }  // namespace afm::physics

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "support/places.h"
 
@@ -65,6 +66,103 @@ TEST(TappingCommand, PrintsEveryStateAtAHeight) {
   const auto json = json_of(choice);
   ASSERT_EQ(json["states"].size(), 3u);
   EXPECT_EQ(json["states"][1]["stable"], false);
+}
+
+nlohmann::json swept(const std::vector<std::string>& sweeps, const curves::ContactOptions& contact = tapped()) {
+  const auto text = tapping_sweep_text(tapping(), contact, sweeps, "json");
+  return text ? nlohmann::json::parse(*text)["points"] : nlohmann::json(text.error().message);
+}
+
+void expect_state(const nlohmann::json& point, const std::string& state, double amplitude_nm, double phase_deg,
+                  double tolerance = 1e-3) {
+  EXPECT_NEAR(point[state + "_amplitude_m"].get<double>() * 1e9, amplitude_nm, tolerance * amplitude_nm) << point;
+  EXPECT_NEAR(point[state + "_phase_deg"].get<double>(), phase_deg, 0.2) << point;
+}
+
+// Rows T42 and T45 of the cases.
+TEST(TappingSweep, MapsTheStatesOverFreeAmplitudeAndHeight) {
+  const auto points = swept({"free-amplitude=10nm:20nm:2", "z=5nm:17.4149nm:2"});
+  ASSERT_EQ(points.size(), 4U) << points;
+  EXPECT_EQ(points[0]["regime"], "both");
+  expect_state(points[0], "attractive", 4.819, 151.19);
+  expect_state(points[0], "repulsive", 6.345, 39.38, 4e-3);  // the case has the mean deflection without harmonics
+  EXPECT_EQ(points[1]["regime"], "attractive") << "out of reach of the sample";
+  EXPECT_NEAR(points[1]["attractive_amplitude_m"].get<double>(), 10e-9, 1e-12);
+  EXPECT_TRUE(points[1]["repulsive_amplitude_m"].is_null());
+  EXPECT_EQ(points[3]["regime"], "both");
+  EXPECT_DOUBLE_EQ(points[3]["z_m"].get<double>(), 17.4149e-9);
+  expect_state(points[3], "attractive", 17.4935, 118.99);
+  expect_state(points[3], "repulsive", 18.8572, 70.54);
+}
+
+// Rows T43 and T45 of the cases: the same numbers as those of a single curve.
+TEST(TappingSweep, FindsTheJumpsOfEachCurve) {
+  const auto points = swept({"free-amplitude=10nm:20nm:2"});
+  ASSERT_EQ(points.size(), 2U) << points;
+  EXPECT_EQ(points[0]["regime"], "attractive");
+  EXPECT_TRUE(points[0]["jump_in_z_m"].is_null());
+  EXPECT_GE(points[0]["islands"], 1);
+  EXPECT_EQ(points[1]["regime"], "hysteresis");
+  const auto curve = json_of(tapping());
+  EXPECT_EQ(points[1]["jump_in_z_m"], curve["jumps"][0]["z_m"]);
+  EXPECT_EQ(points[1]["jump_off_z_m"], curve["jumps"][1]["z_m"]);
+  EXPECT_EQ(points[1]["hysteresis_width_m"], curve["hysteresis_width_m"]);
+  const auto near = [&](const char* key, double nm) {
+    EXPECT_NEAR(points[1][key].get<double>() * 1e9, nm, 3e-3 * nm) << key;
+  };
+  near("jump_in_z_m", 16.568);
+  near("jump_off_z_m", 18.826);
+  near("amplitude_before_jump_in_m", 16.9);
+  near("amplitude_after_jump_in_m", 18.07);
+  near("amplitude_before_jump_off_m", 20.0);
+  near("amplitude_after_jump_off_m", 18.72);
+}
+
+TEST(TappingSweep, KeepsTheContactGapWhereTheAttractionIsSwept) {
+  auto weak = tapped();
+  weak.values["hamaker"] = "32zJ";
+  const auto text = tapping_text(tapping(), weak, {}, "json");
+  ASSERT_TRUE(text);
+  const auto points = swept({"hamaker=32zJ:64zJ:2"});
+  ASSERT_EQ(points.size(), 2U) << points;
+  EXPECT_NEAR(points[0]["jump_in_z_m"].get<double>(), nlohmann::json::parse(*text)["jumps"][0]["z_m"].get<double>(),
+              1e-15);
+}
+
+TEST(TappingSweep, SaysWhyAPointHasNoSwing) {
+  const auto points = swept({"quality-factor=50:400:2"});
+  ASSERT_EQ(points.size(), 2U) << points;
+  EXPECT_THAT(points[0]["refusal"].get<std::string>(), HasSubstr("quality factor of at least 100, not 50"));
+  EXPECT_TRUE(points[0]["regime"].is_null());
+  EXPECT_EQ(points[1]["regime"], "hysteresis");
+}
+
+TEST(TappingSweep, IsDrawnAndPrinted) {
+  const std::vector<std::string> grid{"free-amplitude=10nm:20nm:2", "z=5nm:17.4149nm:2"};
+  const auto csv = tapping_sweep_text(tapping(), tapped(), grid, "csv");
+  ASSERT_TRUE(csv);
+  EXPECT_THAT(*csv, HasSubstr("free_amplitude_m,z_m,regime,attractive_amplitude_m,"));
+  EXPECT_THAT(*csv, HasSubstr("\n1e-08,5e-09,both,"));
+  EXPECT_THAT(*csv, HasSubstr("# phase: lag of the tip"));
+  EXPECT_THAT(*csv, HasSubstr("# regime both: "));
+  for (const auto& sweeps : {grid, std::vector<std::string>{"free-amplitude=10nm:20nm:2"}}) {
+    const auto svg = tapping_sweep_text(tapping(), tapped(), sweeps, "svg");
+    ASSERT_TRUE(svg);
+    EXPECT_THAT(*svg, HasSubstr("free amplitude (nm)"));
+  }
+}
+
+TEST(TappingSweep, RefusesWithTheReason) {
+  EXPECT_THAT(swept({"colour=1nm:2nm:3"}).get<std::string>(), HasSubstr("it has free-amplitude, z, tip-radius"));
+  EXPECT_THAT(swept({"z=1nm:2nm:3", "z=1nm:2nm:3"}).get<std::string>(),
+              HasSubstr("z: this parameter is swept already"));
+  EXPECT_THAT(swept({"z=1nm:2nm:9999", "free-amplitude=9nm:20nm:9999"}).get<std::string>(),
+              HasSubstr("at most 1000000"));
+  curves::TappingChoice direct = tapping();
+  direct.numbers.method = "direct";
+  const auto refused = tapping_sweep_text(direct, tapped(), {"z=1nm:2nm:3"}, "csv");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("--method direct has no effect with --sweep"));
 }
 
 TEST(TappingCommand, RefusesOptionsWithoutEffect) {

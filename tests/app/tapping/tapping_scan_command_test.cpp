@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "app/commands/scan_command.h"
 #include "support/places.h"
@@ -45,6 +47,41 @@ TEST(TappingScanCommand, SaysWhatItDidWithItsConventions) {
   EXPECT_GT(json["tapping"]["largest_peak_force_N"].get<double>(), 1e-9);
   EXPECT_FALSE(json["settings"].contains("setpoint_N"));
   EXPECT_EQ(json["channels"].size(), 10U);
+}
+
+// The share of a channel's values that lie above the phase of a free lever at its resonance.
+double share_above_90(const physics::ScanImage& image, const std::string& name) {
+  const auto channel = std::find_if(image.channels.begin(), image.channels.end(),
+                                    [&](const physics::ImageChannel& one) { return one.name == name; });
+  const auto above = std::count_if(channel->values.begin(), channel->values.end(), [](double deg) { return deg > 90; });
+  return static_cast<double>(above) / static_cast<double>(channel->values.size());
+}
+
+TEST(TappingScanCommand, NamesWhatEachPassWas) {
+  ScanOptions options = tapping_options();
+  // over steps, at a setpoint at which both states exist
+  options.contact.model = "dmt";
+  options.contact.values["tip-radius"] = "20nm";
+  options.contact.values["hamaker"] = "64zJ";
+  options.contact.values["work-of-adhesion"] = "62.4mJ/m2";
+  options.contact.values["reduced-modulus"] = "1.5GPa";
+  options.amplitude_setpoint = "0.85";
+  const auto set = [&](std::string_view option, double si) {
+    const auto* const field = std::find_if(physics::kScanFields.begin(), physics::kScanFields.end(),
+                                           [&](const physics::ScanField& each) { return each.option == option; });
+    options.settings.emplace_back(field, si);
+  };
+  set("integral-gain", 500.0);
+  set("rate", 5.0);
+  options.pixels = 32;
+  const auto scan = imaging::take_scan(options);
+  ASSERT_TRUE(scan) << scan.error().message;
+  const nlohmann::json tapping = imaging::scan_json(*scan)["tapping"];
+  EXPECT_EQ(tapping["attractive_share"], share_above_90(scan->image, "Phase"));
+  EXPECT_EQ(tapping["attractive_share_retrace"], share_above_90(scan->image, "Phase (retrace)"));
+  EXPECT_NE(tapping["attractive_share"], tapping["attractive_share_retrace"]);
+  EXPECT_NE(tapping["largest_peak_force_N"], tapping["largest_peak_force_retrace_N"]);
+  EXPECT_NE(tapping["regime_changes"], tapping["regime_changes_retrace"]);
 }
 
 TEST(TappingScanCommand, TakesALengthForTheSetpointToo) {

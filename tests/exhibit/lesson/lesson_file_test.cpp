@@ -46,6 +46,7 @@ TEST_P(LessonFile, IsRefusedByLineAndKey) {
 
 const std::string kFit = "scale = \"fit\"\n", kCommon = "scale = \"common\"\n";
 const std::string kGold = "particles = \"gold-row\"\n", kPush = "type = \"push\"\n";
+const std::string kTapping = "[tapping]\nfree_amplitude = \"20 nm\"\n";
 const std::string kThreshold = "type = \"threshold\"\nmaterial = \"mica\"\nstaircase = \"weighted\"\n";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -117,8 +118,36 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{kHead + kGold + "conditions = [\"picture\", \"both\"]\n" +
                     step(kPush + "until = \"pattern\"\neach_condition = true\n"),
                 "line 12: step.each_condition: is impossible for a push"},
+        Refusal{kHead + kFit + step("type = \"identify\"\nof = \"states\"\nmaterial = \"mica\"\n"),
+                "line 10: step.of: states needs the lesson's table [tapping]"},
+        Refusal{kHead + kFit + kTapping + step("type = \"cycle\"\nmaterial = \"mica\"\n"),
+                "step.type: cycle compares pull-offs, which a lesson with tapping does not have"},
+        Refusal{kHead + kFit + kTapping + step("type = \"identify\"\n"), "step.type: identify needs of = \"states\""},
+        Refusal{
+            kHead + kFit + kTapping + step("type = \"identify\"\nof = \"states\"\nmaterials = [\"mica\", \"gold\"]\n"),
+            "step.materials: is of no use here; write material"},
+        Refusal{kHead + kFit + "[tapping]\nquality_factor = 400\n", "tapping.free_amplitude: is missing"},
+        Refusal{kHead + kFit + "[tapping]\nfree_amplitude = \"20\"\n", "line 7: tapping.free_amplitude: "},
+        Refusal{kHead + kFit + "[tapping]\nfree_amplitude = \"20 nm\"\nspring_constant = \"40\"\n",
+                "line 8: tapping.spring_constant: "},
+        Refusal{kHead + kFit + "[tapping]\nfree_amplitude = \"20 nm\"\nspeed = 1\n",
+                "line 8: tapping.speed: unknown key"},
+        Refusal{kHead + kGold + kTapping, "tapping: is for lessons without particles"},
         Refusal{kHead + kFit, "step: is missing"},
         Refusal{kHead + "scale = \"atoms\"\n" + step("type = \"text\"\n"), "line 5: scale: atoms is unknown"}));
+
+TEST(LessonSamples, RefuseALeverThatNoHandCanFeel) {
+  const support::ScratchFolder folder;
+  const auto lesson =
+      load_lesson(folder.write("lesson.toml", kHead + kFit + kTapping + "quality_factor = 50\n" +
+                                                  "resonance = \"300 kHz\"\n" + step("type = \"text\"\n")),
+                  support::source("assets"));
+  ASSERT_TRUE(lesson) << lesson.error().message;
+  const auto samples = lesson_samples(*lesson, scene::load_materials(support::source("assets/materials.toml")).value());
+  ASSERT_FALSE(samples.has_value());
+  EXPECT_EQ(samples.error().category, core::ErrorCategory::BadInputFile);
+  EXPECT_THAT(samples.error().message, HasSubstr("tapping: --quality-factor: "));
+}
 
 TEST(LessonSamples, RefuseAThresholdThatTheCommonScaleHasNoRoomFor) {
   const support::ScratchFolder folder;
@@ -167,7 +196,7 @@ std::vector<std::string> shipped_lessons() {
   return paths;
 }
 
-TEST(ShippedLessons, AreSevenThatLoadAndRunToTheirEndInBothLanguages) {
+TEST(ShippedLessons, AreEightThatLoadAndRunToTheirEndInBothLanguages) {
   const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   std::set<StepKind> kinds;
   std::size_t lessons = 0;
@@ -195,7 +224,7 @@ TEST(ShippedLessons, AreSevenThatLoadAndRunToTheirEndInBothLanguages) {
     }
     ++lessons;
   }
-  EXPECT_EQ(lessons, 7U);
+  EXPECT_EQ(lessons, 8U);
   EXPECT_EQ(kinds.size(), kStepKinds.size()) << "the lessons show every type of step";
 }
 

@@ -1,36 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
-#include <map>
-#include <string>
-
 #include "core/result.h"
 #include "curves/contact_options.h"
 #include "curves/contact_setup.h"
-#include "curves/tapping/tapping_options.h"
+#include "curves/tapping/tapped_hand.h"
 
 namespace afm::curves {
 
 struct PathOptions;
 
-// A vibrating lever as a user describes it; empty text: not given.
-struct TappingChoice {
-  std::string mode = "contact";  // or tapping, fm
-  TappingOptions numbers;
-  std::string contact_gap;  // instead of the work of adhesion
-};
-
 // The contact under a lever that swings, with the work of adhesion for `choice.contact_gap` if that is given. Mode is
 // tapping or fm. WrongUsage, naming the option, as contact_setup(), and for a model that cannot be tapped on.
 core::Result<ContactSetup> driven_setup(const TappingChoice& choice, const ContactOptions& contact);
-
-// A lever that taps under a hand, on samples of the wall.
-struct TappedHand {
-  TappingChoice choice;
-  std::string model = "auto";
-  std::map<std::string, std::string, std::less<>> values;  // as typed; spring-constant, resonance, quality-factor
-};
 
 // WrongUsage, naming the option, if one has no effect without tapping.
 core::Result<void> check_contact_mode(const TappedHand& hand);

@@ -15,6 +15,9 @@
 #include "scene/shared/scale_modes.h"
 #include "study/step_kind.h"
 
+namespace afm::curves {
+struct TappedHand;
+}
 namespace afm::scene {
 struct ParticleSet;
 }
@@ -97,6 +100,7 @@ struct LessonStep {
   std::vector<std::size_t> materials;  // indices into Lesson::materials
   int trials = 1;                      // counted ones; for Free, cycles to feel
   int practice = 0;                    // number before the counted trials
+  bool states = false;                 // Identify: the state of a swing instead of the material
   ThresholdPlan threshold;
   Questionnaire questionnaire = Questionnaire::Paper;
   PushPlan push;
@@ -112,6 +116,8 @@ struct Lesson {
   std::string particles;                           // as in ExhibitFiles; empty: none
   // those particles, all of them spheres; null: none; shared, since a lesson is copied
   std::shared_ptr<const scene::ParticleSet> set;
+  // its lever, if that taps; then there are no particles; null: it does not; shared, since a lesson is copied
+  std::shared_ptr<const curves::TappedHand> tapping;
   std::vector<Condition> conditions;  // none, or at least two
   std::vector<LessonStep> steps;
   std::string digest;  // FNV-1a of the file, hexadecimal

@@ -12,10 +12,10 @@
 
 namespace afm::exhibit {
 
-// The tip's newest complete cycle, from snap-in to pull-off.
+// The tip's newest complete cycle, from snap-in to pull-off; in tapping, of the swing.
 struct FeltCycle {
   std::size_t material = 0;
-  double f_ad_n = 0;  // magnitude
+  double f_ad_n = 0;  // magnitude; in tapping the mean force before the swing became attractive
 };
 
 // The current request to the participant.
@@ -31,6 +31,7 @@ struct LessonPrompt {
   std::uint32_t cycle = 0;                      // changes with every requested cycle
   bool in_step = false;                         // false in consent, break and end
   bool hidden = false;                          // names, curves, figures and sounds would reveal the answer
+  bool of_states = false;                       // hidden state of a swing, to be judged by its tones, too
   std::optional<Condition> condition;
   bool put_back = false;  // all particles are to be put back to their start before the push
 

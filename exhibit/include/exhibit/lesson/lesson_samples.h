@@ -12,6 +12,10 @@
 
 namespace afm::exhibit {
 
+// The contact of one of the lesson's materials, below the lesson's lever if that taps. Fails as
+// curves::tapped_setup(), as an error of the file.
+core::Result<curves::ContactSetup> lesson_setup(const Lesson& lesson, const scene::MaterialEntry& entry);
+
 // The samples of a lesson, in the order of Lesson::materials. Fails if a step needs a jump that a material does not
 // have, or if a threshold's strongest pull-off exceeds that of every material of the lesson: the common scale would
 // adapt to it, and the hand would feel no difference.

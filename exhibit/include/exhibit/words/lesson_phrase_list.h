@@ -22,6 +22,7 @@
   PHRASE(LessonPressNumber, "lesson-press-number", "", kLine)               \
   PHRASE(LessonPressScale, "lesson-press-scale", "", kLine)                 \
   PHRASE(LessonWhich, "lesson-which", "", kLine)                            \
+  PHRASE(LessonState, "lesson-state", "", kLine)                            \
   PHRASE(LessonStronger, "lesson-stronger", "", kLine)                      \
   PHRASE(LessonFirst, "lesson-first", "", kLine)                            \
   PHRASE(LessonSecond, "lesson-second", "", kLine)                          \

@@ -217,6 +217,10 @@
 
 // Friction loop.
 #define AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)                        \
+  PHRASE(DialTitle, "dial-title", "", kLine)                        \
+  PHRASE(DialBoth, "dial-both", "", kLine)                          \
+  PHRASE(DialOne, "dial-one", "", kLine)                            \
+  PHRASE(DialNow, "dial-now", "", kLine)                            \
   PHRASE(FrictionTitle, "friction-title", "", kLine)                \
   PHRASE(FrictionOff, "friction-off", "", kLine)                    \
   PHRASE(FrictionAdvice, "friction-advice", "", kLine)              \
