@@ -12,6 +12,7 @@
 
 #include "core/result.h"
 #include "scene/shared/particle_blocks.h"
+#include "scene/shared/planned_push.h"
 #include "servo/session_file.h"
 
 namespace afm::servo {
@@ -64,6 +65,7 @@ core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& r
 struct ReplayedParticles {
   std::vector<scene::ParticlePage> pages;
   scene::TipPush push;
+  scene::PlannedPush plan;
 };
 
 // Replays a session with particles up to its last tick at or before `time_ns`, and at least its first. Fails as

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/shared/particle_blocks.h"
+#include "scene/shared/planned_push.h"
 #include "scene/shared/task_score.h"
 
 namespace afm::physics {
@@ -26,6 +27,7 @@ struct ParticlesNow {
   std::span<const scene::ParticlePage> pages{};  // poses; a particle beyond them is where it started
   scene::TipPush push{};
   scene::TaskScore score{};  // only for a set with a pattern
+  scene::PlannedPush plan{};
 };
 
 // Pose of a particle; nothing beyond the pages.
