@@ -12,19 +12,25 @@
 #include "core/clock.h"
 #include "core/log.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/scenery/push_planner.h"
 #include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
 
 ParticlesControl::ParticlesControl(ViewParts& parts, const scene::ParticleSet& set)
-    : parts_(parts), now_{.set = &set}, planner_(set) {
+    : parts_(parts),
+      now_{.set = &set},
+      planner_(std::make_unique<exhibit::PushPlanner>(set)),
+      shown_(std::make_unique<exhibit::WallState>()) {
   parts_.choice.set_press_on_sample([this](const input::Ray& ray) { return point(ray); });
   if (set.targets.empty()) return;
   task_.emplace(set);
   parts_.servo.hear([this](const scene::TipSample& sample) { task_->add(sample); });
   parts_.servo.hear_events([this](const scene::TipEvent& event) { task_->add(event); });
 }
+
+ParticlesControl::~ParticlesControl() = default;
 
 void ParticlesControl::take_back() {
   if (!parts_.servo.running()) return;
@@ -34,23 +40,23 @@ void ParticlesControl::take_back() {
 }
 
 void ParticlesControl::plan_next_particle() {
-  core::log_line(planner_.next_particle(now_));
+  core::log_line(planner_->next_particle(now_));
   send_plan();
 }
 
 void ParticlesControl::plan_next_place() {
-  core::log_line(planner_.next_place(now_));
+  core::log_line(planner_->next_place(now_));
   send_plan();
 }
 
 void ParticlesControl::toggle_groove() {
-  core::log_line(planner_.toggle_groove());
+  core::log_line(planner_->toggle_groove());
   send_plan();
 }
 
 bool ParticlesControl::point(const input::Ray& ray) {
-  const auto on_sample = exhibit::ray_on_sample(parts_.stage.wall_scene, shown_, ray);
-  const auto planned = on_sample ? planner_.point(*on_sample, now_) : std::nullopt;
+  const auto on_sample = exhibit::ray_on_sample(parts_.stage.wall_scene, *shown_, ray);
+  const auto planned = on_sample ? planner_->point(*on_sample, now_) : std::nullopt;
   if (!planned) return false;
   core::log_line(*planned);
   send_plan();
@@ -58,13 +64,13 @@ bool ParticlesControl::point(const input::Ray& ray) {
 }
 
 void ParticlesControl::send_plan() {
-  now_.plan = planner_.plan();
+  now_.plan = planner_->plan();
   if (parts_.servo.running()) parts_.servo.link().plan(now_.plan);
 }
 
 void ParticlesControl::restart(Restart what) {
   order_ = Order::None;
-  planner_.clear();
+  planner_->clear();
   send_plan();
   if (what == Restart::Servo) return begin_task();
   if (!parts_.servo.running() || !parts_.servo.material()) return;
@@ -110,7 +116,7 @@ void ParticlesControl::follow_task() {
 
 void ParticlesControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
   now.wall.particles = &now_;
-  shown_ = now.wall;
+  *shown_ = now.wall;
 }
 
 }  // namespace afm::app

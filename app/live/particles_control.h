@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "app/view/view_control.h"
-#include "exhibit/scenery/push_planner.h"
 #include "exhibit/state/particle_task.h"
 #include "exhibit/state/particles_now.h"
-#include "exhibit/state/wall_state.h"
+
+namespace afm::exhibit {
+class PushPlanner;
+struct WallState;
+}  // namespace afm::exhibit
+namespace afm::input {
+struct Ray;
+}
 
 namespace afm::app {
 
@@ -19,6 +26,7 @@ class ParticlesControl final : public ViewControl {
  public:
   // `set` must outlive the object.
   ParticlesControl(ViewParts& parts, const scene::ParticleSet& set);
+  ~ParticlesControl() override;
 
   // Takes the newest push back, after the force has been taken from the hand.
   void take_back();
@@ -48,8 +56,8 @@ class ParticlesControl final : public ViewControl {
 
   ViewParts& parts_;
   exhibit::ParticlesNow now_;
-  exhibit::PushPlanner planner_;
-  exhibit::WallState shown_;  // state of the wall in the newest frame
+  std::unique_ptr<exhibit::PushPlanner> planner_;
+  std::unique_ptr<exhibit::WallState> shown_;  // state of the wall in the newest frame
   Order order_ = Order::None;
   std::optional<exhibit::ParticleTask> task_;  // only for a set with a pattern
 };

@@ -163,7 +163,7 @@ TEST_F(ParticlesOfAWall, HaveALineAndRingsWhereAPushIsPlanned) {
   EXPECT_LT(glm::distance(place_m(ends.copies[1]), to_m), 0.1e-9);
   now.plan.to_m[0] = 1e-3;  // as far as a plan may go
   EXPECT_LE(frame(wall, &now).copies[2].copies.size(), wall.scene().nodes[line.node].most_copies);
-  now.plan.particle = 77;  // of another wall
+  now.plan.particle = 77;  // number on another wall
   EXPECT_EQ(frame(wall, &now).copies.size(), 2U);
 }
 

@@ -24,13 +24,14 @@ namespace afm {
 namespace felt_groove_test {
 
 using haptics::FeltGroove;
+using haptics::GroovePull;
 using haptics::PassivityObserver;
 using scene::PlannedPush;
 using scene::ScaleMode;
 
 const haptics::DeviceSpec kOmni = haptics::omni_like("hand");
 constexpr double kScale = 2e5;   // metres of hand per metre
-constexpr double kTickS = 1e-3;  // of the servo
+constexpr double kTickS = 1e-3;  // period of the servo
 
 PlannedPush plan_to(double x_m, double y_m, bool guided = true) {
   return {.from_m = {-80e-9, 0.0}, .to_m = {x_m, y_m}, .particle = 0, .guided = guided ? 1U : 0U};
@@ -43,7 +44,7 @@ class FullGroove : public ::testing::Test {
     groove_.follow(plan_);
     for (int i = 0; i < 600; ++i) at(from_m_);
   }
-  FeltGroove::Pull at(const glm::dvec2& hand_m) { return groove_.step(hand_m / kScale, true, kTickS); }
+  GroovePull at(const glm::dvec2& hand_m) { return groove_.step(hand_m / kScale, true, kTickS); }
   glm::dvec2 place(double along_m, double aside_m) const { return from_m_ + along_m * along_ + aside_m * across_; }
 
   PlannedPush plan_ = plan_to(90e-9, 110e-9);
@@ -77,7 +78,7 @@ TEST_F(FullGroove, IsExactlyNothingBeyondItsSidesAndItsEnds) {
   const double ramp_m = FeltGroove::kRampOverWidth * groove_.half_width_m();
   for (const glm::dvec2& off : {place(0.5 * length_m_, groove_.half_width_m() * 1.0001), place(-ramp_m * 1.0001, 0.001),
                                 place(length_m_ + ramp_m * 1.0001, -0.001), place(-1.0, 0.0), place(0.0, -5.0)}) {
-    const FeltGroove::Pull pull = at(off);
+    const GroovePull pull = at(off);
     EXPECT_EQ(pull.force_n, glm::dvec2(0.0));
     EXPECT_EQ(pull.stored_j, 0.0);
   }
@@ -92,7 +93,7 @@ TEST_F(FullGroove, HasAPotential) {
     const glm::dvec2 hand_m = place(along(random), aside(random));
     const double angle = turn(random);
     const glm::dvec2 way(std::cos(angle), std::sin(angle));
-    const FeltGroove::Pull here = at(hand_m), before = at(hand_m - kStepM * way), after = at(hand_m + kStepM * way);
+    const GroovePull here = at(hand_m), before = at(hand_m - kStepM * way), after = at(hand_m + kStepM * way);
     ASSERT_NEAR(glm::dot(here.force_n, way), -(after.stored_j - before.stored_j) / (2.0 * kStepM), 2e-6) << i;
     const double curvature = -glm::dot(after.force_n - before.force_n, way) / (2.0 * kStepM);
     ASSERT_LE(curvature, here.stiffness_n_per_m * (1.0 + 1e-5)) << i;
@@ -123,13 +124,13 @@ TEST_F(FullGroove, FadesWithoutAStepAndOnlyThenTakesAnotherLine) {
   const double step_n = FeltGroove::kMostForceN * kTickS / FeltGroove::kFadeS * (1.0 + 1e-9);
   int ticks = 0;
   for (; before_n > 0.0 && ticks < 1000; ++ticks) {
-    const FeltGroove::Pull pull = at(aside);
+    const GroovePull pull = at(aside);
     ASSERT_LE(before_n - glm::length(pull.force_n), step_n);
     ASSERT_NEAR(glm::dot(pull.force_n, along_), 0.0, 1e-12) << "still the line before";
     before_n = glm::length(pull.force_n);
   }
   EXPECT_NEAR(ticks, 500, 1);
-  FeltGroove::Pull other;
+  GroovePull other;
   for (int i = 0; i < 600; ++i) other = at(aside);
   EXPECT_TRUE(other.acts);
   EXPECT_GT(other.stiffness_n_per_m, 99.0);
@@ -144,7 +145,7 @@ TEST_F(FullGroove, FadesWithoutAStepAndOnlyThenTakesAnotherLine) {
 TEST_F(FullGroove, FadesWhileItMayNotActAndIsGoneOnceDropped) {
   const glm::dvec2 aside = place(0.5 * length_m_, 0.004);
   const double full_n = glm::length(at(aside).force_n);
-  const FeltGroove::Pull less = groove_.step(aside / kScale, false, kTickS);
+  const GroovePull less = groove_.step(aside / kScale, false, kTickS);
   EXPECT_NEAR(glm::length(less.force_n), full_n * (1.0 - kTickS / FeltGroove::kFadeS), 1e-9);
   EXPECT_GT(less.given_j, 0.0) << "what the fade takes out of the well is told";
   groove_.drop();
@@ -159,7 +160,7 @@ TEST(FeltGroove, SatisfiesTheObserverWhateverIsSwitched) {
   std::mt19937_64 random(17);
   std::uniform_real_distribution<double> share(0.0, 1.0), place_m(-0.03, 0.03);
   glm::dvec2 hand_m(0.0), to_m(0.0), velocity(0.0);
-  FeltGroove::Pull last;
+  GroovePull last;
   double most_j = 0.0, most_n = 0.0;
   for (int i = 0; i < 200'000; ++i) {
     if (share(random) < 0.003) groove.follow(plan_to(1e-6 * (share(random) - 0.5), 1e-6 * (share(random) - 0.5)));
@@ -168,7 +169,7 @@ TEST(FeltGroove, SatisfiesTheObserverWhateverIsSwitched) {
     velocity += kTickS * (400.0 * (to_m - hand_m) - 25.0 * velocity);
     const glm::dvec2 step_m = kTickS * velocity;
     hand_m += step_m;
-    const FeltGroove::Pull now = groove.step(hand_m / kScale, share(random) < 0.999, kTickS);
+    const GroovePull now = groove.step(hand_m / kScale, share(random) < 0.999, kTickS);
     const glm::dvec3 force_n(last.force_n, 0.0);
     observer.integrate({.moved_m = glm::dvec3(step_m, 0.0),
                         .wanted_n = force_n,

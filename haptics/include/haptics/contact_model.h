@@ -15,7 +15,6 @@
 #include "haptics/device.h"
 #include "haptics/energy_tank.h"
 #include "haptics/felt_friction.h"
-#include "haptics/felt_groove.h"
 #include "haptics/particle_push.h"
 #include "haptics/passivity_observer.h"
 #include "haptics/potential_energy.h"
@@ -60,7 +59,7 @@ struct Touch {
   glm::dvec2 tip_xy_m{0.0};
   FeltFriction::Step friction;
   ParticlePush push;
-  FeltGroove::Pull groove;  // along the axes of the sample, on the hand
+  GroovePull groove;  // along the axes of the sample, on the hand
   double surface_height_m = 0;
   glm::dvec3 normal{0.0, 0.0, 1.0};  // unit normal of the surface below the tip
   glm::dvec3 hand_force_n{0.0};      // force on the hand

@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "haptics/device.h"
-#include "scene/shared/planned_push.h"
+#include "haptics/particle_push.h"
+#include "scene/shared/particle_blocks.h"
 
 namespace afm::haptics {
 
@@ -27,7 +28,7 @@ GrooveLimits groove_limits(const DeviceSpec& device);  // `device` includes the 
 // - The force is at most GrooveLimits::most_force_n, U_0 = kDepth most_force_n w, and w follows from the stiffness.
 // - The gain grows from 0 to 1 within kFadeS, and falls likewise when the plan or its groove ends. Another line waits
 //   until the gain is 0. At a constant gain no closed path gains energy; the change of the gain is known in every tick
-//   (Pull::given_j). Switching on and off once gives a hand U_0 at most, about 2 mJ.
+//   (GroovePull::given_j). Switching on and off once gives a hand U_0 at most, about 2 mJ.
 //
 // Servo's thread; neither allocates nor throws.
 class FeltGroove {
@@ -47,17 +48,8 @@ class FeltGroove {
   void follow(const scene::PlannedPush& plan) noexcept { plan_ = plan; }
   const scene::PlannedPush& plan() const noexcept { return plan_; }
 
-  // Force on the hand in this tick along the sample's x and y, and the related input of PassivityObserver.
-  struct Pull {
-    bool acts = false;  // false: there is no groove, and all else is zero
-    glm::dvec2 force_n{0.0};
-    double stored_j = 0;
-    double given_j = 0;  // part of stored_j that a change of the gain added in this tick
-    double stiffness_n_per_m = 0;
-  };
-
   // `tip_xy_m` is in metres of the nanoworld. The groove fades while it may not act.
-  Pull step(const glm::dvec2& tip_xy_m, bool may_act, double elapsed_s) noexcept;
+  GroovePull step(const glm::dvec2& tip_xy_m, bool may_act, double elapsed_s) noexcept;
 
   // Removes it at once; call where no force is applied.
   void drop() noexcept;
@@ -89,7 +81,7 @@ class FeltGroove {
   scene::PlannedPush plan_;
   Line line_;
   double gain_ = 0;
-  Pull pull_;
+  GroovePull pull_;
 };
 
 }  // namespace afm::haptics

@@ -50,7 +50,7 @@ std::optional<FeltGroove::Line> FeltGroove::wanted_line() const noexcept {
   return Line{.from_m = hand_m_per_m_ * from_m, .along = way_m / length_m, .length_m = hand_m_per_m_ * length_m};
 }
 
-FeltGroove::Pull FeltGroove::step(const glm::dvec2& tip_xy_m, bool may_act, double elapsed_s) noexcept {
+GroovePull FeltGroove::step(const glm::dvec2& tip_xy_m, bool may_act, double elapsed_s) noexcept {
   const std::optional<Line> wanted = may_act ? wanted_line() : std::nullopt;
   const double before = gain_;
   if (before == 0.0) {

@@ -12,7 +12,6 @@
 
 #include "core/result.h"
 #include "scene/shared/particle_blocks.h"
-#include "scene/shared/planned_push.h"
 #include "servo/session_file.h"
 
 namespace afm::servo {

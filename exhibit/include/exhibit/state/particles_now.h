@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "scene/shared/particle_blocks.h"
-#include "scene/shared/planned_push.h"
 #include "scene/shared/task_score.h"
 
 namespace afm::physics {

@@ -7,7 +7,6 @@
 #include <cstdint>
 
 #include "scene/shared/field_visitor.h"
-#include "scene/shared/planned_push.h"
 #include "scene/shared/shared_blocks.h"
 
 // State of the tip that touchafm-servo publishes every tick. Fields shared by several blocks are one struct. A new
