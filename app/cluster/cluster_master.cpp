@@ -112,6 +112,7 @@ void ClusterMaster::follow_particles(const exhibit::ParticlesNow& now, std::size
   push_ = now.push;
   link_->record(cluster::JournalRecord(push_));
   if (std::exchange(score_, now.score) != now.score) link_->record(cluster::JournalRecord(score_));
+  if (std::exchange(plan_, now.plan) != now.plan) link_->record(cluster::JournalRecord(plan_));
 }
 
 void ClusterMaster::send(cluster::FrameMessage& frame, ParameterEdits& edits, const exhibit::CycleHistory& cycles,
@@ -127,7 +128,7 @@ void ClusterMaster::send(cluster::FrameMessage& frame, ParameterEdits& edits, co
       if (edit) newest.push_back(*edit);
     }
     const auto history =
-        exhibit::save_history(link_->recorded(), cycles, friction, newest, scan_, pages_, push_, score_);
+        exhibit::save_history(link_->recorded(), cycles, friction, newest, scan_, pages_, push_, score_, plan_);
     if (history.size() <= cluster::kMostDocumentBytes) link_->send_history(history);
   }
   link_->send(++number_, frame);

@@ -102,6 +102,7 @@ class ClusterMaster {
   std::vector<scene::ParticlePage> pages_;  // as recorded
   scene::TipPush push_;
   scene::TaskScore score_;
+  scene::PlannedPush plan_;
   std::uint64_t number_ = 0;
   std::uint64_t waited_frames_ = 0;
   std::int64_t longest_wait_ns_ = 0;

@@ -206,8 +206,11 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   panels_->edits().take_felt(tip, felt_);
   exhibit::Moment now = exhibit::moment_of(message);
   now.curves = history_->cycles.curves();
-  const exhibit::ParticlesNow particles{
-      .set = stage_.particles.get(), .pages = history_->pages, .push = history_->push, .score = history_->score};
+  const exhibit::ParticlesNow particles{.set = stage_.particles.get(),
+                                        .pages = history_->pages,
+                                        .push = history_->push,
+                                        .score = history_->score,
+                                        .plan = history_->plan};
   if (stage_.particles) now.wall.particles = &particles;
   follow_scan(message.moment);
   if (scan_) exhibit::show_scan(*scan_, now);

@@ -302,7 +302,8 @@ core::Result<void> run_render(const RenderOptions& options) {
   const exhibit::ParticlesNow particles{.set = stage->particles.get(),
                                         .pages = replayed->pages,
                                         .push = replayed->push,
-                                        .score = task ? task->score() : scene::TaskScore{}};
+                                        .score = task ? task->score() : scene::TaskScore{},
+                                        .plan = replayed->plan};
   const exhibit::ParticlesNow* shown = session->particles ? &particles : nullptr;
   if (!session->wall.empty()) return draw_frame(*stage, models, *session, shown, time_ns, options);
   return draw_replayed(*stage, models, *session, material, shown, time_ns, options);

@@ -25,8 +25,7 @@ using physics::ParticleLaw;
 using physics::ParticleSpecies;
 using physics::Stiffness;
 
-constexpr physics::Time kSteeringDelay{0.25};  // delay of a hand that steers by eye
-constexpr Length kAtomicDistance{0.3e-9};      // z0 of Tabor's parameter
+constexpr Length kAtomicDistance{0.3e-9};  // z0 of Tabor's parameter
 constexpr physics::Temperature kRoomTemperature{298.15};
 
 // What a user has to know of a species before a push.
@@ -165,7 +164,8 @@ std::string species_figures_text(const scene::ParticleSet& set, std::size_t inde
       format_quantity(f.amontons_law, kForceUnits, 4), gentle, format_quantity(f.softest, physics::kStiffnessUnits, 4),
       force_text(f.most_push), format_quantity(physics::largest_offset(3.0) * f.rho, kLengthUnits, 4),
       format_quantity(f.rho, kLengthUnits, 4),
-      format_quantity(physics::fastest_steering(f.rho, kSteeringDelay), physics::kVelocityUnits, 4), f.kt_per_nm);
+      format_quantity(physics::fastest_steering(f.rho, physics::kSteeringDelay), physics::kVelocityUnits, 4),
+      f.kt_per_nm);
   return text + (species.sticks ? hold_text(set, species) : "") + sources_text(set.species[index]);
 }
 
@@ -187,7 +187,7 @@ nlohmann::json species_figures_json(const scene::ParticleSet& set, std::size_t i
                       {"stiffness_sideways_N_per_m", f.sideways.si},
                       {"distance_of_axes_m", f.rho.si},
                       {"largest_offset_for_3_distances_m", (physics::largest_offset(3.0) * f.rho).si},
-                      {"fastest_steering_m_per_s", physics::fastest_steering(f.rho, kSteeringDelay).si},
+                      {"fastest_steering_m_per_s", physics::fastest_steering(f.rho, physics::kSteeringDelay).si},
                       {"tabor_parameter", f.tabor},
                       {"spinning_moment_share", f.spinning},
                       {"kT_per_nm", f.kt_per_nm}};

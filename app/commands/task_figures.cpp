@@ -14,6 +14,7 @@ nlohmann::json task_json(const scene::TaskScore& score) {
           {"strokes", score.strokes},
           {"losses", score.losses},
           {"pushes_taken_back", score.undos},
+          {"pushes_in_a_groove", score.guided},
           {"work_J", score.work_j},
           {"largest_lateral_N", score.largest_lateral_n}};
 }

@@ -11,17 +11,26 @@
 #include "app/view/view_parts.h"
 #include "core/clock.h"
 #include "core/log.h"
+#include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/scenery/push_planner.h"
 #include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
 
-ParticlesControl::ParticlesControl(ViewParts& parts, const scene::ParticleSet& set) : parts_(parts), now_{.set = &set} {
+ParticlesControl::ParticlesControl(ViewParts& parts, const scene::ParticleSet& set)
+    : parts_(parts),
+      now_{.set = &set},
+      planner_(std::make_unique<exhibit::PushPlanner>(set)),
+      shown_(std::make_unique<exhibit::WallState>()) {
+  parts_.choice.set_press_on_sample([this](const input::Ray& ray) { return point(ray); });
   if (set.targets.empty()) return;
   task_.emplace(set);
   parts_.servo.hear([this](const scene::TipSample& sample) { task_->add(sample); });
   parts_.servo.hear_events([this](const scene::TipEvent& event) { task_->add(event); });
 }
+
+ParticlesControl::~ParticlesControl() = default;
 
 void ParticlesControl::take_back() {
   if (!parts_.servo.running()) return;
@@ -30,8 +39,39 @@ void ParticlesControl::take_back() {
   give(Order::TakeBack);
 }
 
+void ParticlesControl::plan_next_particle() {
+  core::log_line(planner_->next_particle(now_));
+  send_plan();
+}
+
+void ParticlesControl::plan_next_place() {
+  core::log_line(planner_->next_place(now_));
+  send_plan();
+}
+
+void ParticlesControl::toggle_groove() {
+  core::log_line(planner_->toggle_groove());
+  send_plan();
+}
+
+bool ParticlesControl::point(const input::Ray& ray) {
+  const auto on_sample = exhibit::ray_on_sample(parts_.stage.wall_scene, *shown_, ray);
+  const auto planned = on_sample ? planner_->point(*on_sample, now_) : std::nullopt;
+  if (!planned) return false;
+  core::log_line(*planned);
+  send_plan();
+  return true;
+}
+
+void ParticlesControl::send_plan() {
+  now_.plan = planner_->plan();
+  if (parts_.servo.running()) parts_.servo.link().plan(now_.plan);
+}
+
 void ParticlesControl::restart(Restart what) {
   order_ = Order::None;
+  planner_->clear();
+  send_plan();
   if (what == Restart::Servo) return begin_task();
   if (!parts_.servo.running() || !parts_.servo.material()) return;
   core::log_line("take back: all pushes");
@@ -74,6 +114,9 @@ void ParticlesControl::follow_task() {
   parts_.sound.narrator().happened(exhibit::HeardEvent::PatternDone, parts_.servo.link().tip().material);
 }
 
-void ParticlesControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) { now.wall.particles = &now_; }
+void ParticlesControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
+  now.wall.particles = &now_;
+  *shown_ = now.wall;
+}
 
 }  // namespace afm::app

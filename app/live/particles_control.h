@@ -1,24 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "app/view/view_control.h"
 #include "exhibit/state/particle_task.h"
 #include "exhibit/state/particles_now.h"
 
+namespace afm::exhibit {
+class PushPlanner;
+struct WallState;
+}  // namespace afm::exhibit
+namespace afm::input {
+struct Ray;
+}
+
 namespace afm::app {
 
 struct ViewParts;
 
-// Shows the particles where the servo has moved them, has it take pushes back, and keeps the score of the task.
+// Shows the particles where the servo has moved them, has it take pushes back, keeps the score of the task, and plans
+// pushes.
 class ParticlesControl final : public ViewControl {
  public:
   // `set` must outlive the object.
   ParticlesControl(ViewParts& parts, const scene::ParticleSet& set);
+  ~ParticlesControl() override;
 
   // Takes the newest push back, after the force has been taken from the hand.
   void take_back();
+
+  // Plans another sphere, another place for it, or has a groove guide the hand along the plan.
+  void plan_next_particle();
+  void plan_next_place();
+  void toggle_groove();
 
   void update(const ViewFrame& frame) override;
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
@@ -35,8 +51,13 @@ class ParticlesControl final : public ViewControl {
   // Announces that the pattern is done.
   void follow_task();
 
+  bool point(const input::Ray& ray);
+  void send_plan();
+
   ViewParts& parts_;
   exhibit::ParticlesNow now_;
+  std::unique_ptr<exhibit::PushPlanner> planner_;
+  std::unique_ptr<exhibit::WallState> shown_;  // state of the wall in the newest frame
   Order order_ = Order::None;
   std::optional<exhibit::ParticleTask> task_;  // only for a set with a pattern
 };

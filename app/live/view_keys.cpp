@@ -79,6 +79,13 @@ constexpr std::array kRows{
     LiveKey{Key::Backspace, "Backspace", Phrase::KeyTakeBack,
             [](KeyOwners& owners, std::size_t) { owners.particles->take_back(); }}
         .with_particles(),
+    LiveKey{Key::W, "W", Phrase::KeyPlan,
+            [](KeyOwners& owners, std::size_t) { owners.particles->plan_next_particle(); }, Phrase::LeftClick}
+        .with_particles(),
+    LiveKey{Key::D, "D", Phrase::KeyPlan, [](KeyOwners& owners, std::size_t) { owners.particles->plan_next_place(); }}
+        .with_particles(),
+    LiveKey{Key::F9, "F9", Phrase::KeyGroove, [](KeyOwners& owners, std::size_t) { owners.particles->toggle_groove(); }}
+        .with_particles(),
     LiveKey{Key::Left, "Left", Phrase::KeyHeadAcross,
             [](KeyOwners& owners, std::size_t) { owners.place->move_head(-kHeadStepM, 0.0, 0.0); }}
         .for_staff(),

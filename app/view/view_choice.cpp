@@ -12,6 +12,7 @@
 #include "core/clock.h"
 #include "core/log.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "input/selection.h"
 #include "physics/friction/friction.h"
 #include "servo/servo_client.h"
 
@@ -59,6 +60,10 @@ void ViewChoice::number(std::size_t number) {
 void ViewChoice::press(const Pointed& pointed, const input::Ray& ray) {
   if (parts_.panels.close_keys()) return;  // the list covers all targets
   if (guide_ != nullptr) return guide_->press(pointed, ray);
+  // a swatch that the ray has only snapped to does not hide the sample
+  const bool beside =
+      !pointed.control && !pointed.tab && !input::pick(ray, 0.0, parts_.stage.wall_scene.swatch_targets());
+  if (beside && press_on_sample_ && press_on_sample_(ray)) return;
   if (pointed.swatch) choose(*pointed.swatch);
   if (const auto material = parts_.servo.material()) {
     parts_.panels.press(pointed, *material, parts_.servo.running() ? &parts_.servo.link() : nullptr);

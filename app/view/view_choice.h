@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/view/pointed.h"
@@ -45,6 +47,10 @@ class ViewChoice {
   void press(const Pointed& pointed, const input::Ray& ray);
   void enter();
 
+  // A press beside panels and swatches goes to this function first; it returns true if it has used it.
+  using PressOnSample = std::function<bool(const input::Ray& ray)>;
+  void set_press_on_sample(PressOnSample press) { press_on_sample_ = std::move(press); }
+
   void next_scale();
   void mark_next_setting();
   void step_setting(int steps);
@@ -65,6 +71,7 @@ class ViewChoice {
   scene::ScaleMode scale_;
   std::optional<std::size_t> first_material_;
   ViewGuide* guide_ = nullptr;
+  PressOnSample press_on_sample_;    // unset: none
   std::int64_t force_taken_ns_ = 0;  // time of the newest take_force_away()
 };
 

@@ -148,6 +148,8 @@ bool JournalRecord::valid() const {
       return scene::is_valid(push(), most_materials());
     case JournalKind::Score:
       return sound(score());
+    case JournalKind::Plan:
+      return scene::is_valid(plan(), most_materials());
     case JournalKind::Forget:
     case JournalKind::ScanEnd:
       break;

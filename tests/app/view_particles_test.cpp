@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Particles in the real window, on an X server without a screen: pushed with the mouse, taken back, recorded, replayed.
 // Invariant: a person can push a particle and undo the push with only keys and hand
+// Invariant: a person plans a push, and has a groove guide the hand, with only keys and mouse
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -137,6 +139,48 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
   EXPECT_GE(pushed, 4U) << events;
   EXPECT_GE(taken_back, 3U) << "the fourth began a session" << events;
   EXPECT_EQ(put_back, 2U) << events;
+}
+
+TEST_F(ViewParticles, ArePlannedByKeysAndMouseAndPushedAlongAGroove) {
+  folder_.write("row.toml", three_in_a_row());
+  support::LiveProgram view(
+      {support::touchafm(), "view", "--particles", folder_.file("row.toml"), "--size", "640x480", "--eye-width", "320",
+       "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
+      display_.name());
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  const auto press = [&](const char* key, const char* said) {
+    xdotool(std::string("key ") + key);
+    return view.says(said);
+  };
+  ASSERT_TRUE(press("1", "chosen: ")) << view.said();
+  ASSERT_TRUE(press("F9", "groove: on, along the plan of a push")) << view.said();
+  ASSERT_TRUE(press("w", "plan: particle 1, 121 nm to go; aim within 4")) << view.said();
+  ASSERT_TRUE(push(view, 0.018)) << view.said();
+  ASSERT_TRUE(press("F9", "groove: off")) << view.said();
+  ASSERT_TRUE(press("d", "plan: particle 1, 121 nm to go; aim within 4")) << view.said();
+  // on the sample before the row: another place for the sphere
+  xdotool("mousemove 320 240 click 1");
+  ASSERT_TRUE(view.says("plan: particle 1, ")) << view.said();
+  ASSERT_TRUE(press("w", "plan: particle 2, ")) << view.said();
+  xdotool("key Escape");
+  ASSERT_EQ(view.ends(), 0) << view.said();
+
+  std::size_t guided = 0, unguided = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder_.file("kept"))) {
+    if (file.path().extension() != ".afms") continue;
+    const auto session = servo::load_session(file.path());
+    ASSERT_TRUE(session) << session.error().message;
+    for (const scene::TipSample& sample : session->samples) {
+      if (sample.guide_n != std::array<double, 2>{}) ++guided;
+      if (sample.plan.particle >= 0 && sample.plan.guided == 0) ++unguided;
+    }
+    const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+    EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
+  }
+  EXPECT_GT(guided, 500U);
+  EXPECT_GT(unguided, 0U);
 }
 
 }  // namespace view_particles_test

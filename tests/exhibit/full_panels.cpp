@@ -106,9 +106,13 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
                                        .strokes = 999,
                                        .losses = 999,
                                        .undos = 999,
+                                       .guided = 999,
                                        .state = task};
+          const scene::PlannedPush plan{
+              .to_m = {0.0, 123.4e-9}, .particle = static_cast<std::int32_t>(set.particles.size()) - 1, .guided = 1};
           for (const auto& lie : {pages, formed}) {
-            panels.push_back(particles_panel({.set = &set, .pages = lie, .push = push, .score = score}, phrases));
+            panels.push_back(
+                particles_panel({.set = &set, .pages = lie, .push = push, .score = score, .plan = plan}, phrases));
           }
         }
       }

@@ -129,13 +129,37 @@ TEST_F(ParticlesPanel, AsksForTheLiftWhileTheTaskRunsAndShowsTheScoreThen) {
   EXPECT_EQ(shown(test::english()).subtitle, "Pattern done, 22.5 nm off; pushes to take back: 7");
   EXPECT_EQ(rows(test::english(), 3),
             (std::vector<render::DataRow>{{"Done in", "83.5 s", "pushes: 7; slipped past: 2"},
-                                          {"Distance when done", "22.5 nm", "no push was taken back"},
+                                          {"Distance when done", "22.5 nm", "no push was taken back or guided"},
                                           {"Work of the hand", "42 aJ", "largest lateral force 0.25 nN"}}));
   score.undos = 3;
+  score.guided = 2;
   EXPECT_EQ(rows(german, 3),
-            (std::vector<render::DataRow>{{"Fertig in", "83,5 s", "Sch\u00fcbe: 7; daran vorbeigerutscht: 2"},
-                                          {"Abstand bei Abschluss", "22,5 nm", "zur\u00fcckgenommene Sch\u00fcbe: 3"},
-                                          {"Arbeit der Hand", "42 aJ", "gr\u00f6\u00dfte Seitenkraft 0,25 nN"}}));
+            (std::vector<render::DataRow>{
+                {"Fertig in", "83,5 s", "Sch\u00fcbe: 7; daran vorbeigerutscht: 2"},
+                {"Abstand bei Abschluss", "22,5 nm", "zur\u00fcckgenommene Sch\u00fcbe: 3; in einer Rille: 2"},
+                {"Arbeit der Hand", "42 aJ", "gr\u00f6\u00dfte Seitenkraft 0,25 nN"}}));
+}
+
+TEST_F(ParticlesPanel, SaysWhatAPlanAsksOfTheHand) {
+  EXPECT_EQ(row(panel(test::push_of(set_, 0, PushState::Free)), Phrase::PlanWay).name, "") << "without a plan";
+  ParticlesNow now{.set = &set_, .pages = pages_, .push = test::push_of(set_, 0, PushState::Free)};
+  const scene::ParticlePose third = pages_[0].poses[2];
+  now.plan = {.from_m = {third.x_m, third.y_m}, .to_m = {third.x_m, third.y_m + 120e-9}, .particle = 2};
+  const render::DataPanel shown = particles_panel(now, test::english());
+  // rho is 40.25 nm, 8.05 mm in the hand
+  EXPECT_EQ(row(shown, Phrase::PlanWay),
+            (render::DataRow{"Planned way left", "120 nm", "of particle 3; without a groove"}));
+  EXPECT_EQ(row(shown, Phrase::PlanAim).value, "4.07 nm") << "40.25 nm/cosh(120/40.25)";
+  EXPECT_EQ(row(shown, Phrase::PlanHand),
+            (render::DataRow{"Hand at most", "32.2 mm/s", "to steer it: distance of tip and sphere/0.25 s"}));
+  now.plan.guided = 1;
+  pages_[0].poses[2].y_m += 80e-9;
+  EXPECT_EQ(row(particles_panel(now, test::english()), Phrase::PlanWay),
+            (render::DataRow{"Planned way left", "40 nm", "of particle 3; a groove guides the hand"}));
+  now.plan.to_m[1] += 2e-6;
+  EXPECT_EQ(row(particles_panel(now, test::english()), Phrase::PlanAim).value, "< 1 pm");
+  now.push.hand_m_per_m = 0.0;
+  EXPECT_EQ(row(particles_panel(now, test::english()), Phrase::PlanHand).name, "") << "before the servo has said it";
 }
 
 // In brackets, and said to be unused: told apart without colour.

@@ -140,6 +140,33 @@ TEST_F(ParticlesOfAWall, HaveAFootprintWhereTheyLayAndDotsFromThere) {
   EXPECT_LE(frame(wall, &now).copies[3].copies.size(), wall.scene().nodes[dots.node].most_copies);
 }
 
+TEST_F(ParticlesOfAWall, HaveALineAndRingsWhereAPushIsPlanned) {
+  const WallScene wall = wall_of(set_);
+  std::vector<scene::ParticlePage> pages = test::start_pages(set_);
+  const glm::dvec2 from_m(pages[0].poses[3].x_m, pages[0].poses[3].y_m), to_m = from_m + glm::dvec2(90e-9, -40e-9);
+  pages[0].poses[3].x_m += 3e-9;
+  ParticlesNow now{.set = &set_, .pages = pages};
+  now.plan = {.from_m = {from_m.x, from_m.y}, .to_m = {to_m.x, to_m.y}, .particle = 3};
+  const render::FrameState drawn = frame(wall, &now);
+  ASSERT_EQ(drawn.copies.size(), 4U) << "particles, targets, and the plan";
+  const render::MeshCopies& line = drawn.copies[2];
+  const render::MeshCopies& ends = drawn.copies[3];
+  EXPECT_EQ(line.node, wall.scene().find_node("plan-line/dot"));
+  EXPECT_EQ(ends.node, wall.scene().find_node("plan-ends/footprint"));
+  const double scale = wall.unit_m() * wall.drawn_scale(0).sample_m_per_m;
+  const auto place_m = [&](const render::MeshCopy& copy) { return scale * glm::dvec2(copy.place); };
+  EXPECT_LT(glm::distance(place_m(line.copies.front()), from_m), 0.1e-9);
+  EXPECT_LT(glm::distance(place_m(line.copies.back()), to_m), 0.1e-9);
+  EXPECT_EQ(line.copies.size(), 14U) << "98 nm, gaps of at least 0.3 radii";
+  ASSERT_EQ(ends.copies.size(), 2U);
+  EXPECT_LT(glm::distance(place_m(ends.copies[0]), from_m + glm::dvec2(3e-9, 0.0)), 0.1e-9) << "around the sphere";
+  EXPECT_LT(glm::distance(place_m(ends.copies[1]), to_m), 0.1e-9);
+  now.plan.to_m[0] = 1e-3;  // as far as a plan may go
+  EXPECT_LE(frame(wall, &now).copies[2].copies.size(), wall.scene().nodes[line.node].most_copies);
+  now.plan.particle = 77;  // number on another wall
+  EXPECT_EQ(frame(wall, &now).copies.size(), 2U);
+}
+
 TEST_F(ParticlesOfAWall, MarkTheTouchedOneWithARingAroundIt) {
   const WallScene wall = wall_of(set_);
   const std::vector<scene::ParticlePage> pages = test::start_pages(set_);
@@ -217,6 +244,7 @@ TEST_F(ParticlesOfAWall, AreHiddenWithTheInstrument) {
   EXPECT_FALSE(shown(wall, journey, "particles/sphere"));
   EXPECT_FALSE(shown(wall, journey, "footprints/footprint"));
   EXPECT_FALSE(shown(wall, journey, "ways/dot"));
+  EXPECT_FALSE(shown(wall, journey, "plan-line/dot"));
   EXPECT_FALSE(shown(wall, journey, "targets/target"));
   EXPECT_TRUE(shown(wall, frame(wall, nullptr), "particles/sphere"));
   EXPECT_TRUE(wall.scene().find_node("particles/sphere"));

@@ -141,6 +141,11 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItPushesAParticle) {
   int held = 0, slid = 0;
   for (int tick = 0; tick < 2600; ++tick) {
     if (tick == 2200) send(0.010, 0.060, 0.3);
+    // a groove begins, takes another line, and ends
+    if (tick % 700 == 100) {
+      bench.renderer.store(afm::scene::PlannedPush{
+          .from_m = {-80e-9, 1e-11 * tick}, .to_m = {50e-9, 0.0}, .particle = 0, .guided = tick < 1500 ? 1U : 0U});
+    }
     bench.renderer.store(afm::scene::RendererHeartbeat{});
     bench.now_ns += bench.loop->period_ns();
     {

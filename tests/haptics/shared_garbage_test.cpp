@@ -68,6 +68,7 @@ void write_all(ServoBench& bench, Garbage& garbage) {
     side.store(garbage.noise<HandScript>());
     side.store(garbage.noise<ScanLead>());
     side.store(garbage.noise<RendererHeartbeat>());
+    side.store(garbage.noise<PlannedPush>());
   } else {
     side.store(garbage.flipped(good_transforms()));
     side.store(garbage.flipped(Selection{.material = kMica, .revision = 1}));
@@ -83,6 +84,7 @@ void write_all(ServoBench& bench, Garbage& garbage) {
     heartbeat.stop &= ~1U;
     heartbeat.unseen &= ~1U;
     side.store(heartbeat);
+    side.store(garbage.flipped(PlannedPush{.to_m = {1e-7, 0.0}, .particle = 0, .guided = 1}));
   }
 }
 

@@ -24,7 +24,11 @@ class PatternTaskTest : public ::testing::Test {
  protected:
   void tick(double z_m, double x_m = 0.0, double lateral_n = 0.0) {
     now_ns_ += 1'000'000;
-    task_.add({.time_ns = now_ns_, .base_m = {x_m, 0.0, z_m}, .lateral_n = {lateral_n, 0.0}, .places = places_});
+    task_.add({.time_ns = now_ns_,
+               .base_m = {x_m, 0.0, z_m},
+               .lateral_n = {lateral_n, 0.0},
+               .places = places_,
+               .guided = guided_});
   }
   void wait(int ticks, double z_m = kHighM) {
     for (int i = 0; i < ticks; ++i) tick(z_m);
@@ -54,6 +58,7 @@ class PatternTaskTest : public ::testing::Test {
   PatternTask task_{set_, pattern_of(set_)};
   std::int64_t now_ns_ = 7'000'000'000;
   std::uint64_t places_ = 99;
+  bool guided_ = false;
 };
 
 TEST_F(PatternTaskTest, BeginsWithTheFirstPush) {
@@ -141,6 +146,28 @@ TEST_F(PatternTaskTest, CountsLossesAndPushesTakenBackButNoOtherEvents) {
   EXPECT_EQ(score().state, TaskState::Running);
 }
 
+// An aid, as a push taken back is.
+TEST_F(PatternTaskTest, CountsPushesInAGrooveOnceEach) {
+  guided_ = true;
+  tick(kLowM);
+  tick(kLowM, 1e-9, -1e-10);
+  tick(kHighM);
+  EXPECT_EQ(score().guided, 0U) << "no particle has moved";
+  stroke();
+  EXPECT_EQ(score().guided, 1U);
+  guided_ = false;
+  stroke();
+  EXPECT_EQ(score().guided, 1U);
+  // switched on in the middle
+  tick(kLowM);
+  ++places_;
+  tick(kLowM, 1e-9, -2e-10);
+  guided_ = true;
+  for (int i = 0; i < 5; ++i) tick(kLowM, 1e-9, -2e-10);
+  EXPECT_EQ(score().guided, 2U);
+  EXPECT_EQ(score().strokes, 3U);
+}
+
 TEST_F(PatternTaskTest, BeginsAnewWhenAllIsPutBackUnlessThatIsTakenBack) {
   stroke();
   wait(100);
@@ -166,7 +193,7 @@ TEST_F(PatternTaskTest, IsOneLineOfText) {
   stroke();
   wait(990);
   EXPECT_EQ(text_of(score()),
-            "not done after 1.0 s; pushes: 1, slipped past: 0, taken back: 0; 1.9 aJ of work, at most "
+            "not done after 1.0 s; pushes: 1, slipped past: 0, taken back: 0, in a groove: 0; 1.9 aJ of work, at most "
             "200 pN sideways");
 }
 

@@ -10,6 +10,7 @@
 #include <random>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "scene/shared/shared_segment.h"
 #include "support/paper_model.h"
@@ -117,6 +118,32 @@ TEST(SharedParticles, CrossInPagesOfWhichOnlyNewOnesAreSeen) {
   EXPECT_FALSE(renderer.pop_sample());
 }
 
+TEST(SharedParticles, ArePlannedOnceByAPlanThatCanBe) {
+  auto segment = SharedSegment::create(afm::test::model_with_particles(), 0);
+  ASSERT_TRUE(segment);
+  RendererSide renderer = segment->renderer_side();
+  ServoSide servo = segment->servo_side();
+  const PlannedPush plan{.from_m = {-8e-8, 0.0}, .to_m = {1e-7, 2e-8}, .particle = 2, .guided = 1};
+  renderer.store(plan);
+  EXPECT_EQ(servo.new_plan(), plan);
+  EXPECT_FALSE(servo.new_plan());
+  renderer.store(PlannedPush{});
+  EXPECT_EQ(servo.new_plan(), PlannedPush{});
+  std::vector<PlannedPush> bad(7, plan);
+  bad[0].from_m[1] = kNan;
+  bad[1].to_m[0] = std::numeric_limits<double>::infinity();
+  bad[2].to_m = plan.from_m;
+  bad[3].to_m[1] = -2.0 * kFarthestPlanM;
+  bad[4].particle = 3;
+  bad[5].guided = 2;
+  bad[6].particle = kNoParticle;
+  for (const PlannedPush& each : bad) {
+    renderer.store(each);
+    EXPECT_FALSE(servo.new_plan());
+  }
+  EXPECT_EQ(servo.refused_blocks(), bad.size());
+}
+
 TEST(SharedParticles, AreRefusedWithAReason) {
   const auto refused = [](auto&& spoil) {
     SharedParticles particles = afm::test::model_with_particles().particles;
@@ -172,7 +199,7 @@ int expect_every_number_is_checked(const SharedModel& model) {
 TEST(SharedBlocks, AreRefusedForAnyNumberThatIsNotFinite) {
   const SharedModel model = paper_model();
   EXPECT_EQ(expect_every_number_is_checked<TipState>(model), 5 + 3 + 3 + 6 + 4 + 6 + 2);
-  EXPECT_EQ(expect_every_number_is_checked<TipSample>(model), 5 + 3 + 2 + 9 + 1 + 2 + 4 + 4 + 2);
+  EXPECT_EQ(expect_every_number_is_checked<TipSample>(model), 5 + 3 + 2 + 9 + 1 + 2 + 4 + 4 + 2 + 4 + 2);
   EXPECT_EQ(expect_every_number_is_checked<TipPush>(model), 3 + 3 + 2 + 4 + 4 + 4);
   EXPECT_EQ(expect_every_number_is_checked<TipEvent>(model), 3);
 }

@@ -76,6 +76,8 @@ class Recording {
         scene::HandScript{.target_m = {place_m.x, height_m, -place_m.y}, .duration_s = seconds, .revision = ++script_});
   }
 
+  void plan(const scene::PlannedPush& plan) { renderer_.store(plan); }
+
   // The wall takes the force away; the material stays.
   void release(int material, scene::ScaleMode mode = scene::ScaleMode::Fit) {
     renderer_.store(scene::Selection{.material = material, .revision = ++selection_, .scale_mode = mode, .release = 1});

@@ -22,7 +22,7 @@ namespace afm::cluster {
 inline constexpr std::size_t kMostDatagramBytes = 1300;
 
 // Increase whenever the meaning of a message changes.
-inline constexpr std::uint32_t kClusterVersion = 5;
+inline constexpr std::uint32_t kClusterVersion = 6;
 
 // Header of every message. Each master draws a random `session` when it starts.
 struct ClusterHeader {
@@ -161,7 +161,7 @@ constexpr void for_each_field(Visit&& visit, Record&... record) {
 static_assert(scene::all_fields_described<PoseRecord>());
 
 // Records that every node must receive completely and in order: each sample and jump of the tip, each edit, each change
-// of a scan, each particle that has moved, the push of a frame, and the score of a task.
+// of a scan, each particle that has moved, the push of a frame, the score of a task, and the plan of a push.
 enum class JournalKind : std::uint32_t {
   Sample = 0,
   Event = 1,
@@ -172,7 +172,8 @@ enum class JournalKind : std::uint32_t {
   ScanEnd = 6,
   Pose = 7,
   Push = 8,
-  Score = 9
+  Score = 9,
+  Plan = 10
 };
 
 class JournalRecord {
@@ -185,6 +186,7 @@ class JournalRecord {
   explicit JournalRecord(const PoseRecord& pose) : kind_(JournalKind::Pose) { set(pose); }
   explicit JournalRecord(const scene::TipPush& push) : kind_(JournalKind::Push) { set(push); }
   explicit JournalRecord(const scene::TaskScore& score) : kind_(JournalKind::Score) { set(score); }
+  explicit JournalRecord(const scene::PlannedPush& plan) : kind_(JournalKind::Plan) { set(plan); }
 
   JournalKind kind() const { return kind_; }
   // Valid only for records of that kind.
@@ -195,6 +197,7 @@ class JournalRecord {
   PoseRecord pose() const { return get<PoseRecord>(); }
   scene::TipPush push() const { return get<scene::TipPush>(); }
   scene::TaskScore score() const { return get<scene::TaskScore>(); }
+  scene::PlannedPush plan() const { return get<scene::PlannedPush>(); }
 
   // True if enumerators are known, numbers finite, materials below scene::kMaxMaterials, and particles below
   // scene::kMaxParticles.

@@ -138,6 +138,9 @@ void WallHistory::apply(const cluster::JournalRecord& record) {
     case cluster::JournalKind::Score:
       score = record.score();
       return;
+    case cluster::JournalKind::Plan:
+      plan = record.plan();
+      return;
     case cluster::JournalKind::Forget:
       cycles = CycleHistory(cycles.curves().size());
       friction = {};
@@ -193,7 +196,7 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
                                     std::span<const cluster::EditRecord> edits,
                                     std::span<const cluster::ScanRecord> scan,
                                     std::span<const scene::ParticlePage> pages, const scene::TipPush& push,
-                                    const scene::TaskScore& score) {
+                                    const scene::TaskScore& score, const scene::PlannedPush& plan) {
   HistoryWriter writer;
   writer(journal);
   writer(static_cast<std::uint64_t>(cycles.curves().size()));
@@ -204,6 +207,7 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
   writer(std::vector<scene::ParticlePage>(pages.begin(), pages.end()));
   writer(push);
   writer(score);
+  writer(plan);
   return writer.take();
 }
 
@@ -221,6 +225,7 @@ std::optional<WallHistory> load_history(std::span<const std::byte> document, std
   reader(history.pages);
   reader(history.push);
   reader(history.score);
+  reader(history.plan);
   const auto is_edit = [&](const cluster::EditRecord& edit) {
     return edit.material < materials && cluster::JournalRecord(edit).valid();
   };
@@ -234,7 +239,8 @@ std::optional<WallHistory> load_history(std::span<const std::byte> document, std
                      history.pages.size() <= scene::kParticlePages &&
                      std::all_of(history.pages.begin(), history.pages.end(),
                                  [](const scene::ParticlePage& page) { return scene::is_valid(page); }) &&
-                     cluster::JournalRecord(history.push).valid() && cluster::JournalRecord(history.score).valid();
+                     cluster::JournalRecord(history.push).valid() && cluster::JournalRecord(history.score).valid() &&
+                     cluster::JournalRecord(history.plan).valid();
   return valid ? std::optional(std::move(history)) : std::nullopt;
 }
 

@@ -16,7 +16,9 @@
 
 #include "core/enumerators.h"
 #include "curves/plot_units.h"
+#include "exhibit/state/plan_figures.h"
 #include "panels/panel_conventions.h"
+#include "physics/manipulation/push_figures.h"
 #include "physics/manipulation/tip_hold.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
@@ -33,6 +35,7 @@ using physics::ParticleSpecies;
 using physics::PushState;
 
 constexpr double kSoftened = 1.05;  // beyond this the panel says that the lever is felt softer
+constexpr double kFinestAimM = 1e-12;
 
 static_assert(after(Phrase::PushFree, core::index_of(PushState::Several)) == Phrase::PushSeveral);
 static_assert(after(Phrase::PushLawArea, core::index_of(ParticleLaw::Measured)) == Phrase::PushLawMeasured);
@@ -72,6 +75,7 @@ class ParticleRows {
 
   std::vector<render::DataRow> take() {
     add_task();
+    add_plan();
     add_push();
     add_thresholds();
     add_numbers();
@@ -96,10 +100,29 @@ class ParticleRows {
         phrases_.text<Phrase::TaskStrokes>(fmt::format("{}", score.strokes), fmt::format("{}", score.losses)));
     if (!done) return;
     add(Phrase::TaskOff, quantity_text(physics::Length(score.rms_m), physics::kLengthUnits, phrases_),
-        score.undos == 0 ? phrases_[Phrase::TaskUnaided]
-                         : phrases_.text<Phrase::TaskAided>(fmt::format("{}", score.undos)));
+        score.undos + score.guided == 0
+            ? phrases_[Phrase::TaskUnaided]
+            : phrases_.text<Phrase::TaskAided>(fmt::format("{}", score.undos), fmt::format("{}", score.guided)));
     add(Phrase::TaskWork, quantity_text(physics::Energy(score.work_j), physics::kEnergyUnits, phrases_),
         phrases_.text<Phrase::TaskLargest>(force_text(Force(score.largest_lateral_n), phrases_)));
+  }
+
+  // What a planned push asks of the hand.
+  void add_plan() {
+    const auto figures = plan_figures(now_);
+    if (!figures) return;
+    const std::string number = fmt::format("{}", now_.plan.particle + 1);
+    add(Phrase::PlanWay, quantity_text(figures->left, physics::kLengthUnits, phrases_),
+        now_.plan.guided != 0 ? phrases_.text<Phrase::PlanGuided>(number)
+                              : phrases_.text<Phrase::PlanUnguided>(number));
+    add(Phrase::PlanAim,
+        figures->aim.si < kFinestAimM
+            ? "< " + quantity_text(physics::Length(kFinestAimM), physics::kLengthUnits, phrases_)
+            : quantity_text(figures->aim, physics::kLengthUnits, phrases_),
+        phrases_[Phrase::PlanAimWhy]);
+    if (!(figures->hand.si > 0.0)) return;  // before the servo has said how large the particles are in the hand
+    add(Phrase::PlanHand, quantity_text(figures->hand, physics::kVelocityUnits, phrases_),
+        phrases_.text<Phrase::PlanHandWhy>(fmt::format("{:g} s", physics::kSteeringDelay.si)));
   }
 
   void add_push() {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/vec2.hpp>
@@ -31,6 +32,10 @@ constexpr glm::vec3 kTouched{1.35F, 1.3F, 1.1F};
 constexpr double kShortestWay = 0.2;  // shortest way with a footprint, in radii
 constexpr double kDotSpacing = 0.45;  // in radii
 constexpr std::uint32_t kMostDots = 64, kMostDotsInAll = 8192;
+
+// Of a plan, in radii: its dots are larger and closer than those of a path, its rings wider than a footprint.
+constexpr double kPlanDotSpacing = 0.3, kPlanDotSize = 1.4, kPlanRingSize = 1.8;
+constexpr glm::vec4 kPlanned{0.35F, 1.05F, 1.15F, 1.0F};  // tint
 
 // Linear colours of the species, apart in lightness too.
 constexpr std::array<glm::vec3, 8> kSpeciesColors{{{0.83F, 0.56F, 0.15F},
@@ -112,6 +117,8 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   build.part(particle_target(), "targets", sample);
   build.part(particle_footprint(), "footprints", sample);
   build.part(particle_dot(), "ways", sample);
+  build.part(particle_dot(), "plan-line", sample);
+  build.part(particle_footprint(), "plan-ends", sample);
   build.part(particle_ring(), "touched-particle", sample);
   add_rods_and_pads(set, build, sample);
   // up to the drawn lever
@@ -121,6 +128,8 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   targets_ = build.node("targets/target");
   footprints_ = build.node("footprints/footprint");
   dots_ = build.node("ways/dot");
+  plan_line_ = build.node("plan-line/dot");
+  plan_ends_ = build.node("plan-ends/footprint");
   ring_ = build.node("touched-particle/ring");
   tip_ = build.node("true-tip/tip");
   const auto count = static_cast<std::uint32_t>(particles_.size());
@@ -128,6 +137,8 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   if (build.error()) return;
   scene.nodes[spheres_].most_copies = scene.nodes[footprints_].most_copies = count;
   scene.nodes[dots_].most_copies = most_dots_ * count;
+  scene.nodes[plan_line_].most_copies = kMostDots;
+  scene.nodes[plan_ends_].most_copies = 2;
   scene.nodes[targets_].most_copies = 2 * scene::kMostTargets;
   for (const auto& rod : rods_) {
     if (rod) scene.nodes[*rod].most_copies = count;
@@ -153,7 +164,7 @@ void StageParticles::add_rods_and_pads(const scene::ParticleSet& set, ModelBuild
 }
 
 std::vector<scene::NodeIndex> StageParticles::nodes() const {
-  std::vector<scene::NodeIndex> all{spheres_, targets_, footprints_, dots_, tip_};
+  std::vector<scene::NodeIndex> all{spheres_, targets_, footprints_, dots_, plan_line_, plan_ends_, tip_};
   for (const auto& rod : rods_) {
     if (rod) all.push_back(*rod);
   }
@@ -216,7 +227,9 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
     frame.copies.push_back(std::move(rods[i]));
   }
   add_targets(layout_per_m, frame);
-  if (now != nullptr) add_marks(*now, layout_per_m, frame);
+  if (now == nullptr) return;
+  add_marks(*now, layout_per_m, frame);
+  add_plan(*now, layout_per_m, frame);
 }
 
 void StageParticles::add_targets(double layout_per_m, render::FrameState& frame) const {
@@ -250,6 +263,27 @@ void StageParticles::add_marks(const ParticlesNow& now, double layout_per_m, ren
   for (render::MeshCopies* marks : {&footprints, &dots}) {
     if (!marks->copies.empty()) frame.copies.push_back(std::move(*marks));
   }
+}
+
+// The line as planned, the first ring around the sphere wherever it lies now.
+void StageParticles::add_plan(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const {
+  const auto particle = static_cast<std::size_t>(now.plan.particle);  // huge without a plan
+  if (particle >= particles_.size()) return;
+  const double radius_m = particles_[particle].radius_m;
+  const glm::dvec2 from_m(now.plan.from_m[0], now.plan.from_m[1]), to_m(now.plan.to_m[0], now.plan.to_m[1]);
+  const auto pose = pose_of(now, particle);
+  render::MeshCopies line{.node = plan_line_, .copies = {}}, ends{.node = plan_ends_, .copies = {}};
+  const auto add = [&](render::MeshCopies& marks, const glm::dvec2& place_m, double size) {
+    marks.copies.push_back(mark_at(layout_per_m * place_m, layout_per_m * size * radius_m));
+    marks.copies.back().tint = kPlanned;
+  };
+  const double gaps =
+      std::floor(std::clamp(glm::distance(from_m, to_m) / (kPlanDotSpacing * radius_m), 1.0, kMostDots - 1.0));
+  for (double dot = 0.0; dot <= gaps; dot += 1.0) add(line, glm::mix(from_m, to_m, dot / gaps), kPlanDotSize);
+  add(ends, pose ? glm::dvec2(pose->x_m, pose->y_m) : from_m, kPlanRingSize);
+  add(ends, to_m, kPlanRingSize);
+  frame.copies.push_back(std::move(line));
+  frame.copies.push_back(std::move(ends));
 }
 
 }  // namespace afm::exhibit

@@ -59,6 +59,7 @@ struct Touch {
   glm::dvec2 tip_xy_m{0.0};
   FeltFriction::Step friction;
   ParticlePush push;
+  GroovePull groove;  // along the axes of the sample, on the hand
   double surface_height_m = 0;
   glm::dvec3 normal{0.0, 0.0, 1.0};  // unit normal of the surface below the tip
   glm::dvec3 hand_force_n{0.0};      // force on the hand
@@ -75,7 +76,7 @@ struct Touch {
 //
 // On the scale Particles the tip also pushes the particles on the sample (haptics/felt_particles.h). Their force is
 // added only where one is touched; without force, under a scan's feedback, and until the tip has been lifted, there is
-// none.
+// none. The groove of a plan (haptics/felt_groove.h) is felt on that scale alone, too.
 //
 // Under a scan's feedback (ScanFeedback) the sample feels level: the loop, z' = gain (h - z), removes the heights
 // before the hand feels them. Only the residual deflection, the part not yet followed, is felt, up to kMostResidualM of

@@ -10,6 +10,7 @@
 
 #include "core/result.h"
 #include "haptics/device.h"
+#include "haptics/felt_groove.h"
 #include "haptics/particle_push.h"
 #include "haptics/particle_scale.h"
 #include "haptics/stroke_history.h"
@@ -28,6 +29,7 @@ namespace afm::haptics {
 //   that no force comes without a motion of the hand. What was felt before ends there: after it, forces depend on the
 //   places of the particles and on the hand alone, so that a session can begin there.
 // - Not touching, the tip gets no force at all, and nothing is added to any other.
+// - A groove along the plan of a push (FeltGroove) belongs to them; its force is added apart.
 //
 // The constructor and resume() allocate; everything else may be called in a tick of the servo, by its thread.
 class FeltParticles {
@@ -35,7 +37,7 @@ class FeltParticles {
   static constexpr double kFeltN = 0.05;  // on the hand: a weaker touch is no event
 
   // `particles` is valid (scene::validate) and has particles, `scale` is its particle_scale().
-  FeltParticles(const scene::SharedParticles& particles, const ParticleScale& scale);
+  FeltParticles(const scene::SharedParticles& particles, const ParticleScale& scale, const GrooveLimits& groove = {});
 
   // Goes on with the poses of these pages, of the same particles; a wait for a lift begins. Throws
   // std::invalid_argument unless the pages are those of so many particles, and finite.
@@ -47,6 +49,11 @@ class FeltParticles {
 
   // Takes the tip off the particles, wherever it is.
   void lift() noexcept;
+
+  // The same where no force is applied, which ends the groove, too.
+  void drop() noexcept;
+
+  FeltGroove& groove() noexcept { return groove_; }
 
   // Puts the particles back where they lay before the newest stroke that moved any; a wait for a lift begins. Call only
   // without force. False if the tip is among the particles, or if there is no such stroke since the constructor or
@@ -96,6 +103,7 @@ class FeltParticles {
   std::vector<std::uint32_t> changed_;
   StrokeHistory strokes_;
   physics::TipMeeting meeting_;
+  FeltGroove groove_;
   std::uint64_t digest_ = 0;
   double stiffness_n_per_m_;
   Tip tip_ = Tip::Waits;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 
@@ -26,6 +27,16 @@ struct ParticlePush {
 
   void add(const Event& event) noexcept { events[event_count++] = event; }
   std::span<const Event> happened() const noexcept { return std::span(events).first(event_count); }
+};
+
+// Pull of the groove along a planned push (haptics/felt_groove.h) in one tick, along the sample's x and y, and the
+// related input of PassivityObserver. On the hand.
+struct GroovePull {
+  bool acts = false;  // false: there is no groove, and all else is zero
+  glm::dvec2 force_n{0.0};
+  double stored_j = 0;
+  double given_j = 0;  // part of stored_j that a change of the gain added in this tick
+  double stiffness_n_per_m = 0;
 };
 
 }  // namespace afm::haptics

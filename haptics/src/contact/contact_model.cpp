@@ -191,7 +191,10 @@ Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback)
 }
 
 void ContactModel::meet_particles(const glm::dvec2& slope, const ScanFeedback& feedback, Touch& touch) noexcept {
-  if (feedback.without_force || level_ || phase() == physics::Phase::WaitForLift) return particles_->lift();
+  if (feedback.without_force || phase() == physics::Phase::WaitForLift) return particles_->drop();
+  touch.groove = particles_->groove().step(touch.tip_xy_m, !level_, feedback.elapsed_s);
+  if (touch.groove.acts) touch.hand_force_n += glm::dvec3(touch.groove.force_n, 0.0);
+  if (level_) return particles_->lift();
   touch.push = particles_->step(touch.tip_xy_m, touch.z_m, feedback.elapsed_s);
   if (!touch.push.touches) return;
   const glm::dvec3& push_n = touch.push.push_n;
@@ -265,7 +268,7 @@ physics::Force ContactModel::felt_force(Touch& touch) const noexcept {
 void ContactModel::wait_for_lift() noexcept {
   std::visit([](auto& model) { model.wait_for_lift(); }, model_);
   if (friction_) friction_->lift();
-  if (particles_ != nullptr) particles_->lift();
+  if (particles_ != nullptr) particles_->drop();
 }
 
 physics::Phase ContactModel::phase() const noexcept {
@@ -286,6 +289,11 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
   if (touch.push.near) {
     law.stored_j += particles_->stored_j();
     law.stiffness_n_per_m += particles_->stiffness_n_per_m();
+  }
+  if (touch.groove.acts) {
+    law.stored_j += touch.groove.stored_j;
+    law.given_j += touch.groove.given_j;
+    law.stiffness_n_per_m += touch.groove.stiffness_n_per_m;
   }
   if (level_) law.given_j += touch.level_given_j;
   if (std::holds_alternative<physics::TappingModel>(model_)) {

@@ -38,13 +38,15 @@ std::array<double, 4> rolled(const std::array<double, 4>& orientation, const glm
 
 }  // namespace
 
-FeltParticles::FeltParticles(const scene::SharedParticles& particles, const ParticleScale& scale)
+FeltParticles::FeltParticles(const scene::SharedParticles& particles, const ParticleScale& scale,
+                             const GrooveLimits& groove)
     : scale_(scale),
       setup_(felt_setup(particles, scale)),
       particles_(setup_, scene::start_places(particles), base_at({0.0, 0.0, scale.clear_z_m})),
       pages_(scene::pages_of(particles.count)),
       strokes_(particles.count),
       meeting_(setup_),
+      groove_(groove, scale.hand_m_per_m),
       stiffness_n_per_m_(std::max(setup_.springs.lateral, setup_.springs.normal).si * scale.hand_n_per_n /
                          scale.hand_m_per_m) {
   const double sine = std::sin(setup_.tip.half_angle_rad), cosine = std::cos(setup_.tip.half_angle_rad);
@@ -99,6 +101,11 @@ void FeltParticles::lift() noexcept {
   tip_ = Tip::Waits;
   push_n_ = glm::dvec3(0.0);
   stored_j_ = 0.0;
+}
+
+void FeltParticles::drop() noexcept {
+  lift();
+  groove_.drop();
 }
 
 bool FeltParticles::take_back() noexcept {

@@ -48,9 +48,9 @@ core::Result<CommonScale> scales_of(const scene::SharedModel& model,
 
 // The particles of a scene, where a predecessor left them; null: none.
 std::unique_ptr<FeltParticles> particles_of(scene::SharedSegment& segment, const scene::SharedParticles& particles,
-                                            const ParticleScale& scale) {
+                                            const ParticleScale& scale, const DeviceSpec& device) {
   if (particles.count == 0) return nullptr;
-  auto felt = std::make_unique<FeltParticles>(particles, scale);
+  auto felt = std::make_unique<FeltParticles>(particles, scale, groove_limits(device));
   const scene::ServoSide side = segment.servo_side();
   std::vector<scene::ParticlePage> pages;
   while (pages.size() < felt->pages().size()) {
@@ -136,7 +136,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       settings_(settings),
       period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
-      particles_(particles_of(segment, model.particles, common.particles)),
+      particles_(particles_of(segment, model.particles, common.particles, spec_)),
       exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
              {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count},
@@ -283,6 +283,7 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
   if (const auto selection = shared_.new_selection()) chosen_ = *selection;
   if (const auto script = shared_.new_hand_script()) device_.follow(*script);
   if (const auto scan = shared_.new_scan_lead()) newest_scan_ = *scan;
+  if (const auto plan = shared_.new_plan(); plan && particles_) particles_->groove().follow(*plan);
   const std::int64_t age_ns = now_ns - newest_scan_.time_ns;
   const bool fresh = age_ns >= 0 && age_ns <= scene::kScanLeadLastsNs;
   scan_ = fresh && newest_scan_.hand != scene::ScanHand::Apart ? newest_scan_ : scene::ScanLead{};
@@ -320,7 +321,7 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
   model_->wait_for_lift();
   governor_.forget_motion();
   guide_.reset();
-  if (particles_) particles_->lift();
+  if (particles_) particles_->drop();
   model_->use(mode, particles_.get());
   const Scaling& scaling = model_->scaling();
   governor_.set_release_height(scaling.release_height_m());

@@ -11,6 +11,13 @@ namespace {
 
 std::array<double, 3> array_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
+// Force of the groove after the tick, which is none once the force has been dropped.
+std::array<double, 2> guide_n(const std::unique_ptr<FeltParticles>& particles) {
+  if (!particles) return {};
+  const glm::dvec2& force_n = particles->groove().force_n();
+  return {force_n.x, force_n.y};
+}
+
 }  // namespace
 
 void ServoLoop::publish_events(std::int64_t now_ns) noexcept {
@@ -102,7 +109,9 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                 .lateral_force_n = {touch_.friction.lateral.x.si, touch_.friction.lateral.y.si},
                                 .scan = scan_,
                                 .push = particles_ ? particles_->sample() : scene::PushSample{},
-                                .swing = state_.swing});
+                                .swing = state_.swing,
+                                .plan = particles_ ? particles_->groove().plan() : scene::PlannedPush{},
+                                .guide_n = guide_n(particles_)});
 }
 
 // Only pages that changed.

@@ -46,7 +46,7 @@ void PatternTask::add(const TaskTick& tick) {
   if (!last_) last_ = tick;
   TaskScore& score = task_.score;
   const bool lifted = tick.base_m[2] >= clear_z_m_, put = std::exchange(put_, false);
-  if (lifted) moving_ = false;
+  if (lifted) moving_ = guided_ = false;
   if (tick.places != last_->places) {
     if (!put) count_stroke(tick);
     lifted_ns_.reset();
@@ -55,6 +55,7 @@ void PatternTask::add(const TaskTick& tick) {
   if (!lifted) lifted_ns_.reset();
   if (lifted && !lifted_ns_) lifted_ns_ = tick.time_ns;
   if (score.state != TaskState::Done) count_work(tick);
+  if (score.state == TaskState::Running) count_guidance(tick);
   // the first stroke counts from its descent
   if (lifted && score.state == TaskState::NotBegun) score = {};
   if (score.state == TaskState::Running) score.time_s = 1e-9 * static_cast<double>(tick.time_ns - task_.begun_ns);
@@ -71,6 +72,12 @@ void PatternTask::count_stroke(const TaskTick& tick) {
   if (task_.score.state == TaskState::Running) return;
   task_.score.state = TaskState::Running;
   task_.begun_ns = tick.time_ns;
+}
+
+// Once for each stroke that moved a particle, whenever in it the groove was there.
+void PatternTask::count_guidance(const TaskTick& tick) {
+  if (!moving_ || !tick.guided || std::exchange(guided_, true)) return;
+  ++task_.score.guided;
 }
 
 // By the mean of the forces at both ends of the tick.
@@ -106,10 +113,10 @@ std::string text_of(const TaskScore& score) {
   if (score.state == TaskState::NotBegun) return "not begun";
   const bool done = score.state == TaskState::Done;
   return fmt::format(
-      "{} {:.1f} s{}; pushes: {}, slipped past: {}, taken back: {}; {} of work, at most {} sideways",
+      "{} {:.1f} s{}; pushes: {}, slipped past: {}, taken back: {}, in a groove: {}; {} of work, at most {} sideways",
       done ? "done in" : "not done after", score.time_s,
       done ? fmt::format(", {} off", format_quantity(physics::Length(score.rms_m), physics::kLengthUnits, 3)) : "",
-      score.strokes, score.losses, score.undos,
+      score.strokes, score.losses, score.undos, score.guided,
       format_quantity(physics::Energy(score.work_j), physics::kEnergyUnits, 3),
       format_quantity(physics::Force(score.largest_lateral_n), physics::kForceUnits, 3));
 }

@@ -14,11 +14,11 @@ namespace afm::scene {
 inline constexpr std::uint64_t kSegmentMagic = 0x314D46414D464154;  // "TAFMAFM1" in memory
 
 // Sizes of the blocks in this build, in the order of SegmentLayout: two builds that differ reject each other.
-using BlockSizes = std::array<std::uint32_t, 14>;
+using BlockSizes = std::array<std::uint32_t, 15>;
 inline constexpr BlockSizes kBlockSizes{
     sizeof(SharedModel),       sizeof(SceneTransforms), sizeof(Selection), sizeof(MaterialEdit), sizeof(HandScript),
     sizeof(RendererHeartbeat), sizeof(TipState),        sizeof(TipSample), sizeof(TipEvent),     sizeof(ServoTiming),
-    sizeof(SharedDevice),      sizeof(ScanLead),        sizeof(TipPush),   sizeof(ParticlePage)};
+    sizeof(SharedDevice),      sizeof(ScanLead),        sizeof(TipPush),   sizeof(ParticlePage), sizeof(PlannedPush)};
 
 struct SegmentHeader {
   std::uint64_t magic = kSegmentMagic;
@@ -40,6 +40,7 @@ struct SegmentLayout {
   std::array<core::LatestValue<MaterialEdit>, kMaxMaterials> edits;  // newest edit of every material
   core::LatestValue<HandScript> hand_script;
   core::LatestValue<ScanLead> scan_lead;
+  core::LatestValue<PlannedPush> plan;
   core::LatestValue<RendererHeartbeat> heartbeat;
 
   // written by touchafm-servo; touchafm writes the tail of a ring

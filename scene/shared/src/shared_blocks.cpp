@@ -302,7 +302,8 @@ bool is_valid(const TipState& state, const SharedModel& model) {
 
 bool is_valid(const TipSample& sample, const SharedModel& model) {
   return is_field_valid(sample) && has_particle(sample.push.particle, model) && sample.device_healthy <= 1 &&
-         sample.changing <= 1 && is_valid(sample.scan) && within(sample.material, model);
+         sample.changing <= 1 && is_valid(sample.scan) && is_valid(sample.plan, model) &&
+         within(sample.material, model);
 }
 
 bool is_valid(const TipEvent& event, const SharedModel& model) {
@@ -312,6 +313,15 @@ bool is_valid(const TipEvent& event, const SharedModel& model) {
 bool is_valid(const ParticlePage& page) {
   return std::all_of(page.poses.begin(), page.poses.end(),
                      [](const ParticlePose& pose) { return is_field_valid(pose) && pose.rod <= 1; });
+}
+
+bool is_valid(const PlannedPush& plan, const SharedModel& model) {
+  if (plan.particle == kNoParticle) return plan == PlannedPush{};
+  const auto near = [](double place_m) { return std::abs(place_m) <= kFarthestPlanM; };  // NaN is not
+  return has_particle(plan.particle, model) && plan.guided <= 1 &&
+         std::all_of(plan.from_m.begin(), plan.from_m.end(), near) &&
+         std::all_of(plan.to_m.begin(), plan.to_m.end(), near) &&
+         std::hypot(plan.to_m[0] - plan.from_m[0], plan.to_m[1] - plan.from_m[1]) >= kShortestPlanM;
 }
 
 bool is_valid(const TipPush& push, const SharedModel& model) {

@@ -167,6 +167,7 @@ void RendererSide::store(const MaterialEdit& edit, std::uint32_t material) noexc
 }
 void RendererSide::store(const HandScript& script) noexcept { layout_->hand_script.store(script); }
 void RendererSide::store(const ScanLead& lead) noexcept { layout_->scan_lead.store(lead); }
+void RendererSide::store(const PlannedPush& plan) noexcept { layout_->plan.store(plan); }
 void RendererSide::store(const RendererHeartbeat& heartbeat) noexcept { layout_->heartbeat.store(heartbeat); }
 
 std::optional<TipState> RendererSide::tip_state() noexcept {
@@ -236,6 +237,12 @@ std::optional<ScanLead> ServoSide::new_scan_lead() noexcept {
   auto lead = layout_->scan_lead.try_load_newer(seen_lead_);
   check(lead, refused_);
   return lead;
+}
+
+std::optional<PlannedPush> ServoSide::new_plan() noexcept {
+  auto plan = layout_->plan.try_load_newer(seen_plan_);
+  check(plan, refused_, layout_->model);
+  return plan;
 }
 
 std::optional<RendererHeartbeat> ServoSide::new_heartbeat() noexcept {

@@ -64,6 +64,7 @@ core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& r
 struct ReplayedParticles {
   std::vector<scene::ParticlePage> pages;
   scene::TipPush push;
+  scene::PlannedPush plan;
 };
 
 // Replays a session with particles up to its last tick at or before `time_ns`, and at least its first. Fails as

@@ -107,6 +107,10 @@ class ServoClient {
   // Call once per frame of a scan that involves the hand; sets the revision itself.
   void lead(const scene::ScanLead& lead);
 
+  // Plan of a push, whose groove guides the hand until another plan, or none, replaces it. An impossible one is refused
+  // by the servo.
+  void plan(const scene::PlannedPush& plan) { side_.store(plan); }
+
  private:
   ServoClient(scene::SharedSegment segment, const haptics::ServoSettings& settings)
       : settings_(settings), segment_(std::move(segment)), side_(segment_.renderer_side()) {}

@@ -31,6 +31,7 @@ struct RecordedSession {
   std::optional<scene::SharedHeightField> surface;  // none: a topography, or a plane
   scene::Topography topography;                     // without columns: none
   std::optional<RecordedParticles> particles;
+  bool has_plans = false;  // true: its samples have the plans of pushes; false: none, or an older file
   std::array<double, 16> room_from_sample{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // as in SceneTransforms
   scene::SharedDevice device;
   double rate_hz = 0;

@@ -191,8 +191,8 @@ void ServoClient::lead(const scene::ScanLead& lead) {
   side_.store(next);
 }
 
-// Continues for a renderer that died: revisions continue from its last one, its edits are undone, and its unread data
-// are discarded.
+// Continues for a renderer that died: revisions continue from its last one, its edits and its plan are undone, and its
+// unread data are discarded.
 void ServoClient::go_on() {
   tip_ = side_.tip_state().value_or(scene::TipState{});
   selection_ = side_.last_selection().value_or(scene::Selection{.revision = tip_.acknowledged.selection});
@@ -207,6 +207,7 @@ void ServoClient::go_on() {
     edited.push_back(i);
   }
   for (const std::size_t i : edited) change(i, model.materials[i]);
+  plan({});
   while (side_.pop_sample()) {
   }
   while (side_.pop_event()) {

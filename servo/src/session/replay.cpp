@@ -124,6 +124,7 @@ class Player {
     if (changes != (chosen_ != 0)) choose(changes ? 1 : 0);
     turn_to(sample);
     lead(sample.scan);
+    plan(sample.plan);
     hand_.show(sample, sample.device_healthy != 0);
     loop_->tick(sample.time_ns, sample.wake_us);
     while (const auto event = renderer_.pop_event()) events_.push_back(*event);
@@ -134,7 +135,9 @@ class Player {
   }
 
   // As of the newest tick.
-  ReplayedParticles particles() { return {.pages = pages_, .push = renderer_.tip_push().value_or(scene::TipPush{})}; }
+  ReplayedParticles particles() {
+    return {.pages = pages_, .push = renderer_.tip_push().value_or(scene::TipPush{}), .plan = sample_.plan};
+  }
 
   const TipSample& sample() const { return sample_; }
   const std::vector<TipEvent>& events() const { return events_; }
@@ -179,6 +182,12 @@ class Player {
     if (scan == scan_) return;
     scan_ = scan;
     renderer_.store(scan);
+  }
+
+  void plan(const scene::PlannedPush& plan) {
+    if (plan == plan_) return;
+    plan_ = plan;
+    renderer_.store(plan);
   }
 
   void choose(std::int32_t material) {
@@ -248,7 +257,8 @@ class Player {
   haptics::SampleAxes axes_;    // as last placed
   std::size_t next_frame_ = 0;  // next frame of the wall that may turn the sample
   std::uint32_t selection_ = 0;
-  scene::ScanLead scan_;  // as last sent
+  scene::ScanLead scan_;     // as last sent
+  scene::PlannedPush plan_;  // as last sent
   TipSample sample_;
   std::vector<TipEvent> events_;
   std::vector<scene::ParticlePage> pages_;

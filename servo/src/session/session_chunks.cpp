@@ -47,6 +47,7 @@ std::string rods_of(const scene::SharedParticles& set) {
 std::uint32_t version_of(const RecordedSession& session) {
   if (scene::taps(session.parameters)) return kVersionWithSwing;
   if (!session.particles) return kSessionVersion;
+  if (session.has_plans) return kVersionWithPlans;
   if (scene::has_hold(session.particles->set)) return kVersionWithHold;
   return scene::has_rods(session.particles->set) ? kVersionWithRods : kVersionWithParticles;
 }
@@ -84,8 +85,9 @@ bool read_rods(std::string_view payload, RecordedParticles& particles) {
 }
 
 std::size_t sample_bytes_of(const RecordedSession& session) {
-  if (scene::taps(session.parameters)) return sizeof(scene::TipSample);
-  return session.particles ? kSampleBytesWithoutSwing : kSampleBytesWithoutPush;
+  if (scene::taps(session.parameters)) return kSampleBytesWithoutPlan;
+  if (!session.particles) return kSampleBytesWithoutPush;
+  return session.has_plans ? sizeof(scene::TipSample) : kSampleBytesWithoutSwing;
 }
 
 void SessionEncoder::head(const RecordedSession& session) {

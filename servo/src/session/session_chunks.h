@@ -11,11 +11,11 @@
 #include "servo/session_file.h"
 
 // Session file of version 6, 7 with particles, 8 with rods among them, or 9 with spheres that stick to the tip, whose
-// forces an older program does not know, and with rods or without, or 10 for a lever that taps: "AFMS", the version,
-// then chunks. A chunk consists of a name of four letters and the size of its payload in 32 bits, the checksum of
-// these, the payload, and its checksum. A checksum is the 64-bit FNV-1a of all bytes from the beginning of the file up
-// to it, so that no chunk can be altered, left out or exchanged. A file that ends inside a chunk was cut; all chunks
-// before it are intact.
+// forces an older program does not know, and with rods or without, 10 for a lever that taps, or 11 for particles of any
+// kind and the plans of their pushes, as touchafm records them today: "AFMS", the version, then chunks. A chunk
+// consists of a name of four letters and the size of its payload in 32 bits, the checksum of these, the payload, and
+// its checksum. A checksum is the 64-bit FNV-1a of all bytes from the beginning of the file up to it, so that no chunk
+// can be altered, left out or exchanged. A file that ends inside a chunk was cut; all chunks before it are intact.
 namespace afm::servo {
 
 inline constexpr std::string_view kSessionMagic = "AFMS";
@@ -24,6 +24,7 @@ inline constexpr std::uint32_t kVersionWithParticles = 7;  // samples end with t
 inline constexpr std::uint32_t kVersionWithRods = 8;       // a chunk has the rods, too
 inline constexpr std::uint32_t kVersionWithHold = 9;       // particles stick to the tip
 inline constexpr std::uint32_t kVersionWithSwing = 10;  // the lever taps, without particles; samples end with its swing
+inline constexpr std::uint32_t kVersionWithPlans = 11;  // as 7, 8 or 9; samples end with plan and groove
 
 inline constexpr std::string_view kHeadChunk = "HEAD";        // header_of() as JSON
 inline constexpr std::string_view kSurfaceChunk = "SURF";     // one SharedHeightField, if the sample has one

@@ -105,17 +105,19 @@ std::string read_part(std::string_view payload, RecordedSession& session, nlohma
 
 // Whether a file of this version has such particles.
 bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
+  if (version == kVersionWithPlans) return true;
   if (scene::has_hold(set) != (version == kVersionWithHold)) return false;
   return version == kVersionWithHold || scene::has_rods(set) == (version == kVersionWithRods);
 }
 
 // Size of a sample in a file of this version of chunks.
 std::size_t sample_bytes_in(std::uint32_t version) {
-  if (version == kVersionWithSwing) return sizeof(TipSample);
+  if (version == kVersionWithPlans) return sizeof(TipSample);
+  if (version == kVersionWithSwing) return kSampleBytesWithoutPlan;
   return version == kSessionVersion ? kSampleBytesWithoutPush : kSampleBytesWithoutSwing;
 }
 
-// Reads version 6, 7, 8, 9 or 10; returns an error message, or nothing.
+// Reads version 6 to 11; returns an error message, or nothing.
 std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
   const bool with_particles = version != kSessionVersion && version != kVersionWithSwing;
   SessionDecoder decoder(file);
@@ -140,6 +142,7 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
       if (!read_topography(payload, session.topography)) return "its topography is damaged";
     } else if (with_particles && decoder.name() == kParticlesChunk) {
       if (!read_particles(payload, session.particles.emplace())) return "its particles are damaged";
+      session.has_plans = version == kVersionWithPlans;
     } else if (with_particles && version >= kVersionWithRods && decoder.name() == kRodsChunk) {
       if (!session.particles || !read_rods(payload, *session.particles)) return "its rods are damaged";
     } else if (decoder.name() == kPartChunk) {
@@ -189,7 +192,8 @@ bool can_be(const RecordedParticles& particles) {
 
 // Checks a session that was read; returns an error message, or nothing.
 std::string what_cannot_be(const RecordedSession& session) {
-  if (const auto valid = scene::validate(*model_of(session)); !valid) return valid.error().message;
+  const std::unique_ptr<scene::SharedModel> model = model_of(session);
+  if (const auto valid = scene::validate(*model); !valid) return valid.error().message;
   if (session.particles && !can_be(*session.particles)) return "the poses of its rods are impossible";
   if (!scene::is_valid(session.topography, session.topography.size())) return "its topography is not a grid of heights";
   if (!scene::is_valid(session.device)) return "the limits of its device are impossible";
@@ -207,6 +211,10 @@ std::string what_cannot_be(const RecordedSession& session) {
   if (!std::all_of(session.samples.begin(), session.samples.end(), is_finite) ||
       !std::all_of(session.events.begin(), session.events.end(), is_finite)) {
     return "it contains values that are not finite";
+  }
+  if (!std::all_of(session.samples.begin(), session.samples.end(),
+                   [&](const TipSample& sample) { return scene::is_valid(sample.plan, *model); })) {
+    return "the plan of a push is impossible";
   }
   if (!std::all_of(session.wall.begin(), session.wall.end(), [](const WallFrame& f) { return can_be(f); })) {
     return "its state of the wall is impossible";
@@ -276,8 +284,8 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  constexpr std::array kVersions{kVersionOf010,    kSessionVersion,  kVersionWithParticles,
-                                 kVersionWithRods, kVersionWithHold, kVersionWithSwing};
+  constexpr std::array kVersions{kVersionOf010,    kSessionVersion,   kVersionWithParticles, kVersionWithRods,
+                                 kVersionWithHold, kVersionWithSwing, kVersionWithPlans};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

@@ -112,6 +112,7 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo) {
   if (model.particles.count > 0) {
     const auto pages = servo.particle_pages();
     session_.particles = RecordedParticles{.set = model.particles, .pages = {pages.begin(), pages.end()}};
+    session_.has_plans = true;
   }
   session_.room_from_sample = servo.room_from_sample();
   session_.device = servo.device();

@@ -99,7 +99,7 @@ TEST(FrameMessageTest, IsRefusedWithAnyNumberThatIsNotValid) {
 
 std::vector<std::byte> saved(const WallHistory& history) {
   return save_history(history.journal, history.cycles, history.friction, history.edits, history.scan, history.pages,
-                      history.push, history.score);
+                      history.push, history.score, history.plan);
 }
 
 TEST(WallHistoryTest, IsTheSameForANodeThatComesLate) {
@@ -168,6 +168,27 @@ TEST(WallHistoryTest, HasTheNewestPoseOfEveryParticleAndThePush) {
   EXPECT_FALSE(JournalRecord(scene::TipPush{.given_j = std::nan("")}).valid());
 }
 
+TEST(WallHistoryTest, HasTheNewestPlan) {
+  const scene::PlannedPush plan{.from_m = {-8e-8, 0.0}, .to_m = {1e-7, 2e-8}, .particle = 3, .guided = 1};
+  WallHistory here(1);
+  here.apply(JournalRecord(plan));
+  EXPECT_EQ(load_history(saved(here), 1).value().plan, plan);
+  here.apply(JournalRecord(scene::PlannedPush{}));
+  EXPECT_EQ(load_history(saved(here), 1).value().plan, scene::PlannedPush{});
+  const auto refused = [&](auto&& spoil) {
+    WallHistory spoilt(1);
+    spoilt.plan = plan;
+    spoil(spoilt.plan);
+    return !JournalRecord(spoilt.plan).valid() && !load_history(saved(spoilt), 1);
+  };
+  EXPECT_FALSE(refused([](scene::PlannedPush&) {}));
+  EXPECT_TRUE(refused([](scene::PlannedPush& p) { p.to_m[1] = std::nan(""); }));
+  EXPECT_TRUE(refused([](scene::PlannedPush& p) { p.from_m[0] = 0.1; }));
+  EXPECT_TRUE(refused([](scene::PlannedPush& p) { p.to_m = p.from_m; }));
+  EXPECT_TRUE(refused([](scene::PlannedPush& p) { p.particle = scene::kMaxParticles; }));
+  EXPECT_TRUE(refused([](scene::PlannedPush& p) { p.guided = 2; }));
+}
+
 TEST(WallHistoryTest, HasTheNewestScore) {
   const scene::TaskScore done{.time_s = 83.5,
                               .rms_m = 18e-9,
@@ -176,6 +197,7 @@ TEST(WallHistoryTest, HasTheNewestScore) {
                               .strokes = 7,
                               .losses = 2,
                               .undos = 1,
+                              .guided = 4,
                               .state = scene::TaskState::Done};
   WallHistory here(1);
   here.apply(JournalRecord(scene::TaskScore{.time_s = 1.0, .state = scene::TaskState::Running}));

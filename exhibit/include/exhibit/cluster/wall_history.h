@@ -24,6 +24,7 @@ struct WallHistory {
   std::vector<scene::ParticlePage> pages;  // poses of the particles
   scene::TipPush push;
   scene::TaskScore score;
+  scene::PlannedPush plan;
 
   explicit WallHistory(std::size_t materials) : cycles(materials) {}
 
@@ -34,7 +35,7 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
                                     std::span<const cluster::EditRecord> edits,
                                     std::span<const cluster::ScanRecord> scan,
                                     std::span<const scene::ParticlePage> pages = {}, const scene::TipPush& push = {},
-                                    const scene::TaskScore& score = {});
+                                    const scene::TaskScore& score = {}, const scene::PlannedPush& plan = {});
 
 // Conversion of a scan to its record and back.
 cluster::ScanRecord record_of(const ScanChange& change, std::size_t material, const std::optional<HandPart>& hand);

@@ -26,6 +26,7 @@ struct ParticlesNow {
   std::span<const scene::ParticlePage> pages{};  // poses; a particle beyond them is where it started
   scene::TipPush push{};
   scene::TaskScore score{};  // only for a set with a pattern
+  scene::PlannedPush plan{};
 };
 
 // Pose of a particle; nothing beyond the pages.

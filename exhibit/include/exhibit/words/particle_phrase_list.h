@@ -13,9 +13,16 @@
   PHRASE(TaskStrokes, "task-strokes", "strokes losses", kLine)             \
   PHRASE(TaskOff, "task-off", "", kLine)                                   \
   PHRASE(TaskUnaided, "task-unaided", "", kLine)                           \
-  PHRASE(TaskAided, "task-aided", "count", kLine)                          \
+  PHRASE(TaskAided, "task-aided", "count guided", kLine)                   \
   PHRASE(TaskWork, "task-work", "", kLine)                                 \
   PHRASE(TaskLargest, "task-largest", "force", kLine)                      \
+  PHRASE(PlanWay, "plan-way", "", kLine)                                   \
+  PHRASE(PlanGuided, "plan-guided", "number", kLine)                       \
+  PHRASE(PlanUnguided, "plan-unguided", "number", kLine)                   \
+  PHRASE(PlanAim, "plan-aim", "", kLine)                                   \
+  PHRASE(PlanAimWhy, "plan-aim-why", "", kLine)                            \
+  PHRASE(PlanHand, "plan-hand", "", kLine)                                 \
+  PHRASE(PlanHandWhy, "plan-hand-why", "delay", kLine)                     \
   PHRASE(PushStateName, "push-state", "", kLine)                           \
   PHRASE(PushFree, "push-free", "", kLine)                                 \
   PHRASE(PushHolds, "push-holds", "", kLine)                               \

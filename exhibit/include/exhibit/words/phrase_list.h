@@ -315,6 +315,8 @@
   PHRASE(KeyStartAgain, "key-start-again", "", kLine)        \
   PHRASE(KeyHome, "key-home", "", kLine)                     \
   PHRASE(KeyTakeBack, "key-take-back", "", kLine)            \
+  PHRASE(KeyPlan, "key-plan", "", kLine)                     \
+  PHRASE(KeyGroove, "key-groove", "", kLine)                 \
   PHRASE(KeyHeadAcross, "key-head-across", "", kLine)        \
   PHRASE(KeyHeadHeight, "key-head-height", "", kLine)        \
   PHRASE(KeyHeadDistance, "key-head-distance", "", kLine)    \

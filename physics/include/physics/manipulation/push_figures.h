@@ -41,6 +41,9 @@ double largest_offset(double travel_over_rho) noexcept;
 // Travel over rho until a sphere at the offset is lost, alpha = 90 degrees: -ln tan(alpha_0/2) (M13).
 double travel_until_lost(double offset_over_rho) noexcept;
 
+// Delay of a hand that steers by eye and touch, order of magnitude.
+inline constexpr Time kSteeringDelay{0.25};
+
 // The fastest hand that steers with the delay T can balance a sphere: rho/T (M14).
 Velocity fastest_steering(Length rho, Time delay) noexcept;
 

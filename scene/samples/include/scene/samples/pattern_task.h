@@ -23,6 +23,7 @@ struct TaskTick {
   std::array<double, 2> lateral_n{};  // force of the particles on the lever, along x and y
   double lift_n = 0;                  // the same, upwards
   std::uint64_t places = 0;           // changes whenever a particle has moved
+  bool guided = false;                // a groove guides the hand
 };
 
 // A task: to push the particles of a set to its pattern. It begins with the first push, ends once the pattern is done
@@ -72,6 +73,7 @@ class PatternTask {
   void take_back();
   void put_back();
   void count_stroke(const TaskTick& tick);
+  void count_guidance(const TaskTick& tick);
   void count_work(const TaskTick& tick);
 
   const ParticleSet& set_;
@@ -82,6 +84,7 @@ class PatternTask {
   std::optional<TaskTick> last_;
   bool put_ = false;     // the next tick has particles that were put somewhere, not pushed
   bool moving_ = false;  // the current stroke has moved a particle
+  bool guided_ = false;  // it has been counted as guided
   std::optional<std::int64_t> lifted_ns_;
   std::optional<Rest> rest_;  // at the current places, even if the hand has come down since
 };

@@ -25,6 +25,7 @@ namespace afm::scene {
 inline constexpr std::uint32_t kMaxParticles = 2048;
 inline constexpr std::uint32_t kMaxSpecies = 8;
 inline constexpr std::uint32_t kPosesPerPage = 16;
+inline constexpr std::int32_t kNoParticle = -1;
 inline constexpr std::uint32_t kParticlePages = kMaxParticles / kPosesPerPage;
 static_assert(kMaxParticles == physics::kMostParticles);
 
@@ -144,6 +145,32 @@ bool has_hold(const SharedParticles& particles);
 physics::PushSetup push_setup(const SharedParticles& particles);
 std::vector<physics::PlacedParticle> start_places(const SharedParticles& particles);
 
+// ---- written by touchafm ----
+
+// Straight way on which a person plans to push a sphere, in the sample's frame, metres. Stored whenever it changes,
+// recorded with every tick.
+struct PlannedPush {
+  std::array<double, 2> from_m{};       // centre of the sphere when it was planned
+  std::array<double, 2> to_m{};         // place that it is to reach
+  std::int32_t particle = kNoParticle;  // none: no plan, and all fields have their defaults
+  std::uint32_t guided = 0;             // 1: a groove guides the hand (haptics/felt_groove.h)
+
+  bool operator==(const PlannedPush&) const = default;
+};
+
+template <class Visit, RecordOf<PlannedPush>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... plan) {
+  visit("plan_from_m", plan.from_m...);
+  visit("plan_to_m", plan.to_m...);
+  visit("plan_particle", plan.particle...);
+  visit("plan_guided", plan.guided...);
+}
+static_assert(all_fields_described<PlannedPush>());
+
+// Shortest way of a plan, and the farthest coordinate of its ends: beyond the range of any scanner.
+inline constexpr double kShortestPlanM = 1e-10;
+inline constexpr double kFarthestPlanM = 1e-3;
+
 // ---- written by touchafm-servo ----
 
 struct ParticlePose {
@@ -186,7 +213,6 @@ std::uint64_t place_mark(std::size_t particle, const ParticlePose& pose) noexcep
 // Digest of the first `count` particles of these pages, which has as many or more.
 std::uint64_t digest_of(std::span<const ParticlePage> pages, std::size_t count) noexcept;
 
-inline constexpr std::int32_t kNoParticle = -1;
 inline constexpr std::uint32_t kMostStrokes = 64;  // number of strokes of the tip that can be taken back
 
 // Push in the newest tick. The certificate: given_j plus the energy stored at the start is at least lost_j + stored_j.

@@ -22,7 +22,7 @@ struct DrivenLever;
 namespace afm::scene {
 
 // Increase whenever the meaning of a block changes; changes of a block's size are detected automatically.
-inline constexpr std::uint32_t kSegmentVersion = 11;
+inline constexpr std::uint32_t kSegmentVersion = 12;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;
@@ -59,6 +59,7 @@ bool is_valid(const TipState& state, const SharedModel& model);
 bool is_valid(const TipSample& sample, const SharedModel& model);
 bool is_valid(const TipEvent& event, const SharedModel& model);
 bool is_valid(const ParticlePage& page);
+bool is_valid(const PlannedPush& plan, const SharedModel& model);
 bool is_valid(const TipPush& push, const SharedModel& model);
 
 // Reason why a force law cannot be felt with this friction, or nothing. The paper's law is felt as in the paper.
@@ -77,6 +78,7 @@ class RendererSide {
   void store(const MaterialEdit& edit, std::uint32_t material) noexcept;  // material < material_count
   void store(const HandScript& script) noexcept;
   void store(const ScanLead& lead) noexcept;
+  void store(const PlannedPush& plan) noexcept;
   void store(const RendererHeartbeat& heartbeat) noexcept;
 
   // Last value stored by this side, for a process that replaces one that died and must continue its revisions. Empty if
@@ -121,6 +123,7 @@ class ServoSide {
   std::optional<Selection> new_selection() noexcept;
   std::optional<HandScript> new_hand_script() noexcept;
   std::optional<ScanLead> new_scan_lead() noexcept;
+  std::optional<PlannedPush> new_plan() noexcept;
   std::optional<RendererHeartbeat> new_heartbeat() noexcept;
 
   void store(const TipState& state) noexcept;
@@ -146,6 +149,7 @@ class ServoSide {
   std::uint64_t seen_selection_ = 0;
   std::uint64_t seen_script_ = 0;
   std::uint64_t seen_lead_ = 0;
+  std::uint64_t seen_plan_ = 0;
   std::uint64_t seen_heartbeat_ = 0;
   std::uint32_t refused_ = 0;
 };

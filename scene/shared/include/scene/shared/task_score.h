@@ -20,7 +20,9 @@ struct TaskScore {
   std::uint32_t strokes = 0;     // times that the tip came down and moved a particle
   std::uint32_t losses = 0;      // times that the tip went past a particle that it had pushed
   std::uint32_t undos = 0;       // pushes taken back, which is an aid
+  std::uint32_t guided = 0;      // pushes along a groove (haptics/felt_groove.h), another aid
   TaskState state = TaskState::NotBegun;
+  std::uint32_t padding = 0;
 
   bool operator==(const TaskScore&) const = default;
 };
@@ -34,7 +36,9 @@ constexpr void for_each_field(Visit&& visit, Record&... score) {
   visit("strokes", score.strokes...);
   visit("losses", score.losses...);
   visit("undos", score.undos...);
+  visit("guided", score.guided...);
   visit("state", score.state...);
+  visit("padding", score.padding...);
 }
 static_assert(all_fields_described<TaskScore>());
 

@@ -233,6 +233,8 @@ struct TipSample {
   ScanLead scan{};                          // in effect in this tick; default: none
   PushSample push{};                        // by particles; default: none
   Swing swing{};                            // default: the lever does not tap
+  PlannedPush plan{};                       // in effect in this tick; default: none
+  std::array<double, 2> guide_n{};  // force of the plan's groove on the hand, along the sample's x and y, unlimited
 };
 
 // Results of the tick: a replay must reproduce them bit for bit.
@@ -248,6 +250,8 @@ constexpr void for_each_result(Visit&& visit, Record&... sample) {
   visit("lateral_y_N", sample.lateral_force_n[1]...);
   visit("push", sample.push...);
   visit("swing", sample.swing...);
+  visit("guide_x_N", sample.guide_n[0]...);
+  visit("guide_y_N", sample.guide_n[1]...);
 }
 
 // Inputs of the tick: a replay begins with them.
@@ -268,6 +272,7 @@ constexpr void for_each_input(Visit&& visit, Record&... sample) {
   visit("device_healthy", sample.device_healthy...);
   visit("changing", sample.changing...);
   visit("scan", sample.scan...);
+  visit("plan", sample.plan...);
 }
 
 template <class Visit, RecordOf<TipSample>... Record>
