@@ -16,17 +16,17 @@ constexpr int kMostSprings = 64;  // steps of a lever that springs back in a tic
 }  // namespace
 
 bool PushedParticles::Ticker::add_body(std::size_t i, bool near_tip) noexcept {
-  const LoneContact& contact = contacts_[species_[i]];
+  const LoneContact& contact = contacts_[lying_.species(i)];
   const Pressed& pressed = pressed_[i];
   const LoneThresholds thresholds = contact.under_load(pressed.normal_n, pressed.sine, pressed.cosine);
-  const Outline there = outline(i);
+  const Outline there = lying_.outline(i);
   return heap_.add(HeapContacts::Body{.particle = i,
                                       .profile = &contact.profile(),
-                                      .start = {x_[i], y_[i]},
-                                      .at = {x_[i], y_[i]},
+                                      .start = lying_.position(i),
+                                      .at = lying_.position(i),
                                       .rest_n = rest_threshold(i, thresholds.rest_n, thresholds.moving_n),
                                       .moving_n = thresholds.moving_n,
-                                      .pinned = pinned_[i],
+                                      .pinned = lying_.is_pinned(i),
                                       .near_tip = near_tip,
                                       .half_m = there.half_m,
                                       .start_axis = there.axis,
@@ -34,19 +34,12 @@ bool PushedParticles::Ticker::add_body(std::size_t i, bool near_tip) noexcept {
                                       .pull = holds_.pull_of(i)});
 }
 
-// Whether two particles are farther apart than `most_m`.
-bool PushedParticles::Ticker::is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept {
-  if (half_m(i) > 0.0 || half_m(j) > 0.0) return apart_m(i, j) > most_m;
-  const double x = x_[i] - x_[j], y = y_[i] - y_[j];
-  return x * x + y * y > most_m * most_m;
-}
-
 // `second` is kMostActive for a particle that stays.
 bool PushedParticles::Ticker::add_pairs(std::size_t first, std::size_t second, std::size_t particle) noexcept {
   HeapContacts::Pair pair{.first = first,
                           .second = second,
-                          .stays = outline(particle),
-                          .distance_m = touching_m(heap_.body(first).particle, particle)};
+                          .stays = lying_.outline(particle),
+                          .distance_m = lying_.touching_m(heap_.body(first).particle, particle)};
   if (!(heap_.body(first).is_rod() && pair.stays.half_m > 0.0)) return heap_.add(pair);
   bool fits = true;
   for (const auto& [of_first, of_second] : {std::pair{-1, 0}, std::pair{1, 0}, std::pair{0, -1}, std::pair{0, 1}}) {
@@ -61,8 +54,8 @@ bool PushedParticles::Ticker::add_pairs(std::size_t first, std::size_t second, s
 bool PushedParticles::Ticker::gather_pairs_of(std::size_t first) noexcept {
   const std::size_t i = heap_.body(first).particle;
   bool fits = true;
-  grid_->near(x_[i], y_[i], [&](std::size_t j) {
-    if (j == i || is_beyond(i, j, touching_m(i, j) + 2.0 * heap_reach_m_)) return;
+  lying_.near(lying_.position(i), [&](std::size_t j) {
+    if (j == i || lying_.is_beyond(i, j, lying_.touching_m(i, j) + 2.0 * reach_.heap_m)) return;
     std::size_t second = heap_.find(j);
     if (second == heap_.size() && !add_body(j, false)) second = HeapContacts::kMostActive;
     if (second < first) return;  // known from the other side
@@ -93,16 +86,17 @@ void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
     settled_ = false;
     return;
   }
-  const double loaded_j = lever_j(to, apex_) - lever_j(base_, apex_), frozen_j = heap_.stored();
+  const double loaded_j = lever_j(setup_.springs, to, apex_) - lever_j(setup_.springs, base_, apex_),
+               frozen_j = heap_.stored();
   const double share = left_.work / std::max(1, left_.heap_steps--);
   double work = share;
-  const bool at_rest = descend(heap_, heap_reach_m_, work);
+  const bool at_rest = descend(heap_, reach_.heap_m, work);
   left_.work -= share - work;
   if (!at_rest) exhausted_ = true;
   const Apex& now = heap_.apex();
   settled_ = at_rest && heap_.friction() == 0.0 && now.x == apex_.x && now.y == apex_.y && now.height == apex_.height;
   tick_.given = tick_.given + Energy(loaded_j);
-  tick_.work = tick_.work + Energy(work_j(base_, apex_, to, heap_.apex()));
+  tick_.work = tick_.work + Energy(work_j(setup_.springs, base_, apex_, to, heap_.apex()));
   tick_.lost = tick_.lost + Energy(heap_.friction());
   tick_.stored = tick_.stored + Energy(loaded_j + heap_.stored() - frozen_j);
   base_ = to;
@@ -121,7 +115,7 @@ void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
       ++tick_.dragged;
       tick_.dragged_at = Force(body.rest_n);
     }
-    const HalfTurn& turn = turns_[body.particle];
+    const HalfTurn turn = lying_.turn(body.particle);
     place(body.particle, body.at, body.is_rod() ? turned(turn, half_tangent(body.turned_m, body.half_m)) : turn);
   }
 }

@@ -143,20 +143,20 @@ void PushedParticles::put(std::size_t particle, const ParticlePlace& place) noex
 std::span<const std::uint32_t> PushedParticles::moved() const noexcept { return ticker_->moved(); }
 
 const PushTick& PushedParticles::last() const noexcept { return ticker_->last(); }
-std::size_t PushedParticles::size() const noexcept { return ticker_->size(); }
+std::size_t PushedParticles::size() const noexcept { return ticker_->lying().size(); }
 
 Sideways<Length> PushedParticles::position(std::size_t particle) const noexcept {
-  const Flat at = ticker_->position(particle);
+  const Flat at = ticker_->lying().position(particle);
   return {Length(at.x), Length(at.y)};
 }
 
-HalfTurn PushedParticles::turn(std::size_t particle) const noexcept { return ticker_->turn(particle); }
+HalfTurn PushedParticles::turn(std::size_t particle) const noexcept { return ticker_->lying().turn(particle); }
 
 Sideways<Length> PushedParticles::nearest(std::size_t particle, const Sideways<Length>& to) const noexcept {
-  const Flat at = nearest_on(ticker_->outline(particle), {to.x.si, to.y.si});
+  const Flat at = nearest_on(ticker_->lying().outline(particle), {to.x.si, to.y.si});
   return {Length(at.x), Length(at.y)};
 }
 
-std::size_t PushedParticles::species(std::size_t particle) const noexcept { return ticker_->species(particle); }
+std::size_t PushedParticles::species(std::size_t particle) const noexcept { return ticker_->lying().species(particle); }
 
 }  // namespace afm::physics
