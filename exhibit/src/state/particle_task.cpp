@@ -14,7 +14,8 @@ void ParticleTask::add(const scene::TipSample& sample) {
                             .base_m = {x_m, y_m, sample.tip.z_m},
                             .lateral_n = sample.push.lateral_n,
                             .lift_n = sample.push.lift_n,
-                            .places = sample.push.digest});
+                            .places = sample.push.digest,
+                            .carries = sample.push.state == physics::PushState::Carried});
 }
 
 std::optional<std::vector<physics::ParticlePlace>> ParticleTask::unjudged(

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lying_particles.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace afm::physics {
 namespace {
+
+constexpr double kRingShare = 0.125;  // share of the diameter
+constexpr int kPlacesPerRing = 6;
 
 std::vector<double> all_of(const std::vector<PlacedParticle>& particles, Length Sideways<Length>::* part) {
   std::vector<double> all;
@@ -14,7 +21,8 @@ std::vector<double> all_of(const std::vector<PlacedParticle>& particles, Length 
 }  // namespace
 
 LyingParticles::LyingParticles(const PushSetup& setup, const std::vector<PlacedParticle>& particles, double search_m)
-    : x_(all_of(particles, &Sideways<Length>::x)),
+    : pads_(setup.pads),
+      x_(all_of(particles, &Sideways<Length>::x)),
       y_(all_of(particles, &Sideways<Length>::y)),
       grid_(x_, y_, search_m) {
   for (const ParticleSpecies& a : setup.species) {
@@ -27,7 +35,14 @@ LyingParticles::LyingParticles(const PushSetup& setup, const std::vector<PlacedP
     turns_.push_back(half_turn(particle.angle_rad));
     species_.push_back(particle.species);
     pinned_.push_back(particle.pinned);
+    ground_.push_back(ground_at({particle.position.x.si, particle.position.y.si}));
   }
+}
+
+std::size_t LyingParticles::ground_at(const Flat& at) const noexcept {
+  const auto pad = std::find_if(pads_.begin(), pads_.end(),
+                                [&](const StickyPad& p) { return lies_on(p, {Length(at.x), Length(at.y)}); });
+  return pad == pads_.end() ? 0 : static_cast<std::size_t>(pad - pads_.begin()) + 1;
 }
 
 Outline LyingParticles::outline(std::size_t i) const noexcept {
@@ -39,7 +54,29 @@ void LyingParticles::move(std::size_t i, const Flat& at, const HalfTurn& turn) n
   x_[i] = at.x;
   y_[i] = at.y;
   turns_[i] = turn;
+  ground_[i] = ground_at(at);
   grid_.move(i, at.x, at.y);
+}
+
+Flat LyingParticles::free_place(std::size_t i) const noexcept {
+  const auto is_free = [&](const Flat& at) {
+    bool free = true;
+    near(at, [&](std::size_t j) {
+      if (j != i && distance_between(nearest_on(outline(j), at), at) < touching_m(i, j)) free = false;
+    });
+    return free;
+  };
+  // rings around it, which leave every crowd
+  const Flat from = position(i);
+  const double ring_m = kRingShare * touching_m(i, i);
+  for (int ring = 0;; ++ring) {
+    const int places = std::max(1, kPlacesPerRing * ring);
+    for (int k = 0; k < places; ++k) {
+      const double angle_rad = 2.0 * std::numbers::pi * k / places, away_m = ring * ring_m;
+      const Flat at{from.x + away_m * std::cos(angle_rad), from.y + away_m * std::sin(angle_rad)};
+      if (is_free(at)) return at;
+    }
+  }
 }
 
 bool LyingParticles::is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept {

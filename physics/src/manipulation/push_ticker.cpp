@@ -52,9 +52,13 @@ PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<Placed
       holds_(setup, particles),
       reach_(reach_of(setup)),
       lying_(setup, particles, search_m(setup, 3.0 * reach_.alone_m, holds_.stretch_m())),
-      heap_(setup.springs) {
+      heap_(setup.springs),
+      carried_(setup.springs) {
   for (const ParticleSpecies& species : setup_.species) {
     contacts_.emplace_back(species, setup_.tip, setup_.springs, setup_.tip_friction);
+    for (const StickyPad& pad : setup_.pads) {
+      contacts_.emplace_back(on_pad(pad, species), setup_.tip, setup_.springs, setup_.tip_friction);
+    }
   }
   moved_at_s_.assign(particles.size(), -HUGE_VAL);
   moved_.reserve(particles.size());
@@ -107,7 +111,7 @@ bool PushedParticles::Ticker::find_near() noexcept {
   const double x = apex_.x, y = apex_.y, lowest_m = apex_.height - reach_.alone_m - holds_.stretch_m();
   lying_.near({x, y}, [&](std::size_t i) {
     const double diameter_m = 2.0 * setup_.species[lying_.species(i)].contact.tip_radius.si;
-    const double most_m = contacts_[lying_.species(i)].profile().reach_m() + reach_.alone_m + holds_.stretch_m();
+    const double most_m = contacts_[kind_of(i)].profile().reach_m() + reach_.alone_m + holds_.stretch_m();
     if (lowest_m > diameter_m) return;
     const Flat nearest = nearest_on(lying_.outline(i), {x, y});
     if (length_of(nearest.x - x, nearest.y - y) > most_m) return;
@@ -120,6 +124,13 @@ bool PushedParticles::Ticker::find_near() noexcept {
 void PushedParticles::Ticker::sub_step(const Apex& to) noexcept {
   // a base that rests moves nothing: thresholds only grow
   if (settled_ && to.x == base_.x && to.y == base_.y && to.height == base_.height) return;
+  if (carried_.any()) {
+    carry_step(to);
+    // it may have been set down
+    find_near();
+    press();
+    return;
+  }
   if (!find_near()) {  // the base waits
     exhausted_ = true;
     return;
@@ -133,8 +144,12 @@ void PushedParticles::Ticker::sub_step(const Apex& to) noexcept {
     for (int i = 1; i <= kHeapSplit; ++i) {
       const double at = static_cast<double>(i) / kHeapSplit;
       const Apex next = i == kHeapSplit ? to : Apex{from.x + at * x, from.y + at * y, from.height + at * z};
+      if (carried_.any()) {
+        carry_step(next);
+        continue;
+      }
       heap_step(next);
-      tear(next);
+      if (!lift()) tear(next);
     }
   }
   press();
@@ -144,7 +159,7 @@ double PushedParticles::Ticker::tip_contact_j(std::size_t i, const Flat& at, con
   Outline there = lying_.outline(i);
   there.at = at;
   const double away_m = distance_between(nearest_on(there, {apex.x, apex.y}), {apex.x, apex.y});
-  const double depth_m = contacts_[lying_.species(i)].profile().overlap(away_m, apex.height).depth_m;
+  const double depth_m = contacts_[kind_of(i)].profile().overlap(away_m, apex.height).depth_m;
   return depth_m > 0.0 ? 0.5 * setup_.springs.contact.si * depth_m * depth_m : 0.0;
 }
 
@@ -192,7 +207,7 @@ bool PushedParticles::Ticker::is_alone(std::size_t i) const noexcept {
 
 // Whether a base at its new height goes past a sphere without touching it.
 bool PushedParticles::Ticker::passes(std::size_t i, const Apex& to) const noexcept {
-  const Leaning touch = contacts_[lying_.species(i)].under(0.0, to.height);
+  const Leaning touch = contacts_[kind_of(i)].under(0.0, to.height);
   if (!touch.holds) return true;
   const Flat at = lying_.position(i);
   const double dx = to.x - base_.x, dy = to.y - base_.y, x = at.x - base_.x, y = at.y - base_.y;
@@ -219,7 +234,7 @@ bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept 
   if (lying_.half_m(i) > 0.0 || !is_alone(i)) return false;
   const bool held = holds_.pull_of(i).holds();  // pulled wherever it is not pushed
   if (held && !(pressed_[i].normal_n > 0.0)) return false;
-  LoneContact& contact = contacts_[lying_.species(i)];
+  LoneContact& contact = contacts_[kind_of(i)];
   const Flat was = lying_.position(i);
   const double away_m = length_of(was.x - base_.x, was.y - base_.y);
   const double before_n = contact.force_at(away_m, base_.height), sunk_n = contact.force_at(away_m, to.height);
@@ -278,6 +293,7 @@ void PushedParticles::Ticker::gave(double at_n, double goes_on_n) noexcept {
 }
 
 void PushedParticles::Ticker::put(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept {
+  if (carried_.particle() == i) carried_.drop();
   lying_.move(i, at, turn);
 }
 
@@ -286,6 +302,8 @@ void PushedParticles::Ticker::hold_over(const LeverBase& base) noexcept {
   apex_ = base_;
   for (const std::uint32_t i : moved_) moves_[i] = false;
   moved_.clear();
+  // nothing else has moved since it was taken
+  if (carried_.any()) put(carried_.particle(), carried_.from(), lying_.turn(carried_.particle()));
   near_.clear();
   holds_.reset();
   press();
@@ -302,10 +320,11 @@ void PushedParticles::Ticker::hold_over(const LeverBase& base) noexcept {
 void PushedParticles::Ticker::press() noexcept {
   for (const std::size_t i : touched_) pressed_[i] = {};
   touched_.clear();
+  if (carried_.any()) return;
   for (const std::size_t i : near_) {
     const Flat nearest = nearest_on(lying_.outline(i), {apex_.x, apex_.y});
-    const Overlap overlap = contacts_[lying_.species(i)].profile().overlap(
-        length_of(nearest.x - apex_.x, nearest.y - apex_.y), apex_.height);
+    const Overlap overlap =
+        contacts_[kind_of(i)].profile().overlap(length_of(nearest.x - apex_.x, nearest.y - apex_.y), apex_.height);
     if (overlap.depth_m > 0.0 && holds_.form(i)) ++tick_.attached;
     if (!(overlap.depth_m > 0.0 || holds_.pull_of(i).holds())) continue;
     pressed_[i] = {setup_.springs.contact.si * overlap.depth_m, overlap.sine, overlap.cosine};
@@ -320,18 +339,25 @@ void PushedParticles::Ticker::publish() noexcept {
   tick_.lateral = {setup_.springs.lateral * Length(apex_.x - base_.x),
                    setup_.springs.lateral * Length(apex_.y - base_.y)};
   tick_.lift = setup_.springs.normal * Length(apex_.height - base_.height);
-  tick_.near = !find_near() || !near_.empty();
+  tick_.near = !find_near() || !near_.empty() || carried_.any();
   tick_.particle = kNoParticle;
   tick_.state = PushState::Free;
   tick_.normal = tick_.threshold = Force(0.0);
+  if (carried_.any()) {
+    tick_.particle = carried_.particle();
+    tick_.state = PushState::Carried;
+    return;
+  }
   for (const std::size_t i : touched_) {
-    if (std::abs(pressed_[i].normal_n) <= std::abs(tick_.normal.si)) continue;
+    // a sphere that has just been set down presses by nothing
+    const bool first = tick_.particle == kNoParticle && holds_.lifts(i);
+    if (!first && std::abs(pressed_[i].normal_n) <= std::abs(tick_.normal.si)) continue;
     tick_.particle = i;
     tick_.normal = Force(pressed_[i].normal_n);
   }
   if (tick_.particle == kNoParticle) return;
   const std::size_t i = tick_.particle;
-  LoneContact& contact = contacts_[lying_.species(i)];
+  LoneContact& contact = contacts_[kind_of(i)];
   const Pressed& pressed = pressed_[i];
   const bool moves = moved_at_s_[i] >= time_s_ && !moved_.empty();
   LoneThresholds thresholds = contact.under_load(pressed.normal_n, pressed.sine, pressed.cosine);

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "carried_sphere.h"
 #include "heap_contacts.h"
 #include "lever_energy.h"
 #include "lone_push.h"
@@ -30,6 +31,8 @@ class PushedParticles::Ticker {
   const LyingParticles& lying() const noexcept { return lying_; }
 
  private:
+  static constexpr int kMostSprings = 64;  // steps of a lever that springs back in a tick
+
   // Short list of particles.
   class Few {
    public:
@@ -72,10 +75,18 @@ class PushedParticles::Ticker {
   bool lone_step(const Apex& to, std::size_t i) noexcept;
   void heap_step(const Apex& to) noexcept;
   void tear(const Apex& to) noexcept;
+  std::size_t lifted() const noexcept;
+  bool lift() noexcept;
+  bool find_obstacles() noexcept;
+  void carry_step(const Apex& to) noexcept;
+  void set_down() noexcept;
   bool gather(const Apex& to) noexcept;
   bool gather_pairs_of(std::size_t place) noexcept;
   bool add_pairs(std::size_t first, std::size_t second, std::size_t particle) noexcept;
   bool is_alone(std::size_t i) const noexcept;
+  std::size_t kind_of(std::size_t i) const noexcept {  // number of its contact
+    return lying_.species(i) * (setup_.pads.size() + 1) + lying_.ground(i);
+  }
   bool add_body(std::size_t i, bool near_tip) noexcept;
   double tip_contact_j(std::size_t i, const Flat& at, const Apex& apex) const noexcept;
   double stored_everywhere() const noexcept;
@@ -87,13 +98,14 @@ class PushedParticles::Ticker {
   void publish() noexcept;
 
   PushSetup setup_;
-  std::vector<LoneContact> contacts_;  // contact of each species
+  std::vector<LoneContact> contacts_;  // contact of each species with the sample and with each pad
   std::vector<double> moved_at_s_;     // end of the tick in which it moved last
   std::vector<Pressed> pressed_;       // load by the tip after the last sub-step
   TipHolds holds_;
   Reach reach_;
   LyingParticles lying_;
   HeapContacts heap_;
+  CarriedSphere carried_;
   Apex base_, apex_;
   double clear_m_ = 0.0;
   double time_s_ = 0.0, tick_end_s_ = 0.0;

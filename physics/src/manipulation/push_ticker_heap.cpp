@@ -7,16 +7,17 @@
 #include "heap_descent.h"
 #include "push_ticker.h"
 
-// A sub-step among several particles, or with a rod.
+// A sub-step among several particles, with a rod, or with a sphere on the tip.
 namespace afm::physics {
 namespace {
 
-constexpr int kMostSprings = 64;  // steps of a lever that springs back in a tick
+constexpr double kPressRounding = 1e-12;  // share of an energy that rounding may change
+constexpr std::size_t kNobody = HeapContacts::kMostActive;
 
 }  // namespace
 
 bool PushedParticles::Ticker::add_body(std::size_t i, bool near_tip) noexcept {
-  const LoneContact& contact = contacts_[lying_.species(i)];
+  const LoneContact& contact = contacts_[kind_of(i)];
   const Pressed& pressed = pressed_[i];
   const LoneThresholds thresholds = contact.under_load(pressed.normal_n, pressed.sine, pressed.cosine);
   const Outline there = lying_.outline(i);
@@ -156,6 +157,142 @@ void PushedParticles::Ticker::tear(const Apex& to) noexcept {
     if (let_go()) settled_ = false;
   }
   tick_.lost = tick_.lost + std::max(Energy(0.0), surplus() - before);
+}
+
+// A body of the heap that the tip pulls off the sample; kNobody without one. An apex on the sample lifts nothing.
+std::size_t PushedParticles::Ticker::lifted() const noexcept {
+  if (!(apex_.height > 0.0)) return kNobody;
+  for (const std::size_t n : heap_.near_tip()) {
+    const HeapContacts::Body& body = heap_.body(n);
+    if (!body.pull.holds() || body.pinned || !holds_.lifts(body.particle)) continue;
+    const HeapContacts::Normal normal = heap_.normal_of(n);
+    const double pull_n = std::min(-setup_.springs.contact.si * normal.overlap_m, body.pull.on(normal.ball));
+    if (-normal.towards[2] * pull_n > contacts_[kind_of(body.particle)].pull_off_n()) return n;
+  }
+  return kNobody;
+}
+
+// Lifts a sphere whose hold on the sample is weaker than the pull of the tip, unless that would need energy. What its
+// contacts stored is lost, what the tip holds besides is let go, and so is the energy of the lever that springs back.
+bool PushedParticles::Ticker::lift() noexcept {
+  const bool exhausted = exhausted_;
+  // only at rest does a gap tell the pull
+  for (int k = 0; k < kMostSprings && !restless_.empty() && lifted() != kNobody; ++k) {
+    exhausted_ = exhausted;
+    heap_step(base_);
+  }
+  const std::size_t n = lifted();
+  if (n == kNobody || !restless_.empty()) return false;
+  const std::size_t i = heap_.body(n).particle;
+  double before_j = lever_j(setup_.springs, base_, apex_);
+  const auto add = [&](double depth_m) { before_j += 0.5 * setup_.springs.contact.si * depth_m * depth_m; };
+  for (const std::size_t other : heap_.near_tip()) {
+    const HeapContacts::Normal normal = heap_.normal_of(other);
+    if (normal.acts) add(normal.overlap_m);
+  }
+  for (const std::size_t pair : heap_.pairs_of(n)) add(std::max(0.0, heap_.touch_of(pair).overlap_m));
+
+  const HeapContacts::Normal normal = heap_.normal_of(n);
+  const double touches_at_m = apex_.height - normal.overlap_m * normal.towards[2];
+  carried_.take(i, setup_.species[lying_.species(i)].contact.tip_radius, lying_.position(i), setup_.tip, apex_,
+                touches_at_m);
+  const bool fits = find_obstacles();
+  const double after_j = carried_.energy_j(base_, apex_);
+  if (!fits || !(after_j <= before_j)) {
+    carried_.drop();
+    return false;
+  }
+  for (const std::size_t other : heap_.near_tip()) {
+    if (other != n) holds_.tear(heap_.body(other).particle);
+  }
+  place(i, carried_.place(apex_), lying_.turn(i));
+  tick_.stored = tick_.stored + Energy(after_j - before_j);
+  tick_.lost = tick_.lost + Energy(before_j - after_j);
+  tick_.lifted_at = Force(contacts_[kind_of(i)].pull_off_n());
+  ++tick_.lifted;
+  const auto surplus = [this] { return tick_.given - tick_.lost - tick_.stored; };
+  const Energy before = surplus();
+  settled_ = false;
+  for (int k = 0; k < kMostSprings && carried_.any() && !settled_; ++k) {
+    exhausted_ = exhausted;
+    carry_step(base_);
+  }
+  tick_.lost = tick_.lost + std::max(Energy(0.0), surplus() - before);
+  return true;
+}
+
+// What tip and sphere may touch within a step. False: there is too much.
+bool PushedParticles::Ticker::find_obstacles() noexcept {
+  carried_.begin();
+  const std::size_t carried = carried_.particle();
+  const Flat tip{apex_.x, apex_.y}, sphere = carried_.place(apex_);
+  const double radius_m = setup_.species[lying_.species(carried)].contact.tip_radius.si;
+  const auto is_near = [&](std::size_t i, const Flat& to, double lowest_m, double most_m) {
+    const double diameter_m = 2.0 * setup_.species[lying_.species(i)].contact.tip_radius.si;
+    return lowest_m - reach_.alone_m <= diameter_m &&
+           distance_between(nearest_on(lying_.outline(i), to), to) <= most_m + reach_.alone_m;
+  };
+  const auto near_tip = [&](std::size_t i) {
+    return is_near(i, tip, apex_.height, contacts_[kind_of(i)].profile().reach_m());
+  };
+  const auto near_sphere = [&](std::size_t i) {
+    const double other_m = setup_.species[lying_.species(i)].contact.tip_radius.si;
+    return is_near(i, sphere, carried_.height_m(apex_), radius_m + other_m);
+  };
+  bool fits = true;
+  const auto add = [&](std::size_t i) {
+    const ParticleSpecies& species = setup_.species[lying_.species(i)];
+    fits = carried_.add({.outline = lying_.outline(i),
+                         .radius_m = species.contact.tip_radius.si,
+                         .profile = &contacts_[kind_of(i)].profile()}) &&
+           fits;
+  };
+  lying_.near(tip, [&](std::size_t i) {
+    if (i != carried && near_tip(i)) add(i);
+  });
+  lying_.near(sphere, [&](std::size_t i) {
+    if (i != carried && near_sphere(i) && !near_tip(i)) add(i);
+  });
+  return fits;
+}
+
+// All particles stay where they are but the one on the tip, which follows the apex.
+void PushedParticles::Ticker::carry_step(const Apex& to) noexcept {
+  if (!find_obstacles()) {  // the base waits
+    exhausted_ = true;
+    settled_ = false;
+    return;
+  }
+  const double loaded_j = lever_j(setup_.springs, to, apex_) - lever_j(setup_.springs, base_, apex_);
+  const double frozen_j = carried_.energy_j(to, apex_);
+  Apex apex = apex_;
+  settled_ = carried_.settle(to, reach_.alone_m, apex);
+  if (!settled_) exhausted_ = true;
+  tick_.given = tick_.given + Energy(loaded_j);
+  tick_.work = tick_.work + Energy(work_j(setup_.springs, base_, apex_, to, apex));
+  tick_.stored = tick_.stored + Energy(loaded_j + carried_.energy_j(to, apex) - frozen_j);
+  base_ = to;
+  apex_ = apex;
+  const std::size_t i = carried_.particle();
+  const Flat was = lying_.position(i), now = carried_.place(apex_);
+  if (was.x != now.x || was.y != now.y) place(i, now, lying_.turn(i));
+  if (carried_.lies(apex_)) set_down();
+}
+
+// The sphere lies on the sample, still held by the tip, unless it would then press others harder: distances of spheres
+// that lie are measured along the sample.
+void PushedParticles::Ticker::set_down() noexcept {
+  const std::size_t i = carried_.particle();
+  const double hanging_j = carried_.pressed_j(apex_);
+  double lying_j = 0.0;
+  lying_.near(lying_.position(i), [&](std::size_t j) {
+    if (j != i) lying_j += lying_.pair_j(i, j, setup_.springs.contact);
+  });
+  if (lying_j > hanging_j * (1.0 + kPressRounding)) return;
+  tick_.stored = tick_.stored + Energy(lying_j - hanging_j);
+  carried_.drop();
+  ++tick_.set_down;
+  settled_ = false;
 }
 
 }  // namespace afm::physics

@@ -105,6 +105,8 @@ std::string read_part(std::string_view payload, RecordedSession& session, nlohma
 
 // Whether a file of this version has such particles.
 bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
+  if ((scene::has_pads(set) || scene::has_lift(set)) != (version == kVersionWithLift)) return false;
+  if (version == kVersionWithLift) return true;
   if (scene::has_hold(set) != (version == kVersionWithHold)) return false;
   return version == kVersionWithHold || scene::has_rods(set) == (version == kVersionWithRods);
 }
@@ -115,7 +117,7 @@ std::size_t sample_bytes_in(std::uint32_t version) {
   return version == kSessionVersion ? kSampleBytesWithoutPush : kSampleBytesWithoutSwing;
 }
 
-// Reads version 6, 7, 8, 9 or 10; returns an error message, or nothing.
+// Reads version 6, 7, 8, 9, 10 or 11; returns an error message, or nothing.
 std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
   const bool with_particles = version != kSessionVersion && version != kVersionWithSwing;
   SessionDecoder decoder(file);
@@ -142,6 +144,8 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
       if (!read_particles(payload, session.particles.emplace())) return "its particles are damaged";
     } else if (with_particles && version >= kVersionWithRods && decoder.name() == kRodsChunk) {
       if (!session.particles || !read_rods(payload, *session.particles)) return "its rods are damaged";
+    } else if (version == kVersionWithLift && decoder.name() == kPadsChunk) {
+      if (!session.particles || !read_pads(payload, *session.particles)) return "its pads are damaged";
     } else if (decoder.name() == kPartChunk) {
       if (with_particles != session.particles.has_value()) return "its parts are out of order";
       if (with_particles && !is_of(version, session.particles->set)) return "its parts are out of order";
@@ -276,8 +280,8 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  constexpr std::array kVersions{kVersionOf010,    kSessionVersion,  kVersionWithParticles,
-                                 kVersionWithRods, kVersionWithHold, kVersionWithSwing};
+  constexpr std::array kVersions{kVersionOf010,    kSessionVersion,   kVersionWithParticles, kVersionWithRods,
+                                 kVersionWithHold, kVersionWithSwing, kVersionWithLift};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

@@ -23,6 +23,7 @@ struct TaskTick {
   std::array<double, 2> lateral_n{};  // force of the particles on the lever, along x and y
   double lift_n = 0;                  // the same, upwards
   std::uint64_t places = 0;           // changes whenever a particle has moved
+  bool carries = false;               // true: a particle hangs on the tip, so that the pattern is not left
 };
 
 // A task: to push the particles of a set to its pattern. It begins with the first push, ends once the pattern is done
