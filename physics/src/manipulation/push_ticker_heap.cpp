@@ -177,7 +177,7 @@ std::size_t PushedParticles::Ticker::lifted() const noexcept {
 bool PushedParticles::Ticker::lift() noexcept {
   const bool exhausted = exhausted_;
   // only at rest does a gap tell the pull
-  for (int k = 0; k < kMostSprings && !restless_.empty() && lifted() != kNobody; ++k) {
+  for (int k = 0; k < kMostSprings && left_.work > 0.0 && !restless_.empty() && lifted() != kNobody; ++k) {
     exhausted_ = exhausted;
     heap_step(base_);
   }
