@@ -55,6 +55,11 @@ bool CarriedSphere::touches(const Apex& apex) const noexcept {
       [&](const Obstacle& o) { return of_tip(o, apex).overlap_m > 0.0 || of_sphere(o, apex).overlap_m > 0.0; });
 }
 
+bool CarriedSphere::is_free(const Apex& base, const Apex& apex) const noexcept {
+  const Apex rests = at_rest(base);
+  return apex.x == rests.x && apex.y == rests.y && apex.height == rests.height && !touches(apex);
+}
+
 double CarriedSphere::pressed_j(const Apex& apex) const noexcept {
   double sum_j = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -99,7 +104,7 @@ bool CarriedSphere::newton(const Apex& base, const Apex& apex, Vector& step) con
 }
 
 bool CarriedSphere::settle(const Apex& base, double reach_m, Apex& apex) const noexcept {
-  const Apex rests{base.x, base.y, std::max(lowest_apex_m_, base.height)};
+  const Apex rests = at_rest(base);
   if (is_within(reach_m, rests, apex) && !touches(rests)) {
     apex = rests;
     return true;

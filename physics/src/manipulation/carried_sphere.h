@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -46,6 +47,9 @@ class CarriedSphere {
   void begin() noexcept { count_ = 0; }
   bool add(const Obstacle& obstacle) noexcept;  // false: full
 
+  // Whether the apex rests at the base, or above it where the sphere lies, and nothing else touches.
+  bool is_free(const Apex& base, const Apex& apex) const noexcept;
+
   double energy_j(const Apex& base, const Apex& apex) const noexcept;
   double pressed_j(const Apex& apex) const noexcept;  // energy of the sphere's contacts alone
 
@@ -67,6 +71,7 @@ class CarriedSphere {
   Meeting of_tip(const Obstacle& obstacle, const Apex& apex) const noexcept;
   Meeting of_sphere(const Obstacle& obstacle, const Apex& apex) const noexcept;
   bool touches(const Apex& apex) const noexcept;
+  Apex at_rest(const Apex& base) const noexcept { return {base.x, base.y, std::max(lowest_apex_m_, base.height)}; }
   bool newton(const Apex& base, const Apex& apex, Vector& step) const noexcept;
 
   PushSprings springs_;

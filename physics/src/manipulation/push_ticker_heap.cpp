@@ -268,9 +268,12 @@ void PushedParticles::Ticker::carry_step(const Apex& to) noexcept {
   Apex apex = apex_;
   settled_ = carried_.settle(to, reach_.alone_m, apex);
   if (!settled_) exhausted_ = true;
-  tick_.given = tick_.given + Energy(loaded_j);
+  const double stored_j = loaded_j + carried_.energy_j(to, apex) - frozen_j;
+  // a tip that nothing touches follows the base
+  const bool follows = carried_.is_free(base_, apex_) && carried_.is_free(to, apex);
+  tick_.given = tick_.given + Energy(follows ? stored_j : loaded_j);
   tick_.work = tick_.work + Energy(work_j(setup_.springs, base_, apex_, to, apex));
-  tick_.stored = tick_.stored + Energy(loaded_j + carried_.energy_j(to, apex) - frozen_j);
+  tick_.stored = tick_.stored + Energy(stored_j);
   base_ = to;
   apex_ = apex;
   const std::size_t i = carried_.particle();

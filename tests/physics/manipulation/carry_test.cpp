@@ -103,11 +103,13 @@ TEST_P(CarryAtRate, ASphereIsLiftedCarriedAndSetDownOnAPad) {
   EXPECT_GT(tick.lost.si, tear_energy(tick.lifted_at, stiffness_along_normal(kSprings, 1.0, 0.0)).si);
   EXPECT_GT(tick.work.si, tick.lost.si);
 
+  const double given_j = tick.given.si;
   const Sideways<Length> before = particles.position(0), from = tick.base.position;
   drag(particles, base_at(200e-9, 60e-9, kOver), 1e-6, GetParam());
   const Sideways<Length> way = tick.base.position - from;
   EXPECT_NEAR((particles.position(0).x - before.x - way.x).si, 0.0, 1e-20);
   EXPECT_NEAR((particles.position(0).y - before.y - way.y).si, 0.0, 1e-20);
+  EXPECT_NEAR(tick.given.si, given_j, 1e-9 * given_j) << "a sphere that hangs costs nothing";
   const double work_j = tick.work.si;
   drag(particles, base_at(200e-9, 60e-9, 2.0 * kRadius - 1e-9), 1e-7, GetParam());
   EXPECT_EQ(tick.set_down, 1U);
