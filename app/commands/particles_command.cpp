@@ -124,7 +124,8 @@ class ScriptedTask {
                .base_m = {tick.base.position.x.si, tick.base.position.y.si, tick.base.z.si},
                .lateral_n = {lateral.x.si, lateral.y.si},
                .lift_n = touches ? lift_n : 0.0,
-               .places = places_});
+               .places = places_,
+               .carries = tick.state == physics::PushState::Carried});
     if (task_.unjudged()) task_.judge(places_of(particles));
   }
 
@@ -201,7 +202,10 @@ nlohmann::json json_of(const TickSample& sample) {
           {"dragged_at_N", t.dragged_at.si},
           {"torn", t.torn},
           {"torn_at_N", t.torn_at.si},
-          {"torn_lost_J", t.torn_lost.si}};
+          {"torn_lost_J", t.torn_lost.si},
+          {"lifted", t.lifted},
+          {"lifted_at_N", t.lifted_at.si},
+          {"set_down", t.set_down}};
 }
 
 nlohmann::json json_of(const scene::PatternState& pattern) {
@@ -317,6 +321,10 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
     text +=
         fmt::format("tip adhesion: held {} time{}, dragged {}, tore {}, with a loss of {}\n", last.attached,
                     plural(last.attached), last.dragged, last.torn, format_quantity(last.torn_lost, kEnergyUnits, 4));
+  }
+  if (last.lifted > 0) {
+    text += fmt::format("on the tip: lifted {} time{}, set down {} time{}\n", last.lifted, plural(last.lifted),
+                        last.set_down, plural(last.set_down));
   }
   if (played.lagging > 0) text += fmt::format("{} ticks lagged behind the hand: it was too fast\n", played.lagging);
   if (last.exhausted > 0) text += fmt::format("{} ticks ended before all spheres were at rest\n", last.exhausted);

@@ -116,11 +116,12 @@ std::string hold_text(const scene::ParticleSet& set, const ParticleSpecies& spec
   const physics::SphereCone& tip = set.setup.tip;
   return fmt::format(
       "  tip adhesion         tears off at {} on the flank, {} on top; a tip that goes away {} it\n"
-      "  lifted               from {} on: not modelled, and refused\n",
+      "  lifted               by a tip adhesion above {}: this one {}\n",
       format_quantity(physics::tip_pull_off(tip, species, true), kForceUnits, 4),
       format_quantity(physics::tip_pull_off(tip, species, false), kForceUnits, 4),
       physics::follows_tip(tip, species) ? "drags" : "leaves",
-      format_quantity(physics::lifting_adhesion(tip, species), physics::kSurfaceEnergyUnits, 4));
+      format_quantity(physics::lifting_adhesion(tip, species), physics::kSurfaceEnergyUnits, 4),
+      physics::lifts(tip, species) ? "lifts it, from the top" : "does not");
 }
 
 nlohmann::json hold_json(const scene::ParticleSet& set, const ParticleSpecies& species) {
@@ -134,7 +135,8 @@ nlohmann::json hold_json(const scene::ParticleSet& set, const ParticleSpecies& s
           {"lateral_pull_N", (pull * cosine).si},
           {"drags", physics::follows_tip(tip, species)},
           {"tear_J", physics::tear_energy(pull, spring).si},
-          {"lifted_from_J_per_m2", physics::lifting_adhesion(tip, species).si}};
+          {"lifted_from_J_per_m2", physics::lifting_adhesion(tip, species).si},
+          {"lifts", physics::lifts(tip, species)}};
 }
 
 }  // namespace

@@ -81,6 +81,35 @@ TEST(ParticlesCommand, DragsSpheresThatStickToTheTip) {
       nlohmann::json::parse(particles("gold-row --json").out)["species"][0]["figures"]["tip_adhesion"].is_null());
 }
 
+TEST(ParticlesCommand, PicksASphereUpAndSetsItDownOnAPad) {
+  const ProgramResult result = particles("pick-and-place --json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  const auto& moves = json["moves"];
+  ASSERT_EQ(moves.size(), 6U);
+  EXPECT_EQ(moves[2]["state"], "carried");
+  EXPECT_EQ(moves[2]["lifted"], 1);
+  EXPECT_EQ(moves[2]["lift_N"], 0.0);
+  const auto& figures = json["species"][0]["figures"];
+  EXPECT_NEAR(moves[2]["lifted_at_N"].get<double>(), figures["adhesion_N"].get<double>(), 1e-15);
+  EXPECT_EQ(figures["tip_adhesion"]["lifts"], true);
+  EXPECT_EQ(moves[3]["state"], "carried");
+  EXPECT_EQ(moves[4]["set_down"], 1);
+  EXPECT_EQ(moves[5]["state"], "free");
+  EXPECT_EQ(moves[5]["torn"], 1);
+  EXPECT_EQ(moves[5]["lifted"], 1);
+  // on the pad, while those below its way lie where they lay
+  EXPECT_NEAR(json["particles"][0]["end_m"][0].get<double>(), 200e-9, 4e-9);
+  EXPECT_NEAR(json["particles"][0]["end_m"][1].get<double>(), -20e-9, 4e-9);
+  for (const std::size_t other : {1U, 2U, 3U}) {
+    EXPECT_EQ(json["particles"][other]["end_m"], json["particles"][other]["start_m"]);
+  }
+  EXPECT_GE(json["least_certificate_J"].get<double>(), -1e-12 * moves[5]["given_J"].get<double>());
+  EXPECT_EQ(json["pattern"]["done"], true);
+  EXPECT_EQ(json["task"]["done"], true);
+  EXPECT_THAT(particles("pick-and-place").out, HasSubstr("lifted 1 time, set down 1 time"));
+}
+
 TEST(ParticlesCommand, SaysHowFarThePatternIs) {
   const ProgramResult result = particles("gold-row --json");
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -155,9 +184,9 @@ TEST(ParticlesCommand, LaysARodAcrossItsElectrodesAtAnyRate) {
 
 TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
   expect_refusal(particles(""), 2, "file");
-  expect_refusal(
-      particles("silver-row"), 2,
-      "unknown set of particles \"silver-row\"; choose gold-row, latex-letter, sticky-tip, tube-and-electrodes");
+  expect_refusal(particles("silver-row"), 2,
+                 "unknown set of particles \"silver-row\"; choose gold-row, latex-letter, pick-and-place, sticky-tip, "
+                 "tube-and-electrodes");
   expect_refusal(particles("/no/such.toml"), 3, "/no/such.toml");
   expect_refusal(particles("gold-row --rate 4"), 2, "kHz");
   expect_refusal(particles("gold-row --rate 1MHz"), 2, "100kHz");

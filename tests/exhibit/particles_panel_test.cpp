@@ -54,7 +54,7 @@ TEST_F(ParticlesPanel, HasAWordForEveryState) {
   for (const PushState state : core::kEnumerators<PushState>) {
     words.push_back(row(panel(test::push_of(set_, 0, state)), Phrase::PushStateName).value);
   }
-  EXPECT_EQ(words, (std::vector<std::string>{"free", "holds", "slides", "rolls", "several move"}));
+  EXPECT_EQ(words, (std::vector<std::string>{"free", "holds", "slides", "rolls", "several move", "on the tip"}));
 }
 
 TEST_F(ParticlesPanel, SaysThatATipWhichSticksHoldsOrDrags) {
@@ -69,6 +69,20 @@ TEST_F(ParticlesPanel, SaysThatATipWhichSticksHoldsOrDrags) {
   EXPECT_THAT(tears.source, StartsWith("20 mJ/m\u00b2; estimated: silicon oxide on gold"));
   push.state = PushState::Holds;
   EXPECT_EQ(row(panel(push), Phrase::PushStateName).value, "holds the tip");
+}
+
+TEST_F(ParticlesPanel, HasTheAdhesionOfThePadBelowTheTouchedSphere) {
+  set_ = test::particle_set("pick-and-place");
+  pages_ = test::start_pages(set_);
+  scene::TipPush push = test::push_of(set_, 0, PushState::Carried);
+  EXPECT_EQ(row(panel(push), Phrase::PushStateName).value, "on the tip");
+  EXPECT_EQ(row(panel(push), Phrase::WorkOfAdhesion).value, "20 mJ/m\u00b2");
+  const physics::StickyPad pad = scene::shared_sticky_pads(set_).front();
+  pages_[0].poses[0].x_m = pad.middle.x.si;
+  pages_[0].poses[0].y_m = pad.middle.y.si;
+  const render::DataRow adhesion = row(panel(push), Phrase::WorkOfAdhesion);
+  EXPECT_EQ(adhesion.value, "200 mJ/m\u00b2");
+  EXPECT_THAT(adhesion.source, HasSubstr("thiols"));
 }
 
 TEST_F(ParticlesPanel, SaysHowManyPushesCanBeTakenBack) {

@@ -14,6 +14,7 @@
 #include "exhibit/models/user_models.h"
 #include "exhibit/scenery/wall_layout.h"
 #include "exhibit/scenery/wall_scene.h"
+#include "physics/manipulation/tip_contact.h"
 #include "scene/samples/particle_set.h"
 #include "support/paper_wall.h"
 #include "support/particles/particle_sets.h"
@@ -233,6 +234,26 @@ TEST_F(ParticlesOfAWall, PutTheDrawnTipWhereTheBentLeverHasIt) {
       wall.drawn_scale(0).sample_m_per_m;
   EXPECT_NEAR(in_sample.x, now.push.apex_m[0], 0.1e-9);
   EXPECT_NEAR(in_sample.y, now.push.apex_m[1], 0.1e-9);
+}
+
+TEST_F(ParticlesOfAWall, HangOnTheTipThatHasLiftedThem) {
+  set_ = test::particle_set("pick-and-place");
+  const WallScene wall = wall_of(set_);
+  EXPECT_TRUE(shown(wall, frame(wall, nullptr), "pads-0/pad"));
+  const auto pages = test::start_pages(set_);
+  ParticlesNow now{.set = &set_, .pages = pages};
+  now.push = test::push_of(set_, 0, physics::PushState::Carried);
+  const double radius_m = set_.setup.species[0].contact.tip_radius.si;
+  now.push.apex_m = {pages[0].poses[0].x_m, pages[0].poses[0].y_m, 90e-9};  // above its middle
+  EXPECT_NEAR(centre_m(wall, frame(wall, &now), 0).z, 90e-9 - radius_m, 0.1e-9);
+  EXPECT_NEAR(centre_m(wall, frame(wall, &now), 1).z, radius_m, 0.1e-9);
+  // touched by the side of the tip
+  const auto side =
+      physics::side_contact(set_.setup.tip, set_.setup.species[0].contact.tip_radius, physics::Length(2e-9));
+  now.push.apex_m[0] -= side.distance.si;
+  EXPECT_NEAR(centre_m(wall, frame(wall, &now), 0).z, 90e-9 - 2e-9 + radius_m, 0.1e-9);
+  now.push.state = physics::PushState::Holds;
+  EXPECT_NEAR(centre_m(wall, frame(wall, &now), 0).z, radius_m, 0.1e-9);
 }
 
 TEST_F(ParticlesOfAWall, AreHiddenWithTheInstrument) {

@@ -27,14 +27,14 @@ TEST(ParticleSet, EveryShippedSetLoadsWithASourceForEachNumber) {
     ++sets;
     EXPECT_FALSE(set->particles.empty());
     EXPECT_FALSE(set->moves.empty());
-    EXPECT_EQ(set->sources.size(), 6U);
+    EXPECT_EQ(set->sources.size(), 6U + set->setup.pads.size());
     for (std::size_t i = 0; i < set->species.size(); ++i) {
       const SpeciesEntry& species = set->species[i];
       EXPECT_EQ(species.sources.size(), physics::is_rod(set->setup.species[i]) ? 6U : 12U) << species.name;
       for (const SourcedValue& value : species.sources) EXPECT_FALSE(value.source.empty()) << value.key;
     }
   }
-  EXPECT_EQ(sets, 4);
+  EXPECT_EQ(sets, 5);
 }
 
 TEST(ParticleSet, GoldRowHasTheNumbersOfTheCases) {
@@ -120,7 +120,7 @@ TEST(ParticleSet, RefusesRodsThatCannotBe) {
   EXPECT_THAT(refusal(changed("x = \"180 nm\"", "angle_deg = 3\nx = \"180 nm\"")),
               HasSubstr("only a rod has an angle"));
   EXPECT_THAT(refusal(shipped() + "\n[[pad]]\nx = \"0 nm\"\ny = \"0 nm\"\nwidth = \"1 nm\"\nheight = \"1 nm\"\n"),
-              HasSubstr("pads need a rod"));
+              HasSubstr("needs a rod that can be moved"));
 }
 
 TEST(ParticleSet, SticksToTheTipIfItsFileSaysSo) {
@@ -146,7 +146,45 @@ TEST(ParticleSet, SticksToTheTipIfItsFileSaysSo) {
   EXPECT_THAT(refusal(adhesion("0 mJ/m2")), HasSubstr("species.sticks: a tip that sticks needs tip_adhesion above 0"));
   EXPECT_THAT(refusal(adhesion("-5 mJ/m2")), HasSubstr("species.sticks: a tip that sticks needs tip_adhesion above 0"));
   EXPECT_THAT(refusal(adhesion("20 N/m2")), HasSubstr("species.tip_adhesion: cannot read"));
-  EXPECT_THAT(refusal(adhesion("400 mJ/m2")), HasSubstr("would lift the spheres off the sample"));
+  const auto lifting = load_particle_set(folder.write("set.toml", adhesion("400 mJ/m2")));
+  ASSERT_TRUE(lifting) << lifting.error().message;
+  EXPECT_TRUE(has_lift(*std::make_unique<SharedParticles>(shared_particles(*lifting))));
+  EXPECT_FALSE(has_lift(*shared));
+}
+
+TEST(ParticleSet, HasPadsOnWhichSpheresStick) {
+  const auto set = load_particle_set(kFolder + "/pick-and-place.toml");
+  ASSERT_TRUE(set) << set.error().message;
+  EXPECT_TRUE(set->pads.empty()) << "it is no electrode";
+  ASSERT_EQ(set->setup.pads.size(), 1U);
+  EXPECT_DOUBLE_EQ(set->setup.pads[0].work_of_adhesion.si, 0.2);
+  const auto shared = std::make_unique<SharedParticles>(shared_particles(*set));
+  EXPECT_TRUE(has_pads(*shared));
+  EXPECT_TRUE(has_lift(*shared));
+  // in the frame of the particles
+  const physics::PushSetup setup = push_setup(*shared);
+  ASSERT_EQ(setup.pads.size(), 1U);
+  const auto way = set->setup.pads[0].middle - set->particles[0].position;
+  EXPECT_NEAR((setup.pads[0].middle.x - physics::Length(shared->particles[0].x_m) - way.x).si, 0.0, 1e-20);
+  EXPECT_NEAR((setup.pads[0].middle.y - physics::Length(shared->particles[0].y_m) - way.y).si, 0.0, 1e-20);
+  EXPECT_EQ(setup.pads[0].half_size, set->setup.pads[0].half_size);
+  EXPECT_EQ(recorded_set(*shared, support::source("assets")).title, set->title);
+
+  const std::string text = core::read_file(kFolder + "/pick-and-place.toml").value();
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string other = text;
+    return refusal(other.replace(other.find(from), from.size(), to));
+  };
+  EXPECT_THAT(with("\"200 mJ/m2\"", "\"0 mJ/m2\""), HasSubstr("pad.work_of_adhesion: pad work of adhesion"));
+  EXPECT_THAT(with("\"200 mJ/m2\"", "\"200 nN\""), HasSubstr("pad.work_of_adhesion: cannot read"));
+  EXPECT_THAT(with("width = \"70 nm\"", "width = \"0.1 nm\""), HasSubstr("pad.width: pad width"));
+  const std::size_t pad = text.find("[[pad]]");
+  std::string far = text;
+  EXPECT_THAT(refusal(far.replace(far.find("\"200 nm\"", pad), 8, "\"900 nm\"")),
+              HasSubstr("pad.x: the pad's middle is outside"));
+  EXPECT_THAT(refusal(shipped() + "\n[[pad]]\nx = \"0 nm\"\ny = \"0 nm\"\nwidth = \"9 nm\"\nheight = \"9 nm\"\n"
+                                  "work_of_adhesion = \"20 mJ/m2\"\n"),
+              HasSubstr("pad.work_of_adhesion"));
 }
 
 TEST(ParticleSet, OfARecordingHasTheWordsOfTheSetOfTheAssets) {

@@ -106,6 +106,17 @@ TEST_F(PatternTaskTest, EndsOnceTheHandHasBeenLiftedAndCountsUpToTheLift) {
 }
 
 // A window looks once a frame, a replay at every tick.
+TEST_F(PatternTaskTest, DoesNotJudgeASphereThatHangsOnTheTip) {
+  stroke();
+  for (int i = 0; i < 1000; ++i) {
+    now_ns_ += 1'000'000;
+    task_.add({.time_ns = now_ns_, .base_m = {0.0, 0.0, kHighM}, .lateral_n = {}, .places = places_, .carries = true});
+    ASSERT_FALSE(task_.unjudged()) << i;
+  }
+  wait(501);
+  EXPECT_TRUE(task_.unjudged()) << "it has been released";
+}
+
 TEST_F(PatternTaskTest, SeesARestAlsoAfterTheHandHasComeDownAgain) {
   const auto score_of = [&](int every) {
     PatternTask task(set_, pattern_of(set_));

@@ -103,6 +103,74 @@ TEST(ReplayOfParticles, GivesEveryBitAgainOfSpheresThatStick) {
   EXPECT_TRUE(load_session(path));
 }
 
+// A sphere that is picked up, carried and set down on a pad, and one that hangs when the force is taken away.
+TEST(ReplayOfParticles, GivesEveryBitAgainOfASphereOnTheTip) {
+  scene::SharedModel model = test::model_with_particles();
+  model.particles = test::particles_to_lift({{0.0, 0.0}, {120e-9, 0.0}});
+  Recording recording(model);
+  recording.choose(test::kMica, ScaleMode::Particles);
+  recording.arm();
+  constexpr double kHighM = 180e-9;
+  const double m_per_m = recording.state().active.scale.hand_m_per_m;
+  const auto go = [&](double x_m, double y_m, double z_m) {
+    recording.go(m_per_m * glm::dvec2(x_m, y_m), m_per_m * z_m, 1.0);
+    recording.run(1300);
+  };
+  const auto pick_up = [&] {
+    go(-45e-9, 0.0, kHighM);
+    go(-45e-9, 0.0, 10e-9);
+    go(-26e-9, 0.0, 10e-9);
+    go(-26e-9, 0.0, kHighM);
+  };
+  pick_up();
+  go(200e-9, 50e-9, kHighM);
+  go(200e-9, 50e-9, 25e-9);
+  go(200e-9, 50e-9, kHighM);
+  recording.release(test::kMica, ScaleMode::Particles);
+  recording.run(500);
+  ++recording.taken_back;
+  recording.run(100);
+  recording.arm();
+  pick_up();
+  recording.release(test::kMica, ScaleMode::Particles);
+  recording.run(500);
+  recording.choose(test::kGold, ScaleMode::Particles);
+  ASSERT_EQ(recording.sessions.size(), 1U);
+  const RecordedSession& session = recording.sessions.front();
+  EXPECT_EQ(count(session, EventKind::ParticleLifted), 2U);
+  EXPECT_EQ(count(session, EventKind::ParticleSetDown), 1U);
+  EXPECT_EQ(count(session, EventKind::ParticleTorn), 1U);
+  EXPECT_EQ(count(session, EventKind::PushTakenBack), 1U);
+  expect_same(session);
+
+  const support::ScratchFolder folder;
+  const std::string path = folder.file("carried.afms");
+  ASSERT_TRUE(save_session(session, path));
+  EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x0c");
+  const auto loaded = load_session(path);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->particles->set, session.particles->set);
+  expect_same(*loaded);
+
+  // pads alone need the version, and so does a tip that lifts
+  RecordedSession other = session;
+  other.particles->set.species[0].sticks = 0;
+  ASSERT_TRUE(save_session(other, path));
+  EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x0c");
+  EXPECT_TRUE(load_session(path));
+  other.particles->set.pads = {};
+  ASSERT_TRUE(save_session(other, path));
+  EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x07");
+  other.particles->set.species[0].sticks = 1;
+  ASSERT_TRUE(save_session(other, path));
+  EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x0c");
+  EXPECT_TRUE(load_session(path));
+  other.particles->set.pads = session.particles->set.pads;
+  other.particles->set.pads[0].half_width_m = -1.0;
+  ASSERT_TRUE(save_session(other, path));
+  EXPECT_FALSE(load_session(path));
+}
+
 TEST(ReplayOfParticles, TakesPushesBackAsTheHandHadThemTakenBack) {
   Recording recording(test::model_with_particles());
   recording.choose(test::kMica, ScaleMode::Particles);

@@ -162,6 +162,12 @@ scene::Scene particle_pad(double width, double height) {
                   slab({width, height, 2.0 * kPadHeight}, glm::dvec3(0.0)));
 }
 
+scene::Scene particle_sticky_pad(double width, double height) {
+  return one_mesh(
+      "pad", {.name = "sticky pad", .base_color = {0.34F, 0.22F, 0.46F, 1.0F}, .metallic = 0.0F, .roughness = 0.9F},
+      slab({width, height, 2.0 * kPadHeight}, glm::dvec3(0.0)));
+}
+
 scene::Scene particle_ring() {
   return one_mesh("ring",
                   {.name = "ring of the touched particle",

@@ -37,7 +37,7 @@ using physics::PushState;
 constexpr double kSoftened = 1.05;  // beyond this the panel says that the lever is felt softer
 constexpr double kFinestAimM = 1e-12;
 
-static_assert(after(Phrase::PushFree, core::index_of(PushState::Several)) == Phrase::PushSeveral);
+static_assert(after(Phrase::PushFree, core::index_of(PushState::Carried)) == Phrase::PushCarried);
 static_assert(after(Phrase::PushLawArea, core::index_of(ParticleLaw::Measured)) == Phrase::PushLawMeasured);
 
 const std::string& formula_of(ParticleLaw law, const Phrases& phrases) {
@@ -169,10 +169,29 @@ class ParticleRows {
         source_text(now_.set->species[species_index()].sources, key, phrases_));
   }
 
+  // Of the sample, or of the pad below the touched sphere.
+  void add_adhesion() {
+    const auto pose = touched_ ? pose_of(now_, *touched_) : std::nullopt;
+    const std::vector<physics::StickyPad> pads =
+        pose ? scene::shared_sticky_pads(*now_.set) : std::vector<physics::StickyPad>{};
+    const auto pad = std::find_if(pads.begin(), pads.end(), [&](const physics::StickyPad& p) {
+      return !physics::is_rod(species()) &&
+             physics::lies_on(p, {physics::Length(pose->x_m), physics::Length(pose->y_m)});
+    });
+    if (pad == pads.end()) {
+      add_number(Phrase::WorkOfAdhesion, species().contact.work_of_adhesion, physics::kSurfaceEnergyUnits,
+                 "work_of_adhesion");
+      return;
+    }
+    const std::string key = fmt::format("pad_{}_work_of_adhesion", pad - pads.begin() + 1);
+    add(Phrase::WorkOfAdhesion, quantity_text(pad->work_of_adhesion, physics::kSurfaceEnergyUnits, phrases_),
+        source_text(now_.set->sources, key, phrases_));
+  }
+
   void add_numbers() {
     const ParticleSpecies& kind = species();
     add_number(Phrase::ParticleRadius, kind.contact.tip_radius, physics::kLengthUnits, "radius");
-    add_number(Phrase::WorkOfAdhesion, kind.contact.work_of_adhesion, physics::kSurfaceEnergyUnits, "work_of_adhesion");
+    add_adhesion();
     add_number(Phrase::ParticleShearStrength, kind.shear_strength, physics::kPressureUnits, "shear_strength");
     if (kind.coefficient > 0.0) {
       add(Phrase::ParticleCoefficient, phrases_.number(fmt::format("{:.3g}", kind.coefficient)),

@@ -16,6 +16,7 @@
 #include "exhibit/models/model_builder.h"
 #include "exhibit/models/particle_models.h"
 #include "exhibit/scenery/wall_layout.h"
+#include "physics/manipulation/tip_contact.h"
 #include "scene/samples/particle_set.h"
 
 namespace afm::exhibit {
@@ -84,10 +85,12 @@ double StageParticles::stroke_m(const scene::ParticleSet& set) {
     const double size_m = p.half_m + p.radius_m;
     reach_m = std::max({reach_m, std::abs(p.x_m) + size_m, std::abs(p.y_m) + size_m});
   }
-  for (const scene::Pad& pad : scene::shared_pads(set)) {
+  const auto reach = [&](const auto& pad) {
     reach_m = std::max(
         {reach_m, std::abs(pad.middle.x.si) + pad.half_size.x.si, std::abs(pad.middle.y.si) + pad.half_size.y.si});
-  }
+  };
+  for (const scene::Pad& pad : scene::shared_pads(set)) reach(pad);
+  for (const physics::StickyPad& pad : scene::shared_sticky_pads(set)) reach(pad);
   const double layout_per_m = std::min(kDrawnReach / reach_m, kDrawnDiameter / (2.0 * scene::median_radius(set).si));
   return kStrokeHeight / layout_per_m;
 }
@@ -155,12 +158,14 @@ void StageParticles::add_rods_and_pads(const scene::ParticleSet& set, ModelBuild
     build.part(particle_rod(species.length / species.contact.tip_radius), name, sample);
     rods_.back() = build.node(name + "/rod");
   }
-  for (const scene::Pad& pad : scene::shared_pads(set)) {
+  const physics::Length unit = scene::median_radius(set);
+  const auto add = [&](const auto& model, const auto& pad) {
     const std::string name = "pads-" + std::to_string(pads_.size());
-    const physics::Length unit = scene::median_radius(set);
-    build.part(particle_pad(2.0 * (pad.half_size.x / unit), 2.0 * (pad.half_size.y / unit)), name, sample);
+    build.part(model(2.0 * (pad.half_size.x / unit), 2.0 * (pad.half_size.y / unit)), name, sample);
     pads_.push_back({build.node(name + "/pad"), {pad.middle.x.si, pad.middle.y.si}});
-  }
+  };
+  for (const scene::Pad& pad : scene::shared_pads(set)) add(particle_pad, pad);
+  for (const physics::StickyPad& pad : scene::shared_sticky_pads(set)) add(particle_sticky_pad, pad);
 }
 
 std::vector<scene::NodeIndex> StageParticles::nodes() const {
@@ -209,8 +214,8 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
     const auto pose = now == nullptr ? std::nullopt : pose_of(*now, i);
     const auto& [start_x, start_y] = particle.start_m;
     render::MeshCopy copy;
-    copy.place =
-        glm::vec3(layout_per_m * dvec3(pose ? pose->x_m : start_x, pose ? pose->y_m : start_y, particle.radius_m));
+    copy.place = glm::vec3(layout_per_m * dvec3(pose ? pose->x_m : start_x, pose ? pose->y_m : start_y,
+                                                particle.radius_m + (pose ? height_m(i, *pose, *now) : 0.0)));
     copy.scale = static_cast<float>(layout_per_m * particle.radius_m);
     copy.turn = glm::vec4(particle.start_turn);
     if (pose) {
@@ -230,6 +235,17 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
   if (now == nullptr) return;
   add_marks(*now, layout_per_m, frame);
   add_plan(*now, layout_per_m, frame);
+}
+
+// Of a sphere that hangs on the tip, above the sample: it touches the tip.
+double StageParticles::height_m(std::size_t particle, const scene::ParticlePose& pose, const ParticlesNow& now) const {
+  const bool hangs = now.push.state == physics::PushState::Carried && touched(now, particles_.size()) == particle;
+  if (!hangs) return 0.0;
+  const auto& [x_m, y_m, z_m] = now.push.apex_m;
+  const double away_m = glm::length(glm::dvec2(pose.x_m - x_m, pose.y_m - y_m));
+  const physics::Length touching = physics::touching_height(
+      now.set->setup.tip, physics::Length(particles_[particle].radius_m), physics::Length(away_m));
+  return std::max(0.0, z_m - touching.si);
 }
 
 void StageParticles::add_targets(double layout_per_m, render::FrameState& frame) const {

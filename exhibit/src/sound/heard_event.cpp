@@ -15,7 +15,8 @@ using enum HeardEvent;
 // possible start, down for an end; a rough low note, three times, for a failure; a click for a repeated event. Of
 // particles: a soft knock for a touch, two for a ride over, a click for a first slip, a long fall for a loss, which a
 // rise takes back; of a tapping lever a click with a glide down or up; a short rise for a pull that moves one, a pluck
-// for a contact that tears; three notes up for a pattern.
+// for a contact that tears, a long rise for a particle that is lifted, a fall with a knock for one that is set down;
+// three notes up for a pattern.
 constexpr std::array kRows{
     HeardEventRow{
         SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},
@@ -116,6 +117,16 @@ constexpr std::array kRows{
                   Phrase::SayJumpToAttraction,
                   Spoken::AtOnce,
                   {{SignalNote{0, 0.012, 1175, 2349, 0.26, 0}, SignalNote{0.020, 0.080, 392, 587, 0.26, 0.3}}}},
+    HeardEventRow{ParticleLifted,
+                  Phrase::HeardParticleLifted,
+                  Phrase::SayParticleLifted,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.220, 440, 1319, 0.24, 0}}}},
+    HeardEventRow{ParticleSetDown,
+                  Phrase::HeardParticleSetDown,
+                  Phrase::SayParticleSetDown,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.120, 880, 440, 0.22, 0}, SignalNote{0.130, 0.040, 330, 262, 0.26, 0.6}}}},
 };
 static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
 static_assert([] {

@@ -43,6 +43,13 @@ Heard heard_of(const scene::TipEvent& event) {
       heard.event = HeardEvent::ParticleTorn;
       heard.force_n = event.force_before_n;
       break;
+    case physics::EventKind::ParticleLifted:
+      heard.event = HeardEvent::ParticleLifted;
+      heard.force_n = event.force_before_n;
+      break;
+    case physics::EventKind::ParticleSetDown:
+      heard.event = HeardEvent::ParticleSetDown;
+      break;
     case physics::EventKind::JumpToRepulsion:
       heard.event = HeardEvent::JumpToRepulsion;
       heard.force_n = event.force_after_n;

@@ -15,7 +15,8 @@ void ParticleTask::add(const scene::TipSample& sample) {
                             .lateral_n = sample.push.lateral_n,
                             .lift_n = sample.push.lift_n,
                             .places = sample.push.digest,
-                            .guided = sample.plan.guided != 0});
+                            .guided = sample.plan.guided != 0,
+                            .carries = sample.push.state == physics::PushState::Carried});
 }
 
 std::optional<std::vector<physics::ParticlePlace>> ParticleTask::unjudged(

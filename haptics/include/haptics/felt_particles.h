@@ -30,6 +30,8 @@ namespace afm::haptics {
 //   places of the particles and on the hand alone, so that a session can begin there.
 // - Not touching, the tip gets no force at all, and nothing is added to any other.
 // - A groove along the plan of a push (FeltGroove) belongs to them; its force is added apart.
+// - A tip with a sphere on it is among the particles at any height. A lift() puts the sphere back where it was picked
+//   up.
 //
 // The constructor and resume() allocate; everything else may be called in a tick of the servo, by its thread.
 class FeltParticles {
@@ -39,8 +41,9 @@ class FeltParticles {
   // `particles` is valid (scene::validate) and has particles, `scale` is its particle_scale().
   FeltParticles(const scene::SharedParticles& particles, const ParticleScale& scale, const GrooveLimits& groove = {});
 
-  // Goes on with the poses of these pages, of the same particles; a wait for a lift begins. Throws
-  // std::invalid_argument unless the pages are those of so many particles, and finite.
+  // Goes on with the poses of these pages, of the same particles; a wait for a lift begins. A sphere that hung on the
+  // tip lies where it hung, or where there is room beside. Throws std::invalid_argument unless the pages are those of
+  // so many particles, and finite.
   void resume(std::span<const scene::ParticlePage> pages);
 
   // Moves the tip: `tip_xy_m` in the sample's frame, `z_m` that of the unbent lever above the sample, in metres of the
@@ -83,7 +86,7 @@ class FeltParticles {
 
   // Numbers of a PushTick before the newest.
   struct Counts {
-    std::uint64_t yields = 0, dragged = 0, torn = 0;
+    std::uint64_t yields = 0, dragged = 0, torn = 0, lifted = 0, set_down = 0;
   };
 
   void move_poses(const physics::PushTick& tick) noexcept;
@@ -92,6 +95,9 @@ class FeltParticles {
   void account(const physics::PushTick& tick) noexcept;
   void note_events(const physics::PushTick& tick, const Counts& before, ParticlePush& step) noexcept;
   bool is_rod(std::size_t particle) const noexcept;
+  bool carries() const noexcept;
+  void put_carried_back() noexcept;
+  void lay_down(std::size_t particle) noexcept;
   scene::ParticlePose& pose(std::size_t particle) noexcept;
 
   ParticleScale scale_;

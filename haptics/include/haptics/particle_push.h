@@ -15,14 +15,14 @@ namespace afm::haptics {
 struct ParticlePush {
   struct Event {
     physics::EventKind kind = physics::EventKind::ParticleTouched;
-    double force_before_n = 0;  // lateral, on the lever
+    double force_before_n = 0;  // lateral, on the lever; as physics::EventKind has it
     double force_after_n = 0;
   };
 
   bool near = false;     // a particle is within reach
   bool touches = false;  // a particle is touched; otherwise the forces are zero
   glm::dvec3 push_n{0.0};
-  std::array<Event, 4> events{};
+  std::array<Event, 6> events{};
   std::size_t event_count = 0;
 
   void add(const Event& event) noexcept { events[event_count++] = event; }

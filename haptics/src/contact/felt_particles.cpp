@@ -84,6 +84,14 @@ void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
   }
   particles_.put(places, base_at({0.0, 0.0, scale_.clear_z_m}));
   std::copy(pages.begin(), pages.end(), pages_.begin());
+  for (std::uint32_t i = 0; i < particles_.size(); ++i) {
+    if (pose(i).moved != physics::PushState::Carried) continue;
+    const glm::dvec2 at_m = flat(particles_.free_place(i));
+    pose(i).x_m = at_m.x;
+    pose(i).y_m = at_m.y;
+    pose(i).moved = physics::PushState::Several;
+    particles_.put(i, place_of(pose(i)));
+  }
   digest_ = scene::digest_of(pages_, particles_.size());
   strokes_ = StrokeHistory(particles_.size());
   lift();
@@ -97,7 +105,28 @@ scene::ParticlePose& FeltParticles::pose(std::size_t particle) noexcept {
   return pages_[particle / scene::kPosesPerPage].poses[particle % scene::kPosesPerPage];
 }
 
+bool FeltParticles::carries() const noexcept {
+  return tip_ == Tip::Among && particles_.last().state == physics::PushState::Carried;
+}
+
+void FeltParticles::put_carried_back() noexcept {
+  const std::size_t carried = particles_.last().particle;
+  particles_.hold_over(base_at(over_m_));
+  lay_down(carried);
+}
+
+// A sphere that hung on the tip lies where the physics has it.
+void FeltParticles::lay_down(std::size_t particle) noexcept {
+  scene::ParticlePose lies = pose(particle);
+  const glm::dvec2 at_m = flat(particles_.position(particle));
+  lies.x_m = at_m.x;
+  lies.y_m = at_m.y;
+  lies.moved = physics::PushState::Several;
+  change(static_cast<std::uint32_t>(particle), lies);
+}
+
 void FeltParticles::lift() noexcept {
+  if (carries()) put_carried_back();
   tip_ = Tip::Waits;
   push_n_ = glm::dvec3(0.0);
   stored_j_ = 0.0;
@@ -147,7 +176,7 @@ void FeltParticles::change(std::uint32_t particle, const scene::ParticlePose& no
 ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double elapsed_s) noexcept {
   ParticlePush step;
   const glm::dvec3 at_m(tip_xy_m, z_m);
-  const bool over = z_m >= scale_.clear_z_m;
+  const bool over = z_m >= scale_.clear_z_m && !carries();
   if (over) {
     if (tip_ == Tip::Among) lift();
     tip_ = Tip::Over;
@@ -163,10 +192,13 @@ ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double 
     strokes_.begin();
   }
 
-  const Counts before{particles_.last().yields, particles_.last().dragged, particles_.last().torn};
+  const physics::PushTick& last = particles_.last();
+  const Counts before{last.yields, last.dragged, last.torn, last.lifted, last.set_down};
+  const std::size_t carried = carries() ? last.particle : physics::kNoParticle;
   const physics::PushTick& tick = particles_.move_to(base_at(at_m), physics::Time(elapsed_s));
   step.near = tick.near;
   move_poses(tick);
+  if (carried != physics::kNoParticle && !carries()) lay_down(carried);
   account(tick);
   note_events(tick, before, step);
   step.touches = tick.particle != physics::kNoParticle;
@@ -181,9 +213,9 @@ void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
     const glm::dvec2 to_m = flat(particles_.position(i)), way_m = to_m - glm::dvec2(moved.x_m, moved.y_m);
     moved.x_m = to_m.x;
     moved.y_m = to_m.y;
-    moved.moved = tick.state == physics::PushState::Slides || tick.state == physics::PushState::Rolls
-                      ? tick.state
-                      : physics::PushState::Several;
+    const bool alone = tick.state == physics::PushState::Slides || tick.state == physics::PushState::Rolls;
+    const bool hangs = tick.state == physics::PushState::Carried && tick.particle == i;
+    moved.moved = alone || hangs ? tick.state : physics::PushState::Several;
     if (is_rod(i)) scene::set_turn(moved, particles_.turn(i));
     if (moved.moved == physics::PushState::Rolls) {
       const double radius_m = setup_.species[particles_.species(i)].contact.tip_radius.si;
@@ -218,6 +250,8 @@ void FeltParticles::note_events(const physics::PushTick& tick, const Counts& bef
   }
   const bool felt = tick.torn_at.si * scale_.hand_n_per_n >= kFeltN;
   if (tick.torn > before.torn && felt) step.add({EventKind::ParticleTorn, tick.torn_at.si, 0.0});
+  if (tick.set_down > before.set_down) step.add({EventKind::ParticleSetDown, 0.0, 0.0});
+  if (tick.lifted > before.lifted) step.add({EventKind::ParticleLifted, tick.lifted_at.si, 0.0});
 }
 
 scene::TipPush FeltParticles::push() const noexcept {

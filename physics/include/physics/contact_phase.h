@@ -26,6 +26,8 @@ enum class EventKind : std::uint32_t {
   ParticleTorn = 11,       // the contact by which the tip pulled a particle tore
   JumpToRepulsion = 12,    // a tapping lever fell from the attractive into the repulsive state
   JumpToAttraction = 13,   // and back
+  ParticleLifted = 14,     // the tip lifted a particle off the sample, which now hangs on it
+  ParticleSetDown = 15,    // a particle on the tip came to lie on the sample
 };
 
 // Name in reports and replays.
@@ -57,12 +59,16 @@ constexpr const char* name_of(EventKind kind) {
       return "jump-to-repulsion";
     case EventKind::JumpToAttraction:
       return "jump-to-attraction";
+    case EventKind::ParticleLifted:
+      return "particle-lifted";
+    case EventKind::ParticleSetDown:
+      return "particle-set-down";
   }
   return "unknown";
 }
 
-// The forces of all others are lateral; those of particles that are put somewhere are 0, those of a tapping lever means
-// over a swing.
+// The forces of all others are lateral; that of a particle that is lifted is its pull-off from the sample, those of
+// particles that are put somewhere are 0, those of a tapping lever means over a swing.
 constexpr bool is_jump(EventKind kind) { return kind == EventKind::JumpToContact || kind == EventKind::JumpOffContact; }
 
 // Both ends of a cycle: a jump, or a change of the state of a tapping lever.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "lever_energy.h"
 #include "line_friction.h"
 #include "lone_push.h"
 #include "outline.h"
@@ -14,10 +15,6 @@
 #include "tip_holds.h"
 
 namespace afm::physics {
-
-struct Apex {
-  double x = 0.0, y = 0.0, height = 0.0;  // SI
-};
 
 // The tip among several bodies, spheres and rods, during one sub-step, at a fixed base. Knows what touches, and the
 // energy of the heap:

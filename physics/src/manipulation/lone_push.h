@@ -41,6 +41,7 @@ class LoneContact {
   LoneContact(const ParticleSpecies& species, const SphereCone& tip, const PushSprings& springs, double tip_friction);
 
   const TipProfile& profile() const noexcept { return profile_; }
+  double pull_off_n() const noexcept { return pull_off_force(species_).si; }  // F_ad of sphere and sample
 
   // The tip on a base at z_m that bears the lateral force.
   Leaning under(double lateral_n, double z_m) const noexcept;

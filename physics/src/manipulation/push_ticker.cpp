@@ -20,42 +20,51 @@ constexpr double kHeapReachShare = 1.0 / 12.0;
 
 double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
-}  // namespace
-
-PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<PlacedParticle>& particles,
-                                const LeverBase& start)
-    : setup_(setup), holds_(setup, particles), heap_(setup.springs) {
+const PushSetup& validated(const PushSetup& setup, const std::vector<PlacedParticle>& particles) {
   validate(setup, particles);
-  double smallest_m = HUGE_VAL, reach_m = 0.0, touching_m = 0.0, longest_half_m = 0.0;
-  for (const ParticleSpecies& species : setup_.species) {
-    contacts_.emplace_back(species, setup_.tip, setup_.springs, setup_.tip_friction);
-    smallest_m = std::min(smallest_m, species.contact.tip_radius.si);
-    reach_m = std::max(reach_m, contacts_.back().profile().reach_m());
+  return setup;
+}
+
+// Largest radius within which a tick looks for particles.
+double search_m(const PushSetup& setup, double margin_m, double stretch_m) {
+  double reach_m = 0.0, touching_m = 0.0, longest_half_m = 0.0;
+  for (const ParticleSpecies& species : setup.species) {
+    reach_m = std::max(reach_m, TipProfile(setup.tip, species.contact.tip_radius).reach_m());
     touching_m = std::max(touching_m, 2.0 * species.contact.tip_radius.si);
     longest_half_m = std::max(longest_half_m, 0.5 * species.length.si);
   }
-  reach_m_ = kReachShare * smallest_m;
-  heap_reach_m_ = kHeapReachShare * smallest_m;
-  sub_step_m_ = kSubStepShare * (smallest_m + setup_.tip.radius.si) * std::cos(setup_.tip.half_angle_rad);
-  for (const ParticleSpecies& a : setup_.species) {
-    for (const ParticleSpecies& b : setup_.species) {
-      touching_m_.push_back(touching_distance(a.contact.tip_radius, b.contact.tip_radius).si);
+  return std::max(reach_m, touching_m) + margin_m + 2.0 * longest_half_m + stretch_m;
+}
+
+}  // namespace
+
+PushedParticles::Ticker::Reach PushedParticles::Ticker::reach_of(const PushSetup& setup) noexcept {
+  double smallest_m = HUGE_VAL;
+  for (const ParticleSpecies& s : setup.species) smallest_m = std::min(smallest_m, s.contact.tip_radius.si);
+  return {.alone_m = kReachShare * smallest_m,
+          .heap_m = kHeapReachShare * smallest_m,
+          .base_m = kSubStepShare * (smallest_m + setup.tip.radius.si) * std::cos(setup.tip.half_angle_rad)};
+}
+
+PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<PlacedParticle>& particles,
+                                const LeverBase& start)
+    : setup_(validated(setup, particles)),
+      holds_(setup, particles),
+      reach_(reach_of(setup)),
+      lying_(setup, particles, search_m(setup, 3.0 * reach_.alone_m, holds_.stretch_m())),
+      heap_(setup.springs),
+      carried_(setup.springs) {
+  for (const ParticleSpecies& species : setup_.species) {
+    contacts_.emplace_back(species, setup_.tip, setup_.springs, setup_.tip_friction);
+    for (const StickyPad& pad : setup_.pads) {
+      contacts_.emplace_back(on_pad(pad, species), setup_.tip, setup_.springs, setup_.tip_friction);
     }
   }
-  for (const PlacedParticle& particle : particles) {
-    x_.push_back(particle.position.x.si);
-    y_.push_back(particle.position.y.si);
-    turns_.push_back(half_turn(particle.angle_rad));
-    species_.push_back(particle.species);
-    pinned_.push_back(particle.pinned);
-  }
-  moved_at_s_.assign(x_.size(), -HUGE_VAL);
-  moved_.reserve(x_.size());
-  moves_.assign(x_.size(), false);
+  moved_at_s_.assign(particles.size(), -HUGE_VAL);
+  moved_.reserve(particles.size());
+  moves_.assign(particles.size(), false);
   clear_m_ = clear_height(setup_).si;
-  pressed_.assign(x_.size(), {});
-  grid_ = std::make_unique<ParticleGrid>(
-      x_, y_, std::max(reach_m, touching_m) + 3.0 * reach_m_ + 2.0 * longest_half_m + holds_.stretch_m());
+  pressed_.assign(particles.size(), {});
   base_ = {start.position.x.si, start.position.y.si, start.z.si};
   apex_ = {base_.x, base_.y, std::max(0.0, base_.height)};
   tick_.stored = tick_.given = Energy(stored_everywhere());
@@ -82,10 +91,10 @@ const PushTick& PushedParticles::Ticker::tick(const LeverBase& asked, double ela
 void PushedParticles::Ticker::advance(const Apex& to) noexcept {
   const double dx = to.x - base_.x, dy = to.y - base_.y, dz = to.height - base_.height;
   const double way_m = std::sqrt(dx * dx + dy * dy + dz * dz);
-  const double needed = way_m / sub_step_m_;
+  const double needed = way_m / reach_.base_m;
   tick_.lagging = needed > kMostSubSteps;
   const int steps = tick_.lagging ? kMostSubSteps : std::max(1, static_cast<int>(std::ceil(needed)));
-  const double share = tick_.lagging ? sub_step_m_ / way_m : 1.0 / steps;
+  const double share = tick_.lagging ? reach_.base_m / way_m : 1.0 / steps;
   const Apex from = base_;
   left_.work = kWorkOfATick;
   for (int i = 1; i <= steps; ++i) {
@@ -99,12 +108,12 @@ void PushedParticles::Ticker::advance(const Apex& to) noexcept {
 bool PushedParticles::Ticker::find_near() noexcept {
   near_.clear();
   bool fits = true;
-  const double x = apex_.x, y = apex_.y, lowest_m = apex_.height - reach_m_ - holds_.stretch_m();
-  grid_->near(x, y, [&](std::size_t i) {
-    const double diameter_m = 2.0 * setup_.species[species_[i]].contact.tip_radius.si;
-    const double most_m = contacts_[species_[i]].profile().reach_m() + reach_m_ + holds_.stretch_m();
+  const double x = apex_.x, y = apex_.y, lowest_m = apex_.height - reach_.alone_m - holds_.stretch_m();
+  lying_.near({x, y}, [&](std::size_t i) {
+    const double diameter_m = 2.0 * setup_.species[lying_.species(i)].contact.tip_radius.si;
+    const double most_m = contacts_[kind_of(i)].profile().reach_m() + reach_.alone_m + holds_.stretch_m();
     if (lowest_m > diameter_m) return;
-    const Flat nearest = nearest_on(outline(i), {x, y});
+    const Flat nearest = nearest_on(lying_.outline(i), {x, y});
     if (length_of(nearest.x - x, nearest.y - y) > most_m) return;
     fits = near_.add(i) && fits;
   });
@@ -115,6 +124,13 @@ bool PushedParticles::Ticker::find_near() noexcept {
 void PushedParticles::Ticker::sub_step(const Apex& to) noexcept {
   // a base that rests moves nothing: thresholds only grow
   if (settled_ && to.x == base_.x && to.y == base_.y && to.height == base_.height) return;
+  if (carried_.any()) {
+    carry_step(to);
+    // it may have been set down
+    find_near();
+    press();
+    return;
+  }
   if (!find_near()) {  // the base waits
     exhausted_ = true;
     return;
@@ -128,89 +144,44 @@ void PushedParticles::Ticker::sub_step(const Apex& to) noexcept {
     for (int i = 1; i <= kHeapSplit; ++i) {
       const double at = static_cast<double>(i) / kHeapSplit;
       const Apex next = i == kHeapSplit ? to : Apex{from.x + at * x, from.y + at * y, from.height + at * z};
+      if (carried_.any()) {
+        carry_step(next);
+        continue;
+      }
       heap_step(next);
-      tear(next);
+      if (!lift()) tear(next);
     }
   }
   press();
 }
 
-double PushedParticles::Ticker::lever_j(const Apex& base, const Apex& apex) const noexcept {
-  const double x = apex.x - base.x, y = apex.y - base.y, z = apex.height - base.height;
-  return 0.5 * (setup_.springs.lateral.si * (x * x + y * y) + setup_.springs.normal.si * z * z);
-}
-
-// Work on the base by the mean of the forces on the lever before and after.
-double PushedParticles::Ticker::work_j(const Apex& base0, const Apex& apex0, const Apex& base1,
-                                       const Apex& apex1) const noexcept {
-  const double x = 0.5 * ((base0.x - apex0.x) + (base1.x - apex1.x)) * (base1.x - base0.x);
-  const double y = 0.5 * ((base0.y - apex0.y) + (base1.y - apex1.y)) * (base1.y - base0.y);
-  const double z =
-      0.5 * ((base0.height - apex0.height) + (base1.height - apex1.height)) * (base1.height - base0.height);
-  return setup_.springs.lateral.si * (x + y) + setup_.springs.normal.si * z;
-}
-
 double PushedParticles::Ticker::tip_contact_j(std::size_t i, const Flat& at, const Apex& apex) const noexcept {
-  Outline there = outline(i);
+  Outline there = lying_.outline(i);
   there.at = at;
   const double away_m = distance_between(nearest_on(there, {apex.x, apex.y}), {apex.x, apex.y});
-  const double depth_m = contacts_[species_[i]].profile().overlap(away_m, apex.height).depth_m;
+  const double depth_m = contacts_[kind_of(i)].profile().overlap(away_m, apex.height).depth_m;
   return depth_m > 0.0 ? 0.5 * setup_.springs.contact.si * depth_m * depth_m : 0.0;
 }
 
-double PushedParticles::Ticker::touching_m(std::size_t i, std::size_t j) const noexcept {
-  return touching_m_[species_[i] * contacts_.size() + species_[j]];
-}
-
-Outline PushedParticles::Ticker::outline(std::size_t i) const noexcept {
-  const double half = half_m(i);
-  return {{x_[i], y_[i]}, half > 0.0 ? axis_of(turns_[i]) : Flat{1.0, 0.0}, half};
-}
-
-double PushedParticles::Ticker::apart_m(std::size_t i, std::size_t j) const noexcept {
-  return distance_between(outline(i), outline(j));
-}
-
-double PushedParticles::Ticker::pair_j(std::size_t i, std::size_t j) const noexcept {
-  const auto energy_j = [&](double distance_m) {
-    const double depth_m = touching_m(i, j) - distance_m;
-    return depth_m > 0.0 ? 0.5 * setup_.springs.contact.si * depth_m * depth_m : 0.0;
-  };
-  const Outline a = outline(i), b = outline(j);
-  if (!(a.half_m > 0.0 && b.half_m > 0.0)) return energy_j(distance_between(a, b));
-  double sum_j = 0.0;
-  for (const double end : {-1.0, 1.0}) {
-    const Flat of_a = along(a, end * a.half_m), of_b = along(b, end * b.half_m);
-    sum_j += energy_j(distance_between(of_a, nearest_on(b, of_a)));
-    sum_j += energy_j(distance_between(of_b, nearest_on(a, of_b)));
-  }
-  return sum_j;
-}
-
 double PushedParticles::Ticker::stored_everywhere() const noexcept {
-  double energy_j = lever_j(base_, apex_);
-  for (std::size_t i = 0; i < x_.size(); ++i) {
-    energy_j += tip_contact_j(i, {x_[i], y_[i]}, apex_);
-    grid_->near(x_[i], y_[i], [&](std::size_t j) {
-      if (j < i) energy_j += pair_j(i, j);
+  double energy_j = lever_j(setup_.springs, base_, apex_);
+  for (std::size_t i = 0; i < lying_.size(); ++i) {
+    energy_j += tip_contact_j(i, lying_.position(i), apex_);
+    lying_.near(lying_.position(i), [&](std::size_t j) {
+      if (j < i) energy_j += lying_.pair_j(i, j, setup_.springs.contact);
     });
   }
   return energy_j;
 }
 
-bool PushedParticles::Ticker::within_reach(const Apex& apex) const noexcept {
-  const double x = apex.x - apex_.x, y = apex.y - apex_.y, z = apex.height - apex_.height;
-  return x * x + y * y + z * z <= reach_m_ * reach_m_;
-}
-
 // With no sphere nearby, the apex rests at the base or on the sample below it. Returns false if that is too far away.
 bool PushedParticles::Ticker::free_step(const Apex& to) noexcept {
   const auto rests = [](const Apex& base) { return Apex{base.x, base.y, std::max(0.0, base.height)}; };
-  if (!within_reach(rests(to))) return false;
-  double was_j = lever_j(base_, apex_);
+  if (!is_within(reach_.alone_m, rests(to), apex_)) return false;
+  double was_j = lever_j(setup_.springs, base_, apex_);
   // a descent that was cut short may have left the tip in a sphere
-  for (const std::size_t i : near_) was_j += tip_contact_j(i, {x_[i], y_[i]}, apex_);
-  const double rested_j = lever_j(base_, rests(base_)), now_j = lever_j(to, rests(to));
+  for (const std::size_t i : near_) was_j += tip_contact_j(i, lying_.position(i), apex_);
+  const double rested_j = lever_j(setup_.springs, base_, rests(base_)), now_j = lever_j(setup_.springs, to, rests(to));
   tick_.given = tick_.given + Energy(now_j - rested_j);
   tick_.work = tick_.work + Energy(now_j - rested_j);
   tick_.stored = tick_.stored + Energy(now_j - was_j);
@@ -220,25 +191,26 @@ bool PushedParticles::Ticker::free_step(const Apex& to) noexcept {
 }
 
 double PushedParticles::Ticker::rest_threshold(std::size_t i, double rest_n, double moving_n) const noexcept {
-  const double ageing_s = setup_.species[species_[i]].ageing.si;
+  const double ageing_s = setup_.species[lying_.species(i)].ageing.si;
   if (!(ageing_s > 0.0)) return rest_n;
   const double rest_s = time_s_ - moved_at_s_[i];
   return rest_s > 0.0 ? moving_n + (rest_n - moving_n) * -std::expm1(-rest_s / ageing_s) : moving_n;
 }
 
 bool PushedParticles::Ticker::is_alone(std::size_t i) const noexcept {
-  bool alone = !pinned_[i];
-  grid_->near(x_[i], y_[i], [&](std::size_t j) {
-    if (j != i && apart_m(i, j) < touching_m(i, j) + 2.0 * reach_m_) alone = false;
+  bool alone = !lying_.is_pinned(i);
+  lying_.near(lying_.position(i), [&](std::size_t j) {
+    if (j != i && lying_.apart_m(i, j) < lying_.touching_m(i, j) + 2.0 * reach_.alone_m) alone = false;
   });
   return alone;
 }
 
 // Whether a base at its new height goes past a sphere without touching it.
 bool PushedParticles::Ticker::passes(std::size_t i, const Apex& to) const noexcept {
-  const Leaning touch = contacts_[species_[i]].under(0.0, to.height);
+  const Leaning touch = contacts_[kind_of(i)].under(0.0, to.height);
   if (!touch.holds) return true;
-  const double dx = to.x - base_.x, dy = to.y - base_.y, x = x_[i] - base_.x, y = y_[i] - base_.y;
+  const Flat at = lying_.position(i);
+  const double dx = to.x - base_.x, dy = to.y - base_.y, x = at.x - base_.x, y = at.y - base_.y;
   const double way2 = dx * dx + dy * dy;
   const double nearest = way2 > 0.0 ? std::clamp((x * dx + y * dy) / way2, 0.0, 1.0) : 0.0;
   return length_of(x - nearest * dx, y - nearest * dy) >= touch.base_m;
@@ -247,7 +219,7 @@ bool PushedParticles::Ticker::passes(std::size_t i, const Apex& to) const noexce
 // Force at which a particle gives to the tip over that at which it would move sideways as a whole: below 1 for a rod
 // that the tip turns.
 double PushedParticles::Ticker::share_of_push(std::size_t i) const noexcept {
-  const Outline rod = outline(i);
+  const Outline rod = lying_.outline(i);
   const Flat apex{apex_.x, apex_.y}, point = nearest_on(rod, apex);
   const double x = point.x - apex.x, y = point.y - apex.y, away_m = length_of(x, y);
   if (!(rod.half_m > 0.0 && away_m > 0.0) || !(pressed_[i].normal_n > 0.0)) return 1.0;
@@ -259,11 +231,11 @@ double PushedParticles::Ticker::share_of_push(std::size_t i) const noexcept {
 // One sphere without neighbours, in closed form: the base rises or sinks first, then goes along. False if what happens
 // is not known in closed form, goes too far for one sub-step, or would raise stored energy plus friction.
 bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept {
-  if (half_m(i) > 0.0 || !is_alone(i)) return false;
+  if (lying_.half_m(i) > 0.0 || !is_alone(i)) return false;
   const bool held = holds_.pull_of(i).holds();  // pulled wherever it is not pushed
   if (held && !(pressed_[i].normal_n > 0.0)) return false;
-  LoneContact& contact = contacts_[species_[i]];
-  const Flat was{x_[i], y_[i]};
+  LoneContact& contact = contacts_[kind_of(i)];
+  const Flat was = lying_.position(i);
   const double away_m = length_of(was.x - base_.x, was.y - base_.y);
   const double before_n = contact.force_at(away_m, base_.height), sunk_n = contact.force_at(away_m, to.height);
   if (before_n < 0.0 || sunk_n < 0.0 || (held && before_n == 0.0)) return false;
@@ -272,11 +244,11 @@ bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept 
 
   const LoneThresholds thresholds = contact.thresholds(to.height);
   const double holds_n = rest_threshold(i, thresholds.rest_n, thresholds.moving_n);
-  const bool at_once = !(setup_.species[species_[i]].ageing.si > 0.0);
+  const bool at_once = !(setup_.species[lying_.species(i)].ageing.si > 0.0);
   const LonePath path =
       push_alone(contact, thresholds, holds_n, at_once, was, {base_.x, base_.y}, {to.x, to.y}, to.height);
   const double moved_m = length_of(path.particle.x - was.x, path.particle.y - was.y);
-  if (!path.possible || moved_m > reach_m_) return false;
+  if (!path.possible || moved_m > reach_.alone_m) return false;
 
   const double x = path.particle.x - to.x, y = path.particle.y - to.y, end_m = length_of(x, y);
   const double lateral_n = contact.force_at(end_m, to.height);
@@ -286,10 +258,10 @@ bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept 
     const double lag = lateral_n / (setup_.springs.lateral.si * end_m);
     apex = {to.x - lag * x, to.y - lag * y, contact.under(lateral_n, to.height).apex_m};
   }
-  if (!within_reach(apex)) return false;
-  const double old_j = lever_j(base_, apex_) + tip_contact_j(i, was, apex_);
-  const double frozen_j = lever_j(to, apex_) + tip_contact_j(i, was, apex_);
-  const double now_j = lever_j(to, apex) + tip_contact_j(i, path.particle, apex);
+  if (!is_within(reach_.alone_m, apex, apex_)) return false;
+  const double old_j = lever_j(setup_.springs, base_, apex_) + tip_contact_j(i, was, apex_);
+  const double frozen_j = lever_j(setup_.springs, to, apex_) + tip_contact_j(i, was, apex_);
+  const double now_j = lever_j(setup_.springs, to, apex) + tip_contact_j(i, path.particle, apex);
   // a lever that bends while the sphere stays may also keep its energy
   const bool taken = path.moved ? may_be_taken(now_j + thresholds.moving_n * moved_m - frozen_j) : now_j <= frozen_j;
   if (!taken) return false;
@@ -302,16 +274,13 @@ bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept 
   tick_.yields += path.yields - std::min<std::uint64_t>(path.yields, 1);
   base_ = to;
   apex_ = apex;
-  if (path.moved) place(i, path.particle, turns_[i]);
+  if (path.moved) place(i, path.particle, lying_.turn(i));
   return true;
 }
 
 void PushedParticles::Ticker::place(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept {
-  x_[i] = at.x;
-  y_[i] = at.y;
-  turns_[i] = turn;
+  lying_.move(i, at, turn);
   moved_at_s_[i] = tick_end_s_;
-  grid_->move(i, at.x, at.y);
   if (moves_[i]) return;
   moves_[i] = true;
   moved_.push_back(static_cast<std::uint32_t>(i));  // within its reserve
@@ -324,10 +293,8 @@ void PushedParticles::Ticker::gave(double at_n, double goes_on_n) noexcept {
 }
 
 void PushedParticles::Ticker::put(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept {
-  x_[i] = at.x;
-  y_[i] = at.y;
-  turns_[i] = turn;
-  grid_->move(i, at.x, at.y);
+  if (carried_.particle() == i) carried_.drop();
+  lying_.move(i, at, turn);
 }
 
 void PushedParticles::Ticker::hold_over(const LeverBase& base) noexcept {
@@ -335,6 +302,8 @@ void PushedParticles::Ticker::hold_over(const LeverBase& base) noexcept {
   apex_ = base_;
   for (const std::uint32_t i : moved_) moves_[i] = false;
   moved_.clear();
+  // nothing else has moved since it was taken
+  if (carried_.any()) put(carried_.particle(), carried_.from(), lying_.turn(carried_.particle()));
   near_.clear();
   holds_.reset();
   press();
@@ -351,10 +320,11 @@ void PushedParticles::Ticker::hold_over(const LeverBase& base) noexcept {
 void PushedParticles::Ticker::press() noexcept {
   for (const std::size_t i : touched_) pressed_[i] = {};
   touched_.clear();
+  if (carried_.any()) return;
   for (const std::size_t i : near_) {
-    const Flat nearest = nearest_on(outline(i), {apex_.x, apex_.y});
+    const Flat nearest = nearest_on(lying_.outline(i), {apex_.x, apex_.y});
     const Overlap overlap =
-        contacts_[species_[i]].profile().overlap(length_of(nearest.x - apex_.x, nearest.y - apex_.y), apex_.height);
+        contacts_[kind_of(i)].profile().overlap(length_of(nearest.x - apex_.x, nearest.y - apex_.y), apex_.height);
     if (overlap.depth_m > 0.0 && holds_.form(i)) ++tick_.attached;
     if (!(overlap.depth_m > 0.0 || holds_.pull_of(i).holds())) continue;
     pressed_[i] = {setup_.springs.contact.si * overlap.depth_m, overlap.sine, overlap.cosine};
@@ -369,25 +339,32 @@ void PushedParticles::Ticker::publish() noexcept {
   tick_.lateral = {setup_.springs.lateral * Length(apex_.x - base_.x),
                    setup_.springs.lateral * Length(apex_.y - base_.y)};
   tick_.lift = setup_.springs.normal * Length(apex_.height - base_.height);
-  tick_.near = !find_near() || !near_.empty();
+  tick_.near = !find_near() || !near_.empty() || carried_.any();
   tick_.particle = kNoParticle;
   tick_.state = PushState::Free;
   tick_.normal = tick_.threshold = Force(0.0);
+  if (carried_.any()) {
+    tick_.particle = carried_.particle();
+    tick_.state = PushState::Carried;
+    return;
+  }
   for (const std::size_t i : touched_) {
-    if (std::abs(pressed_[i].normal_n) <= std::abs(tick_.normal.si)) continue;
+    // a sphere that has just been set down presses by nothing
+    const bool first = tick_.particle == kNoParticle && holds_.lifts(i);
+    if (!first && std::abs(pressed_[i].normal_n) <= std::abs(tick_.normal.si)) continue;
     tick_.particle = i;
     tick_.normal = Force(pressed_[i].normal_n);
   }
   if (tick_.particle == kNoParticle) return;
   const std::size_t i = tick_.particle;
-  LoneContact& contact = contacts_[species_[i]];
+  LoneContact& contact = contacts_[kind_of(i)];
   const Pressed& pressed = pressed_[i];
   const bool moves = moved_at_s_[i] >= time_s_ && !moved_.empty();
   LoneThresholds thresholds = contact.under_load(pressed.normal_n, pressed.sine, pressed.cosine);
   if (touched_.size() > 1 || moved_.size() > 1) {
     tick_.state = PushState::Several;
   } else {
-    const bool alone = !is_rod(setup_.species[species_[i]]) && is_alone(i);
+    const bool alone = !is_rod(setup_.species[lying_.species(i)]) && is_alone(i);
     if (alone && pressed.normal_n > 0.0) thresholds = contact.thresholds(base_.height);
     tick_.state = !moves ? PushState::Holds : thresholds.mode == PushMode::Rolls ? PushState::Rolls : PushState::Slides;
   }

@@ -2,17 +2,17 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "carried_sphere.h"
 #include "heap_contacts.h"
+#include "lever_energy.h"
 #include "lone_push.h"
+#include "lying_particles.h"
 #include "outline.h"
-#include "particle_grid.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "tip_holds.h"
 
@@ -28,14 +28,11 @@ class PushedParticles::Ticker {
   void put(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept;
   std::span<const std::uint32_t> moved() const noexcept { return moved_; }
   const PushTick& last() const noexcept { return tick_; }
-  std::size_t size() const noexcept { return x_.size(); }
-  Flat position(std::size_t i) const { return {x_.at(i), y_.at(i)}; }
-  HalfTurn turn(std::size_t i) const { return turns_.at(i); }
-  Outline outline(std::size_t i) const noexcept;
-  double half_m(std::size_t i) const noexcept { return 0.5 * setup_.species[species_[i]].length.si; }
-  std::size_t species(std::size_t i) const { return species_.at(i); }
+  const LyingParticles& lying() const noexcept { return lying_; }
 
  private:
+  static constexpr int kMostSprings = 64;  // steps of a lever that springs back in a tick
+
   // Short list of particles.
   class Few {
    public:
@@ -55,6 +52,11 @@ class PushedParticles::Ticker {
     std::size_t count_ = 0;
   };
 
+  // Furthest that a part moves in a sub-step, alone and in a heap, and that the base does.
+  struct Reach {
+    double alone_m = 0.0, heap_m = 0.0, base_m = 0.0;
+  };
+
   struct Budget {
     double work = 0.0;  // contacts that heaps may still look at
     int heap_steps = 0;
@@ -64,28 +66,30 @@ class PushedParticles::Ticker {
     double normal_n = 0.0, sine = 0.0, cosine = 1.0;
   };
 
+  static Reach reach_of(const PushSetup& setup) noexcept;
   void advance(const Apex& to) noexcept;
   void sub_step(const Apex& to) noexcept;
   bool find_near() noexcept;
-  bool within_reach(const Apex& apex) const noexcept;
   bool free_step(const Apex& to) noexcept;
-  double apart_m(std::size_t i, std::size_t j) const noexcept;
-  bool is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept;
   bool passes(std::size_t i, const Apex& to) const noexcept;
   bool lone_step(const Apex& to, std::size_t i) noexcept;
   void heap_step(const Apex& to) noexcept;
   void tear(const Apex& to) noexcept;
+  std::size_t lifted() const noexcept;
+  bool lift() noexcept;
+  bool find_obstacles() noexcept;
+  void carry_step(const Apex& to) noexcept;
+  void set_down() noexcept;
   bool gather(const Apex& to) noexcept;
   bool gather_pairs_of(std::size_t place) noexcept;
   bool add_pairs(std::size_t first, std::size_t second, std::size_t particle) noexcept;
   bool is_alone(std::size_t i) const noexcept;
+  std::size_t kind_of(std::size_t i) const noexcept {  // number of its contact
+    return lying_.species(i) * (setup_.pads.size() + 1) + lying_.ground(i);
+  }
   bool add_body(std::size_t i, bool near_tip) noexcept;
-  double lever_j(const Apex& base, const Apex& apex) const noexcept;
-  double work_j(const Apex& base0, const Apex& apex0, const Apex& base1, const Apex& apex1) const noexcept;
   double tip_contact_j(std::size_t i, const Flat& at, const Apex& apex) const noexcept;
-  double pair_j(std::size_t i, std::size_t j) const noexcept;
   double stored_everywhere() const noexcept;
-  double touching_m(std::size_t i, std::size_t j) const noexcept;
   double rest_threshold(std::size_t i, double rest_n, double moving_n) const noexcept;
   double share_of_push(std::size_t i) const noexcept;
   void place(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept;
@@ -94,19 +98,16 @@ class PushedParticles::Ticker {
   void publish() noexcept;
 
   PushSetup setup_;
-  std::vector<LoneContact> contacts_;  // contact of each species
-  std::vector<double> touching_m_;     // distance at which two species touch, by rows
-  std::vector<double> x_, y_;
-  std::vector<HalfTurn> turns_;     // direction of each rod
-  std::vector<double> moved_at_s_;  // end of the tick in which it moved last
-  std::vector<std::size_t> species_;
-  std::vector<bool> pinned_;
-  std::vector<Pressed> pressed_;  // load by the tip after the last sub-step
+  std::vector<LoneContact> contacts_;  // contact of each species with the sample and with each pad
+  std::vector<double> moved_at_s_;     // end of the tick in which it moved last
+  std::vector<Pressed> pressed_;       // load by the tip after the last sub-step
   TipHolds holds_;
-  std::unique_ptr<ParticleGrid> grid_;
+  Reach reach_;
+  LyingParticles lying_;
   HeapContacts heap_;
+  CarriedSphere carried_;
   Apex base_, apex_;
-  double reach_m_ = 0.0, heap_reach_m_ = 0.0, sub_step_m_ = 0.0, clear_m_ = 0.0;
+  double clear_m_ = 0.0;
   double time_s_ = 0.0, tick_end_s_ = 0.0;
   Few near_, touched_;                // particles near the tip, and those that it presses
   Few restless_;                      // unsettled heap

@@ -7,26 +7,27 @@
 #include "heap_descent.h"
 #include "push_ticker.h"
 
-// A sub-step among several particles, or with a rod.
+// A sub-step among several particles, with a rod, or with a sphere on the tip.
 namespace afm::physics {
 namespace {
 
-constexpr int kMostSprings = 64;  // steps of a lever that springs back in a tick
+constexpr double kPressRounding = 1e-12;  // share of an energy that rounding may change
+constexpr std::size_t kNobody = HeapContacts::kMostActive;
 
 }  // namespace
 
 bool PushedParticles::Ticker::add_body(std::size_t i, bool near_tip) noexcept {
-  const LoneContact& contact = contacts_[species_[i]];
+  const LoneContact& contact = contacts_[kind_of(i)];
   const Pressed& pressed = pressed_[i];
   const LoneThresholds thresholds = contact.under_load(pressed.normal_n, pressed.sine, pressed.cosine);
-  const Outline there = outline(i);
+  const Outline there = lying_.outline(i);
   return heap_.add(HeapContacts::Body{.particle = i,
                                       .profile = &contact.profile(),
-                                      .start = {x_[i], y_[i]},
-                                      .at = {x_[i], y_[i]},
+                                      .start = lying_.position(i),
+                                      .at = lying_.position(i),
                                       .rest_n = rest_threshold(i, thresholds.rest_n, thresholds.moving_n),
                                       .moving_n = thresholds.moving_n,
-                                      .pinned = pinned_[i],
+                                      .pinned = lying_.is_pinned(i),
                                       .near_tip = near_tip,
                                       .half_m = there.half_m,
                                       .start_axis = there.axis,
@@ -34,19 +35,12 @@ bool PushedParticles::Ticker::add_body(std::size_t i, bool near_tip) noexcept {
                                       .pull = holds_.pull_of(i)});
 }
 
-// Whether two particles are farther apart than `most_m`.
-bool PushedParticles::Ticker::is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept {
-  if (half_m(i) > 0.0 || half_m(j) > 0.0) return apart_m(i, j) > most_m;
-  const double x = x_[i] - x_[j], y = y_[i] - y_[j];
-  return x * x + y * y > most_m * most_m;
-}
-
 // `second` is kMostActive for a particle that stays.
 bool PushedParticles::Ticker::add_pairs(std::size_t first, std::size_t second, std::size_t particle) noexcept {
   HeapContacts::Pair pair{.first = first,
                           .second = second,
-                          .stays = outline(particle),
-                          .distance_m = touching_m(heap_.body(first).particle, particle)};
+                          .stays = lying_.outline(particle),
+                          .distance_m = lying_.touching_m(heap_.body(first).particle, particle)};
   if (!(heap_.body(first).is_rod() && pair.stays.half_m > 0.0)) return heap_.add(pair);
   bool fits = true;
   for (const auto& [of_first, of_second] : {std::pair{-1, 0}, std::pair{1, 0}, std::pair{0, -1}, std::pair{0, 1}}) {
@@ -61,8 +55,8 @@ bool PushedParticles::Ticker::add_pairs(std::size_t first, std::size_t second, s
 bool PushedParticles::Ticker::gather_pairs_of(std::size_t first) noexcept {
   const std::size_t i = heap_.body(first).particle;
   bool fits = true;
-  grid_->near(x_[i], y_[i], [&](std::size_t j) {
-    if (j == i || is_beyond(i, j, touching_m(i, j) + 2.0 * heap_reach_m_)) return;
+  lying_.near(lying_.position(i), [&](std::size_t j) {
+    if (j == i || lying_.is_beyond(i, j, lying_.touching_m(i, j) + 2.0 * reach_.heap_m)) return;
     std::size_t second = heap_.find(j);
     if (second == heap_.size() && !add_body(j, false)) second = HeapContacts::kMostActive;
     if (second < first) return;  // known from the other side
@@ -93,16 +87,17 @@ void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
     settled_ = false;
     return;
   }
-  const double loaded_j = lever_j(to, apex_) - lever_j(base_, apex_), frozen_j = heap_.stored();
+  const double loaded_j = lever_j(setup_.springs, to, apex_) - lever_j(setup_.springs, base_, apex_),
+               frozen_j = heap_.stored();
   const double share = left_.work / std::max(1, left_.heap_steps--);
   double work = share;
-  const bool at_rest = descend(heap_, heap_reach_m_, work);
+  const bool at_rest = descend(heap_, reach_.heap_m, work);
   left_.work -= share - work;
   if (!at_rest) exhausted_ = true;
   const Apex& now = heap_.apex();
   settled_ = at_rest && heap_.friction() == 0.0 && now.x == apex_.x && now.y == apex_.y && now.height == apex_.height;
   tick_.given = tick_.given + Energy(loaded_j);
-  tick_.work = tick_.work + Energy(work_j(base_, apex_, to, heap_.apex()));
+  tick_.work = tick_.work + Energy(work_j(setup_.springs, base_, apex_, to, heap_.apex()));
   tick_.lost = tick_.lost + Energy(heap_.friction());
   tick_.stored = tick_.stored + Energy(loaded_j + heap_.stored() - frozen_j);
   base_ = to;
@@ -121,7 +116,7 @@ void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
       ++tick_.dragged;
       tick_.dragged_at = Force(body.rest_n);
     }
-    const HalfTurn& turn = turns_[body.particle];
+    const HalfTurn turn = lying_.turn(body.particle);
     place(body.particle, body.at, body.is_rod() ? turned(turn, half_tangent(body.turned_m, body.half_m)) : turn);
   }
 }
@@ -162,6 +157,145 @@ void PushedParticles::Ticker::tear(const Apex& to) noexcept {
     if (let_go()) settled_ = false;
   }
   tick_.lost = tick_.lost + std::max(Energy(0.0), surplus() - before);
+}
+
+// A body of the heap that the tip pulls off the sample; kNobody without one. An apex on the sample lifts nothing.
+std::size_t PushedParticles::Ticker::lifted() const noexcept {
+  if (!(apex_.height > 0.0)) return kNobody;
+  for (const std::size_t n : heap_.near_tip()) {
+    const HeapContacts::Body& body = heap_.body(n);
+    if (!body.pull.holds() || body.pinned || !holds_.lifts(body.particle)) continue;
+    const HeapContacts::Normal normal = heap_.normal_of(n);
+    const double pull_n = std::min(-setup_.springs.contact.si * normal.overlap_m, body.pull.on(normal.ball));
+    if (-normal.towards[2] * pull_n > contacts_[kind_of(body.particle)].pull_off_n()) return n;
+  }
+  return kNobody;
+}
+
+// Lifts a sphere whose hold on the sample is weaker than the pull of the tip, unless that would need energy. What its
+// contacts stored is lost, what the tip holds besides is let go, and so is the energy of the lever that springs back.
+bool PushedParticles::Ticker::lift() noexcept {
+  const bool exhausted = exhausted_;
+  // only at rest does a gap tell the pull
+  for (int k = 0; k < kMostSprings && left_.work > 0.0 && !restless_.empty() && lifted() != kNobody; ++k) {
+    exhausted_ = exhausted;
+    heap_step(base_);
+  }
+  const std::size_t n = lifted();
+  if (n == kNobody || !restless_.empty()) return false;
+  const std::size_t i = heap_.body(n).particle;
+  double before_j = lever_j(setup_.springs, base_, apex_);
+  const auto add = [&](double depth_m) { before_j += 0.5 * setup_.springs.contact.si * depth_m * depth_m; };
+  for (const std::size_t other : heap_.near_tip()) {
+    const HeapContacts::Normal normal = heap_.normal_of(other);
+    if (normal.acts) add(normal.overlap_m);
+  }
+  for (const std::size_t pair : heap_.pairs_of(n)) add(std::max(0.0, heap_.touch_of(pair).overlap_m));
+
+  const HeapContacts::Normal normal = heap_.normal_of(n);
+  const double touches_at_m = apex_.height - normal.overlap_m * normal.towards[2];
+  carried_.take(i, setup_.species[lying_.species(i)].contact.tip_radius, lying_.position(i), setup_.tip, apex_,
+                touches_at_m);
+  const bool fits = find_obstacles();
+  const double after_j = carried_.energy_j(base_, apex_);
+  if (!fits || !(after_j <= before_j)) {
+    carried_.drop();
+    return false;
+  }
+  for (const std::size_t other : heap_.near_tip()) {
+    if (other != n) holds_.tear(heap_.body(other).particle);
+  }
+  place(i, carried_.place(apex_), lying_.turn(i));
+  tick_.stored = tick_.stored + Energy(after_j - before_j);
+  tick_.lost = tick_.lost + Energy(before_j - after_j);
+  tick_.lifted_at = Force(contacts_[kind_of(i)].pull_off_n());
+  ++tick_.lifted;
+  const auto surplus = [this] { return tick_.given - tick_.lost - tick_.stored; };
+  const Energy before = surplus();
+  settled_ = false;
+  for (int k = 0; k < kMostSprings && carried_.any() && !settled_; ++k) {
+    exhausted_ = exhausted;
+    carry_step(base_);
+  }
+  tick_.lost = tick_.lost + std::max(Energy(0.0), surplus() - before);
+  return true;
+}
+
+// What tip and sphere may touch within a step. False: there is too much.
+bool PushedParticles::Ticker::find_obstacles() noexcept {
+  carried_.begin();
+  const std::size_t carried = carried_.particle();
+  const Flat tip{apex_.x, apex_.y}, sphere = carried_.place(apex_);
+  const double radius_m = setup_.species[lying_.species(carried)].contact.tip_radius.si;
+  const auto is_near = [&](std::size_t i, const Flat& to, double lowest_m, double most_m) {
+    const double diameter_m = 2.0 * setup_.species[lying_.species(i)].contact.tip_radius.si;
+    return lowest_m - reach_.alone_m <= diameter_m &&
+           distance_between(nearest_on(lying_.outline(i), to), to) <= most_m + reach_.alone_m;
+  };
+  const auto near_tip = [&](std::size_t i) {
+    return is_near(i, tip, apex_.height, contacts_[kind_of(i)].profile().reach_m());
+  };
+  const auto near_sphere = [&](std::size_t i) {
+    const double other_m = setup_.species[lying_.species(i)].contact.tip_radius.si;
+    return is_near(i, sphere, carried_.height_m(apex_), radius_m + other_m);
+  };
+  bool fits = true;
+  const auto add = [&](std::size_t i) {
+    const ParticleSpecies& species = setup_.species[lying_.species(i)];
+    fits = carried_.add({.outline = lying_.outline(i),
+                         .radius_m = species.contact.tip_radius.si,
+                         .profile = &contacts_[kind_of(i)].profile()}) &&
+           fits;
+  };
+  lying_.near(tip, [&](std::size_t i) {
+    if (i != carried && near_tip(i)) add(i);
+  });
+  lying_.near(sphere, [&](std::size_t i) {
+    if (i != carried && near_sphere(i) && !near_tip(i)) add(i);
+  });
+  return fits;
+}
+
+// All particles stay where they are but the one on the tip, which follows the apex.
+void PushedParticles::Ticker::carry_step(const Apex& to) noexcept {
+  if (!find_obstacles()) {  // the base waits
+    exhausted_ = true;
+    settled_ = false;
+    return;
+  }
+  const double loaded_j = lever_j(setup_.springs, to, apex_) - lever_j(setup_.springs, base_, apex_);
+  const double frozen_j = carried_.energy_j(to, apex_);
+  Apex apex = apex_;
+  settled_ = carried_.settle(to, reach_.alone_m, apex);
+  if (!settled_) exhausted_ = true;
+  const double stored_j = loaded_j + carried_.energy_j(to, apex) - frozen_j;
+  // a tip that nothing touches follows the base
+  const bool follows = carried_.is_free(base_, apex_) && carried_.is_free(to, apex);
+  tick_.given = tick_.given + Energy(follows ? stored_j : loaded_j);
+  tick_.work = tick_.work + Energy(work_j(setup_.springs, base_, apex_, to, apex));
+  tick_.stored = tick_.stored + Energy(stored_j);
+  base_ = to;
+  apex_ = apex;
+  const std::size_t i = carried_.particle();
+  const Flat was = lying_.position(i), now = carried_.place(apex_);
+  if (was.x != now.x || was.y != now.y) place(i, now, lying_.turn(i));
+  if (carried_.lies(apex_)) set_down();
+}
+
+// The sphere lies on the sample, still held by the tip, unless it would then press others harder: distances of spheres
+// that lie are measured along the sample.
+void PushedParticles::Ticker::set_down() noexcept {
+  const std::size_t i = carried_.particle();
+  const double hanging_j = carried_.pressed_j(apex_);
+  double lying_j = 0.0;
+  lying_.near(lying_.position(i), [&](std::size_t j) {
+    if (j != i) lying_j += lying_.pair_j(i, j, setup_.springs.contact);
+  });
+  if (lying_j > hanging_j * (1.0 + kPressRounding)) return;
+  tick_.stored = tick_.stored + Energy(lying_j - hanging_j);
+  carried_.drop();
+  ++tick_.set_down;
+  settled_ = false;
 }
 
 }  // namespace afm::physics

@@ -19,19 +19,31 @@ namespace {
 constexpr double kClearShare = 1.02;      // share of the largest diameter
 constexpr double kOverlapAllowed = 1e-6;  // share of the touching distance, at the start
 constexpr double kUnitTurn = 1e-9;        // by which the square of a turn may differ from 1
-constexpr double kMostStretch = 0.125;    // longest stretch of a contact that pulls, over the radius
+constexpr Length kFarthestPad{1e-3}, kSmallestPad{1e-9};
+constexpr double kMostStretch = 0.125;  // longest stretch of a contact that pulls, over the radius
 
 void validate_hold(const PushSetup& setup, const ParticleSpecies& species) {
-  if (lifts(setup.tip, species)) {
-    throw UnphysicalValue("tip_adhesion", "tip adhesion " + format_quantity(species.tip_adhesion, kSurfaceEnergyUnits) +
-                                              " would lift the spheres off the sample, which is not modelled");
-  }
   const Length stretch = strongest_pull(setup.tip, species) / setup.springs.contact;
   if (stretch > kMostStretch * species.contact.tip_radius) {
     throw UnphysicalValue("contact_stiffness",
                           "contact stiffness " + format_quantity(setup.springs.contact, kStiffnessUnits) +
                               " is too soft for spheres that stick to the tip: their contact would stretch by " +
                               format_quantity(stretch, kLengthUnits, 3) + " before it tears");
+  }
+}
+
+void validate_pads(const PushSetup& setup) {
+  if (setup.pads.size() > kMostStickyPads) {
+    throw UnphysicalValue("pads",
+                          std::to_string(setup.pads.size()) + " pads are more than " + std::to_string(kMostStickyPads));
+  }
+  for (const StickyPad& pad : setup.pads) {
+    require_range("pad_x", pad.middle.x, -kFarthestPad, kFarthestPad, kLengthUnits);
+    require_range("pad_y", pad.middle.y, -kFarthestPad, kFarthestPad, kLengthUnits);
+    require_range("pad_width", 2.0 * pad.half_size.x, kSmallestPad, kFarthestPad, kLengthUnits);
+    require_range("pad_height", 2.0 * pad.half_size.y, kSmallestPad, kFarthestPad, kLengthUnits);
+    require_range("pad_work_of_adhesion", pad.work_of_adhesion, SurfaceEnergy(1e-6), SurfaceEnergy(10.0),
+                  kSurfaceEnergyUnits);
   }
 }
 
@@ -72,6 +84,7 @@ void validate(const PushSetup& setup) {
     smallest = std::min(smallest, species.contact.tip_radius);
     largest = std::max(largest, species.contact.tip_radius);
   }
+  validate_pads(setup);
   require_range("radius", smallest, std::max(setup.tip.radius, largest) / 2.0, Length(1e-5), kLengthUnits);
 }
 
@@ -140,23 +153,28 @@ void PushedParticles::put(std::size_t particle, const ParticlePlace& place) noex
   ticker_->put(particle, {place.position.x.si, place.position.y.si}, place.turn);
 }
 
+Sideways<Length> PushedParticles::free_place(std::size_t particle) const noexcept {
+  const Flat at = ticker_->lying().free_place(particle);
+  return {Length(at.x), Length(at.y)};
+}
+
 std::span<const std::uint32_t> PushedParticles::moved() const noexcept { return ticker_->moved(); }
 
 const PushTick& PushedParticles::last() const noexcept { return ticker_->last(); }
-std::size_t PushedParticles::size() const noexcept { return ticker_->size(); }
+std::size_t PushedParticles::size() const noexcept { return ticker_->lying().size(); }
 
 Sideways<Length> PushedParticles::position(std::size_t particle) const noexcept {
-  const Flat at = ticker_->position(particle);
+  const Flat at = ticker_->lying().position(particle);
   return {Length(at.x), Length(at.y)};
 }
 
-HalfTurn PushedParticles::turn(std::size_t particle) const noexcept { return ticker_->turn(particle); }
+HalfTurn PushedParticles::turn(std::size_t particle) const noexcept { return ticker_->lying().turn(particle); }
 
 Sideways<Length> PushedParticles::nearest(std::size_t particle, const Sideways<Length>& to) const noexcept {
-  const Flat at = nearest_on(ticker_->outline(particle), {to.x.si, to.y.si});
+  const Flat at = nearest_on(ticker_->lying().outline(particle), {to.x.si, to.y.si});
   return {Length(at.x), Length(at.y)};
 }
 
-std::size_t PushedParticles::species(std::size_t particle) const noexcept { return ticker_->species(particle); }
+std::size_t PushedParticles::species(std::size_t particle) const noexcept { return ticker_->lying().species(particle); }
 
 }  // namespace afm::physics

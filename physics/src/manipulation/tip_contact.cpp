@@ -16,6 +16,19 @@ SideContact side_contact(const SphereCone& tip, Length sphere_radius, Length ape
   return {sum * cap_cosine, s, cap_cosine, false};
 }
 
+Length touching_height(const SphereCone& tip, Length sphere_radius, Length distance) noexcept {
+  const Length sum = tip.radius + sphere_radius;
+  const double sine = std::sin(tip.half_angle_rad), cosine = std::cos(tip.half_angle_rad);
+  const double share = distance / sum;
+  Length height = sphere_radius - tip.radius;
+  if (share <= cosine) {
+    height = height + sum * std::sqrt((1.0 - share) * (1.0 + share));
+  } else if (sine > 0.0) {
+    height = height + (sum - distance * cosine) / sine;
+  }
+  return std::max(Length(0.0), height);
+}
+
 Length crest_height(const SphereCone& tip, Length sphere_radius) noexcept {
   return sphere_radius - tip.radius + (tip.radius + sphere_radius) * std::sin(tip.half_angle_rad);
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "physics/manipulation/pushed_particles.h"
+
 namespace afm::physics {
 namespace {
 
@@ -60,6 +62,12 @@ bool lifts(const SphereCone& tip, const ParticleSpecies& species) noexcept {
   const Force upwards =
       std::max(tip_pull_off(tip, species, false), tip_pull_off(tip, species, true) * std::sin(tip.half_angle_rad));
   return upwards > pull_off_force(species);
+}
+
+bool lifts_anywhere(const PushSetup& setup, const ParticleSpecies& species) noexcept {
+  return lifts(setup.tip, species) || std::any_of(setup.pads.begin(), setup.pads.end(), [&](const StickyPad& pad) {
+           return lifts(setup.tip, on_pad(pad, species));
+         });
 }
 
 Energy tear_energy(Force pull_off, Stiffness along_normal) noexcept {

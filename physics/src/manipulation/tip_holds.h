@@ -27,7 +27,7 @@ class TipHolds {
       : held_(particles.size()), follows_(particles.size()) {
     for (const ParticleSpecies& s : setup.species) {
       const TipPull pull{tip_pull_off(setup.tip, s, true).si, tip_pull_off(setup.tip, s, false).si};
-      kinds_.push_back({s.sticks ? pull : TipPull{}, s.scatter_seed});
+      kinds_.push_back({s.sticks ? pull : TipPull{}, s.scatter_seed, s.sticks && lifts_anywhere(setup, s)});
       const double most_n = std::max(kinds_.back().pull.flank_n, kinds_.back().pull.cap_n);
       const double factor = s.scatter_seed != 0 ? kLargestFactor : 1.0;
       stretch_m_ = std::max(stretch_m_, factor * most_n / setup.springs.contact.si);
@@ -37,6 +37,8 @@ class TipHolds {
   }
 
   const TipPull& pull_of(std::size_t particle) const noexcept { return held_[particle]; }
+  // Whether the tip lifts such particles off the sample or off a pad.
+  bool lifts(std::size_t particle) const noexcept { return kinds_[kind_of_[particle]].lifts; }
   double stretch_m() const noexcept { return stretch_m_; }  // longest gap across which a contact holds
 
   // The tip touches a particle. True if it holds the particle from now on.
@@ -69,6 +71,7 @@ class TipHolds {
   struct Kind {
     TipPull pull;
     std::uint16_t seed = 0;
+    bool lifts = false;
   };
 
   std::vector<Kind> kinds_;  // kind of each species

@@ -46,6 +46,8 @@ void TipMeeting::enter(const PushTick& tick, const PushedParticles& particles) n
 }
 
 void TipMeeting::stay(const PushTick& tick, const PushedParticles& particles, bool felt, Events& events) noexcept {
+  // a particle that hangs is below the tip
+  if (tick.state == PushState::Carried) contact_.from_side = false;
   const std::size_t species = particles.species(tick.particle);
   const Force lateral = magnitude(tick.lateral);
   if (!contact_.felt && felt) {

@@ -26,6 +26,7 @@ using physics::Length;
 constexpr std::size_t kMostMoves = 1000;
 constexpr Length kWidestPlace{1e-4}, kHighestPlace{1e-5};
 constexpr double kRounding = 1e-6;
+constexpr std::string_view kPadField = "pad_";  // fields that physics refuses begin with it
 constexpr std::int64_t kLargestSeed = 65535;
 constexpr double kWidestAngle = 360.0;  // degrees
 constexpr physics::Velocity kSlowestHand{1e-11}, kFastestHand{1e-4};
@@ -250,12 +251,29 @@ void read_targets(const TomlTable& top, ParticleSet& set) {
   }
 }
 
-void read_pads(const TomlTable& top, ParticleSet& set) {
-  if (!has_movable(set, true) || set.targets.empty()) {
-    top.refuse("pad", "pads need a rod that can be moved, and a target for it");
+// A pad on which spheres stick harder or less, where the hand reaches it.
+void read_sticky_pad(const TomlTable& table, const Pad& pad, ParticleSet& set) {
+  if (!has_movable(set, false)) {
+    table.refuse("work_of_adhesion", "a pad that spheres stick to needs a sphere that can be moved");
   }
+  if (!field_of(set).holds(pad.middle)) table.refuse("x", "the pad's middle is outside the rectangle of the particles");
+  SourcedValues values(table);
+  const physics::SurfaceEnergy work = values.quantity("work_of_adhesion", physics::kSurfaceEnergyUnits);
+  set.setup.pads.push_back({pad.middle, pad.half_size, work});
+  try {
+    physics::validate(set.setup);
+  } catch (const physics::UnphysicalValue& error) {
+    table.refuse(std::string_view(error.field()).substr(kPadField.size()), error.what());
+  }
+  for (SourcedValue& source : values.take_sources()) {
+    source.key = fmt::format("pad_{}_{}", set.setup.pads.size(), source.key);
+    set.sources.push_back(std::move(source));
+  }
+}
+
+void read_pads(const TomlTable& top, ParticleSet& set) {
   for (const TomlTable& table : top.tables("pad", kMostPads)) {
-    table.allow_only({"x", "y", "width", "height"});
+    table.allow_only({"x", "y", "width", "height", "work_of_adhesion"});
     Pad pad{.middle = {place(table, "x", kWidestPlace), place(table, "y", kWidestPlace)}, .half_size = {}};
     for (const auto& [key, half] : {std::pair{"width", &pad.half_size.x}, std::pair{"height", &pad.half_size.y}}) {
       const Length size = table.quantity(key, physics::kLengthUnits);
@@ -265,6 +283,13 @@ void read_pads(const TomlTable& top, ParticleSet& set) {
                              physics::format_quantity(kWidestPlace, physics::kLengthUnits)));
       }
       *half = 0.5 * size;
+    }
+    if (table.has("work_of_adhesion")) {
+      read_sticky_pad(table, pad, set);
+      continue;
+    }
+    if (!has_movable(set, true) || set.targets.empty()) {
+      table.refuse("x", "a pad without work_of_adhesion needs a rod that can be moved, and a target for it");
     }
     set.pads.push_back(pad);
   }

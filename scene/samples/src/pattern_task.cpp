@@ -45,7 +45,7 @@ void PatternTask::put_back() {
 void PatternTask::add(const TaskTick& tick) {
   if (!last_) last_ = tick;
   TaskScore& score = task_.score;
-  const bool lifted = tick.base_m[2] >= clear_z_m_, put = std::exchange(put_, false);
+  const bool lifted = tick.base_m[2] >= clear_z_m_ && !tick.carries, put = std::exchange(put_, false);
   if (lifted) moving_ = guided_ = false;
   if (tick.places != last_->places) {
     if (!put) count_stroke(tick);

@@ -61,6 +61,14 @@ SharedParticles shared_particles(const ParticleSet& set) {
                                            .species = static_cast<std::uint32_t>(particle.species),
                                            .pinned = particle.pinned ? 1U : 0U};
   }
+  const std::vector<physics::StickyPad> pads = shared_sticky_pads(set);
+  std::transform(pads.begin(), pads.end(), shared.pads.begin(), [](const physics::StickyPad& pad) {
+    return SharedPad{.x_m = pad.middle.x.si,
+                     .y_m = pad.middle.y.si,
+                     .half_width_m = pad.half_size.x.si,
+                     .half_height_m = pad.half_size.y.si,
+                     .work_of_adhesion_j_per_m2 = pad.work_of_adhesion.si};
+  });
   return shared;
 }
 
@@ -75,6 +83,14 @@ std::vector<Pad> shared_pads(const ParticleSet& set) {
   std::vector<Pad> pads = set.pads;
   const physics::Sideways<Length> middle = field_of(set).middle();
   for (Pad& pad : pads) pad.middle = pad.middle - middle;
+  return pads;
+}
+
+std::vector<physics::StickyPad> shared_sticky_pads(const ParticleSet& set) {
+  AFM_CHECK(set.setup.pads.size() <= physics::kMostStickyPads);
+  std::vector<physics::StickyPad> pads = set.setup.pads;
+  const physics::Sideways<Length> middle = field_of(set).middle();
+  for (physics::StickyPad& pad : pads) pad.middle = pad.middle - middle;
   return pads;
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/enumerators.h"
 #include "physics/manipulation/pushed_particles.h"
+#include "physics/manipulation/tip_hold.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::scene {
@@ -40,6 +41,14 @@ physics::ParticleSpecies species_of(const SharedSpecies& shared) {
           .scatter_seed = shared.scatter_seed};
 }
 
+bool is_there(const SharedPad& pad) { return pad.work_of_adhesion_j_per_m2 != 0.0; }
+
+physics::StickyPad pad_of(const SharedPad& shared) {
+  return {.middle = {physics::Length(shared.x_m), physics::Length(shared.y_m)},
+          .half_size = {physics::Length(shared.half_width_m), physics::Length(shared.half_height_m)},
+          .work_of_adhesion = physics::SurfaceEnergy(shared.work_of_adhesion_j_per_m2)};
+}
+
 // splitmix64 (Steele, Lea & Flood 2014).
 std::uint64_t mixed(std::uint64_t word) {
   word += 0x9E3779B97F4A7C15ULL;
@@ -64,6 +73,9 @@ physics::PushSetup push_setup(const SharedParticles& particles) {
   std::transform(particles.species.begin(), end, std::back_inserter(setup.species), species_of);
   for (std::size_t i = 0; i < setup.species.size(); ++i)
     setup.species[i].length = physics::Length(particles.length_m[i]);
+  for (const SharedPad& pad : particles.pads) {
+    if (is_there(pad)) setup.pads.push_back(pad_of(pad));
+  }
   return setup;
 }
 
@@ -87,6 +99,17 @@ bool has_rods(const SharedParticles& particles) {
 bool has_hold(const SharedParticles& particles) {
   return std::any_of(particles.species.begin(), particles.species.end(),
                      [](const SharedSpecies& species) { return species.sticks != 0; });
+}
+
+bool has_pads(const SharedParticles& particles) {
+  return std::any_of(particles.pads.begin(), particles.pads.end(), is_there);
+}
+
+bool has_lift(const SharedParticles& particles) {
+  const physics::PushSetup setup = push_setup(particles);
+  return std::any_of(setup.species.begin(), setup.species.end(), [&](const physics::ParticleSpecies& species) {
+    return species.sticks && physics::lifts_anywhere(setup, species);
+  });
 }
 
 physics::HalfTurn turn_of(const ParticlePose& pose) noexcept {

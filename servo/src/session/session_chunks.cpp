@@ -44,9 +44,16 @@ std::string rods_of(const scene::SharedParticles& set) {
   return bytes;
 }
 
+std::string pads_of(const scene::SharedParticles& set) {
+  std::string bytes;
+  put_all(bytes, std::span<const scene::SharedPad>(set.pads));
+  return bytes;
+}
+
 std::uint32_t version_of(const RecordedSession& session) {
   if (scene::taps(session.parameters)) return kVersionWithSwing;
   if (!session.particles) return kSessionVersion;
+  if (lifts(session.particles->set)) return kVersionWithLift;
   if (session.has_plans) return kVersionWithPlans;
   if (scene::has_hold(session.particles->set)) return kVersionWithHold;
   return scene::has_rods(session.particles->set) ? kVersionWithRods : kVersionWithParticles;
@@ -84,10 +91,20 @@ bool read_rods(std::string_view payload, RecordedParticles& particles) {
   return scene::has_rods(set);
 }
 
+bool read_pads(std::string_view payload, RecordedParticles& particles) {
+  std::vector<scene::SharedPad> pads;
+  scene::SharedParticles& set = particles.set;
+  if (!take_all(payload, pads) || !payload.empty() || pads.size() != set.pads.size()) return false;
+  std::copy(pads.begin(), pads.end(), set.pads.begin());
+  return scene::has_pads(set);
+}
+
+bool lifts(const scene::SharedParticles& set) { return scene::has_pads(set) || scene::has_lift(set); }
+
 std::size_t sample_bytes_of(const RecordedSession& session) {
   if (scene::taps(session.parameters)) return kSampleBytesWithoutPlan;
   if (!session.particles) return kSampleBytesWithoutPush;
-  return session.has_plans ? sizeof(scene::TipSample) : kSampleBytesWithoutSwing;
+  return session.has_plans || lifts(session.particles->set) ? sizeof(scene::TipSample) : kSampleBytesWithoutSwing;
 }
 
 void SessionEncoder::head(const RecordedSession& session) {
@@ -109,6 +126,7 @@ void SessionEncoder::head(const RecordedSession& session) {
   }
   if (session.particles) chunk(kParticlesChunk, bytes_of(*session.particles));
   if (session.particles && scene::has_rods(session.particles->set)) chunk(kRodsChunk, rods_of(session.particles->set));
+  if (session.particles && scene::has_pads(session.particles->set)) chunk(kPadsChunk, pads_of(session.particles->set));
 }
 
 void SessionEncoder::part(const RecordedSession& session) {

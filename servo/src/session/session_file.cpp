@@ -105,19 +105,20 @@ std::string read_part(std::string_view payload, RecordedSession& session, nlohma
 
 // Whether a file of this version has such particles.
 bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
-  if (version == kVersionWithPlans) return true;
+  if (lifts(set) != (version == kVersionWithLift)) return false;
+  if (version >= kVersionWithPlans) return true;
   if (scene::has_hold(set) != (version == kVersionWithHold)) return false;
   return version == kVersionWithHold || scene::has_rods(set) == (version == kVersionWithRods);
 }
 
 // Size of a sample in a file of this version of chunks.
 std::size_t sample_bytes_in(std::uint32_t version) {
-  if (version == kVersionWithPlans) return sizeof(TipSample);
+  if (version >= kVersionWithPlans) return sizeof(TipSample);
   if (version == kVersionWithSwing) return kSampleBytesWithoutPlan;
   return version == kSessionVersion ? kSampleBytesWithoutPush : kSampleBytesWithoutSwing;
 }
 
-// Reads version 6 to 11; returns an error message, or nothing.
+// Reads version 6 to 12; returns an error message, or nothing.
 std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
   const bool with_particles = version != kSessionVersion && version != kVersionWithSwing;
   SessionDecoder decoder(file);
@@ -142,9 +143,11 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
       if (!read_topography(payload, session.topography)) return "its topography is damaged";
     } else if (with_particles && decoder.name() == kParticlesChunk) {
       if (!read_particles(payload, session.particles.emplace())) return "its particles are damaged";
-      session.has_plans = version == kVersionWithPlans;
+      session.has_plans = version >= kVersionWithPlans;
     } else if (with_particles && version >= kVersionWithRods && decoder.name() == kRodsChunk) {
       if (!session.particles || !read_rods(payload, *session.particles)) return "its rods are damaged";
+    } else if (version == kVersionWithLift && decoder.name() == kPadsChunk) {
+      if (!session.particles || !read_pads(payload, *session.particles)) return "its pads are damaged";
     } else if (decoder.name() == kPartChunk) {
       if (with_particles != session.particles.has_value()) return "its parts are out of order";
       if (with_particles && !is_of(version, session.particles->set)) return "its parts are out of order";
@@ -285,7 +288,7 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
   constexpr std::array kVersions{kVersionOf010,    kSessionVersion,   kVersionWithParticles, kVersionWithRods,
-                                 kVersionWithHold, kVersionWithSwing, kVersionWithPlans};
+                                 kVersionWithHold, kVersionWithSwing, kVersionWithPlans,     kVersionWithLift};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

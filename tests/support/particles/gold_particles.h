@@ -63,6 +63,22 @@ inline scene::SharedParticles particles_at(const std::vector<PlaceM>& places,
   return particles;
 }
 
+// Spheres of 30 nm that the tip lifts off the sample, and a pad around (200 nm, 50 nm) that holds them harder.
+inline scene::SharedParticles particles_to_lift(const std::vector<PlaceM>& places) {
+  scene::SharedSpecies species = gold_species();
+  species.radius_m = 15e-9;
+  species.work_of_adhesion_j_per_m2 = 0.02;
+  species.law = physics::ParticleLaw::Amontons;
+  species.rolling_distance_m = 0.0;
+  species.tip_adhesion_j_per_m2 = 0.06;
+  species.sticks = 1;
+  scene::SharedParticles particles = particles_at(places, species);
+  particles.pusher.tip_radius_m = 20e-9;
+  particles.pads[0] = {
+      .x_m = 200e-9, .y_m = 50e-9, .half_width_m = 35e-9, .half_height_m = 35e-9, .work_of_adhesion_j_per_m2 = 0.2};
+  return particles;
+}
+
 // Distance of tip and first particle at touch, the apex on the sample.
 inline double touch_m(const scene::SharedParticles& particles) {
   const physics::PushSetup setup = scene::push_setup(particles);

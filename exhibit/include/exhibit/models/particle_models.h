@@ -18,6 +18,9 @@ scene::Scene particle_rod(double length);
 // Flat pad of that size around the origin, on the sample: node "pad".
 scene::Scene particle_pad(double width, double height);
 
+// The same for a pad that spheres stick to.
+scene::Scene particle_sticky_pad(double width, double height);
+
 // Ring around a particle of radius 1 that rests on z = 0: node "ring".
 scene::Scene particle_ring();
 

@@ -21,9 +21,9 @@ class ModelBuilder;
 
 // Particles on the drawn sample: copies of a mesh for spheres and of one for each species of rods, a ring around the
 // touched one, a footprint where each one that has moved lay at the start, with dots from there to where it lies, a
-// cross on each place of the pattern, for a rod on each of its ends, the pads, a line of dots for the plan of a push,
-// with a ring around the planned sphere and another around its place, and the tip at its true size. Const after
-// creation.
+// cross on each place of the pattern, for a rod on each of its ends, the pads of both kinds, a line of dots for the
+// plan of a push, with a ring around the planned sphere and another around its place, and the tip at its true size. A
+// sphere that hangs on the tip is drawn there. Const after creation.
 class StageParticles {
  public:
   // Stroke at which a set is drawn: that of the largest picture in which all its particles lie on the sample.
@@ -68,6 +68,7 @@ class StageParticles {
   void add_rods_and_pads(const scene::ParticleSet& set, ModelBuilder& build, scene::NodeIndex sample);
   void add_targets(double layout_per_m, render::FrameState& frame) const;
   glm::dvec2 touched_m(const Particle& particle, const scene::ParticlePose& pose, const ParticlesNow& now) const;
+  double height_m(std::size_t particle, const scene::ParticlePose& pose, const ParticlesNow& now) const;
   void add_marks(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const;
   void add_plan(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const;
 

@@ -31,6 +31,8 @@ enum class HeardEvent {
   PatternDone,       // the particles lie on the pattern of their set
   JumpToRepulsion,   // a tapping lever fell into the repulsive state
   JumpToAttraction,  // and back into the attractive one
+  ParticleLifted,
+  ParticleSetDown,
 };
 
 // One note of a signal: a sine that glides between two pitches, with a smooth envelope.

@@ -29,6 +29,7 @@
   PHRASE(PushSlides, "push-slides", "", kLine)                             \
   PHRASE(PushRolls, "push-rolls", "", kLine)                               \
   PHRASE(PushSeveral, "push-several", "", kLine)                           \
+  PHRASE(PushCarried, "push-carried", "", kLine)                           \
   PHRASE(PushHeld, "push-held", "", kLine)                                 \
   PHRASE(PushDragged, "push-dragged", "", kLine)                           \
   PHRASE(PushedParticle, "pushed-particle", "number count species", kLine) \

@@ -24,6 +24,8 @@
   PHRASE(HeardPatternDone, "heard-pattern-done", kEventPlaces, kLine)                \
   PHRASE(HeardJumpToRepulsion, "heard-jump-to-repulsion", kEventPlaces, kLine)       \
   PHRASE(HeardJumpToAttraction, "heard-jump-to-attraction", kEventPlaces, kLine)     \
+  PHRASE(HeardParticleLifted, "heard-particle-lifted", kEventPlaces, kLine)          \
+  PHRASE(HeardParticleSetDown, "heard-particle-set-down", kEventPlaces, kLine)       \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -45,6 +47,8 @@
   PHRASE(SayPatternDone, "say-pattern-done", kEventPlaces, kLine)                    \
   PHRASE(SayJumpToRepulsion, "say-jump-to-repulsion", kEventPlaces, kLine)           \
   PHRASE(SayJumpToAttraction, "say-jump-to-attraction", kEventPlaces, kLine)         \
+  PHRASE(SayParticleLifted, "say-particle-lifted", kEventPlaces, kLine)              \
+  PHRASE(SayParticleSetDown, "say-particle-set-down", kEventPlaces, kLine)           \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \

@@ -11,6 +11,7 @@
 namespace afm::physics {
 
 inline constexpr std::size_t kMostParticles = 2048;
+inline constexpr std::size_t kMostStickyPads = 8;
 
 enum class PushState : std::uint32_t {
   Free = 0,   // no sphere is touched
@@ -18,6 +19,7 @@ enum class PushState : std::uint32_t {
   Slides = 2,
   Rolls = 3,
   Several = 4,  // more than one sphere moves or could move
+  Carried = 5,  // a sphere hangs on the tip, off the sample
 };
 
 struct PushStateText {
@@ -25,9 +27,9 @@ struct PushStateText {
   std::string_view word;
 };
 inline constexpr std::array kPushStates{
-    PushStateText{PushState::Free, "free"}, PushStateText{PushState::Holds, "holds"},
-    PushStateText{PushState::Slides, "slides"}, PushStateText{PushState::Rolls, "rolls"},
-    PushStateText{PushState::Several, "several"}};
+    PushStateText{PushState::Free, "free"},       PushStateText{PushState::Holds, "holds"},
+    PushStateText{PushState::Slides, "slides"},   PushStateText{PushState::Rolls, "rolls"},
+    PushStateText{PushState::Several, "several"}, PushStateText{PushState::Carried, "carried"}};
 static_assert(has_row_for_each(kPushStates, &PushStateText::state));
 
 }  // namespace afm::physics

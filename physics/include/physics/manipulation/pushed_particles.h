@@ -19,11 +19,32 @@
 // (docs/physics.md, "Particles" and "Rods"; docs/decisions/0019, 0022).
 namespace afm::physics {
 
+// A flat rectangle of the sample along x and y that holds spheres by another work of adhesion than the rest of it. A
+// sphere lies on it if its centre does. Rods do not feel it.
+struct StickyPad {
+  Sideways<Length> middle;
+  Sideways<Length> half_size;
+  SurfaceEnergy work_of_adhesion;
+};
+
+constexpr bool lies_on(const StickyPad& pad, const Sideways<Length>& place) noexcept {
+  const double x_m = (place.x - pad.middle.x).si, y_m = (place.y - pad.middle.y).si;
+  return x_m <= pad.half_size.x.si && -x_m <= pad.half_size.x.si && y_m <= pad.half_size.y.si &&
+         -y_m <= pad.half_size.y.si;
+}
+
+// The same species on the pad.
+inline ParticleSpecies on_pad(const StickyPad& pad, ParticleSpecies species) noexcept {
+  if (!is_rod(species)) species.contact.work_of_adhesion = pad.work_of_adhesion;
+  return species;
+}
+
 struct PushSetup {
   SphereCone tip;
   PushSprings springs;
   double tip_friction = 0.0;  // mu_t
   std::vector<ParticleSpecies> species;
+  std::vector<StickyPad> pads{};  // the first of those that overlap counts
 };
 
 struct PlacedParticle {
@@ -43,15 +64,15 @@ struct ParticlePlace {
 
 // Throws UnphysicalValue with the field tip_radius, half_angle, lateral_spring, normal_spring, contact_stiffness,
 // tip_friction, radius, or a member of ParticleSpecies. Radii must be at least half the tip's, and within a factor of
-// two of one another: the tick counts on few neighbours. A sphere that sticks to the tip may not be lifted by it
-// (tip_hold.h), and its contact may stretch by no more than an eighth of its radius.
+// two of one another: the tick counts on few neighbours. The contact of a sphere that sticks to the tip may stretch by
+// no more than an eighth of its radius. At most kMostStickyPads pads, finite and not empty.
 void validate(const PushSetup& setup);
 
 // Throws std::invalid_argument for more than kMostParticles, for an unknown species and for two that overlap, and as
 // above.
 void validate(const PushSetup& setup, const std::vector<PlacedParticle>& particles);
 
-// Height of a base whose apex touches no particle, and holds none.
+// Height of a base whose apex touches no particle, and holds none but one that it carries.
 Length clear_height(const PushSetup& setup) noexcept;
 
 // Distance of the centres of two spheres, or of the axes of two rods, on the sample that touch, 2 sqrt(R_a R_b).
@@ -89,6 +110,9 @@ struct PushTick {
   std::uint64_t torn = 0;       // contacts that tore, since the start
   Force dragged_at;             // lateral force at which it began to follow, the last time
   Force torn_at;                // pull of the contact that tore last
+  std::uint64_t lifted = 0;     // spheres that the tip lifted off the sample, since the start
+  Force lifted_at;              // pull-off of the last one from its place, upwards
+  std::uint64_t set_down = 0;   // times that a sphere on the tip came to lie on the sample, since the start
   Energy torn_lost;             // loss by tears of lone contacts, since the start or since hold_over(); part of `lost`
   bool lagging = false;
   bool near = false;  // spheres are within reach of the apex
@@ -111,9 +135,9 @@ class PushedParticles {
   // Moves the base on a straight line. A base that is not finite is ignored.
   const PushTick& move_to(const LeverBase& base, Time elapsed) noexcept;
 
-  // Takes the tip off all particles and holds it over the place, so high that it touches none: base.z is at least
-  // clear_height(setup). Every particle then counts as fully rested, and given, work, lost and stored start at zero.
-  // All else depends only on the places of the particles.
+  // Takes the tip off all particles, puts one that it carries where it was lifted, and holds it over the place, so high
+  // that it touches none: base.z is at least clear_height(setup). Every particle then counts as fully rested, and
+  // given, work, lost and stored start at zero. All else depends only on the places of the particles.
   void hold_over(const LeverBase& base) noexcept;
 
   // Puts every particle at a place, for a tip held over them; particles that touch may overlap a little. Then calls
@@ -122,6 +146,9 @@ class PushedParticles {
 
   // Puts one particle at a finite place, which is that of no other. Call hold_over() before the next tick.
   void put(std::size_t particle, const ParticlePlace& place) noexcept;
+
+  // A place on the sample where a sphere overlaps no other particle: its own, or one near it.
+  Sideways<Length> free_place(std::size_t particle) const noexcept;
 
   // Particles that the last tick moved, each once.
   std::span<const std::uint32_t> moved() const noexcept;

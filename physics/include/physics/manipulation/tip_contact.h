@@ -30,6 +30,9 @@ struct SideContact {
 // For s up to 1, where the apex is on top of the sphere; higher tips do not touch: distance 0.
 SideContact side_contact(const SphereCone& tip, Length sphere_radius, Length apex_height) noexcept;
 
+// The height of the apex at which a tip at a distance of the axes touches the sphere, from 0: the inverse.
+Length touching_height(const SphereCone& tip, Length sphere_radius, Length distance) noexcept;
+
 // h_c = R_p - R_t + (R_t + R_p) sin(theta) (M3): the apex height at which the contact passes from flank to cap.
 // Negative if the flank of a tip on the sample is too high to touch.
 Length crest_height(const SphereCone& tip, Length sphere_radius) noexcept;

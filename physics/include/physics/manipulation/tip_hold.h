@@ -11,6 +11,8 @@
 // thread; nothing allocates.
 namespace afm::physics {
 
+struct PushSetup;
+
 // F_t = 3/2 pi W_t R_eff, on the flank or on the cap (M22).
 Force tip_pull_off(const SphereCone& tip, const ParticleSpecies& species, bool on_flank) noexcept;
 
@@ -28,8 +30,11 @@ bool follows_tip(const SphereCone& tip, const ParticleSpecies& species);
 // The smallest W_t with which a tip that rises from the top lifts the sphere off the sample, W (R_t + R_p)/R_t (M24).
 SurfaceEnergy lifting_adhesion(const SphereCone& tip, const ParticleSpecies& species) noexcept;
 
-// Whether the tip would lift the sphere off the sample, from the top or on its flank.
+// Whether the tip lifts the sphere off the sample, from the top or on its flank.
 bool lifts(const SphereCone& tip, const ParticleSpecies& species) noexcept;
+
+// The same off the sample or off any of its pads.
+bool lifts_anywhere(const PushSetup& setup, const ParticleSpecies& species) noexcept;
 
 // Energy that a lone contact on this normal loses when it tears, F_t^2/(2 k_eff) (M25).
 Energy tear_energy(Force pull_off, Stiffness along_normal) noexcept;

@@ -26,7 +26,8 @@ struct SpeciesEntry {
   std::vector<SourcedValue> sources;
 };
 
-// An electrode on the sample, flat, that a rod is to touch: a rectangle along x and y.
+// An electrode on the sample, flat, that a rod is to touch: a rectangle along x and y. A pad to which spheres stick is
+// a physics::StickyPad of the setup.
 struct Pad {
   physics::Sideways<physics::Length> middle;
   physics::Sideways<physics::Length> half_size;
@@ -44,7 +45,7 @@ struct ParticleSet {
   std::vector<Pad> pads;                        // to be bridged by a rod; may be empty
   physics::LeverBase start;
   std::vector<HandMove> moves;
-  std::vector<SourcedValue> sources;  // sources of tip and lever
+  std::vector<SourcedValue> sources;  // sources of tip, lever and pads
 };
 
 inline constexpr std::size_t kMostTargets = 32;
@@ -58,9 +59,10 @@ core::Result<ParticleSet> load_particle_set(const std::string& path);
 // A set that was loaded has no more species and particles than that can hold.
 SharedParticles shared_particles(const ParticleSet& set);
 
-// Targets and pads in the same frame.
+// Targets and pads of both kinds in the same frame.
 std::vector<physics::ParticlePlace> shared_targets(const ParticleSet& set);
 std::vector<Pad> shared_pads(const ParticleSet& set);
+std::vector<physics::StickyPad> shared_sticky_pads(const ParticleSet& set);
 
 // Median radius of the particles. A pattern is done when they are no farther from it (physics::PatternMatch).
 physics::Length median_radius(const ParticleSet& set);

@@ -122,6 +122,27 @@ constexpr void for_each_field(Visit&& visit, Record&... particle) {
 }
 static_assert(all_fields_described<SharedParticle>());
 
+// physics::StickyPad in plain numbers, SI.
+struct SharedPad {
+  double x_m = 0;  // middle
+  double y_m = 0;
+  double half_width_m = 0;  // along x
+  double half_height_m = 0;
+  double work_of_adhesion_j_per_m2 = 0;  // 0: there is no such pad
+
+  bool operator==(const SharedPad&) const = default;
+};
+
+template <class Visit, RecordOf<SharedPad>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... pad) {
+  visit("x_m", pad.x_m...);
+  visit("y_m", pad.y_m...);
+  visit("half_width_m", pad.half_width_m...);
+  visit("half_height_m", pad.half_height_m...);
+  visit("work_of_adhesion_J_per_m2", pad.work_of_adhesion_j_per_m2...);
+}
+static_assert(all_fields_described<SharedPad>());
+
 struct SharedParticles {
   std::uint32_t count = 0;  // 0: there are none, and all else is ignored
   std::uint32_t species_count = 0;
@@ -131,6 +152,8 @@ struct SharedParticles {
   // for rods only; sessions store them separately, so that those without rods are unchanged
   std::array<double, kMaxSpecies> length_m{};     // length of a species' axis; 0: spheres
   std::array<double, kMaxParticles> angle_rad{};  // angle of a rod's axis from x
+  // sessions keep them apart, too
+  std::array<SharedPad, physics::kMostStickyPads> pads{};
 
   bool operator==(const SharedParticles&) const = default;
 };
@@ -140,6 +163,12 @@ bool has_rods(const SharedParticles& particles);
 
 // True if spheres of a species stick to the tip.
 bool has_hold(const SharedParticles& particles);
+
+// True if there is a pad.
+bool has_pads(const SharedParticles& particles);
+
+// True if the tip lifts spheres of a valid set off the sample or off a pad.
+bool has_lift(const SharedParticles& particles);
 
 // The same for the physics; `particles` is valid (validate in scene/shared/shared_segment.h).
 physics::PushSetup push_setup(const SharedParticles& particles);
@@ -177,7 +206,7 @@ struct ParticlePose {
   double x_m = 0;  // centre
   double y_m = 0;
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: sample's frame from particle
-  physics::PushState moved = physics::PushState::Free;    // latest motion: Slides, Rolls or Several; Free: none yet
+  physics::PushState moved = physics::PushState::Free;    // latest motion; Free: none yet; Carried: off the sample
   std::uint32_t rod = 0;                                  // 1: along x of its frame, turns only about the vertical
 
   bool operator==(const ParticlePose&) const = default;
@@ -239,7 +268,7 @@ struct TipPush {
   std::uint64_t yields = 0;     // particles that gave, since the servo's start
   std::uint64_t exhausted = 0;  // ticks at whose end a heap was not at rest, since the servo's start
   std::uint64_t accounts = 0;
-  std::int32_t particle = kNoParticle;  // the one with the largest normal force
+  std::int32_t particle = kNoParticle;  // the one with the largest normal force, or on the tip
   physics::PushState state = physics::PushState::Free;
   std::uint16_t met = 0;      // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
   std::uint16_t lagging = 0;  // 1: the hand was so fast that base_m is behind it

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "outline.h"
+#include "particle_grid.h"
+#include "physics/manipulation/pushed_particles.h"
+
+namespace afm::physics {
+
+// Particles where they lie on the sample, and which of them are near each other. The constructor allocates, nothing
+// else does.
+class LyingParticles {
+ public:
+  // `search_m`: no search may have a larger radius. Setup and particles are valid.
+  LyingParticles(const PushSetup& setup, const std::vector<PlacedParticle>& particles, double search_m);
+
+  std::size_t size() const noexcept { return x_.size(); }
+  Flat position(std::size_t i) const { return {x_.at(i), y_.at(i)}; }
+  HalfTurn turn(std::size_t i) const { return turns_.at(i); }
+  std::size_t species(std::size_t i) const { return species_.at(i); }
+  std::size_t ground(std::size_t i) const noexcept { return ground_[i]; }  // number of its pad, from 1; 0: the sample
+  bool is_pinned(std::size_t i) const { return pinned_[i]; }
+  double half_m(std::size_t i) const noexcept { return half_m_[species_[i]]; }  // half length of a rod; 0: a sphere
+  Outline outline(std::size_t i) const noexcept;
+
+  void move(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept;
+
+  // Place of a sphere where it overlaps no other particle: its own, or one near it.
+  Flat free_place(std::size_t i) const noexcept;
+
+  // Calls visit(particle) for every particle within `search_m` of the point, and for some beyond.
+  template <class Visit>
+  void near(const Flat& at, const Visit& visit) const noexcept {
+    grid_.near(at.x, at.y, visit);
+  }
+
+  // Distance of two axes, or centres, that touch.
+  double touching_m(std::size_t i, std::size_t j) const noexcept {
+    return touching_m_[species_[i] * half_m_.size() + species_[j]];
+  }
+  double apart_m(std::size_t i, std::size_t j) const noexcept { return distance_between(outline(i), outline(j)); }
+  bool is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept;  // farther apart than `most_m`
+
+  // Energy of two particles that press each other.
+  double pair_j(std::size_t i, std::size_t j, const Stiffness& contact) const noexcept;
+
+ private:
+  std::size_t ground_at(const Flat& at) const noexcept;
+
+  std::vector<StickyPad> pads_;
+  std::vector<double> touching_m_;  // distance at which two species touch, by rows
+  std::vector<double> half_m_;      // half length of each species
+  std::vector<double> x_, y_;
+  std::vector<HalfTurn> turns_;  // direction of each rod
+  std::vector<std::size_t> species_;
+  std::vector<std::size_t> ground_;
+  std::vector<bool> pinned_;
+  ParticleGrid grid_;
+};
+
+}  // namespace afm::physics
