@@ -10,8 +10,8 @@
 jump-to-contact at Z = 2.40 nm: -0.080 nN before
 jump-off-contact at Z = 14.38 nm: -1.400 nN before
 >>> strongest = session.force.argmin()
->>> session.in_contact[strongest], session.hand_force[strongest] < 0.0  # the sample pulls the hand, too
+>>> bool(session.in_contact[strongest]), bool(session.hand_force[strongest] < 0.0)  # the sample pulls the hand, too
 (True, True)
->>> abs(session.hand_force).max() <= 2.0  # the limit of every device, N
+>>> bool(abs(session.hand_force).max() <= 2.0)  # the limit of every device, N
 True
 """
