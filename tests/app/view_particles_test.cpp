@@ -160,7 +160,7 @@ TEST_F(ViewParticles, ArePlannedByKeysAndMouseAndPushedAlongAGroove) {
   ASSERT_TRUE(press("F9", "groove: off")) << view.said();
   ASSERT_TRUE(press("d", "plan: particle 1, 121 nm to go; aim within 4")) << view.said();
   // on the sample before the row: another place for the sphere
-  xdotool("mousemove 320 240 click 1");
+  xdotool("mousemove 320 285 click 1");
   ASSERT_TRUE(view.says("plan: particle 1, ")) << view.said();
   ASSERT_TRUE(press("w", "plan: particle 2, ")) << view.said();
   xdotool("key Escape");

@@ -14,7 +14,7 @@ class LinePlayer {
   struct Place {
     double along = 0.5;      // share of the image's width, from its left edge
     double height_m = 0;     // as measured there
-    double error_n = 0;      // of the normal force, as measured there; zero in tapping mode
+    double error_n = 0;      // normal force beside the setpoint, as measured there; zero in tapping mode
     bool returning = false;  // on the retrace
   };
 
