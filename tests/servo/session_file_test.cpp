@@ -258,6 +258,15 @@ TEST(SessionFile, OfAnotherVersionNamesBoth) {
   EXPECT_THAT(error_of(folder.write("between.afms", std::string("AFMS\x04\0\0\0", 8))), HasSubstr("version is 4;"));
 }
 
+TEST(SessionFile, WithAnEventOfAnUnknownKindIsRefused) {
+  const support::ScratchFolder folder;
+  RecordedSession session = example();
+  ASSERT_FALSE(session.events.empty());
+  session.events.front().kind = static_cast<physics::EventKind>(99);
+  ASSERT_TRUE(save_session(session, folder.file("s.afms")));
+  EXPECT_THAT(error_of(folder.file("s.afms")), HasSubstr("an event of an unknown kind"));
+}
+
 TEST(SessionFile, CarriesTheCurveThatWasFelt) {
   const support::ScratchFolder folder;
   RecordedSession session = example();

@@ -1,71 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/sound/tip_ear.h"
 
+#include <array>
 #include <utility>
+
+#include "core/enumerators.h"
 
 namespace afm::exhibit {
 
+namespace {
+
+enum class ForceOf { Nothing, Before, After };  // side of the event's force that is heard
+
+struct EventRow {
+  physics::EventKind kind;
+  HeardEvent heard;
+  ForceOf force;
+};
+
+constexpr auto kRows = std::to_array<EventRow>({
+    {physics::EventKind::JumpToContact, HeardEvent::SnapIn, ForceOf::After},
+    {physics::EventKind::JumpOffContact, HeardEvent::PullOff, ForceOf::Before},
+    {physics::EventKind::Slip, HeardEvent::Slip, ForceOf::Before},
+    {physics::EventKind::ParticleTouched, HeardEvent::ParticleTouched, ForceOf::After},
+    {physics::EventKind::ParticleGave, HeardEvent::ParticleGave, ForceOf::Before},
+    {physics::EventKind::ParticleLost, HeardEvent::ParticleLost, ForceOf::Before},
+    {physics::EventKind::ParticleRiddenOver, HeardEvent::ParticleRiddenOver, ForceOf::Before},
+    {physics::EventKind::PushTakenBack, HeardEvent::PushTakenBack, ForceOf::Nothing},
+    {physics::EventKind::ParticlesPutBack, HeardEvent::ParticlesPutBack, ForceOf::Nothing},
+    {physics::EventKind::ParticleDragged, HeardEvent::ParticleDragged, ForceOf::Before},
+    {physics::EventKind::ParticleTorn, HeardEvent::ParticleTorn, ForceOf::Before},
+    {physics::EventKind::JumpToRepulsion, HeardEvent::JumpToRepulsion, ForceOf::After},
+    {physics::EventKind::JumpToAttraction, HeardEvent::JumpToAttraction, ForceOf::After},
+    {physics::EventKind::ParticleLifted, HeardEvent::ParticleLifted, ForceOf::Before},
+    {physics::EventKind::ParticleSetDown, HeardEvent::ParticleSetDown, ForceOf::Nothing},
+});
+static_assert(core::has_row_for_each(kRows, &EventRow::kind));
+
+}  // namespace
+
 Heard heard_of(const scene::TipEvent& event) {
-  Heard heard{.event = HeardEvent::Slip, .time_ns = event.time_ns, .material = event.material};
-  switch (event.kind) {
-    case physics::EventKind::JumpToContact:
-      heard.event = HeardEvent::SnapIn;
-      heard.force_n = event.force_after_n;
-      break;
-    case physics::EventKind::JumpOffContact:
-      heard.event = HeardEvent::PullOff;
-      heard.force_n = event.force_before_n;
-      break;
-    case physics::EventKind::Slip:
-      heard.force_n = event.force_before_n;
-      break;
-    case physics::EventKind::ParticleTouched:
-      heard.event = HeardEvent::ParticleTouched;
-      heard.force_n = event.force_after_n;
-      break;
-    case physics::EventKind::ParticleGave:
-      heard.event = HeardEvent::ParticleGave;
-      heard.force_n = event.force_before_n;
-      break;
-    case physics::EventKind::ParticleLost:
-      heard.event = HeardEvent::ParticleLost;
-      heard.force_n = event.force_before_n;
-      break;
-    case physics::EventKind::ParticleRiddenOver:
-      heard.event = HeardEvent::ParticleRiddenOver;
-      heard.force_n = event.force_before_n;
-      break;
-    case physics::EventKind::ParticleDragged:
-      heard.event = HeardEvent::ParticleDragged;
-      heard.force_n = event.force_before_n;
-      break;
-    case physics::EventKind::ParticleTorn:
-      heard.event = HeardEvent::ParticleTorn;
-      heard.force_n = event.force_before_n;
-      break;
-    case physics::EventKind::ParticleLifted:
-      heard.event = HeardEvent::ParticleLifted;
-      heard.force_n = event.force_before_n;
-      break;
-    case physics::EventKind::ParticleSetDown:
-      heard.event = HeardEvent::ParticleSetDown;
-      break;
-    case physics::EventKind::JumpToRepulsion:
-      heard.event = HeardEvent::JumpToRepulsion;
-      heard.force_n = event.force_after_n;
-      break;
-    case physics::EventKind::JumpToAttraction:
-      heard.event = HeardEvent::JumpToAttraction;
-      heard.force_n = event.force_after_n;
-      break;
-    case physics::EventKind::PushTakenBack:
-      heard.event = HeardEvent::PushTakenBack;
-      break;
-    case physics::EventKind::ParticlesPutBack:
-      heard.event = HeardEvent::ParticlesPutBack;
-      break;
-  }
-  return heard;
+  const EventRow& row = kRows[core::index_of(event.kind)];
+  const double force_n = row.force == ForceOf::Before  ? event.force_before_n
+                         : row.force == ForceOf::After ? event.force_after_n
+                                                       : 0.0;
+  return {.event = row.heard, .time_ns = event.time_ns, .force_n = force_n, .material = event.material};
 }
 
 double side_of(const Heard& heard, const Ear& ear) {

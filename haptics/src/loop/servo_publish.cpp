@@ -11,6 +11,14 @@ namespace {
 
 std::array<double, 3> array_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
+scene::Tip tip_of(const Touch& touch) {
+  return {.z_m = touch.z_m,
+          .force_n = touch.response.force.si,
+          .height_m = touch.response.tip_height.si,
+          .deflection_m = touch.response.cantilever_deflection.si,
+          .sample_deformation_m = touch.response.sample_deformation.si};
+}
+
 // Force of the groove after the tick, which is none once the force has been dropped.
 std::array<double, 2> guide_n(const std::unique_ptr<FeltParticles>& particles) {
   if (!particles) return {};
@@ -52,14 +60,9 @@ void ServoLoop::publish_events(std::int64_t now_ns) noexcept {
 }
 
 void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
-  const physics::TipResponse& response = touch_.response;
   ++state_.tick;
   state_.time_ns = now_ns;
-  state_.tip = {.z_m = touch_.z_m,
-                .force_n = response.force.si,
-                .height_m = response.tip_height.si,
-                .deflection_m = response.cantilever_deflection.si,
-                .sample_deformation_m = response.sample_deformation.si};
+  state_.tip = tip_of(touch_);
   state_.swing = touch_.swing;
   state_.surface = {.xy_m = {touch_.tip_xy_m.x, touch_.tip_xy_m.y}, .height_m = touch_.surface_height_m};
   state_.normal = array_of(sample_.in_device(touch_.normal));
@@ -70,7 +73,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                    .thermal_gain = governor_.motors().gain(),
                    .excess_energy_j = governor_.observer().excess_j(),
                    .observer_damping_n_s_per_m = governor_.observer_damping_n_s_per_m()};
-  state_.phase = response.phase;
+  state_.phase = touch_.response.phase;
   state_.servo_state = governor_.state();
   state_.fault = governor_.fault();
   state_.dead_man = governor_.dead_man() ? 1 : 0;

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "core/enumerators.h"
 #include "core/fnv1a.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
@@ -214,6 +215,10 @@ std::string what_cannot_be(const RecordedSession& session) {
   if (!std::all_of(session.samples.begin(), session.samples.end(), is_finite) ||
       !std::all_of(session.events.begin(), session.events.end(), is_finite)) {
     return "it contains values that are not finite";
+  }
+  if (!std::all_of(session.events.begin(), session.events.end(),
+                   [](const TipEvent& event) { return core::is_enumerator(event.kind); })) {
+    return "it contains an event of an unknown kind";
   }
   if (!std::all_of(session.samples.begin(), session.samples.end(),
                    [&](const TipSample& sample) { return scene::is_valid(sample.plan, *model); })) {

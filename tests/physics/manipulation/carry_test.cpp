@@ -262,7 +262,7 @@ TEST(Carry, RefusesPadsThatCannotBe) {
   EXPECT_THROW(validate(setup), UnphysicalValue);
   setup.pads = {pad_at(0.0, 0.0, 0.0)};
   EXPECT_THROW(validate(setup), UnphysicalValue);
-  setup.pads = {pad_at(NAN, 0.0)};
+  setup.pads = {pad_at(std::nan(""), 0.0)};
   EXPECT_THROW(validate(setup), UnphysicalValue);
   setup.pads = {pad_at(0.0, 0.0)};
   setup.pads.front().half_size.y = Length(0.0);
