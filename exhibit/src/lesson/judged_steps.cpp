@@ -115,8 +115,8 @@ class StateActivity final : public StepActivity {
  public:
   StateActivity(StepContext context, double now_s) : context_(std::move(context)), count_(context_.step) {
     for (int i = 0; i < context_.step.practice; ++i) shown_.push_back(context_.random.below(kStates.size()));
-    std::vector<std::size_t> counted;
-    for (int i = 0; i < context_.step.trials; ++i) counted.push_back(static_cast<std::size_t>(i) % kStates.size());
+    std::vector<std::size_t> counted(static_cast<std::size_t>(context_.step.trials));
+    for (std::size_t i = 0; i < counted.size(); ++i) counted[i] = i % kStates.size();
     context_.random.shuffle(std::span<std::size_t>(counted));
     shown_.insert(shown_.end(), counted.begin(), counted.end());
     reset(now_s);

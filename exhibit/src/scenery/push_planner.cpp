@@ -127,7 +127,7 @@ scene::PlannedPush PushPlanner::plan() const {
 }
 
 std::string PushPlanner::next_particle(const ParticlesNow& now) {
-  auto next = static_cast<std::size_t>(plan_.particle + 1);
+  std::size_t next = plan_.particle == scene::kNoParticle ? 0 : static_cast<std::size_t>(plan_.particle) + 1;
   while (next < set_.particles.size() && !can_be_pushed(next)) ++next;
   if (next < set_.particles.size()) return choose(next, now);
   return plan_.particle == scene::kNoParticle ? "plan: only spheres that are not pinned can be planned" : end();
@@ -166,9 +166,9 @@ std::string PushPlanner::described(const ParticlesNow& now) const {
   ParticlesNow planned = now;
   planned.plan = plan_;
   const PlanFigures figures = plan_figures(planned).value();
-  const std::string text = fmt::format("plan: particle {}, {} to go; aim within {}", plan_.particle + 1,
-                                       physics::format_quantity(figures.left, physics::kLengthUnits, kDigitsOfPlan),
-                                       physics::format_quantity(figures.aim, physics::kLengthUnits, kDigitsOfPlan));
+  std::string text = fmt::format("plan: particle {}, {} to go; aim within {}", plan_.particle + 1,
+                                 physics::format_quantity(figures.left, physics::kLengthUnits, kDigitsOfPlan),
+                                 physics::format_quantity(figures.aim, physics::kLengthUnits, kDigitsOfPlan));
   if (!(figures.hand.si > 0.0)) return text;
   return text + ", hand at most " + physics::format_quantity(figures.hand, physics::kVelocityUnits, kDigitsOfPlan);
 }
