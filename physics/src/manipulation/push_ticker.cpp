@@ -20,7 +20,7 @@ constexpr double kHeapReachShare = 1.0 / 12.0;
 
 double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
-const PushSetup& validated(const PushSetup& setup, const std::vector<PlacedParticle>& particles) {
+PushSetup validated(PushSetup setup, const std::vector<PlacedParticle>& particles) {
   validate(setup, particles);
   return setup;
 }
