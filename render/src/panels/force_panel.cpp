@@ -135,17 +135,19 @@ float paint_figures(Canvas& canvas, const std::vector<DataRow>& figures, float t
   return top + name_height + value_height + kBelow;
 }
 
-// Draws one entry per curve, smaller if there are many, and the legend of dashed and solid lines.
+// Draws one entry per curve with a label, smaller if there are many, and the legend of dashed and solid lines.
 void paint_legend(Canvas& canvas, const ForcePanel& panel, float y) {
   constexpr float kStroke = 42.0F, kLabel = 54.0F, kApart = 34.0F;
   float whole = -kApart;
   for (const auto& curve : panel.curves) {
+    if (curve.label.empty()) continue;
     whole += kLabel + canvas.text_width_mm(TextStyle::Small, curve.label) + kApart;
   }
   const float scale = std::min(1.0F, (canvas.size_mm().x - 2.0F * kMargin) / std::max(whole, 1.0F));
   float x = kMargin;
   const float middle = y + 19.0F;
   for (const auto& curve : panel.curves) {
+    if (curve.label.empty()) continue;
     const Color color{curve.color, curve.faded ? 0.65F : 1.0F};
     const std::array<glm::vec2, 2> stroke{glm::vec2(x, middle), glm::vec2(x + scale * kStroke, middle)};
     if (curve.retract.empty() && !curve.approach.empty()) {
