@@ -113,7 +113,7 @@ std::vector<double> heights_of(std::string_view bytes, const NanoscopeBlock& ima
   return values;
 }
 
-// What the image tells of the curves.
+// Takes the grid of the curves from the header of the image.
 void read_grid(std::string_view bytes, const NanoscopeBlock& image, const Blocks& blocks, NanoscopeVolume& volume) {
   const NanoscopePoints points{side_in(image, "samps/line"), side_in(image, "number of lines")};
   volume.points = points;

@@ -184,7 +184,7 @@ void LessonRun::add(const scene::TipSample& sample, double now_s) {
   if (waited && force_ != wanted_force()) return;
   activity_->add(sample);
   if (waited && !activity_->waits_for_state()) {
-    // the question ends the cycle: the force that the lesson takes away now is no fault
+    // the question ends the cycle, so it is no fault that the lesson now removes the force
     snapped_in_ = false;
     unfelt_.reset();
     counted_ = true;

@@ -172,8 +172,8 @@ std::size_t PushedParticles::Ticker::lifted() const noexcept {
   return kNobody;
 }
 
-// Lifts a sphere whose hold on the sample is weaker than the pull of the tip, unless that would need energy. What its
-// contacts stored is lost, what the tip holds besides is let go, and so is the energy of the lever that springs back.
+// Lifts a sphere whose hold on the sample is weaker than the pull of the tip, unless that would need energy. The
+// energy of its contacts and of the lever that springs back is lost; everything else that the tip holds is released.
 bool PushedParticles::Ticker::lift() noexcept {
   const bool exhausted = exhausted_;
   // only at rest does a gap tell the pull
