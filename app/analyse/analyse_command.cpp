@@ -174,9 +174,9 @@ void add_baseline_options(OptionList& command, physics::BaselineChoice& baseline
   add("--baseline-range",
       command
           .add_parsed_option("--baseline-range", read_range,
-                             "part of the approach for the baseline, as ways from its outermost point: 0um:1.5um; "
-                             "default: as much as stays on one line")
-          .type_name("FROM:TO"));
+                             "part of the approach for the baseline, as distances from its outermost point: 0um:1.5um; "
+                             "default: all that stays on one line")
+          .type_name("RANGE"));
 }
 
 // The options write into `options` while the parser lives.

@@ -152,7 +152,7 @@ core::Result<void> run_cluster_bench(const ClusterBenchOptions& options, const s
 
 void add_cluster_benchmarks(OptionList& bench, const CommandContext& context) {
   OptionList command =
-      bench.add_command("cluster", "measure how well the machines of a wall keep step, with nodes that only sleep");
+      bench.add_command("cluster", "measure how well the machines of a wall stay in step, with nodes that only sleep");
   const auto options = std::make_shared<ClusterBenchOptions>();
   command.add_option("--nodes", options->plan.nodes, "number of nodes")
       .within(1, static_cast<int>(scene::kMostNodes))

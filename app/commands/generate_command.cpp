@@ -123,7 +123,7 @@ void add_setup_options(OptionList& command, GenerateOptions& options) {
         std::string(field.help));
   }
   enum_option(command, "--base", options.setup.base, "a base", fits::kBases, &fits::BaseName::name,
-              &fits::BaseName::base, "of --law layer-exact-...: how the layer lies on it; default: bonded");
+              &fits::BaseName::base, "with --law layer-exact-...: contact of layer and base; default: bonded");
   command.add_option("--points", options.setup.points, "points of each branch")
       .within(static_cast<int>(curves::kFewestSyntheticPoints), 500'000)
       .show_default()

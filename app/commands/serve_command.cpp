@@ -174,7 +174,7 @@ core::Result<void> serve(const ServeOptions& options, const std::string& assets_
 
 void add_serve_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
-      "serve", "be a microscope in simulated time that other programs control by JSON, and whose truth is known");
+      "serve", "run a simulated microscope that other programs control by JSON, and whose truth is known");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<ServeOptions>();
   command
