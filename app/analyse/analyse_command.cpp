@@ -231,7 +231,7 @@ core::Result<void> analyse_session(const AnalyseOptions& options) {
   const auto loop = servo::friction_loop(*session);
   if (!loop) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("{}: no friction loop; choose a --friction, and lead the tip there and back while "
+                         fmt::format("{}: no friction loop; choose a --friction, and rub the tip back and forth while "
                                      "it touches",
                                      options.file));
   }
@@ -247,7 +247,7 @@ core::Result<void> analyse_session(const AnalyseOptions& options) {
                         "\n");
   }
   return write_stdout(fmt::format(
-      "{}, friction {}: the last loop there and back\n"
+      "{}, friction {}: the last complete loop\n"
       "  half width            {}\n"
       "  offset                {}\n"
       "  slope after the turn  {}\n"

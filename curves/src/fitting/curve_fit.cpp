@@ -122,9 +122,10 @@ core::Result<void> prepare(FitOptions& options) {
     if (const auto checked = check_size(shape, size); !checked) return checked;
   }
   if (shape.has_layer && !shape.is_exact && options.poisson != 0.5) {
-    return core::wrong_usage(fmt::format(
-        "--fit {} knows Poisson's ratio 0.5 alone; leave --poisson out, or take layer-exact-sphere or layer-exact-cone",
-        shape.name));
+    return core::wrong_usage(
+        fmt::format("--fit {} needs a Poisson's ratio of 0.5; leave --poisson out, or choose layer-exact-sphere or "
+                    "layer-exact-cone",
+                    shape.name));
   }
   if (!shape.is_exact && options.base != fits::Base::Bonded) {
     return core::wrong_usage(fmt::format("--fit {} has no use for --base; leave it out", shape.name));

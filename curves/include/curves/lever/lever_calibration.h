@@ -82,7 +82,7 @@ struct LeverCalibration {
 };
 
 // Reads the files and computes whatever the options determine. WrongUsage if they lack an input, or if one, or an
-// uncertainty, acts on nothing; BadInputFile for files that are none, or without a resonance or a contact.
+// uncertainty, has no effect; BadInputFile for files that are none, or without a resonance or a contact.
 core::Result<LeverCalibration> calibrate(const LeverOptions& options);
 
 }  // namespace afm::curves
