@@ -47,7 +47,7 @@ class CarriedSphere {
   void begin() noexcept { count_ = 0; }
   bool add(const Obstacle& obstacle) noexcept;  // false: full
 
-  // Whether the apex rests at the base, or above it where the sphere lies, and nothing else touches.
+  // True if the apex rests at the base, or above it where the sphere lies, and nothing else touches.
   bool is_free(const Apex& base, const Apex& apex) const noexcept;
 
   double energy_j(const Apex& base, const Apex& apex) const noexcept;

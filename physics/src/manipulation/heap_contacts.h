@@ -141,7 +141,7 @@ class HeapContacts {
   }
   // Number of a body among those that were chosen; kMostActive if it was not.
   std::size_t mover(std::size_t body) const noexcept { return body < kMostActive ? mover_[body] : kMostActive; }
-  // Whether a pair counts to this mover: once, if both of its bodies move.
+  // True if a pair counts for this mover: once, if both of its bodies move.
   bool counts_to(std::size_t body, std::size_t pair) const noexcept;
 
  private:
