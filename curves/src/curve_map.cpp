@@ -22,7 +22,7 @@ namespace {
 
 constexpr unsigned kMostThreads = 8;
 
-// What is kept of a curve.
+// Data kept of a curve.
 struct Seen {
   std::optional<MapPixel> pixel;
   double lowest_m = std::numeric_limits<double>::quiet_NaN();

@@ -15,7 +15,7 @@
 
 namespace afm::curves {
 
-// How long a child may take.
+// Time limits of a child.
 struct ChildTime {
   std::chrono::milliseconds patience;  // time for its result, or for each message of a stream
   std::chrono::seconds processor_time;

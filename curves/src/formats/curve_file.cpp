@@ -182,7 +182,7 @@ void make_texts_printable(CurveMetadata& metadata) {
   for (std::string& remark : metadata.remarks) remark = core::printable_line(remark);
 }
 
-// What every curve must meet, whatever its format.
+// Last steps for a curve of any format: calibration, checks and printable texts.
 RecordedCurve finished(RecordedCurve curve, const CurveReading& reading) {
   recalibrate(reading, curve);
   check(curve);

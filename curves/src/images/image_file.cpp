@@ -95,7 +95,7 @@ std::string names_of(const std::vector<ImagePage>& pages) {
   return names;
 }
 
-// What instruments call a channel in metres, by the beginning of its name in lower case.
+// Names that instruments give to a channel in metres: the beginning, in lower case.
 enum class Content { Height, Other, NoHeight };
 struct NameRow {
   std::string_view beginning;
