@@ -10,7 +10,7 @@
 
 namespace afm::exhibit {
 
-// What the files of a data set say of themselves, as the Brain Imaging Data Structure wants it.
+// Descriptions of a data set's files, as the Brain Imaging Data Structure requires them.
 
 inline constexpr const char* kMissingValue = "n/a";
 

@@ -34,7 +34,8 @@ class PushTrial {
 
   const scene::TaskScore& score() const { return lost_ ? *lost_ : task_.score(); }
 
-  // What the push is judged by once it is done: root mean square distance from the targets, or the way of the particle.
+  // Measure of a finished push: root mean square distance from the targets, or the distance that the particle has
+  // moved.
   physics::Length result() const { return result_; }
 
  private:
