@@ -18,7 +18,7 @@ class SaverInhibition {
 
   struct Way {
     bool works = false;
-    std::string said;  // "suspended", or why not
+    std::string said;  // "suspended", or the reason why not
   };
   const Way& x_server() const { return x_server_; }  // MIT-SCREEN-SAVER, whose suspension also holds for DPMS
   const Way& session() const { return session_; }    // org.freedesktop.ScreenSaver on the session bus
