@@ -76,7 +76,7 @@ constexpr void for_each_field(Visit&& visit, Record&... species) {
 }
 static_assert(all_fields_described<SharedSpecies>());
 
-// Tip and lever that push, and the size of it all in a hand.
+// Tip and lever that push, and the scale at which a hand feels them.
 struct SharedPusher {
   double tip_radius_m = 0;
   double half_angle_rad = 0;
