@@ -27,7 +27,7 @@ struct CurveFigures {
   std::optional<double> adhesion_energy_j;
 };
 
-// What is known of one curve: a fit with the spring constant it was made with, or why there is none.
+// Result for one curve: a fit with its spring constant, or the reason why there is none.
 struct FittedCurve {
   std::optional<fits::ElasticFit> fit;  // without its model
   double spring_n_per_m = 0;

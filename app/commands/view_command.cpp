@@ -248,7 +248,7 @@ core::Result<std::unique_ptr<render::HeadsetRuntime>> headset_of(const ViewOptio
   return connect_headset();
 }
 
-// Whether nothing is asked for that tapping excludes.
+// True without options that tapping excludes.
 bool taps_alone(const ViewOptions& options) {
   return options.files.particles.empty() && options.files.force_map.empty() && !options.cluster.wanted &&
          options.friction == physics::FrictionLaw::None;

@@ -11,8 +11,8 @@
 #include "haptics/release_path.h"
 #include "scene/shared/shared_segment.h"
 
-// What removes the force from the hand when the servo cannot, because it is stopped, killed, or stuck in a driver. Two
-// guards watch a servo: its watchdog, a process, and a thread of its renderer with longer times.
+// Removal of the force from the hand when the servo cannot do it, because it is stopped, killed, or stuck in a driver.
+// Two guards watch a servo: its watchdog, a process, and a thread of its renderer with longer times.
 namespace afm::servo {
 
 // Letters from the servo to a guard, and the beat of the watchdog in return.
