@@ -114,7 +114,7 @@ struct ElasticFit {
   double depth_m = 0;      // largest depth of the model's tip
   double noise_n = 0;      // rms of the residuals before contact, or of all where these are few
   double rms_n = 0;        // rms of all residuals
-  std::size_t points = 0;  // in all
+  std::size_t points = 0;  // total number
   std::size_t in_contact = 0;
   std::optional<std::size_t> noise_order;       // autoregressive order, 0 to 4; none: assumed white, or no noise
   std::vector<double> noise;                    // its coefficients
