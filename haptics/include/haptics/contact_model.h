@@ -76,7 +76,7 @@ struct Touch {
 //
 // On the scale Particles the tip also pushes the particles on the sample (haptics/felt_particles.h). Their force is
 // added only where one is touched; without force, under a scan's feedback, and until the tip has been lifted, there is
-// none. The groove of a plan (haptics/felt_groove.h) is felt on that scale alone, too.
+// none. The groove of a plan (haptics/felt_groove.h) is also felt only on that scale.
 //
 // Under a scan's feedback (ScanFeedback) the sample feels level: the loop, z' = gain (h - z), removes the heights
 // before the hand feels them. Only the residual deflection, the part not yet followed, is felt, up to kMostResidualM of
