@@ -19,7 +19,7 @@ void add_rod_pair(HeapSystem& s, const HeapContacts& heap, std::size_t pair, std
 // Friction of a rod that moves.
 void add_rod_friction(HeapSystem& s, const HeapContacts::Body& rod, std::size_t row) noexcept;
 
-// End of a step of this rod alone: its first motion if it gives, afterwards a Newton step, or back to its start if
+// End of a step of only this rod: its first motion if it yields, afterwards a Newton step, or back to its start if
 // nothing touches it. Nothing if it rests.
 std::optional<HeapContacts::Place> rod_step(const HeapContacts& heap, std::size_t body) noexcept;
 
