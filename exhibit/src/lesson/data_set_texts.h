@@ -21,7 +21,7 @@ struct RootFile {
 };
 std::vector<RootFile> root_files();
 
-// A lesson's id in the names of files: letters and digits alone.
+// A lesson's id in the names of files: only letters and digits.
 std::string task_label(const std::string& lesson);
 
 nlohmann::ordered_json participants_json();

@@ -17,7 +17,7 @@ namespace afm::exhibit {
 // Digest of the places of a set's spheres before the first push.
 std::uint64_t start_digest(const scene::ParticleSet& set);
 
-// A push as a step of a lesson wants it, judged and scored by the task of its particles. All of them are at their
+// A push that a step of a lesson requires, judged and scored by the task of its particles. All of them are at their
 // start when it begins. One thread.
 class PushTrial {
  public:
@@ -42,7 +42,7 @@ class PushTrial {
   physics::Length way_of(const physics::Sideways<physics::Length>& place) const;
 
   PushPlan plan_;
-  scene::ParticleSet set_;  // with the wanted target alone, if there is one
+  scene::ParticleSet set_;  // with only the required target, if there is one
   physics::Sideways<physics::Length> start_;
   ParticleTask task_;
   std::int32_t touched_ = scene::kNoParticle;  // newest particle that the tip has touched
