@@ -22,7 +22,7 @@
 namespace afm::scene {
 
 // One table of a TOML file. Each reader throws a Fault that gives the key, its line, and what was expected there. A key
-// that is read must exist; has() tells whether it does. The table must outlive it.
+// that is read must exist; has() returns whether it does. The table must outlive it.
 class TomlTable {
  public:
   static constexpr std::size_t kMostTables = 1000;
