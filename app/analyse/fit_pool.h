@@ -41,7 +41,7 @@ struct FittedCurve {
 // order. What was not taken is kept: some hundred bytes a curve. One thread calls it.
 class FitPool {
  public:
-  // Files and options must outlive the object. `options` wants a fit that is prepared.
+  // Files and options must outlive the object. `options` has a prepared fit.
   FitPool(const std::vector<std::string>& files, const AnalyseOptions& options, unsigned threads);
   ~FitPool();  // ends after the curves that are being fitted
   FitPool(const FitPool&) = delete;
