@@ -165,7 +165,7 @@ class Summary {
   std::vector<double> moduli_pa_;
 };
 
-// A line a second on what is done.
+// Logs the progress once a second.
 class Progress {
  public:
   void tell(std::size_t whole_files, std::size_t files, std::size_t curves, std::size_t count) {

@@ -25,7 +25,7 @@ inline constexpr std::string_view kBeat = "B";
 // Counted in a guard's own wake-ups, so that a pause of the whole machine does not count. All in ms.
 struct GuardTimes {
   int wake;
-  int release;  // since the servo's last tick: zero force is sent; the servo may go on afterwards
+  int release;  // since the servo's last tick: zero force is sent; the servo may continue afterwards
   int kill;     // since its last tick: SIGKILL, so that the kernel closes the device
   int close;    // since it announced its end: the same
 };

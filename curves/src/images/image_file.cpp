@@ -43,7 +43,8 @@ struct FormatRow {
   std::string_view files;  // as kImageFiles lists them
   bool (*begins)(std::string_view bytes);
   ImagePages (*read)(std::string_view bytes);
-  std::string (*convert)(std::string_view bytes) = nullptr;  // makes what `read` gets in a confined program; null: none
+  std::string (*convert)(std::string_view bytes) =
+      nullptr;  // produces the input of `read` in a confined program; null: none
 };
 
 constexpr FormatTable kImages{

@@ -239,7 +239,7 @@ void PushingHand::steer(std::size_t particle, const glm::dvec2& to_m) {
   go(at_m_, high_m_, kWayMPerS);
 }
 
-// Pushes beside the middle, without steering.
+// Pushes off centre, without steering.
 void PushingHand::slip_past(std::size_t particle) {
   const double r_m = radius_m(particle);
   const glm::dvec2 from_m = place(particle), along = free_direction(particle, kLostWay * r_m);

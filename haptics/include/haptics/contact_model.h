@@ -85,8 +85,8 @@ struct Touch {
 // felt residual waits. Feedback begins and ends only where the step is not felt: with the tip off the sample, or
 // without force.
 //
-// A lever that taps is felt by its push, not by its mean force, which would give energy to the hand. What the push
-// gives by following the hand later is excess energy for the passivity observer.
+// A lever that taps is felt by its push, not by its mean force, which would give energy to the hand. The energy that
+// the push gives because it follows the hand late is excess energy for the passivity observer.
 //
 // create() takes milliseconds (on a topography or with a lever that taps, tenths of a second) and allocates; everything
 // else may be called in a tick of the servo.

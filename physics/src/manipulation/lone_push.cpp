@@ -16,7 +16,7 @@ constexpr double kClosestBase = 0.05;
 // Share of a distance by which rounding may place a sphere within its yield.
 constexpr double kPlaceRounding = 1e-12;
 
-// A base that goes along a straight line beside one sphere.
+// A base that moves along a straight line past one sphere.
 class LoneWalk {
  public:
   LoneWalk(const LoneContact& contact, const LoneThresholds& thresholds, bool ages_at_once, double z_m)

@@ -77,7 +77,7 @@ struct LeverCalibration {
   std::optional<CalibratedConstant> sader, gci;
   std::optional<SensitivityFound> sensitivity;
 
-  // The constant with which results go on: thermal, Sader's, GCI's, or the known one.
+  // The constant used for further results: thermal, Sader's, GCI's, or the known one.
   std::optional<double> spring_constant_n_per_m() const;
 };
 

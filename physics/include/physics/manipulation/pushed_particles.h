@@ -118,8 +118,8 @@ struct PushTick {
   bool near = false;  // spheres are within reach of the apex
 };
 
-// The constructor allocates; a tick does not, nor locks, throws or waits. One thread. The result depends on the path of
-// the base and, by ageing, on the time between ticks; never on a clock.
+// The constructor allocates; a tick neither allocates, locks, throws nor waits. One thread. The result depends on the
+// path of the base and, by ageing, on the time between ticks; never on a clock.
 //
 // Each tick descends in E + R: E is the energy of lever and contacts, R the friction of the step. A step that raises
 // the sum is never taken, so that no path of the base gains energy, however few steps the budget allows.

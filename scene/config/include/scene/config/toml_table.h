@@ -27,7 +27,7 @@ class TomlTable {
  public:
   static constexpr std::size_t kMostTables = 1000;
 
-  // `name` stands before each key in faults: "screen" in screen.name. Empty: the root of a file.
+  // `name` precedes each key in faults: "screen" in screen.name. Empty: the root of a file.
   explicit TomlTable(const toml::table& table, std::string name = {}) : table_(&table), name_(std::move(name)) {}
 
   bool has(std::string_view key) const { return table_->contains(key); }
