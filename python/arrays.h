@@ -12,7 +12,7 @@
 
 namespace afm::python {
 
-// What a caller may give for an array: any shape, stride and type of number. It is converted to float64 once.
+// Argument of a caller for an array: any shape, stride and type of number. It is converted to float64 once.
 using GivenArray = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
 // Read-only view of one member of each row: no copy. `owner` keeps the rows alive.

@@ -99,7 +99,7 @@ Contact make_contact(const std::optional<std::string>& material, const std::opti
   return Contact(std::move(options));
 }
 
-// By what was given, so that a file of another version is checked again.
+// Pickles the arguments, so that a file of another version is checked again.
 py::tuple state_of(const Contact& contact) {
   const curves::ContactOptions& options = contact.options();
   return py::make_tuple(options.material, options.probe, options.model, options.exact_sphere, options.material_files,

@@ -14,8 +14,8 @@
 namespace afm::python {
 
 // Runs work(stop) without Python's lock and returns its result. It runs in another thread while this one looks for
-// signals, so that Ctrl-C raises KeyboardInterrupt within 0.2 s. Work that does not look at `stop` then goes on to its
-// end in the background, and its result is lost: it must own all that it uses.
+// signals, so that Ctrl-C raises KeyboardInterrupt within 0.2 s. Work that does not look at `stop` then continues to
+// its end in the background, and its result is lost: it must own all that it uses.
 template <class Work>
 auto long_work(Work work) -> decltype(work(std::stop_token())) {
   using Result = decltype(work(std::stop_token()));

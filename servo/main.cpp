@@ -138,7 +138,7 @@ ExitCode run(const Options& options) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  // A stopped servo goes on when its renderer dies, so that it can release the hand. The kernel does the same for an
+  // A stopped servo continues when its renderer dies, so that it can release the hand. The kernel does the same for an
   // orphaned process group, but never for one of which a thread was still waiting for a processor to stop on.
   ::prctl(PR_SET_PDEATHSIG, static_cast<unsigned long>(SIGCONT), 0UL, 0UL, 0UL);
   // a closed stderr, whose reader died with the renderer, must not end the servo

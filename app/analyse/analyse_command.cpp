@@ -174,9 +174,9 @@ void add_baseline_options(OptionList& command, physics::BaselineChoice& baseline
   add("--baseline-range",
       command
           .add_parsed_option("--baseline-range", read_range,
-                             "part of the approach for the baseline, as ways from its outermost point: 0um:1.5um; "
-                             "default: as much as stays on one line")
-          .type_name("FROM:TO"));
+                             "part of the approach for the baseline, as distances from its outermost point: 0um:1.5um; "
+                             "default: all that stays on one line")
+          .type_name("RANGE"));
 }
 
 // The options write into `options` while the parser lives.
@@ -231,7 +231,7 @@ core::Result<void> analyse_session(const AnalyseOptions& options) {
   const auto loop = servo::friction_loop(*session);
   if (!loop) {
     return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("{}: no friction loop; choose a --friction, and lead the tip there and back while "
+                         fmt::format("{}: no friction loop; choose a --friction, and rub the tip back and forth while "
                                      "it touches",
                                      options.file));
   }
@@ -247,7 +247,7 @@ core::Result<void> analyse_session(const AnalyseOptions& options) {
                         "\n");
   }
   return write_stdout(fmt::format(
-      "{}, friction {}: the last loop there and back\n"
+      "{}, friction {}: the last complete loop\n"
       "  half width            {}\n"
       "  offset                {}\n"
       "  slope after the turn  {}\n"

@@ -68,7 +68,7 @@ std::string sizes(const curves::FitOptions& options) {
 
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); }
 
-// Which curve it is, where it was recorded, and its figures without a fit.
+// Name of the curve, place at which it was recorded, and its figures without a fit.
 std::string features(std::size_t index, const FittedCurve& fitted) {
   const auto& position = fitted.position;
   const auto& pixel = fitted.pixel;
@@ -165,7 +165,7 @@ class Summary {
   std::vector<double> moduli_pa_;
 };
 
-// A line a second on what is done.
+// Logs the progress once a second.
 class Progress {
  public:
   void tell(std::size_t whole_files, std::size_t files, std::size_t curves, std::size_t count) {

@@ -12,7 +12,7 @@ namespace afm::app {
 // Fits every curve of each file and writes FOLDER/fits.tsv, a row a curve in the order given, as soon as it and all
 // before it are known: an interruption leaves the rows so far. A curve that cannot be read or fitted is a row with the
 // reason. Writes the maps of each file whose curves have pixels, and the histograms of all moduli. The bytes do not
-// depend on `threads`. `options` wants a fit that is prepared; its `out` is the folder, which is made if it does not
+// depend on `threads`. `options` has a prepared fit; its `out` is the folder, which is created if it does not
 // exist. Prints how many were trusted, and the figures of the trusted and the doubtful. WrongUsage if the table exists
 // already; BadInputFile if no file has a curve that can be fitted.
 core::Result<void> fit_files(const std::vector<std::string>& files, const AnalyseOptions& options, unsigned threads);

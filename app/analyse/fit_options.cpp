@@ -28,21 +28,21 @@ std::vector<NamedOption> add_fit_options(OptionList& command, curves::FitOptions
   }
   add("--base",
       enum_option(command, "--base", options.base, "a base", fits::kBases, &fits::BaseName::name, &fits::BaseName::base,
-                  "of --fit layer-exact-...: how the layer lies on it; default: bonded"));
+                  "with --fit layer-exact-...: contact of layer and base; default: bonded"));
   add("--uncertainty",
       uncertainty_option(command, options.uncertainty_texts, "radius=5%",
-                         "of --fit: relative standard deviation of what the fit is given, such as "
-                         "radius=5%, for the systematic part of the results, apart from the interval; "
-                         "repeatable; keys: spring-constant, sensitivity, radius, half-angle, layer, poisson"));
+                         "with --fit: relative standard deviation of an input, such as radius=5%, for the "
+                         "systematic part of the results, separate from the interval; repeatable; keys: "
+                         "spring-constant, sensitivity, radius, half-angle, layer, poisson"));
   add("--against",
       enum_option(command, "--against", options.against, "a variable", fits::kAgainst, &fits::AgainstName::name,
                   &fits::AgainstName::against,
-                  "of --fit: z, the height of the lever's base, or tip, the tip position of nanite and AtomicJ; "
+                  "with --fit: z, the height of the lever's base, or tip, the tip position of nanite and AtomicJ; "
                   "default: z"));
-  add("--tilt", command.add_flag("--tilt", options.tilt, "of --fit: also fit a tilt of the baseline"));
+  add("--tilt", command.add_flag("--tilt", options.tilt, "with --fit: also fit a tilt of the baseline"));
   add("--white-noise", command.add_flag("--white-noise", options.white,
-                                        "of --fit: assume white noise, as nanite and AtomicJ do; its interval is "
-                                        "too narrow where it is not"));
+                                        "with --fit: assume white noise, as nanite and AtomicJ do; for other "
+                                        "noise the interval is then too narrow"));
   return added;
 }
 

@@ -27,7 +27,7 @@ struct CurveFigures {
   std::optional<double> adhesion_energy_j;
 };
 
-// What is known of one curve: a fit with the spring constant it was made with, or why there is none.
+// Result for one curve: a fit with its spring constant, or the reason why there is none.
 struct FittedCurve {
   std::optional<fits::ElasticFit> fit;  // without its model
   double spring_n_per_m = 0;
@@ -41,7 +41,7 @@ struct FittedCurve {
 // order. What was not taken is kept: some hundred bytes a curve. One thread calls it.
 class FitPool {
  public:
-  // Files and options must outlive the object. `options` wants a fit that is prepared.
+  // Files and options must outlive the object. `options` has a prepared fit.
   FitPool(const std::vector<std::string>& files, const AnalyseOptions& options, unsigned threads);
   ~FitPool();  // ends after the curves that are being fitted
   FitPool(const FitPool&) = delete;

@@ -152,7 +152,7 @@ core::Result<void> run_cluster_bench(const ClusterBenchOptions& options, const s
 
 void add_cluster_benchmarks(OptionList& bench, const CommandContext& context) {
   OptionList command =
-      bench.add_command("cluster", "measure how well the machines of a wall keep step, with nodes that only sleep");
+      bench.add_command("cluster", "measure how well the machines of a wall stay in step, with nodes that only sleep");
   const auto options = std::make_shared<ClusterBenchOptions>();
   command.add_option("--nodes", options->plan.nodes, "number of nodes")
       .within(1, static_cast<int>(scene::kMostNodes))
@@ -166,7 +166,7 @@ void add_cluster_benchmarks(OptionList& bench, const CommandContext& context) {
   command.add_flag("--elsewhere", options->elsewhere, "start no nodes: they run on other machines, each with --answer");
   command
       .add_option("--answer", options->answer,
-                  "be node N of a measurement that another machine makes, from 0 on; ends 5 s after it")
+                  "act as node N, from 0, in a measurement that another machine makes; ends 5 s after it")
       .within(0, static_cast<int>(scene::kMostNodes) - 1)
       .type_name("N");
   command.add_flag("--json", options->json, "print JSON with times in seconds instead of a table");

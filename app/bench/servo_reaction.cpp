@@ -49,7 +49,7 @@ bool until(const std::function<void()>& act, const std::function<bool()>& condit
 
 std::atomic<bool> stop_pressed{false};
 
-// The renderer's process: a simulated person puts the tip on the sample once, and the heartbeat goes on until the
+// The renderer's process: a simulated person puts the tip on the sample once, and the heartbeat continues until the
 // process dies. SIGUSR1 means Stop.
 [[noreturn]] void draw(const std::string& servo_program, scene::SharedSegment& segment) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -84,7 +84,7 @@ class ClusterMaster {
   void record_edits(ParameterEdits& edits);
   void take_answers();
 
-  // What the answers of a node have told.
+  // State of a node, from its answers.
   struct Told {
     bool shows_sample = false;
     bool heard = false;

@@ -75,8 +75,8 @@ void add_domain_option(OptionList& command, std::uint32_t& domain) {
 Option add_cluster_options(OptionList& command, ClusterOptions& options) {
   const Option cluster =
       command.add_flag("--cluster", options.wanted,
-                       "show the wall on the machines of its file too, each of which runs touchafm node; the hand "
-                       "stays on this one");
+                       "also show the wall on the other machines in its file, each of which runs touchafm node; the "
+                       "hand stays on this one");
   add_network_options(command, options);
   return cluster;
 }

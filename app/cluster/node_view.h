@@ -43,7 +43,7 @@ class NodeView {
            cluster::NodeLink& link, Place place, KeyList key_list, const core::Clock& clock);
   ~NodeView();
 
-  // Prepares another wall; false: it cannot be shown, and this one goes on.
+  // Prepares another wall; false: it cannot be shown, and this one continues.
   using Prepare = std::function<bool(const cluster::NodeLink::Document& other)>;
 
   // Runs until the window is closed or a signal arrives; returns true if another wall is prepared instead.

@@ -272,7 +272,7 @@ void add_curve_command(OptionList& program, const CommandContext& context) {
       .excludes(to)
       .excludes(step)
       .one_value_each()
-      .type_name("KEY=FROM:TO:COUNT");
+      .type_name("KEY=RANGE");
   add_output_options(command, *options);
   command.footer(
       "Each parameter overrides that of the material or the probe.\n"

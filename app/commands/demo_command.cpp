@@ -353,7 +353,7 @@ void add_sample_options(OptionList& command, DemoOptions& options, const Command
       .add_option("--vary", options.vary,
                   "repeat the cycle on every sample at each of n values of one parameter, changed while the servo "
                   "runs: spring-constant=0.1N/m:0.4N/m:3")
-      .type_name("KEY=FROM:TO:N");
+      .type_name("KEY=RANGE");
   command
       .add_option("--measured", options.measured,
                   "measured curve to feel as well (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")

@@ -123,7 +123,7 @@ void add_setup_options(OptionList& command, GenerateOptions& options) {
         std::string(field.help));
   }
   enum_option(command, "--base", options.setup.base, "a base", fits::kBases, &fits::BaseName::name,
-              &fits::BaseName::base, "of --law layer-exact-...: how the layer lies on it; default: bonded");
+              &fits::BaseName::base, "with --law layer-exact-...: contact of layer and base; default: bonded");
   command.add_option("--points", options.setup.points, "points of each branch")
       .within(static_cast<int>(curves::kFewestSyntheticPoints), 500'000)
       .show_default()
@@ -149,7 +149,7 @@ void add_map_options(OptionList& command, GenerateOptions& options) {
   for (const curves::FieldShapeRow& row : curves::kFieldShapes)
     shapes += fmt::format("\n  {}: {}", row.name, row.meaning);
   enum_option(command, "--field", options.map.shape, "a field", curves::kFieldShapes, &curves::FieldShapeRow::name,
-              &curves::FieldShapeRow::shape, "how the sample differs over the map; default: uniform" + shapes);
+              &curves::FieldShapeRow::shape, "variation of the sample over the map; default: uniform" + shapes);
   quantity_option(
       command, "--second-modulus",
       [&options](physics::Pressure modulus) { options.map.second_modulus_pa = modulus.si; }, physics::kPressureUnits,
@@ -167,7 +167,7 @@ void add_generate_command(OptionList& program, const CommandContext& context) {
   OptionList generate =
       program.add_command("generate", "write curves, maps and images whose truth is known, each with its truth");
   generate.footer(
-      "FILE and FILE.truth.json are written both or not at all; no file is replaced.\n"
+      "Either both FILE and FILE.truth.json are written, or neither; no file is replaced.\n"
       "example: touchafm generate curve --radius 5um --modulus 3kPa --spring-constant 0.05N/m --most-force 1nN "
       "--noise 15pN --out gel.h5");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards

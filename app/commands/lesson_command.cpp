@@ -198,11 +198,11 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
   command.add_option("lesson", options->lesson, "lesson file (TOML); assets/lessons holds eight").type_name("FILE");
   auto participant = command.add_option(
       "--participant", options->participant,
-      "who takes it: a code of six capital letters, or sim:SEED for a simulated participant in simulated time and "
+      "participant: a code of six capital letters, or sim:SEED for a simulated participant in simulated time and "
       "without a window, whose abilities may follow as sim:SEED,d-prime=1.5,weber=0.1,bias=0; default: nobody, and "
       "nothing is kept");
   participant.type_name("CODE");
-  auto out = command.add_option("--out", options->out, "the study's folder, which is made if need be");
+  auto out = command.add_option("--out", options->out, "folder of the study; created if it does not exist");
   out.type_name("DIR");
   participant.needs(out);
   enum_option(command, "--age-band", options->age_band, "an age band", study::kAgeBands, &study::AgeBandRow::word,

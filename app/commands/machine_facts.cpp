@@ -67,7 +67,7 @@ std::string display() {
   return names;
 }
 
-// What this machine lacks; an OpenXR loader only where a headset's runtime is installed.
+// Parts that this machine lacks; an OpenXR loader only where a headset's runtime is installed.
 std::vector<core::SystemPart> missing_parts(bool has_headset_runtime) {
   std::vector<core::SystemPart> parts = core::parts_without_libraries();
   if (!has_headset_runtime) std::erase(parts, core::SystemPart::OpenXrLoader);

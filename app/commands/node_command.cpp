@@ -222,7 +222,7 @@ void add_node_command(OptionList& program, const CommandContext& context) {
       program.add_command("node", "show a part of a wall of several machines; the hand is on another one");
   command.footer(
       "Everything but models of your own comes from the machine with the hand, which runs touchafm view --cluster.\n"
-      "The node waits for it, follows the next one after it, and rejoins by itself. It starts no servo.\n\n"
+      "The node waits for it, follows the next one after it, and rejoins automatically. It starts no servo.\n\n"
       "example: touchafm node left --interface 10.0.0.2\n"
       "         touchafm node left --interface 10.0.0.2 --master 10.0.0.1");
   auto options = std::make_shared<NodeOptions>();
@@ -234,7 +234,7 @@ void add_node_command(OptionList& program, const CommandContext& context) {
       .type_name("ADDRESS");
   command
       .add_option("--master", options->master,
-                  "machine with the hand, where the network forbids multicast; default: found by itself")
+                  "machine with the hand, where the network forbids multicast; default: found automatically")
       .type_name("HOST");
   add_domain_option(command, options->domain);
   pixel_size_option(command, "--size", options->display.window.size_px,

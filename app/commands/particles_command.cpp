@@ -374,9 +374,9 @@ void add_particles_command(OptionList& program, const CommandContext& context) {
       .type_name("FILE");
   quantity_option(
       command, "--rate", [options](Frequency rate) { options->rate = rate; }, physics::kFrequencyUnits,
-      "ticks per second, as of the servo", std::optional(QuantityRange<Frequency>{kSlowestTicks, kFastestTicks}))
+      "ticks per second, like the servo's", std::optional(QuantityRange<Frequency>{kSlowestTicks, kFastestTicks}))
       .show_default("1kHz");
-  command.add_option("--samples", options->samples, "number of states that --json prints, evenly over the time")
+  command.add_option("--samples", options->samples, "number of states that --json prints, evenly spaced in time")
       .type_name("NUMBER")
       .within(2, 1'000'000)
       .show_default();
@@ -385,7 +385,7 @@ void add_particles_command(OptionList& program, const CommandContext& context) {
   command.footer(
       "example: touchafm particles gold-row\n"
       "         touchafm particles my-set.toml --json --rate 4kHz --samples 1000\n"
-      "The exit code is 1 if the hand gained energy, which never happens.");
+      "The exit code is 1 if the hand gained energy, which would be a fault of the program.");
   command.when_chosen([options, &context] { return run_particles(*options, context.assets_dir); });
 }
 

@@ -15,7 +15,7 @@ struct PrivateWords {
   std::vector<std::string> paths{};  // absolute paths that the environment names; they may contain blanks
 };
 
-// Of this process, and of the person who became root by sudo.
+// Words of this process, and of the person who became root by sudo.
 PrivateWords private_words();
 
 // Replaces names by ~, USER and HOST, folders outside the system's own by "...", which keeps the name of the file, and

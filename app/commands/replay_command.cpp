@@ -222,9 +222,8 @@ void add_replay_command(OptionList& program, const CommandContext& context) {
       "         touchafm replay out/session-gold.afms --from 2 --to 3.5\n"
       "         touchafm replay out/session-gold.afms --sound gold.wav\n"
       "The exit code is 0 if every force is identical, otherwise 1. A truncated file is compared as far as it goes. "
-      "touchafm view --haptics replay:FILE shows the session on the wall. A session in which particles are pushed to "
-      "the "
-      "pattern of a built-in set has the score of the task, up to --to.");
+      "touchafm view --haptics replay:FILE shows the session on the wall. If particles of a built-in set are pushed, "
+      "the score of the task, up to --to, is printed, too.");
   command.when_chosen([options, &context] { return run_replay(*options, context.assets_dir); });
 }
 

@@ -99,7 +99,7 @@ void add_area_options(OptionList& command, ScanOptions& options) {
       .type_name("NUMBER");
   enum_option(command, "--direction", options.direction, "a direction", imaging::kDirections,
               &imaging::DirectionName::name, &imaging::DirectionName::direction,
-              "where the slow scan goes; default: down");
+              "direction of the slow scan; default: down");
 }
 
 void add_own_sample_options(OptionList& command, ScanOptions& options) {
@@ -179,9 +179,10 @@ Option add_tip_options(OptionList& command, ScanOptions& options) {
 }
 
 void add_output_options(OptionList& command, ScanOptions& options) {
-  command.add_flag("--show-truth", options.show_truth,
-                   "add what the image reveals: the sample as far as the tip reached it, where that is certain, and "
-                   "the tip that the image alone gives away");
+  command.add_flag(
+      "--show-truth", options.show_truth,
+      "add channels: the highest surface that gives this image, the places where it is certain, and the bluntest "
+      "tip that could have taken it");
   command
       .add_option(
           "--channel", options.channel,

@@ -146,7 +146,7 @@ core::Result<void> serve(const ServeOptions& options, const std::string& assets_
   const auto served = Served::create(options, assets_dir);
   if (!served) return tl::unexpected(served.error());
   if (options.socket.empty() && !options.port) {
-    return core::wrong_usage("nobody could enter; give --socket PATH, --nanonis PORT, or both");
+    return core::wrong_usage("no client could connect; give --socket PATH, --nanonis PORT, or both");
   }
   if (!options.view) {
     if (auto opened = (*served)->open(options); !opened) return opened;
@@ -174,14 +174,13 @@ core::Result<void> serve(const ServeOptions& options, const std::string& assets_
 
 void add_serve_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
-      "serve", "be a microscope in simulated time that other programs control by JSON, and whose truth is known");
+      "serve", "run a simulated microscope that other programs control by JSON, and whose truth is known");
   // shared: the parser writes into it while it lives, the chosen command reads it afterwards
   const auto options = std::make_shared<ServeOptions>();
   command
       .add_option(
           "--socket", options->socket,
-          "Unix socket to create, for requests in JSON; only programs of the same user may enter, one after the "
-          "other")
+          "Unix socket to create, for requests in JSON; only programs of the same user may connect, one at a time")
       .type_name("PATH");
   command
       .add_parsed_option(

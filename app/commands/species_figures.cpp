@@ -28,7 +28,7 @@ using physics::Stiffness;
 constexpr Length kAtomicDistance{0.3e-9};  // z0 of Tabor's parameter
 constexpr physics::Temperature kRoomTemperature{298.15};
 
-// What a user has to know of a species before a push.
+// Figures of a species that a user needs before a push.
 struct SpeciesFigures {
   physics::PushBalance rest, moving;
   Force adhesion, gentle, gentle_without_friction, most_push, area_law, amontons_law;
@@ -64,7 +64,7 @@ std::string force_text(Force force) {
   return std::isfinite(force.si) ? format_quantity(force, kForceUnits, 4) : "none: it jams";
 }
 
-// What a user has to know of rods before a push.
+// Figures of rods that a user needs before a push.
 struct RodFigures {
   Force middle, end;  // at rest
   Length pivot, rho;

@@ -11,7 +11,7 @@ struct ParticleSet;
 
 namespace afm::app {
 
-// What a user has to know of a species of a set before a push: thresholds, gentle load, softest lever, aim, speed. As
+// Figures of a species of a set that a user needs before a push: thresholds, gentle load, softest lever, aim, speed. As
 // lines of text, and as JSON with the unit in each key.
 std::string species_figures_text(const scene::ParticleSet& set, std::size_t species);
 nlohmann::json species_figures_json(const scene::ParticleSet& set, std::size_t species);

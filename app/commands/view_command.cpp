@@ -79,10 +79,8 @@ void add_picture_options(OptionList& command, ViewOptions& options) {
       .type_name("NAME");
   command.add_flag(
       "--high-contrast", [&options] { options.display.contrast = render::PanelContrast::High; },
-      "draw the panels in white on opaque black, for people who see little");
-  command
-      .add_option("--text-size", options.files.text_size,
-                  "how many times larger the texts of the panels are, as far as each panel has the room")
+      "draw the panels in white on opaque black, for people with low vision");
+  command.add_option("--text-size", options.files.text_size, "factor by which panel text is enlarged, where it fits")
       .within(1.0, exhibit::kLargestText)
       .show_default()
       .type_name("TIMES");
@@ -140,7 +138,7 @@ void add_hearing_options(OptionList& command, ViewOptions& options) {
       "right; every event has a sound and, also without this option, a caption; Q turns the sound off and on");
   command.add_flag("--speech", options.speech,
                    "speak guidance, samples, events and values in the wall's language, by espeak-ng or by the screen "
-                   "reader's voice; Y says what is going on, X blanks the picture");
+                   "reader's voice; Y speaks the current state, X blanks the picture");
   add_sound_options(command, options.settings.sound.options);
 }
 
@@ -250,7 +248,7 @@ core::Result<std::unique_ptr<render::HeadsetRuntime>> headset_of(const ViewOptio
   return connect_headset();
 }
 
-// Whether nothing is asked for that tapping excludes.
+// True without options that tapping excludes.
 bool taps_alone(const ViewOptions& options) {
   return options.files.particles.empty() && options.files.force_map.empty() && !options.cluster.wanted &&
          options.friction == physics::FrictionLaw::None;

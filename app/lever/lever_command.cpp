@@ -92,7 +92,7 @@ void add_inputs(OptionList& command, const Option& thermal, const Option& sader,
     Option added = si_option(
         command, fmt::format("--{}", row.name), [&inputs, input = row.input](double si) { inputs[input] = si; },
         {row.units.sort, row.units.units, row.range},
-        row.of.empty() ? std::string(row.help) : fmt::format("of {}: {}", row.of, row.help));
+        row.of.empty() ? std::string(row.help) : fmt::format("with {}: {}", row.of, row.help));
     if (row.of == "--thermal") added.needs(thermal);
     if (row.of == "--sader") added.needs(sader);
   }
@@ -106,26 +106,27 @@ Option add_thermal_options(OptionList& command, LeverOptions& options) {
                        .type_name("FILE");
   command
       .add_option("--units", options.reading.units,
-                  "of --thermal: units of frequency and density instead of the heading's")
+                  "with --thermal: units of frequency and density instead of the heading's")
       .needs(thermal)
       .type_name("UNITS such as \"kHz, V2/Hz\"");
   command
       .add_option("--column", options.reading.column,
-                  "of --thermal: column of the density; the first is the frequency's")
+                  "with --thermal: column of the density; the first holds the frequency")
       .needs(thermal)
       .within(2, static_cast<int>(curves::kMostSpectrumColumns))
       .show_default();
   command
       .add_parsed_option(
           "--range", [&options](const std::string& text) { return read_range(text, options); },
-          "of --thermal: frequencies to fit, around one resonance, such as 5kHz:20kHz; default: all")
+          "with --thermal: frequencies to fit, around one resonance, such as 5kHz:20kHz; default: all")
       .needs(thermal)
       .type_name("RANGE");
   command
-      .add_option("--averages", options.averages, "of --thermal: number of averaged spectra; default: by their scatter")
+      .add_option("--averages", options.averages,
+                  "with --thermal: number of averaged spectra; default: from their scatter")
       .needs(thermal)
       .within(1.0, 1e9);
-  command.add_option("--mode", options.mode, "of --thermal: flexural mode of the resonance")
+  command.add_option("--mode", options.mode, "with --thermal: flexural mode of the resonance")
       .needs(thermal)
       .within(1, kHighestMode)
       .show_default();
@@ -161,7 +162,7 @@ void add_lever_command(OptionList& program, const CommandContext&) {
   const Option sader =
       command.add_flag("--sader", lever.sader, "spring constant of a rectangular lever by Sader's method");
   enum_option(command, "--fluid", lever.fluid, "a fluid", curves::kFluids, &curves::FluidRow::name,
-              &curves::FluidRow::fluid, "of --sader: fluid around the lever, at 25 degrees Celsius; default: air")
+              &curves::FluidRow::fluid, "with --sader: fluid around the lever, at 25 degrees Celsius; default: air")
       .needs(sader);
   add_inputs(command, thermal, sader, lever.inputs);
   const Option curve =
@@ -180,7 +181,7 @@ void add_lever_command(OptionList& program, const CommandContext&) {
   uncertainty_option(
       command, options->uncertainty_texts, "sensitivity=3% or temperature=1K",
       "standard uncertainty of an input, in per cent or in its unit: " + uncertain_names() + "; one option for each");
-  command.add_flag("--json", options->json, "print JSON in SI units; null marks what was not asked for");
+  command.add_flag("--json", options->json, "print JSON in SI units; null marks a value that was not computed");
   command.add_option("--out", options->out, "write a plot of spectrum and model (SVG) to FILE")
       .needs(thermal)
       .type_name("FILE");

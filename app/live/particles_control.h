@@ -43,7 +43,7 @@ class ParticlesControl final : public ViewControl {
  private:
   enum class Order { None, TakeBack, PutBack };
 
-  // The servo carries it out without force alone, so the order waits until there is none.
+  // The servo carries it out only without force, so the request waits until there is none.
   void give(Order order);
 
   void begin_task();

@@ -24,7 +24,7 @@ struct ViewSettings {
   HandSource hand = HandSource::Mouse;
   exhibit::HandControls device_controls = exhibit::HandControls::Device;  // names of a device's controls
   double most_frames_per_s = 60.0;
-  scene::ScaleMode scale = scene::ScaleMode::Fit;  // initial scale; M goes on to the next
+  scene::ScaleMode scale = scene::ScaleMode::Fit;  // initial scale; M selects the next
   std::optional<std::size_t> first_material;       // material chosen after every start of a servo
   std::string frame_log;                           // file name; empty: no log
   std::vector<input::HeadKey> head_script;         // simulated motion of an untracked head; may be empty

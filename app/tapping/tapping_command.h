@@ -28,7 +28,7 @@ core::Result<void> check_tapping_options(const curves::TappingChoice& choice);
 core::Result<std::string> tapping_text(const curves::TappingChoice& choice, const curves::ContactOptions& contact,
                                        const curves::PathOptions& path, const std::string& format);
 
-// The map of regimes over the axes of --sweep, likewise.
+// The same for the map of regimes over the axes of --sweep.
 core::Result<std::string> tapping_sweep_text(const curves::TappingChoice& choice, const curves::ContactOptions& contact,
                                              const std::vector<std::string>& sweeps, const std::string& format);
 

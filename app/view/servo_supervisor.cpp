@@ -60,7 +60,7 @@ core::Result<void> ServoSupervisor::start() {
 }
 
 core::Result<void> ServoSupervisor::launch(const char* message) {
-  // a choice that the servo had not laid yet holds for the next one
+  // a choice that the servo has not put into effect applies to the next servo
   const std::int32_t chosen = link_ ? link_->chosen() : -1;
   const auto chosen_before = chosen < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(chosen));
   auto servo = starter_();

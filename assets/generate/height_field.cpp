@@ -103,7 +103,7 @@ void add_level_band(Surface& surface, const std::vector<V3>& above, double botto
   surface.add_triangle(low_left, low_right, last);
 }
 
-// What the ground below hides of the light: the foot of a cut face is darker.
+// Darkens the foot of a cut face, where the ground below hides a part of the light.
 void shade_towards_foot(Surface& surface) {
   double low = 0, high = 0;
   for (const SurfaceVertex& vertex : surface.vertices) {

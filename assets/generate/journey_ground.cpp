@@ -19,7 +19,7 @@ constexpr double kAtomsReach = 3.3 * kNm, kAtomsSink = 2.0 * kNm;  // from there
 constexpr double kBelowAtoms = 0.36 * kNm;                         // depth of the ground below the atoms
 constexpr std::int64_t kAtomRows = 15, kAtomColumns = 21;          // enough for that reach
 
-// What one sees at a decade of scale.
+// Visible features at a decade of scale.
 struct Features {
   double amplitude;                   // in units of the scale
   double (*pattern)(double, double);  // 0..1 at a position in units of the scale
@@ -27,7 +27,7 @@ struct Features {
 
 constexpr std::size_t kDecades = 7;  // from 1 mm to 1 nm
 
-// What a sample looks like from a millimetre to its atoms: every decade shows different features.
+// Appearance of a sample from a millimetre to its atoms: every decade shows different features.
 struct Look {
   const char* name;
   MaterialSpec material;
@@ -111,13 +111,13 @@ std::vector<Surface> rings(const Look& look) {
   return result;
 }
 
-// Who looks stands at negative y, 2 to 3 nm from the contact.
+// The viewer is at negative y, 2 to 3 nm from the contact.
 int halvings_at(double x, double y) {
   const double away = std::sqrt(x * x + (y + 2.3 * kNm) * (y + 2.3 * kNm));
   return away < 0.95 * kNm ? 3 : away < 2.6 * kNm ? 2 : 1;
 }
 
-// How deep an atom lies below its place: the farther from the contact, the fewer are out of the ground, and the lattice
+// Depth of an atom below its place: the farther from the contact, the fewer are out of the ground, and the lattice
 // has no edge.
 double sunk(double r, std::int64_t column, std::int64_t row) {
   const double until = mix(kAtomsSink, kAtomsReach, random_unit(column, row, 96));

@@ -5,7 +5,7 @@
 
 #include "model_file.h"
 
-// What the probe and the journey of scale have in common. Metres.
+// Parts common to the probe and the journey of scale. Metres.
 namespace afm::generate {
 
 // Along +x from its clamp at the origin, its underside at z = 0; what the tip hangs on is at x = lever_tip_x().

@@ -75,7 +75,7 @@ void add_lathe(Surface& surface, const std::vector<ProfilePoint>& profile, int h
 // A closed prism from z = low to high whose edges are bevelled by `bevel`, with normals that make the bevel look round.
 void add_prism(Surface& surface, const Outline& outline, double low, double high, double bevel);
 
-// Where a part stands: its axes (orthonormal, right-handed) and origin in the frame that it is put into.
+// Pose of a part: its axes (orthonormal, right-handed) and origin in the frame that it is put into.
 struct Placement {
   V3 origin;
   V3 x{1, 0, 0};

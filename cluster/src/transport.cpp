@@ -74,7 +74,7 @@ void log_of_dds(void* lines, const dds_log_data_t* said) {
   if (const auto line = static_cast<NetworkLines*>(lines)->line(said->message, now_ns)) core::log_line(*line);
 }
 
-// For the process, as DDS's log is. Never destroyed: DDS's threads may outlive main's statics.
+// One for the process, as DDS's log is. Never destroyed: DDS's threads may outlive main's statics.
 void take_log_of_dds() {
   static auto* const lines = new NetworkLines;
   dds_set_log_sink(log_of_dds, lines);

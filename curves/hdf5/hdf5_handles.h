@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-// What readers and writers of HDF5 share: owned identifiers, and checks that all data lie in the file itself.
+// Code shared by readers and writers of HDF5: owned identifiers, and checks that all data lie in the file itself.
 namespace afm::curves {
 
 // Owns an HDF5 identifier of any kind; all kinds are reference-counted in the same way.

@@ -91,7 +91,7 @@ std::string converted_curves(const Curves& file, std::string_view how, std::size
   return {};
 }
 
-// What is written to stdout at the end; a stream has written everything before.
+// Output written to stdout at the end; a stream has written everything before.
 std::string converted(std::string_view how, std::size_t first, std::size_t step) {
   const std::string bytes = read_stdin();
   curves::confine_this_process((how == "stream" ? curves::kStreamTime : curves::kMapTime).processor_time);

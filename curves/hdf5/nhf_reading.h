@@ -49,7 +49,7 @@ struct NhfGrid {
 // Takes those numbers that the attributes have.
 void read_nhf_grid(hid_t at, NhfGrid& grid);
 
-// What the numbers of a channel mean: the range of their type is that of the values.
+// Scale of a channel's numbers: the range of their type is that of the values.
 struct NhfCalibration {
   double least = 0, most = 1;      // range of the integers
   double lowest = 0, highest = 1;  // range of the values

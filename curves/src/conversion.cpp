@@ -19,7 +19,7 @@ namespace {
 
 using core::wrong_usage;
 
-// What reading back the converted curve gives in place of the points; empty: the same.
+// Text on the differences between the converted curve, read back, and the original; empty: none.
 std::string rounding(const RecordedCurve& original, const WritableFormat& format, const std::string& bytes) {
   const auto back = parse_curve(bytes, "the converted curve");
   if (!back) return back.error().message;
@@ -49,7 +49,7 @@ void add_remark(std::vector<std::string>& remarks, const std::string& remark) {
   if (!known && remarks.size() < kMostRemarks) remarks.push_back(remark);
 }
 
-// All curves of the file, or the one that is asked for.
+// All curves of the file, or the requested one.
 core::Result<ReadCurves> read_all(const std::string& file, const ConversionOptions& options, std::size_t count) {
   ReadCurves all;
   if (options.index || count == 1) {

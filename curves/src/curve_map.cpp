@@ -22,7 +22,7 @@ namespace {
 
 constexpr unsigned kMostThreads = 8;
 
-// What is kept of a curve.
+// Data kept of a curve.
 struct Seen {
   std::optional<MapPixel> pixel;
   double lowest_m = std::numeric_limits<double>::quiet_NaN();
@@ -96,7 +96,7 @@ core::Result<CurveMap> CurveMap::load(const std::string& path, const Progress& p
     return no_map(path, fmt::format("no curve of it can be read; the first: {}", survey.why()));
   }
   const auto first = std::find_if(seen.begin(), seen.end(), [](const Seen& each) { return each.pixel.has_value(); });
-  if (*count == 1) return no_map(path, "it holds one curve alone");
+  if (*count == 1) return no_map(path, "it holds only one curve");
   if (first == seen.end()) return no_map(path, "its curves are not on a grid");
   CurveMap map;
   map.path_ = path;

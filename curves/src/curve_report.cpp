@@ -152,7 +152,7 @@ void remark_sign(const CurveFeatures& features, RecordedCurve& curve) {
                   kForceText(-*middle)));
 }
 
-// Where the places of a report have their zero.
+// Zero of the places in a report.
 const char* zero_name(const CurveFeatures& features) {
   return features.contact_point ? "the contact point" : "the zero of the file's own heights";
 }

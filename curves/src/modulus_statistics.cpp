@@ -16,7 +16,7 @@ namespace afm::curves {
 
 namespace {
 
-// Of sorted values.
+// Median of sorted values.
 double median_of(const std::vector<double>& values) {
   const std::size_t middle = values.size() / 2;
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);

@@ -17,7 +17,7 @@
 
 namespace afm::curves {
 
-// Runs work(i) for every i below `count` on all cores, until it is asked to stop. Logs the progress of a sweep that
+// Runs work(i) for every i below `count` on all cores, until a stop is requested. Logs the progress of a sweep that
 // takes longer than a second.
 template <class Work>
 void over_all_cores(std::uint64_t count, const std::stop_token& stop, const Work& work) {

@@ -81,7 +81,7 @@ class Path {
 // From -1 to 1 with equal probability.
 double uniform(physics::NormalGenerator& random) { return std::erf(random() / std::numbers::sqrt2); }
 
-// What an instrument adds to the force.
+// Additions of an instrument to the force.
 class Instrument {
  public:
   Instrument(const SyntheticSetup& setup, std::uint64_t seed, double first_m)
@@ -195,7 +195,7 @@ std::uint64_t seed_of(const SyntheticSetup& setup, std::size_t index) {
   return (static_cast<std::uint64_t>(setup.seed) << 32U) + index;
 }
 
-// Where the second values are, from 0 to 1; x and y go from 0 to 1 across the map.
+// Share of the second values at a place, from 0 to 1; x and y go from 0 to 1 across the map.
 class Shares {
  public:
   Shares(FieldShape shape, const SyntheticSetup& setup, const MapGrid& grid) : shape_(shape), grid_(grid) {

@@ -117,9 +117,10 @@ core::Result<void> apply(std::span<const GivenNumber> given, SyntheticSetup& set
     }
   }
   if (law.has_layer && !law.is_exact && setup.poisson != 0.5) {
-    return core::wrong_usage(fmt::format(
-        "--law {} knows Poisson's ratio 0.5 alone; leave --poisson out, or take layer-exact-sphere or layer-exact-cone",
-        law.name));
+    return core::wrong_usage(
+        fmt::format("--law {} needs a Poisson's ratio of 0.5; leave --poisson out, or choose layer-exact-sphere or "
+                    "layer-exact-cone",
+                    law.name));
   }
   if (setup.bits != std::floor(setup.bits)) return core::wrong_usage("--bits is a whole number, such as 12");
   if (std::abs(setup.drift_m_per_s) > 0.5 * setup.speed_m_per_s) {

@@ -13,7 +13,8 @@ namespace afm::curves {
 // Software name in synthetic curves. They are not those of kComputedBy, which have no baseline.
 inline constexpr const char* kSyntheticBy = "TouchAFM generate";
 
-// What all curves of a file share: law with its source, numbers that act, seed, program. "curves" is an empty list.
+// Truth common to all curves of a file: law with its source, numbers that act, seed, program. "curves" is an empty
+// list.
 nlohmann::ordered_json truth_of(const SyntheticSetup& setup, std::string_view kind);
 
 // Adds to a map's truth its grid, its field, and the field's values row by row from the bottom; to each curve its

@@ -10,7 +10,7 @@ E = 2988 Pa, 95 % within 2961 to 3015 Pa, trusted
 >>> low < truth["parameters"]["modulus_Pa"] < high
 True
 
-With the wrong radius the interval is as narrow, and wrong: it is that of the noise alone.
+With the wrong radius the interval is as narrow, and wrong: it covers only the noise.
 
 >>> wrong = touchafm.fit(curves[0], model="paraboloid", tip_radius=4e-6, uncertainties={"tip_radius": 0.2})
 >>> wrong.E_interval[0] > truth["parameters"]["modulus_Pa"]

@@ -9,7 +9,7 @@
 namespace afm::reference {
 namespace {
 
-// What can be completed, as assignments of the script's variables, with the patterns of its "case" under which it is.
+// Completions as assignments of the script's variables, each with the patterns of its "case".
 using Cases = std::map<std::string, std::vector<std::string>>;
 
 // bash makes a word of the = in --option=value.

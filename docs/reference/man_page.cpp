@@ -9,8 +9,8 @@
 namespace afm::reference {
 namespace {
 
-// As roff prints it: a backslash, and the characters that roff makes typographic, by their names; no line that begins
-// like a request.
+// The text escaped for roff: a backslash, and the characters that roff makes typographic, by their names; no line that
+// begins like a request.
 std::string roff(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -51,7 +51,7 @@ std::string value_text(const std::string& value) {
 
 std::string bold(const std::string& text) { return "\\fB" + roff(text) + "\\fR"; }
 
-// What follows a title as running text, without what the help ends or begins with.
+// Running text after a title, without the beginning and the end of the help.
 std::string trimmed(std::string text) {
   const auto space = [](unsigned char c) { return std::isspace(c) != 0; };
   text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), space));

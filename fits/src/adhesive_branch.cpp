@@ -51,7 +51,7 @@ double AdhesiveBranch::way_slope_m(const Point& point) const {
   return indentation_m_ * point.dindentation + load_n_ * point.dload / spring_n_per_m_;
 }
 
-// Where the way, which falls with s, ends to fall.
+// Parameter at which the way stops falling with s.
 double AdhesiveBranch::find_fold() const {
   constexpr int kHalvings = 60;
   double inner = kDeepest, outer = kPoint;

@@ -10,8 +10,8 @@ namespace afm::fits {
 inline constexpr std::size_t kMostNoiseOrder = 4;
 
 // Coefficients of autoregressive noise, r_t = sum_j c_j r_(t-j) + white, in the residuals of a least squares fit, by
-// restricted maximum likelihood on the linearised fit (Patterson & Thompson 1971): from the residuals alone they come
-// out too small, since the fit has removed a part. Order 0 to kMostNoiseOrder by Akaike's criterion. `jacobian`: column
+// restricted maximum likelihood on the linearised fit (Patterson & Thompson 1971): from the residuals only they would
+// be too small, since the fit has removed a part. Order 0 to kMostNoiseOrder by Akaike's criterion. `jacobian`: column
 // by column.
 std::vector<double> noise_coefficients(std::span<const double> residuals, std::span<const double> jacobian);
 

@@ -41,7 +41,7 @@ CurveProblem::Bent CurveProblem::bent(const Unknowns& unknowns, std::size_t samp
   return {true, depth_m, force_n, force_n * softer, modulus_pa * push.slope * softer, 0.0};
 }
 
-// Which samples touch is known beforehand: the law has two forces at one height.
+// The samples that touch are known beforehand, because the law has two forces at one height.
 std::vector<CurveProblem::Bent> CurveProblem::all_held(const Unknowns& unknowns) const {
   const Indenter& indenter = setup_.indenter;
   const AdhesiveBranch branch(indenter.shape,

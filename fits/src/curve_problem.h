@@ -36,7 +36,7 @@ class CurveProblem {
   std::vector<double> residuals(const Unknowns& unknowns) const;
   std::vector<double> jacobian(const Unknowns& unknowns) const;
 
-  // What the model has at each sample.
+  // Model at one sample.
   struct Bent {
     bool touches = false;
     double depth_m = 0, force_n = 0;  // without the baseline

@@ -17,7 +17,7 @@ inline constexpr double kRounding =
 // Level and tilt at a sample.
 double baseline_n(const ElasticFit& fit, const Sample& sample, const Sample& first);
 
-// Fills the doubts of a fit, whose other members are known, its word of trust, and the modulus of half the depth.
+// Fills the doubts of a fit, whose other members are known, its verdict, and the modulus of half the depth.
 void judge(std::span<const Sample> samples, const FitSetup& setup, const CurveProblem& problem, const Ended& ended,
            ElasticFit& fit);
 

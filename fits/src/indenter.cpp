@@ -70,7 +70,7 @@ class ShallowSphere {
   static constexpr std::size_t kTerms = 18;
   using Terms = std::array<double, kTerms>;
 
-  // Of a polynomial in 2 t - 1, those in t.
+  // Coefficients in t of a polynomial in 2 t - 1.
   static Terms powers_of(const Terms& chebyshev) {
     Terms before{1.0}, now{-1.0, 2.0}, sum{};
     sum[0] = 0.5 * chebyshev[0];

@@ -20,7 +20,7 @@ struct Ended {
   double squares = std::numeric_limits<double>::infinity();
 };
 
-// False for what no minimum can have.
+// False for values that no minimum can have.
 bool is_usable(const Unknowns& unknowns, double squares);
 
 // Standard deviation of an unknown, from the whitened Jacobian: where the profile begins.

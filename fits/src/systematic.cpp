@@ -29,7 +29,7 @@ std::optional<Results> fit_again(const std::vector<Sample>& samples, const FitSe
                  before.adhesion ? unknowns[problem.work()] : 0.0};
 }
 
-// As if what was given had been `factor` times as large.
+// Multiplies an input by `factor`, in samples and set-up.
 void change(Given given, double factor, std::vector<Sample>& samples, FitSetup& setup) {
   double force_factor = 1.0;
   Indenter& indenter = setup.indenter;

@@ -8,8 +8,8 @@
 
 namespace afm::fits {
 
-// For each of the setup's uncertainties: the fit repeated with its noise, from its end, with what was given a little
-// larger and a little smaller.
+// Effect of each of the setup's uncertainties: repeats the fit with its noise, starting from its result, with the input
+// a little larger and a little smaller.
 std::vector<Systematic> systematic_of(std::span<const Sample> samples, const FitSetup& setup, const ElasticFit& fit);
 
 }  // namespace afm::fits

@@ -79,7 +79,7 @@ std::vector<Start> starts_of(const OscillatorProblem& problem, std::span<const S
   return starts;
 }
 
-// Whether the resonance lies within the frequencies, and rises above the floor.
+// True if the resonance lies within the frequencies, and rises above the floor.
 bool is_oscillator(const Oscillator& oscillator, std::span<const SpectrumPoint> spectrum) {
   constexpr double kLeastRise = 1e-6;
   const double rise = density_at(oscillator, oscillator.resonance_hz) - oscillator.floor;

@@ -21,7 +21,7 @@
 namespace afm::imaging {
 namespace {
 
-// Of a scene::SharedHeightField or a scene::Topography: centred on the origin, row by row from -y.
+// Grid of a scene::SharedHeightField or a scene::Topography: centred on the origin, row by row from -y.
 template <class Heights>
 physics::HeightGrid grid_of(const Heights& heights) {
   physics::HeightGrid grid;

@@ -17,7 +17,7 @@ std::string plain_hid_text(const wchar_t* text);
 // Reason why a device cannot be opened, and what to do.
 std::string why_hid_is_closed(const std::string& path);
 
-// Wand of those that could be meant: opened as soon as the system allows it, read, and watched for its use. A device
+// One of the possible wands: opened as soon as the system allows it, read, and watched for its use. A device
 // that cannot be opened is tried again after 0.1, 0.2, 0.4 s and so on, because the permissions of a new device are set
 // a little after it appears. One thread.
 class HidCandidate {

@@ -10,7 +10,7 @@ namespace afm::input {
 
 namespace {
 
-// What `now` has and `before` had not.
+// Text with the counts of `now` since `before`.
 std::string losses(const DtrackUpdate& now, const DtrackUpdate& before) {
   const std::uint64_t left_out = now.left_out - before.left_out;
   return fmt::format("{} frames received, {} lost, {} late or repeated, {} malformed packets{}",

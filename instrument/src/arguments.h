@@ -10,7 +10,7 @@
 namespace afm::instrument {
 
 // The members of a request. Each accessor checks sort and range, and throws RefusedRequest, as finish() does for a
-// member that no accessor asked for: a misspelled name must not act as its default.
+// member that no accessor requested: a misspelled name must not act as its default.
 class Arguments {
  public:
   explicit Arguments(const nlohmann::ordered_json& object) : object_(object) {}

@@ -60,7 +60,7 @@ constexpr std::array kNumbers{
     NumberRow{"second_apex_m", 1e-10, 1e-6, [](const Settings& s) { return s.faults.second_apex_m; },
               [](Settings& s, double si) { s.faults.second_apex_m = si; }}};
 
-// Those of the contact, of the sample, and of Faults are set as such.
+// True for settings of the scan only: the contact, the sample and Faults have members of their own.
 bool is_of_scan_alone(const physics::ScanField& field) {
   constexpr std::array<std::string_view, 5> kElsewhere{"spring_constant", "adhesion", "snap_in", "second_apex_distance",
                                                        "second_apex_height"};

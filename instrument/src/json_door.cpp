@@ -306,7 +306,7 @@ struct JsonDoor::Verbs {
 };
 
 constexpr std::array<JsonDoor::Verbs::Row, 15> JsonDoor::Verbs::kRows{{
-    {"hello", "who answers; \"seed\" starts anew", &Verbs::hello},
+    {"hello", "names the program; \"seed\" starts anew", &Verbs::hello},
     {"get", "every setting and where the tip is", &Verbs::get},
     {"set", "changes settings, all or none: \"values\"", &Verbs::set},
     {"approach", "lowers the tip until the setpoint is reached: \"speed_m_per_s\"", &Verbs::approach},

@@ -115,7 +115,8 @@ physics::ScanSettings SimulatedInstrument::scan_settings() const {
   return scan;
 }
 
-// As the scanner sees it from now on: displaced by the drift so far; for a tip that engaged falsely, nothing.
+// The surface as the scanner sees it from now on: displaced by the drift so far; for a tip that engaged falsely,
+// nothing.
 physics::Scanner::Surface SimulatedInstrument::surface_now() const {
   if (!touching_) return [z_m = at_.z_m](double, double) { return z_m; };
   if (settings_.flat) return [](double, double) { return 0.0; };

@@ -11,8 +11,8 @@
 #include "haptics/release_path.h"
 #include "scene/shared/shared_segment.h"
 
-// What removes the force from the hand when the servo cannot, because it is stopped, killed, or stuck in a driver. Two
-// guards watch a servo: its watchdog, a process, and a thread of its renderer with longer times.
+// Removal of the force from the hand when the servo cannot do it, because it is stopped, killed, or stuck in a driver.
+// Two guards watch a servo: its watchdog, a process, and a thread of its renderer with longer times.
 namespace afm::servo {
 
 // Letters from the servo to a guard, and the beat of the watchdog in return.
@@ -25,7 +25,7 @@ inline constexpr std::string_view kBeat = "B";
 // Counted in a guard's own wake-ups, so that a pause of the whole machine does not count. All in ms.
 struct GuardTimes {
   int wake;
-  int release;  // since the servo's last tick: zero force is sent; the servo may go on afterwards
+  int release;  // since the servo's last tick: zero force is sent; the servo may continue afterwards
   int kill;     // since its last tick: SIGKILL, so that the kernel closes the device
   int close;    // since it announced its end: the same
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: of two masters of a wall the later one ends
+// Invariant: if a wall has two masters, the later one ends
 // Invariant: nothing listens without `--cluster`; with it, only on the named interface
 // Invariant: no environment variable changes the network of a wall
 #include <arpa/inet.h>

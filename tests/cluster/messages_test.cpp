@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: no message between machines is used before it is fully checked; the servo gets none but a Stop
+// Invariant: no message between machines is used before it is fully checked; only a Stop reaches the servo
 #include <gtest/gtest.h>
 
 #include <algorithm>

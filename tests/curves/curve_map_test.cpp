@@ -155,7 +155,7 @@ TEST_F(ForceMap, IsRefusedIfItIsCutOrNoMap) {
   EXPECT_THAT(cut.message, HasSubstr("damaged"));
   const std::string single = folder_.file("single.tab");
   ASSERT_TRUE(write_curve(single, CurveFormat::Tab, test::hertz_curve(50)));
-  EXPECT_THAT(refusal(single).message, HasSubstr("it holds one curve alone"));
+  EXPECT_THAT(refusal(single).message, HasSubstr("it holds only one curve"));
   auto nowhere = test::jpk_map(test::sticky_curve);
   nowhere["header.properties"] = "";
   EXPECT_THAT(refusal(write(nowhere)).message, HasSubstr("its curves are not on a grid"));

@@ -207,7 +207,7 @@ TEST_F(Lever, SaysWhatIsMissing) {
   EXPECT_THAT(calibrate(options).error().message, HasSubstr("--range"));
 }
 
-// An option that acts on nothing is refused by its name, and so is an uncertainty without a share.
+// An option without effect is refused by its name, and so is an uncertainty without a share.
 TEST_F(Lever, RefusesWhatActsOnNothing) {
   LeverOptions gci;
   gci.inputs[LeverInput::GciCoefficient] = 1e-9;
@@ -220,11 +220,11 @@ TEST_F(Lever, RefusesWhatActsOnNothing) {
   };
   LeverOptions options = gci;
   options.inputs[LeverInput::Sensitivity] = 60e-9;
-  EXPECT_THAT(refusal(options), HasSubstr("--sensitivity acts on nothing"));
+  EXPECT_THAT(refusal(options), HasSubstr("--sensitivity has no effect"));
   options.inputs[LeverInput::ContactStiffness] = 30.0;
   EXPECT_EQ(refusal(options), "");
   options.inputs[LeverInput::Sensitivity] = {};
-  EXPECT_THAT(refusal(options), HasSubstr("--contact-stiffness acts on nothing"));
+  EXPECT_THAT(refusal(options), HasSubstr("--contact-stiffness has no effect"));
 
   // neither the sensitivity nor the temperature is in A Q f^1.3
   options = gci;
@@ -240,11 +240,11 @@ TEST_F(Lever, RefusesWhatActsOnNothing) {
   options.inputs[LeverInput::SpringConstant] = 0.1;
   EXPECT_EQ(refusal(options), "");
   options.inputs[LeverInput::Tilt] = 0.2;
-  EXPECT_THAT(refusal(options), HasSubstr("--tilt acts on nothing"));
+  EXPECT_THAT(refusal(options), HasSubstr("--tilt has no effect"));
   options = tuned();
   options.mode = 2;
   options.bandwidth_hz = 1e3;
-  EXPECT_THAT(refusal(options), HasSubstr("--bandwidth acts on nothing"));
+  EXPECT_THAT(refusal(options), HasSubstr("--bandwidth has no effect"));
 }
 
 TEST_F(Lever, OfAHigherModeGivesNoResonanceToSaderAndGci) {

@@ -52,7 +52,7 @@ std::vector<WritableFormat> writable_formats();
 // The one whose ending a file's name has; empty: none. AFM Workshop's is the only .csv.
 std::optional<WritableFormat> writable_format_of(std::string_view name);
 
-// How to convert a recording to forces, and which curve to read. A given calibration replaces the file's: forces scale
+// Conversion of a recording to forces, and the curve to read. A given calibration replaces the file's: forces scale
 // with their original spring constant and sensitivity.
 struct CurveReading {
   std::optional<physics::Stiffness> spring_constant;

@@ -18,8 +18,8 @@
 
 namespace afm::curves {
 
-// A map of force curves in a file: where its curves are, and how high its sample is. Its curves stay in the file, which
-// must not change. Const after loading; any thread but the servo's.
+// A map of force curves in a file: the places of its curves, and the heights of its sample. Its curves stay in the
+// file, which must not change. Const after loading; any thread but the servo's.
 class CurveMap {
  public:
   // Gets the numbers of curves that were read and of all; returns whether to go on.
@@ -62,7 +62,7 @@ class CurveMap {
   std::vector<std::uint32_t> indexes_;  // numbers of the curves in the file, in the order of the heights
 };
 
-// The curve of a pixel, and the map that it is of.
+// The curve of a pixel, and its map.
 struct MapCurve {
   std::shared_ptr<const CurveMap> map;
   MapPlace place;

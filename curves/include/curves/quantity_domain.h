@@ -27,7 +27,7 @@ struct QuantityDomain {
 // "100pm to 1mm", or the units if there is no range.
 std::string legal_values(const QuantityDomain& domain);
 
-// Why the value is not legal, in one line that quotes `text`; empty if it is.
+// Reason why the value is not legal, in one line that quotes `text`; empty if it is.
 std::string refusal(double si, std::string_view text, const QuantityDomain& domain);
 
 // The value in SI, or the reason why it cannot be read or is not legal.

@@ -13,7 +13,7 @@
 
 namespace afm::curves {
 
-// Where a curve was recorded, in the frame of the instrument's scanner; x is the fast axis.
+// Place at which a curve was recorded, in the frame of the instrument's scanner; x is the fast axis.
 struct CurvePosition {
   double x_m = 0, y_m = 0;
 };
@@ -33,8 +33,9 @@ struct MapPixel {
   std::size_t column = 0, row = 0;
 };
 
-// Whether a file of so many curves may claim a map of this grid: of up to 512 x 512 pixels, most of which may lack a
-// curve, or of 16 for each curve. The grid is the file's word: one curve must not claim the memory of a million.
+// True if a file with this many curves may have a map on this grid: up to 512 x 512 pixels, most of which may lack a
+// curve, or up to 16 pixels for each curve. The grid comes from the file: one curve must not take the memory of a
+// million.
 bool is_map_of(std::size_t curves, const MapGrid& grid);
 
 // Pixel of a grid that is turned by `turn_rad` about its center, counterclockwise, with `reflected` rows from the top.

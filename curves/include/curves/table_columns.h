@@ -13,7 +13,7 @@ enum class ColumnKind { Height, Force, Deflection, RetractForce, RetractDeflecti
 
 struct TableColumn {
   ColumnKind kind = ColumnKind::Nothing;
-  double si_per_unit = 1;  // V for a deflection in volts; negative where the sign is turned
+  double si_per_unit = 1;  // V for a deflection in volts; negative if the sign is reversed
   bool volts = false;
 };
 
@@ -21,8 +21,8 @@ struct TableColumn {
 using TableColumns = std::vector<TableColumn>;
 
 // From "height:um force:nN": the columns' names with their units, separated by blanks; "-" is a column that is not
-// read, and "deflection:-V" one whose sign is turned. WrongUsage, with the names and units that are known, for anything
-// else, and unless there are one height and one force or deflection.
+// read, and "deflection:-V" one whose sign is reversed. WrongUsage, with the names and units that are known, for
+// anything else, and unless there are one height and one force or deflection.
 core::Result<TableColumns> parse_table_columns(std::string_view text);
 
 }  // namespace afm::curves

@@ -35,7 +35,7 @@ class ZipArchive {
   // Makes the entry the archive's current one; false without it.
   bool find(std::string_view name) const;
 
-  // Where minizip reads.
+  // Source of minizip's reads.
   struct Cursor {
     std::string_view bytes;
     std::size_t at = 0;

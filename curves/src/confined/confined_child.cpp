@@ -127,7 +127,7 @@ Forked forked(const ChildWork& work) {
   throw CurveError("reading it takes too long, or more memory than there is");
 }
 
-// All that a child writes.
+// Complete output of a child.
 std::string result_of(const ChildWork& work, const std::string& on_death, std::chrono::milliseconds patience) {
   const Forked forked_child = forked(work);
   const auto end = Clock::now() + patience;

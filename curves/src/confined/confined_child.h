@@ -15,7 +15,7 @@
 
 namespace afm::curves {
 
-// How long a child may take.
+// Time limits of a child.
 struct ChildTime {
   std::chrono::milliseconds patience;  // time for its result, or for each message of a stream
   std::chrono::seconds processor_time;
@@ -57,8 +57,8 @@ using PutMessage = std::function<void(const ChildMessage&)>;
 // For a program that was started for a stream: a message on stdout.
 void put_message(const ChildMessage& message);
 
-// A confined child that goes on while its messages are read, with the rules of in_confined_child(). At most 64 KiB wait
-// unread. One thread, the one that made it. Not moved.
+// A confined child that continues while its messages are read, with the rules of in_confined_child(). At most 64 KiB
+// wait unread. One thread, the one that made it. Not moved.
 class ConfinedStream {
  public:
   // `on_death` must outlive the object.

@@ -79,28 +79,29 @@ fits::Indenter indenter_of(const FitOptions& options) {
 
 std::span<const FitNumber> fit_numbers() {
   static const std::array kNumbers{
-      FitNumber{"radius", domain(physics::kLengthUnits, 1e-10, 1e-3), "of --fit: radius of the tip",
+      FitNumber{"radius", domain(physics::kLengthUnits, 1e-10, 1e-3), "with --fit: radius of the tip",
                 [](FitOptions& options, double si) { options.radius_m = si; }},
       FitNumber{"half-angle", domain(kAngleUnits, kLeastAngle, kMostAngle),
-                "of --fit: angle between the axis of the tip and its edge (cone) or face (pyramid)",
+                "with --fit: angle between the axis of the tip and its edge (cone) or face (pyramid)",
                 [](FitOptions& options, double si) { options.half_angle_rad = si; }},
       FitNumber{"layer", domain(physics::kLengthUnits, 1e-10, 1e-1),
-                "of --fit: thickness of the sample on a rigid base",
+                "with --fit: thickness of the sample on a rigid base",
                 [](FitOptions& options, double si) { options.layer_m = si; }},
       FitNumber{"poisson", domain(physics::kPlainNumber, 0.0, 0.5),
-                "of --fit: Poisson's ratio of the sample; default: 0.5",
+                "with --fit: Poisson's ratio of the sample; default: 0.5",
                 [](FitOptions& options, double si) { options.poisson = si; }},
       FitNumber{"atomic-distance", domain(physics::kLengthUnits, 0.05e-9, 5e-9),
-                "of --fit dmt, jkr, maugis or auto: equilibrium distance z0 of the surfaces, for Maugis' stress and "
+                "with --fit dmt, jkr, maugis or auto: equilibrium distance z0 of the surfaces, for Maugis' stress and "
                 "Tabor's parameter; default: 0.3nm",
                 [](FitOptions& options, double si) { options.atomic_distance_m = si; }},
       FitNumber{"most-force", domain(physics::kForceUnits, 1e-13, 1e-1),
-                "of --fit: leave out what comes after a greater force above the baseline",
+                "with --fit: leave out everything after the first greater force above the baseline",
                 [](FitOptions& options, double si) { options.most_force_n = si; }},
-      FitNumber{"most-depth", domain(physics::kLengthUnits, 1e-10, 1e-3),
-                "of --fit: leave out what comes after a greater depth below the contact point of the analysis "
-                "(--contact-point)",
-                [](FitOptions& options, double si) { options.most_depth_m = si; }}};
+      FitNumber{
+          "most-depth", domain(physics::kLengthUnits, 1e-10, 1e-3),
+          "with --fit: leave out everything after the first greater depth below the contact point of the analysis "
+          "(--contact-point)",
+          [](FitOptions& options, double si) { options.most_depth_m = si; }}};
   return kNumbers;
 }
 
@@ -121,9 +122,10 @@ core::Result<void> prepare(FitOptions& options) {
     if (const auto checked = check_size(shape, size); !checked) return checked;
   }
   if (shape.has_layer && !shape.is_exact && options.poisson != 0.5) {
-    return core::wrong_usage(fmt::format(
-        "--fit {} knows Poisson's ratio 0.5 alone; leave --poisson out, or take layer-exact-sphere or layer-exact-cone",
-        shape.name));
+    return core::wrong_usage(
+        fmt::format("--fit {} needs a Poisson's ratio of 0.5; leave --poisson out, or choose layer-exact-sphere or "
+                    "layer-exact-cone",
+                    shape.name));
   }
   if (!shape.is_exact && options.base != fits::Base::Bonded) {
     return core::wrong_usage(fmt::format("--fit {} has no use for --base; leave it out", shape.name));

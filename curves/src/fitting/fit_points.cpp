@@ -10,7 +10,7 @@ namespace {
 
 using physics::Branch;
 
-// Whether a point is beyond a limit. The depth counts from the contact point of the analysis, not of the fit: that one
+// True if a point is beyond a limit. The depth counts from the contact point of the analysis, not of the fit: that one
 // moves with what is left out, on a sample that stiffens further and further.
 bool is_beyond(const AnalysedCurve& curve, const physics::CurvePoint& point, const FitOptions& options) {
   const physics::CurveFeatures& features = curve.features;

@@ -157,10 +157,9 @@ std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options) {
   for (const fits::Found& found : fit.doubts) {
     fmt::format_to(out, "  {}\n", doubt_text(found));
   }
-  fmt::format_to(out,
-                 "the interval is that of the noise alone: errors of spring constant, sensitivity and radius come on "
-                 "top{}\n",
-                 fit.systematic.empty() ? " (--uncertainty)" : ", as the systematic part has them");
+  fmt::format_to(
+      out, "the interval covers only the noise; errors of spring constant, sensitivity and radius are separate{}\n",
+      fit.systematic.empty() ? " (--uncertainty)" : ", in the systematic part");
   return fmt::to_string(text);
 }
 

@@ -17,7 +17,7 @@
 
 namespace afm::curves {
 
-// How the curves of a format whose files hold several are counted and read, without their bytes in this process. Throws
+// Counting and reading of curves in formats whose files hold several, without their bytes in this process. Throws
 // CurveError.
 struct SeriesRow {
   std::size_t (*count)(const std::string& path);

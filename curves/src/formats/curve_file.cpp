@@ -182,7 +182,7 @@ void make_texts_printable(CurveMetadata& metadata) {
   for (std::string& remark : metadata.remarks) remark = core::printable_line(remark);
 }
 
-// What every curve must meet, whatever its format.
+// Last steps for a curve of any format: calibration, checks and printable texts.
 RecordedCurve finished(RecordedCurve curve, const CurveReading& reading) {
   recalibrate(reading, curve);
   check(curve);
@@ -194,7 +194,7 @@ RecordedCurve finished(RecordedCurve curve, const CurveReading& reading) {
 bool is_mapped(const CurveRow& row) { return row.reader == Reader::Foreign && row.series != nullptr; }
 
 RecordedCurve parsed(const CurveRow& row, std::string_view text, const CurveReading& reading) {
-  if (reading.index != 0 && row.series == nullptr) throw CurveError("it holds one curve alone");
+  if (reading.index != 0 && row.series == nullptr) throw CurveError("it holds only one curve");
   const bool confined = row.reader == Reader::Foreign && reading.confined;
   RecordedCurve curve = read_confined(
       confined, [&] { return row.read(text, reading); }, tab_bytes, read_tab, is_mapped(row) ? kMapTime : kFileTime);

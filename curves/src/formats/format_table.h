@@ -44,7 +44,7 @@ struct FormatTable {
   std::size_t longest_beginning;                              // bytes that `begins` needs
   std::array<Row, Count> rows;                                // the first whose `begins` holds has the file
 
-  // Whether `files` names those of every row.
+  // True if `files` names those of every row.
   constexpr bool names_all() const {
     return std::all_of(rows.begin(), rows.end(), [&](const Row& row) {
       return std::string_view(files).find(row.files) != std::string_view::npos;
@@ -57,7 +57,7 @@ struct FormatTable {
     return found != rows.end() ? &*found : nullptr;
   }
 
-  // What a file of no known format is, as far as its beginning shows.
+  // Refusal of a file of another kind, which is named as far as its beginning shows.
   std::string refusal_of(std::string_view bytes) const {
     std::string true_kind = unread_kind_of(bytes, bytes.size());
     if (true_kind.empty()) true_kind = other_kind_of(bytes);

@@ -45,7 +45,7 @@ NanoscopeIntegers nanoscope_integers(const NanoscopeBlock& channel, const std::v
 
 double nanoscope_integer(std::string_view data, std::size_t index, std::size_t size);
 
-// Where the curves of a force volume are: line by line from the bottom, as the points of its image, of which a curve
+// Places of the curves of a force volume: in rows from the bottom, like the points of its image, of which a curve
 // may have several.
 struct NanoscopeVolume {
   std::size_t columns = 0, rows = 0;  // number of curves along a side; 0: the file does not tell

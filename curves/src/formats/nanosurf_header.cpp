@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view kDataMark = "\n#!", kInfo = "DataSet-Info";
 constexpr double kMostGroups = 64, kMostChannelNumber = 256;
 
-// Whether the first section has this text.
+// True if the first section has this text.
 bool names_group(std::string_view bytes, std::string_view text) {
   constexpr std::size_t kFirstSection = 4096;
   return bytes.substr(0, kFirstSection).find(text) != std::string_view::npos;

@@ -65,7 +65,7 @@ bool is_part_of_word(char c) {
   return byte >= 0x80 || std::isalnum(byte) != 0;
 }
 
-// Whether a symbol of `size` bytes at `at` is a word by itself.
+// True if a symbol of `size` bytes at `at` is a word by itself.
 bool is_word(std::string_view text, std::size_t at, std::size_t size) {
   const bool begins = at == 0 || !is_part_of_word(text[at - 1]);
   return begins && (at + size >= text.size() || !is_part_of_word(text[at + size]));

@@ -43,7 +43,8 @@ struct FormatRow {
   std::string_view files;  // as kImageFiles lists them
   bool (*begins)(std::string_view bytes);
   ImagePages (*read)(std::string_view bytes);
-  std::string (*convert)(std::string_view bytes) = nullptr;  // makes what `read` gets in a confined program; null: none
+  std::string (*convert)(std::string_view bytes) =
+      nullptr;  // produces the input of `read` in a confined program; null: none
 };
 
 constexpr FormatTable kImages{
@@ -95,7 +96,7 @@ std::string names_of(const std::vector<ImagePage>& pages) {
   return names;
 }
 
-// What instruments call a channel in metres, by the beginning of its name in lower case.
+// Names that instruments give to a channel in metres: the beginning, in lower case.
 enum class Content { Height, Other, NoHeight };
 struct NameRow {
   std::string_view beginning;

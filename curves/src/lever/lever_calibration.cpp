@@ -244,7 +244,7 @@ struct Acting {
   std::string_view on;
 };
 
-// WrongUsage for an option that acts on nothing.
+// WrongUsage for an option without effect.
 core::Result<void> check_acting(const LeverOptions& options, const LeverCalibration& result) {
   const LeverInputs& given = options.inputs;
   const bool has_k = result.spring_constant_n_per_m().has_value();
@@ -268,7 +268,7 @@ core::Result<void> check_acting(const LeverOptions& options, const LeverCalibrat
   for (const Acting& each : inputs) {
     if (each.is_given && !each.acts) {
       return wrong_usage(
-          fmt::format("{} acts on nothing here; it needs {}. Leave it out, or give that", each.option, each.on));
+          fmt::format("{} has no effect here; it needs {}. Leave it out, or give that", each.option, each.on));
     }
   }
   return {};
@@ -290,7 +290,7 @@ core::Result<void> check_shares(const LeverOptions& options, const LeverCalibrat
 
 core::Result<void> complete_fluid(const LeverOptions& options, LeverInputs& in) {
   if (options.fluid && in[LeverInput::Density] && in[LeverInput::Viscosity]) {
-    return wrong_usage("--fluid acts on nothing beside --density and --viscosity; leave it out");
+    return wrong_usage("--fluid has no effect with --density and --viscosity; leave it out");
   }
   if (!options.sader) return {};
   const physics::Fluid fluid = options.fluid.value_or(kFluids[0].fluid);

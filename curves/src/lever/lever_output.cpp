@@ -107,8 +107,8 @@ void thermal_lines(const LeverOptions& options, const LeverCalibration& result, 
     lines.line("  forces by sensitivity", percent_text(thermal.force_by_sensitivity));
   }
   lines.note(
-      fmt::format("with the floor taken for the lever's, k would be off by {:.3g} %", 100.0 * thermal.floor_bias));
-  lines.note("the interval is that of the spectrum's scatter alone");
+      fmt::format("if the floor were noise of the lever, k would be off by {:.3g} %", 100.0 * thermal.floor_bias));
+  lines.note("the interval covers only the scatter of the spectrum");
 }
 
 // Noise of the free lever at the tip.

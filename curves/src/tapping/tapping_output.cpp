@@ -138,7 +138,7 @@ json width_json(const std::vector<physics::TapJump>& jumps) {
   return jumps[1].z.si - jumps[0].z.si;
 }
 
-// What only direct integration knows: the higher harmonics, and what they add.
+// Results of direct integration only: the higher harmonics and their effects.
 json harmonics_json(const physics::DirectSwing& swing, const physics::DrivenLever& lever) {
   json amplitudes = json::array();
   for (std::size_t n = 1; n < swing.harmonics.size(); ++n) amplitudes.push_back(swing.harmonics[n].si);

@@ -149,7 +149,7 @@ core::Result<void> compute(const PathOptions& path, const TappingOptions& option
   return {};
 }
 
-// What both modes share: model, checks and the viscosity; then the mode's computation.
+// Steps common to both modes: model, checks and the viscosity; then the mode's computation.
 template <class Run>
 core::Result<Run> computed(const ContactSetup& setup, const PathOptions& path, const TappingOptions& options) {
   Run run{};

@@ -25,7 +25,7 @@ constexpr std::string_view kFreeAmplitude = "free-amplitude", kHeight = "z";
 
 double degrees_of(const physics::TapState& state) { return state.phase * 180.0 / std::numbers::pi; }
 
-// What a map has beside the numbers of the contact: no field of a setup.
+// Parameters of a map beside the numbers of the contact: not fields of a setup.
 ContactParameter length_beside(std::string_view option, std::string_view json_key) {
   return {.option = option,
           .json_key = json_key,

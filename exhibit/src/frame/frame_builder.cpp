@@ -139,7 +139,7 @@ Phrase stage_of_cycle(const Moment& moment, double z_jtc_m) {
   return moment.wall.tip.z_m > 0.0 ? StageAdhesion : StageRetract;
 }
 
-// Amplitude of the swing, its phase and the state that it is in, in place of the force.
+// Amplitude of the swing, its phase and its state, instead of the force.
 void show_swing(const Moment& moment, const curves::SampleModel& material, const Phrases& phrases,
                 render::ForcePanel& panel) {
   using Kind = render::PlotMarker::Kind;

@@ -10,7 +10,7 @@
 
 namespace afm::exhibit {
 
-// What the files of a data set say of themselves, as the Brain Imaging Data Structure wants it.
+// Descriptions of a data set's files, as the Brain Imaging Data Structure requires them.
 
 inline constexpr const char* kMissingValue = "n/a";
 
@@ -21,7 +21,7 @@ struct RootFile {
 };
 std::vector<RootFile> root_files();
 
-// A lesson's id in the names of files: letters and digits alone.
+// A lesson's id in the names of files: only letters and digits.
 std::string task_label(const std::string& lesson);
 
 nlohmann::ordered_json participants_json();

@@ -14,7 +14,7 @@ namespace {
 using physics::Length;
 using physics::Sideways;
 
-// For one target only its particle counts: what is pinned stays out of a pattern.
+// With one target only its particle counts; pinned ones stay out of a pattern.
 scene::ParticleSet wanted_set(const scene::ParticleSet& set, const PushPlan& plan) {
   scene::ParticleSet wanted = set;
   if (plan.until != PushUntil::Target) return wanted;

@@ -17,7 +17,7 @@ namespace afm::exhibit {
 // Digest of the places of a set's spheres before the first push.
 std::uint64_t start_digest(const scene::ParticleSet& set);
 
-// A push as a step of a lesson wants it, judged and scored by the task of its particles. All of them are at their
+// A push that a step of a lesson requires, judged and scored by the task of its particles. All of them are at their
 // start when it begins. One thread.
 class PushTrial {
  public:
@@ -34,14 +34,15 @@ class PushTrial {
 
   const scene::TaskScore& score() const { return lost_ ? *lost_ : task_.score(); }
 
-  // What the push is judged by once it is done: root mean square distance from the targets, or the way of the particle.
+  // Measure of a finished push: root mean square distance from the targets, or the distance that the particle has
+  // moved.
   physics::Length result() const { return result_; }
 
  private:
   physics::Length way_of(const physics::Sideways<physics::Length>& place) const;
 
   PushPlan plan_;
-  scene::ParticleSet set_;  // with the wanted target alone, if there is one
+  scene::ParticleSet set_;  // with only the required target, if there is one
   physics::Sideways<physics::Length> start_;
   ParticleTask task_;
   std::int32_t touched_ = scene::kNoParticle;  // newest particle that the tip has touched

@@ -239,7 +239,7 @@ void PushingHand::steer(std::size_t particle, const glm::dvec2& to_m) {
   go(at_m_, high_m_, kWayMPerS);
 }
 
-// Pushes beside the middle, without steering.
+// Pushes off centre, without steering.
 void PushingHand::slip_past(std::size_t particle) {
   const double r_m = radius_m(particle);
   const glm::dvec2 from_m = place(particle), along = free_direction(particle, kLostWay * r_m);
@@ -251,7 +251,7 @@ void PushingHand::slip_past(std::size_t particle) {
   go(at_m_, high_m_, kWayMPerS);
 }
 
-// Of sixteen directions, the one with the most room for the particle, and of those the one that stays nearest to the
+// The direction, of sixteen, with the most room for the particle; among equals, the one that stays nearest to the
 // middle.
 glm::dvec2 PushingHand::free_direction(std::size_t particle, double way_m) const {
   const double r_m = radius_m(particle);

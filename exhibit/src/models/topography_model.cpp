@@ -192,7 +192,7 @@ core::Result<TopographyModel> load_topography_model(const std::string& file, con
     resampled = fmt::format(" felt as {} x {}", model.topography.columns, model.topography.rows);
   }
   model.summary = fmt::format(
-      "sample {}: channel {}, {} x {} points{}, {} x {}, mean {}, Sq {}; taken off: {}; Sq then {}{}; heights are "
+      "sample {}: channel {}, {} x {} points{}, {} x {}, mean {}, Sq {}; levelling: {}; Sq then {}{}; heights are "
       "drawn and "
       "felt {:g} times as high as in proportion",
       file, measured->channel().name, scan.columns, scan.rows, resampled, length_of(scan.width_m),

@@ -107,7 +107,7 @@ class ParticleRows {
         phrases_.text<Phrase::TaskLargest>(force_text(Force(score.largest_lateral_n), phrases_)));
   }
 
-  // What a planned push asks of the hand.
+  // Demands of a planned push on the hand.
   void add_plan() {
     const auto figures = plan_figures(now_);
     if (!figures) return;
@@ -169,7 +169,7 @@ class ParticleRows {
         source_text(now_.set->species[species_index()].sources, key, phrases_));
   }
 
-  // Of the sample, or of the pad below the touched sphere.
+  // Work of adhesion of the sample, or of the pad below the touched sphere.
   void add_adhesion() {
     const auto pose = touched_ ? pose_of(now_, *touched_) : std::nullopt;
     const std::vector<physics::StickyPad> pads =
@@ -218,7 +218,7 @@ class ParticleRows {
   std::vector<render::DataRow> rows_;
 };
 
-// How far a pattern is, or else what the particles are in; with the pushes that can be taken back.
+// Distance from a pattern, or else the medium of the particles; with the pushes that can be taken back.
 std::string subtitle(const ParticlesNow& now, const Phrases& phrases) {
   const std::uint32_t strokes = now.push.strokes;
   const std::string pushes = fmt::format("{}", strokes);

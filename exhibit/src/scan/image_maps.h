@@ -12,7 +12,7 @@
 
 namespace afm::exhibit {
 
-// What the panels of all images have in common.
+// Parts common to the panels of all images.
 
 inline constexpr glm::vec3 kTraceColor{0.337F, 0.706F, 0.914F}, kRetraceColor{0.902F, 0.624F, 0.0F};
 inline constexpr double kLeastRangeM = 0.2e-9;   // smallest range of the colours: a flat sample does not look rough

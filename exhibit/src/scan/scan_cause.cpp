@@ -23,7 +23,7 @@ double relief_m(const LiveScan& scan) {
   return std::max(high - low, 0.0);
 }
 
-// Time in which drift has added up in the visible image: of whole lines, or of the frame before.
+// Time in which drift has added up in the visible image: of whole lines, or of the previous frame.
 double seen_s(const LiveScan& scan) {
   if (scan.progress().frame > 0) return static_cast<double>(LiveScan::kPixels) / scan.choice().line_rate_hz;
   const auto pixels_of_line = static_cast<double>(scan.progress().pixel % (2 * LiveScan::kPixels));

@@ -64,7 +64,7 @@ glm::dvec2 PushPlanner::place_m(std::size_t particle, const ParticlesNow& now) c
   return pose ? glm::dvec2(pose->x_m, pose->y_m) : starts_m_[particle];
 }
 
-// That of the pattern which is nearest to being formed.
+// Number of the place that the best match with the pattern assigns to the particle.
 std::size_t PushPlanner::assigned_place(std::size_t particle, const ParticlesNow& now) const {
   const auto pattern = pattern_of(now);
   for (std::size_t place = 0; pattern && place < pattern->match.particles.size(); ++place) {

@@ -34,7 +34,7 @@ constexpr double kShortestWay = 0.2;  // shortest way with a footprint, in radii
 constexpr double kDotSpacing = 0.45;  // in radii
 constexpr std::uint32_t kMostDots = 64, kMostDotsInAll = 8192;
 
-// Of a plan, in radii: its dots are larger and closer than those of a path, its rings wider than a footprint.
+// Sizes of a plan, in radii: its dots are larger and closer than those of a path, its rings wider than a footprint.
 constexpr double kPlanDotSpacing = 0.3, kPlanDotSize = 1.4, kPlanRingSize = 1.8;
 constexpr glm::vec4 kPlanned{0.35F, 1.05F, 1.15F, 1.0F};  // tint
 
@@ -237,7 +237,7 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
   add_plan(*now, layout_per_m, frame);
 }
 
-// Of a sphere that hangs on the tip, above the sample: it touches the tip.
+// Height of a sphere that hangs on the tip, above the sample: it touches the tip.
 double StageParticles::height_m(std::size_t particle, const scene::ParticlePose& pose, const ParticlesNow& now) const {
   const bool hangs = now.push.state == physics::PushState::Carried && touched(now, particles_.size()) == particle;
   if (!hangs) return 0.0;

@@ -23,11 +23,11 @@ class DrivenContact {
   struct State {
     double depth_m = 0, force_n = 0;  // depth of the tip; force of the lever, a pull is negative
   };
-  // Quickest for a way near that of the call before.
+  // Fastest if the way is near that of the previous call.
   State approaching(double way_m) { return way_m > 0.0 ? touching(way_m) : State{}; }
   State retracting(double way_m) { return way_m > way_off_m() ? touching(way_m) : State{}; }
 
-  // Way at which the tip comes off: zero without adhesion, otherwise negative.
+  // Way of the base at which the tip lets go: zero without adhesion, otherwise negative.
   double way_off_m() const { return way_off_m_; }
 
   // Hardest pull of a soft lever, a magnitude: zero without adhesion. Tabor's parameter of the contact; also zero then.

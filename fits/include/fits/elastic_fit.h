@@ -47,7 +47,7 @@ struct FitSetup {
   bool tilt = false;           // also fits a slope of the baseline
   bool white = false;          // takes the noise as white: ordinary least squares, as in nanite and AtomicJ
   std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts
-  std::vector<Uncertainty> uncertainties{};  // errors in what the fit is given
+  std::vector<Uncertainty> uncertainties{};  // errors of the inputs
 };
 
 // Reasons not to trust a modulus, in the order of kDoubts.
@@ -114,7 +114,7 @@ struct ElasticFit {
   double depth_m = 0;      // largest depth of the model's tip
   double noise_n = 0;      // rms of the residuals before contact, or of all where these are few
   double rms_n = 0;        // rms of all residuals
-  std::size_t points = 0;  // in all
+  std::size_t points = 0;  // total number
   std::size_t in_contact = 0;
   std::optional<std::size_t> noise_order;       // autoregressive order, 0 to 4; none: assumed white, or no noise
   std::vector<double> noise;                    // its coefficients
@@ -127,10 +127,10 @@ struct ElasticFit {
   std::vector<double> model_n;         // force of the model at each sample, baseline included
 };
 
-// Fits reduced modulus, contact point, level, if wanted tilt, and of a law of adhesion the work of adhesion to all
-// samples. Empty, with the reason in `why`, if there are fewer than 10 samples, one is not finite, all have one Z, or
-// no start leads to a modulus; of a law of adhesion also without a pull, or without 10 samples on each side of the
-// contact.
+// Fits reduced modulus, contact point, level, the tilt if requested and, for a law of adhesion, the work of adhesion to
+// all samples. Empty, with the reason in `why`, if there are fewer than 10 samples, one is not finite, all have the
+// same Z, or no start leads to a modulus; for a law of adhesion also without a pull, or with fewer than 10 free or 10
+// sticking samples.
 std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& setup, std::string& why);
 
 }  // namespace afm::fits

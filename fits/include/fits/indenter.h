@@ -57,18 +57,18 @@ struct Indenter {
 // Table of an exact layer.
 std::shared_ptr<const LayerTable> exact_table(Shape shape, Base base, double poisson);
 
-// For a reduced modulus E* = E/(1 - nu^2) of 1 Pa.
+// Force at a depth per pascal of the reduced modulus E* = E/(1 - nu^2).
 struct Push {
   double force = 0;  // N/Pa
   double slope = 0;  // derivative by the depth, N/(m Pa)
 };
 
-// For a depth of zero or more, in metres; nothing above the sample. Of a law of adhesion, the paraboloid without it.
+// Push at a depth in metres; zero above the sample. A law of adhesion counts as its paraboloid, without adhesion.
 Push push_of(const Indenter& indenter, double depth_m) noexcept;
 
-// How far the depth is beyond the range in which the shape's formula is within 1 % of the exact layer (lab cases P09 to
-// P20): sqrt(R d)/h over 0.5, or d tan(alpha)/h over 0.9; of an exact layer,
-// over the largest of its table. 0 for a thick sample.
+// Strain of the layer over the largest at which the shape's formula is within 1 % of the exact layer (lab cases P09 to
+// P20): sqrt(R d)/h over 0.5, or d tan(alpha)/h over 0.9; for an exact layer, over the largest strain in its table. 0
+// for a thick sample.
 double layer_strain(const Indenter& indenter, double depth_m) noexcept;
 
 }  // namespace afm::fits

@@ -8,7 +8,7 @@
 
 namespace afm::fits {
 
-// How a layer lies on its rigid base.
+// Contact between a layer and its rigid base.
 enum class Base {
   Bonded,
   Sliding,  // without friction
@@ -36,7 +36,7 @@ class LayerTable {
     double factor = 1;  // 1 for a strain of 0
     double slope = 0;   // derivative of its logarithm by the strain
   };
-  // Beyond largest_strain() the logarithm goes on in a straight line.
+  // Beyond largest_strain() the logarithm continues along a straight line.
   Stiffening at(double strain) const noexcept;
 
   double largest_strain() const noexcept { return strains_.back(); }

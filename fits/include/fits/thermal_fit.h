@@ -38,7 +38,7 @@ enum class SpectrumDoubt {
   TooCoarse,      // fewer than four points in the width f0/Q
   Unknown,        // the area's standard deviation is over a tenth
   FewerAverages,  // the scatter is that of fewer averages than were given
-  Correlated      // neighbours are correlated more than a window does it
+  Correlated      // neighbours are more correlated than a window explains
 };
 
 struct SpectrumDoubtRow {
@@ -58,7 +58,7 @@ struct ThermalFit {
   Interval resonance_hz, quality_factor, area, floor;
   double area_deviation = 0;            // relative standard deviation of the area
   double averages = 0;                  // number assumed in the intervals
-  std::optional<double> seen_averages;  // those of the scatter; none: no scatter
+  std::optional<double> seen_averages;  // number that fits the scatter; none: no scatter
   double neighbour_factor = 1;          // growth of the variances because neighbours are correlated, by a window
   std::size_t points = 0;
   double low_hz = 0, high_hz = 0;  // first and last frequency

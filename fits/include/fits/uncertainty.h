@@ -38,7 +38,7 @@ struct Uncertainty {
 // result where the input is multiplied by either of `factors`.
 double error_share(double relative, const std::array<double, 2>& factors, const std::array<double, 2>& logarithms);
 
-// Relative deviation by independent shares, which add in squares.
+// Relative deviation by independent shares, which add in quadrature.
 double sum_of_shares(std::span<const double> shares);
 
 // First-order effect on the results: relative standard deviations. The noise has its own interval.

@@ -76,7 +76,7 @@ struct Touch {
 //
 // On the scale Particles the tip also pushes the particles on the sample (haptics/felt_particles.h). Their force is
 // added only where one is touched; without force, under a scan's feedback, and until the tip has been lifted, there is
-// none. The groove of a plan (haptics/felt_groove.h) is felt on that scale alone, too.
+// none. The groove of a plan (haptics/felt_groove.h) is also felt only on that scale.
 //
 // Under a scan's feedback (ScanFeedback) the sample feels level: the loop, z' = gain (h - z), removes the heights
 // before the hand feels them. Only the residual deflection, the part not yet followed, is felt, up to kMostResidualM of
@@ -85,8 +85,8 @@ struct Touch {
 // felt residual waits. Feedback begins and ends only where the step is not felt: with the tip off the sample, or
 // without force.
 //
-// A lever that taps is felt by its push, not by its mean force, which would give energy to the hand. What the push
-// gives by following the hand later is excess energy for the passivity observer.
+// A lever that taps is felt by its push, not by its mean force, which would give energy to the hand. The energy that
+// the push gives because it follows the hand late is excess energy for the passivity observer.
 //
 // create() takes milliseconds (on a topography or with a lever that taps, tenths of a second) and allocates; everything
 // else may be called in a tick of the servo.

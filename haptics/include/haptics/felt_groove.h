@@ -10,7 +10,7 @@
 
 namespace afm::haptics {
 
-// What a groove may do on a device.
+// Limits of a groove on a device.
 struct GrooveLimits {
   double most_force_n = 0;  // 0: no groove
   double most_stiffness_n_per_m = 0;
@@ -24,9 +24,9 @@ GrooveLimits groove_limits(const DeviceSpec& device);  // `device` includes the 
 //   U = -gain U_0 (1 - d^2/w^2)^3 W(s)   for d < w, else 0
 //
 // - W is 1 between the ends of the line, and falls to exactly 0 within 2 w beyond each, by a quintic step. Between the
-//   ends the force is at right angles to the line; where the groove ends, its conservation demands a part along it.
+//   ends the force is at right angles to the line; where the groove ends, a conservative field needs a part along it.
 // - The force is at most GrooveLimits::most_force_n, U_0 = kDepth most_force_n w, and w follows from the stiffness.
-// - The gain grows from 0 to 1 within kFadeS, and falls likewise when the plan or its groove ends. Another line waits
+// - The gain grows from 0 to 1 within kFadeS, and falls as slowly when the plan or its groove ends. Another line waits
 //   until the gain is 0. At a constant gain no closed path gains energy; the change of the gain is known in every tick
 //   (GroovePull::given_j). Switching on and off once gives a hand U_0 at most, about 2 mJ.
 //

@@ -26,10 +26,10 @@ namespace afm::haptics {
 //   The sample under the tip is felt by the contact model's own law; of the physics' upward force only the particles'
 //   part is felt: the force is the gradient of the stored energy less that of a lever on the bare sample.
 // - The tip is among the particles, over them, or waits. It waits from a lift() until it has been over all of them, so
-//   that no force comes without a motion of the hand. What was felt before ends there: after it, forces depend on the
-//   places of the particles and on the hand alone, so that a session can begin there.
+//   that no force comes without a motion of the hand. From then on forces depend only on the places of the particles
+//   and on the hand, so that a session can begin there.
 // - Not touching, the tip gets no force at all, and nothing is added to any other.
-// - A groove along the plan of a push (FeltGroove) belongs to them; its force is added apart.
+// - A groove along the plan of a push (FeltGroove) belongs to them; its force is added separately.
 // - A tip with a sphere on it is among the particles at any height. A lift() puts the sphere back where it was picked
 //   up.
 //
@@ -41,9 +41,9 @@ class FeltParticles {
   // `particles` is valid (scene::validate) and has particles, `scale` is its particle_scale().
   FeltParticles(const scene::SharedParticles& particles, const ParticleScale& scale, const GrooveLimits& groove = {});
 
-  // Goes on with the poses of these pages, of the same particles; a wait for a lift begins. A sphere that hung on the
-  // tip lies where it hung, or where there is room beside. Throws std::invalid_argument unless the pages are those of
-  // so many particles, and finite.
+  // Continues with the poses of these pages, of the same particles; a wait for a lift begins. A sphere that hung on
+  // the tip is set down below it, or where there is room next to it. Throws std::invalid_argument unless the pages are
+  // those of so many particles, and finite.
   void resume(std::span<const scene::ParticlePage> pages);
 
   // Moves the tip: `tip_xy_m` in the sample's frame, `z_m` that of the unbent lever above the sample, in metres of the

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-// Where haptic devices are plugged in on this computer, found without any driver.
+// Ports of this computer with haptic devices, found without any driver.
 namespace afm::haptics {
 
 enum class HapticBus { Serial, Hid, Usb };

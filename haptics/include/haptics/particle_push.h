@@ -11,7 +11,7 @@
 
 namespace afm::haptics {
 
-// Meeting of the tip with particles in one tick of FeltParticles. Forces on the lever, in the sample's frame.
+// Contact of the tip with particles in one tick of FeltParticles. Forces on the lever, in the sample's frame.
 struct ParticlePush {
   struct Event {
     physics::EventKind kind = physics::EventKind::ParticleTouched;

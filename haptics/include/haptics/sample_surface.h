@@ -26,7 +26,7 @@ namespace afm::haptics {
 // - A topography measured by an instrument is not dilated: its heights are already those of an apex. It is smoothed
 //   only as far as those limits require, by a bell curve, however many points it has.
 // - It is shifted along z to the height of the drawn surface at the origin, where events are compared.
-// - Beyond the edge the heights of the edge go over into one level plane (physics::Rim), never steeper than the sample.
+// - Beyond the edge the heights of the edge merge into one level plane (physics::Rim), never steeper than the sample.
 class SampleSurface {
  public:
   // The force acts along (-slope, 1); at this slope it is a tenth longer than the force along the sample's normal.

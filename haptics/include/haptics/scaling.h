@@ -71,7 +71,7 @@ class Scaling {
   // Lateral metres of the hand per metre of the nanoworld, for a scale with `hand_m_per_m` along the normal.
   static double lateral_m_per_m(scene::ScaleMode mode, double hand_m_per_m, double period_m) noexcept;
 
-  // Uses `scale`, reduced if this material alone would not suit the device, after a change since the scale was
+  // Uses `scale`, reduced if this material would not suit the device, after a change since the scale was
   // computed. Faint forces stay faint.
   static core::Result<Scaling> common(const physics::LawTables& tables, const DeviceSpec& device,
                                       const CommonScale& scale);

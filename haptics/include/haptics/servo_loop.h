@@ -84,7 +84,7 @@ class ServoLoop {
     bool led = false;
   };
 
-  // Newest word of the renderer.
+  // Newest requests of the renderer.
   struct Heard {
     std::optional<scene::RendererHeartbeat> heartbeat;
     std::int64_t seen_ns = 0;

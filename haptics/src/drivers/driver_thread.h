@@ -14,7 +14,7 @@ class DriverThread {
  public:
   DriverThread() = default;
 
-  // Starts `body`, which must not throw; returns once the thread knows its scheduling, and logs what was refused.
+  // Starts `body`, which must not throw; returns once the thread has its scheduling, and logs what was refused.
   explicit DriverThread(std::function<void()> body);
 
   void join();  // nothing if it was not started

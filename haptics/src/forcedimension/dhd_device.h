@@ -43,7 +43,7 @@ class DhdDevice final : public HapticDevice {
   static constexpr std::int64_t kStallNs = 10'000'000;
   static constexpr std::int64_t kWatchdogNs = 20'000'000;
   static constexpr std::int64_t kStatusNs = 10'000'000;     // between two readings of the status
-  static constexpr std::int64_t kForceModeNs = 50'000'000;  // time that the device has to switch its force on
+  static constexpr std::int64_t kForceModeNs = 50'000'000;  // time within which the device must switch its force on
 
   // Caller of run_cycle() and supervise(): the device's own threads, or a test.
   enum class Supervision { Threads, Caller };

@@ -70,7 +70,7 @@ inline constexpr int kNotReady = 12;
 inline constexpr int kInUse = 20;
 
 // results that are no failures
-inline constexpr int kTimeGuard = 1;       // position of a moment ago: the device was not asked again
+inline constexpr int kTimeGuard = 1;       // earlier position: the device was not queried again
 inline constexpr int kMotorSaturated = 2;  // the device gives less force than it should
 
 // indices of get_status(); 1: yes, 0: no

@@ -12,7 +12,7 @@
 
 namespace afm::instrument {
 
-// Where clients of the same user connect; nobody else is let in. One thread.
+// Socket at which clients of the same user connect; all others are refused. One thread.
 class Listener {
  public:
   // A Unix socket of mode 0600, in place of one that nobody listens on any more; the destructor and an interruption

@@ -20,7 +20,7 @@ class SimulatedInstrument;
 
 // Nanonis' TCP protocol (SPECS, July 2021) as far as its clients use it to approach, scan and move: docs/serve.md lists
 // the functions. Any other function is answered with an error text. A scan is done as soon as it is started: simulated
-// time waits for nobody.
+// time never waits for a client.
 class NanonisDoor final : public Door {
  public:
   static constexpr double kApproachSpeedM = 1e-6;  // m/s

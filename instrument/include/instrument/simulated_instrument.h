@@ -32,7 +32,7 @@ class SimulatedInstrument {
   // Shows from now on what happens; the showcase must outlive the object. Results do not depend on it.
   void show_in(Showcase& showcase);
 
-  // As if it were created with this seed.
+  // Restarts as if created with this seed.
   core::Result<void> reset(std::uint64_t seed);
 
   const InstrumentSettings& settings() const noexcept { return settings_; }

@@ -25,7 +25,7 @@ enum class EventKind : std::uint32_t {
   ParticleDragged = 10,    // a particle at rest began to follow a tip that pulls it by adhesion
   ParticleTorn = 11,       // the contact by which the tip pulled a particle tore
   JumpToRepulsion = 12,    // a tapping lever fell from the attractive into the repulsive state
-  JumpToAttraction = 13,   // and back
+  JumpToAttraction = 13,   // a tapping lever fell back into the attractive state
   ParticleLifted = 14,     // the tip lifted a particle off the sample, which now hangs on it
   ParticleSetDown = 15,    // a particle on the tip came to lie on the sample
 };
@@ -67,8 +67,8 @@ constexpr const char* name_of(EventKind kind) {
   return "unknown";
 }
 
-// The forces of all others are lateral; that of a particle that is lifted is its pull-off from the sample, those of
-// particles that are put somewhere are 0, those of a tapping lever means over a swing.
+// True for a jump of the law, whose forces are normal. Those of other events are lateral, except: for a lifted particle
+// the pull-off from the sample, for particles that were put back 0, for a tapping lever the mean over a swing.
 constexpr bool is_jump(EventKind kind) { return kind == EventKind::JumpToContact || kind == EventKind::JumpOffContact; }
 
 // Both ends of a cycle: a jump, or a change of the state of a tapping lever.

@@ -39,7 +39,7 @@ std::string_view name_of(ContactMethod method);
 // - Deviation: where the force, from the deepest point outwards, falls below the mean of the outermost tenth plus twice
 //   the largest deviation from it there.
 // - FitLine: the kink between zero and a straight line, by least squares.
-// - FitPolynomial: the same of any straight line, the rest of a tilt, and an elastic contact under a lever, whose depth
+// - FitPolynomial: the same for any straight line, a remaining tilt, and an elastic contact under a lever, whose depth
 //   below the contact point is a F^(2/3) + b F (sphere) or a F^(1/2) + b F (cone) with a, b >= 0. Little affected by a
 //   tail or an undulation.
 // - Farthest: the point farthest below the straight line from the outermost to the deepest point.

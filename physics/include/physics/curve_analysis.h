@@ -51,7 +51,7 @@ struct Waves {
 };
 
 // The force recorded by the instrument without interaction ("baseline" in nanite, AtomicJ and SPM-Kit): a straight line
-// F = level + tilt (Z - z_far), with waves where they are asked for.
+// F = level + tilt (Z - z_far), with waves if requested.
 struct Baseline {
   Length z_far;  // outermost point of the approach
   Force level;
@@ -77,7 +77,7 @@ inline constexpr std::array kBaselineShapes{BaselineShapeName{BaselineShape::Til
                                             BaselineShapeName{BaselineShape::Flat, "flat"},
                                             BaselineShapeName{BaselineShape::Waves, "waves"}};
 
-// Part of the approach, as ways from its outermost point.
+// Part of the approach, as distances from its outermost point.
 struct WayRange {
   Length from, to;  // from < to
 };
@@ -95,7 +95,7 @@ struct CurveJump {
   Force force_after;
 };
 
-// Places between which something lies.
+// Range of places.
 struct PlaceRange {
   Length low, high;
 };

@@ -63,7 +63,7 @@ constinit const std::array<ScanField, kScanFieldCount> kScanFields{
                                        kLengthUnits),
     scan_field<&ScanSettings::spring_constant>("spring_constant", "spring-constant", "spring_constant_N_per_m",
                                                "of the lever", 1e-4, 1e4, kStiffnessUnits),
-    scan_field<&ScanSettings::adhesion>("adhesion", "adhesion", "adhesion_N", "pull at which the tip comes off", 0.0,
+    scan_field<&ScanSettings::adhesion>("adhesion", "adhesion", "adhesion_N", "pull at which the tip lets go", 0.0,
                                         1e-5, kForceUnits),
     scan_field<&ScanSettings::snap_in>("snap_in", "snap-in", "snap_in_m", "gap at which a free tip snaps in", 0.0, 1e-7,
                                        kLengthUnits),
@@ -79,8 +79,7 @@ constinit const std::array<ScanField, kScanFieldCount> kScanFields{
         "second_apex_distance", "second-apex-distance", "second_apex_distance_m",
         "distance of a second apex to the right; 0nm for none", 0.0, 1e-5, kLengthUnits),
     scan_field<&ScanSettings::second_apex_height>("second_apex_height", "second-apex-height", "second_apex_height_m",
-                                                  "how much higher than the first the second apex ends", 0.0, 1e-6,
-                                                  kLengthUnits),
+                                                  "height of the second apex above the first", 0.0, 1e-6, kLengthUnits),
 };
 static_assert(sizeof(ScanSettings) == (kScanFieldCount + 1) * sizeof(double),
               "every number of ScanSettings needs one row in kScanFields");

@@ -7,7 +7,7 @@
 namespace afm::physics {
 namespace {
 
-// Where the tail of a ziggurat of 256 layers under exp(-x^2/2) begins (Marsaglia & Tsang 2000).
+// Beginning of the tail of a ziggurat of 256 layers under exp(-x^2/2) (Marsaglia & Tsang 2000).
 constexpr double kTail = 3.6541528853610088;
 
 double bell(double x) { return std::exp(-0.5 * x * x); }

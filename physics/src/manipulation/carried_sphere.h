@@ -18,7 +18,7 @@ namespace afm::physics {
 //
 //   E = 1/2 k_l |x_t - X|^2 + 1/2 k_c (h - Z)^2 + sum 1/2 k_n overlap^2                                  (M28)
 //
-// depends on the place of the apex alone. Does not allocate.
+// depends only on the place of the apex. Does not allocate.
 class CarriedSphere {
  public:
   struct Obstacle {
@@ -43,15 +43,15 @@ class CarriedSphere {
   double height_m(const Apex& apex) const noexcept { return apex.height - lowest_apex_m_; }  // lowest point
   bool lies(const Apex& apex) const noexcept { return apex.height <= lowest_apex_m_; }
 
-  // Obstacles near tip and sphere, for what follows.
+  // Obstacles near tip and sphere, for the calls below.
   void begin() noexcept { count_ = 0; }
   bool add(const Obstacle& obstacle) noexcept;  // false: full
 
-  // Whether the apex rests at the base, or above it where the sphere lies, and nothing else touches.
+  // True if the apex rests at the base, or above it where the sphere lies, and nothing else touches.
   bool is_free(const Apex& base, const Apex& apex) const noexcept;
 
   double energy_j(const Apex& base, const Apex& apex) const noexcept;
-  double pressed_j(const Apex& apex) const noexcept;  // energy of the sphere's contacts alone
+  double pressed_j(const Apex& apex) const noexcept;  // energy of the sphere's contacts only
 
   // Moves the apex by at most `reach_m` to less energy, no lower than where the sphere lies on the sample. True if it
   // then rests.

@@ -22,7 +22,7 @@ namespace afm::physics {
 //   E + R = 1/2 k_l |x_t - X|^2 + 1/2 k_c (h - Z)^2 + sum 1/2 k_n overlap^2 + sum f_k |moved|        (M16)
 //
 // The way of a rod is the mean of its points' (line_friction.h), in its frame at the start of the sub-step.
-// A step's change of it is summed over the moved parts alone. Does not allocate.
+// A step's change of it is summed over the moved parts only. Does not allocate.
 class HeapContacts {
  public:
   static constexpr std::size_t kMostActive = 16;
@@ -115,13 +115,13 @@ class HeapContacts {
 
   // Change of E + R by a step of the chosen movers.
   double change_of(const Step& step) noexcept;
-  // Takes the step whose change was asked last.
+  // Takes the step whose change was computed last.
   void take(const Step& step) noexcept;
 
   Normal normal_of(std::size_t body) const noexcept;  // a gap if the tip is not near
   Touch touch_of(std::size_t pair) const noexcept;
 
-  // Contacts after the step whose change was asked last. Valid only for what it moves.
+  // Contacts after the step whose change was computed last. Valid only for the bodies that it moves.
   bool touches_then(std::size_t pair) const noexcept { return apart_then_m_[pair] < pairs_[pair].distance_m; }
   bool tip_acts_then(std::size_t body) const noexcept { return acts(body, tips_then_[body]); }
 
@@ -141,7 +141,7 @@ class HeapContacts {
   }
   // Number of a body among those that were chosen; kMostActive if it was not.
   std::size_t mover(std::size_t body) const noexcept { return body < kMostActive ? mover_[body] : kMostActive; }
-  // Whether a pair counts to this mover: once, if both of its bodies move.
+  // True if a pair counts for this mover: once, if both of its bodies move.
   bool counts_to(std::size_t body, std::size_t pair) const noexcept;
 
  private:
@@ -174,7 +174,7 @@ class HeapContacts {
   std::array<Body, kMostActive> bodies_{};
   std::array<Pair, kMostPairs> pairs_{};
   std::array<std::size_t, kMostActive> near_{};
-  std::array<TipContact, kMostActive> tips_{}, tips_then_{};                // now, and after the step asked last
+  std::array<TipContact, kMostActive> tips_{}, tips_then_{};                // now, and after the step computed last
   std::array<double, kMostPairs> apart_m_{}, apart_then_m_{};               // distances of pairs, now and then
   std::array<std::array<std::uint16_t, kMostLinks>, kMostActive> links_{};  // pairs of a body
   std::array<std::size_t, kMostActive> link_count_{};

@@ -13,7 +13,7 @@ bool may_be_taken(double change_j) noexcept;
 // only if it lowers the sum.
 //
 // Ends when no step gains, when a part has moved by `reach_m`, or when `work` is spent: looks at contacts, a figure
-// that depends on the heap alone. Takes from it what was needed; a step that has begun is solved even if that is more
+// that depends only on the heap. Subtracts what was needed; a step that has begun is solved even if that is more
 // than was left. Returns whether the heap came to rest.
 bool descend(HeapContacts& heap, double reach_m, double& work) noexcept;
 

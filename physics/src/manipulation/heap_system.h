@@ -25,8 +25,8 @@ struct HeapSystem {
 
 inline std::size_t unknowns_of(const HeapContacts::Body& body) noexcept { return body.is_rod() ? 3 : 2; }
 
-// What a contact or the friction of a sphere adds. `row` is the first row of a body; 0: it does not move. `curved`:
-// with the curvature of the overlap, which may make the system indefinite.
+// Part of the system from a contact or the friction of a sphere. `row` is the first row of a body; 0: it does not move.
+// `curved`: with the curvature of the overlap, which may make the system indefinite.
 void add_sphere_tip(HeapSystem& s, const HeapContacts& heap, std::size_t body, std::size_t row, bool curved) noexcept;
 void add_sphere_pair(HeapSystem& s, const HeapContacts& heap, std::size_t pair, std::size_t row_first,
                      std::size_t row_second, bool curved) noexcept;

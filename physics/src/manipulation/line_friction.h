@@ -27,7 +27,7 @@ RodMatrix mean_way_curvature(const RodVector& motion) noexcept;
 
 // The motion that a load drives with the most work per mean way.
 struct DrivenMotion {
-  double force = 0.0;  // work over way: the rod gives where it exceeds the force that moves it sideways
+  double force = 0.0;  // work over way: the rod moves if this exceeds the force that moves it sideways
   RodVector motion{};
 };
 DrivenMotion driven_motion(const RodVector& load) noexcept;

@@ -16,7 +16,7 @@ constexpr double kClosestBase = 0.05;
 // Share of a distance by which rounding may place a sphere within its yield.
 constexpr double kPlaceRounding = 1e-12;
 
-// A base that goes along a straight line beside one sphere.
+// A base that moves along a straight line past one sphere.
 class LoneWalk {
  public:
   LoneWalk(const LoneContact& contact, const LoneThresholds& thresholds, bool ages_at_once, double z_m)
@@ -176,8 +176,8 @@ Leaning LoneContact::under(double lateral_n, double z_m) const noexcept {
   return leaning;
 }
 
-// Where the cap bears the force, k_c (h - Z) = F tan(phi(h)), from below: the left side less the right is concave in h,
-// so that Newton's steps rise to its smallest root, if there is one.
+// Height at which the cap bears the force, k_c (h - Z) = F tan(phi(h)), from below: the left side less the right is
+// concave in h, so that Newton's steps rise to its smallest root, if there is one.
 bool LoneContact::lean_on_cap(double lateral_n, double z_m, double from_m, double& apex_m, double& sine, double& cosine,
                               double& depth_m) const noexcept {
   const double k_c = springs_.normal.si, k_n = springs_.contact.si, sum_m = profile_.reach_sum_m();

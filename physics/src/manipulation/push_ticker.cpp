@@ -205,7 +205,7 @@ bool PushedParticles::Ticker::is_alone(std::size_t i) const noexcept {
   return alone;
 }
 
-// Whether a base at its new height goes past a sphere without touching it.
+// True if a base at its new height goes past a sphere without touching it.
 bool PushedParticles::Ticker::passes(std::size_t i, const Apex& to) const noexcept {
   const Leaning touch = contacts_[kind_of(i)].under(0.0, to.height);
   if (!touch.holds) return true;
@@ -316,7 +316,7 @@ void PushedParticles::Ticker::hold_over(const LeverBase& base) noexcept {
   publish();
 }
 
-// What the tip presses: the load of the next sub-step's friction.
+// Finds the particles that the tip presses: the load of the next sub-step's friction.
 void PushedParticles::Ticker::press() noexcept {
   for (const std::size_t i : touched_) pressed_[i] = {};
   touched_.clear();

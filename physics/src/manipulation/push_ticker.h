@@ -52,7 +52,7 @@ class PushedParticles::Ticker {
     std::size_t count_ = 0;
   };
 
-  // Furthest that a part moves in a sub-step, alone and in a heap, and that the base does.
+  // Largest motions in a sub-step: of a lone part, of a part in a heap, and of the base.
   struct Reach {
     double alone_m = 0.0, heap_m = 0.0, base_m = 0.0;
   };

@@ -221,7 +221,7 @@ bool PushedParticles::Ticker::lift() noexcept {
   return true;
 }
 
-// What tip and sphere may touch within a step. False: there is too much.
+// Finds the particles that tip and sphere may touch within a step. False: there are too many.
 bool PushedParticles::Ticker::find_obstacles() noexcept {
   carried_.begin();
   const std::size_t carried = carried_.particle();

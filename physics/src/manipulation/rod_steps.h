@@ -12,18 +12,18 @@ namespace afm::physics {
 // The contact of the tip with a rod, without the curvature of the overlap.
 void add_rod_tip(HeapSystem& s, const HeapContacts& heap, std::size_t body, std::size_t row) noexcept;
 
-// A contact of two bodies of which one is a rod, likewise.
+// A contact of two bodies of which one is a rod, also without that curvature.
 void add_rod_pair(HeapSystem& s, const HeapContacts& heap, std::size_t pair, std::size_t row_first,
                   std::size_t row_second) noexcept;
 
 // Friction of a rod that moves.
 void add_rod_friction(HeapSystem& s, const HeapContacts::Body& rod, std::size_t row) noexcept;
 
-// Where a step of this rod alone ends: its first motion if it gives, afterwards a Newton step, or back to its start if
+// End of a step of only this rod: its first motion if it yields, afterwards a Newton step, or back to its start if
 // nothing touches it. Nothing if it rests.
 std::optional<HeapContacts::Place> rod_step(const HeapContacts& heap, std::size_t body) noexcept;
 
-// Whether a place lies on the other side of the start of a body, where friction has a kink.
+// True if a place lies on the other side of the start of a body, where friction has a kink.
 bool goes_back(const HeapContacts::Body& body, const HeapContacts::Place& to) noexcept;
 
 // Upper limit of the way of its points from one place to another.

@@ -37,7 +37,7 @@ class TipHolds {
   }
 
   const TipPull& pull_of(std::size_t particle) const noexcept { return held_[particle]; }
-  // Whether the tip lifts such particles off the sample or off a pad.
+  // True if the tip lifts such particles off the sample or off a pad.
   bool lifts(std::size_t particle) const noexcept { return kinds_[kind_of_[particle]].lifts; }
   double stretch_m() const noexcept { return stretch_m_; }  // longest gap across which a contact holds
 

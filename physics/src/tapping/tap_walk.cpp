@@ -81,7 +81,7 @@ class PhaseWatch {
   std::optional<Length> crossed_;
 };
 
-// Whether two resting swings a step apart lie on different branches.
+// True if two resting swings a step apart lie on different branches.
 bool jumped(const TapState& before, const TapState& after, const DrivenLever& lever, Length step) {
   constexpr double kTurn = 10.0 * std::numbers::pi / 180.0;
   const bool passed = (before.phase > lever.free_phase) != (after.phase > lever.free_phase);

@@ -61,7 +61,7 @@ struct KeyLight {
   float map_share = 1.0F;  // strength of the shadows of the scene's own triangles, 0: none, 1: whole
 };
 
-// Shade of a cone that stands on its rounded end: from arithmetic, with a soft edge at every scale, for a caster that
+// Shade of a cone that rests on its rounded end: from arithmetic, with a soft edge at every scale, for a caster that
 // is far larger than what the shadow covers. In frames with fog or a fade.
 struct ConeShade {
   glm::vec3 apex_m{0.0F};            // lowest point
@@ -325,7 +325,7 @@ struct CalibrationPanel {
 inline constexpr PanelPlacement kNoPlacement{
     .lower_left_m = glm::dvec3(0.0), .right_m = glm::dvec3(0.0), .up_m = glm::dvec3(0.0)};
 
-// A panel with a place of its own in every frame.
+// A panel with a separate place in every frame.
 template <class Content>
 struct PanelSlot {
   Content content{};

@@ -7,7 +7,7 @@
 namespace afm::render {
 
 // Wakes the screen, and keeps the screen saver and the monitors' power saving from blanking it while this exists, since
-// pen, wand and headset are no input to them. They go on when it ends, also by a kill. Any thread; the constructor
+// pen, wand and headset are no input to them. They resume when it ends, even by a kill. Any thread; the constructor
 // takes at most a second where a session bus is stuck.
 class SaverInhibition {
  public:
@@ -18,7 +18,7 @@ class SaverInhibition {
 
   struct Way {
     bool works = false;
-    std::string said;  // "suspended", or why not
+    std::string said;  // "suspended", or the reason why not
   };
   const Way& x_server() const { return x_server_; }  // MIT-SCREEN-SAVER, whose suspension also holds for DPMS
   const Way& session() const { return session_; }    // org.freedesktop.ScreenSaver on the session bus

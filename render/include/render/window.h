@@ -36,7 +36,7 @@ struct WindowInput {
   enum class MonitorChange { None, Lost, Back } monitor_change = MonitorChange::None;
   std::string monitor;  // monitor of `monitor_change`; empty: under the rectangle
 
-  // Place at which a window manager keeps the window instead of its rectangle; said once.
+  // Place at which a window manager keeps the window instead of its rectangle; reported once.
   std::optional<scene::PixelRect> refused_place{};
 };
 

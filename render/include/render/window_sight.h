@@ -20,7 +20,7 @@ const char* text_of(Sight sight);
 // Visibility of windows on an X server: whether at least one is mapped, on the current workspace, on a monitor that is
 // switched on, not wholly covered, and the screen is not blanked by its saver or by DPMS. A thread with a connection of
 // its own asks 25 times a second and follows the server's events; any thread may read the newest answer. Elsewhere, as
-// on Wayland, which does not tell, windows count as seen. The clock must outlive it.
+// on Wayland, which does not report it, windows count as seen. The clock must outlive it.
 class WindowSight {
  public:
   WindowSight(std::span<Window* const> windows, const core::Clock& clock);
@@ -28,7 +28,7 @@ class WindowSight {
   WindowSight& operator=(const WindowSight&) = delete;
   ~WindowSight();
 
-  // Of the window that is seen best.
+  // Visibility of the most visible window.
   Sight newest() const;
 
   // Time since when no window is seen; none while one is.
@@ -36,7 +36,7 @@ class WindowSight {
 
  private:
   struct Watch;
-  std::unique_ptr<Watch> watch_;  // null: the window system does not say
+  std::unique_ptr<Watch> watch_;  // null: the window system does not report visibility
 };
 
 }  // namespace afm::render

@@ -13,7 +13,7 @@
 
 namespace afm::render {
 
-// What to do where no driver or no device serves.
+// Remedy if no driver or no device can be used.
 inline constexpr const char* kInstallDriver =
     "install a Vulkan driver (Debian: mesa-vulkan-drivers, which also draws without a GPU)";
 

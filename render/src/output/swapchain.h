@@ -22,7 +22,7 @@ bool offers_present_barrier(const Device& device, vk::SurfaceKHR surface);
 // Recreated for every size.
 class Swapchain {
  public:
-  // What the images are for. `wanted_px` is used if the surface leaves the size to us, `swap` is WithOthers only if the
+  // Purpose of the images. `wanted_px` is used if the surface leaves the size to us, `swap` is WithOthers only if the
   // surface offers it, and images that are `read` may be copied.
   struct Use {
     vk::Extent2D wanted_px;

@@ -160,7 +160,7 @@ bool XSight::hidden(std::uint32_t window) const {
   return window_manager_composites();
 }
 
-// Those that are switched on and connected.
+// Finds the monitors that are switched on and connected.
 void XSight::find_monitors() {
   xcb_connection_t* const connection = connection_.get();
   const auto all =

@@ -41,7 +41,7 @@ std::optional<std::string> read_font(const std::string& path) {
 
 }  // namespace
 
-// What the system knows of fonts, by its library (fontconfig/fontconfig.h), which need not be there.
+// The system's fonts, by its library (fontconfig/fontconfig.h), which may be missing.
 class Fontconfig {
  public:
   Fontconfig() : library_(::dlopen("libfontconfig.so.1", RTLD_NOW | RTLD_LOCAL)) {  // never closed: it keeps caches

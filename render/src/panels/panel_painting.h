@@ -25,9 +25,9 @@ struct EyeMark {
 void paint(Canvas& canvas, const CalibrationPanel& panel);
 void paint(Canvas& canvas, const EyeMark& mark);
 
-// How a panel meets the rest of the picture.
+// Relation of a panel to the rest of the picture.
 enum class PanelLayer {
-  InScene,     // what stands before it hides it
+  InScene,     // nearer objects hide it
   OverAll,     // nothing hides it: whether a force reaches the hand is to be seen, wherever the scene has been moved;
                // and a list over the whole wall
   Calibration  // over everything else, and only in the pictures of the eyes

@@ -16,7 +16,7 @@ constexpr vk::Rect2D kWholeMap{.extent = {kShadowMapSize, kShadowMapSize}};
 
 }  // namespace
 
-// True if the copies stand as in the frame before; their tint casts no shadow.
+// True if the copies are placed as in the previous frame; their tint casts no shadow.
 bool ShadowCasters::follow_copies(std::size_t caster, std::span<const MeshCopy> copies) {
   std::vector<MeshCopy>& known = copies_[caster];
   const bool same =

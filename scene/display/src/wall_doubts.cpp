@@ -55,7 +55,7 @@ std::string list_of(const std::vector<const Screen*>& screens) {
 
 std::string who(const Viewer& viewer) { return fmt::format("viewer \"{}\"", viewer.name); }
 
-// Where every screen lies flat or is turned, an upper edge along +z may be that of a wall in a room whose z points up:
+// If every screen lies flat or is turned, an upper edge along +z may be that of a wall in a room whose z points up:
 // a floor's points away from the viewer, and a viewer's head is a person's height above the floor.
 bool lies_in_a_room_with_z_up(const Screen& screen, const HeadPose& head) {
   constexpr double kLowestM = 0.3, kHighestM = 2.5;

@@ -94,7 +94,7 @@ physics::ParticleSpecies read_rods(const TomlTable& table, SpeciesEntry& entry) 
   return species;
 }
 
-// Whether the tip holds what it has touched, and whether its pull-offs scatter.
+// Reads whether the tip holds what it has touched, and whether its pull-offs scatter.
 void read_hold(const TomlTable& table, physics::ParticleSpecies& species) {
   species.sticks = table.has("sticks") && table.flag("sticks");
   if (species.sticks && !(species.tip_adhesion.si > 0.0)) {
@@ -175,7 +175,7 @@ void check_setup(const ParticleSet& set, const TomlTable& top, const TomlTable& 
   }
 }
 
-// Of a rod, from x; required.
+// Angle of a rod from x; required.
 double read_angle(const TomlTable& table, bool rod) {
   if (!rod) {
     if (table.has("angle_deg")) table.refuse("angle_deg", "only a rod has an angle, and this is a sphere");

@@ -213,7 +213,7 @@ class Player {
     }
   }
 
-  // As if a servo before this one had left them there.
+  // Places the particles as if a previous servo had left them there.
   void lay_particles() {
     if (!session_.particles) return;
     scene::ServoSide side = segment_.servo_side();

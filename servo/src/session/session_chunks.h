@@ -70,7 +70,7 @@ bool read_rods(std::string_view payload, RecordedParticles& particles);
 // The same for a kPadsChunk.
 bool read_pads(std::string_view payload, RecordedParticles& particles);
 
-// Whether the tip lifts some of them, or a pad holds them: as version kVersionWithLift has.
+// True if the tip lifts some of them, or a pad holds them, which needs version kVersionWithLift.
 bool lifts(const scene::SharedParticles& set);
 
 // Size of a sample in a file of this session.

@@ -104,7 +104,7 @@ std::string read_part(std::string_view payload, RecordedSession& session, nlohma
   return {};
 }
 
-// Whether a file of this version has such particles.
+// True if a file of this version has such particles.
 bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
   if (lifts(set) != (version == kVersionWithLift)) return false;
   if (version >= kVersionWithPlans) return true;

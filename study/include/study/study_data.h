@@ -36,7 +36,7 @@ struct StudyTrial {
   std::optional<double> strokes{}, losses{}, undos{}, work_j{}, largest_force_n{};
   std::string aids{};
 
-  // Whether the hand felt what the condition sets: the force, or under "picture" none. Empty as above.
+  // True if the force on the hand was as the condition sets it: on, or under "picture" off. Empty as above.
   std::optional<bool> felt_as_set() const {
     return force ? std::optional(*force == (condition != "picture")) : std::nullopt;
   }

@@ -204,7 +204,7 @@ TEST_F(FeltCycles, OfThePictureAloneCountOnlyWithoutAForce) {
     auto run = this->run(StepKind::Identify, Condition::Picture);
     cycle(run, force, force, force);
     EXPECT_EQ(run.prompt(now_s_).wants, Wants::Cycle);
-    EXPECT_THAT(run.prompt(now_s_).words, HasSubstr("for the eyes alone"));
+    EXPECT_THAT(run.prompt(now_s_).words, HasSubstr("only for the eyes"));
     EXPECT_EQ(rows_.at(0).force, true);
     cycle(run, HandForce::None, HandForce::None, HandForce::None);
     ASSERT_EQ(run.prompt(now_s_).wants, Wants::Answer);

@@ -77,12 +77,12 @@ struct LeverCalibration {
   std::optional<CalibratedConstant> sader, gci;
   std::optional<SensitivityFound> sensitivity;
 
-  // The constant with which results go on: thermal, Sader's, GCI's, or the known one.
+  // The constant used for further results: thermal, Sader's, GCI's, or the known one.
   std::optional<double> spring_constant_n_per_m() const;
 };
 
 // Reads the files and computes whatever the options determine. WrongUsage if they lack an input, or if one, or an
-// uncertainty, acts on nothing; BadInputFile for files that are none, or without a resonance or a contact.
+// uncertainty, has no effect; BadInputFile for files that are none, or without a resonance or a contact.
 core::Result<LeverCalibration> calibrate(const LeverOptions& options);
 
 }  // namespace afm::curves

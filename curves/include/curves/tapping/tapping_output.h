@@ -10,8 +10,8 @@
 
 namespace afm::curves {
 
-// CSV in SI, phases in degrees: a # header with every parameter, its source and the conventions, then a row a height,
-// or with `at` a row a state.
+// CSV in SI, phases in degrees: a # header with every parameter, its source and the conventions, then a row for each
+// height, or with `at` for each state.
 std::string tapping_csv(const TappingRun& run);
 std::string frequency_shift_csv(const FrequencyShiftRun& run);
 

@@ -48,7 +48,8 @@ core::Result<TappingSweep> run_tapping_sweep(const ContactSetup& setup, const Ta
 std::string tapping_sweep_csv(const TappingSweep& sweep);
 nlohmann::ordered_json tapping_sweep_json(const TappingSweep& sweep);
 
-// Two axes: a dot a point in the colour of its regime. One: the heights of the jumps, or the amplitudes of the states.
+// Two axes: a dot for each point in the colour of its regime. One: the heights of the jumps, or the amplitudes of the
+// states.
 SvgPlot tapping_sweep_plot(const TappingSweep& sweep);
 
 }  // namespace afm::curves

@@ -15,7 +15,7 @@
 
 namespace afm::exhibit {
 
-// Where a lesson's results go, and details for its JSON.
+// Destination of a lesson's results, and details for its JSON.
 struct DataSetEntry {
   std::string folder;  // DIR in the manual
   std::string code;    // six capital letters

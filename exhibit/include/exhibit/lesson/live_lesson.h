@@ -73,7 +73,7 @@ class LiveLesson {
   // Records in the kept data that sound was requested but is no longer available. Call once a frame.
   void sound_is_lost();
 
-  // Whether the current prompt allows the scene on the wall, tones and the force.
+  // True if the current prompt allows the scene on the wall, tones and the force.
   bool shows_scene() const;
   bool has_tones() const;
   bool has_force() const;
@@ -92,8 +92,8 @@ class LiveLesson {
   // Call once a frame with the newest particles, after the servo's events and samples.
   void look(const servo::ServoClient& servo);
 
-  // All particles are to be put back before the current push. Once there is no force, order it when the second
-  // function says so, which is once a second at most.
+  // True if all particles must be put back before the current push. Once there is no force, request it whenever the
+  // second function returns true, at most once a second.
   bool needs_particles_back() const { return prompt_.put_back; }
   bool orders_particles_back();
 

@@ -8,10 +8,10 @@
 
 namespace afm::exhibit {
 
-// The dial of a lever that taps: the swing as a hand of the length A at the angle of its phase lag, so that the free
+// The dial of a lever that taps: the swing as a pointer of length A at the angle of its phase lag, so that the free
 // swing of a lever at its resonance points up, an attractive one to the left of it, and a repulsive one to the right.
 // Every swing at rest that loses no energy in the sample ends on the circle. At the resonance, over a sample without
-// such a loss, the states at this Z are shown as hands, too. `model` is one that taps.
+// such a loss, the states at this Z are shown as pointers, too. `model` is one that taps.
 render::ForcePanel swing_panel(const curves::SampleModel& model, const scene::TipState& tip, const Phrases& phrases);
 
 }  // namespace afm::exhibit

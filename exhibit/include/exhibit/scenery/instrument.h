@@ -15,8 +15,8 @@ class ModelBuilder;
 class WallMarks;
 struct UserModels;
 
-// The instrument on the wall: probe, stage, and optics. It knows its nodes; the graph that has them is
-// the wall's.
+// The instrument on the wall: probe, stage, and optics. It keeps the indices of its nodes, which are in the wall's
+// graph.
 class Instrument {
  public:
   Instrument() = default;

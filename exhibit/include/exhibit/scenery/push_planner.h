@@ -18,7 +18,7 @@ struct WallState;
 // A ray in the frame of the sample in front, in metres of the nanoworld; nothing while no sample is in front.
 std::optional<input::Ray> ray_on_sample(const WallScene& scene, const WallState& state, const input::Ray& ray);
 
-// The plan of a push as a person makes it, with a pointer or with keys: which sphere goes straight to which place.
+// The plan of a push, made with a pointer or with keys: a sphere, and the place to which it is to be pushed straight.
 // Places are those of the pattern and any other on the sample. A groove along the line is off until it is switched on,
 // and stays on for the next plan. Every function returns what it did in one line for the log. One thread.
 class PushPlanner {
@@ -26,8 +26,8 @@ class PushPlanner {
   // `set` must outlive the object.
   explicit PushPlanner(const scene::ParticleSet& set);
 
-  // A press of a pointer with this ray_on_sample(): on a sphere, that one is planned, or no longer if it was; elsewhere
-  // on the sample, the planned sphere goes there. Nothing if the ray meets neither.
+  // Handles a press of a pointer with this ray_on_sample(): on a sphere it plans that sphere, or removes its plan;
+  // elsewhere on the sample it makes that place the target. No effect if the ray meets neither.
   std::optional<std::string> point(const input::Ray& ray, const ParticlesNow& now);
 
   // Plans the next sphere that can be pushed; after the last there is no plan.

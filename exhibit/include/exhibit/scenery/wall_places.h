@@ -22,7 +22,7 @@ class WallPlaces {
 
   // Origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre.
   const glm::dmat4& room_from_layout() const { return room_from_layout_; }
-  double unit_m() const;  // length of what the layout has as a metre
+  double unit_m() const;  // size of one layout unit in metres
   double shelf_y() const { return shelf_y_; }
   double height_bar_x() const;
 

@@ -99,7 +99,7 @@ class WallScene {
   // Transforms of all nodes, room from node.
   std::vector<glm::dmat4> node_transforms(const WallState& state) const;
 
-  // Lays an image on the sample in front, with its colour scale beside. Call after update(), with the same state.
+  // Lays an image on the sample in front, with its colour scale beside it. Call after update(), with the same state.
   void lay_on_sample(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const;
 
   // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.

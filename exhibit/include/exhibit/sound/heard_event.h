@@ -30,7 +30,7 @@ enum class HeardEvent {
   ParticlesPutBack,
   PatternDone,       // the particles lie on the pattern of their set
   JumpToRepulsion,   // a tapping lever fell into the repulsive state
-  JumpToAttraction,  // and back into the attractive one
+  JumpToAttraction,  // it fell back into the attractive one
   ParticleLifted,
   ParticleSetDown,
 };

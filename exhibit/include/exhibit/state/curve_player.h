@@ -24,7 +24,7 @@ class CurvePlayer {
 
   bool playing() const { return curve_ != nullptr && next_ < curve_->samples.size(); }
 
-  // Where the tip is; its first place before begin().
+  // Place of the tip; the first one before begin().
   const scene::Tip& tip() const { return tip_; }
   physics::Phase phase() const { return phase_; }
   bool retracting() const { return retracting_; }

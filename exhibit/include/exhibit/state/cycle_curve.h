@@ -12,7 +12,7 @@ namespace afm::exhibit {
 
 // The growing force-displacement curve of one cycle: all samples of the servo while its force was enabled and the tip
 // had been lifted, and both ends of each jump, exactly where it happened. Split at the deepest push into approach and
-// retract. Of a lever that taps it is the amplitude in nm in place of the force.
+// retract. For a lever that taps it holds the amplitude in nm instead of the force.
 class CycleCurve {
  public:
   void add(const scene::TipSample& sample);

@@ -33,7 +33,7 @@ class ParticleTask {
   std::optional<std::vector<physics::ParticlePlace>> unjudged(std::span<const scene::ParticlePage> pages) const;
   void end(physics::Length rms) { task_.end(rms); }
 
-  // All of that for a tick of a replay.
+  // All of these calls for a tick of a replay.
   void hear(const servo::ReplayedTick& tick);
 
   const scene::TaskScore& score() const { return task_.score(); }

@@ -42,10 +42,10 @@ inline std::optional<std::size_t> touched(const ParticlesNow& now, std::size_t c
   return known ? std::optional(static_cast<std::size_t>(now.push.particle)) : std::nullopt;
 }
 
-// Places of all particles; nothing before the servo has said where they are.
+// Places of all particles; empty before the servo has reported them.
 std::optional<std::vector<physics::ParticlePlace>> places_of(const ParticlesNow& now);
 
-// Nothing if the set has no pattern, or before the servo has said where the particles are.
+// Empty if the set has no pattern, or before the servo has reported the places of the particles.
 std::optional<scene::PatternState> pattern_of(const ParticlesNow& now);
 
 }  // namespace afm::exhibit

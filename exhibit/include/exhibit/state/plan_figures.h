@@ -8,7 +8,7 @@
 
 namespace afm::exhibit {
 
-// What the plan of a push asks of a hand (docs/manipulation.md, M12 and M14), with rho the distance of tip and sphere
+// Demands of a planned push on a hand (docs/manipulation.md, M12 and M14), with rho the distance of tip and sphere
 // at touch, the apex on the sample.
 struct PlanFigures {
   physics::Length left;    // from the centre of the sphere to its planned place
@@ -16,7 +16,7 @@ struct PlanFigures {
   physics::Velocity hand;  // rho in the hand over physics::kSteeringDelay; 0 before the scale of the hand is known
 };
 
-// Nothing without a plan for a sphere of the set.
+// Empty without a plan for a sphere of the set.
 std::optional<PlanFigures> plan_figures(const ParticlesNow& now);
 
 }  // namespace afm::exhibit

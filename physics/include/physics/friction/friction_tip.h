@@ -21,7 +21,7 @@ struct FrictionContact {
   Force adhesion;
 };
 
-// A tip that holds up to a yield force and then slides. `Yield` knows the force at a load:
+// A tip that holds up to a yield force and then slides. `Yield` gives the force at a load:
 //   static constexpr FrictionLaw kLaw;
 //   static void check(const FrictionParameters&);  throws UnphysicalValue for a number that the law needs
 //   explicit Yield(const FrictionContact&);        may allocate and throw std::invalid_argument

@@ -13,7 +13,7 @@
 
 namespace afm::physics {
 
-// Surroundings of a sample: from its edge on, the heights of the edge go over into one level plane, the mean of the
+// Surroundings of a sample: from its edge on, the heights of the edge merge into one level plane, the mean of the
 // edge, without a jump of height, slope or curvature. Centred on the origin; finite everywhere, also for NaN.
 class Rim {
  public:

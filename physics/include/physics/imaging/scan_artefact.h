@@ -79,8 +79,8 @@ double noise_of_lines_m(std::span<const double> passes_m, std::span<const double
 // Mean magnitude of the difference of a line's passes.
 double mean_apart_m(std::span<const double> passes_m);
 
-// How often a swing changes from repulsive to attractive or back and stays there for some pixels, from the phases of
-// one pass in degrees; the free swing's is 90 at resonance, and a swing near it belongs to neither.
+// Number of times that a swing changes from repulsive to attractive or back and stays there for some pixels, from the
+// phases of one pass in degrees; the free swing's is 90 at resonance, and a swing near it belongs to neither.
 std::size_t changes_of_state(std::span<const double> phase_deg, double free_phase_deg);
 
 // Number of newest lines that are judged, so that a single different line does not change the verdict.

@@ -42,7 +42,7 @@ struct ScanTrack {
   std::vector<double> height_m;
   std::vector<double> error_n;
   std::vector<double> lateral_n;
-  std::vector<double> phase_deg, energy_j, peak_force_n;  // in tapping mode alone
+  std::vector<double> phase_deg, energy_j, peak_force_n;  // only in tapping mode
   double lowest_force_n = 0;
   double highest_force_n = 0;
   double off_surface = 0;

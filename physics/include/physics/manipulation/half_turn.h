@@ -6,7 +6,7 @@
 namespace afm::physics {
 
 // Direction of a rod on the sample: half its angle from the x axis about the vertical, as the parts w and z of a unit
-// quaternion. A tick turns it without a sine.
+// quaternion. A tick turns it without computing a sine.
 struct HalfTurn {
   double w = 1.0, z = 0.0;
 

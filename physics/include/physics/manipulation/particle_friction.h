@@ -11,8 +11,8 @@
 #include "physics/rows_of_enum.h"
 #include "physics/units.h"
 
-// Force at which a sphere on the sample gives, and whether it then slides or rolls (docs/physics.md, "Particles").
-// The contact of sphere and sample is that of JKR. Any thread; nothing allocates unless it throws.
+// Force at which a sphere on the sample starts to move, and whether it then slides or rolls (docs/physics.md,
+// "Particles"). The contact of sphere and sample is that of JKR. Any thread; nothing allocates unless it throws.
 namespace afm::physics {
 
 // One kind of sphere or rod on one sample. A parameter that the law does not use may be zero; a rod needs no modulus
@@ -76,7 +76,7 @@ struct TipGrip {
   Force adhesion;            // F_t = 3/2 pi W_t R_eff
 };
 
-// Forces at which a sphere gives to a tip whose normal points down by phi. All magnitudes.
+// Forces at which a sphere yields to a tip whose normal points down by phi. All magnitudes.
 struct PushBalance {
   PushMode mode = PushMode::Slides;
   Force normal;    // N

@@ -12,7 +12,7 @@ namespace afm::physics {
 
 // Particles on the places of a pattern, one on each.
 struct PatternMatch {
-  std::vector<std::size_t> particles;  // nearest to each target, in all
+  std::vector<std::size_t> particles;  // number of a particle for each target
   Length rms;  // root of the mean square distance of the targets from them; of rods, of the ends
 };
 

@@ -88,22 +88,22 @@ inline constexpr std::size_t kNoParticle = static_cast<std::size_t>(-1);
 
 // After a tick. The certificate: given + stored at the start >= lost + stored, at every tick.
 struct PushTick {
-  LeverBase base;                      // reached place; behind the asked one while `lagging`
+  LeverBase base;                      // reached place; behind the requested one while `lagging`
   LeverBase apex;                      // apex on the bent lever
   Sideways<Force> lateral;             // force on the lever
   Force lift;                          // force on the lever, upwards, by spheres and sample
   std::size_t particle = kNoParticle;  // the one with the largest normal force, either way
   PushState state = PushState::Free;
   Force normal;      // N of that particle; negative: the tip pulls it
-  Force threshold;   // lateral force at which it gives or moves
-  Force gave_at;     // force on the sphere that last gave, then
+  Force threshold;   // lateral force at which it starts or keeps moving
+  Force gave_at;     // force on the sphere that last yielded, at that moment
   Force goes_on_at;  // force that moves that sphere since
   Energy given;      // energy from the hand since the start, or since hold_over(), at a frozen tip in each sub-step: an
                      // upper bound
   Energy work;       // work of the hand since the start, by the force at both ends of each sub-step
   Energy lost;       // loss by friction and by slips of lone spheres since the start
   Energy stored;     // energy in lever and contacts
-  std::uint64_t yields = 0;     // spheres that gave, since the start
+  std::uint64_t yields = 0;     // number of yields of spheres, since the start
   std::uint64_t exhausted = 0;  // ticks at whose end a heap was not at rest, since the start
   std::uint64_t attached = 0;   // contacts that the tip came to hold by adhesion, since the start
   std::uint64_t dragged = 0;    // times that a sphere began to follow a pull, since the start
@@ -118,8 +118,8 @@ struct PushTick {
   bool near = false;  // spheres are within reach of the apex
 };
 
-// The constructor allocates; a tick does not, nor locks, throws or waits. One thread. The result depends on the path of
-// the base and, by ageing, on the time between ticks; never on a clock.
+// The constructor allocates; a tick neither allocates, locks, throws nor waits. One thread. The result depends on the
+// path of the base and, by ageing, on the time between ticks; never on a clock.
 //
 // Each tick descends in E + R: E is the energy of lever and contacts, R the friction of the step. A step that raises
 // the sum is never taken, so that no path of the base gains energy, however few steps the budget allows.

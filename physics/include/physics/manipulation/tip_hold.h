@@ -23,14 +23,14 @@ TipGrip flank_grip(const SphereCone& tip, const ParticleSpecies& species, double
 // of 5000 exceeds.
 Force strongest_pull(const SphereCone& tip, const ParticleSpecies& species) noexcept;
 
-// Whether a sphere on the flank of a tip that goes away follows it, F_t cos(theta) > f_s(-F_t sin(theta)) (M23);
+// True if a sphere on the flank of a tip that moves back follows it, F_t cos(theta) > f_s(-F_t sin(theta)) (M23);
 // otherwise the contact tears.
 bool follows_tip(const SphereCone& tip, const ParticleSpecies& species);
 
 // The smallest W_t with which a tip that rises from the top lifts the sphere off the sample, W (R_t + R_p)/R_t (M24).
 SurfaceEnergy lifting_adhesion(const SphereCone& tip, const ParticleSpecies& species) noexcept;
 
-// Whether the tip lifts the sphere off the sample, from the top or on its flank.
+// True if the tip lifts the sphere off the sample, from the top or on its flank.
 bool lifts(const SphereCone& tip, const ParticleSpecies& species) noexcept;
 
 // The same off the sample or off any of its pads.

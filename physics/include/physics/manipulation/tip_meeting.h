@@ -13,7 +13,7 @@
 
 namespace afm::physics {
 
-// Fate of the contact with the particle that a tip presses hardest: touched, ridden over, lost. The constructor
+// History of the contact with the particle that a tip presses hardest: touched, ridden over, lost. The constructor
 // allocates, nothing else does. One thread.
 class TipMeeting {
  public:

@@ -70,7 +70,7 @@ class AveragedFlow {
   struct Rate {
     double amplitude, phase;  // per w0 t
   };
-  // Of the swing with its shift, which is searched from that of the previous call.
+  // Averages of the swing with its shift, which is searched from that of the previous call.
   const SwingAverages& averages_at(double amplitude, double z) noexcept;
   Rate rate(const TapState& state, double z) noexcept;
   // The flow about a swing, to first order.
@@ -84,8 +84,8 @@ class AveragedFlow {
     bool stable() const { return amplitude_by_amplitude + phase_by_phase < 0.0 && determinant() > 0.0; }
   };
   Linear linear(const TapState& state, double z) noexcept;
-  // By how much a swing misses sin^2 + cos^2 = 1 for the phase that would hold it: negative if the drive is stronger
-  // than needed, zero at rest.
+  // Amount by which a swing misses sin^2 + cos^2 = 1 for the phase that would hold it: negative if the drive is
+  // stronger than needed, zero at rest.
   double imbalance(double amplitude, double z) noexcept;
   // The imbalance of the swing with this lowest height.
   struct Sample {

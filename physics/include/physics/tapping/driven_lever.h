@@ -36,7 +36,7 @@ struct DrivenLever {
 // 0.5 f0 to 1.5 f0.
 DrivenLever driven_lever(Stiffness spring_constant, const LeverDynamics& lever, const Drive& drive);
 
-// Energy lost to the sample in a swing, by Cleveland et al. 1998 from amplitude and phase alone:
+// Energy lost to the sample in a swing, by Cleveland et al. 1998 from amplitude and phase only:
 //
 //   E = pi k r A^2/Q (Q a sin(phi)/(r A) - 1).
 //

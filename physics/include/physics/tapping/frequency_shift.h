@@ -21,8 +21,8 @@ struct FrequencyShiftPoint {
   SwingAverages averages;
 };
 
-// Where df turns. A feedback that keeps df constant holds the tip only on one side of it: with the sign for the slope
-// above the highest turn, it runs away from the sample or into it where the slope has the other sign.
+// A place at which df turns. A feedback that keeps df constant holds the tip only on one side of it: with the sign for
+// the slope above the highest turn, it runs away from the sample or into it where the slope has the other sign.
 struct FrequencyShiftTurn {
   Length z;
   Frequency shift;

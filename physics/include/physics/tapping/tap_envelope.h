@@ -54,8 +54,8 @@ class TapEnvelope {
   const DrivenLever& lever() const noexcept { return *lever_; }
 
  private:
-  // Of one swing. In the table virial and energy are over sqrt(A), and the mean force is times sqrt(A): their changes
-  // with A are then slow.
+  // Averages of one swing. In the table virial and energy are over sqrt(A), and the mean force is times sqrt(A): their
+  // changes with A are then slow.
   struct Node {
     double virial = 0, lost = 0, peak = 0, mean = 0;
   };

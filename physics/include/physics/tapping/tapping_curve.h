@@ -12,7 +12,7 @@
 
 namespace afm::physics {
 
-// How the swing is computed: averaged over a swing, for Q of at least AveragedFlow::kLeastQuality, or integrated
+// Method of computation: averaged over a swing, for Q of at least AveragedFlow::kLeastQuality, or integrated
 // directly.
 enum class TapMethod { Averaged, Direct };
 

@@ -22,12 +22,12 @@
 namespace afm::scene {
 
 // One table of a TOML file. Each reader throws a Fault that gives the key, its line, and what was expected there. A key
-// that is read must exist; has() tells whether it does. The table must outlive it.
+// that is read must exist; has() returns whether it does. The table must outlive it.
 class TomlTable {
  public:
   static constexpr std::size_t kMostTables = 1000;
 
-  // `name` stands before each key in faults: "screen" in screen.name. Empty: the root of a file.
+  // `name` precedes each key in faults: "screen" in screen.name. Empty: the root of a file.
   explicit TomlTable(const toml::table& table, std::string name = {}) : table_(&table), name_(std::move(name)) {}
 
   bool has(std::string_view key) const { return table_->contains(key); }

@@ -141,7 +141,7 @@ struct Wall {
   std::vector<Output> outputs;    // may be empty
   std::vector<Viewer> viewers;
   std::vector<Output> outputs_elsewhere{};  // those of other machines, after keep_outputs_of()
-  std::vector<std::string> unused{};        // what the file says and the program does not use, a line for each element
+  std::vector<std::string> unused{};        // elements of the file that the program does not use, a line for each
 };
 
 // Blending of a picture of that screen by projectors without known properties; null if nothing overlaps it.

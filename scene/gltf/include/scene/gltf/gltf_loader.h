@@ -15,7 +15,7 @@ struct GltfWarnings {
   std::vector<std::string> extensions;  // extensions used by the file and supported by the loader
   std::vector<std::string> ignored;     // parts that are not shown, with the reason
   std::vector<std::string> corrected;   // values that break glTF and are drawn as others
-  std::vector<std::string> missing;     // images that are not there, without which the model is drawn
+  std::vector<std::string> missing;     // missing images, without which the model is drawn
   std::string empty;                    // reason why nothing is shown; empty: something is
 
   // Each adds a warning unless it is already listed.

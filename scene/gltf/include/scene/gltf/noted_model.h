@@ -8,7 +8,7 @@
 
 namespace afm::scene {
 
-// load_gltf() for a picture: after a second reports that loading continues, then logs the images that are not there,
+// load_gltf() for a picture: after a second reports that loading continues, then logs the missing images,
 // and the reason if nothing is shown.
 core::Result<Scene> load_noted_model(const std::string& file);
 

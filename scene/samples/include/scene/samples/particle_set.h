@@ -14,7 +14,7 @@
 
 namespace afm::scene {
 
-// A straight move of the scripted hand, that is of the lever's base.
+// A straight move of the scripted hand, which holds the lever's base.
 struct HandMove {
   physics::LeverBase to;
   physics::Velocity speed;
@@ -41,7 +41,7 @@ struct ParticleSet {
   physics::PushSetup setup;
   std::vector<SpeciesEntry> species;  // names of setup.species, in order
   std::vector<physics::PlacedParticle> particles;
-  std::vector<physics::ParticlePlace> targets;  // pattern that the particles are to become; may be empty
+  std::vector<physics::ParticlePlace> targets;  // places of the pattern to be formed; may be empty
   std::vector<Pad> pads;                        // to be bridged by a rod; may be empty
   physics::LeverBase start;
   std::vector<HandMove> moves;

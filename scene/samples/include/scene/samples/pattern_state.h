@@ -10,7 +10,7 @@
 
 namespace afm::scene {
 
-// How near the particles of a set are to its pattern.
+// Distance of the particles of a set from its pattern.
 struct PatternState {
   physics::PatternMatch match;  // numbers of particles in the set
   physics::Length allowed;      // largest root mean square distance of a pattern that is done
@@ -29,12 +29,12 @@ struct Pattern {
 Pattern pattern_of(const ParticleSet& set);         // in the frame of the file
 Pattern shared_pattern_of(const ParticleSet& set);  // in that of a shared scene
 
-// Particles that are pinned stay out. `places` are those of all particles, in the frame of the pattern. Nothing without
+// Particles that are pinned stay out. `places` are those of all particles, in the frame of the pattern. Empty without
 // targets, or if there are more of them than particles that can be moved.
 std::optional<PatternState> pattern_state(const ParticleSet& set, const Pattern& pattern,
                                           std::span<const physics::ParticlePlace> places);
 
-// Whether the axis of a rod passes over a pad.
+// True if the axis of a rod passes over a pad.
 bool touches(const Pad& pad, const physics::ParticlePlace& rod, physics::Length length);
 
 }  // namespace afm::scene

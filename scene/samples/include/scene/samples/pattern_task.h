@@ -16,7 +16,7 @@
 
 namespace afm::scene {
 
-// Part of a tick that a score is made from. Places in one frame, that of the targets.
+// Part of a tick from which the score is computed. Places in one frame, that of the targets.
 struct TaskTick {
   std::int64_t time_ns = 0;
   std::array<double, 3> base_m{};     // apex on the unbent lever

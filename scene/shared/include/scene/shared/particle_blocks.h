@@ -76,7 +76,7 @@ constexpr void for_each_field(Visit&& visit, Record&... species) {
 }
 static_assert(all_fields_described<SharedSpecies>());
 
-// Tip and lever that push, and the size of it all in a hand.
+// Tip and lever that push, and the scale at which a hand feels them.
 struct SharedPusher {
   double tip_radius_m = 0;
   double half_angle_rad = 0;
@@ -85,7 +85,7 @@ struct SharedPusher {
   double normal_spring_n_per_m = 0;      // k_c
   double contact_stiffness_n_per_m = 0;  // k_n
   double diameter_in_hand_m = 0.010;     // median particle; less if the particles would not fit into the workspace
-  double threshold_on_hand_n = 1.0;      // force on the hand at which the median particle gives
+  double threshold_on_hand_n = 1.0;      // force on the hand at which the median particle yields
 
   bool operator==(const SharedPusher&) const = default;
 };
@@ -255,7 +255,7 @@ struct TipPush {
   std::array<double, 2> lateral_n{};  // force on the lever, along the sample's x and y
   double lift_n = 0;                  // force on the lever by the particles, upwards
   double normal_n = 0;                // N of `particle`
-  double threshold_n = 0;             // lateral force at which `particle` gives, or moves
+  double threshold_n = 0;             // lateral force at which `particle` starts or keeps moving
   double other_threshold_n = 0;       // threshold at rest, without load, by the law of other_law(); 0: unknown
   double given_j = 0;                 // by the hand, upper bound
   double work_j = 0;                  // by the hand
@@ -263,9 +263,9 @@ struct TipPush {
   double stored_j = 0;                // in lever and contacts
   double hand_m_per_m = 0;            // scale of the particles: metres of hand per metre, along and upwards
   double hand_n_per_n = 0;            // newtons on the hand per newton of a push
-  double softened_sideways = 1;       // the lever is felt this many times softer than it is, so that a hand can bear it
+  double softened_sideways = 1;       // factor by which the lever feels softer than it is, so that a hand can bear it
   double softened_upwards = 1;
-  std::uint64_t yields = 0;     // particles that gave, since the servo's start
+  std::uint64_t yields = 0;     // number of times that a particle yielded, since the servo's start
   std::uint64_t exhausted = 0;  // ticks at whose end a heap was not at rest, since the servo's start
   std::uint64_t accounts = 0;
   std::int32_t particle = kNoParticle;  // the one with the largest normal force, or on the tip
@@ -306,7 +306,7 @@ constexpr void for_each_field(Visit&& visit, Record&... push) {
 }
 static_assert(all_fields_described<TipPush>());
 
-// Law whose figure is shown beside that of a species, because the laws disagree.
+// Law whose threshold is shown next to that of a species, because the laws disagree.
 constexpr physics::ParticleLaw other_law(physics::ParticleLaw law) {
   return law == physics::ParticleLaw::ContactArea ? physics::ParticleLaw::Amontons : physics::ParticleLaw::ContactArea;
 }

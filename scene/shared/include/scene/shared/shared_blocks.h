@@ -69,7 +69,7 @@ struct SharedContact {
   physics::FrictionParameters friction{};
 };
 
-// Whether the material is felt by a lever in tapping mode.
+// True if the material is felt by a lever in tapping mode.
 constexpr bool taps(const SharedContact& material) { return material.free_amplitude_m > 0.0; }
 
 // Curve recorded by an instrument, to be felt; each branch in the order of increasing Z.

@@ -134,8 +134,8 @@ class ServoSide {
   void push(const TipSample& sample) noexcept;  // counted as lost if the renderer is 16 s behind
   void push(const TipEvent& event) noexcept;
 
-  // Page last stored by this side, for a servo that replaces one that ended and goes on with its poses; empty if it is
-  // not valid. `number` < kParticlePages.
+  // Page last stored by this side, for a servo that replaces one that ended and continues with its poses; empty if it
+  // is not valid. `number` < kParticlePages.
   std::optional<ParticlePage> last_particle_page(std::uint32_t number) const noexcept;
 
   std::uint32_t refused_blocks() const noexcept { return refused_; }
