@@ -108,12 +108,20 @@ void add_out(OptionList& command, std::string& out, const std::string& files) {
       .type_name("FILE");
 }
 
+// The laws that a curve can be made with: all but `auto`, which chooses one for a measured curve.
+const std::vector<fits::ShapeRow>& laws_of_curves() {
+  static const std::vector<fits::ShapeRow> laws = [] {
+    std::vector<fits::ShapeRow> named(fits::kShapes.begin(), fits::kShapes.end());
+    std::erase_if(named, [](const fits::ShapeRow& row) { return row.shape == fits::Shape::Auto; });
+    return named;
+  }();
+  return laws;
+}
+
 void add_setup_options(OptionList& command, GenerateOptions& options) {
   std::string laws;
-  for (const fits::ShapeRow& row : fits::kShapes) {
-    if (row.shape != fits::Shape::Auto) laws += fmt::format("\n  {}: {}", row.name, row.meaning);
-  }
-  enum_option(command, "--law", options.setup.shape, "a law of force", fits::kShapes, &fits::ShapeRow::name,
+  for (const fits::ShapeRow& row : laws_of_curves()) laws += fmt::format("\n  {}: {}", row.name, row.meaning);
+  enum_option(command, "--law", options.setup.shape, "a law of force", laws_of_curves(), &fits::ShapeRow::name,
               &fits::ShapeRow::shape, "law of the contact, as after --fit of touchafm analyse:" + laws);
   for (const curves::SyntheticField& field : curves::kSyntheticFields) {
     si_option(

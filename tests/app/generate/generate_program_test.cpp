@@ -234,7 +234,7 @@ TEST(Generated, RefusesWhatItsLawDoesNotUse) {
   expect_refusal(gel + " --bits 12", "it needs --sensitivity");
   expect_refusal(gel + " --bits 12.5 --sensitivity 50nm/V", "--bits is a whole number");
   expect_refusal(gel + " --wave 10pN", "--wave needs --wave-period");
-  expect_refusal(gel + " --law auto", "--law auto chooses a law");
+  expect_refusal(gel + " --law auto", "auto");
   expect_refusal(gel + " --law layer-sphere --layer 5um --poisson 0.3", "needs a Poisson's ratio of 0.5");
   expect_refusal("curve --modulus 3kPa --radius 5um --most-force 1nN", "--law paraboloid needs --spring-constant");
   expect_refusal(sticky + " --atomic-distance 0.2nm", "--law jkr has no use for it");
