@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/result.h"
 #include "physics/friction/sideways.h"
+#include "physics/manipulation/marking.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/units.h"
 #include "scene/samples/sourced_value.h"
@@ -33,6 +35,12 @@ struct Pad {
   physics::Sideways<physics::Length> half_size;
 };
 
+// A sample that the tip scratches.
+struct SoftSample {
+  std::string name;
+  physics::SoftSurface surface;
+};
+
 // Particles on a sample, the tip that pushes them, and a hand that moves it.
 struct ParticleSet {
   std::string title;
@@ -45,7 +53,8 @@ struct ParticleSet {
   std::vector<Pad> pads;                        // to be bridged by a rod; may be empty
   physics::LeverBase start;
   std::vector<HandMove> moves;
-  std::vector<SourcedValue> sources;  // sources of tip, lever and pads
+  std::vector<SourcedValue> sources;  // sources of tip, lever, pads and soft sample
+  std::optional<SoftSample> soft{};   // with one there are no particles, and only `touchafm particles` plays the set
 };
 
 inline constexpr std::size_t kMostTargets = 32;
