@@ -15,8 +15,8 @@ namespace {
 constexpr int kSubStepsOfATick = 8, kStepsOfASubStep = 12, kGuesses = 3;
 constexpr double kLongestGuess = 0.5;    // squares
 constexpr double kShortestGuess = 0.02;  // squares: the first guess of a step is no shorter
-constexpr double kGuessGrowth = 4.0;     // of the next guess over the last step
-constexpr double kGuessShrinking = 8.0;  // of a guess that gains nothing
+constexpr double kGuessGrowth = 4.0;     // next guess over the last step
+constexpr double kGuessShrinking = 8.0;  // divisor of a guess that gains nothing
 constexpr double kLeastGain = 1e-9;      // least share of the energy that is worth another step
 
 }  // namespace

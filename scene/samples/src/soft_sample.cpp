@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -81,7 +82,7 @@ void read_soft_sample(const TomlTable& top, ParticleSet& set) {
     table.refuse(error.field(), error.what());
   }
   add_sources(set, "", values);
-  set.soft = std::move(soft);
+  set.soft = std::make_shared<const SoftSample>(std::move(soft));
 }
 
 void check_soft_moves(const TomlTable& top, const ParticleSet& set) {

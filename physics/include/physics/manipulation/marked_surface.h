@@ -112,7 +112,7 @@ class MarkedSurface {
   TipOutline tip_;
   double hardness_pa_, pile_up_share_;
   double spacing_m_, deepest_m_, highest_m_ = 0.0;
-  double left_m_ = 0.0, bottom_m_ = 0.0;  // of the middle of the first square
+  double left_m_ = 0.0, bottom_m_ = 0.0;  // middle of the first square
   std::size_t columns_ = 0, rows_ = 0;
   std::vector<double> pressed_m_;  // height under the tip that pressed last
   std::vector<double> back_m_;     // by which it rises when the tip has left

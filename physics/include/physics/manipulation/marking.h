@@ -30,7 +30,7 @@ class TipOutline {
 
   Length radius_at(Length height) const noexcept;
   Length height_at(Length radius) const noexcept;
-  Length rim_height() const noexcept { return Length(rim_height_m_); }  // where the cap passes into the cone
+  Length rim_height() const noexcept { return Length(rim_height_m_); }  // border of cap and cone
 
  private:
   double cap_m_, rim_radius_m_, rim_height_m_, slope_;

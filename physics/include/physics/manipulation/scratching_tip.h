@@ -89,8 +89,8 @@ class ScratchingTip {
   SoftSurface soft_;
   MarkedSurface surface_;
   Sideways<double> along_{0.0, 0.0};  // direction of the last motion in this contact; zero: it has only been pressed
-  double last_way_m_;                 // of the last sideways step
-  Length contact_radius_;             // where the surface gave last
+  double last_way_m_;                 // length of the last sideways step
+  Length contact_radius_;             // contact in which the surface gave last
   bool rested_ = true;
   ScratchTick tick_;
 };

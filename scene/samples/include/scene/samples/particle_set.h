@@ -2,13 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/result.h"
 #include "physics/friction/sideways.h"
-#include "physics/manipulation/marking.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/units.h"
 #include "scene/samples/sourced_value.h"
@@ -35,11 +34,7 @@ struct Pad {
   physics::Sideways<physics::Length> half_size;
 };
 
-// A sample that the tip scratches.
-struct SoftSample {
-  std::string name;
-  physics::SoftSurface surface;
-};
+struct SoftSample;  // scratch_run.h
 
 // Particles on a sample, the tip that pushes them, and a hand that moves it.
 struct ParticleSet {
@@ -54,7 +49,8 @@ struct ParticleSet {
   physics::LeverBase start;
   std::vector<HandMove> moves;
   std::vector<SourcedValue> sources;  // sources of tip, lever, pads and soft sample
-  std::optional<SoftSample> soft{};   // with one there are no particles, and only `touchafm particles` plays the set
+  // With one there are no particles, and only `touchafm particles` plays the set.
+  std::shared_ptr<const SoftSample> soft;
 };
 
 inline constexpr std::size_t kMostTargets = 32;

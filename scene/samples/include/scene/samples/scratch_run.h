@@ -2,15 +2,23 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "physics/imaging/scan_image.h"
+#include "physics/manipulation/marking.h"
 #include "physics/manipulation/scratching_tip.h"
 #include "physics/units.h"
 #include "scene/samples/particle_set.h"
 
 // The scripted hand of a file with a soft sample, played.
 namespace afm::scene {
+
+// A sample that the tip scratches.
+struct SoftSample {
+  std::string name;
+  physics::SoftSurface surface;
+};
 
 // Smallest rectangle along x and y that has the start and the end of every move.
 struct ScratchField {
