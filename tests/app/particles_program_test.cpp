@@ -227,7 +227,7 @@ TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
   expect_refusal(particles(""), 2, "file");
   expect_refusal(particles("silver-row"), 2,
                  "unknown set of particles \"silver-row\"; choose gold-row, latex-letter, pick-and-place, "
-                 "scratch-pmma, sticky-tip, tube-and-electrodes");
+                 "scratch-pmma, sticky-tip, tube-and-electrodes, write-afm");
   expect_refusal(particles("/no/such.toml"), 3, "/no/such.toml");
   expect_refusal(particles("gold-row --rate 4"), 2, "kHz");
   expect_refusal(particles("gold-row --rate 1MHz"), 2, "100kHz");

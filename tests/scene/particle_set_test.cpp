@@ -35,7 +35,7 @@ TEST(ParticleSet, EveryShippedSetLoadsWithASourceForEachNumber) {
       for (const SourcedValue& value : species.sources) EXPECT_FALSE(value.source.empty()) << value.key;
     }
   }
-  EXPECT_EQ(sets, 6);
+  EXPECT_EQ(sets, 7);
 }
 
 TEST(ParticleSet, GoldRowHasTheNumbersOfTheCases) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -51,6 +52,39 @@ TEST(SoftSample, TheShippedOneHasTheNumbersOfTheCases) {
   // no recording of particles is taken for it
   const auto shared = std::make_unique<const SharedParticles>(shared_particles(*set));
   EXPECT_EQ(shared->count, 0U);
+}
+
+// Every stroke of the letters marks, and no way between two of them.
+TEST(SoftSample, WritesLetters) {
+  const auto set = load_particle_set(support::source("assets/particles/write-afm.toml"));
+  ASSERT_TRUE(set) << set.error().message;
+  const ScratchRun run = play_scratch(*set, physics::Frequency(1000.0), 2);
+  EXPECT_GE(run.least_margin_j, -1e-12 * run.moves.back().end.tick.given.si);
+  int strokes = 0;
+  for (std::size_t i = 1; i < set->moves.size(); ++i) {
+    const bool down = set->moves[i - 1].to.z.si < 0.0 && set->moves[i].to.z.si < 0.0;
+    const bool up = set->moves[i - 1].to.z.si > 0.0 && set->moves[i].to.z.si > 0.0;
+    EXPECT_FALSE(up && run.moves[i].marks) << i;
+    if (!down) continue;
+    ++strokes;
+    EXPECT_GT(run.moves[i].section.depth.si, 3e-9) << i;
+    EXPECT_LT(run.moves[i].section.depth.si, 6e-9) << i;
+  }
+  EXPECT_EQ(strokes, 10);
+  // the deepest place of the image is where two strokes cross
+  const auto& heights = run.image.channels.at(0).values;
+  EXPECT_EQ(heights.size(), run.image.columns * run.image.rows);
+  EXPECT_LT(*std::min_element(heights.begin(), heights.end()), -7e-9);
+  // row 0 is the top one: the bar of the F is nearer to it than its foot
+  const double left_m = run.image.x_offset_m, top_m = run.image.y_offset_m + run.image.height_m;
+  const auto at = [&](double x_m, double y_m) {
+    const double pixel_m = run.image.width_m / static_cast<double>(run.image.columns);
+    const auto column = static_cast<std::size_t>((x_m - left_m) / pixel_m);
+    const auto row = static_cast<std::size_t>((top_m - y_m) / pixel_m);
+    return heights.at(row * run.image.columns + column);
+  };
+  EXPECT_LT(at(10e-9, 120e-9), -3e-9);
+  EXPECT_EQ(at(10e-9, 0.0), 0.0);
 }
 
 TEST(SoftSample, IsRefusedWithTheReason) {

@@ -184,9 +184,9 @@ std::string scratch_text(const scene::ParticleSet& set, const scene::ScratchRun&
       "\nvolume: {:.4g} nm3 pressed down, of which {:.4g} sprang back, {:.4g} stand in ridges, {:.4g} are densified\n",
       v.pressed.si / kNm3, v.sprung_back.si / kNm3, (v.ridges + v.under_way).si / kNm3, v.densified.si / kNm3);
   const physics::ScratchTick& tick = last.end.tick;
-  text +=
-      fmt::format("energy: {} of work by the hand, {} lost, {} stored\n", format_quantity(tick.work, kEnergyUnits, 4),
-                  format_quantity(tick.lost, kEnergyUnits, 4), format_quantity(tick.stored, kEnergyUnits, 4));
+  text += fmt::format("energy: at most {} of work by the hand, {} lost, {} stored\n",
+                      format_quantity(tick.given, kEnergyUnits, 4), format_quantity(tick.lost, kEnergyUnits, 4),
+                      format_quantity(tick.stored, kEnergyUnits, 4));
   if (std::any_of(run.moves.begin(), run.moves.end(), [](const auto& move) { return move.end.tick.stops; })) {
     text += "the tip stopped at the lowest height of the model: the load is more than the sample bears there\n";
   }

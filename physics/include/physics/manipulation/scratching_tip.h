@@ -38,7 +38,7 @@ struct ScratchTick {
   Force load;               // force on the lever, upwards
   ScratchState state = ScratchState::Free;
   Energy given;   // energy from the hand since the start, at a frozen tip in each sub-step: an upper bound
-  Energy work;    // work of the hand since the start, by the force at both ends of each sub-step
+  Energy work;    // work of the hand since the start, by the forces at both ends of each sub-step: an estimate
   Energy lost;    // hardness times the volume pressed down since the start
   Energy stored;  // energy in the lever
   std::uint64_t exhausted = 0;  // ticks at whose end the tip was not at rest, since the start
