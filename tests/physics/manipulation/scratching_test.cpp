@@ -14,6 +14,7 @@
 
 #include "scratching.h"
 #include "support/deep.h"
+#include "support/no_alloc.h"
 
 namespace afm::physics {
 namespace scratching_test {
@@ -205,7 +206,10 @@ TEST(ScratchCertificate, HoldsOnRandomPaths) {
       x = std::clamp(x + dx, -300e-9, 300e-9);
       y = std::clamp(y + dy, -150e-9, 150e-9);
       z = std::clamp(z + dz, deepest_m, 30e-9);
-      const ScratchTick& tick = tip.move_to(base_at(x, y, z));
+      const ScratchTick& tick = [&]() -> const ScratchTick& {
+        const afm::test::NoAllocation no_allocation;
+        return tip.move_to(base_at(x, y, z));
+      }();
       largest_j = std::max({largest_j, std::abs(tick.given.si), tick.lost.si, tick.stored.si});
       const double surplus_j = (tick.given - tick.lost - tick.stored).si;
       ASSERT_GE(surplus_j - before_j, -1e-12 * largest_j) << "path " << path << ", tick " << i;
