@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,13 +16,18 @@
 #include "app/options/command.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
+#include "core/whole_file.h"
+#include "curves/image_output.h"
+#include "exhibit/report/scratch_report.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/manipulation/tip_meeting.h"
 #include "physics/quantity_text.h"
+#include "scene/samples/hand_script.h"
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/pattern_state.h"
 #include "scene/samples/pattern_task.h"
+#include "scene/samples/scratch_run.h"
 
 namespace afm::app {
 namespace {
@@ -48,6 +52,7 @@ constexpr double kRounding = 1e-12;  // share of the energy given that the certi
 struct ParticlesOptions {
   std::string file;
   Frequency rate{1000.0};
+  std::string out;
   int samples = 100;
   bool json = false;
 };
@@ -69,16 +74,6 @@ struct Played {
   std::vector<ParticlePlace> at;    // places of the particles at the end
   scene::TaskScore score;           // only for a set with a pattern
 };
-
-std::size_t ticks_of(const LeverBase& from, const scene::HandMove& move, Frequency rate) {
-  const double way = std::hypot((move.to.position.x - from.position.x).si, (move.to.position.y - from.position.y).si,
-                                (move.to.z - from.z).si);
-  return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(way / move.speed.si * rate.si)));
-}
-
-LeverBase on_the_way(const LeverBase& a, const LeverBase& b, double share) {
-  return {a.position + (b.position - a.position) * share, a.z + (b.z - a.z) * share};
-}
 
 double margin_j(const PushTick& tick) { return (tick.given - tick.lost - tick.stored).si; }
 
@@ -147,11 +142,12 @@ Played play(const scene::ParticleSet& set, const ParticlesOptions& options, std:
   played.least_margin_j = margin_j(now.tick);
   LeverBase from = set.start;
   for (const scene::HandMove& move : set.moves) {
-    const std::size_t ticks = ticks_of(from, move, options.rate);
+    const std::size_t ticks = scene::ticks_of(from, move, options.rate);
     for (std::size_t i = 1; i <= ticks; ++i) {
       const PushTick before = now.tick;
       const double share = static_cast<double>(i) / static_cast<double>(ticks);
-      now.tick = particles.move_to(i == ticks ? move.to : on_the_way(from, move.to, share), physics::Time(period_s));
+      now.tick =
+          particles.move_to(i == ticks ? move.to : scene::on_the_way(from, move.to, share), physics::Time(period_s));
       now.time_s = static_cast<double>(++played.ticks) * period_s;
       if (task) task->follow(particles, now.time_s);
       if (now.tick.lagging) ++played.lagging;
@@ -170,14 +166,6 @@ Played play(const scene::ParticleSet& set, const ParticlesOptions& options, std:
   if (task) played.score = task->end(particles, played.seconds);
   played.at = places_of(particles);
   return played;
-}
-
-nlohmann::json json_of(std::span<const scene::SourcedValue> sources) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const scene::SourcedValue& s : sources) {
-    list.push_back({{"key", s.key}, {"value", s.value}, {"source", s.source}, {"estimated", s.estimated}});
-  }
-  return list;
 }
 
 nlohmann::json json_of(const TickSample& sample) {
@@ -239,7 +227,7 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
                        {"radius_m", s.contact.tip_radius.si},
                        {"length_m", physics::is_rod(s) ? nlohmann::json(s.length.si) : nlohmann::json()},
                        {"figures", species_figures_json(set, i)},
-                       {"sources", json_of(set.species[i].sources)}});
+                       {"sources", exhibit::sources_json(set.species[i].sources)}});
   }
   for (std::size_t i = 0; i < set.particles.size(); ++i) particles.push_back(particle_json(set, i, played.at[i]));
   const auto list = [](const std::vector<TickSample>& samples) {
@@ -259,7 +247,7 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
                              {"lagging_ticks", played.lagging},
                              {"exhausted_ticks", played.ends.back().tick.exhausted},
                              {"least_certificate_J", played.least_margin_j},
-                             {"sources", json_of(set.sources)},
+                             {"sources", exhibit::sources_json(set.sources)},
                              {"species", species},
                              {"particles", particles},
                              {"targets_m", targets},
@@ -331,39 +319,53 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
   return text;
 }
 
+// Fails if the hand has gained energy.
+core::Result<void> certified(double least_margin_j, physics::Energy given, const std::string& path) {
+  if (least_margin_j >= -kRounding * std::abs(given.si)) return {};
+  return core::failure(
+      core::ErrorCategory::Failed,
+      fmt::format("the hand gained {:.3g} J from {}: a defect of TouchAFM, please report it", -least_margin_j, path));
+}
+
+core::Result<void> run_scratch(const scene::ParticleSet& set, const ParticlesOptions& options,
+                               const std::string& path) {
+  const auto run = scene::play_scratch(set, options.rate, static_cast<std::size_t>(options.samples));
+  auto written = write_stdout((options.json ? exhibit::scratch_json : exhibit::scratch_text)(set, run, options.rate));
+  if (!written) return written;
+  if (!options.out.empty()) written = core::write_file(options.out, curves::gwy_bytes(run.image));
+  if (!written) return written;
+  return certified(run.least_margin_j, run.moves.back().end.tick.given, path);
+}
+
 core::Result<void> run_particles(const ParticlesOptions& options, const std::string& assets_dir) {
   const auto path = scene::particle_file(options.file, assets_dir);
   if (!path) return tl::unexpected(path.error());
   const auto set = scene::load_particle_set(*path);
   if (!set) return tl::unexpected(set.error());
-  double ticks = 0.0;
-  LeverBase from = set->start;
-  for (const scene::HandMove& move : set->moves) {
-    ticks += static_cast<double>(ticks_of(from, move, options.rate));
-    from = move.to;
+  if (!options.out.empty() && !(set->soft && options.out.ends_with(".gwy"))) {
+    return core::wrong_usage("--out: takes the image of a soft sample, in a file that ends in .gwy");
   }
+  const double ticks = scene::all_ticks(*set, options.rate);
   if (ticks > kMostTicks) {
     return core::wrong_usage(
         fmt::format("the moves of {} take {:.0f} s, which are {:.3g} ticks at {:g} Hz, more than {:.3g}: lower --rate, "
-                    "or raise the "
-                    "speeds",
+                    "or raise the speeds",
                     *path, ticks / options.rate.si, ticks, options.rate.si, kMostTicks));
   }
+  if (set->soft) return run_scratch(*set, options, *path);
   const Played played = play(*set, options, static_cast<std::size_t>(ticks));
   auto written =
       write_stdout(options.json ? particles_json(*set, options, played) : particles_text(*set, options, played));
   if (!written) return written;
-  if (played.least_margin_j >= -kRounding * std::abs(played.ends.back().tick.given.si)) return {};
-  return core::failure(core::ErrorCategory::Failed,
-                       fmt::format("the hand gained {:.3g} J from {}: a defect of TouchAFM, please report it",
-                                   -played.least_margin_j, *path));
+  return certified(played.least_margin_j, played.ends.back().tick.given, *path);
 }
 
 }  // namespace
 
 void add_particles_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
-      "particles", "push particles on a sample with a scripted tip, without a window, and print forces and places");
+      "particles",
+      "push particles on a sample, or scratch it, with a scripted tip, without a window, and print forces and places");
   const auto options = std::make_shared<ParticlesOptions>();
   command
       .add_option(
@@ -382,8 +384,12 @@ void add_particles_command(OptionList& program, const CommandContext& context) {
       .show_default();
   command.add_flag("--json", options->json,
                    "print figures, sources, states, events and final places as JSON, with the unit in each key");
+  command.add_option("--out", options->out, "write the scratched sample to FILE, an image of its heights (.gwy)")
+      .writable_file()
+      .type_name("FILE");
   command.footer(
       "example: touchafm particles gold-row\n"
+      "         touchafm particles scratch-pmma --out scratch.gwy\n"
       "         touchafm particles my-set.toml --json --rate 4kHz --samples 1000\n"
       "The exit code is 1 if the hand gained energy, which would be a fault of the program.");
   command.when_chosen([options, &context] { return run_particles(*options, context.assets_dir); });

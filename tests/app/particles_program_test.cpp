@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/whole_file.h"
+#include "curves/image_file.h"
 #include "support/places.h"
 #include "support/programs/run_touchafm.h"
 #include "support/scratch_folder.h"
@@ -182,11 +183,51 @@ TEST(ParticlesCommand, LaysARodAcrossItsElectrodesAtAnyRate) {
   }
 }
 
+TEST(ParticlesCommand, ScratchesASoftSample) {
+  const ProgramResult result = particles("scratch-pmma --json --samples 20");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["sample"], "PMMA");
+  EXPECT_EQ(json["states"].size(), 20U);
+  const auto& figures = json["figures"];
+  EXPECT_NEAR(figures["groove_depth_under_load_m"].get<double>(), 6.296226461e-9, 1e-14);
+  EXPECT_NEAR(figures["ploughing_coefficient"].get<double>(), 0.3802388906, 1e-9);
+  EXPECT_EQ(figures["any_touch_marks"], true);
+  const auto& pass = json["moves"][1];
+  EXPECT_EQ(pass["marks"], true);
+  EXPECT_EQ(pass["state"], "marks");
+  EXPECT_LT(pass["lateral_N"][0].get<double>(), 0.0);
+  EXPECT_GT(pass["groove"]["depth_m"].get<double>(), 3e-9);
+  const auto& volumes = json["volumes"];
+  const double pressed = volumes["pressed_m3"].get<double>(), back = volumes["sprung_back_m3"].get<double>(),
+               ridges = volumes["ridges_m3"].get<double>();
+  EXPECT_NEAR(ridges, 0.7 * (pressed - back), 1e-6 * pressed);
+  EXPECT_NEAR(pressed, back + ridges + volumes["densified_m3"].get<double>(), 1e-6 * pressed);
+  EXPECT_GE(json["least_certificate_J"].get<double>(), -1e-12 * json["moves"].back()["given_J"].get<double>());
+  EXPECT_EQ(json["moves"].back()["state"], "free");
+  EXPECT_EQ(json["sources"].size(), 11U);
+  const ProgramResult text = particles("scratch-pmma");
+  for (const char* part : {"first scratch", "any touch marks", "stand in ridges", "11 of 11 values are estimated"}) {
+    EXPECT_THAT(text.out, HasSubstr(part));
+  }
+  const support::ScratchFolder folder;
+  const std::string file = folder.file("scratch.gwy");
+  EXPECT_EQ(particles("scratch-pmma --out " + file).exit_code, 0);
+  const auto written = curves::load_image(file);
+  ASSERT_TRUE(written) << written.error().message;
+  const auto& heights = written->image.channels.front().values;
+  EXPECT_NEAR(*std::max_element(heights.begin(), heights.end()), 8e-9, 4e-9);
+  EXPECT_LT(*std::min_element(heights.begin(), heights.end()), -8e-9);
+  expect_refusal(particles("gold-row --out " + file), 2, "image of a soft sample");
+  expect_refusal(particles("scratch-pmma --out " + file + ".png"), 2, "ends in .gwy");
+  expect_refusal(support::run_program(support::touchafm() + " view --particles scratch-pmma"), 2, "soft sample");
+}
+
 TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
   expect_refusal(particles(""), 2, "file");
   expect_refusal(particles("silver-row"), 2,
-                 "unknown set of particles \"silver-row\"; choose gold-row, latex-letter, pick-and-place, sticky-tip, "
-                 "tube-and-electrodes");
+                 "unknown set of particles \"silver-row\"; choose gold-row, latex-letter, pick-and-place, "
+                 "scratch-pmma, sticky-tip, tube-and-electrodes, write-afm");
   expect_refusal(particles("/no/such.toml"), 3, "/no/such.toml");
   expect_refusal(particles("gold-row --rate 4"), 2, "kHz");
   expect_refusal(particles("gold-row --rate 1MHz"), 2, "100kHz");

@@ -185,6 +185,7 @@ void read_particles(const TomlTable& top, const std::string& assets_dir, Lesson&
   if (!path) top.refuse("particles", path.error().message);
   auto set = scene::load_particle_set(*path);
   if (!set) top.refuse("particles", set.error().message);
+  if (set->soft) top.refuse("particles", lesson.particles + " has a soft sample, and no particles to push");
   const auto& species = set->setup.species;
   if (std::any_of(species.begin(), species.end(), physics::is_rod)) {
     top.refuse("particles", lesson.particles + " has rods; a lesson takes spheres alone");

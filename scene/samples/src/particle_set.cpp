@@ -16,6 +16,7 @@
 #include "physics/manipulation/rod.h"
 #include "scene/config/toml_file.h"
 #include "scene/config/toml_table.h"
+#include "soft_sample.h"
 #include "sourced_values.h"
 
 namespace afm::scene {
@@ -295,14 +296,7 @@ void read_pads(const TomlTable& top, ParticleSet& set) {
   }
 }
 
-ParticleSet read_set(const toml::table& root) {
-  const TomlTable top(root);
-  top.allow_only({"title", "medium", "note", "tip", "lever", "species", "particle", "target", "pad", "start", "move"});
-  ParticleSet set;
-  set.title = top.text("title");
-  set.medium = top.text("medium");
-  if (top.has("note")) set.note = top.text("note");
-
+void read_particles(const TomlTable& top, ParticleSet& set) {
   const TomlTable tip = top.table("tip", "[tip]"), lever = top.table("lever", "[lever]");
   SourcedValues tip_values(tip), lever_values(lever);
   read_tip(tip, set, tip_values);
@@ -332,10 +326,26 @@ ParticleSet read_set(const toml::table& root) {
   }
   if (top.has("target")) read_targets(top, set);
   if (top.has("pad")) read_pads(top, set);
+}
+
+ParticleSet read_set(const toml::table& root) {
+  const TomlTable top(root);
+  top.allow_only(
+      {"title", "medium", "note", "tip", "lever", "sample", "species", "particle", "target", "pad", "start", "move"});
+  ParticleSet set;
+  set.title = top.text("title");
+  set.medium = top.text("medium");
+  if (top.has("note")) set.note = top.text("note");
+  if (top.has("sample")) {
+    read_soft_sample(top, set);
+  } else {
+    read_particles(top, set);
+  }
   const TomlTable start = top.table("start", "[start]");
   start.allow_only({"x", "y", "z"});
   set.start = base(start);
   for (const TomlTable& table : top.tables("move", kMostMoves)) set.moves.push_back(read_move(table));
+  if (set.soft) check_soft_moves(top, set);
   return set;
 }
 

@@ -99,6 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "line 9: step.type: push needs the lesson's particles"},
         Refusal{kHead + "particles = \"gold-heap\"\n", "line 5: particles: "},
         Refusal{kHead + "particles = \"tube-and-electrodes\"\n", "line 5: particles: tube-and-electrodes has rods"},
+        Refusal{kHead + "particles = \"scratch-pmma\"\n", "line 5: particles: scratch-pmma has a soft sample"},
         Refusal{kHead + kGold + kFit, "line 6: scale: is that of the particles"},
         Refusal{kHead + kGold + step("type = \"cycle\"\n"),
                 "line 9: step.type: cycle is for lessons without particles"},

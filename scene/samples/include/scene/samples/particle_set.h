@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct Pad {
   physics::Sideways<physics::Length> half_size;
 };
 
+struct SoftSample;  // scratch_run.h
+
 // Particles on a sample, the tip that pushes them, and a hand that moves it.
 struct ParticleSet {
   std::string title;
@@ -45,7 +48,9 @@ struct ParticleSet {
   std::vector<Pad> pads;                        // to be bridged by a rod; may be empty
   physics::LeverBase start;
   std::vector<HandMove> moves;
-  std::vector<SourcedValue> sources;  // sources of tip, lever and pads
+  std::vector<SourcedValue> sources;  // sources of tip, lever, pads and soft sample
+  // With one there are no particles, and only `touchafm particles` plays the set.
+  std::shared_ptr<const SoftSample> soft;
 };
 
 inline constexpr std::size_t kMostTargets = 32;

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "physics/friction/sideways.h"
+#include "physics/manipulation/marking.h"
+#include "physics/manipulation/tip_contact.h"
+#include "physics/units.h"
+
+// A soft surface as a grid of heights that a tip cuts (docs/manipulation.md, "Scratches").
+namespace afm::physics {
+
+// Volumes of all marks. What has been pressed down is what springs back, ridges, and what is densified:
+// pressed = sprung_back + ridges + under_way + densified.
+struct MarkVolumes {
+  Volume pressed;      // below the tip, under load
+  Volume sprung_back;  // raised again when the tip has left
+  Volume ridges;
+  Volume under_way;  // piled up, but without room beside the tip until it moves on
+  Volume densified;
+};
+
+// Mean cross-section of a straight groove, without load.
+struct GrooveSection {
+  Length depth;  // deepest place; 0: there is no groove
+  Length width;  // at the height of the surface before the first mark
+  Length ridge;  // highest place beside it
+};
+
+// Place of a tip that a lever presses, and what it costs.
+struct Sunk {
+  Length apex;         // height
+  Volume displaced;    // what it presses down there
+  bool stops = false;  // at the lowest height: the load is more than the surface bears
+};
+
+// Heights of a flat surface at z = 0, on squares of R_t/8. Each square under the tip bears the hardness, or lies lower
+// than the tip and bears nothing. The tip is within kReach squares of its axis, all of which a call looks at, so
+// grooves are at most as wide as 2 R_t before they are deepened (deepest()).
+//
+// The constructor allocates; nothing else does, nor locks, throws or waits. One thread.
+class MarkedSurface {
+ public:
+  static constexpr int kMostSide = 512;  // squares along x and along y
+  static constexpr int kReach = 16;      // squares
+  static constexpr double kSquaresPerRadius = 8.0;
+
+  // For a tip over the rectangle from `least` to `most`. Throws std::invalid_argument if that needs more than
+  // kMostSide squares, and as validate() and validate_marking_tip() do.
+  MarkedSurface(const SphereCone& tip, const SoftSurface& surface, const Sideways<Length>& least,
+                const Sideways<Length>& most);
+
+  // The longest side of a rectangle for a tip.
+  static Length longest_side(const SphereCone& tip) noexcept;
+
+  // Whether a tip may be there.
+  bool holds(const Sideways<Length>& place) const noexcept;
+
+  // The lowest height that an apex takes.
+  Length deepest() const noexcept { return Length(deepest_m_); }
+
+  // No point of the surface is higher.
+  Length highest() const noexcept { return Length(highest_m_); }
+
+  Length spacing() const noexcept { return Length(spacing_m_); }
+
+  // The height at which a lever of this spring, whose unbent apex would be at `base`, presses the tip at a place: the
+  // least of energy of the lever and hardness times displaced volume. `place` is one that it holds.
+  Sunk sink(const Sideways<Length>& place, Length base, Stiffness spring) const noexcept;
+
+  // Presses the tip in, with a contact of that radius that rises by `back` in its middle when the tip has left. The
+  // volume pressed down.
+  Volume press(const Sideways<Length>& place, Length apex, Length contact_radius, Length back) noexcept;
+
+  // Piles up the share of what has been pressed down for good since the last call: on both sides of the last motion
+  // and behind it, or around a tip that has not moved sideways, `along` of zero length. Only where the tip leaves room.
+  void pile_up(const Sideways<Length>& place, Length apex, Length contact_radius,
+               const Sideways<double>& along) noexcept;
+
+  // Height at a place when no tip is there, between the middles of the squares by their distances; 0 beyond them.
+  Length height(const Sideways<Length>& place) const noexcept;
+
+  MarkVolumes volumes() const noexcept;
+
+  // Of the middle half of the way, across it.
+  GrooveSection section(const Sideways<Length>& from, const Sideways<Length>& to) const noexcept;
+
+  // By the heights of the grid: what lies below z = 0 and what stands above it, without load.
+  Volume below() const noexcept;
+  Volume above() const noexcept;
+
+  // The squares; the first one is that with the least x and y. Height when no tip is there.
+  std::size_t columns() const noexcept { return columns_; }
+  std::size_t rows() const noexcept { return rows_; }
+  Length square(std::size_t column, std::size_t row) const noexcept { return Length(square_m(column, row)); }
+  Sideways<Length> middle_of_first() const noexcept { return {Length(left_m_), Length(bottom_m_)}; }
+
+ private:
+  // A square that a call visits: its index, distance of its middle from the tip's axis, and the tip's height above its
+  // apex there.
+  struct Visited {
+    std::size_t index;
+    double x_m, y_m, distance_m, tip_m;
+  };
+  template <class Visit>
+  void around(const Sideways<Length>& place, const Visit& visit) const noexcept;
+  double square_m(std::size_t column, std::size_t row) const noexcept;
+  double ridge_weight(const Visited& at, double radius_m, const Sideways<double>& along) const noexcept;
+
+  TipOutline tip_;
+  double hardness_pa_, pile_up_share_;
+  double spacing_m_, deepest_m_, highest_m_ = 0.0;
+  double left_m_ = 0.0, bottom_m_ = 0.0;  // middle of the first square
+  std::size_t columns_ = 0, rows_ = 0;
+  std::vector<double> pressed_m_;  // height under the tip that pressed last
+  std::vector<double> back_m_;     // by which it rises when the tip has left
+  double pressed_m3_ = 0.0, for_good_m3_ = 0.0, ridges_m3_ = 0.0, under_way_m3_ = 0.0;
+};
+
+}  // namespace afm::physics

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "physics/manipulation/tip_contact.h"
+#include "physics/units.h"
+
+// How deep a sphere-cone tip marks a soft surface: closed forms (docs/manipulation.md, "Scratches"; equation numbers
+// (M50) on). Depths are positive downwards, from the surface before the first mark. Any thread.
+namespace afm::physics {
+
+// A surface that flows where a tip presses it with its hardness, at any speed.
+struct SoftSurface {
+  Pressure hardness;               // H
+  Pressure reduced_modulus;        // E* of tip and surface
+  SurfaceEnergy work_of_adhesion;  // W of tip and surface
+  double pile_up_share = 0.0;      // share of the volume of a groove that stands beside it; the rest is densified
+};
+
+// Throws UnphysicalValue with the field hardness, sample_modulus, work_of_adhesion or pile_up_share. A surface with
+// less than five times its hardness as E* springs back as a whole, and is refused.
+void validate(const SoftSurface& surface);
+
+// The same with the field tip_radius or half_angle: a flank that is too steep or too flat is refused.
+void validate_marking_tip(const SphereCone& tip);
+
+// The outline of a tip of validate_marking_tip(): heights above its apex.
+class TipOutline {
+ public:
+  explicit TipOutline(const SphereCone& tip) noexcept;
+
+  Length radius_at(Length height) const noexcept;
+  Length height_at(Length radius) const noexcept;
+  Length rim_height() const noexcept { return Length(rim_height_m_); }  // border of cap and cone
+
+ private:
+  double cap_m_, rim_radius_m_, rim_height_m_, slope_;
+};
+
+// A(d) = pi (2 R d - d^2) on the cap, pi r(d)^2 on the cone (M50).
+Area tip_area(const SphereCone& tip, Length depth) noexcept;
+
+// A_v(d): area of the tip below the surface, seen along its way (M51).
+Area groove_section(const SphereCone& tip, Length depth) noexcept;
+
+// Depth under load: of a tip that stands, H A(d) = F, and of one that is dragged over a fresh surface, where the front
+// half alone bears, H A(d)/2 = F (M52).
+Length imprint_depth(const SphereCone& tip, const SoftSurface& surface, Force load) noexcept;
+Length groove_depth(const SphereCone& tip, const SoftSurface& surface, Force load) noexcept;
+
+// Radius of the contact, standing and dragged: sqrt(F/(pi H)) and sqrt(2 F/(pi H)).
+Length imprint_radius(const SoftSurface& surface, Force load) noexcept;
+Length groove_radius(const SoftSurface& surface, Force load) noexcept;
+
+// 0.75 F/(2 E* a), by which the middle of a mark rises when the tip has left (M53; Oliver & Pharr 1992, exponent 1.5).
+Length spring_back(const SoftSurface& surface, Force load, Length contact_radius) noexcept;
+
+// Load of a standing tip below which all of the imprint springs back. On the cap for every valid surface and tip.
+Force least_marking_load(const SphereCone& tip, const SoftSurface& surface) noexcept;
+
+// Load at which a dragged tip begins to touch with its cone.
+Force cap_load(const SphereCone& tip, const SoftSurface& surface) noexcept;
+
+// H A_v(d), the sideways force of a groove (M54).
+Force ploughing_force(const SphereCone& tip, const SoftSurface& surface, Length depth) noexcept;
+
+// The same over the load for a cone without a cap, (2/pi) cot(half angle) (M55).
+double cone_ploughing_coefficient(double half_angle_rad) noexcept;
+
+// Height of two parabolic ridges, each half as wide as the groove, that hold the share of its section (M56).
+Length ridge_height(Area section, double share, Length width) noexcept;
+
+// Hertz' part of JKR's pressure in the middle of a touch without load, 3 K a_0/(2 pi R) (M57).
+Pressure touching_pressure(const SphereCone& tip, const SoftSurface& surface);
+
+// 1.6 Y, with Y = H/3: a larger pressure makes the surface flow.
+Pressure yield_pressure(const SoftSurface& surface) noexcept;
+
+}  // namespace afm::physics
