@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "curves/curve_file.h"
 #include "curves/table_columns.h"
@@ -137,6 +139,87 @@ TEST(ColumnTable, RefusesWhatItDoesNotUnderstand) {
       here.confined = false;
       return here;
     }()));
+}
+
+// Down by 40 steps of 20 nm and back; 7 nN at the deepest point. `row` writes the number of the row, height and force.
+template <class Row>
+std::string rows_of(const Row& row) {
+  std::string text;
+  for (int i = 0; i < 80; ++i) {
+    const int step = i < 40 ? i : 79 - i;
+    text += row(i, 1000.0 - 20.0 * step, step < 25 ? 0.0 : 0.5 * (step - 25)) + "\n";
+  }
+  return text;
+}
+
+std::string german(double number) {
+  std::string text = fmt::format("{:.2f}", number);
+  std::replace(text.begin(), text.end(), '.', ',');
+  return text;
+}
+
+TEST(ColumnTable, TakesDecimalCommasBesideColumnsThatAreNotRead) {
+  const std::string text =
+      rows_of([](int i, double z, double f) { return fmt::format("{} {} {}", german(z), i, german(f)); });
+  const auto curve = parse_curve(text, "a.txt", columns("height:nm - force:nN"));
+  ASSERT_TRUE(curve) << curve.error().message;
+  EXPECT_NEAR(curve->points[0].z.si, 1000e-9, 1e-18);
+  EXPECT_NEAR(curve->points[39].force.si, 7e-9, 1e-20);
+}
+
+TEST(ColumnTable, RefusesDecimalCommasBetweenCommas) {
+  const CurveReading two = columns("height:nm force:nN");
+  const auto row = [](int, double z, double f) { return german(z) + "," + german(f); };
+  EXPECT_THAT(refusal(rows_of(row), two), HasSubstr("line 1 has 4 fields between commas, and --columns names 2"));
+  const auto closed = [](int, double z, double f) { return fmt::format("{},{},", z, f); };
+  EXPECT_EQ(refusal(rows_of(closed), two), "accepted") << "a comma at the end of each line";
+}
+
+// 998.5 and 1,000 are no neighbours of 999.25
+TEST(ColumnTable, RefusesSeparatorsOfThousands) {
+  const CurveReading two = columns("height:nm force:nN");
+  const auto row = [](int, double z, double f) {
+    return fmt::format("{}\t{:.1f}", z < 1000.0 ? fmt::format("{:.1f}", z) : "1,000", f);
+  };
+  EXPECT_THAT(refusal(rows_of(row), two), HasSubstr("line 1: its numbers have points and commas"));
+  for (const char* number : {"1,000,000", "1.000,5", "1,000.5", "5,", ",5"}) {
+    EXPECT_THAT(refusal("1\t2\n" + std::string(number) + "\t3\n", two), HasSubstr("not a finite number")) << number;
+  }
+}
+
+TEST(ColumnTable, ReadsNumbersInQuotes) {
+  const auto row = [](int, double z, double f) { return fmt::format("\"{}\",\"{}\"", z, f); };
+  const auto curve = parse_curve(rows_of(row), "a.csv", columns("height:nm force:nN"));
+  ASSERT_TRUE(curve) << curve.error().message;
+  EXPECT_NEAR(curve->points[39].force.si, 7e-9, 1e-20);
+}
+
+TEST(ColumnTable, ComparesItsHeadingWithTheUnits) {
+  const auto remarks = [](const std::string& heading, const char* units) {
+    const std::string text = heading + "\n" + table("\t");
+    const auto curve = parse_curve(text.substr(0, heading.size() + 1) + text.substr(text.find("\n1.20\t") + 1), "a.txt",
+                                   columns(units));
+    EXPECT_TRUE(curve) << curve.error().message;
+    return curve ? curve->metadata.remarks : std::vector<std::string>();
+  };
+  EXPECT_THAT(remarks("Height (um)\tForce (nN)", "height:nm force:nN"),
+              testing::ElementsAre("the heading of column 1 is \"Height (um)\", and --columns names another unit"));
+  EXPECT_THAT(remarks("# z [um]\tdeflection [V]", "height:um force:nN"), testing::ElementsAre(HasSubstr("column 2")));
+  EXPECT_THAT(remarks("Height (\u00b5m)\tForce (nN)", "height:um force:-nN"), testing::IsEmpty());
+  EXPECT_THAT(remarks("Height (raw)\tForce", "height:um force:nN"), testing::IsEmpty());
+}
+
+TEST(ColumnTable, SaysWhyNoLineFits) {
+  const CurveReading two = columns("height:nm force:nN");
+  EXPECT_THAT(refusal("1\xc2\xa0"
+                      "2\n",
+                      two),
+              HasSubstr("; its last line is \"1"));
+  EXPECT_THAT(refusal(std::string("\xff\xfe"
+                                  "1\0\t\0002\0\n\0",
+                                  10),
+                      two),
+              HasSubstr("save it as UTF-8"));
 }
 
 TEST(TableColumns, AreNamedWithTheirUnits) {

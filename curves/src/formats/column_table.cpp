@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "bytes/table_numbers.h"
 #include "bytes/text_table.h"
 #include "core/enumerators.h"
 #include "curves/curve_error.h"
@@ -82,93 +82,6 @@ std::optional<std::size_t> place_of(const TableColumns& columns, ColumnKind kind
   const auto found =
       std::find_if(columns.begin(), columns.end(), [&](const TableColumn& column) { return column.kind == kind; });
   return found != columns.end() ? std::optional(static_cast<std::size_t>(found - columns.begin())) : std::nullopt;
-}
-
-// Separators, in the order in which they are tried. A blank: any number of blanks and tabs.
-constexpr std::array kSeparators{'\t', ';', ',', ' '};
-
-void split_line(std::string_view line, char separator, std::vector<std::string_view>& fields) {
-  if (separator != ' ') return split(line, separator, fields);
-  fields.clear();
-  for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    fields.push_back(line.substr(0, end));
-    line.remove_prefix(end);
-  }
-}
-
-// A number, with a decimal comma where commas do not separate. Empty if it is none.
-std::optional<double> number_in(std::string_view field, char separator) {
-  std::string text(trimmed(field));
-  if (separator != ',' && text.find('.') == std::string::npos) std::replace(text.begin(), text.end(), ',', '.');
-  if (text.starts_with('+')) text.erase(0, 1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-  return is_number ? std::optional(value) : std::nullopt;
-}
-
-// Reads lines into columns; a column that is not read stays empty.
-class TableReader {
- public:
-  explicit TableReader(const TableColumns& columns) : columns_(columns), table_(columns.size()), row_(columns.size()) {}
-
-  void read(std::string_view line, std::size_t number) {
-    if (rows_ == 0) {  // a heading, or the line by which the separator is known
-      const auto fits = [&](char separator) { return first_bad(line, separator) == columns_.size(); };
-      const auto found = std::find_if(kSeparators.begin(), kSeparators.end(), fits);
-      if (found == kSeparators.end()) return;
-      separator_ = *found;
-    }
-    const std::size_t bad = first_bad(line, separator_);
-    if (bad < columns_.size() && bad >= fields_.size()) {
-      throw CurveError(
-          fmt::format("line {} has {} columns, and --columns names {}", number, fields_.size(), columns_.size()));
-    }
-    if (bad < columns_.size()) {
-      throw CurveError(fmt::format("line {}: column {} is \"{}\", not a finite number", number, bad + 1,
-                                   trimmed(fields_[bad]).substr(0, 40)));
-    }
-    if (++rows_ > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (columns_[i].kind != ColumnKind::Nothing) table_[i].push_back(row_[i] * columns_[i].si_per_unit);
-    }
-  }
-
-  bool has_rows() const { return rows_ > 0; }
-  std::vector<std::vector<double>> take() { return std::move(table_); }
-
- private:
-  // Puts the numbers of a line into the row. The first column without one; their number if there is none.
-  std::size_t first_bad(std::string_view line, char separator) {
-    split_line(line, separator, fields_);
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (columns_[i].kind == ColumnKind::Nothing && i < fields_.size()) continue;
-      const auto number = i < fields_.size() ? number_in(fields_[i], separator) : std::nullopt;
-      if (!number) return i;
-      row_[i] = *number;
-    }
-    return columns_.size();
-  }
-
-  const TableColumns& columns_;
-  std::vector<std::vector<double>> table_;
-  std::vector<double> row_;
-  std::vector<std::string_view> fields_;
-  std::size_t rows_ = 0;
-  char separator_ = ' ';
-};
-
-std::vector<std::vector<double>> numbers_of(std::string_view bytes, const TableColumns& columns) {
-  TableReader reader(columns);
-  std::string_view line;
-  for (Lines lines(bytes); lines.next(line);) {
-    if (!trimmed(line).empty() && !trimmed(line).starts_with('#')) reader.read(line, lines.number());
-  }
-  if (!reader.has_rows()) {
-    throw CurveError(fmt::format("no line has {} columns with numbers where --columns names them", columns.size()));
-  }
-  return reader.take();
 }
 
 // Newtons in a unit of a force, or of a deflection with the calibration that was given.
@@ -262,12 +175,13 @@ core::Result<TableColumns> parse_table_columns(std::string_view text) {
 
 RecordedCurve read_column_table(std::string_view bytes, const CurveReading& reading) {
   const TableColumns& columns = *reading.columns;
-  const auto table = numbers_of(bytes, columns);
+  auto [table, remarks] = table_numbers(bytes, columns);
   const auto at = [&](ColumnKind kind) { return place_of(columns, kind); };
   const auto column_of_kinds = [&](ColumnKind a, ColumnKind b) { return at(a) ? at(a) : at(b); };
   const std::vector<double>& heights = table[*at(ColumnKind::Height)];
   const std::size_t force = *column_of_kinds(ColumnKind::Force, ColumnKind::Deflection);
   RecordedCurve curve;
+  curve.metadata.remarks = std::move(remarks);
   add_branch(heights, table[force], newtons_per(columns[force], reading), curve);
   std::vector<double> segments(heights.size(), 0.0);
   if (const auto back = column_of_kinds(ColumnKind::RetractForce, ColumnKind::RetractDeflection)) {
