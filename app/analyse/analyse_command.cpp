@@ -219,6 +219,7 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
                                       "write a plot of the curve (SVG) to FILE; with --fit a name that does not end in "
                                       ".svg is the folder of the "
                                       "table of fits")
+                          .written()
                           .type_name("FILE"));
   return added;
 }
