@@ -10,6 +10,7 @@
 
 #include "curves/curve_file.h"
 #include "curves/table_columns.h"
+#include "physics/normal_generator.h"
 
 namespace afm::curves {
 namespace column_table_test {
@@ -156,6 +157,43 @@ std::string german(double number) {
   std::string text = fmt::format("{:.2f}", number);
   std::replace(text.begin(), text.end(), '.', ',');
   return text;
+}
+
+// 5 um of approach, of which 50 nm or 30 nm are contact, with noise: its direction is no matter of chance.
+TEST(ColumnTable, FindsAShortContactAtTheEndOfALongApproach) {
+  for (const double contact_nm : {50.0, 30.0}) {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+      for (const double sign : {1.0, -1.0}) {
+        physics::NormalGenerator noise(seed);
+        std::string text;
+        for (int i = 0; i < 2000; ++i) {
+          const double height_nm = 5.0 * std::abs(1000 - i);
+          const double force_nn = 0.04 * std::max(0.0, contact_nm - height_nm) + 0.01 * noise();
+          text += fmt::format("{}\t{}\t{}\n", sign * height_nm, force_nn, i < 1000 ? 0 : 1);
+        }
+        const auto curve = parse_curve(text, "a.txt", columns("height:nm force:nN segment"));
+        ASSERT_TRUE(curve) << seed << ": " << curve.error().message;
+        EXPECT_EQ(curve->metadata.remarks.size(), sign > 0.0 ? 0U : 1U) << seed;
+        EXPECT_GT(curve->points.front().z, curve->points[999].z) << seed;
+        EXPECT_GT(curve->points[999].force.si, 0.5e-9) << seed << ": the contact at the end of the approach";
+      }
+    }
+  }
+}
+
+// The last half of the contact is at the end of the detector, where the force has no noise.
+TEST(ColumnTable, KeepsTheDirectionOfACurveWhoseDetectorEnded) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    physics::NormalGenerator noise(seed);
+    std::string text;
+    for (int i = 0; i < 1000; ++i) {
+      const double push_nn = 0.008 * std::max(0, i - 500) + 0.01 * noise();
+      text += fmt::format("{}\t{}\n", 1000 - i, std::min(2.0, push_nn));
+    }
+    const auto curve = parse_curve(text, "a.txt", columns("height:nm force:nN"));
+    ASSERT_TRUE(curve) << curve.error().message;
+    EXPECT_THAT(curve->metadata.remarks, testing::IsEmpty()) << seed;
+  }
 }
 
 TEST(ColumnTable, TakesDecimalCommasBesideColumnsThatAreNotRead) {
