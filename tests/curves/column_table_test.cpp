@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -157,6 +158,42 @@ std::string german(double number) {
   std::string text = fmt::format("{:.2f}", number);
   std::replace(text.begin(), text.end(), '.', ',');
   return text;
+}
+
+// 200 points down, 200 at rest with 2 nm of noise in which the force relaxes by a fifth, 200 up.
+TEST(ColumnTable, LeavesOutARestAtItsTurn) {
+  for (const double noise_nm : {0.0, 2.0}) {
+    physics::NormalGenerator noise(1);
+    std::string text;
+    for (int i = 0; i < 600; ++i) {
+      const int step = i < 200 ? i : i < 400 ? 199 : 599 - i;
+      const double height_nm = 1000.0 - 9.0 * step, relaxed = 0.2 * std::clamp((i - 199) / 200.0, 0.0, 1.0);
+      text += fmt::format("{} {}\n", height_nm + (i >= 200 && i < 400 ? noise_nm * noise() : 0.0),
+                          (1.0 - relaxed) * 0.01 * std::max(0.0, -height_nm));
+    }
+    const auto curve = parse_curve(text, "a.txt", columns("height:nm force:nN"));
+    ASSERT_TRUE(curve) << curve.error().message;
+    const auto count = [&](Branch branch) {
+      return std::count_if(curve->points.begin(), curve->points.end(),
+                           [&](const physics::CurvePoint& point) { return point.branch == branch; });
+    };
+    EXPECT_NEAR(static_cast<double>(count(Branch::Approach)), 200.0, 3.0) << noise_nm;
+    EXPECT_NEAR(static_cast<double>(count(Branch::Retract)), 200.0, 3.0) << noise_nm;
+    EXPECT_THAT(curve->metadata.remarks, testing::ElementsAre(HasSubstr("the tip rests"))) << noise_nm;
+  }
+}
+
+// A base that moves like a sine is slow at its turn.
+TEST(ColumnTable, TakesNoSlowTurnForARest) {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) {
+    const double height_nm = 500.0 * std::cos(i * std::numbers::pi / 500.0);
+    text += fmt::format("{} {}\n", height_nm, 0.01 * std::max(0.0, -height_nm));
+  }
+  const auto curve = parse_curve(text, "a.txt", columns("height:nm force:nN"));
+  ASSERT_TRUE(curve) << curve.error().message;
+  EXPECT_EQ(curve->points.size(), 1000U);
+  EXPECT_THAT(curve->metadata.remarks, testing::IsEmpty());
 }
 
 // 5 um of approach, of which 50 nm or 30 nm are contact, with noise: its direction is no matter of chance.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -108,6 +109,59 @@ std::size_t turn_of(const std::vector<double>& heights) {
                                                          : heights.size();
 }
 
+double median_of_some(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// First and last row at which the tip rests around its turn; empty unless it clearly does.
+std::optional<std::pair<std::size_t, std::size_t>> rest_at(const std::vector<double>& heights, std::size_t turn) {
+  constexpr double kBand = 0.01, kClearly = 3.0, kSteady = 1e-3, kDeviationPerMedian = 1.4826;
+  constexpr std::size_t kFewest = 10;
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  const double range = *high - *low;
+  const auto is_near = [](double level, double width) {
+    return [=](double height) { return std::abs(height - level) <= width; };
+  };
+  const auto at_turn = is_near(heights[turn], kBand * range);
+  const auto begin = std::find_if(heights.begin(), heights.end(), at_turn);
+  const auto end = std::find_if(heights.rbegin(), heights.rend(), at_turn).base();
+  const auto count = static_cast<std::size_t>(end - begin);
+  // steady ramps have as large a share of their points there as of their heights
+  if (count < kFewest + static_cast<std::size_t>(kClearly * kBand * static_cast<double>(heights.size()))) return {};
+  const double level = median_of_some({begin, end});
+  std::vector<double> deviations, steps;
+  for (auto at = begin; at != end; ++at) {
+    deviations.push_back(std::abs(*at - level));
+    if (at != begin) steps.push_back(std::abs(*at - *(at - 1)));
+  }
+  // a ramp that slows down at its turn, as a sine does, is no rest
+  const double spread = kDeviationPerMedian * median_of_some(deviations), noise = median_of_some(steps);
+  if (spread > kClearly * noise + kSteady * range) return {};
+  const auto at_rest = is_near(level, std::max(spread, 1e-9 * range));
+  const auto first = std::find_if(begin, end, at_rest);
+  const auto last =
+      std::find_if(std::make_reverse_iterator(end), std::make_reverse_iterator(begin), at_rest).base() - 1;
+  if (last + 1 == heights.end() || last - first < 2) return {};
+  return std::pair(static_cast<std::size_t>(first - heights.begin()), static_cast<std::size_t>(last - heights.begin()));
+}
+
+// 0 on the way to the turn and 1 on the way back, or 1 where the tip rests and 2 on the way back.
+std::vector<double> segments_of(const std::vector<double>& heights) {
+  std::vector<double> segments(heights.size(), 0.0);
+  const std::size_t turn = turn_of(heights);
+  const auto from = [&](std::size_t row) { return segments.begin() + static_cast<std::ptrdiff_t>(row); };
+  std::fill(from(turn), segments.end(), 1.0);
+  if (turn == heights.size()) return segments;
+  if (const auto rest = rest_at(heights, turn - 1)) {
+    std::fill(segments.begin(), from(rest->first + 1), 0.0);
+    std::fill(from(rest->first + 1), from(rest->second), 1.0);
+    std::fill(from(rest->second), segments.end(), 2.0);
+  }
+  return segments;
+}
+
 void add_branch(const std::vector<double>& heights, const std::vector<double>& forces, double newtons,
                 RecordedCurve& curve) {
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -192,7 +246,7 @@ RecordedCurve read_column_table(std::string_view bytes, const CurveReading& read
   } else if (const auto segment = at(ColumnKind::Segment)) {
     segments = table[*segment];
   } else {
-    std::fill(segments.begin() + static_cast<std::ptrdiff_t>(turn_of(heights)), segments.end(), 1.0);
+    segments = segments_of(heights);
   }
   if (const auto time = at(ColumnKind::Time)) {
     for (const double seconds : table[*time]) curve.time_s.push_back(seconds - table[*time].front());
