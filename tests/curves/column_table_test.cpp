@@ -248,6 +248,8 @@ TEST(ColumnTable, RefusesDecimalCommasBetweenCommas) {
   EXPECT_THAT(refusal(rows_of(row), two), HasSubstr("line 1 has 4 fields between commas, and --columns names 2"));
   const auto closed = [](int, double z, double f) { return fmt::format("{},{},", z, f); };
   EXPECT_EQ(refusal(rows_of(closed), two), "accepted") << "a comma at the end of each line";
+  const auto wider = [](int i, double z, double f) { return fmt::format("{},{:.1f},{}", z, f, i); };
+  EXPECT_EQ(refusal(rows_of(wider), two), "accepted") << "a third column of numbers with points";
 }
 
 // 998.5 and 1,000 are no neighbours of 999.25

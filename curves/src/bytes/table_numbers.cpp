@@ -115,7 +115,10 @@ class TableReader {
       throw CurveError(fmt::format("line {}: column {} is \"{}\", not a finite number", number, bad + 1,
                                    trimmed(fields_[bad]).substr(0, 40)));
     }
-    if (separator_ == ',') refuse_more_fields(number);
+    if (separator_ == ',' && more_fields_at_ == 0 && has_more_fields()) {
+      more_fields_at_ = number;
+      most_fields_ = fields_.size();
+    }
     if (rows_ == 0) check_heading();
     if (++rows_ > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
     for (std::size_t i = 0; i < columns_.size(); ++i) {
@@ -130,6 +133,16 @@ class TableReader {
                       "separators of thousands",
                       number));
     }
+  }
+
+  // Behind the last line.
+  void finish() const {
+    // "0,5,1,2" has two numbers with decimal commas, or four
+    if (more_fields_at_ == 0 || points_) return;
+    throw CurveError(
+        fmt::format("line {} has {} fields between commas, and --columns names {}: are they decimal commas? Write - "
+                    "for each field that is not read, or separate the columns by tabs or semicolons",
+                    more_fields_at_, most_fields_, columns_.size()));
   }
 
   // A line above the numbers.
@@ -164,14 +177,9 @@ class TableReader {
     return columns_.size();
   }
 
-  // "0,5,1,2" has two numbers with decimal commas, or four.
-  void refuse_more_fields(std::size_t number) const {
+  bool has_more_fields() const {
     const auto rest = fields_.begin() + static_cast<std::ptrdiff_t>(columns_.size());
-    if (std::all_of(rest, fields_.end(), [](std::string_view field) { return trimmed(field).empty(); })) return;
-    throw CurveError(
-        fmt::format("line {} has {} fields between commas, and --columns names {}: are they decimal commas? Write - "
-                    "for each field that is not read, or separate the columns by tabs or semicolons",
-                    number, fields_.size(), columns_.size()));
+    return std::any_of(rest, fields_.end(), [](std::string_view field) { return !trimmed(field).empty(); });
   }
 
   void check_heading() {
@@ -191,7 +199,8 @@ class TableReader {
   std::vector<std::string> remarks_;
   std::string_view heading_;  // the last line above the numbers
   std::size_t rows_ = 0;
-  bool points_ = false, commas_ = false;  // decimal marks so far
+  std::size_t more_fields_at_ = 0, most_fields_ = 0;  // first line with more fields than columns; 0: none
+  bool points_ = false, commas_ = false;              // decimal marks so far
   char separator_ = ' ';
 };
 
@@ -218,6 +227,7 @@ TableNumbers table_numbers(std::string_view bytes, const TableColumns& columns) 
     throw CurveError(
         fmt::format("no line has {} columns with numbers where --columns names them{}", columns.size(), last));
   }
+  reader.finish();
   return {reader.take(), reader.take_remarks()};
 }
 
