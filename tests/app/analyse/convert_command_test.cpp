@@ -66,6 +66,8 @@ TEST(WrittenFile, IsNoneThatTheCommandReads) {
         "view --haptics replay:" + curve + " --frame-log " + curve}) {
     expect_refusal(run_touchafm(command), 2, "would be lost");
   }
+  expect_refusal(run_touchafm("analyse " + data("rising.tab") + " --out " + curve), 2,
+                 "it is a curve, which a plot would replace");
   EXPECT_EQ(core::read_file(curve).value(), core::read_file(data("bom.tab")).value());
   EXPECT_EQ(run_touchafm("analyse " + curve + " --out " + folder.file("new.svg")).exit_code, 0);
   EXPECT_EQ(run_touchafm("analyse " + curve + " --out " + folder.file("new.svg")).exit_code, 0) << "a plot is replaced";
