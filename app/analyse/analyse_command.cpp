@@ -144,6 +144,16 @@ core::Result<void> check_batch(const AnalyseOptions& options, const std::vector<
   return {};
 }
 
+// The file of a plot: an older plot is replaced, a measurement never.
+core::Result<void> check_plot(const std::string& path) {
+  if (const auto writable = core::check_writable(path); !writable) {
+    return wrong_usage("--out: " + writable.error().message);
+  }
+  if (row_of(path) == nullptr) return {};
+  return wrong_usage(
+      fmt::format("--out {}: it is {}, which a plot would replace; name a new file", path, row_of(path)->one));
+}
+
 // "0um:1.5um", ways from the outermost point of the approach.
 core::Result<physics::WayRange> parse_way_range(const std::string& text) {
   const std::size_t colon = text.find(':');
@@ -219,6 +229,7 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
                                       "write a plot of the curve (SVG) to FILE; with --fit a name that does not end in "
                                       ".svg is the folder of the "
                                       "table of fits")
+                          .written()
                           .type_name("FILE"));
   return added;
 }
@@ -324,8 +335,7 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
     }
     if (const auto checked = check_options(options->file, of_kind); !checked) return checked;
     if (!options->out.empty()) {
-      const auto writable = core::check_writable(options->out);
-      if (!writable) return wrong_usage("--out: " + writable.error().message);
+      if (const auto checked = check_plot(options->out); !checked) return checked;
     }
     return analyse_curve_file(*options);
   });

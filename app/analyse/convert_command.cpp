@@ -30,6 +30,11 @@ core::Result<void> convert(const ConvertOptions& options) {
   if (std::filesystem::equivalent(options.from, options.to, none)) {
     return core::wrong_usage(fmt::format("{} and {} are one file, which would be lost", options.from, options.to));
   }
+  // a pattern may name a second measurement in its place
+  if (std::filesystem::is_regular_file(options.to, none)) {
+    return core::wrong_usage(
+        fmt::format("there is already a file {}, and no file is replaced; choose another name", options.to));
+  }
   if (const auto writable = core::check_writable(options.to); !writable) {
     return core::wrong_usage(writable.error().message);
   }
@@ -66,7 +71,7 @@ void add_convert_command(OptionList& program, const CommandContext&) {
       .type_name("NAME");
   add_reading_options(command, options->conversion.reading);
   command.footer(
-      "docs/curves.md says what each format holds. The log names what is left out or rounded.\n"
+      "docs/curves.md says what each format holds. The log names what is left out or rounded. No file is replaced.\n"
       "example: touchafm convert gel.jpk-force gel.tab\n"
       "         touchafm convert cell.jpk-qi-data cell.h5\n"
       "         touchafm convert mica.spm mica.gwy\n"

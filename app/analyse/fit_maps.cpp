@@ -70,15 +70,24 @@ bool has_value(const physics::ImageChannel& channel) {
 }  // namespace
 
 void FitMaps::add(const FittedCurve& curve) {
-  if (!curve.pixel) return;
+  if (!curve.pixel) {
+    if (curve.position) ++outside_;
+    return;
+  }
   const curves::MapPixel& pixel = *curve.pixel;
   if (!grid_) {
     grid_ = pixel.grid;
-    if (is_drawn()) cells_.resize(grid_->columns * grid_->rows);
+    if (is_drawn()) {
+      cells_.resize(grid_->columns * grid_->rows);
+      filled_.resize(cells_.size());
+    }
   }
   if (!(pixel.grid == *grid_)) return void(++elsewhere_);
   if (!is_drawn()) return;
-  Cell& cell = cells_[(grid_->rows - 1 - pixel.row) * grid_->columns + pixel.column];
+  const std::size_t index = (grid_->rows - 1 - pixel.row) * grid_->columns + pixel.column;
+  if (filled_[index]) ++replaced_;
+  filled_[index] = true;
+  Cell& cell = cells_[index];
   cell = {};
   cell.adhesion_n = curve.figures.adhesion_n;
   if (!curve.fit) return;
@@ -104,6 +113,14 @@ core::Result<void> FitMaps::write(const std::string& folder, const std::string& 
   }
   if (elsewhere_ > 0) {
     core::log_line(fmt::format("{}: {} of its curves are on another grid, and not on the map", file, elsewhere_));
+  }
+  if (outside_ > 0) {
+    core::log_line(fmt::format("{}: {} of its curves are outside the grid, and not on the map: their pixels are empty",
+                               file, outside_));
+  }
+  if (replaced_ > 0) {
+    core::log_line(fmt::format(
+        "{}: {} of its curves share a pixel with a later one, which is on the map in their place", file, replaced_));
   }
   physics::ScanImage image{.columns = grid_->columns,
                            .rows = grid_->rows,

@@ -25,7 +25,7 @@ class FitMaps {
   explicit FitMaps(std::size_t curves) : curves_(curves) {}
 
   // A curve without a pixel is left out. The first one's grid is that of the maps; of two curves at one pixel the later
-  // counts.
+  // counts. write() logs how many are not on the maps.
   void add(const FittedCurve& curve);
 
   // Writes FOLDER/NAME.gwy with those that have a value, and a picture of each, NAME-modulus.png and so on, NAME being
@@ -40,8 +40,11 @@ class FitMaps {
 
   std::size_t curves_;
   std::size_t elsewhere_ = 0;  // curves on another grid
+  std::size_t outside_ = 0;    // curves whose position is outside the grid
+  std::size_t replaced_ = 0;   // curves whose pixel a later one has
   std::optional<curves::MapGrid> grid_;
-  std::vector<Cell> cells_;  // row by row from the top
+  std::vector<Cell> cells_;   // row by row from the top
+  std::vector<bool> filled_;  // cells with a curve
 };
 
 }  // namespace afm::app

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -56,8 +58,11 @@ core::Result<std::string> output_format(const CurveOptions& options) {
   }
   if (options.json) return "json";
   if (!options.format.empty()) return options.format;
+  std::string name(options.out);
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
   for (const std::string& word : format_words()) {
-    if (options.out.ends_with("." + word)) return word;
+    if (name.ends_with("." + word)) return word;
   }
   return "csv";
 }

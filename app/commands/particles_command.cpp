@@ -300,8 +300,13 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
   text += fmt::format("\nenergy: {} of work by the hand, {} lost, {} stored; slips: {}\n",
                       format_quantity(last.work, kEnergyUnits, 4), format_quantity(last.lost, kEnergyUnits, 4),
                       format_quantity(stored, kEnergyUnits, 4), last.yields);
-  const physics::Energy rest = last.work - last.lost - stored;
-  if (rest.si > 0.01 * last.work.si) {
+  const physics::Energy begun = played.samples.front().tick.stored;
+  if (begun.si > kRounding * last.given.si) {
+    text +=
+        fmt::format("{} were stored at the start, where the lever is bent\n", format_quantity(begun, kEnergyUnits, 4));
+  }
+  const physics::Energy spent = begun + last.work, rest = spent - last.lost - stored;
+  if (rest.si > 0.01 * spent.si) {
     text += fmt::format("{} more was lost in jumps of the tip among several particles\n",
                         format_quantity(rest, kEnergyUnits, 4));
   }

@@ -8,9 +8,11 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,9 @@
 namespace afm::app {
 
 namespace {
+
+// Name of the check of an option that writes its file.
+constexpr const char* kWrites = "writes";
 
 std::string names_of(const char* word, const std::set<CLI::Option*>& options) {
   // sorted by name, because CLI11's sets of pointers are sorted by address
@@ -75,6 +80,55 @@ CommandDescription describe_command(const CLI::App& app) {
     }
   }
   return command;
+}
+
+bool writes(CLI::Option& option) {
+  try {
+    return option.get_validator(kWrites) != nullptr;
+  } catch (const CLI::OptionNotFound&) {
+    return false;
+  }
+}
+
+// Whether its value is a file, alone or behind a word and a colon.
+bool reads(CLI::Option& option) {
+  const std::string value = value_of(option);
+  const auto names = [&](const char* word) { return value.find(word) != std::string::npos; };
+  return !writes(option) &&
+         (names("FILE") || names("SESSION") || option.get_description().find(":FILE") != std::string::npos);
+}
+
+void add_given_options(CLI::App& app, std::vector<CLI::Option*>& given) {
+  for (CLI::Option* option : app.get_options()) {
+    if (!option->empty()) given.push_back(option);
+  }
+  for (CLI::App* below : app.get_subcommands([](CLI::App*) { return true; })) add_given_options(*below, given);
+}
+
+bool is_one_file(const std::string& a, const std::string& b) {
+  std::error_code missing;
+  return std::filesystem::is_regular_file(a, missing) && std::filesystem::equivalent(a, b, missing);
+}
+
+// Refuses to write the file that another option reads, because a measurement would be lost.
+core::Result<void> check_written_files(CLI::App& app) {
+  std::vector<CLI::Option*> given;
+  add_given_options(app, given);
+  for (CLI::Option* out : given) {
+    if (!writes(*out)) continue;
+    const std::string& path = out->results().back();
+    for (CLI::Option* in : given) {
+      if (!reads(*in)) continue;
+      for (const std::string& text : in->results()) {
+        const std::size_t colon = text.find(':');
+        const std::string behind = colon == std::string::npos ? text : text.substr(colon + 1);
+        if (!is_one_file(path, text) && !is_one_file(path, behind)) continue;
+        return core::wrong_usage(fmt::format("{} {}: this file is read, too ({}), and would be lost; choose another",
+                                             out->get_name(), path, in->get_name()));
+      }
+    }
+  }
+  return {};
 }
 
 // CLI11's help, except for an option's value, default and rules, whose wording differs between CLI11 versions.
@@ -161,6 +215,11 @@ Option& Option::writable_file() {
     const auto writable = core::check_writable(path);
     return writable ? std::string() : writable.error().message;
   });
+  return written();
+}
+
+Option& Option::written() {
+  option_->check(CLI::Validator([](std::string&) { return std::string(); }, "", kWrites));
   return *this;
 }
 
@@ -243,6 +302,7 @@ CommandDescription CommandLine::describe() const { return describe_command(*app_
 core::Result<std::string> CommandLine::parse(int count, const char* const* arguments) {
   try {
     app_->parse(count, arguments);
+    if (const auto checked = check_written_files(*app_); !checked) return tl::unexpected(checked.error());
     return "";
   } catch (const CLI::Success& asked) {  // --help, --version
     std::ostringstream answer;

@@ -43,6 +43,10 @@ class Option {
   Option& existing_folder();
   Option& writable_file();  // checked early, so that no result is lost after long work
 
+  // The value is a file or folder that is written; writable_file() says so, too. WrongUsage if it is a file that
+  // another option reads.
+  Option& written();
+
   // Leaves the option out of help, man page and completion: for our own programs.
   Option& hidden();
 

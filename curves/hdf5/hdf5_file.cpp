@@ -169,7 +169,7 @@ std::size_t Hdf5Curves::size() const {
   return curves;
 }
 
-RecordedCurve Hdf5Curves::curve(std::size_t index) const {
+RecordedCurve Hdf5Curves::curve(std::size_t index, const CurveReading&) const {
   const std::string name = std::to_string(index);
   if (!has(file_.get(), name.c_str())) throw CurveError(missing_curve(file_.get(), name, size()));
   const Handle group(H5Gopen2(file_.get(), name.c_str(), H5P_DEFAULT));

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "curves/curve_file.h"
 #include "curves/recorded_curve.h"
 #include "hdf5_handles.h"
 
@@ -26,8 +27,8 @@ class Hdf5Curves {
   // Number of the groups "0", "1" and so on, at most a million.
   std::size_t size() const;
 
-  // The curve of group `index`.
-  RecordedCurve curve(std::size_t index) const;
+  // The curve of group `index`; forces are in newtons.
+  RecordedCurve curve(std::size_t index, const CurveReading& reading) const;
 
  private:
   Handle file_;

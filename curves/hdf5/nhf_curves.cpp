@@ -153,28 +153,33 @@ std::vector<double> NhfCurves::values_of(const Channel& channel, const Extent& e
   return values;
 }
 
-double NhfCurves::newton_per_unit(const std::string& unit) const {
+// The metadata gets the calibration of `reading` where the file has none and the forces need one.
+double NhfCurves::newton_per_unit(const std::string& unit, const CurveReading& reading, CurveMetadata& metadata) const {
   if (unit == "N") return 1.0;
   if (unit != "m" && unit != "V") {
     throw CurveError(fmt::format("its deflection is in \"{}\"; N, m and V are read", unit.substr(0, 40)));
   }
-  if (!spring_n_per_m_ || (unit == "V" && !sensitivity_m_per_v_)) {
-    throw CurveError("its lever is not calibrated: it has no spring constant, or no sensitivity");
+  if (!metadata.spring_constant) metadata.spring_constant = reading.spring_constant;
+  if (!metadata.sensitivity_m_per_v) metadata.sensitivity_m_per_v = reading.sensitivity_m_per_v;
+  const bool no_spring = !metadata.spring_constant, no_sensitivity = unit == "V" && !metadata.sensitivity_m_per_v;
+  if (no_spring || no_sensitivity) {
+    throw CurveError(fmt::format("its lever is not calibrated; give {}{}{}", no_spring ? "--spring-constant" : "",
+                                 no_spring && no_sensitivity ? " and " : "", no_sensitivity ? "--sensitivity" : ""));
   }
-  return *spring_n_per_m_ * (unit == "V" ? *sensitivity_m_per_v_ : 1.0);
+  return metadata.spring_constant->si * (unit == "V" ? *metadata.sensitivity_m_per_v : 1.0);
 }
 
 void NhfCurves::add_branch(const Segment& segment, physics::Branch branch, std::size_t index,
-                           RecordedCurve& curve) const {
+                           const CurveReading& reading, RecordedCurve& curve) const {
   const std::vector<double> height = values_of(segment.height, segment.curves[index]),
                             force = values_of(segment.force, segment.curves[index]);
-  const double newton = newton_per_unit(segment.force.calibration.unit.unit);
+  const double newton = newton_per_unit(segment.force.calibration.unit.unit, reading, curve.metadata);
   for (std::size_t i = 0; i < force.size(); ++i) {
     curve.points.push_back({physics::Length(height[i]), physics::Force(newton * force[i]), branch});
   }
 }
 
-RecordedCurve NhfCurves::curve(std::size_t index) const {
+RecordedCurve NhfCurves::curve(std::size_t index, const CurveReading& reading) const {
   if (index >= size()) {
     throw CurveError(fmt::format("it has no curve {}; it has {}, counted from 0", index, size()));
   }
@@ -183,8 +188,8 @@ RecordedCurve NhfCurves::curve(std::size_t index) const {
   if (spring_n_per_m_) curve.metadata.spring_constant = physics::Stiffness(*spring_n_per_m_);
   curve.metadata.sensitivity_m_per_v = sensitivity_m_per_v_;
   curve.metadata.pixel = pixel_of(index, size(), grid_);
-  add_branch(approach_, physics::Branch::Approach, index, curve);
-  if (retract_.force.data.is_open()) add_branch(retract_, physics::Branch::Retract, index, curve);
+  add_branch(approach_, physics::Branch::Approach, index, reading, curve);
+  if (retract_.force.data.is_open()) add_branch(retract_, physics::Branch::Retract, index, reading, curve);
   for (const Rest& rest : rests_) {
     if (index >= rest.curves.size() || rest.curves[index].count == 0) continue;
     remark_left_out(rest.curves[index].count, rest.when, fmt::format("is in a part \"{}\"", rest.name.substr(0, 40)),

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "curves/curve_file.h"
 #include "curves/recorded_curve.h"
 #include "hdf5_handles.h"
 #include "nhf_reading.h"
@@ -24,8 +25,8 @@ class NhfCurves {
   // Number of curves.
   std::size_t size() const { return approach_.curves.size(); }
 
-  // Curve of an index, counted from 0.
-  RecordedCurve curve(std::size_t index) const;
+  // Curve of an index, counted from 0. A calibration of `reading` is used where the file has none.
+  RecordedCurve curve(std::size_t index, const CurveReading& reading) const;
 
  private:
   struct Channel {
@@ -51,8 +52,9 @@ class NhfCurves {
   Segment segment_of(hid_t group) const;
   std::vector<Extent> extents_in(hid_t group) const;
   std::vector<double> values_of(const Channel& channel, const Extent& extent) const;
-  void add_branch(const Segment& segment, physics::Branch branch, std::size_t index, RecordedCurve& curve) const;
-  double newton_per_unit(const std::string& unit) const;
+  void add_branch(const Segment& segment, physics::Branch branch, std::size_t index, const CurveReading& reading,
+                  RecordedCurve& curve) const;
+  double newton_per_unit(const std::string& unit, const CurveReading& reading, CurveMetadata& metadata) const;
 
   Handle file_;
   double version_;

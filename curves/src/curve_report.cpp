@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "curves/plot_units.h"
+#include "fits/elastic_fit.h"
 #include "physics/quantity_text.h"
 
 namespace afm::curves {
@@ -152,6 +153,26 @@ void remark_sign(const CurveFeatures& features, RecordedCurve& curve) {
                   kForceText(-*middle)));
 }
 
+// Adds a remark if the greatest force of the approach lasts, as at the end of the detector's range: the contact goes
+// on.
+void remark_detector_end(const CurveFeatures& features, RecordedCurve& curve) {
+  std::vector<fits::Sample> approach;
+  for (const physics::CurvePoint& point : curve.points) {
+    if (point.branch != physics::Branch::Approach) continue;
+    approach.push_back({point.z.si, (point.force - features.baseline.level).si});
+  }
+  const double push_n = features.greatest_push.si, noise_n = features.baseline.noise.si;
+  constexpr double kRoundingShare = 1e-9, kNoiseShare = 0.5;
+  if (!(push_n > fits::row_of(fits::Doubt::NeverPushed).limit * noise_n)) return;
+  const double lasts =
+      fits::points_at_greatest_force(approach, std::max(kRoundingShare * push_n, kNoiseShare * noise_n));
+  if (!(lasts > fits::row_of(fits::Doubt::Saturated).limit)) return;
+  curve.metadata.remarks.push_back(
+      fmt::format("the greatest force of the approach, {}, lasts while the base goes on: does the detector end there? "
+                  "Contact point and contact slope are then wrong",
+                  kForceText(push_n)));
+}
+
 // Zero of the places in a report.
 const char* zero_name(const CurveFeatures& features) {
   return features.contact_point ? "the contact point" : "the zero of the file's own heights";
@@ -176,7 +197,10 @@ core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve,
                            fmt::format("cannot analyse {}: --contact-point {} finds no contact point; try another",
                                        name, physics::name_of(*method)));
     }
-    if (!computed) remark_sign(features, curve);
+    if (!computed) {
+      remark_sign(features, curve);
+      remark_detector_end(features, curve);
+    }
     return AnalysedCurve{std::move(name), std::move(curve), features};
   } catch (const std::invalid_argument& error) {
     return core::failure(core::ErrorCategory::BadInputFile, fmt::format("cannot analyse {}: {}", name, error.what()));

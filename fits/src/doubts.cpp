@@ -26,34 +26,6 @@ double greatest_push_n(std::span<const Sample> samples, const ElasticFit& fit) {
   return greatest;
 }
 
-// Samples in a row at the greatest force, and those that a force usually lasts: more than one where a slow curve was
-// digitised.
-struct Standing {
-  double at_greatest = 0, usually = 1;
-};
-Standing standing_of(std::span<const Sample> samples, double tolerance_n) {
-  double greatest_n = samples.front().force_n;
-  for (const Sample& sample : samples) greatest_n = std::max(greatest_n, sample.force_n);
-  Standing standing;
-  std::vector<double> lasts;
-  double in_row = 0.0, last = 1.0;
-  for (std::size_t t = 0; t < samples.size(); ++t) {
-    in_row = samples[t].force_n >= greatest_n - tolerance_n ? in_row + 1.0 : 0.0;
-    standing.at_greatest = std::max(standing.at_greatest, in_row);
-    if (t == 0 || samples[t].force_n < 0.5 * greatest_n || in_row > 0.0) continue;  // pushed, not at the end
-    if (std::abs(samples[t].force_n - samples[t - 1].force_n) <= tolerance_n) {
-      last += 1.0;
-    } else {
-      lasts.push_back(std::exchange(last, 1.0));
-    }
-  }
-  if (lasts.empty()) return standing;
-  const auto middle = lasts.begin() + static_cast<std::ptrdiff_t>(lasts.size() / 2);
-  std::nth_element(lasts.begin(), middle, lasts.end());
-  standing.usually = *middle;
-  return standing;
-}
-
 // Smallest step between two forces; of a digitised curve that of its converter.
 double smallest_step_n(std::span<const Sample> samples) {
   constexpr double kSame = 1e-6;  // share of the range
@@ -79,8 +51,7 @@ class Judge {
     // the pull of a tip that sticks depends on the sample, too
     const double push_n = std::max(greatest_push_n(samples_, fit), fit.adhesion ? fit.adhesion->pull_off_n : 0.0);
     add(fit, Doubt::NeverPushed, fit.in_contact > 0 && push_n > 0.0 ? push_n / fit.noise_n : 0.0);
-    const Standing standing = standing_of(samples_, std::max(1e-9 * push_n, 0.5 * fit.noise_n));
-    add(fit, Doubt::Saturated, standing.at_greatest / standing.usually);
+    add(fit, Doubt::Saturated, points_at_greatest_force(samples_, std::max(1e-9 * push_n, 0.5 * fit.noise_n)));
     const double contact_n_per_m = fit.reduced_modulus_pa * push_of(setup_.indenter, fit.depth_m).slope;
     add(fit, Doubt::LeverTooSoft, contact_n_per_m / setup_.spring_n_per_m);
     add(fit, Doubt::Unknown, fit.modulus_interval_pa.high / fit.modulus_interval_pa.low);
@@ -219,6 +190,28 @@ const std::array<DoubtRow, 16> kDoubts{{
     {Doubt::BeyondDmt, false, Side::Above, 0.1, "Tabor's parameter is above that of DMT"},
     {Doubt::BelowJkr, false, Side::Below, 5.0, "Tabor's parameter is below that of JKR"},
 }};
+
+// A usual force lasts more than one point where a slow curve was digitised.
+double points_at_greatest_force(std::span<const Sample> samples, double tolerance_n) {
+  double greatest_n = samples.front().force_n;
+  for (const Sample& sample : samples) greatest_n = std::max(greatest_n, sample.force_n);
+  std::vector<double> lasts;
+  double at_greatest = 0.0, in_row = 0.0, last = 1.0;
+  for (std::size_t t = 0; t < samples.size(); ++t) {
+    in_row = samples[t].force_n >= greatest_n - tolerance_n ? in_row + 1.0 : 0.0;
+    at_greatest = std::max(at_greatest, in_row);
+    if (t == 0 || samples[t].force_n < 0.5 * greatest_n || in_row > 0.0) continue;  // pushed, not at the end
+    if (std::abs(samples[t].force_n - samples[t - 1].force_n) <= tolerance_n) {
+      last += 1.0;
+    } else {
+      lasts.push_back(std::exchange(last, 1.0));
+    }
+  }
+  if (lasts.empty()) return at_greatest;
+  const auto middle = lasts.begin() + static_cast<std::ptrdiff_t>(lasts.size() / 2);
+  std::nth_element(lasts.begin(), middle, lasts.end());
+  return at_greatest / *middle;
+}
 
 const DoubtRow& row_of(Doubt doubt) { return kDoubts.at(static_cast<std::size_t>(doubt)); }
 

@@ -111,6 +111,7 @@ std::optional<core::Result<void>> set_word(std::string_view key, const Json& val
   if (key == "pixels" || key == "lines") {
     const auto count = number_of(key, value, key == "pixels" ? 2.0 : 0.0, static_cast<double>(kMostInstrumentPixels));
     if (!count) return tl::unexpected(count.error());
+    if (*count != std::floor(*count)) return wrong_usage(fmt::format("\"{}\": give a whole number", key));
     (key == "pixels" ? settings.pixels : settings.lines) = static_cast<std::size_t>(*count);
     return core::Result<void>{};
   }

@@ -105,6 +105,7 @@ struct JsonDoor::Verbs {
   static Json hello(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
     constexpr double kMostSeed = 9007199254740992.0;  // largest whole number that every JSON library keeps
     const auto seed = arguments.number("seed", 0.0, kMostSeed);
+    if (seed && *seed != std::floor(*seed)) throw RefusedRequest("\"seed\": give a whole number");
     arguments.finish();
     if (seed) {
       value_of(door.instrument_.reset(static_cast<std::uint64_t>(*seed)));

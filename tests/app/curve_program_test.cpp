@@ -112,13 +112,14 @@ TEST(CurveProgram, TakesAMaterialOfTheUsersOwnBesideTheBuiltInOnes) {
 
 TEST(CurveProgram, WritesTheFormatThatTheEndingNames) {
   const support::ScratchFolder folder;
-  for (const char* name : {"c.csv", "c.json", "c.svg", "c.tab", "c.h5"}) {
+  for (const char* name : {"c.csv", "c.json", "c.svg", "c.tab", "c.h5", "D.H5"}) {
     const ProgramResult result = run_touchafm("curve --material mica --step 0.1nm --out " + folder.file(name));
     EXPECT_EQ(result.exit_code, 0) << name << result.err;
   }
   EXPECT_THAT(text_of(folder.file("c.csv")), HasSubstr("z_m,force_N"));
   EXPECT_EQ(nlohmann::json::parse(text_of(folder.file("c.json")))["model"], "dmt");
   EXPECT_THAT(text_of(folder.file("c.svg")), HasSubstr("<svg"));
+  EXPECT_EQ(text_of(folder.file("D.H5")), text_of(folder.file("c.h5"))) << "no text in a file for other programs";
   EXPECT_THAT(text_of(folder.file("c.tab")), HasSubstr("BEGIN METADATA"));
   EXPECT_EQ(text_of(folder.file("c.h5")).substr(1, 3), "HDF");
   const ProgramResult workshop = run_touchafm("curve --material mica --step 0.1nm --format afm-workshop");

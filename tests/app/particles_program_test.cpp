@@ -153,6 +153,21 @@ TEST(ParticlesCommand, PrintsWhatAUserMustKnow) {
   }
 }
 
+// 20 nm below the sample with a lever of 1 N/m
+TEST(ParticlesCommand, NamesTheEnergyOfALeverThatIsBentAtTheStart) {
+  const support::ScratchFolder folder;
+  std::string set = core::read_file(support::source("assets/particles/pick-and-place.toml")).value();
+  const std::string high = "y = \"0 nm\"\nz = \"100 nm\"";
+  const std::size_t start = set.find(high, set.find("[start]"));
+  ASSERT_NE(start, std::string::npos);
+  set.replace(start, high.size(), "y = \"0 nm\"\nz = \"-20 nm\"");
+  const ProgramResult pressed = particles(folder.write("pressed.toml", set));
+  EXPECT_EQ(pressed.exit_code, 0) << pressed.err;
+  EXPECT_THAT(pressed.out, HasSubstr("200 aJ were stored at the start, where the lever is bent\n"));
+  EXPECT_THAT(pressed.out, testing::Not(HasSubstr("more was lost")));
+  EXPECT_THAT(particles("pick-and-place").out, testing::Not(HasSubstr("at the start")));
+}
+
 TEST(ParticlesCommand, LaysARodAcrossItsElectrodesAtAnyRate) {
   double turned[3] = {}, moved[3] = {};
   const char* rates[] = {"500Hz", "1kHz", "4kHz"};

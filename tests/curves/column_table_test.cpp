@@ -3,11 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <vector>
 
 #include "curves/curve_file.h"
 #include "curves/table_columns.h"
+#include "physics/normal_generator.h"
 
 namespace afm::curves {
 namespace column_table_test {
@@ -137,6 +141,162 @@ TEST(ColumnTable, RefusesWhatItDoesNotUnderstand) {
       here.confined = false;
       return here;
     }()));
+}
+
+// Down by 40 steps of 20 nm and back; 7 nN at the deepest point. `row` writes the number of the row, height and force.
+template <class Row>
+std::string rows_of(const Row& row) {
+  std::string text;
+  for (int i = 0; i < 80; ++i) {
+    const int step = i < 40 ? i : 79 - i;
+    text += row(i, 1000.0 - 20.0 * step, step < 25 ? 0.0 : 0.5 * (step - 25)) + "\n";
+  }
+  return text;
+}
+
+std::string german(double number) {
+  std::string text = fmt::format("{:.2f}", number);
+  std::replace(text.begin(), text.end(), '.', ',');
+  return text;
+}
+
+// 200 points down, 200 at rest with 2 nm of noise in which the force relaxes by a fifth, 200 up.
+TEST(ColumnTable, LeavesOutARestAtItsTurn) {
+  for (const double noise_nm : {0.0, 2.0}) {
+    physics::NormalGenerator noise(1);
+    std::string text;
+    for (int i = 0; i < 600; ++i) {
+      const int step = i < 200 ? i : i < 400 ? 199 : 599 - i;
+      const double height_nm = 1000.0 - 9.0 * step, relaxed = 0.2 * std::clamp((i - 199) / 200.0, 0.0, 1.0);
+      text += fmt::format("{} {}\n", height_nm + (i >= 200 && i < 400 ? noise_nm * noise() : 0.0),
+                          (1.0 - relaxed) * 0.01 * std::max(0.0, -height_nm));
+    }
+    const auto curve = parse_curve(text, "a.txt", columns("height:nm force:nN"));
+    ASSERT_TRUE(curve) << curve.error().message;
+    const auto count = [&](Branch branch) {
+      return std::count_if(curve->points.begin(), curve->points.end(),
+                           [&](const physics::CurvePoint& point) { return point.branch == branch; });
+    };
+    EXPECT_NEAR(static_cast<double>(count(Branch::Approach)), 200.0, 3.0) << noise_nm;
+    EXPECT_NEAR(static_cast<double>(count(Branch::Retract)), 200.0, 3.0) << noise_nm;
+    EXPECT_THAT(curve->metadata.remarks, testing::ElementsAre(HasSubstr("the tip rests"))) << noise_nm;
+  }
+}
+
+// A base that moves like a sine is slow at its turn.
+TEST(ColumnTable, TakesNoSlowTurnForARest) {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) {
+    const double height_nm = 500.0 * std::cos(i * std::numbers::pi / 500.0);
+    text += fmt::format("{} {}\n", height_nm, 0.01 * std::max(0.0, -height_nm));
+  }
+  const auto curve = parse_curve(text, "a.txt", columns("height:nm force:nN"));
+  ASSERT_TRUE(curve) << curve.error().message;
+  EXPECT_EQ(curve->points.size(), 1000U);
+  EXPECT_THAT(curve->metadata.remarks, testing::IsEmpty());
+}
+
+// 5 um of approach, of which 50 nm or 30 nm are contact, with noise: its direction is no matter of chance.
+TEST(ColumnTable, FindsAShortContactAtTheEndOfALongApproach) {
+  for (const double contact_nm : {50.0, 30.0}) {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+      for (const double sign : {1.0, -1.0}) {
+        physics::NormalGenerator noise(seed);
+        std::string text;
+        for (int i = 0; i < 2000; ++i) {
+          const double height_nm = 5.0 * std::abs(1000 - i);
+          const double force_nn = 0.04 * std::max(0.0, contact_nm - height_nm) + 0.01 * noise();
+          text += fmt::format("{}\t{}\t{}\n", sign * height_nm, force_nn, i < 1000 ? 0 : 1);
+        }
+        const auto curve = parse_curve(text, "a.txt", columns("height:nm force:nN segment"));
+        ASSERT_TRUE(curve) << seed << ": " << curve.error().message;
+        EXPECT_EQ(curve->metadata.remarks.size(), sign > 0.0 ? 0U : 1U) << seed;
+        EXPECT_GT(curve->points.front().z, curve->points[999].z) << seed;
+        EXPECT_GT(curve->points[999].force.si, 0.5e-9) << seed << ": the contact at the end of the approach";
+      }
+    }
+  }
+}
+
+// The last half of the contact is at the end of the detector, where the force has no noise.
+TEST(ColumnTable, KeepsTheDirectionOfACurveWhoseDetectorEnded) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    physics::NormalGenerator noise(seed);
+    std::string text;
+    for (int i = 0; i < 1000; ++i) {
+      const double push_nn = 0.008 * std::max(0, i - 500) + 0.01 * noise();
+      text += fmt::format("{}\t{}\n", 1000 - i, std::min(2.0, push_nn));
+    }
+    const auto curve = parse_curve(text, "a.txt", columns("height:nm force:nN"));
+    ASSERT_TRUE(curve) << curve.error().message;
+    EXPECT_THAT(curve->metadata.remarks, testing::IsEmpty()) << seed;
+  }
+}
+
+TEST(ColumnTable, TakesDecimalCommasBesideColumnsThatAreNotRead) {
+  const std::string text =
+      rows_of([](int i, double z, double f) { return fmt::format("{} {} {}", german(z), i, german(f)); });
+  const auto curve = parse_curve(text, "a.txt", columns("height:nm - force:nN"));
+  ASSERT_TRUE(curve) << curve.error().message;
+  EXPECT_NEAR(curve->points[0].z.si, 1000e-9, 1e-18);
+  EXPECT_NEAR(curve->points[39].force.si, 7e-9, 1e-20);
+}
+
+TEST(ColumnTable, RefusesDecimalCommasBetweenCommas) {
+  const CurveReading two = columns("height:nm force:nN");
+  const auto row = [](int, double z, double f) { return german(z) + "," + german(f); };
+  EXPECT_THAT(refusal(rows_of(row), two), HasSubstr("line 1 has 4 fields between commas, and --columns names 2"));
+  const auto closed = [](int, double z, double f) { return fmt::format("{},{},", z, f); };
+  EXPECT_EQ(refusal(rows_of(closed), two), "accepted") << "a comma at the end of each line";
+  const auto wider = [](int i, double z, double f) { return fmt::format("{},{:.1f},{}", z, f, i); };
+  EXPECT_EQ(refusal(rows_of(wider), two), "accepted") << "a third column of numbers with points";
+}
+
+// 998.5 and 1,000 are no neighbours of 999.25
+TEST(ColumnTable, RefusesSeparatorsOfThousands) {
+  const CurveReading two = columns("height:nm force:nN");
+  const auto row = [](int, double z, double f) {
+    return fmt::format("{}\t{:.1f}", z < 1000.0 ? fmt::format("{:.1f}", z) : "1,000", f);
+  };
+  EXPECT_THAT(refusal(rows_of(row), two), HasSubstr("line 1: its numbers have points and commas"));
+  for (const char* number : {"1,000,000", "1.000,5", "1,000.5", "5,", ",5"}) {
+    EXPECT_THAT(refusal("1\t2\n" + std::string(number) + "\t3\n", two), HasSubstr("not a finite number")) << number;
+  }
+}
+
+TEST(ColumnTable, ReadsNumbersInQuotes) {
+  const auto row = [](int, double z, double f) { return fmt::format("\"{}\",\"{}\"", z, f); };
+  const auto curve = parse_curve(rows_of(row), "a.csv", columns("height:nm force:nN"));
+  ASSERT_TRUE(curve) << curve.error().message;
+  EXPECT_NEAR(curve->points[39].force.si, 7e-9, 1e-20);
+}
+
+TEST(ColumnTable, ComparesItsHeadingWithTheUnits) {
+  const auto remarks = [](const std::string& heading, const char* units) {
+    const std::string text = heading + "\n" + table("\t");
+    const auto curve = parse_curve(text.substr(0, heading.size() + 1) + text.substr(text.find("\n1.20\t") + 1), "a.txt",
+                                   columns(units));
+    EXPECT_TRUE(curve) << curve.error().message;
+    return curve ? curve->metadata.remarks : std::vector<std::string>();
+  };
+  EXPECT_THAT(remarks("Height (um)\tForce (nN)", "height:nm force:nN"),
+              testing::ElementsAre("the heading of column 1 is \"Height (um)\", and --columns names another unit"));
+  EXPECT_THAT(remarks("# z [um]\tdeflection [V]", "height:um force:nN"), testing::ElementsAre(HasSubstr("column 2")));
+  EXPECT_THAT(remarks("Height (\u00b5m)\tForce (nN)", "height:um force:-nN"), testing::IsEmpty());
+  EXPECT_THAT(remarks("Height (raw)\tForce", "height:um force:nN"), testing::IsEmpty());
+}
+
+TEST(ColumnTable, SaysWhyNoLineFits) {
+  const CurveReading two = columns("height:nm force:nN");
+  EXPECT_THAT(refusal("1\xc2\xa0"
+                      "2\n",
+                      two),
+              HasSubstr("; its last line is \"1"));
+  EXPECT_THAT(refusal(std::string("\xff\xfe"
+                                  "1\0\t\0002\0\n\0",
+                                  10),
+                      two),
+              HasSubstr("save it as UTF-8"));
 }
 
 TEST(TableColumns, AreNamedWithTheirUnits) {

@@ -14,6 +14,7 @@
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
 #include "curves/image_file.h"
+#include "physics/normal_generator.h"
 #include "support/image_files.h"
 #include "support/places.h"
 #include "vendor_image_files.h"
@@ -56,6 +57,22 @@ std::ptrdiff_t up(const AnalysedCurve& curve) { return points_of(curve, physics:
 
 std::string remarks_of(const AnalysedCurve& curve) {
   return fmt::format("{}", fmt::join(curve.curve.metadata.remarks, "; "));
+}
+
+// 40 nN of push, of which the detector shows 25.
+TEST(LabCurves, SayWhereTheDetectorEnds) {
+  for (const double end_n : {25e-9, 1.0}) {
+    physics::NormalGenerator noise(1);
+    RecordedCurve recorded;
+    for (int i = 0; i < 1000; ++i) {
+      const double z_m = 2e-9 * (500 - i);
+      recorded.points.push_back(
+          {physics::Length(z_m), physics::Force(std::min(end_n, 0.04 * std::max(0.0, -z_m) + 2e-11 * noise()))});
+    }
+    const auto done = analysed("x", std::move(recorded));
+    ASSERT_TRUE(done) << done.error().message;
+    EXPECT_EQ(remarks_of(*done).find("does the detector end there?") != std::string::npos, end_n < 1.0);
+  }
 }
 
 TEST(LabFiles, AreRefusedByTheirTrueKind) {

@@ -177,8 +177,31 @@ TEST_F(NhfCurve, MayBeInNewtonsAndEndEarly) {
   EXPECT_NEAR(curve.points[17].force.si, signal_at(5, 17) * kVolt, 1e-9);
 }
 
+TEST_F(NhfCurve, TakesTheCalibrationThatItLacks) {
+  CurveReading reading;
+  reading.spring_constant = physics::Stiffness(2.0 * kSpring);
+  reading.sensitivity_m_per_v = kSensitivity;
+  write({.calibrated = false});
+  const auto deepest_n = [](int curve) { return signal_at(curve, kPoints - 1) * kVolt * kSensitivity * 2.0 * kSpring; };
+  const auto first = load_curve(path, reading);
+  ASSERT_TRUE(first) << first.error().message;
+  EXPECT_NEAR(first->points[kDeepest].force.si, deepest_n(0), 1e-6 * deepest_n(0));
+  EXPECT_EQ(first->metadata.spring_constant->si, 2.0 * kSpring);
+  int read = 0;
+  read_curves(path, kCurves, {}, reading, [&](std::size_t index, const core::Result<RecordedCurve>& curve) {
+    EXPECT_TRUE(curve) << curve.error().message;
+    const double expected_n = deepest_n(static_cast<int>(index));
+    if (curve) {
+      EXPECT_NEAR(curve->points[kDeepest].force.si, expected_n, 1e-6 * expected_n);
+    }
+    ++read;
+    return true;
+  });
+  EXPECT_EQ(read, kCurves);
+}
+
 TEST_F(NhfCurve, IsRefusedInOneLineIfItIsNotUnderstood) {
-  EXPECT_THAT(refusal({.calibrated = false}), HasSubstr("its lever is not calibrated"));
+  EXPECT_THAT(refusal({.calibrated = false}), HasSubstr("give --spring-constant and --sensitivity"));
   EXPECT_THAT(refusal({.unit = "Degree (deg)"}), HasSubstr("its deflection is in \"deg\""));
   EXPECT_THAT(refusal({.has_counts = false}), HasSubstr("it does not say how many points"));
   EXPECT_THAT(refusal({.parts = {"Retract 1"}}), HasSubstr("without a force curve"));

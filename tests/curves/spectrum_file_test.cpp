@@ -61,6 +61,12 @@ TEST(SpectrumFile, TakesUnitsAndColumnOfTheCommandLine) {
   EXPECT_TRUE(read("Hz m2/Hz\n1 2\n", {.units = "Hz V2/Hz"}).in_volts);
 }
 
+TEST(SpectrumFile, IsRefusedWithDecimalCommasBetweenCommas) {
+  expect_refused("Hz, V2/Hz\n1000,5,0,0021\n1001,5,0,0022\n", "are the commas between its columns decimal ones?");
+  expect_refused("Hz, V2/Hz\n1000,0,0021\n", "are the commas between its columns decimal ones?");
+  EXPECT_EQ(read("Hz, V2/Hz, fit\n1000,2e-3,7\n1001,0.5,7\n").rows.size(), 2U);
+}
+
 // Such a line may have lost the exponent of its number.
 TEST(SpectrumFile, LeavesOutALastLineWithoutItsEnd) { EXPECT_EQ(read("Hz V2/Hz\n1 2e-12\n2 2e-1").rows.size(), 1U); }
 

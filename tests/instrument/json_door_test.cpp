@@ -78,6 +78,13 @@ TEST_F(JsonDoorTest, ChangesAllSettingsOrNone) {
   EXPECT_EQ(answer_to(R"({"do": "get"})")["values"]["material"], "gold");
 }
 
+TEST_F(JsonDoorTest, RefusesAPartOfAPixelLineOrSeed) {
+  EXPECT_THAT(refusal_of(R"({"do": "set", "values": {"pixels": 32.5}})"), HasSubstr("\"pixels\": give a whole number"));
+  EXPECT_THAT(refusal_of(R"({"do": "set", "values": {"lines": 0.5}})"), HasSubstr("\"lines\": give a whole number"));
+  EXPECT_THAT(refusal_of(R"({"do": "hello", "seed": 1.5})"), HasSubstr("\"seed\": give a whole number"));
+  EXPECT_EQ(answer_to(R"({"do": "set", "values": {"pixels": 32.0}})")["ok"], true);
+}
+
 TEST_F(JsonDoorTest, StreamsAnImageLineByLine) {
   EXPECT_THAT(refusal_of(R"({"do": "scan"})"), HasSubstr("approach"));
   EXPECT_EQ(answer_to(R"({"do": "approach"})")["engaged"], true);

@@ -6,14 +6,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bytes/table_numbers.h"
 #include "bytes/text_table.h"
 #include "core/enumerators.h"
 #include "curves/curve_error.h"
@@ -84,93 +85,6 @@ std::optional<std::size_t> place_of(const TableColumns& columns, ColumnKind kind
   return found != columns.end() ? std::optional(static_cast<std::size_t>(found - columns.begin())) : std::nullopt;
 }
 
-// Separators, in the order in which they are tried. A blank: any number of blanks and tabs.
-constexpr std::array kSeparators{'\t', ';', ',', ' '};
-
-void split_line(std::string_view line, char separator, std::vector<std::string_view>& fields) {
-  if (separator != ' ') return split(line, separator, fields);
-  fields.clear();
-  for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    fields.push_back(line.substr(0, end));
-    line.remove_prefix(end);
-  }
-}
-
-// A number, with a decimal comma where commas do not separate. Empty if it is none.
-std::optional<double> number_in(std::string_view field, char separator) {
-  std::string text(trimmed(field));
-  if (separator != ',' && text.find('.') == std::string::npos) std::replace(text.begin(), text.end(), ',', '.');
-  if (text.starts_with('+')) text.erase(0, 1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-  return is_number ? std::optional(value) : std::nullopt;
-}
-
-// Reads lines into columns; a column that is not read stays empty.
-class TableReader {
- public:
-  explicit TableReader(const TableColumns& columns) : columns_(columns), table_(columns.size()), row_(columns.size()) {}
-
-  void read(std::string_view line, std::size_t number) {
-    if (rows_ == 0) {  // a heading, or the line by which the separator is known
-      const auto fits = [&](char separator) { return first_bad(line, separator) == columns_.size(); };
-      const auto found = std::find_if(kSeparators.begin(), kSeparators.end(), fits);
-      if (found == kSeparators.end()) return;
-      separator_ = *found;
-    }
-    const std::size_t bad = first_bad(line, separator_);
-    if (bad < columns_.size() && bad >= fields_.size()) {
-      throw CurveError(
-          fmt::format("line {} has {} columns, and --columns names {}", number, fields_.size(), columns_.size()));
-    }
-    if (bad < columns_.size()) {
-      throw CurveError(fmt::format("line {}: column {} is \"{}\", not a finite number", number, bad + 1,
-                                   trimmed(fields_[bad]).substr(0, 40)));
-    }
-    if (++rows_ > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (columns_[i].kind != ColumnKind::Nothing) table_[i].push_back(row_[i] * columns_[i].si_per_unit);
-    }
-  }
-
-  bool has_rows() const { return rows_ > 0; }
-  std::vector<std::vector<double>> take() { return std::move(table_); }
-
- private:
-  // Puts the numbers of a line into the row. The first column without one; their number if there is none.
-  std::size_t first_bad(std::string_view line, char separator) {
-    split_line(line, separator, fields_);
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (columns_[i].kind == ColumnKind::Nothing && i < fields_.size()) continue;
-      const auto number = i < fields_.size() ? number_in(fields_[i], separator) : std::nullopt;
-      if (!number) return i;
-      row_[i] = *number;
-    }
-    return columns_.size();
-  }
-
-  const TableColumns& columns_;
-  std::vector<std::vector<double>> table_;
-  std::vector<double> row_;
-  std::vector<std::string_view> fields_;
-  std::size_t rows_ = 0;
-  char separator_ = ' ';
-};
-
-std::vector<std::vector<double>> numbers_of(std::string_view bytes, const TableColumns& columns) {
-  TableReader reader(columns);
-  std::string_view line;
-  for (Lines lines(bytes); lines.next(line);) {
-    if (!trimmed(line).empty() && !trimmed(line).starts_with('#')) reader.read(line, lines.number());
-  }
-  if (!reader.has_rows()) {
-    throw CurveError(fmt::format("no line has {} columns with numbers where --columns names them", columns.size()));
-  }
-  return reader.take();
-}
-
 // Newtons in a unit of a force, or of a deflection with the calibration that was given.
 double newtons_per(const TableColumn& column, const CurveReading& reading) {
   if (column.kind == ColumnKind::Force || column.kind == ColumnKind::RetractForce) return 1.0;
@@ -193,6 +107,59 @@ std::size_t turn_of(const std::vector<double>& heights) {
   constexpr double kShareOfTurn = 0.05;
   return distance(*turn) > kShareOfTurn * (*high - *low) ? static_cast<std::size_t>(turn - heights.begin()) + 1
                                                          : heights.size();
+}
+
+double median_of_some(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// First and last row at which the tip rests around its turn; empty unless it clearly does.
+std::optional<std::pair<std::size_t, std::size_t>> rest_at(const std::vector<double>& heights, std::size_t turn) {
+  constexpr double kBand = 0.01, kClearly = 3.0, kSteady = 1e-3, kDeviationPerMedian = 1.4826;
+  constexpr std::size_t kFewest = 10;
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  const double range = *high - *low;
+  const auto is_near = [](double level, double width) {
+    return [=](double height) { return std::abs(height - level) <= width; };
+  };
+  const auto at_turn = is_near(heights[turn], kBand * range);
+  const auto begin = std::find_if(heights.begin(), heights.end(), at_turn);
+  const auto end = std::find_if(heights.rbegin(), heights.rend(), at_turn).base();
+  const auto count = static_cast<std::size_t>(end - begin);
+  // steady ramps have as large a share of their points there as of their heights
+  if (count < kFewest + static_cast<std::size_t>(kClearly * kBand * static_cast<double>(heights.size()))) return {};
+  const double level = median_of_some({begin, end});
+  std::vector<double> deviations, steps;
+  for (auto at = begin; at != end; ++at) {
+    deviations.push_back(std::abs(*at - level));
+    if (at != begin) steps.push_back(std::abs(*at - *(at - 1)));
+  }
+  // a ramp that slows down at its turn, as a sine does, is no rest
+  const double spread = kDeviationPerMedian * median_of_some(deviations), noise = median_of_some(steps);
+  if (spread > kClearly * noise + kSteady * range) return {};
+  const auto at_rest = is_near(level, std::max(spread, 1e-9 * range));
+  const auto first = std::find_if(begin, end, at_rest);
+  const auto last =
+      std::find_if(std::make_reverse_iterator(end), std::make_reverse_iterator(begin), at_rest).base() - 1;
+  if (last + 1 == heights.end() || last - first < 2) return {};
+  return std::pair(static_cast<std::size_t>(first - heights.begin()), static_cast<std::size_t>(last - heights.begin()));
+}
+
+// 0 on the way to the turn and 1 on the way back, or 1 where the tip rests and 2 on the way back.
+std::vector<double> segments_of(const std::vector<double>& heights) {
+  std::vector<double> segments(heights.size(), 0.0);
+  const std::size_t turn = turn_of(heights);
+  const auto from = [&](std::size_t row) { return segments.begin() + static_cast<std::ptrdiff_t>(row); };
+  std::fill(from(turn), segments.end(), 1.0);
+  if (turn == heights.size()) return segments;
+  if (const auto rest = rest_at(heights, turn - 1)) {
+    std::fill(segments.begin(), from(rest->first + 1), 0.0);
+    std::fill(from(rest->first + 1), from(rest->second), 1.0);
+    std::fill(from(rest->second), segments.end(), 2.0);
+  }
+  return segments;
 }
 
 void add_branch(const std::vector<double>& heights, const std::vector<double>& forces, double newtons,
@@ -262,12 +229,13 @@ core::Result<TableColumns> parse_table_columns(std::string_view text) {
 
 RecordedCurve read_column_table(std::string_view bytes, const CurveReading& reading) {
   const TableColumns& columns = *reading.columns;
-  const auto table = numbers_of(bytes, columns);
+  auto [table, remarks] = table_numbers(bytes, columns);
   const auto at = [&](ColumnKind kind) { return place_of(columns, kind); };
   const auto column_of_kinds = [&](ColumnKind a, ColumnKind b) { return at(a) ? at(a) : at(b); };
   const std::vector<double>& heights = table[*at(ColumnKind::Height)];
   const std::size_t force = *column_of_kinds(ColumnKind::Force, ColumnKind::Deflection);
   RecordedCurve curve;
+  curve.metadata.remarks = std::move(remarks);
   add_branch(heights, table[force], newtons_per(columns[force], reading), curve);
   std::vector<double> segments(heights.size(), 0.0);
   if (const auto back = column_of_kinds(ColumnKind::RetractForce, ColumnKind::RetractDeflection)) {
@@ -278,7 +246,7 @@ RecordedCurve read_column_table(std::string_view bytes, const CurveReading& read
   } else if (const auto segment = at(ColumnKind::Segment)) {
     segments = table[*segment];
   } else {
-    std::fill(segments.begin() + static_cast<std::ptrdiff_t>(turn_of(heights)), segments.end(), 1.0);
+    segments = segments_of(heights);
   }
   if (const auto time = at(ColumnKind::Time)) {
     for (const double seconds : table[*time]) curve.time_s.push_back(seconds - table[*time].front());

@@ -44,21 +44,28 @@ bool begins_as_tab(std::string_view bytes) {
   return bytes.starts_with("#") && bytes.substr(0, kLongestHeading).find("# BEGIN METADATA") != std::string_view::npos;
 }
 
+// What touchafm-hdf5 is to read; a calibration that is not given is 0.
+std::vector<std::string> hdf5_arguments(const char* how, const SeriesPart& part, const CurveReading& reading) {
+  const double spring = reading.spring_constant ? reading.spring_constant->si : 0.0;
+  return {how, std::to_string(part.first), std::to_string(part.step), fmt::format("{}", spring),
+          fmt::format("{}", reading.sensitivity_m_per_v.value_or(0.0))};
+}
+
 // Transfers the curve in a format of the same content that has a reader here.
 RecordedCurve read_hdf5(std::string_view bytes, const CurveReading& reading) {
-  return read_tab(from_confined_program(kHdf5Program, {"read", std::to_string(reading.index)}, bytes, kNotSurvived));
+  return read_tab(
+      from_confined_program(kHdf5Program, hdf5_arguments("read", {reading.index, 1}, reading), bytes, kNotSurvived));
 }
 std::size_t count_hdf5(const std::string& path) {
   const auto bytes = bytes_of_file(path);
   if (!bytes) throw CurveError(bytes.error().message);
   return count_in(from_confined_program(kHdf5Program, {"count"}, *bytes, kNotSurvived));
 }
-std::unique_ptr<ConfinedStream> stream_hdf5(const std::string& path, const SeriesPart& part, const CurveReading&) {
+std::unique_ptr<ConfinedStream> stream_hdf5(const std::string& path, const SeriesPart& part,
+                                            const CurveReading& reading) {
   const auto bytes = bytes_of_file(path);
   if (!bytes) throw CurveError(bytes.error().message);
-  return std::make_unique<ConfinedStream>(
-      kHdf5Program, std::vector{std::string("stream"), std::to_string(part.first), std::to_string(part.step)}, *bytes,
-      kNotSurvived);
+  return std::make_unique<ConfinedStream>(kHdf5Program, hdf5_arguments("stream", part, reading), *bytes, kNotSurvived);
 }
 std::string hdf5_bytes(std::span<const RecordedCurve> curves) {
   std::string tabs;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -56,32 +57,63 @@ double rise_of(std::span<const CurvePoint> points) {
   return (mean_z(points.last(tenth)) - mean_z(points.first(tenth))) / (high - low);
 }
 
-// Median of the force where the height is within `from` to `to`, in shares of the range from its lowest.
-std::optional<double> force_at(std::span<const CurvePoint> points, double from, double to) {
+// Forces where the height is within `from` to `to`, in shares of the range from its lowest.
+std::vector<double> forces_at(std::span<const CurvePoint> points, double from, double to) {
   const auto [low, high] = z_range_of(points);
   std::vector<double> forces;
   for (const CurvePoint& point : points) {
     const double share = (point.z.si - low) / (high - low);
     if (share >= from && share <= to) forces.push_back(point.force.si);
   }
-  if (forces.empty()) return std::nullopt;
-  const auto middle = forces.begin() + static_cast<std::ptrdiff_t>(forces.size() / 2);
-  std::nth_element(forces.begin(), middle, forces.end());
+  return forces;
+}
+
+// Of at least one value, whose order changes.
+double median_in(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+// An end of the heights: how far its force is from that a fifth of them away, and the noise there.
+struct HeightsEnd {
+  double change_n = 0, noise_n = 0;
+};
+
+// The largest change of three widths of the end, because a contact may be a hundredth of a long approach.
+std::optional<HeightsEnd> end_of_heights(std::span<const CurvePoint> points, bool highest) {
+  constexpr double kOuter = 0.05, kInner = 0.2, kDeviationPerMedian = 1.4826;
+  constexpr std::array kNarrower{0.02, 0.005};
+  constexpr std::size_t kFewest = 3;
+  const auto forces = [&](double from, double to) {
+    return highest ? forces_at(points, 1.0 - to, 1.0 - from) : forces_at(points, from, to);
+  };
+  std::vector<double> inner = forces(kInner - kOuter, kInner), outer = forces(0.0, kOuter);
+  if (inner.empty() || outer.empty()) return std::nullopt;
+  const double level_n = median_in(inner);
+  HeightsEnd end{std::abs(median_in(outer) - level_n), 0.0};
+  for (const double width : kNarrower) {
+    outer = forces(0.0, width);
+    if (outer.size() >= kFewest) end.change_n = std::max(end.change_n, std::abs(median_in(outer) - level_n));
+  }
+  for (double& force_n : inner) force_n = std::abs(force_n - level_n);
+  end.noise_n = kDeviationPerMedian * median_in(inner);
+  return end;
 }
 
 enum class ContactEnd { Unknown, Lowest, Highest };
 
 // The end of the heights at which the force changes most, if clearly: that of the contact, for a force of either sign.
 ContactEnd contact_end_of(std::span<const CurvePoint> points) {
-  constexpr double kClearly = 3.0, kOuter = 0.05, kInner = 0.2;
-  const auto lowest = force_at(points, 0.0, kOuter), above = force_at(points, kInner - kOuter, kInner);
-  const auto below = force_at(points, 1.0 - kInner, 1.0 - kInner + kOuter),
-             highest = force_at(points, 1.0 - kOuter, 1.0);
-  if (!lowest || !above || !below || !highest) return ContactEnd::Unknown;
-  const double low = std::abs(*lowest - *above), high = std::abs(*highest - *below);
-  if (low > kClearly * high) return ContactEnd::Lowest;
-  return high > kClearly * low ? ContactEnd::Highest : ContactEnd::Unknown;
+  constexpr double kClearly = 3.0, kSignificant = 5.0;
+  const auto lowest = end_of_heights(points, false), highest = end_of_heights(points, true);
+  if (!lowest || !highest) return ContactEnd::Unknown;
+  const double noise_n = std::max(lowest->noise_n, highest->noise_n);  // none where a detector has ended
+  const auto is_clear = [&](const HeightsEnd& end, const HeightsEnd& other) {
+    return end.change_n > kClearly * other.change_n && end.change_n > kSignificant * noise_n;
+  };
+  if (is_clear(*lowest, *highest)) return ContactEnd::Lowest;
+  return is_clear(*highest, *lowest) ? ContactEnd::Highest : ContactEnd::Unknown;
 }
 
 void reverse_times(RecordedCurve& curve, std::size_t first, std::size_t count) {

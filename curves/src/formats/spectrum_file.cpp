@@ -161,7 +161,7 @@ Spectrum read_spectrum(std::string_view text, const SpectrumReading& reading) {
   }
   Spectrum spectrum;
   std::vector<std::string_view> fields;
-  bool in_table = false;
+  bool in_table = false, has_fractions = false, has_commas = false;
   Lines lines(text.substr(0, text.find_last_of("\r\n") + 1));
   for (std::string_view line; lines.next(line);) {
     line = trimmed(line);
@@ -175,8 +175,16 @@ Spectrum read_spectrum(std::string_view text, const SpectrumReading& reading) {
     }
     if (!units) throw CurveError(fmt::format("it has no unit of the density; {}", kUnitsWanted));
     add_spectrum_row(fields, reading, *units, lines, spectrum);
+    has_commas = has_commas || (fields.size() > 2 && line.find(',') != std::string_view::npos);
+    has_fractions = has_fractions || fields[reading.column - 1].find_first_of(".eE") != std::string_view::npos;
   }
   if (spectrum.rows.empty()) throw CurveError("it has no whole row of numbers, with a decimal point, above 0 Hz");
+  // "1000,5,0,0021": a density is hardly ever a whole number
+  if (has_commas && !has_fractions) {
+    throw CurveError(
+        "its densities have no decimal point: are the commas between its columns decimal ones? Write decimal points, "
+        "or separate the columns by tabs or semicolons");
+  }
   spectrum.in_volts = units->volts;
   return spectrum;
 }

@@ -73,7 +73,7 @@ void take_states(const TappingRun& run, TapSweepRow& row) {
   std::array<const physics::RestingTap*, 2> states{};
   for (const TapStateRow& state : run.states) {
     if (!state.tap.stable) continue;
-    const std::size_t kind = state.tap.averages.virial > physics::Energy() ? kAttractive : kRepulsive;
+    const std::size_t kind = state.tap.averages.virial < physics::Energy() ? kRepulsive : kAttractive;
     if (states.at(kind) == nullptr) states.at(kind) = &state.tap;
   }
   for (const physics::RestingTap* state : states) {
@@ -82,6 +82,10 @@ void take_states(const TappingRun& run, TapSweepRow& row) {
     row.values.push_back(state == nullptr ? kNoValue : state->averages.peak.si);
   }
   const bool attracts = states[kAttractive] != nullptr, repels = states[kRepulsive] != nullptr;
+  if (!attracts && !repels) {
+    row.refusal = "no swing is stable at this height";
+    return;
+  }
   const std::size_t regime = attracts && repels ? 2 : repels ? 1 : 0;
   row.regime = kRegimesAtHeight.at(regime).word;
 }

@@ -373,14 +373,28 @@ Lesson read_lesson(const toml::table& root, const std::string& assets_dir) {
   return lesson;
 }
 
+// Digest of the lesson's file and of the particle file that it names.
+core::Result<std::string> digest_of(const std::string& path, const Lesson& lesson, const std::string& assets_dir) {
+  auto bytes = core::read_file(path);
+  if (!bytes) return bytes;
+  if (lesson.set) {
+    const auto file = scene::particle_file(lesson.particles, assets_dir);
+    if (!file) return file;
+    const auto set = core::read_file(*file);
+    if (!set) return set;
+    *bytes += *set;
+  }
+  return fmt::format("{:016x}", core::fnv1a(*bytes));
+}
+
 }  // namespace
 
 core::Result<Lesson> load_lesson(const std::string& path, const std::string& assets_dir) {
   auto lesson = scene::read_toml(kKind, path, [&](const toml::table& root) { return read_lesson(root, assets_dir); });
   if (!lesson) return lesson;
-  const auto bytes = core::read_file(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  lesson->digest = fmt::format("{:016x}", core::fnv1a(*bytes));
+  auto digest = digest_of(path, *lesson, assets_dir);
+  if (!digest) return tl::unexpected(digest.error());
+  lesson->digest = std::move(*digest);
   return lesson;
 }
 

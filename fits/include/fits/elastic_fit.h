@@ -84,6 +84,10 @@ extern const std::array<DoubtRow, 16> kDoubts;
 
 const DoubtRow& row_of(Doubt doubt);
 
+// Points in a row at the greatest force, over those that a usual force lasts: the figure of Doubt::Saturated. At least
+// one sample, in the order of time; forces within the tolerance count as one.
+double points_at_greatest_force(std::span<const Sample> samples, double tolerance_n);
+
 enum class Trust { Trusted, Doubtful, No };
 std::string_view name_of(Trust trust);
 

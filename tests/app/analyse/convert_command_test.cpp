@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "core/whole_file.h"
@@ -38,9 +39,38 @@ TEST(ConvertCommand, RefusesAndLosesNothing) {
   EXPECT_EQ(core::read_file(kept).value(), core::read_file(curve).value());
   expect_refusal(run_touchafm("convert " + curve + " " + folder.file("new.gwy")), 2, "is no name for them");
   expect_refusal(run_touchafm("convert " + curve + " " + folder.file("no/new.tab")), 2, "no/new.tab");
-  const std::string other = folder.write("old.tab", "mine");
-  expect_refusal(run_touchafm("convert " + data("ramp.spm") + " " + other), 3, "without a deflection");
+  expect_refusal(run_touchafm("convert " + data("ramp.spm") + " " + folder.file("new.tab")), 3, "without a deflection");
+}
+
+// "convert *.tab" in a folder of two measurements
+TEST(ConvertCommand, ReplacesNoFile) {
+  const support::ScratchFolder folder;
+  const std::string other = folder.write("other.tab", "mine");
+  expect_refusal(run_touchafm("convert " + data("bom.tab") + " " + other), 2, "there is already a file");
   EXPECT_EQ(core::read_file(other).value(), "mine");
+  EXPECT_EQ(run_touchafm("convert " + data("bom.tab") + " " + folder.file("new.tab")).exit_code, 0);
+}
+
+TEST(WrittenFile, IsNoneThatTheCommandReads) {
+  const support::ScratchFolder folder;
+  const std::string curve = folder.write("curve.tab", core::read_file(data("bom.tab")).value()),
+                    link = folder.file("link.tab");
+  std::filesystem::create_symlink(curve, link);
+  for (const std::string& command :
+       {"analyse " + curve + " --out " + curve, "analyse " + data("bom.tab") + " --beside " + curve + " --out " + link,
+        "curve --material mica --format svg --overlay " + link + " --out " + curve,
+        "curve --material mica --materials " + curve + " --out " + curve,
+        "scan --sample " + curve + " --picture " + curve, "lever --thermal " + curve + " --out " + curve,
+        "replay " + curve + " --sound " + curve, "render --gltf " + curve + " --out " + curve,
+        "wall " + curve + " --test-pattern --out " + curve,
+        "view --haptics replay:" + curve + " --frame-log " + curve}) {
+    expect_refusal(run_touchafm(command), 2, "would be lost");
+  }
+  expect_refusal(run_touchafm("analyse " + data("rising.tab") + " --out " + curve), 2,
+                 "it is a curve, which a plot would replace");
+  EXPECT_EQ(core::read_file(curve).value(), core::read_file(data("bom.tab")).value());
+  EXPECT_EQ(run_touchafm("analyse " + curve + " --out " + folder.file("new.svg")).exit_code, 0);
+  EXPECT_EQ(run_touchafm("analyse " + curve + " --out " + folder.file("new.svg")).exit_code, 0) << "a plot is replaced";
 }
 
 TEST(AnalyseCommand, RefusesABaselineThatIsNone) {

@@ -149,6 +149,22 @@ TEST(FitBatch, OfAFewCurvesOnALargeGridDrawsTheOthersEmpty) {
   EXPECT_EQ(std::count_if(moduli.begin(), moduli.end(), [](double pa) { return std::isfinite(pa); }), 6);
 }
 
+// A stage that is not where the pattern says: two curves at one pixel, and one beside the grid.
+TEST(FitBatch, NamesTheCurvesThatAreNotOnTheMap) {
+  const support::ScratchFolder folder;
+  auto entries = test::jpk_map([](std::size_t) { return test::hertz_curve(200); });
+  entries["index/4/header.properties"] = entries["index/3/header.properties"];
+  entries["index/0/header.properties"] =
+      "force-scan-series.header.position.x=1e-3\nforce-scan-series.header.position.y=0\n";
+  const std::string map = folder.write("gel.jpk-force-map", test::stored_zip(entries));
+  const auto program = support::run_program(support::touchafm() + " analyse " + map +
+                                            " --fit paraboloid --radius 5um --out " + folder.file("out"));
+  ASSERT_EQ(program.exit_code, 0) << program.err;
+  EXPECT_THAT(program.err, HasSubstr("gel.jpk-force-map: 1 of its curves are outside the grid"));
+  EXPECT_THAT(program.err, HasSubstr("gel.jpk-force-map: 1 of its curves share a pixel with a later one"));
+  EXPECT_EQ(rows_of(folder.file("out/fits.tsv")).size(), 7U) << "the table has all of them";
+}
+
 TEST(FitBatch, KeepsItsRowsWhenItIsInterrupted) {
   const support::ScratchFolder folder;
   std::vector<std::string> command{support::touchafm(), "analyse"};

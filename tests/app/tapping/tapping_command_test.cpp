@@ -95,6 +95,21 @@ TEST(TappingSweep, MapsTheStatesOverFreeAmplitudeAndHeight) {
   expect_state(points[3], "repulsive", 18.8572, 70.54);
 }
 
+// Without attraction the free swing has no virial at all.
+TEST(TappingSweep, CallsTheFreeSwingOfAnElasticContactFree) {
+  auto elastic = tapped("hertz");
+  elastic.values.erase("hamaker");
+  curves::TappingChoice choice = tapping();
+  choice.contact_gap.clear();
+  const auto text = tapping_sweep_text(choice, elastic, {"z=17nm:25nm:2"}, "json");
+  ASSERT_TRUE(text) << text.error().message;
+  const auto points = nlohmann::json::parse(*text)["points"];
+  EXPECT_EQ(points[0]["regime"], "repulsive");
+  EXPECT_EQ(points[1]["regime"], "attractive") << "or free: above the sample";
+  EXPECT_NEAR(points[1]["attractive_amplitude_m"].get<double>(), 20e-9, 1e-12);
+  EXPECT_TRUE(points[1]["repulsive_amplitude_m"].is_null());
+}
+
 // Rows T43 and T45 of the cases: the same numbers as those of a single curve.
 TEST(TappingSweep, FindsTheJumpsOfEachCurve) {
   const auto points = swept({"free-amplitude=10nm:20nm:2"});

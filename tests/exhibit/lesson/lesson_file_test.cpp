@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "core/whole_file.h"
 #include "exhibit/lesson/lesson_run.h"
 #include "exhibit/lesson/lesson_samples.h"
 #include "exhibit/lesson/simulated_student.h"
@@ -136,6 +137,24 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{kHead + kGold + kTapping, "tapping: is for lessons without particles"},
         Refusal{kHead + kFit, "step: is missing"},
         Refusal{kHead + "scale = \"atoms\"\n" + step("type = \"text\"\n"), "line 5: scale: atoms is unknown"}));
+
+// A study compares its participants by it.
+TEST(LessonDigest, IsThatOfTheParticleFileToo) {
+  const support::ScratchFolder folder;
+  const std::string gold = core::read_file(support::source("assets/particles/gold-row.toml")).value(),
+                    set = folder.write("row.toml", gold);
+  const std::string lesson = folder.write(
+      "lesson.toml", kHead + "particles = \"" + set + "\"\n" + step(kPush + "until = \"lost\"\nparticle = 1\n"));
+  const auto digest = [&] {
+    const auto loaded = load_lesson(lesson, support::source("assets"));
+    EXPECT_TRUE(loaded) << loaded.error().message;
+    return loaded ? loaded->digest : std::string();
+  };
+  const std::string before = digest();
+  EXPECT_EQ(digest(), before);
+  folder.write("row.toml", gold + "\n# another set\n");
+  EXPECT_NE(digest(), before);
+}
 
 TEST(LessonSamples, RefuseALeverThatNoHandCanFeel) {
   const support::ScratchFolder folder;

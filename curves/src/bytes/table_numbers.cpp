@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bytes/table_numbers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "bytes/scaled_unit.h"
+#include "bytes/text_table.h"
+#include "curves/curve_error.h"
+#include "curves/recorded_curve.h"
+
+namespace afm::curves {
+
+namespace {
+
+// Separators, in the order in which they are tried: commas last, because they may be decimal ones. A blank: any number
+// of blanks and tabs.
+constexpr std::array kSeparators{'\t', ';', ' ', ','};
+
+void split_line(std::string_view line, char separator, std::vector<std::string_view>& fields) {
+  if (separator != ' ') return split(line, separator, fields);
+  fields.clear();
+  for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
+    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+    fields.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+}
+
+struct TableNumber {
+  double value = 0;
+  bool has_point = false, has_comma = false;  // the decimal mark
+};
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// A number, in quotes or without, with a decimal comma where commas do not separate. Empty if it is none.
+std::optional<TableNumber> table_number(std::string_view field, char separator) {
+  field = trimmed(field);
+  if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
+    field = trimmed(field.substr(1, field.size() - 2));
+  std::string text(field);
+  TableNumber number;
+  number.has_point = text.find('.') != std::string::npos;
+  const std::size_t comma = text.find(',');
+  if (comma != std::string::npos) {
+    const bool between_digits =
+        comma > 0 && is_digit(text[comma - 1]) && comma + 1 < text.size() && is_digit(text[comma + 1]);
+    if (separator == ',' || number.has_point || !between_digits) return std::nullopt;
+    text[comma] = '.';
+    number.has_comma = true;
+  }
+  if (text.starts_with('+')) text.erase(0, 1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number.value);
+  const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(number.value);
+  return is_number ? std::optional(number) : std::nullopt;
+}
+
+// SI unit without prefix of a column; empty: none.
+std::string_view base_unit(const TableColumn& column) {
+  switch (column.kind) {
+    case ColumnKind::Height:
+      return "m";
+    case ColumnKind::Force:
+    case ColumnKind::RetractForce:
+      return "N";
+    case ColumnKind::Deflection:
+    case ColumnKind::RetractDeflection:
+      return column.volts ? "V" : "m";
+    case ColumnKind::Time:
+      return "s";
+    case ColumnKind::Segment:
+    case ColumnKind::Nothing:
+      break;
+  }
+  return {};
+}
+
+// Whether the words above a column name another unit in their brackets, "Height (um)".
+bool names_another_unit(std::string_view words, const TableColumn& column) {
+  const std::size_t open = words.find_last_of("(["), close = words.find_last_of(")]");
+  if (open == std::string_view::npos || close == std::string_view::npos || close < open) return false;
+  const ScaledUnit unit = scaled_unit(words.substr(open + 1, close - open - 1));
+  if (base_unit(column).empty() || (unit.unit != "m" && unit.unit != "N" && unit.unit != "V" && unit.unit != "s")) {
+    return false;
+  }
+  constexpr double kRounding = 1e-6;
+  return unit.unit != base_unit(column) || std::abs(unit.factor / std::abs(column.si_per_unit) - 1.0) > kRounding;
+}
+
+// Reads lines into columns; a column that is not read stays empty.
+class TableReader {
+ public:
+  explicit TableReader(const TableColumns& columns) : columns_(columns), table_(columns.size()), row_(columns.size()) {}
+
+  void read(std::string_view line, std::size_t number) {
+    if (rows_ == 0 && !finds_separator(line)) {
+      see_heading(line);
+      return;
+    }
+    const std::size_t bad = first_bad(line, separator_);
+    if (bad < columns_.size() && bad >= fields_.size()) {
+      throw CurveError(
+          fmt::format("line {} has {} columns, and --columns names {}", number, fields_.size(), columns_.size()));
+    }
+    if (bad < columns_.size()) {
+      throw CurveError(fmt::format("line {}: column {} is \"{}\", not a finite number", number, bad + 1,
+                                   trimmed(fields_[bad]).substr(0, 40)));
+    }
+    if (separator_ == ',' && more_fields_at_ == 0 && has_more_fields()) {
+      more_fields_at_ = number;
+      most_fields_ = fields_.size();
+    }
+    if (rows_ == 0) check_heading();
+    if (++rows_ > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i].kind == ColumnKind::Nothing) continue;
+      points_ = points_ || row_[i].has_point;
+      commas_ = commas_ || row_[i].has_comma;
+      table_[i].push_back(row_[i].value * columns_[i].si_per_unit);
+    }
+    if (points_ && commas_) {
+      throw CurveError(
+          fmt::format("line {}: its numbers have points and commas; which is the decimal mark? Write them without "
+                      "separators of thousands",
+                      number));
+    }
+  }
+
+  // Behind the last line.
+  void finish() const {
+    // "0,5,1,2" has two numbers with decimal commas, or four
+    if (more_fields_at_ == 0 || points_) return;
+    throw CurveError(
+        fmt::format("line {} has {} fields between commas, and --columns names {}: are they decimal commas? Write - "
+                    "for each field that is not read, or separate the columns by tabs or semicolons",
+                    more_fields_at_, most_fields_, columns_.size()));
+  }
+
+  // A line above the numbers.
+  void see_heading(std::string_view line) {
+    if (rows_ == 0) heading_ = line;
+  }
+
+  bool has_rows() const { return rows_ > 0; }
+  std::string_view heading() const { return heading_; }
+  std::vector<std::string> take_remarks() { return std::move(remarks_); }
+  std::vector<std::vector<double>> take() { return std::move(table_); }
+
+ private:
+  // Whether it is a line of numbers, by which the separator is known.
+  bool finds_separator(std::string_view line) {
+    const auto fits = [&](char separator) { return first_bad(line, separator) == columns_.size(); };
+    const auto found = std::find_if(kSeparators.begin(), kSeparators.end(), fits);
+    if (found == kSeparators.end()) return false;
+    separator_ = *found;
+    return true;
+  }
+
+  // Puts the numbers of a line into the row. The first column without one; their number if there is none.
+  std::size_t first_bad(std::string_view line, char separator) {
+    split_line(line, separator, fields_);
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i].kind == ColumnKind::Nothing && i < fields_.size()) continue;
+      const auto number = i < fields_.size() ? table_number(fields_[i], separator) : std::nullopt;
+      if (!number) return i;
+      row_[i] = *number;
+    }
+    return columns_.size();
+  }
+
+  bool has_more_fields() const {
+    const auto rest = fields_.begin() + static_cast<std::ptrdiff_t>(columns_.size());
+    return std::any_of(rest, fields_.end(), [](std::string_view field) { return !trimmed(field).empty(); });
+  }
+
+  void check_heading() {
+    split_line(heading_, separator_, fields_);
+    if (fields_.size() < columns_.size() || (separator_ == ' ' && fields_.size() != columns_.size())) return;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (!names_another_unit(fields_[i], columns_[i])) continue;
+      remarks_.push_back(fmt::format("the heading of column {} is \"{}\", and --columns names another unit", i + 1,
+                                     trimmed(fields_[i]).substr(0, 40)));
+    }
+  }
+
+  const TableColumns& columns_;
+  std::vector<std::vector<double>> table_;
+  std::vector<TableNumber> row_;
+  std::vector<std::string_view> fields_;
+  std::vector<std::string> remarks_;
+  std::string_view heading_;  // the last line above the numbers
+  std::size_t rows_ = 0;
+  std::size_t more_fields_at_ = 0, most_fields_ = 0;  // first line with more fields than columns; 0: none
+  bool points_ = false, commas_ = false;              // decimal marks so far
+  char separator_ = ' ';
+};
+
+}  // namespace
+
+TableNumbers table_numbers(std::string_view bytes, const TableColumns& columns) {
+  if (bytes.find('\0') != std::string_view::npos) {
+    throw CurveError("it is no plain text, or UTF-16; save it as UTF-8");
+  }
+  TableReader reader(columns);
+  std::string_view line;
+  for (Lines lines(bytes); lines.next(line);) {
+    const std::string_view words = trimmed(line);
+    if (words.starts_with('#')) {
+      reader.see_heading(trimmed(words.substr(1)));
+    } else if (!words.empty()) {
+      reader.read(line, lines.number());
+    }
+  }
+  if (!reader.has_rows()) {
+    const std::string last = reader.heading().empty()
+                                 ? std::string()
+                                 : fmt::format("; its last line is \"{}\"", reader.heading().substr(0, 60));
+    throw CurveError(
+        fmt::format("no line has {} columns with numbers where --columns names them{}", columns.size(), last));
+  }
+  reader.finish();
+  return {reader.take(), reader.take_remarks()};
+}
+
+}  // namespace afm::curves
