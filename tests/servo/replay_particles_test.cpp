@@ -325,7 +325,7 @@ TEST(ReplayOfParticles, KeepsTheDirectionsOfRods) {
   RecordedSession damaged = session;
   damaged.particles->pages[0].poses[0].rod = 0;
   ASSERT_TRUE(save_session(damaged, path));
-  EXPECT_THAT(load_session(path).error().message, HasSubstr("the poses of its rods are impossible"));
+  EXPECT_THAT(load_session(path).error().message, HasSubstr("the poses of its rods or islands are impossible"));
   damaged = session;
   damaged.particles->set.angle_rad[0] = std::nan("");
   ASSERT_TRUE(save_session(damaged, path));

@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{kHead + kFit + step(kPush + "until = \"pattern\"\n"),
                 "line 9: step.type: push needs the lesson's particles"},
         Refusal{kHead + "particles = \"gold-heap\"\n", "line 5: particles: "},
-        Refusal{kHead + "particles = \"tube-and-electrodes\"\n", "line 5: particles: tube-and-electrodes has rods"},
+        Refusal{kHead + "particles = \"tube-and-electrodes\"\n", "line 5: particles: tube-and-electrodes has rods or islands"},
         Refusal{kHead + kGold + kFit, "line 6: scale: is that of the particles"},
         Refusal{kHead + kGold + step("type = \"cycle\"\n"),
                 "line 9: step.type: cycle is for lessons without particles"},
