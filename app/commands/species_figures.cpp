@@ -142,14 +142,15 @@ std::string island_figures_text(const scene::ParticleSet& set, std::size_t index
   return fmt::format(
              "{}, flat islands with a radius of {}, {} high, shear strength {}\n"
              "  gives to a push      of {} through its middle, {} beside it; then of {:g} times that\n"
-             "  beside the middle    tip and rim stick up to {:.1f} deg; the island turns, by {:.3g} of a sphere's rate\n"
+             "  beside the middle    tip and rim stick up to {:.1f} deg; the island turns, by {:.3g} of a sphere's "
+             "rate\n"
              "  lever                pushes up to {}\n"
              "  aim                  {} beside the middle for a push of 3 x {}; from {:g} of it, lost after {}\n",
              set.species[index].name, format_quantity(island.island_radius, kLengthUnits, 4),
              format_quantity(2.0 * island.contact.tip_radius, kLengthUnits, 4),
              format_quantity(island.shear_strength, physics::kPressureUnits, 4),
-             format_quantity(f.pushed, kForceUnits, 4), format_quantity(f.turned, kForceUnits, 4),
-             island.kinetic_ratio, f.sticks_rad * 180.0 / std::numbers::pi, physics::kIslandTurning,
+             format_quantity(f.pushed, kForceUnits, 4), format_quantity(f.turned, kForceUnits, 4), island.kinetic_ratio,
+             f.sticks_rad * 180.0 / std::numbers::pi, physics::kIslandTurning,
              format_quantity(f.most_push, kForceUnits, 4), format_quantity(f.aim, kLengthUnits, 4),
              format_quantity(f.rho, kLengthUnits, 4), kPoorAim, format_quantity(f.lost, kLengthUnits, 4)) +
          sources_text(set.species[index]);

@@ -189,7 +189,7 @@ TEST(ParticlesCommand, TurnsAnIslandAtAnyRate) {
     const ProgramResult result = particles(std::string("islands --json --rate ") + rates[i]);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const auto json = nlohmann::json::parse(result.out);
-    EXPECT_EQ(json["species"][0]["island_radius_m"], 97.7e-9);
+    EXPECT_NEAR(json["species"][0]["island_radius_m"].get<double>(), 97.7e-9, 1e-20);
     EXPECT_NEAR(json["species"][0]["figures"]["threshold_through_the_middle_N"].get<double>(), 30e-9, 0.02e-9);
     turned[i] = json["particles"][1]["end_angle_rad"].get<double>();
     aside[i] = json["particles"][1]["end_m"][0].get<double>();
@@ -203,16 +203,18 @@ TEST(ParticlesCommand, TurnsAnIslandAtAnyRate) {
     EXPECT_NEAR(aside[i], aside[2], 1e-11) << rates[i];
   }
   const ProgramResult text = particles("islands");
-  for (const char* part : {"antimony island, flat islands", "through its middle", "stick up to 44.3 deg", " deg", "done in"}) {
+  for (const char* part :
+       {"antimony island, flat islands", "through its middle", "stick up to 44.3 deg", " deg", "done in"}) {
     EXPECT_THAT(text.out, HasSubstr(part));
   }
 }
 
 TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
   expect_refusal(particles(""), 2, "file");
-  expect_refusal(particles("silver-row"), 2,
-                 "unknown set of particles \"silver-row\"; choose gold-row, islands, latex-letter, pick-and-place, sticky-tip, "
-                 "tube-and-electrodes");
+  expect_refusal(
+      particles("silver-row"), 2,
+      "unknown set of particles \"silver-row\"; choose gold-row, islands, latex-letter, pick-and-place, sticky-tip, "
+      "tube-and-electrodes");
   expect_refusal(particles("/no/such.toml"), 3, "/no/such.toml");
   expect_refusal(particles("gold-row --rate 4"), 2, "kHz");
   expect_refusal(particles("gold-row --rate 1MHz"), 2, "100kHz");

@@ -21,7 +21,7 @@ namespace {
 // Softest contact of tip and particle relative to the lever that is felt: stiffer ones indent by less than a
 // hundredth of what the lever bends, and only make the descent of several particles slower.
 constexpr double kContactOverLever = 100.0;
-constexpr double kLeastSlope = 1e-3;  // of a flank, for the height that it climbs
+constexpr double kLeastSlope = 1e-3;  // least slope of a flank by which its climb is divided
 
 // Radius as seen from above.
 double outer_m(const scene::SharedParticles& particles, std::uint32_t species) {
@@ -34,9 +34,8 @@ std::size_t median_species(const scene::SharedParticles& particles) {
   species.reserve(particles.count);
   for (std::uint32_t i = 0; i < particles.count; ++i) species.push_back(particles.particles[i].species);
   const auto middle = species.begin() + static_cast<std::ptrdiff_t>(species.size() / 2);
-  std::nth_element(species.begin(), middle, species.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return outer_m(particles, a) < outer_m(particles, b);
-  });
+  std::nth_element(species.begin(), middle, species.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return outer_m(particles, a) < outer_m(particles, b); });
   return *middle;
 }
 

@@ -234,13 +234,13 @@ HeapContacts::Normal HeapContacts::normal_of(std::size_t i) const noexcept {
   const TipContact& tip = tips_[i];
   const double ux = tip.away_m > 0.0 ? tip.x / tip.away_m : 1.0, uy = tip.away_m > 0.0 ? tip.y / tip.away_m : 0.0;
   const bool ball = tip.overlap.sine > body.profile->flank_sine();
-  return {.overlap_m = tip.overlap.depth_m,
-          .acts = acts(i, tip),
-          .towards = {ux * tip.overlap.cosine, uy * tip.overlap.cosine, -tip.overlap.sine},
-          .apart_m = std::max(1e-30, ball ? body.profile->reach_sum_m() - tip.overlap.depth_m
-                                             : tip.away_m + body.core_m),
-          .ball = ball,
-          .turning = -turning_of(body, {tip.x + apex_.x, tip.y + apex_.y}, ux, uy) * tip.overlap.cosine};
+  return {
+      .overlap_m = tip.overlap.depth_m,
+      .acts = acts(i, tip),
+      .towards = {ux * tip.overlap.cosine, uy * tip.overlap.cosine, -tip.overlap.sine},
+      .apart_m = std::max(1e-30, ball ? body.profile->reach_sum_m() - tip.overlap.depth_m : tip.away_m + body.core_m),
+      .ball = ball,
+      .turning = -turning_of(body, {tip.x + apex_.x, tip.y + apex_.y}, ux, uy) * tip.overlap.cosine};
 }
 
 HeapContacts::Touch HeapContacts::touch_of(std::size_t p) const noexcept {

@@ -10,12 +10,12 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kIslandStepShare = 1.0 / 200.0;  // of the distance of the axes
+constexpr double kIslandStepShare = 1.0 / 200.0;  // share of the distance of the axes
 constexpr int kMostIslandSteps = 64;
 // A base closer to the middle than this share of the distance of the axes: the tip is about to run over.
 constexpr double kClosestIslandBase = 0.05;
 constexpr double kYieldRounding = 1e-12;  // share by which a load must exceed a threshold
-constexpr double kProbeWay = 1e-12;          // way over which the stiffness along the normal is measured, in metres
+constexpr double kProbeWay = 1e-12;       // way over which the stiffness along the normal is measured, in metres
 constexpr int kTurnRounds = 3, kPlaceRounds = 3, kSlipRounds = 8, kReturnRounds = 40;
 
 Flat across_normal(const Flat& normal) noexcept { return {-normal.y, normal.x}; }
@@ -136,14 +136,15 @@ class IslandWalk {
     const double further_n = contact_.force_at(along_m() - kProbeWay - rim_.core_m, z_m_);
     const double k_n = (further_n - tried.along_n) / kProbeWay;
     if (!(further_n >= 0.0 && k_n > 0.0 && distance_m > 0.0)) return false;
-    const double turns = kIslandArm2 * (before_m / distance_m);  // of the contact's way across, by the turn
+    const double turns = kIslandArm2 * (before_m / distance_m);  // share of the turn in the way across
     const Flat first = normal_, first_across = across_normal(normal_);
     Return to;
-    double turn_rad = 0.0;  // of the normal
+    double turn_rad = 0.0;  // turn of the normal
     for (int i = 0; i < kTurnRounds; ++i) {
       const double half = 0.5 * turn_rad;
-      to = returned({tried.along_n + k_n * half * inner(first_across, way), tried.across_n - k_l * half * inner(first, way)},
-                    k_n, k_l * (1.0 + turns), k_l);
+      to = returned(
+          {tried.along_n + k_n * half * inner(first_across, way), tried.across_n - k_l * half * inner(first, way)}, k_n,
+          k_l * (1.0 + turns), k_l);
       turn_rad = -(to.flow * kIslandArm2 * to.force.across_n + to.slip_m) / distance_m;
     }
     const Flat middle = rotated_by(first, 0.5 * turn_rad), across = across_normal(middle), was = path_.at;

@@ -44,7 +44,7 @@ struct IslandPath {
   bool met = false;       // tip and island touched on the way
   Flat at;                // place at the end
   double turned_rad = 0.0;
-  Apex apex;           // where it rests at the end
+  Apex apex;            // resting place at the end
   double lost_j = 0.0;  // friction of island and tip
   std::uint64_t yields = 0;
   double share = 1.0;  // share_of_load() when it last gave

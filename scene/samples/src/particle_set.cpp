@@ -107,7 +107,8 @@ physics::ParticleSpecies read_islands(const TomlTable& table, SpeciesEntry& entr
   species.island_radius = values.quantity("radius", physics::kLengthUnits);
   species.contact.tip_radius = 0.5 * values.quantity("height", physics::kLengthUnits);
   species.shear_strength = values.quantity("shear_strength", physics::kPressureUnits);
-  species.measured_threshold = species.shear_strength * (std::numbers::pi * species.island_radius * species.island_radius);
+  species.measured_threshold =
+      species.shear_strength * (std::numbers::pi * species.island_radius * species.island_radius);
   species.kinetic_ratio = values.number("kinetic_ratio");
   species.ageing = values.quantity("ageing", physics::kTimeUnits);
   if (!(species.island_radius.si > 0.0)) table.refuse("radius", "it must be positive");

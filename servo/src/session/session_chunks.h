@@ -13,10 +13,10 @@
 // Session file of version 6, 7 with particles, 8 with rods among them, or 9 with spheres that stick to the tip, whose
 // forces an older program does not know, and with rods or without, 10 for a lever that taps, or 11 for particles of any
 // kind and the plans of their pushes, as touchafm records them today, 12 for those with pads or with spheres that the
-// tip lifts, 13 for flat islands: "AFMS", the version, then chunks. A chunk consists of a name of four letters and the size of its payload
-// in 32 bits, the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a of all bytes from
-// the beginning of the file up to it, so that no chunk can be altered, left out or exchanged. A file that ends inside a
-// chunk was cut; all chunks before it are intact.
+// tip lifts, 13 for flat islands: "AFMS", the version, then chunks. A chunk consists of a name of four letters and the
+// size of its payload in 32 bits, the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a
+// of all bytes from the beginning of the file up to it, so that no chunk can be altered, left out or exchanged. A file
+// that ends inside a chunk was cut; all chunks before it are intact.
 namespace afm::servo {
 
 inline constexpr std::string_view kSessionMagic = "AFMS";

@@ -296,9 +296,9 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  constexpr std::array kVersions{kVersionOf010,      kSessionVersion,  kVersionWithParticles,
-                                 kVersionWithRods,   kVersionWithHold, kVersionWithSwing,
-                                 kVersionWithPlans,  kVersionWithLift, kVersionWithIslands};
+  constexpr std::array kVersions{kVersionOf010,     kSessionVersion,  kVersionWithParticles,
+                                 kVersionWithRods,  kVersionWithHold, kVersionWithSwing,
+                                 kVersionWithPlans, kVersionWithLift, kVersionWithIslands};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

@@ -110,7 +110,7 @@ TEST(IslandThatTheTipHolds, SlipsAlongItsRimBeyondTheStickingAngle) {
   const double step = 1e-5;
   double alpha = 0.05, travel = 0.0;
   const auto rate = [mu](double a) {
-    const double across = std::min(std::tan(a) / 3.25, mu);  // of the middle, over its way along
+    const double across = std::min(std::tan(a) / 3.25, mu);  // way of the middle across over that along
     return std::sin(a) - across * std::cos(a);
   };
   while (alpha < 0.5 * std::numbers::pi && travel < 10.0) {
@@ -257,8 +257,8 @@ TEST(Islands, AreRefusedWhereTheyCannotBe) {
 // Energy of lever and contacts from the published state, by formulas of this test.
 double energy_of(const PushSetup& setup, const PushedParticles& particles) {
   const PushTick& tick = particles.last();
-  const double x = (tick.apex.position.x - tick.base.position.x).si, y = (tick.apex.position.y - tick.base.position.y).si,
-               z = (tick.apex.z - tick.base.z).si;
+  const double x = (tick.apex.position.x - tick.base.position.x).si,
+               y = (tick.apex.position.y - tick.base.position.y).si, z = (tick.apex.z - tick.base.z).si;
   double energy = 0.5 * (setup.springs.lateral.si * (x * x + y * y) + setup.springs.normal.si * z * z);
   const double core_m = core_radius(setup.species[0]).si, k = setup.springs.contact.si;
   const TipProfile profile(setup.tip, kRim);
@@ -283,8 +283,8 @@ TEST(Islands, GiveNoEnergyToARandomHand) {
     const auto spring = [&](double low, double high) {
       return Stiffness(std::exp(uniform(std::log(low), std::log(high))));
     };
-    PushSetup setup = setup_of(uniform(0.0, 1.0), {spring(0.3, 100.0), spring(0.1, 40.0), spring(30.0, 1000.0)},
-                               uniform(0.2, 1.0));
+    PushSetup setup =
+        setup_of(uniform(0.0, 1.0), {spring(0.3, 100.0), spring(0.1, 40.0), spring(30.0, 1000.0)}, uniform(0.2, 1.0));
     setup.species[0].ageing = Time(run % 3 == 0 ? 0.0 : 0.1);
     const int count = run % 2 == 0 ? 1 : 5;
     std::vector<PlacedParticle> places;

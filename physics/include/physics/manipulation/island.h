@@ -18,8 +18,8 @@ inline constexpr double kIslandTurning = kIslandArm2 / (1.0 + kIslandArm2);
 // limit surface, sqrt(way^2 + c^2 turn^2) (M40).
 double island_way(double way_m, double turned_rad, double radius_m) noexcept;
 
-// Force on the lever over that which moves an island without a turn, where tip and rim only just stick: friction mu_t of
-// the push along the normal (M40). The least such force.
+// Force on the lever over that which moves an island without a turn, where tip and rim only just stick: friction mu_t
+// of the push along the normal (M40). The least such force.
 double island_turning_share(double tip_friction) noexcept;
 
 // The angle up to which tip and rim stick, tan(alpha) = mu_t (1 + R^2/c^2) (M42).

@@ -64,8 +64,9 @@ struct ParticlePlace {
 
 // Throws UnphysicalValue with the field tip_radius, half_angle, lateral_spring, normal_spring, contact_stiffness,
 // tip_friction, radius, or a member of ParticleSpecies. Radii must be at least half the tip's, and within a factor of
-// two of one another: the tick counts on few neighbours. Islands lie among islands alone, without pads. The contact of a sphere that sticks to the tip may stretch by
-// no more than an eighth of its radius. At most kMostStickyPads pads, finite and not empty.
+// two of one another: the tick counts on few neighbours. Islands lie among islands alone, without pads. The contact of
+// a sphere that sticks to the tip may stretch by no more than an eighth of its radius. At most kMostStickyPads pads,
+// finite and not empty.
 void validate(const PushSetup& setup);
 
 // Throws std::invalid_argument for more than kMostParticles, for an unknown species and for two that overlap, and as

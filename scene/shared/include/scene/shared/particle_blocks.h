@@ -12,8 +12,8 @@
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/name.h"
 
-// Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/physics.md, "Particles"). Places are in the
-// sample's frame, in metres of the nanoworld; the particles rest on its plane z = 0.
+// Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/physics.md, "Particles"). Places
+// are in the sample's frame, in metres of the nanoworld; the particles rest on its plane z = 0.
 namespace afm::physics {
 struct HalfTurn;
 struct PlacedParticle;
@@ -211,7 +211,7 @@ struct ParticlePose {
   double y_m = 0;
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: sample's frame from particle
   physics::PushState moved = physics::PushState::Free;    // latest motion; Free: none yet; Carried: off the sample
-  std::uint32_t rod = 0;                                  // 1: a rod along x of its frame, or an island: turns only about the vertical
+  std::uint32_t rod = 0;  // 1: a rod along x of its frame, or an island: turns only about the vertical
 
   bool operator==(const ParticlePose&) const = default;
 };
