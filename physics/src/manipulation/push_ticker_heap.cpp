@@ -160,7 +160,7 @@ bool PushedParticles::Ticker::island_step(const Apex& to, std::size_t i) noexcep
   // an island that stays may keep the energy, too, which rounding then changes
   const double rounding_j = path.moved ? 0.0 : kPressRounding * frozen_j;
   if (!may_be_taken(change_j - rounding_j)) return false;
-  tick_.given = tick_.given + Energy(loaded_j + std::max(0.0, change_j));
+  tick_.given = tick_.given + Energy(loaded_j + std::min(std::max(0.0, change_j), rounding_j));
   tick_.work = tick_.work + Energy(work_j(setup_.springs, base_, apex_, to, path.apex));
   tick_.lost = tick_.lost + Energy(path.lost_j);
   tick_.stored = tick_.stored + Energy(loaded_j + now_j - frozen_j);
