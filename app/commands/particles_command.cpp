@@ -211,7 +211,7 @@ nlohmann::json particle_json(const scene::ParticleSet& set, std::size_t i, const
                       {"start_m", {start.position.x.si, start.position.y.si}},
                       {"end_m", {end.position.x.si, end.position.y.si}},
                       {"pinned", start.pinned}};
-  if (physics::is_rod(set.setup.species[start.species])) {
+  if (physics::turns_flat(set.setup.species[start.species])) {
     json["start_angle_rad"] = start.angle_rad;
     json["end_angle_rad"] = physics::angle_rad(end.turn);
   }
@@ -222,12 +222,14 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
   nlohmann::json species = nlohmann::json::array(), particles = nlohmann::json::array();
   for (std::size_t i = 0; i < set.species.size(); ++i) {
     const ParticleSpecies& s = set.setup.species[i];
-    species.push_back({{"name", set.species[i].name},
-                       {"law", physics::text_of(s.law).word},
-                       {"radius_m", s.contact.tip_radius.si},
-                       {"length_m", physics::is_rod(s) ? nlohmann::json(s.length.si) : nlohmann::json()},
-                       {"figures", species_figures_json(set, i)},
-                       {"sources", exhibit::sources_json(set.species[i].sources)}});
+    species.push_back(
+        {{"name", set.species[i].name},
+         {"law", physics::text_of(s.law).word},
+         {"radius_m", s.contact.tip_radius.si},
+         {"length_m", physics::is_rod(s) ? nlohmann::json(s.length.si) : nlohmann::json()},
+         {"island_radius_m", physics::is_island(s) ? nlohmann::json(s.island_radius.si) : nlohmann::json()},
+         {"figures", species_figures_json(set, i)},
+         {"sources", exhibit::sources_json(set.species[i].sources)}});
   }
   for (std::size_t i = 0; i < set.particles.size(); ++i) particles.push_back(particle_json(set, i, played.at[i]));
   const auto list = [](const std::vector<TickSample>& samples) {
@@ -279,10 +281,11 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
     const auto& [to, turn] = played.at[i];
     const Length way = magnitude(to - set.particles[i].position);
     if (!(way.si > 0.0)) continue;
-    const bool rod = physics::is_rod(set.setup.species[set.particles[i].species]);
-    text += fmt::format("{:<10} {:<12} {}, {}{}\n", i, format_quantity(way, kLengthUnits, 4),
-                        format_quantity(to.x, kLengthUnits), format_quantity(to.y, kLengthUnits),
-                        rod ? fmt::format(" at {:.1f} deg", physics::angle_rad(turn) * 180.0 / std::numbers::pi) : "");
+    const bool turns = physics::turns_flat(set.setup.species[set.particles[i].species]);
+    text +=
+        fmt::format("{:<10} {:<12} {}, {}{}\n", i, format_quantity(way, kLengthUnits, 4),
+                    format_quantity(to.x, kLengthUnits), format_quantity(to.y, kLengthUnits),
+                    turns ? fmt::format(" at {:.1f} deg", physics::angle_rad(turn) * 180.0 / std::numbers::pi) : "");
   }
   if (const auto pattern = scene::pattern_state(set, scene::pattern_of(set), played.at)) {
     text += fmt::format("\npattern of {} target{}: {}, {} off in the root mean square, {}\n", set.targets.size(),

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
+#include "physics/manipulation/island.h"
 #include "physics/manipulation/push_figures.h"
 #include "physics/manipulation/rod.h"
 #include "physics/manipulation/tip_hold.h"
@@ -27,6 +29,7 @@ using physics::Stiffness;
 
 constexpr Length kAtomicDistance{0.3e-9};  // z0 of Tabor's parameter
 constexpr physics::Temperature kRoomTemperature{298.15};
+constexpr double kPoorAim = 0.05;  // offset over the distance of the axes
 
 // Figures of a species that a user needs before a push.
 struct SpeciesFigures {
@@ -111,6 +114,61 @@ nlohmann::json rod_figures_json(const scene::ParticleSet& set, const ParticleSpe
           {"largest_push_N", f.most_push.si},         {"distance_of_axes_m", f.rho.si}};
 }
 
+// What a user has to know of flat islands before a push.
+struct IslandFigures {
+  Force pushed, turned;  // at rest: through the middle, and beside it by a tip that only just sticks
+  Length rho, aim, lost;
+  double sticks_rad = 0.0;
+  Force most_push;
+};
+
+IslandFigures island_figures_of(const scene::ParticleSet& set, const ParticleSpecies& island) {
+  const physics::PushSetup& setup = set.setup;
+  const Length rim = island.contact.tip_radius;
+  IslandFigures f;
+  f.rho = physics::core_radius(island) + physics::side_contact(setup.tip, rim, Length(0.0)).distance;
+  f.pushed = island.measured_threshold;
+  f.turned = f.pushed * physics::island_turning_share(setup.tip_friction);
+  f.aim = physics::largest_offset(3.0 * physics::kIslandTurning) * f.rho;
+  f.lost = physics::island_travel_until_lost(kPoorAim, setup.tip_friction) * f.rho;
+  f.sticks_rad = physics::largest_sticking_angle(setup.tip_friction);
+  f.most_push = physics::largest_push(setup.tip, rim, setup.springs.normal, Force(0.0));
+  return f;
+}
+
+std::string island_figures_text(const scene::ParticleSet& set, std::size_t index) {
+  const ParticleSpecies& island = set.setup.species[index];
+  const IslandFigures f = island_figures_of(set, island);
+  return fmt::format(
+             "{}, flat islands with a radius of {}, {} high, shear strength {}\n"
+             "  gives to a push      of {} through its middle, {} beside it; then of {:g} times that\n"
+             "  beside the middle    tip and rim stick up to {:.1f} deg; the island turns, by {:.3g} of a sphere's "
+             "rate\n"
+             "  lever                pushes up to {}\n"
+             "  aim                  {} beside the middle for a push of 3 x {}; from {:g} of it, lost after {}\n",
+             set.species[index].name, format_quantity(island.island_radius, kLengthUnits, 4),
+             format_quantity(2.0 * island.contact.tip_radius, kLengthUnits, 4),
+             format_quantity(island.shear_strength, physics::kPressureUnits, 4),
+             format_quantity(f.pushed, kForceUnits, 4), format_quantity(f.turned, kForceUnits, 4), island.kinetic_ratio,
+             f.sticks_rad * 180.0 / std::numbers::pi, physics::kIslandTurning,
+             format_quantity(f.most_push, kForceUnits, 4), format_quantity(f.aim, kLengthUnits, 4),
+             format_quantity(f.rho, kLengthUnits, 4), kPoorAim, format_quantity(f.lost, kLengthUnits, 4)) +
+         sources_text(set.species[index]);
+}
+
+nlohmann::json island_figures_json(const scene::ParticleSet& set, const ParticleSpecies& island) {
+  const IslandFigures f = island_figures_of(set, island);
+  return {{"threshold_through_the_middle_N", f.pushed.si},
+          {"threshold_beside_the_middle_N", f.turned.si},
+          {"kinetic_ratio", island.kinetic_ratio},
+          {"sticks_up_to_rad", f.sticks_rad},
+          {"turning_share", physics::kIslandTurning},
+          {"distance_of_axes_m", f.rho.si},
+          {"largest_offset_for_3_distances_m", f.aim.si},
+          {"travel_until_lost_from_0.05_m", f.lost.si},
+          {"largest_push_N", f.most_push.si}};
+}
+
 // Adhesion of the tip: where a contact on the flank or on the cap tears, and at what loss.
 std::string hold_text(const scene::ParticleSet& set, const ParticleSpecies& species) {
   const physics::SphereCone& tip = set.setup.tip;
@@ -144,6 +202,7 @@ nlohmann::json hold_json(const scene::ParticleSet& set, const ParticleSpecies& s
 std::string species_figures_text(const scene::ParticleSet& set, std::size_t index) {
   const ParticleSpecies& species = set.setup.species[index];
   if (physics::is_rod(species)) return rod_figures_text(set, index);
+  if (physics::is_island(species)) return island_figures_text(set, index);
   const SpeciesFigures f = figures_of(set, species);
   const std::string gentle = f.gentle.si > 0.0 ? format_quantity(f.gentle, kForceUnits, 4)
                                                : fmt::format(
@@ -173,6 +232,7 @@ std::string species_figures_text(const scene::ParticleSet& set, std::size_t inde
 
 nlohmann::json species_figures_json(const scene::ParticleSet& set, std::size_t index) {
   if (physics::is_rod(set.setup.species[index])) return rod_figures_json(set, set.setup.species[index]);
+  if (physics::is_island(set.setup.species[index])) return island_figures_json(set, set.setup.species[index]);
   const SpeciesFigures f = figures_of(set, set.setup.species[index]);
   nlohmann::json json{{"push_mode", physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word},
                       {"adhesion_N", f.adhesion.si},

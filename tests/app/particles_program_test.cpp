@@ -238,10 +238,37 @@ TEST(ParticlesCommand, ScratchesASoftSample) {
   expect_refusal(support::run_program(support::touchafm() + " view --particles scratch-pmma"), 2, "soft sample");
 }
 
+TEST(ParticlesCommand, TurnsAnIslandAtAnyRate) {
+  double turned[3] = {}, aside[3] = {};
+  const char* rates[] = {"500Hz", "1kHz", "4kHz"};
+  for (int i = 0; i < 3; ++i) {
+    const ProgramResult result = particles(std::string("islands --json --rate ") + rates[i]);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_NEAR(json["species"][0]["island_radius_m"].get<double>(), 97.7e-9, 1e-20);
+    EXPECT_NEAR(json["species"][0]["figures"]["threshold_through_the_middle_N"].get<double>(), 30e-9, 0.02e-9);
+    turned[i] = json["particles"][1]["end_angle_rad"].get<double>();
+    aside[i] = json["particles"][1]["end_m"][0].get<double>();
+    EXPECT_EQ(json["pattern"]["done"], true);
+    EXPECT_EQ(json["task"]["strokes"], 3);
+    EXPECT_GE(json["least_certificate_J"].get<double>(), -1e-12 * json["moves"].back()["given_J"].get<double>());
+  }
+  EXPECT_NEAR(turned[2], -30.8 * 3.14159265358979 / 180.0, 0.01);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(turned[i], turned[2], 1e-4) << rates[i];
+    EXPECT_NEAR(aside[i], aside[2], 1e-11) << rates[i];
+  }
+  const ProgramResult text = particles("islands");
+  for (const char* part :
+       {"antimony island, flat islands", "through its middle", "stick up to 44.3 deg", " deg", "done in"}) {
+    EXPECT_THAT(text.out, HasSubstr(part));
+  }
+}
+
 TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
   expect_refusal(particles(""), 2, "file");
   expect_refusal(particles("silver-row"), 2,
-                 "unknown set of particles \"silver-row\"; choose gold-row, latex-letter, pick-and-place, "
+                 "unknown set of particles \"silver-row\"; choose gold-row, islands, latex-letter, pick-and-place, "
                  "scratch-pmma, sticky-tip, tube-and-electrodes, write-afm");
   expect_refusal(particles("/no/such.toml"), 3, "/no/such.toml");
   expect_refusal(particles("gold-row --rate 4"), 2, "kHz");

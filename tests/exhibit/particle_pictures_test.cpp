@@ -6,6 +6,7 @@
 #include "curves/sample_model.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
+#include "physics/manipulation/half_turn.h"
 #include "render/renderer.h"
 #include "support/particles/particle_sets.h"
 #include "support/pictures.h"
@@ -17,10 +18,13 @@ namespace particle_pictures_test {
 
 class ParticlePictures : public test::VulkanTest {
  protected:
-  void SetUp() override {
+  void SetUp() override { use("gold-row"); }
+
+  void use(const std::string& set) {
     ExhibitFiles files;
     files.assets_dir = support::source("assets");
-    files.particles = "gold-row";
+    files.particles = set;
+    felt_.clear();
     auto stage = load_exhibit(files);
     ASSERT_TRUE(stage) << stage.error().message;
     stage_.emplace(std::move(*stage));
@@ -60,6 +64,17 @@ TEST_F(ParticlePictures, ShowWhichSphereIsTouchedAndHowItLies) {
   const glm::dquat turn = glm::angleAxis(1.0, glm::dvec3(0.0, 1.0, 0.0));
   pages_[0].poses[1].orientation = {turn.w, turn.x, turn.y, turn.z};
   EXPECT_GT(test::difference(eye(frame(push)), touched, 24).share_beyond, 5e-5) << "it has rolled";
+}
+
+TEST_F(ParticlePictures, ShowHowAnIslandHasTurned) {
+  use("islands");
+  const scene::TipPush push = test::push_of(*stage_->particles, 1, physics::PushState::Slides);
+  auto renderer = make_renderer(stage_->wall_scene.scene(), stage_->renderer_options(1280));
+  renderer.render(frame(push));
+  const render::Image before = renderer.read_eye(scene::Eye::Left);
+  scene::set_turn(pages_[0].poses[1], physics::half_turn(1.0));
+  renderer.render(frame(push));
+  EXPECT_GT(test::difference(renderer.read_eye(scene::Eye::Left), before, 24).share_beyond, 5e-5);
 }
 
 TEST_F(ParticlePictures, AreRedrawnWhereASphereMovesAndAsIfAllWere) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/enumerators.h"
+#include "exhibit/state/plan_figures.h"
 #include "scene/samples/pattern_state.h"
 #include "support/particles/particle_sets.h"
 #include "support/phrases.h"
@@ -83,6 +84,25 @@ TEST_F(ParticlesPanel, HasTheAdhesionOfThePadBelowTheTouchedSphere) {
   const render::DataRow adhesion = row(panel(push), Phrase::WorkOfAdhesion);
   EXPECT_EQ(adhesion.value, "200 mJ/m\u00b2");
   EXPECT_THAT(adhesion.source, HasSubstr("thiols"));
+}
+
+TEST_F(ParticlesPanel, HasTheFrictionOfAnIsland) {
+  set_ = test::particle_set("islands");
+  pages_ = test::start_pages(set_);
+  scene::TipPush push = test::push_of(set_, 0, PushState::Slides);
+  push.threshold_n = 14.9e-9;
+  EXPECT_EQ(row(panel(push), Phrase::PushThreshold).value, "14.9 nN");
+  EXPECT_EQ(row(panel(push), Phrase::PushOtherLaw), render::DataRow{}) << "measured alone";
+  EXPECT_EQ(row(panel(push), Phrase::ParticleRadius).value, "97.7 nm");
+  EXPECT_EQ(row(panel(push), Phrase::ParticleShearStrength).value, "1 MPa");
+  EXPECT_THAT(row(panel(push), Phrase::ParticleShearStrength).source, StartsWith("estimated: order of magnitude"));
+  EXPECT_EQ(row(panel(push), Phrase::WorkOfAdhesion), render::DataRow{});
+  // an island that turns is lost more slowly, and may be aimed at less well
+  ParticlesNow now{.set = &set_, .pages = pages_, .push = push};
+  now.plan = {.from_m = {pages_[0].poses[0].x_m, pages_[0].poses[0].y_m},
+              .to_m = {pages_[0].poses[0].x_m, pages_[0].poses[0].y_m + 339e-9},
+              .particle = 0};
+  EXPECT_NEAR(plan_figures(now)->aim.si, 27.9e-9, 0.2e-9);
 }
 
 TEST_F(ParticlesPanel, SaysHowManyPushesCanBeTakenBack) {

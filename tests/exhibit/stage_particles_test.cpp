@@ -223,6 +223,40 @@ TEST_F(ParticlesOfAWall, AreRodsThatLieAsTheServoHasThem) {
   EXPECT_LT(glm::distance(glm::dvec2(there), end_m), 0.1e-9);
 }
 
+TEST_F(ParticlesOfAWall, AreIslandsWhoseMarksShowTheirTurns) {
+  const scene::ParticleSet set = test::particle_set("islands");
+  const WallScene wall = wall_of(set);
+  std::vector<scene::ParticlePage> pages = test::start_pages(set);
+  scene::set_turn(pages[0].poses[1], physics::half_turn(-0.7));
+  ParticlesNow now{.set = &set, .pages = pages};
+  const render::FrameState drawn = frame(wall, &now);
+  const render::MeshCopies& islands = drawn.copies.front();
+  EXPECT_EQ(islands.node, wall.scene().find_node("islands-0/island"));
+  ASSERT_EQ(islands.copies.size(), 3U);
+  EXPECT_NEAR(islands.copies[1].turn.z, std::sin(-0.35), 1e-6);
+  EXPECT_NEAR(islands.copies[0].turn.z, 0.0, 1e-6);
+  float widest = 0.0F, highest = 0.0F;
+  std::size_t dark_ahead = 0, dark_behind = 0;
+  const auto mesh = wall.scene().nodes[islands.node].mesh.value();
+  for (const auto& vertex : wall.scene().meshes[mesh].primitives.front().vertices) {
+    widest = std::max(widest, std::hypot(vertex.position.x, vertex.position.y));
+    highest = std::max(highest, std::abs(vertex.position.z));
+    if (vertex.color.x < 0.9F && vertex.position.x > 0.5F) ++dark_ahead;
+    if (vertex.color.x < 0.9F && vertex.position.x < -0.5F) ++dark_behind;
+  }
+  EXPECT_NEAR(widest, 97.7F / 25.0F, 1e-4F) << "in halves of the height";
+  EXPECT_NEAR(highest, 1.0F, 1e-6F);
+  EXPECT_GT(dark_ahead, 10U);
+  EXPECT_EQ(dark_behind, 0U);
+  // the ring is around the whole island
+  now.push = test::push_of(set, 0, physics::PushState::Slides);
+  const render::FrameState touched = frame(wall, &now);
+  const glm::dmat4& ring = touched.room_from_node[wall.scene().find_node("touched-particle/ring").value()];
+  const render::MeshCopy& copy = touched.copies.front().copies[0];
+  EXPECT_NEAR(glm::length(glm::dvec3(ring[0])) / glm::length(glm::dvec3(touched.room_from_node[islands.node][0])),
+              static_cast<double>(copy.scale) * 97.7 / 25.0, 1e-6);
+}
+
 TEST_F(ParticlesOfAWall, PutTheDrawnTipWhereTheBentLeverHasIt) {
   const WallScene wall = wall_of(set_);
   ParticlesNow now{.set = &set_};

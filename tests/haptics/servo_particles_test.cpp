@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "physics/manipulation/half_turn.h"
 #include "servo_bench.h"
 #include "support/particles/gold_particles.h"
 
@@ -106,6 +107,50 @@ TEST(ServoAmongParticles, PublishesWhatTheHandFeels) {
     EXPECT_GE(bench.count(EventKind::ParticleGave), 1U);
     EXPECT_EQ(bench.state().active.scale_mode, ScaleMode::Particles);
     EXPECT_EQ(bench.renderer.refused_blocks(), 0U);
+  }
+}
+
+// The same code as for a hand of flesh: an island beside whose middle the tip pushes gives at its threshold, turns, and
+// is lost.
+TEST(ServoAmongParticles, TurnsAnIslandAndLosesIt) {
+  std::vector<double> turned_rad, x_m;
+  for (const double rate_hz : {500.0, 1000.0, 4000.0}) {
+    scene::SharedModel model = test::paper_model();
+    model.particles = test::islands_at({{0.0, 0.0}, {0.0, 600e-9}});
+    PushingBench bench(rate_hz, model);
+    bench.tick();
+    const auto scale = bench.renderer.tip_push();
+    ASSERT_TRUE(scale);
+    const double beside_m = 15e-9 * scale->hand_m_per_m, side_m = 1.6e-7 * scale->hand_m_per_m;
+    bench.arm(test::kMica, ScaleMode::Particles);
+    bench.go(-side_m, -beside_m, 0.030, 0.4);
+    bench.go(-side_m, -beside_m, 0.0, 0.4);
+    double most_n = 0.0, before_n = bench.sideways_n();
+    bench.send(2.5 * side_m, -beside_m, 0.0, 4.0);
+    while (bench.state().acknowledged.hand_script != bench.script) {
+      bench.tick();
+      const double now_n = bench.sideways_n();
+      ASSERT_LE(std::abs(now_n - before_n), bench.state().safety.slew_limit_n_per_s / rate_hz * (1.0 + 1e-6));
+      before_n = now_n;
+      most_n = std::max(most_n, now_n);
+      const auto push = bench.renderer.tip_push();
+      ASSERT_TRUE(push);
+      ASSERT_GE(push->given_j - push->lost_j - push->stored_j, -1e-12 * std::abs(push->given_j));
+    }
+    EXPECT_EQ(bench.state().fault, scene::FaultCode::None);
+    EXPECT_GE(bench.count(EventKind::ParticleTouched), 1U);
+    EXPECT_GE(bench.count(EventKind::ParticleGave), 1U);
+    EXPECT_EQ(bench.count(EventKind::ParticleLost), 1U) << rate_hz;
+    EXPECT_GT(most_n, 0.15);
+    EXPECT_LT(bench.sideways_n(), 0.02);
+    turned_rad.push_back(physics::angle_rad(scene::turn_of(bench.pose(0))));
+    x_m.push_back(bench.pose(0).x_m);
+    EXPECT_GT(std::abs(turned_rad.back()), 0.2);
+    EXPECT_GT(x_m.back(), 50e-9);
+  }
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_NEAR(turned_rad[i], turned_rad[2], 0.02) << i;
+    EXPECT_NEAR(x_m[i], x_m[2], 5e-9) << i << ": the hand's own way, too, depends on the rate";
   }
 }
 

@@ -31,11 +31,12 @@ TEST(ParticleSet, EveryShippedSetLoadsWithASourceForEachNumber) {
     EXPECT_EQ(set->sources.size(), 6U + set->setup.pads.size());
     for (std::size_t i = 0; i < set->species.size(); ++i) {
       const SpeciesEntry& species = set->species[i];
-      EXPECT_EQ(species.sources.size(), physics::is_rod(set->setup.species[i]) ? 6U : 12U) << species.name;
+      const bool rod = physics::is_rod(set->setup.species[i]), island = physics::is_island(set->setup.species[i]);
+      EXPECT_EQ(species.sources.size(), rod ? 6U : island ? 5U : 12U) << species.name;
       for (const SourcedValue& value : species.sources) EXPECT_FALSE(value.source.empty()) << value.key;
     }
   }
-  EXPECT_EQ(sets, 7);
+  EXPECT_EQ(sets, 8);
 }
 
 TEST(ParticleSet, GoldRowHasTheNumbersOfTheCases) {
@@ -122,6 +123,44 @@ TEST(ParticleSet, RefusesRodsThatCannotBe) {
               HasSubstr("only a rod has an angle"));
   EXPECT_THAT(refusal(shipped() + "\n[[pad]]\nx = \"0 nm\"\ny = \"0 nm\"\nwidth = \"1 nm\"\nheight = \"1 nm\"\n"),
               HasSubstr("needs a rod that can be moved"));
+}
+
+TEST(ParticleSet, OfIslandsGoesThroughASharedScene) {
+  const auto set = load_particle_set(kFolder + "/islands.toml");
+  ASSERT_TRUE(set) << set.error().message;
+  const physics::ParticleSpecies& island = set->setup.species.front();
+  EXPECT_TRUE(physics::is_island(island));
+  EXPECT_NEAR(island.measured_threshold.si, 30e-9, 0.02e-9) << "1 MPa over 30,000 nm2";
+  EXPECT_NEAR(median_radius(*set).si, 97.7e-9, 1e-15);
+  const auto shared = std::make_unique<SharedParticles>(shared_particles(*set));
+  EXPECT_TRUE(has_islands(*shared));
+  EXPECT_FALSE(has_rods(*shared));
+  EXPECT_EQ(push_setup(*shared).species.at(0).island_radius, island.island_radius);
+  EXPECT_EQ(recorded_set(*shared, support::source("assets")).title, set->title);
+}
+
+TEST(ParticleSet, RefusesIslandsThatCannotBe) {
+  const auto changed_islands = [](const std::string& from, const std::string& to) {
+    std::string text = core::read_file(kFolder + "/islands.toml").value_or("");
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return text.replace(at, from.size(), to);
+  };
+  EXPECT_EQ(refusal(changed_islands("97.7 nm", "80 nm")), "accepted");
+  EXPECT_THAT(refusal(changed_islands("97.7 nm", "-97.7 nm")), HasSubstr("species.radius: it must be positive"));
+  EXPECT_THAT(refusal(changed_islands("97.7 nm", "30 nm")), HasSubstr("species.radius: island radius 30 nm is not"));
+  EXPECT_THAT(refusal(changed_islands("\"50 nm\"", "\"0 nm\"")), HasSubstr("species.height: radius 0 m is not within"));
+  EXPECT_THAT(refusal(changed_islands("\"1 MPa\"", "\"0 MPa\"")), HasSubstr("species.shear_strength: "));
+  EXPECT_THAT(refusal(changed_islands("\"1 MPa\"", "\"1 nN\"")), HasSubstr("species.shear_strength: cannot read"));
+  EXPECT_THAT(refusal(changed_islands("x = \"0 nm\"\ny = \"300 nm\"", "x = \"-260 nm\"\ny = \"-250 nm\"")),
+              HasSubstr("overlap"));
+  EXPECT_THAT(refusal(changed_islands("x = \"-300 nm\"\ny", "angle_deg = 3\nx = \"-300 nm\"\ny")),
+              HasSubstr("only a rod has an angle"));
+  // among spheres
+  const std::string gold = shipped();
+  const std::size_t from = gold.find("[[species]]"), to = gold.find("[[", from + 1);
+  EXPECT_THAT(refusal(changed_islands("[[particle]]", gold.substr(from, to - from) + "\n[[particle]]")),
+              HasSubstr("species: flat islands lie on a bare sample"));
 }
 
 TEST(ParticleSet, SticksToTheTipIfItsFileSaysSo) {

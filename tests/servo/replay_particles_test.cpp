@@ -24,13 +24,13 @@ using scene::ScaleMode;
 using testing::HasSubstr;
 
 // Lifts, goes before the row of particles, and pushes along it.
-void push_through(Recording& recording, double beside_m = 0.0) {
+void push_through(Recording& recording, double beside_m = 0.0, double height_m = 0.001) {
   recording.arm();
   recording.go({-0.028, beside_m}, 0.03, 0.3);
   recording.run(500);
-  recording.go({-0.028, beside_m}, 0.001, 0.3);
+  recording.go({-0.028, beside_m}, height_m, 0.3);
   recording.run(500);
-  recording.go({0.020, beside_m}, 0.001, 1.5);
+  recording.go({0.020, beside_m}, height_m, 1.5);
   recording.run(1800);
   recording.go({0.020, beside_m}, 0.05, 0.3);
   recording.run(600);
@@ -325,9 +325,42 @@ TEST(ReplayOfParticles, KeepsTheDirectionsOfRods) {
   RecordedSession damaged = session;
   damaged.particles->pages[0].poses[0].rod = 0;
   ASSERT_TRUE(save_session(damaged, path));
-  EXPECT_THAT(load_session(path).error().message, HasSubstr("the poses of its rods are impossible"));
+  EXPECT_THAT(load_session(path).error().message, HasSubstr("the poses of its rods or islands are impossible"));
   damaged = session;
   damaged.particles->set.angle_rad[0] = std::nan("");
+  ASSERT_TRUE(save_session(damaged, path));
+  EXPECT_FALSE(load_session(path));
+}
+
+TEST(ReplayOfParticles, KeepsTheTurnsOfIslands) {
+  scene::SharedModel model = test::model_with_particles();
+  model.particles = test::islands_at({{0.0, 30e-9}, {0.0, 400e-9}});
+  Recording recording(model);
+  recording.choose(test::kMica, ScaleMode::Particles);
+  push_through(recording, 0.0, 0.0);
+  ASSERT_EQ(recording.sessions.size(), 1U);
+  const RecordedSession& session = recording.sessions.front();
+  EXPECT_GE(count(session, EventKind::ParticleGave), 1U);
+  EXPECT_NE(session.samples.front().push.digest, session.samples.back().push.digest);
+  EXPECT_EQ(session.particles->pages[0].poses[0].rod, 1U);
+  expect_same(session);
+
+  const support::ScratchFolder folder;
+  const std::string path = folder.file("island.afms");
+  ASSERT_TRUE(save_session(session, path));
+  EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x0d") << "a program without islands refuses the version";
+  const auto loaded = load_session(path);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->particles->set, session.particles->set);
+  EXPECT_EQ(loaded->particles->pages, session.particles->pages);
+  expect_same(*loaded);
+
+  RecordedSession damaged = session;
+  damaged.particles->pages[0].poses[0].rod = 0;
+  ASSERT_TRUE(save_session(damaged, path));
+  EXPECT_THAT(load_session(path).error().message, HasSubstr("the poses of its rods or islands are impossible"));
+  damaged = session;
+  damaged.particles->set.island_radius_m[0] = -1e-7;
   ASSERT_TRUE(save_session(damaged, path));
   EXPECT_FALSE(load_session(path));
 }

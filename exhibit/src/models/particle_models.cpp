@@ -26,6 +26,8 @@ constexpr double kFootprintRadius = 0.7, kFootprintThickness = 0.05, kDotRadius 
 constexpr double kCrossReach = 0.6, kCrossHalfWidth = 0.06, kCrossHeight = 0.03;
 constexpr int kDotRings = 6, kDotSectors = 10;
 constexpr int kRodSectors = 20, kRodEndRings = 6, kRodSideRings = 10;
+constexpr int kIslandSectors = 48, kIslandRimRings = 8, kIslandFlatRings = 2;
+constexpr double kIslandMark = 0.045;  // half width of the mark, share of a turn
 constexpr double kPadHeight = 0.08;    // in radii of the particle
 constexpr double kBandWidth = 0.42;    // half width of the dark band, sine of the latitude
 constexpr double kCapLatitude = 0.86;  // sine of the latitude of the cap's edge
@@ -154,6 +156,21 @@ scene::Scene particle_rod(double length) {
     return Point{{place.z, place.x, place.y}, {normal.z, normal.x, normal.y}, linear_colour(end > 0.0 ? kCap : kPlain)};
   });
   return one_mesh("rod", {.name = "rod", .metallic = 0.0F, .roughness = 0.4F}, std::move(rod));
+}
+
+scene::Scene particle_island(double core) {
+  const int rows = kIslandRimRings + 2 * kIslandFlatRings;
+  scene::Primitive island = rolled(rows, kIslandSectors, [&](double row, double column) {
+    // from below to above
+    const double at = row * rows - kIslandFlatRings, rim = std::clamp(at / kIslandRimRings, 0.0, 1.0);
+    const double inwards = std::max({-at, at - kIslandRimRings, 0.0}) / kIslandFlatRings;
+    const double latitude = std::numbers::pi * (rim - 0.5);
+    const glm::dvec3 normal = around(column, std::cos(latitude), std::sin(latitude));
+    const glm::dvec3 place = around(column, core * (1.0 - inwards), 0.0) + normal;
+    const bool mark = std::min(column, 1.0 - column) < kIslandMark;
+    return Point{place, normal, linear_colour(mark ? kBand : kPlain)};
+  });
+  return one_mesh("island", {.name = "island", .metallic = 0.0F, .roughness = 0.4F}, std::move(island));
 }
 
 scene::Scene particle_pad(double width, double height) {

@@ -154,7 +154,7 @@ class ParticleRows {
         known ? Force(now_.push.threshold_n) : physics::sliding_threshold(kind, kind.law, Force(0.0));
     add(Phrase::PushThreshold, force_text(threshold, phrases_),
         phrases_.text<Phrase::PushLaw>(formula_of(kind.law, phrases_)));
-    if (physics::is_rod(kind)) return;  // measured alone
+    if (physics::turns_flat(kind)) return;  // measured alone
     const ParticleLaw other = scene::other_law(kind.law);
     const Force other_threshold = physics::sliding_threshold(kind, other, Force(0.0));
     if (!(other_threshold.si > 0.0)) return;  // the file lacks its parameters
@@ -175,7 +175,7 @@ class ParticleRows {
     const std::vector<physics::StickyPad> pads =
         pose ? scene::shared_sticky_pads(*now_.set) : std::vector<physics::StickyPad>{};
     const auto pad = std::find_if(pads.begin(), pads.end(), [&](const physics::StickyPad& p) {
-      return !physics::is_rod(species()) &&
+      return !physics::turns_flat(species()) &&
              physics::lies_on(p, {physics::Length(pose->x_m), physics::Length(pose->y_m)});
     });
     if (pad == pads.end()) {
@@ -190,7 +190,7 @@ class ParticleRows {
 
   void add_numbers() {
     const ParticleSpecies& kind = species();
-    add_number(Phrase::ParticleRadius, kind.contact.tip_radius, physics::kLengthUnits, "radius");
+    add_number(Phrase::ParticleRadius, physics::outer_radius(kind), physics::kLengthUnits, "radius");
     add_adhesion();
     add_number(Phrase::ParticleShearStrength, kind.shear_strength, physics::kPressureUnits, "shear_strength");
     if (kind.coefficient > 0.0) {

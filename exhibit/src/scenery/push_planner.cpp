@@ -56,7 +56,7 @@ bool PushPlanner::can_be_pushed(std::size_t particle) const {
 }
 
 double PushPlanner::radius_m(std::size_t particle) const {
-  return set_.setup.species[set_.particles[particle].species].contact.tip_radius.si;
+  return physics::outer_radius(set_.setup.species[set_.particles[particle].species]).si;
 }
 
 glm::dvec2 PushPlanner::place_m(std::size_t particle, const ParticlesNow& now) const {

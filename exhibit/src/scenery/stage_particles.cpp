@@ -51,7 +51,7 @@ constexpr std::array<glm::vec3, 8> kSpeciesColors{{{0.83F, 0.56F, 0.15F},
 // Places, as the servo has them, and sizes of the particles.
 struct Placed {
   std::size_t species = 0;
-  double radius_m = 0, half_m = 0, x_m = 0, y_m = 0, angle_rad = 0;
+  double radius_m = 0, half_m = 0, outer_m = 0, x_m = 0, y_m = 0, angle_rad = 0;
 };
 std::vector<Placed> placed(const scene::ParticleSet& set) {
   const auto shared = std::make_unique<const scene::SharedParticles>(scene::shared_particles(set));
@@ -61,6 +61,7 @@ std::vector<Placed> placed(const scene::ParticleSet& set) {
     all.push_back({.species = particle.species,
                    .radius_m = shared->species[particle.species].radius_m,
                    .half_m = 0.5 * shared->length_m[particle.species],
+                   .outer_m = physics::outer_radius(set.setup.species[particle.species]).si,
                    .x_m = particle.x_m,
                    .y_m = particle.y_m,
                    .angle_rad = shared->angle_rad[i]});
@@ -82,7 +83,7 @@ double StageParticles::stroke_m(const scene::ParticleSet& set) {
   const std::vector<Placed> particles = placed(set);
   double reach_m = 0.0;
   for (const Placed& p : particles) {
-    const double size_m = p.half_m + p.radius_m;
+    const double size_m = p.half_m + p.outer_m;
     reach_m = std::max({reach_m, std::abs(p.x_m) + size_m, std::abs(p.y_m) + size_m});
   }
   const auto reach = [&](const auto& pad) {
@@ -105,6 +106,7 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
     particles_.push_back({.species = p.species,
                           .radius_m = p.radius_m,
                           .half_m = p.half_m,
+                          .outer_m = p.outer_m,
                           .start_m = {p.x_m, p.y_m},
                           .start_turn = {0.0, 0.0, turn.z, turn.w},
                           .color = kSpeciesColors.at(p.species % kSpeciesColors.size())});
@@ -123,7 +125,7 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   build.part(particle_dot(), "plan-line", sample);
   build.part(particle_footprint(), "plan-ends", sample);
   build.part(particle_ring(), "touched-particle", sample);
-  add_rods_and_pads(set, build, sample);
+  add_flat_and_pads(set, build, sample);
   // up to the drawn lever
   const double drawn_radius = tip_radius_m_ * kStrokeHeight / stroke_m(set);
   build.part(particle_tip(set.setup.tip.half_angle_rad, kTipDrawnLength / drawn_radius), "true-tip", sample);
@@ -143,20 +145,25 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   scene.nodes[plan_line_].most_copies = kMostDots;
   scene.nodes[plan_ends_].most_copies = 2;
   scene.nodes[targets_].most_copies = 2 * scene::kMostTargets;
-  for (const auto& rod : rods_) {
-    if (rod) scene.nodes[*rod].most_copies = count;
+  for (const auto& flat : flat_) {
+    if (flat) scene.nodes[*flat].most_copies = count;
   }
   for (const DrawnPad& pad : pads_) scene.nodes[pad.node].most_copies = 1;
 }
 
-void StageParticles::add_rods_and_pads(const scene::ParticleSet& set, ModelBuilder& build, scene::NodeIndex sample) {
+void StageParticles::add_flat_and_pads(const scene::ParticleSet& set, ModelBuilder& build, scene::NodeIndex sample) {
   for (std::size_t i = 0; i < set.setup.species.size(); ++i) {
     const physics::ParticleSpecies& species = set.setup.species[i];
-    rods_.emplace_back();
-    if (!physics::is_rod(species)) continue;
-    const std::string name = "rods-" + std::to_string(i);
-    build.part(particle_rod(species.length / species.contact.tip_radius), name, sample);
-    rods_.back() = build.node(name + "/rod");
+    flat_.emplace_back();
+    if (physics::is_rod(species)) {
+      const std::string name = "rods-" + std::to_string(i);
+      build.part(particle_rod(species.length / species.contact.tip_radius), name, sample);
+      flat_.back() = build.node(name + "/rod");
+    } else if (physics::is_island(species)) {
+      const std::string name = "islands-" + std::to_string(i);
+      build.part(particle_island(physics::core_radius(species) / species.contact.tip_radius), name, sample);
+      flat_.back() = build.node(name + "/island");
+    }
   }
   const physics::Length unit = scene::median_radius(set);
   const auto add = [&](const auto& model, const auto& pad) {
@@ -170,8 +177,8 @@ void StageParticles::add_rods_and_pads(const scene::ParticleSet& set, ModelBuild
 
 std::vector<scene::NodeIndex> StageParticles::nodes() const {
   std::vector<scene::NodeIndex> all{spheres_, targets_, footprints_, dots_, plan_line_, plan_ends_, tip_};
-  for (const auto& rod : rods_) {
-    if (rod) all.push_back(*rod);
+  for (const auto& flat : flat_) {
+    if (flat) all.push_back(*flat);
   }
   for (const DrawnPad& pad : pads_) all.push_back(pad.node);
   return all;
@@ -193,7 +200,7 @@ void StageParticles::place(const ParticlesNow* now, double layout_per_m, const d
   const auto& [start_x, start_y] = particles_[*particle].start_m;
   const glm::dvec2 foot_m = pose ? touched_m(particles_[*particle], *pose, *now) : glm::dvec2(start_x, start_y);
   const dvec3 foot = layout_per_m * dvec3(foot_m, 0.0);
-  local[ring_] = glm::scale(glm::translate(dmat4(1.0), foot), dvec3(layout_per_m * particles_[*particle].radius_m));
+  local[ring_] = glm::scale(glm::translate(dmat4(1.0), foot), dvec3(layout_per_m * particles_[*particle].outer_m));
 }
 
 // The point of a rod's axis that is nearest to the tip.
@@ -206,7 +213,7 @@ glm::dvec2 StageParticles::touched_m(const Particle& particle, const scene::Part
 
 void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, render::FrameState& frame) const {
   render::MeshCopies spheres{.node = spheres_, .copies = {}};
-  std::vector<render::MeshCopies> rods(rods_.size());
+  std::vector<render::MeshCopies> flat(flat_.size());
   spheres.copies.reserve(particles_.size());
   const auto pushed = now == nullptr ? std::nullopt : touched(*now, particles_.size());
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -223,13 +230,13 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
       copy.turn = glm::vec4(glm::dvec4(x, y, z, w));
     }
     copy.tint = glm::vec4(pushed == i ? kTouched * particle.color : particle.color, 1.0F);
-    (particle.half_m > 0.0 ? rods[particle.species] : spheres).copies.push_back(copy);
+    (flat_[particle.species] ? flat[particle.species] : spheres).copies.push_back(copy);
   }
   if (!spheres.copies.empty()) frame.copies.push_back(std::move(spheres));
-  for (std::size_t i = 0; i < rods.size(); ++i) {
-    if (rods[i].copies.empty()) continue;
-    rods[i].node = rods_[i].value();
-    frame.copies.push_back(std::move(rods[i]));
+  for (std::size_t i = 0; i < flat.size(); ++i) {
+    if (flat[i].copies.empty()) continue;
+    flat[i].node = flat_[i].value();
+    frame.copies.push_back(std::move(flat[i]));
   }
   add_targets(layout_per_m, frame);
   if (now == nullptr) return;
@@ -263,7 +270,7 @@ void StageParticles::add_targets(double layout_per_m, render::FrameState& frame)
 void StageParticles::add_marks(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const {
   render::MeshCopies footprints{.node = footprints_, .copies = {}}, dots{.node = dots_, .copies = {}};
   for (std::size_t i = 0; i < particles_.size(); ++i) {
-    const double radius_m = particles_[i].radius_m;
+    const double radius_m = particles_[i].outer_m;
     const glm::dvec2 start_m(particles_[i].start_m[0], particles_[i].start_m[1]);
     const auto pose = pose_of(now, i);
     const glm::dvec2 way_m = pose ? glm::dvec2(pose->x_m, pose->y_m) - start_m : glm::dvec2(0.0);
@@ -285,7 +292,7 @@ void StageParticles::add_marks(const ParticlesNow& now, double layout_per_m, ren
 void StageParticles::add_plan(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const {
   const auto particle = static_cast<std::size_t>(now.plan.particle);  // huge without a plan
   if (particle >= particles_.size()) return;
-  const double radius_m = particles_[particle].radius_m;
+  const double radius_m = particles_[particle].outer_m;
   const glm::dvec2 from_m(now.plan.from_m[0], now.plan.from_m[1]), to_m(now.plan.to_m[0], now.plan.to_m[1]);
   const auto pose = pose_of(now, particle);
   render::MeshCopies line{.node = plan_line_, .copies = {}}, ends{.node = plan_ends_, .copies = {}};

@@ -94,7 +94,7 @@ class FeltParticles {
   void change(std::uint32_t particle, const scene::ParticlePose& now) noexcept;
   void account(const physics::PushTick& tick) noexcept;
   void note_events(const physics::PushTick& tick, const Counts& before, ParticlePush& step) noexcept;
-  bool is_rod(std::size_t particle) const noexcept;
+  bool turns_flat(std::size_t particle) const noexcept;
   bool carries() const noexcept;
   void put_carried_back() noexcept;
   void lay_down(std::size_t particle) noexcept;

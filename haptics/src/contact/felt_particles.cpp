@@ -52,7 +52,7 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
   const double sine = std::sin(setup_.tip.half_angle_rad), cosine = std::cos(setup_.tip.half_angle_rad);
   for (physics::ParticleSpecies species : setup_.species) {
     const physics::TipGrip grip = physics::flank_grip(setup_.tip, species, setup_.tip_friction);
-    if (physics::is_rod(species)) {  // measured alone
+    if (physics::turns_flat(species)) {  // measured alone
       other_threshold_n_.push_back(0.0);
       continue;
     }
@@ -65,7 +65,7 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
   changed_.reserve(pages_.size());
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     pose(i) = {.x_m = particles_.position(i).x.si, .y_m = particles_.position(i).y.si};
-    if (is_rod(i)) scene::set_turn(pose(i), particles_.turn(i));
+    if (turns_flat(i)) scene::set_turn(pose(i), particles_.turn(i));
   }
   digest_ = scene::digest_of(pages_, particles_.size());
   start_ = pages_;
@@ -75,7 +75,7 @@ void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
   if (pages.size() != pages_.size()) throw std::invalid_argument("the pages are those of other particles");
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     const scene::ParticlePose& there = pages[i / scene::kPosesPerPage].poses[i % scene::kPosesPerPage];
-    if ((there.rod != 0) != is_rod(i)) throw std::invalid_argument("the pages are those of other particles");
+    if ((there.rod != 0) != turns_flat(i)) throw std::invalid_argument("the pages are those of other particles");
   }
   std::vector<physics::ParticlePlace> places;
   places.reserve(particles_.size());
@@ -97,8 +97,8 @@ void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
   lift();
 }
 
-bool FeltParticles::is_rod(std::size_t particle) const noexcept {
-  return physics::is_rod(setup_.species[particles_.species(particle)]);
+bool FeltParticles::turns_flat(std::size_t particle) const noexcept {
+  return physics::turns_flat(setup_.species[particles_.species(particle)]);
 }
 
 scene::ParticlePose& FeltParticles::pose(std::size_t particle) noexcept {
@@ -216,7 +216,7 @@ void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
     const bool alone = tick.state == physics::PushState::Slides || tick.state == physics::PushState::Rolls;
     const bool hangs = tick.state == physics::PushState::Carried && tick.particle == i;
     moved.moved = alone || hangs ? tick.state : physics::PushState::Several;
-    if (is_rod(i)) scene::set_turn(moved, particles_.turn(i));
+    if (turns_flat(i)) scene::set_turn(moved, particles_.turn(i));
     if (moved.moved == physics::PushState::Rolls) {
       const double radius_m = setup_.species[particles_.species(i)].contact.tip_radius.si;
       moved.orientation = rolled(moved.orientation, way_m, radius_m);

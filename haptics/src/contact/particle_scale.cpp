@@ -21,6 +21,12 @@ namespace {
 // Softest contact of tip and particle relative to the lever that is felt: stiffer ones indent by less than a
 // hundredth of what the lever bends, and only make the descent of several particles slower.
 constexpr double kContactOverLever = 100.0;
+constexpr double kLeastSlope = 1e-3;  // least slope of a flank by which its climb is divided
+
+// Radius as seen from above.
+double outer_m(const scene::SharedParticles& particles, std::uint32_t species) {
+  return std::max(particles.species[species].radius_m, particles.island_radius_m[species]);
+}
 
 // Species of the particle of median radius.
 std::size_t median_species(const scene::SharedParticles& particles) {
@@ -28,9 +34,8 @@ std::size_t median_species(const scene::SharedParticles& particles) {
   species.reserve(particles.count);
   for (std::uint32_t i = 0; i < particles.count; ++i) species.push_back(particles.particles[i].species);
   const auto middle = species.begin() + static_cast<std::ptrdiff_t>(species.size() / 2);
-  std::nth_element(species.begin(), middle, species.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return particles.species[a].radius_m < particles.species[b].radius_m;
-  });
+  std::nth_element(species.begin(), middle, species.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return outer_m(particles, a) < outer_m(particles, b); });
   return *middle;
 }
 
@@ -81,8 +86,13 @@ core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particl
                                      "or a steeper tip",
                                      particles.species[median].name.data()));
   }
-  scale.hand_m_per_m = hand_m_per_m(particles, 2.0 * radius.si, device);
-  const double distance_m = physics::side_contact(setup.tip, radius, physics::Length(0.0)).distance.si;
+  const double diameter_m = 2.0 * physics::outer_radius(species).si;
+  scale.hand_m_per_m = hand_m_per_m(particles, diameter_m, device);
+  double distance_m = physics::side_contact(setup.tip, radius, physics::Length(0.0)).distance.si;
+  if (physics::is_island(species)) {  // flat: the tip would ride over it before it runs round it
+    const double climb_m = physics::crest_height(setup.tip, radius).si * cosine / std::max(sine, kLeastSlope);
+    distance_m = std::min(distance_m + physics::core_radius(species).si, std::max(0.0, climb_m));
+  }
   const double most_n = particle_stiffness_n_per_m(device) * ParticleScale::kMostBend * distance_m * scale.hand_m_per_m;
   double pull_n = 0.0;
   for (const physics::ParticleSpecies& s : setup.species) {
@@ -97,7 +107,7 @@ core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particl
         core::ErrorCategory::Failed,
         fmt::format("cannot push the particles \"{}\" with the {}: they would be {:.2g} mm wide in the hand and give "
                     "at {:.2g} N, too little to feel; put them closer together",
-                    particles.species[median].name.data(), device.name, 2e3 * radius.si * scale.hand_m_per_m, felt_n));
+                    particles.species[median].name.data(), device.name, 1e3 * diameter_m * scale.hand_m_per_m, felt_n));
   }
   scale.hand_n_per_n = felt_n / threshold_n;
   const double most_n_per_m = particle_stiffness_n_per_m(device) * scale.hand_m_per_m / scale.hand_n_per_n;

@@ -180,7 +180,7 @@ double HeapContacts::tip_change(std::size_t i, const Place& to, const Apex& apex
   if (!acts(i, now)) return -k * depth0 * depth0;
   const TipProfile& profile = *bodies_[i].profile;
   const double flank = profile.flank_sine(), rise = apex.height - apex_.height;
-  const bool rod = bodies_[i].is_rod();
+  const bool rod = bodies_[i].is_rod() || bodies_[i].core_m > 0.0;  // its nearest point moves along it
   const double dx = rod ? now.x - was.x : (to.at.x - bodies_[i].at.x) - (apex.x - apex_.x);
   const double dy = rod ? now.y - was.y : (to.at.y - bodies_[i].at.y) - (apex.y - apex_.y);
   const double squares = dx * (was.x + now.x) + dy * (was.y + now.y);
@@ -234,12 +234,13 @@ HeapContacts::Normal HeapContacts::normal_of(std::size_t i) const noexcept {
   const TipContact& tip = tips_[i];
   const double ux = tip.away_m > 0.0 ? tip.x / tip.away_m : 1.0, uy = tip.away_m > 0.0 ? tip.y / tip.away_m : 0.0;
   const bool ball = tip.overlap.sine > body.profile->flank_sine();
-  return {.overlap_m = tip.overlap.depth_m,
-          .acts = acts(i, tip),
-          .towards = {ux * tip.overlap.cosine, uy * tip.overlap.cosine, -tip.overlap.sine},
-          .apart_m = std::max(1e-30, ball ? body.profile->reach_sum_m() - tip.overlap.depth_m : tip.away_m),
-          .ball = ball,
-          .turning = -turning_of(body, {tip.x + apex_.x, tip.y + apex_.y}, ux, uy) * tip.overlap.cosine};
+  return {
+      .overlap_m = tip.overlap.depth_m,
+      .acts = acts(i, tip),
+      .towards = {ux * tip.overlap.cosine, uy * tip.overlap.cosine, -tip.overlap.sine},
+      .apart_m = std::max(1e-30, ball ? body.profile->reach_sum_m() - tip.overlap.depth_m : tip.away_m + body.core_m),
+      .ball = ball,
+      .turning = -turning_of(body, {tip.x + apex_.x, tip.y + apex_.y}, ux, uy) * tip.overlap.cosine};
 }
 
 HeapContacts::Touch HeapContacts::touch_of(std::size_t p) const noexcept {
@@ -251,7 +252,7 @@ HeapContacts::Touch HeapContacts::touch_of(std::size_t p) const noexcept {
   const double ux = (first.x - second.x) / apart, uy = (first.y - second.y) / apart;
   const bool stays = pair.second == kMostActive;
   return {.overlap_m = depth,
-          .apart_m = apart,
+          .apart_m = apart + body.core_m + (stays ? pair.stays.core_m : bodies_[pair.second].core_m),
           .u = {ux, uy},
           .turning_first = turning_of(body, first, ux, uy),
           .turning_second = stays ? 0.0 : -turning_of(bodies_[pair.second], second, ux, uy)};

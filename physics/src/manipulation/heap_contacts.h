@@ -44,7 +44,8 @@ class HeapContacts {
     double moving_n = 0.0;  // f_k
     bool pinned = false;
     bool near_tip = false;  // the tip may touch it
-    double half_m = 0.0;    // half length of a rod; 0: a sphere
+    double half_m = 0.0;    // half length of a rod; 0: none
+    double core_m = 0.0;    // flat radius of an island, which a heap pushes like a sphere; 0: none
     Flat start_axis{1.0, 0.0}, axis{1.0, 0.0};
     double turned_m = 0.0;
     TipPull pull;  // adhesion of the tip, whose contact then pulls, too
@@ -52,7 +53,7 @@ class HeapContacts {
     bool is_rod() const { return half_m > 0.0; }
     bool moved() const { return at.x != start.x || at.y != start.y || turned_m != 0.0; }
     Place place() const { return {at, turned_m, axis}; }
-    Outline outline(const Place& there) const { return {there.at, there.axis, half_m}; }
+    Outline outline(const Place& there) const { return {there.at, there.axis, half_m, core_m}; }
     Place place_at(const Flat& there, double turned_there_m) const;  // axis by the turn
     RodVector motion_to(const Place& there) const;                   // from the start, in the frame of the start
   };

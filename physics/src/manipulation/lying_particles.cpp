@@ -27,6 +27,7 @@ LyingParticles::LyingParticles(const PushSetup& setup, const std::vector<PlacedP
       grid_(x_, y_, search_m) {
   for (const ParticleSpecies& a : setup.species) {
     half_m_.push_back(0.5 * a.length.si);
+    core_m_.push_back(core_radius(a).si);
     for (const ParticleSpecies& b : setup.species) {
       touching_m_.push_back(touching_distance(a.contact.tip_radius, b.contact.tip_radius).si);
     }
@@ -47,7 +48,7 @@ std::size_t LyingParticles::ground_at(const Flat& at) const noexcept {
 
 Outline LyingParticles::outline(std::size_t i) const noexcept {
   const double half = half_m(i);
-  return {{x_[i], y_[i]}, half > 0.0 ? axis_of(turns_[i]) : Flat{1.0, 0.0}, half};
+  return {{x_[i], y_[i]}, half > 0.0 ? axis_of(turns_[i]) : Flat{1.0, 0.0}, half, core_m(i)};
 }
 
 void LyingParticles::move(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept {
@@ -80,7 +81,7 @@ Flat LyingParticles::free_place(std::size_t i) const noexcept {
 }
 
 bool LyingParticles::is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept {
-  if (half_m(i) > 0.0 || half_m(j) > 0.0) return apart_m(i, j) > most_m;
+  if (half_m(i) > 0.0 || half_m(j) > 0.0 || core_m(i) > 0.0) return apart_m(i, j) > most_m;
   const double x = x_[i] - x_[j], y = y_[i] - y_[j];
   return x * x + y * y > most_m * most_m;
 }

@@ -24,6 +24,7 @@ class LyingParticles {
   std::size_t ground(std::size_t i) const noexcept { return ground_[i]; }  // number of its pad, from 1; 0: the sample
   bool is_pinned(std::size_t i) const { return pinned_[i]; }
   double half_m(std::size_t i) const noexcept { return half_m_[species_[i]]; }  // half length of a rod; 0: a sphere
+  double core_m(std::size_t i) const noexcept { return core_m_[species_[i]]; }  // flat radius of an island; 0: none
   Outline outline(std::size_t i) const noexcept;
 
   void move(std::size_t i, const Flat& at, const HalfTurn& turn) noexcept;
@@ -53,8 +54,9 @@ class LyingParticles {
   std::vector<StickyPad> pads_;
   std::vector<double> touching_m_;  // distance at which two species touch, by rows
   std::vector<double> half_m_;      // half length of each species
+  std::vector<double> core_m_;      // flat radius of each species
   std::vector<double> x_, y_;
-  std::vector<HalfTurn> turns_;  // direction of each rod
+  std::vector<HalfTurn> turns_;  // direction of each rod or island
   std::vector<std::size_t> species_;
   std::vector<std::size_t> ground_;
   std::vector<bool> pinned_;

@@ -9,12 +9,13 @@
 
 namespace afm::physics {
 
-// Axis of a rod on the sample, seen from above, or the centre of a sphere. The body is everything within a radius of
-// it, so that a tip meets a rod as it meets a sphere at the nearest point of the axis.
+// Axis of a rod on the sample, seen from above, the centre of a sphere, or the flat part of an island. The body is
+// everything within a radius of it, so that a tip meets a rod or an island as it meets a sphere at the nearest point.
 struct Outline {
   Flat at;              // middle
   Flat axis{1.0, 0.0};  // unit vector towards the front end
-  double half_m = 0.0;  // half length; 0: a sphere
+  double half_m = 0.0;  // half length; 0: no rod
+  double core_m = 0.0;  // radius of the flat part; 0: no island
 };
 
 inline Flat along(const Outline& o, double way_m) noexcept {
@@ -27,7 +28,15 @@ inline double place_beside(const Outline& o, const Flat& point) noexcept {
   return std::clamp(way_m, -o.half_m, o.half_m);
 }
 
+inline Flat nearest_on_core(const Outline& island, const Flat& point) noexcept {
+  const double away_m = distance_between(island.at, point);
+  if (away_m <= island.core_m) return point;
+  const double share = island.core_m / away_m;
+  return {island.at.x + share * (point.x - island.at.x), island.at.y + share * (point.y - island.at.y)};
+}
+
 inline Flat nearest_on(const Outline& o, const Flat& point) noexcept {
+  if (o.core_m > 0.0) return nearest_on_core(o, point);
   return o.half_m > 0.0 ? along(o, place_beside(o, point)) : o.at;
 }
 
@@ -43,8 +52,11 @@ inline bool cross(const Outline& a, const Outline& b) noexcept {
   return !apart(a, b) && !apart(b, a);
 }
 
-// Distance of two axes that do not cross.
+// Distance of two axes that do not cross, or of the flat parts of two islands.
 inline double distance_between(const Outline& a, const Outline& b) noexcept {
+  if (a.core_m > 0.0 || b.core_m > 0.0) {
+    return std::max(0.0, distance_between(a.at, b.at) - a.core_m - b.core_m);
+  }
   if (!(b.half_m > 0.0)) return distance_between(nearest_on(a, b.at), b.at);
   if (!(a.half_m > 0.0)) return distance_between(a.at, nearest_on(b, a.at));
   double least_m = HUGE_VAL;

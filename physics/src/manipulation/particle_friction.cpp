@@ -19,6 +19,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kLargestPush = 1e-3;  // N: beyond any lever
+constexpr double kFlattest = 1.5;      // least radius of an island over half its height
 constexpr double kHeld = 1.0 - 1e-9;   // share of F_ad that a sphere on the sample bears
 
 PushBalance jammed() {
@@ -82,7 +83,12 @@ void validate(const ParticleSpecies& s) {
   if (is_rod(s) && s.law != ParticleLaw::Measured) {
     throw UnphysicalValue("law", "the friction of a rod is measured: its law cannot be another");
   }
-  if (!is_rod(s)) {
+  if (is_island(s) && (s.law != ParticleLaw::Measured || is_rod(s) || s.sticks || s.rolling_distance.si != 0.0)) {
+    throw UnphysicalValue("island_radius", "an island has a measured friction, and neither rolls nor sticks to a tip");
+  }
+  require_range("island_radius", s.island_radius, is_island(s) ? kFlattest * s.contact.tip_radius : Length(0.0),
+                Length(1e-5), kLengthUnits);
+  if (!turns_flat(s)) {
     require_range("reduced_modulus", s.contact.reduced_modulus, Pressure(1e5), Pressure(1e13), kPressureUnits);
     require_range("work_of_adhesion", s.contact.work_of_adhesion, SurfaceEnergy(1e-6), SurfaceEnergy(10.0),
                   kSurfaceEnergyUnits);

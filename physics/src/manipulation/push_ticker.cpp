@@ -31,7 +31,7 @@ double search_m(const PushSetup& setup, double margin_m, double stretch_m) {
   for (const ParticleSpecies& species : setup.species) {
     reach_m = std::max(reach_m, TipProfile(setup.tip, species.contact.tip_radius).reach_m());
     touching_m = std::max(touching_m, 2.0 * species.contact.tip_radius.si);
-    longest_half_m = std::max(longest_half_m, 0.5 * species.length.si);
+    longest_half_m = std::max({longest_half_m, 0.5 * species.length.si, core_radius(species).si});
   }
   return std::max(reach_m, touching_m) + margin_m + 2.0 * longest_half_m + stretch_m;
 }
@@ -39,10 +39,13 @@ double search_m(const PushSetup& setup, double margin_m, double stretch_m) {
 }  // namespace
 
 PushedParticles::Ticker::Reach PushedParticles::Ticker::reach_of(const PushSetup& setup) noexcept {
-  double smallest_m = HUGE_VAL;
-  for (const ParticleSpecies& s : setup.species) smallest_m = std::min(smallest_m, s.contact.tip_radius.si);
-  return {.alone_m = kReachShare * smallest_m,
-          .heap_m = kHeapReachShare * smallest_m,
+  double smallest_m = HUGE_VAL, narrowest_m = HUGE_VAL;
+  for (const ParticleSpecies& s : setup.species) {
+    smallest_m = std::min(smallest_m, s.contact.tip_radius.si);
+    narrowest_m = std::min(narrowest_m, outer_radius(s).si);
+  }
+  return {.alone_m = kReachShare * narrowest_m,
+          .heap_m = kHeapReachShare * narrowest_m,
           .base_m = kSubStepShare * (smallest_m + setup.tip.radius.si) * std::cos(setup.tip.half_angle_rad)};
 }
 
@@ -217,9 +220,10 @@ bool PushedParticles::Ticker::passes(std::size_t i, const Apex& to) const noexce
 }
 
 // Force at which a particle gives to the tip over that at which it would move sideways as a whole: below 1 for a rod
-// that the tip turns.
+// or an island that the tip turns.
 double PushedParticles::Ticker::share_of_push(std::size_t i) const noexcept {
   const Outline rod = lying_.outline(i);
+  if (rod.core_m > 0.0) return pressed_[i].normal_n > 0.0 ? share_of_load(rim_force(i)) : 1.0;
   const Flat apex{apex_.x, apex_.y}, point = nearest_on(rod, apex);
   const double x = point.x - apex.x, y = point.y - apex.y, away_m = length_of(x, y);
   if (!(rod.half_m > 0.0 && away_m > 0.0) || !(pressed_[i].normal_n > 0.0)) return 1.0;
@@ -231,6 +235,7 @@ double PushedParticles::Ticker::share_of_push(std::size_t i) const noexcept {
 // One sphere without neighbours, in closed form: the base rises or sinks first, then goes along. False if what happens
 // is not known in closed form, goes too far for one sub-step, or would raise stored energy plus friction.
 bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept {
+  if (lying_.core_m(i) > 0.0) return island_step(to, i);
   if (lying_.half_m(i) > 0.0 || !is_alone(i)) return false;
   const bool held = holds_.pull_of(i).holds();  // pulled wherever it is not pushed
   if (held && !(pressed_[i].normal_n > 0.0)) return false;

@@ -9,6 +9,7 @@
 
 #include "carried_sphere.h"
 #include "heap_contacts.h"
+#include "island_push.h"
 #include "lever_energy.h"
 #include "lone_push.h"
 #include "lying_particles.h"
@@ -73,6 +74,8 @@ class PushedParticles::Ticker {
   bool free_step(const Apex& to) noexcept;
   bool passes(std::size_t i, const Apex& to) const noexcept;
   bool lone_step(const Apex& to, std::size_t i) noexcept;
+  bool island_step(const Apex& to, std::size_t i) noexcept;
+  RimForce rim_force(std::size_t i) const noexcept;  // by the bend of the lever
   void heap_step(const Apex& to) noexcept;
   void tear(const Apex& to) noexcept;
   std::size_t lifted() const noexcept;

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "heap_descent.h"
 #include "push_ticker.h"
 
-// A sub-step among several particles, with a rod, or with a sphere on the tip.
+// A sub-step among several particles, with a rod, at the rim of an island, or with a sphere on the tip.
 namespace afm::physics {
 namespace {
 
@@ -30,6 +32,7 @@ bool PushedParticles::Ticker::add_body(std::size_t i, bool near_tip) noexcept {
                                       .pinned = lying_.is_pinned(i),
                                       .near_tip = near_tip,
                                       .half_m = there.half_m,
+                                      .core_m = there.core_m,
                                       .start_axis = there.axis,
                                       .axis = there.axis,
                                       .pull = holds_.pull_of(i)});
@@ -119,6 +122,55 @@ void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
     const HalfTurn turn = lying_.turn(body.particle);
     place(body.particle, body.at, body.is_rod() ? turned(turn, half_tangent(body.turned_m, body.half_m)) : turn);
   }
+}
+
+RimForce PushedParticles::Ticker::rim_force(std::size_t i) const noexcept {
+  const Flat at = lying_.position(i), lever{base_.x - apex_.x, base_.y - apex_.y};
+  const double away_m = distance_between(at, {apex_.x, apex_.y}), k_l = setup_.springs.lateral.si;
+  if (!(away_m > 0.0)) return {};
+  const Flat normal{(at.x - apex_.x) / away_m, (at.y - apex_.y) / away_m};
+  return {k_l * (lever.x * normal.x + lever.y * normal.y), k_l * (lever.y * normal.x - lever.x * normal.y)};
+}
+
+// One island without neighbours, which turns about a tip that sticks to its rim. False as lone_step().
+bool PushedParticles::Ticker::island_step(const Apex& to, std::size_t i) noexcept {
+  if (!is_alone(i)) return false;
+  const ParticleSpecies& species = setup_.species[lying_.species(i)];
+  const LoneContact& contact = contacts_[kind_of(i)];
+  const LoneThresholds thresholds = contact.under_load(0.0, 0.0, 1.0);
+  const IslandRim rim{setup_.springs, lying_.core_m(i), species.island_radius.si, setup_.tip_friction};
+  const IslandFriction friction{rest_threshold(i, thresholds.rest_n, thresholds.moving_n), thresholds.moving_n,
+                                !(species.ageing.si > 0.0)};
+  const Flat was = lying_.position(i);
+  const double away_m = distance_between(was, {apex_.x, apex_.y});
+  std::optional<Flat> normal;
+  if (pressed_[i].normal_n > 0.0) {
+    if (away_m <= lying_.core_m(i)) return false;  // on its top
+    normal = Flat{(was.x - apex_.x) / away_m, (was.y - apex_.y) / away_m};
+  }
+  const IslandPath path = push_island(contact, rim, friction, was, normal, {base_.x, base_.y}, to);
+  if (!path.met) return free_step(to);
+  if (!path.possible || distance_between(path.at, was) > reach_.alone_m) return false;
+  if (!is_within(reach_.alone_m, path.apex, apex_)) return false;
+  const double loaded_j = lever_j(setup_.springs, to, apex_) - lever_j(setup_.springs, base_, apex_);
+  const double contact_j = tip_contact_j(i, was, apex_);
+  const double frozen_j = lever_j(setup_.springs, to, apex_) + contact_j;
+  const double now_j = lever_j(setup_.springs, to, path.apex) + tip_contact_j(i, path.at, path.apex);
+  const double change_j = now_j + path.lost_j - frozen_j;
+  // an island that stays may keep the energy, too, which rounding then changes
+  const double rounding_j = path.moved ? 0.0 : kPressRounding * frozen_j;
+  if (!may_be_taken(change_j - rounding_j)) return false;
+  tick_.given = tick_.given + Energy(loaded_j + std::min(std::max(0.0, change_j), rounding_j));
+  tick_.work = tick_.work + Energy(work_j(setup_.springs, base_, apex_, to, path.apex));
+  tick_.lost = tick_.lost + Energy(path.lost_j);
+  tick_.stored = tick_.stored + Energy(loaded_j + now_j - frozen_j);
+  if (path.yields > 0) gave(friction.holds_n * path.share, thresholds.moving_n * path.share);
+  tick_.yields += path.yields - std::min<std::uint64_t>(path.yields, 1);
+  base_ = to;
+  apex_ = path.apex;
+  const double half = 0.5 * path.turned_rad;
+  if (path.moved) place(i, path.at, turned(lying_.turn(i), half * (1.0 + half * half / 3.0)));
+  return true;
 }
 
 // Contacts that pull by more than they hold tear. What they stored is lost, and so is the energy of the lever that then

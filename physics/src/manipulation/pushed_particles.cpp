@@ -50,7 +50,8 @@ void validate_pads(const PushSetup& setup) {
 Outline outline_of(const PushSetup& setup, const PlacedParticle& particle) {
   return {{particle.position.x.si, particle.position.y.si},
           axis_of(half_turn(particle.angle_rad)),
-          0.5 * setup.species[particle.species].length.si};
+          0.5 * setup.species[particle.species].length.si,
+          core_radius(setup.species[particle.species]).si};
 }
 
 }  // namespace
@@ -77,14 +78,21 @@ void validate(const PushSetup& setup) {
   }
   require_range("tip_friction", setup.tip_friction, 0.0, 10.0, kPlainNumber);
   if (setup.species.empty()) throw UnphysicalValue("species", "there is no species of particles");
-  Length smallest{HUGE_VAL}, largest{};
+  Length smallest{HUGE_VAL}, largest{}, narrowest{HUGE_VAL}, widest{};
   for (const ParticleSpecies& species : setup.species) {
     validate(species);
     if (species.sticks) validate_hold(setup, species);
     smallest = std::min(smallest, species.contact.tip_radius);
     largest = std::max(largest, species.contact.tip_radius);
+    narrowest = std::min(narrowest, outer_radius(species));
+    widest = std::max(widest, outer_radius(species));
   }
   validate_pads(setup);
+  const auto islands = static_cast<std::size_t>(std::count_if(setup.species.begin(), setup.species.end(), is_island));
+  if (islands > 0 && (islands < setup.species.size() || !setup.pads.empty())) {
+    throw UnphysicalValue("island_radius", "flat islands lie on a bare sample, without spheres, rods and pads");
+  }
+  if (islands > 0) require_range("island_radius", narrowest, widest / 2.0, Length(1e-5), kLengthUnits);
   require_range("radius", smallest, std::max(setup.tip.radius, largest) / 2.0, Length(1e-5), kLengthUnits);
 }
 

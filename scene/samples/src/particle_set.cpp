@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -39,10 +40,12 @@ struct KeyOfField {
 constexpr std::array kSpeciesKeys{KeyOfField{"tip_modulus", "particle_modulus"},
                                   KeyOfField{"tip_poisson_ratio", "particle_poisson_ratio"}};
 
-std::string_view key_of(std::string_view field) {
-  const auto at =
-      std::find_if(kSpeciesKeys.begin(), kSpeciesKeys.end(), [=](const KeyOfField& k) { return k.field == field; });
-  return at == kSpeciesKeys.end() ? field : at->key;
+constexpr std::array kIslandKeys{KeyOfField{"radius", "height"}, KeyOfField{"island_radius", "radius"},
+                                 KeyOfField{"measured_threshold", "shear_strength"}};
+
+std::string_view key_of(std::string_view field, std::span<const KeyOfField> keys) {
+  const auto at = std::find_if(keys.begin(), keys.end(), [=](const KeyOfField& k) { return k.field == field; });
+  return at == keys.end() ? field : at->key;
 }
 
 Length place(const TomlTable& table, std::string_view key, Length most) {
@@ -95,6 +98,30 @@ physics::ParticleSpecies read_rods(const TomlTable& table, SpeciesEntry& entry) 
   return species;
 }
 
+// The friction of an island is a shear strength everywhere below it; its rim is round, half as high as the island.
+physics::ParticleSpecies read_islands(const TomlTable& table, SpeciesEntry& entry) {
+  table.allow_only({"name", "radius", "height", "shear_strength", "kinetic_ratio", "ageing"});
+  entry.name = table.text("name");
+  SourcedValues values(table);
+  physics::ParticleSpecies species;
+  species.law = physics::ParticleLaw::Measured;
+  species.island_radius = values.quantity("radius", physics::kLengthUnits);
+  species.contact.tip_radius = 0.5 * values.quantity("height", physics::kLengthUnits);
+  species.shear_strength = values.quantity("shear_strength", physics::kPressureUnits);
+  species.measured_threshold =
+      species.shear_strength * (std::numbers::pi * species.island_radius * species.island_radius);
+  species.kinetic_ratio = values.number("kinetic_ratio");
+  species.ageing = values.quantity("ageing", physics::kTimeUnits);
+  if (!(species.island_radius.si > 0.0)) table.refuse("radius", "it must be positive");
+  try {
+    physics::validate(species);
+  } catch (const physics::UnphysicalValue& error) {
+    table.refuse(key_of(error.field(), kIslandKeys), error.what());
+  }
+  entry.sources = values.take_sources();
+  return species;
+}
+
 // Reads whether the tip holds what it has touched, and whether its pull-offs scatter.
 void read_hold(const TomlTable& table, physics::ParticleSpecies& species) {
   species.sticks = table.has("sticks") && table.flag("sticks");
@@ -108,6 +135,7 @@ void read_hold(const TomlTable& table, physics::ParticleSpecies& species) {
 
 physics::ParticleSpecies read_species(const TomlTable& table, SpeciesEntry& entry) {
   if (table.has("length")) return read_rods(table, entry);
+  if (table.has("height")) return read_islands(table, entry);
   table.allow_only({"name", "radius", "particle_modulus", "particle_poisson_ratio", "sample_modulus",
                     "sample_poisson_ratio", "work_of_adhesion", "law", "shear_strength", "coefficient",
                     "measured_threshold", "kinetic_ratio", "ageing", "rolling_distance", "tip_adhesion", "sticks",
@@ -138,7 +166,7 @@ physics::ParticleSpecies read_species(const TomlTable& table, SpeciesEntry& entr
     species.contact.reduced_modulus = physics::reduced_modulus(particle, sample);
     physics::validate(species);
   } catch (const physics::UnphysicalValue& error) {
-    table.refuse(key_of(error.field()), error.what());
+    table.refuse(key_of(error.field(), kSpeciesKeys), error.what());
   }
   entry.sources = values.take_sources();
   return species;
@@ -167,7 +195,7 @@ void check_setup(const ParticleSet& set, const TomlTable& top, const TomlTable& 
     if (field == "tip_radius") tip.refuse("radius", error.what());
     if (field == "half_angle") tip.refuse("half_angle_deg", error.what());
     if (field == "tip_friction") tip.refuse("friction", error.what());
-    if (field == "tip_adhesion") top.refuse("species", error.what());
+    if (field == "tip_adhesion" || field == "island_radius") top.refuse("species", error.what());
     if (field == "radius") {
       top.refuse("species",
                  std::string(error.what()) + ": radii must be at least half the tip's and half the largest particle's");
@@ -225,9 +253,9 @@ bool has_movable(const ParticleSet& set, bool rods) {
 void read_targets(const TomlTable& top, ParticleSet& set) {
   const auto movable = static_cast<std::size_t>(
       std::count_if(set.particles.begin(), set.particles.end(), [](const auto& p) { return !p.pinned; }));
-  Length smallest = set.setup.species.front().contact.tip_radius;
+  Length smallest = physics::outer_radius(set.setup.species.front());
   for (const physics::ParticleSpecies& species : set.setup.species) {
-    smallest = std::min(smallest, species.contact.tip_radius);
+    smallest = std::min(smallest, physics::outer_radius(species));
   }
   const Length touching = physics::touching_distance(smallest, smallest);
   const ParticleField field = field_of(set);

@@ -51,6 +51,7 @@ SharedParticles shared_particles(const ParticleSet& set) {
                                                .sticks = static_cast<std::uint16_t>(species.sticks ? 1 : 0),
                                                .scatter_seed = species.scatter_seed};
     shared.length_m.at(shared.species_count) = species.length.si;
+    shared.island_radius_m.at(shared.species_count) = species.island_radius.si;
     ++shared.species_count;
   }
   const physics::Sideways<Length> middle = field_of(set).middle();
@@ -99,7 +100,7 @@ Length median_radius(const ParticleSet& set) {
   std::vector<Length> radii;
   radii.reserve(set.particles.size());
   for (const physics::PlacedParticle& p : set.particles) {
-    radii.push_back(set.setup.species[p.species].contact.tip_radius);
+    radii.push_back(physics::outer_radius(set.setup.species[p.species]));
   }
   const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
   std::nth_element(radii.begin(), middle, radii.end());

@@ -38,7 +38,8 @@ physics::ParticleSpecies species_of(const SharedSpecies& shared) {
           .tip_adhesion = physics::SurfaceEnergy(shared.tip_adhesion_j_per_m2),
           .length = {},
           .sticks = shared.sticks != 0,
-          .scatter_seed = shared.scatter_seed};
+          .scatter_seed = shared.scatter_seed,
+          .island_radius = {}};
 }
 
 bool is_there(const SharedPad& pad) { return pad.work_of_adhesion_j_per_m2 != 0.0; }
@@ -71,8 +72,10 @@ physics::PushSetup push_setup(const SharedParticles& particles) {
   setup.tip_friction = pusher.tip_friction;
   const auto end = particles.species.begin() + std::min(particles.species_count, kMaxSpecies);
   std::transform(particles.species.begin(), end, std::back_inserter(setup.species), species_of);
-  for (std::size_t i = 0; i < setup.species.size(); ++i)
+  for (std::size_t i = 0; i < setup.species.size(); ++i) {
     setup.species[i].length = physics::Length(particles.length_m[i]);
+    setup.species[i].island_radius = physics::Length(particles.island_radius_m[i]);
+  }
   for (const SharedPad& pad : particles.pads) {
     if (is_there(pad)) setup.pads.push_back(pad_of(pad));
   }
@@ -94,6 +97,11 @@ std::vector<physics::PlacedParticle> start_places(const SharedParticles& particl
 bool has_rods(const SharedParticles& particles) {
   return std::any_of(particles.length_m.begin(), particles.length_m.end(),
                      [](double length_m) { return length_m != 0.0; });
+}
+
+bool has_islands(const SharedParticles& particles) {
+  return std::any_of(particles.island_radius_m.begin(), particles.island_radius_m.end(),
+                     [](double radius_m) { return radius_m != 0.0; });
 }
 
 bool has_hold(const SharedParticles& particles) {

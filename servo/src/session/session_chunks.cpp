@@ -50,9 +50,16 @@ std::string pads_of(const scene::SharedParticles& set) {
   return bytes;
 }
 
+std::string islands_of(const scene::SharedParticles& set) {
+  std::string bytes;
+  put_all(bytes, std::span(set.island_radius_m).first(set.species_count));
+  return bytes;
+}
+
 std::uint32_t version_of(const RecordedSession& session) {
   if (scene::taps(session.parameters)) return kVersionWithSwing;
   if (!session.particles) return kSessionVersion;
+  if (scene::has_islands(session.particles->set)) return kVersionWithIslands;
   if (lifts(session.particles->set)) return kVersionWithLift;
   if (session.has_plans) return kVersionWithPlans;
   if (scene::has_hold(session.particles->set)) return kVersionWithHold;
@@ -99,12 +106,22 @@ bool read_pads(std::string_view payload, RecordedParticles& particles) {
   return scene::has_pads(set);
 }
 
+bool read_islands(std::string_view payload, RecordedParticles& particles) {
+  std::vector<double> radii_m;
+  scene::SharedParticles& set = particles.set;
+  if (!take_all(payload, radii_m) || !payload.empty() || radii_m.size() != set.species_count) return false;
+  std::copy(radii_m.begin(), radii_m.end(), set.island_radius_m.begin());
+  return scene::has_islands(set);
+}
+
 bool lifts(const scene::SharedParticles& set) { return scene::has_pads(set) || scene::has_lift(set); }
 
 std::size_t sample_bytes_of(const RecordedSession& session) {
   if (scene::taps(session.parameters)) return kSampleBytesWithoutPlan;
   if (!session.particles) return kSampleBytesWithoutPush;
-  return session.has_plans || lifts(session.particles->set) ? sizeof(scene::TipSample) : kSampleBytesWithoutSwing;
+  const scene::SharedParticles& set = session.particles->set;
+  const bool whole = session.has_plans || lifts(set) || scene::has_islands(set);
+  return whole ? sizeof(scene::TipSample) : kSampleBytesWithoutSwing;
 }
 
 void SessionEncoder::head(const RecordedSession& session) {
@@ -127,6 +144,9 @@ void SessionEncoder::head(const RecordedSession& session) {
   if (session.particles) chunk(kParticlesChunk, bytes_of(*session.particles));
   if (session.particles && scene::has_rods(session.particles->set)) chunk(kRodsChunk, rods_of(session.particles->set));
   if (session.particles && scene::has_pads(session.particles->set)) chunk(kPadsChunk, pads_of(session.particles->set));
+  if (session.particles && scene::has_islands(session.particles->set)) {
+    chunk(kIslandsChunk, islands_of(session.particles->set));
+  }
 }
 
 void SessionEncoder::part(const RecordedSession& session) {

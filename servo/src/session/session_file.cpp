@@ -106,6 +106,7 @@ std::string read_part(std::string_view payload, RecordedSession& session, nlohma
 
 // True if a file of this version has such particles.
 bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
+  if (scene::has_islands(set) != (version == kVersionWithIslands)) return false;
   if (lifts(set) != (version == kVersionWithLift)) return false;
   if (version >= kVersionWithPlans) return true;
   if (scene::has_hold(set) != (version == kVersionWithHold)) return false;
@@ -119,7 +120,7 @@ std::size_t sample_bytes_in(std::uint32_t version) {
   return version == kSessionVersion ? kSampleBytesWithoutPush : kSampleBytesWithoutSwing;
 }
 
-// Reads version 6 to 12; returns an error message, or nothing.
+// Reads version 6 to 13; returns an error message, or nothing.
 std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
   const bool with_particles = version != kSessionVersion && version != kVersionWithSwing;
   SessionDecoder decoder(file);
@@ -149,6 +150,8 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
       if (!session.particles || !read_rods(payload, *session.particles)) return "its rods are damaged";
     } else if (version == kVersionWithLift && decoder.name() == kPadsChunk) {
       if (!session.particles || !read_pads(payload, *session.particles)) return "its pads are damaged";
+    } else if (version == kVersionWithIslands && decoder.name() == kIslandsChunk) {
+      if (!session.particles || !read_islands(payload, *session.particles)) return "its islands are damaged";
     } else if (decoder.name() == kPartChunk) {
       if (with_particles != session.particles.has_value()) return "its parts are out of order";
       if (with_particles && !is_of(version, session.particles->set)) return "its parts are out of order";
@@ -182,11 +185,12 @@ bool can_be_a_name(const std::string& name) {
   return !name.empty() && name.size() < scene::kNameLength && core::printable_line(name) == name;
 }
 
-// The poses of rods, and of nothing else, turn about the vertical alone.
+// The poses of rods and islands, and of nothing else, turn about the vertical alone.
 bool can_be(const RecordedParticles& particles) {
   for (std::uint32_t i = 0; i < particles.set.count; ++i) {
     const scene::ParticlePose& pose = particles.pages[scene::page_of(i)].poses[i % scene::kPosesPerPage];
-    const bool rod = particles.set.length_m[particles.set.particles[i].species] > 0.0;
+    const std::uint32_t species = particles.set.particles[i].species;
+    const bool rod = particles.set.length_m[species] > 0.0 || particles.set.island_radius_m[species] > 0.0;
     const auto& [w, x, y, z] = pose.orientation;
     if ((pose.rod != 0) != rod) return false;
     if (rod && (x != 0.0 || y != 0.0 || !(std::abs(w * w + z * z - 1.0) < kUnitTurnWithin))) return false;
@@ -198,7 +202,7 @@ bool can_be(const RecordedParticles& particles) {
 std::string what_cannot_be(const RecordedSession& session) {
   const std::unique_ptr<scene::SharedModel> model = model_of(session);
   if (const auto valid = scene::validate(*model); !valid) return valid.error().message;
-  if (session.particles && !can_be(*session.particles)) return "the poses of its rods are impossible";
+  if (session.particles && !can_be(*session.particles)) return "the poses of its rods or islands are impossible";
   if (!scene::is_valid(session.topography, session.topography.size())) return "its topography is not a grid of heights";
   if (!scene::is_valid(session.device)) return "the limits of its device are impossible";
   if (!(session.rate_hz > 0 && std::isfinite(session.hand_m_per_m) && std::isfinite(session.hand_n_per_n))) {
@@ -292,8 +296,9 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  constexpr std::array kVersions{kVersionOf010,    kSessionVersion,   kVersionWithParticles, kVersionWithRods,
-                                 kVersionWithHold, kVersionWithSwing, kVersionWithPlans,     kVersionWithLift};
+  constexpr std::array kVersions{kVersionOf010,     kSessionVersion,  kVersionWithParticles,
+                                 kVersionWithRods,  kVersionWithHold, kVersionWithSwing,
+                                 kVersionWithPlans, kVersionWithLift, kVersionWithIslands};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

@@ -8,10 +8,14 @@
 
 #include "physics/adhesion_map.h"
 #include "physics/elasticity.h"
+#include "physics/imaging/height_grid.h"
+#include "physics/imaging/morphology.h"
 #include "physics/jkr.h"
+#include "physics/law.h"
 #include "physics/manipulation/particle_friction.h"
 #include "physics/manipulation/push_figures.h"
 #include "physics/manipulation/tip_contact.h"
+#include "physics/meniscus.h"
 #include "pushing.h"
 
 namespace afm::physics {
@@ -84,6 +88,30 @@ TEST(PushCases, N13TheCrestOfTheFlank) {
   const Length crest = crest_height(flank_tip(10_nm), 25_nm);
   expect_relative(crest.si, 2.405866658e-08, 1e-9);
   expect_relative(side_contact(flank_tip(10_nm), 25_nm, crest).distance.si, 3.380740392e-08, 1e-9);
+}
+
+// In air the film of water pulls harder than the solid.
+TEST(PushCases, N08AFilmOfWaterBelowGold) {
+  const Meniscus water{.surface_tension = SurfaceEnergy(0.072)};
+  const double share = capillary_force(water, gold().contact.tip_radius) / pull_off_force(gold());
+  expect_relative(share, 1.92, kClosed);
+}
+
+// The paraboloid by which a felt surface is dilated is flatter than the cone of a real tip.
+TEST(PushCases, N14AParaboloidBesideASphere) {
+  const double step_m = 0.01e-9, radius_m = 25e-9;
+  HeightGrid surface{.columns = 12000, .rows = 1, .column_step_m = step_m, .height_m = {}};
+  for (std::size_t i = 0; i < surface.columns; ++i) {
+    const double x = static_cast<double>(i) * step_m - 60e-9, squares = radius_m * radius_m - x * x;
+    surface.height_m.push_back(squares > 0.0 ? radius_m + std::sqrt(squares) : -1e-6);
+  }
+  dilate_by_paraboloid(surface, 10_nm);
+  std::size_t i = surface.columns / 2;
+  while (surface.at(i, 0) > 0.0) ++i;
+  const double slope = (surface.at(i, 0) - surface.at(i - 1, 0)) / step_m;
+  const double at_m = static_cast<double>(i) * step_m - 60e-9 - surface.at(i, 0) / slope;
+  expect_relative(at_m, 4.940066923e-08, kClosed);
+  expect_relative(degrees(std::atan(-1.0 / slope)), 20.9932259, 1e-3);
 }
 
 TEST(PushCases, N15TheWidthOfAnImage) {

@@ -79,10 +79,21 @@ inline scene::SharedParticles particles_to_lift(const std::vector<PlaceM>& place
   return particles;
 }
 
+// Flat islands of 200 nm, 50 nm high, that give at 30 nN.
+inline scene::SharedParticles islands_at(const std::vector<PlaceM>& places) {
+  scene::SharedParticles particles = particles_at(places, constant_species(30e-9, 0.5));
+  particles.island_radius_m[0] = 100e-9;
+  particles.pusher.tip_friction = 0.3;
+  particles.pusher.lateral_spring_n_per_m = 50.0;
+  particles.pusher.normal_spring_n_per_m = 5.0;
+  return particles;
+}
+
 // Distance of tip and first particle at touch, the apex on the sample.
 inline double touch_m(const scene::SharedParticles& particles) {
   const physics::PushSetup setup = scene::push_setup(particles);
-  return physics::side_contact(setup.tip, setup.species.front().contact.tip_radius, physics::Length(0.0)).distance.si;
+  return physics::core_radius(setup.species.front()).si +
+         physics::side_contact(setup.tip, setup.species.front().contact.tip_radius, physics::Length(0.0)).distance.si;
 }
 
 inline void expect_relative(double actual, double expected, double tolerance) {

@@ -15,6 +15,10 @@ scene::Scene particle_sphere();
 // Rod of radius 1 along x around the origin, with round ends beyond its length and the front one coloured: node "rod".
 scene::Scene particle_rod(double length);
 
+// Flat island around the origin, 2 high, its rim a half circle of radius 1 beyond the radius `core`, with a dark sector
+// from its middle towards +x that shows how it is turned: node "island".
+scene::Scene particle_island(double core);
+
 // Flat pad of that size around the origin, on the sample: node "pad".
 scene::Scene particle_pad(double width, double height);
 

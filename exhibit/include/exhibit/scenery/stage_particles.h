@@ -54,7 +54,8 @@ class StageParticles {
   struct Particle {
     std::size_t species = 0;
     double radius_m = 0;
-    double half_m = 0;  // half length of a rod; 0: a sphere
+    double half_m = 0;   // half length of a rod; 0: none
+    double outer_m = 0;  // radius as seen from above
     std::array<double, 2> start_m{};
     glm::dvec4 start_turn{0.0, 0.0, 0.0, 1.0};  // unit quaternion, w last
     glm::vec3 color{1.0F};                      // linear
@@ -65,7 +66,7 @@ class StageParticles {
     glm::dvec2 middle_m{0.0};
   };
 
-  void add_rods_and_pads(const scene::ParticleSet& set, ModelBuilder& build, scene::NodeIndex sample);
+  void add_flat_and_pads(const scene::ParticleSet& set, ModelBuilder& build, scene::NodeIndex sample);
   void add_targets(double layout_per_m, render::FrameState& frame) const;
   glm::dvec2 touched_m(const Particle& particle, const scene::ParticlePose& pose, const ParticlesNow& now) const;
   double height_m(std::size_t particle, const scene::ParticlePose& pose, const ParticlesNow& now) const;
@@ -77,7 +78,7 @@ class StageParticles {
   double tip_radius_m_ = 0;
   std::vector<glm::dvec2> target_places_m_;
   double target_size_m_ = 0;
-  std::vector<std::optional<scene::NodeIndex>> rods_;  // node of each species of rods
+  std::vector<std::optional<scene::NodeIndex>> flat_;  // node of each species of rods or islands
   std::vector<DrawnPad> pads_;
   scene::NodeIndex spheres_ = 0, targets_ = 0, footprints_ = 0, dots_ = 0, ring_ = 0, tip_ = 0;
   scene::NodeIndex plan_line_ = 0, plan_ends_ = 0;

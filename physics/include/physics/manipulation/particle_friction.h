@@ -15,10 +15,10 @@
 // "Particles"). The contact of sphere and sample is that of JKR. Any thread; nothing allocates unless it throws.
 namespace afm::physics {
 
-// One kind of sphere or rod on one sample. A parameter that the law does not use may be zero; a rod needs no modulus
-// and no work of adhesion, and its law is ParticleLaw::Measured.
+// One kind of sphere, rod or flat island on one sample. A parameter that the law does not use may be zero; rods and
+// islands need no modulus and no work of adhesion, and their law is ParticleLaw::Measured.
 struct ParticleSpecies {
-  AdhesiveContact contact;  // its tip_radius is that of the sphere or rod, R_p
+  AdhesiveContact contact;  // its tip_radius is that of the sphere, of the rod or of the island's rim, R_p
   ParticleLaw law = ParticleLaw::ContactArea;
   Pressure shear_strength;         // tau
   double coefficient = 0.0;        // mu
@@ -30,9 +30,24 @@ struct ParticleSpecies {
   Length length;                   // length of a rod's axis, which rests on the sample; 0: a sphere
   bool sticks = false;             // the tip holds a sphere that it has touched (tip_hold.h); needs tip_adhesion
   std::uint16_t scatter_seed = 0;  // seed of the scatter of pull-offs; 0: none
+  Length island_radius;            // R of a flat island, which is twice R_p high and has a round rim; 0: none
 };
 
 inline bool is_rod(const ParticleSpecies& species) noexcept { return species.length.si > 0.0; }
+inline bool is_island(const ParticleSpecies& species) noexcept { return species.island_radius.si > 0.0; }
+
+// A rod or an island: pushed off centre it turns about the vertical, and it never rolls.
+inline bool turns_flat(const ParticleSpecies& species) noexcept { return is_rod(species) || is_island(species); }
+
+// Radius as seen from above: of a sphere, across a rod, of an island.
+inline Length outer_radius(const ParticleSpecies& species) noexcept {
+  return is_island(species) ? species.island_radius : species.contact.tip_radius;
+}
+
+// Radius of an island without its rim; 0 of all else.
+inline Length core_radius(const ParticleSpecies& species) noexcept {
+  return is_island(species) ? species.island_radius - species.contact.tip_radius : Length(0.0);
+}
 
 // Throws UnphysicalValue with the name of the member unless every value is within its range, and the law has the
 // parameters that it needs.

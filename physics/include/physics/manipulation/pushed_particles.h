@@ -15,7 +15,7 @@
 #include "physics/manipulation/tip_contact.h"
 #include "physics/units.h"
 
-// Spheres and rods on a flat sample, pushed by the tip of a lever: quasi-static, without mass or velocity
+// Spheres, rods and flat islands on a flat sample, pushed by the tip of a lever: quasi-static, without mass or velocity
 // (docs/physics.md, "Particles" and "Rods"; docs/decisions/0019, 0022).
 namespace afm::physics {
 
@@ -51,7 +51,7 @@ struct PlacedParticle {
   std::size_t species = 0;
   Sideways<Length> position;  // centre
   bool pinned = false;        // never moves
-  double angle_rad = 0.0;     // angle of a rod's axis from x
+  double angle_rad = 0.0;     // angle of a rod's axis, or of an island's mark, from x
 };
 
 // Place of a particle. A sphere ignores the turn.
@@ -64,8 +64,9 @@ struct ParticlePlace {
 
 // Throws UnphysicalValue with the field tip_radius, half_angle, lateral_spring, normal_spring, contact_stiffness,
 // tip_friction, radius, or a member of ParticleSpecies. Radii must be at least half the tip's, and within a factor of
-// two of one another: the tick counts on few neighbours. The contact of a sphere that sticks to the tip may stretch by
-// no more than an eighth of its radius. At most kMostStickyPads pads, finite and not empty.
+// two of one another: the tick counts on few neighbours. Islands lie among islands alone, without pads. The contact of
+// a sphere that sticks to the tip may stretch by no more than an eighth of its radius. At most kMostStickyPads pads,
+// finite and not empty.
 void validate(const PushSetup& setup);
 
 // Throws std::invalid_argument for more than kMostParticles, for an unknown species and for two that overlap, and as
@@ -157,7 +158,7 @@ class PushedParticles {
   std::size_t size() const noexcept;
   Sideways<Length> position(std::size_t particle) const noexcept;
   HalfTurn turn(std::size_t particle) const noexcept;  // constant for a sphere
-  // Point of a rod's axis that is nearest to a place; the centre of a sphere.
+  // Point of a rod's axis, or of the flat part of an island, that is nearest to a place; the centre of a sphere.
   Sideways<Length> nearest(std::size_t particle, const Sideways<Length>& to) const noexcept;
   std::size_t species(std::size_t particle) const noexcept;
 

@@ -69,7 +69,8 @@ std::vector<physics::ParticlePlace> shared_targets(const ParticleSet& set);
 std::vector<Pad> shared_pads(const ParticleSet& set);
 std::vector<physics::StickyPad> shared_sticky_pads(const ParticleSet& set);
 
-// Median radius of the particles. A pattern is done when they are no farther from it (physics::PatternMatch).
+// Median radius of the particles, as seen from above. A pattern is done when they are no farther from it
+// (physics::PatternMatch).
 physics::Length median_radius(const ParticleSet& set);
 
 // The set of a recording, a valid one: that of the assets with the same particles, if there is one; otherwise without

@@ -12,8 +12,8 @@
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/name.h"
 
-// Blocks of the spheres and rods that a tip pushes over the sample (docs/physics.md, "Particles"). Places are in the
-// sample's frame, in metres of the nanoworld; the particles rest on its plane z = 0.
+// Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/physics.md, "Particles"). Places
+// are in the sample's frame, in metres of the nanoworld; the particles rest on its plane z = 0.
 namespace afm::physics {
 struct HalfTurn;
 struct PlacedParticle;
@@ -154,12 +154,16 @@ struct SharedParticles {
   std::array<double, kMaxParticles> angle_rad{};  // angle of a rod's axis from x
   // sessions keep them apart, too
   std::array<SharedPad, physics::kMostStickyPads> pads{};
+  std::array<double, kMaxSpecies> island_radius_m{};  // R of a species of flat islands; 0: none
 
   bool operator==(const SharedParticles&) const = default;
 };
 
 // True if a species is one of rods.
 bool has_rods(const SharedParticles& particles);
+
+// True if a species is one of flat islands; all others are, too.
+bool has_islands(const SharedParticles& particles);
 
 // True if spheres of a species stick to the tip.
 bool has_hold(const SharedParticles& particles);
@@ -207,7 +211,7 @@ struct ParticlePose {
   double y_m = 0;
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: sample's frame from particle
   physics::PushState moved = physics::PushState::Free;    // latest motion; Free: none yet; Carried: off the sample
-  std::uint32_t rod = 0;                                  // 1: along x of its frame, turns only about the vertical
+  std::uint32_t rod = 0;  // 1: a rod along x of its frame, or an island: turns only about the vertical
 
   bool operator==(const ParticlePose&) const = default;
 };
@@ -230,9 +234,9 @@ struct ParticlePage {
   bool operator==(const ParticlePage&) const = default;
 };
 
-// Direction of a rod, as the physics has it, and back; of a sphere that of the x axis.
+// Direction of a rod or of an island's mark, as the physics has it, and back; of a sphere that of the x axis.
 physics::HalfTurn turn_of(const ParticlePose& pose) noexcept;
-void set_turn(ParticlePose& pose, const physics::HalfTurn& turn) noexcept;  // makes it the pose of a rod
+void set_turn(ParticlePose& pose, const physics::HalfTurn& turn) noexcept;  // makes it the pose of a rod or an island
 
 // Mark of a particle at its place; the digest of a set is the sum of the marks of all its particles, modulo 2^64, so
 // that a change of one place changes one mark. Bit for bit: -0.0 differs from 0.0. The direction of a rod counts, the
