@@ -69,10 +69,10 @@ std::string sizes(const curves::FitOptions& options) {
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); }
 
 // Name of the curve, place at which it was recorded, and its figures without a fit.
-std::string features(std::size_t index, const FittedCurve& fitted) {
+std::string features(std::size_t index, const curves::FittedCurve& fitted) {
   const auto& position = fitted.position;
   const auto& pixel = fitted.pixel;
-  const CurveFigures& figures = fitted.figures;
+  const curves::CurveFigures& figures = fitted.figures;
   return fmt::format(
       "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", index, cell(position ? std::optional(position->x_m) : std::nullopt),
       cell(position ? std::optional(position->y_m) : std::nullopt), pixel ? fmt::format("{}", pixel->column) : "",
@@ -95,7 +95,7 @@ std::string adhesion_cells(const fits::ElasticFit& fit) {
                      given(adheres && erred, shares.work * adhesion.work_j_per_m2));
 }
 
-std::string row_of(const std::string& file, std::size_t index, const FittedCurve& fitted,
+std::string row_of(const std::string& file, std::size_t index, const curves::FittedCurve& fitted,
                    const curves::FitOptions& options) {
   const std::string name = core::printable_line(file);
   if (!fitted.fit) {
@@ -132,7 +132,7 @@ core::Result<core::FileDescriptor> new_table(const std::string& folder, const st
 
 class Summary {
  public:
-  void add(const FittedCurve& fitted) {
+  void add(const curves::FittedCurve& fitted) {
     ++done_;
     if (!fitted.fit) return void(++unread_);
     const auto trust = static_cast<std::size_t>(fitted.fit->trust);

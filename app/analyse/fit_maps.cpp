@@ -69,7 +69,7 @@ bool has_value(const physics::ImageChannel& channel) {
 
 }  // namespace
 
-void FitMaps::add(const FittedCurve& curve) {
+void FitMaps::add(const curves::FittedCurve& curve) {
   if (!curve.pixel) {
     if (curve.position) ++outside_;
     return;

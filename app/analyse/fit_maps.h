@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/analyse/fit_pool.h"
 #include "core/result.h"
+#include "curves/fitting/fitted_curve.h"
 #include "curves/recorded_curve.h"
 
 namespace afm::app {
@@ -26,7 +26,7 @@ class FitMaps {
 
   // A curve without a pixel is left out. The first one's grid is that of the maps; of two curves at one pixel the later
   // counts. write() logs how many are not on the maps.
-  void add(const FittedCurve& curve);
+  void add(const curves::FittedCurve& curve);
 
   // Writes FOLDER/NAME.gwy with those that have a value, and a picture of each, NAME-modulus.png and so on, NAME being
   // the file's without its ending. Colours go from the 1st to the 99th percentile; in maps of the fit, pixels that are

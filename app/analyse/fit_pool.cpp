@@ -5,58 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <utility>
 
 #include "core/interruption.h"
-#include "curves/curve_report.h"
 
 namespace afm::app {
-
-namespace {
-
-CurveFigures figures_of(const physics::CurveFeatures& features) {
-  CurveFigures figures;
-  if (features.adhesion) figures.adhesion_n = std::abs(features.adhesion->force.si);
-  if (features.snap_in) figures.snap_in_n = std::abs(features.snap_in->force_after.si);
-  if (features.contact_slope) figures.contact_slope_n_per_m = features.contact_slope->si;
-  figures.loop_energy_j = features.loop_energy.si;
-  figures.adhesion_energy_j = features.adhesion_energy.si;
-  return figures;
-}
-
-FittedCurve fitted(const std::string& file, core::Result<curves::RecordedCurve> curve, const AnalyseOptions& options) {
-  FittedCurve result;
-  try {
-    if (!curve) {
-      result.why = curve.error().message;
-      return result;
-    }
-    result.position = curve->metadata.position;
-    result.pixel = curve->metadata.pixel;
-    const auto analysed = curves::analysed(file, std::move(*curve), options.contact_method, options.baseline);
-    if (!analysed) {
-      result.why = analysed.error().message;
-      return result;
-    }
-    result.figures = figures_of(analysed->features);
-    auto fit = fit_of(*analysed, options.fit);
-    if (!fit) {
-      result.why = fit.error().message;
-      return result;
-    }
-    result.fit = std::move(*fit);
-    result.fit->model_n = std::vector<double>();  // frees its memory
-    result.spring_n_per_m = analysed->curve.metadata.spring_constant->si;
-  } catch (const std::exception& error) {  // a curve too large for this machine's memory
-    result.fit.reset();
-    result.why = fmt::format("cannot fit {}: {}", file, error.what());
-  }
-  return result;
-}
-
-}  // namespace
 
 FitPool::FitPool(const std::vector<std::string>& files, const AnalyseOptions& options, unsigned threads)
     : files_(files), options_(options), threads_(std::max(1U, threads)), results_(files.size()) {
@@ -74,7 +28,7 @@ std::optional<std::size_t> FitPool::count(std::size_t file) {
   return wait([&] { return results_[file].count.has_value(); }) ? results_[file].count : std::nullopt;
 }
 
-std::optional<FittedCurve> FitPool::take(std::size_t file, std::size_t curve) {
+std::optional<curves::FittedCurve> FitPool::take(std::size_t file, std::size_t curve) {
   if (!wait([&] { return results_[file].curves[curve].has_value(); })) return std::nullopt;
   const std::lock_guard lock(mutex_);
   return std::exchange(results_[file].curves[curve], std::nullopt);
@@ -82,7 +36,7 @@ std::optional<FittedCurve> FitPool::take(std::size_t file, std::size_t curve) {
 
 void FitPool::forget(std::size_t file) {
   const std::lock_guard lock(mutex_);
-  results_[file].curves = std::vector<std::optional<FittedCurve>>();
+  results_[file].curves = std::vector<std::optional<curves::FittedCurve>>();
 }
 
 template <class Ready>
@@ -149,14 +103,15 @@ void FitPool::begin(std::size_t file) {
 void FitPool::fit_share(const std::stop_token& stop, const Share& share) {
   const std::string& file = files_[share.file];
   const std::size_t count = *results_[share.file].count;
-  curves::read_curves(file, count, share.part, options_.reading,
-                      [&](std::size_t index, core::Result<curves::RecordedCurve> curve) {
-                        put(share.file, index, fitted(file, std::move(curve), options_));
-                        return !stop.stop_requested();
-                      });
+  curves::read_curves(
+      file, count, share.part, options_.reading, [&](std::size_t index, core::Result<curves::RecordedCurve> curve) {
+        put(share.file, index,
+            curves::fitted_curve(file, std::move(curve), options_.fit, options_.contact_method, options_.baseline));
+        return !stop.stop_requested();
+      });
 }
 
-void FitPool::put(std::size_t file, std::size_t curve, FittedCurve result) {
+void FitPool::put(std::size_t file, std::size_t curve, curves::FittedCurve result) {
   const std::lock_guard lock(mutex_);
   results_[file].curves[curve] = std::move(result);
   changed_.notify_all();

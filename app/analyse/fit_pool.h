@@ -13,29 +13,9 @@
 
 #include "app/analyse/analyse_command.h"
 #include "curves/curve_series.h"
-#include "curves/recorded_curve.h"
-#include "fits/elastic_fit.h"
+#include "curves/fitting/fitted_curve.h"
 
 namespace afm::app {
-
-// Figures of a curve without a fit (physics/curve_analysis.h); empty: not found. Pulls are magnitudes.
-struct CurveFigures {
-  std::optional<double> adhesion_n;
-  std::optional<double> snap_in_n;
-  std::optional<double> contact_slope_n_per_m;
-  std::optional<double> loop_energy_j;
-  std::optional<double> adhesion_energy_j;
-};
-
-// Result for one curve: a fit with its spring constant, or the reason why there is none.
-struct FittedCurve {
-  std::optional<fits::ElasticFit> fit;  // without its model
-  double spring_n_per_m = 0;
-  std::string why;
-  CurveFigures figures;
-  std::optional<curves::CurvePosition> position;
-  std::optional<curves::MapPixel> pixel;
-};
 
 // Fits the curves of files on several threads, which share a file with several curves, and hands the results out in
 // order. What was not taken is kept: some hundred bytes a curve. One thread calls it.
@@ -51,7 +31,7 @@ class FitPool {
   std::optional<std::size_t> count(std::size_t file);
 
   // Waits for the result of one curve, which can be taken once. Empty after an interruption.
-  std::optional<FittedCurve> take(std::size_t file, std::size_t curve);
+  std::optional<curves::FittedCurve> take(std::size_t file, std::size_t curve);
 
   // Frees what is left of a file's results.
   void forget(std::size_t file);
@@ -64,13 +44,13 @@ class FitPool {
   };
   struct Results {
     std::optional<std::size_t> count;
-    std::vector<std::optional<FittedCurve>> curves;
+    std::vector<std::optional<curves::FittedCurve>> curves;
   };
 
   void work(const std::stop_token& stop);
   void begin(std::size_t file);
   void fit_share(const std::stop_token& stop, const Share& share);
-  void put(std::size_t file, std::size_t curve, FittedCurve result);
+  void put(std::size_t file, std::size_t curve, curves::FittedCurve result);
   template <class Ready>
   bool wait(const Ready& ready);
 

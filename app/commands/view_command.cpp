@@ -254,6 +254,17 @@ bool taps_alone(const ViewOptions& options) {
          options.friction == physics::FrictionLaw::None;
 }
 
+// With a force map, --spring-constant is that of the lever that recorded it.
+core::Result<void> take_spring_constant(const ViewOptions& options, curves::TappedHand& tapping,
+                                        exhibit::ExhibitFiles& files) {
+  if (files.force_map.empty() || tapping.choice.mode != "contact") return {};
+  const std::string text = std::exchange(tapping.values["spring-constant"], {});
+  if (text.empty()) return {};
+  if (options.cluster.wanted)
+    return core::wrong_usage("--spring-constant of a force map does not reach the machines of --cluster; remove one");
+  return set_map_spring_constant(text, files);
+}
+
 core::Result<void> check_lesson(const ViewLesson* lesson, const std::vector<curves::SampleModel>& materials) {
   return lesson == nullptr ? core::Result<void>() : exhibit::check_samples(lesson->lesson, materials);
 }
@@ -263,15 +274,17 @@ core::Result<void> check_lesson(const ViewLesson* lesson, const std::vector<curv
 core::Result<void> run_view(const ViewOptions& options, const std::string& program, const ViewLesson* lesson) {
   const core::CodeOfInterruption released(core::ExitCode::Done);
   const core::MonotonicClock clock;
-  if (auto checked = check_tapped_view(options.tapping, taps_alone(options)); !checked) return checked;
+  curves::TappedHand tapping = options.tapping;
+  exhibit::ExhibitFiles files = options.files;
+  if (auto taken = take_spring_constant(options, tapping, files); !taken) return taken;
+  if (auto checked = check_tapped_view(tapping, taps_alone(options)); !checked) return checked;
   // before the rest, so that nothing else is loaded if there is no headset
   const auto runtime = headset_of(options);
   if (!runtime) return tl::unexpected(runtime.error());
-  exhibit::ExhibitFiles files = options.files;
   if (!options.headset) files.aspect = expected_aspect(options.display);
   auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
-  const auto samples = exhibit::felt_samples(*stage, options.friction, &options.tapping);
+  const auto samples = exhibit::felt_samples(*stage, options.friction, &tapping);
   if (!samples) return tl::unexpected(samples.error());
   const std::vector<curves::SampleModel>& materials = *samples;
   if (auto checked = check_lesson(lesson, materials); !checked) return checked;
@@ -348,7 +361,7 @@ void add_view_command(OptionList& program, const CommandContext& context) {
   add_stage_options(command, options->files, context);
   add_own_model_options(command, options->files);
   add_particles_option(command, options->files);
-  add_force_map_options(command, options->files);
+  std::vector<NamedOption> of_map = add_force_map_options(command, options->files);
   command
       .add_option("--material", options->files.shown,
                   "material to show; repeatable, up to nine; default: the paper's mica, gold and silicon nitride")
@@ -360,7 +373,9 @@ void add_view_command(OptionList& program, const CommandContext& context) {
                        "show the picture in a headset through OpenXR, at true scale; its controller is a wand, and the "
                        "window mirrors the left eye");
   add_exhibition_options(command, *options);
-  headset.excludes(add_cluster_options(command, options->cluster));
+  const Option cluster = add_cluster_options(command, options->cluster);
+  headset.excludes(cluster);
+  for (NamedOption& each : of_map) each.option.excludes(cluster);
   headset.excludes(add_gpu_option(command, options->display.picture.gpu));
   command.when_chosen([options, &context]() -> core::Result<void> {
     if (!options->kiosk) return run_view(*options, context.program_path);

@@ -46,6 +46,9 @@ constexpr std::array kRows{
         .outside_lessons(),
     LiveKey{Key::E, "E", Phrase::KeyFalseColours, [](KeyOwners& owners, std::size_t) { owners.scan->toggle_colours(); }}
         .outside_lessons(),
+    LiveKey{Key::F4, "F4", Phrase::KeyMapPicture,
+            [](KeyOwners& owners, std::size_t) { owners.parts.panels.next_map_picture(); }}
+        .outside_lessons(),
     LiveKey{Key::F, "F", Phrase::KeyFriction,
             [](KeyOwners& owners, std::size_t) { owners.parts.choice.toggle_friction_loop(); }}
         .outside_lessons(),

@@ -3,13 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/options/enum_option.h"
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
 #include "curves/curve_map.h"
+#include "curves/fitting/map_fit.h"
 #include "curves/image_file.h"
 
 namespace afm::app {
@@ -71,7 +75,7 @@ void add_particles_option(OptionList& command, exhibit::ExhibitFiles& files) {
       .type_name("FILE");
 }
 
-void add_force_map_options(OptionList& command, exhibit::ExhibitFiles& files) {
+std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::ExhibitFiles& files) {
   const Option map =
       command
           .add_option("--force-map", files.force_map,
@@ -94,6 +98,24 @@ void add_force_map_options(OptionList& command, exhibit::ExhibitFiles& files) {
           "analyse prints it; default: the middle")
       .needs(map)
       .type_name("COLUMN,ROW");
+  const auto reading = std::make_shared<curves::MapReading>();
+  files.map_reading = reading;
+  std::vector<NamedOption> own{add_sensitivity_option(command, reading->calibration)};
+  std::vector<NamedOption> of_fit = add_shape_options(
+      command, reading->fit,
+      "fit every curve of the force map, and show the modulus on the panel; F4 shows the heights and the adhesion:");
+  own.insert(own.end(), of_fit.begin(), of_fit.end());
+  for (NamedOption& each : own) each.option.needs(map);
+  return own;
+}
+
+core::Result<void> set_map_spring_constant(const std::string& text, exhibit::ExhibitFiles& files) {
+  const auto lever = parse_spring_constant(text);
+  if (!lever) return tl::unexpected(lever.error());
+  auto reading = std::make_shared<curves::MapReading>(files.map_reading ? *files.map_reading : curves::MapReading{});
+  reading->calibration.spring_constant = *lever;
+  files.map_reading = std::move(reading);
+  return {};
 }
 
 void add_scale_option(OptionList& command, std::optional<scene::ScaleMode>& mode) {

@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/options/command.h"
+#include "app/options/curve_fit_options.h"
 #include "exhibit/frame/exhibit_files.h"
 #include "exhibit/frame/wall_pictures.h"
 #include "physics/friction/friction.h"
@@ -25,8 +27,11 @@ void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files);
 // Adds --particles.
 void add_particles_option(OptionList& command, exhibit::ExhibitFiles& files);
 
-// Adds --force-map and --pixel.
-void add_force_map_options(OptionList& command, exhibit::ExhibitFiles& files);
+// Adds --force-map, --pixel, and the options for how its curves are read and fitted, which are returned.
+std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::ExhibitFiles& files);
+
+// The lever of the force map's curves instead of the file's. WrongUsage for a text that is no spring constant.
+core::Result<void> set_map_spring_constant(const std::string& text, exhibit::ExhibitFiles& files);
 
 // Adds --scale.
 void add_scale_option(OptionList& command, std::optional<scene::ScaleMode>& mode);

@@ -121,7 +121,10 @@ void add_tapped_view_options(OptionList& command, curves::TappedHand& hand) {
   for (const char* option : {"spring-constant", "resonance", "quality-factor"}) {
     command
         .add_option(fmt::format("--{}", option), hand.values[option],
-                    "tapping: " + curves::find_contact_parameter(option)->help)
+                    "tapping: " + curves::find_contact_parameter(option)->help +
+                        (option == std::string_view("spring-constant") ? "; with --force-map, that of the lever that "
+                                                                         "recorded it, instead of the file's"
+                                                                       : ""))
         .type_name("VALUE");
   }
 }

@@ -177,10 +177,21 @@ render::ControlPanel ViewPanels::control_panel(std::size_t material, const std::
 
 const render::MapPicture& ViewPanels::picture_of(const curves::MapCurve& pixel) {
   if (std::exchange(pictured_, pixel.map) != pixel.map) {
-    picture_ = exhibit::map_picture(*pixel.map, pixel.place, phrases());
+    quantity_ = exhibit::first_quantity(*pixel.map);
+    picture_ = exhibit::map_picture(*pixel.map, pixel.place, phrases(), quantity_);
   }
   picture_.marked = exhibit::target_index(pixel.place, *pixel.map);
   return picture_;
+}
+
+void ViewPanels::next_map_picture() {
+  if (!pictured_ || pictured_->fits().empty()) {
+    return core::log_line("force map: only a fitted one has more pictures; start with --force-map FILE --fit SHAPE");
+  }
+  quantity_ = exhibit::next_quantity(*pictured_, quantity_);
+  picture_ = exhibit::map_picture(*pictured_, pictured_->middle(), phrases(), quantity_);
+  core::log_line(fmt::format("force map: the picture shows the {}, {} to {}", exhibit::name_of(quantity_),
+                             picture_.lowest, picture_.highest));
 }
 
 void ViewPanels::mark_next(std::size_t material) {

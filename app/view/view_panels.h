@@ -24,6 +24,7 @@ struct MapCurve;
 }  // namespace afm::curves
 namespace afm::exhibit {
 enum class Centerpiece;
+enum class MapQuantity;
 class FrictionHistory;
 class LiveScan;
 struct Moment;
@@ -65,6 +66,9 @@ class ViewPanels {
   // under the tip.
   void mark_next(std::size_t material);
   void step_marked(int steps, std::size_t material, servo::ServoClient* servo);
+
+  // The next quantity of the force map in its picture; a line of the log says why not.
+  void next_map_picture();
 
   void toggle_all() { hidden_ = !hidden_; }
 
@@ -135,6 +139,7 @@ class ViewPanels {
   const exhibit::FrictionHistory* friction_ = nullptr;
   std::string drawn_by_;
   std::shared_ptr<const curves::CurveMap> pictured_;  // map of the picture; null: none yet
+  exhibit::MapQuantity quantity_{};                   // what it shows
   render::MapPicture picture_;
   std::size_t marked_ = 0;
   bool marking_ = false;  // a key has marked a row

@@ -26,13 +26,15 @@ constexpr unsigned kMostThreads = 8;
 struct Seen {
   std::optional<MapPixel> pixel;
   double lowest_m = std::numeric_limits<double>::quiet_NaN();
+  PixelFit fit;
 };
 
 // All curves of a file, read by several threads.
 class Survey {
  public:
-  Survey(const std::string& path, std::size_t count, const CurveMap::Progress& progress)
-      : path_(path), progress_(progress), seen_(count) {}
+  Survey(const std::string& path, std::size_t count, const CurveReading& calibration, const CurveMap::Fit& fit,
+         const CurveMap::Progress& progress)
+      : path_(path), calibration_(calibration), fit_(fit), progress_(progress), seen_(count) {}
 
   // Returns whether it was not ended.
   bool run() {
@@ -51,25 +53,29 @@ class Survey {
 
  private:
   void read(const SeriesPart& part) {
-    read_curves(path_, seen_.size(), part, {}, [&](std::size_t index, const core::Result<RecordedCurve>& curve) {
-      Seen now;
-      if (curve) {
-        now.pixel = curve->metadata.pixel;
-        const auto lower = [](const auto& a, const auto& b) { return a.z < b.z; };
-        now.lowest_m = std::min_element(curve->points.begin(), curve->points.end(), lower)->z.si;
-      }
-      const std::lock_guard lock(mutex_);
-      seen_[index] = now;
-      if (!curve && index < first_unread_) {
-        first_unread_ = index;
-        why_ = curve.error().message;
-      }
-      ended_ = ended_ || !progress_(++read_, seen_.size());
-      return !ended_;
-    });
+    read_curves(path_, seen_.size(), part, calibration_,
+                [&](std::size_t index, const core::Result<RecordedCurve>& curve) {
+                  Seen now;
+                  if (curve) {
+                    now.pixel = curve->metadata.pixel;
+                    const auto lower = [](const auto& a, const auto& b) { return a.z < b.z; };
+                    now.lowest_m = std::min_element(curve->points.begin(), curve->points.end(), lower)->z.si;
+                    if (fit_) now.fit = fit_(*curve);
+                  }
+                  const std::lock_guard lock(mutex_);
+                  seen_[index] = now;
+                  if (!curve && index < first_unread_) {
+                    first_unread_ = index;
+                    why_ = curve.error().message;
+                  }
+                  ended_ = ended_ || !progress_(++read_, seen_.size());
+                  return !ended_;
+                });
   }
 
   const std::string& path_;
+  const CurveReading& calibration_;
+  const CurveMap::Fit& fit_;
   const CurveMap::Progress& progress_;
   std::mutex mutex_;
   std::vector<Seen> seen_;
@@ -85,10 +91,11 @@ tl::unexpected<core::Error> no_map(const std::string& path, const std::string& w
 
 }  // namespace
 
-core::Result<CurveMap> CurveMap::load(const std::string& path, const Progress& progress) {
-  const auto count = curve_count(path);
+core::Result<CurveMap> CurveMap::load(const std::string& path, const Progress& progress,
+                                      const CurveReading& calibration, const Fit& fit) {
+  const auto count = curve_count(path, calibration);
   if (!count) return tl::unexpected(count.error());
-  Survey survey(path, *count, progress);
+  Survey survey(path, *count, calibration, fit, progress);
   if (!survey.run()) return core::failure(core::ErrorCategory::Failed, fmt::format("{}: interrupted", path));
   const std::vector<Seen>& seen = survey.seen();
   if (std::all_of(seen.begin(), seen.end(), [](const Seen& each) { return std::isnan(each.lowest_m); })) {
@@ -100,6 +107,7 @@ core::Result<CurveMap> CurveMap::load(const std::string& path, const Progress& p
   if (first == seen.end()) return no_map(path, "its curves are not on a grid");
   CurveMap map;
   map.path_ = path;
+  map.calibration_ = calibration;
   map.grid_ = first->pixel->grid;
   if (!is_map_of(seen.size(), map.grid_)) {
     return no_map(path, fmt::format("it has {} curves on a grid of {} x {} pixels", seen.size(), map.grid_.columns,
@@ -107,11 +115,13 @@ core::Result<CurveMap> CurveMap::load(const std::string& path, const Progress& p
   }
   map.heights_m_.assign(map.grid_.columns * map.grid_.rows, std::numeric_limits<double>::quiet_NaN());
   map.indexes_.assign(map.heights_m_.size(), kNoCurve);
+  if (fit) map.fits_.resize(map.heights_m_.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (!seen[i].pixel || !(seen[i].pixel->grid == map.grid_)) continue;
     const std::size_t cell = map.cell_of({seen[i].pixel->column, seen[i].pixel->row});
     map.heights_m_[cell] = seen[i].lowest_m;
     map.indexes_[cell] = static_cast<std::uint32_t>(i);
+    if (fit) map.fits_[cell] = seen[i].fit;
   }
   return map;
 }
@@ -152,7 +162,7 @@ core::Result<MeasuredMaterial> CurveMap::material(const MapPlace& place, const s
   const auto at_pixel = [&](const core::Error& error) {
     return core::failure(error.category, fmt::format("pixel {}: {}", text_of(place), error.message));
   };
-  CurveReading reading;
+  CurveReading reading = calibration_;
   reading.index = indexes_[cell_of(place)];
   const auto recorded = load_curve(path_, reading);
   if (!recorded) return at_pixel(recorded.error());

@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "curves/curve_file.h"
+#include "curves/fitting/fitted_curve.h"
+#include "curves/fitting/map_fit.h"
 #include "curves/live_parameters.h"
 #include "scene/samples/material_library.h"
 #include "support/archives/sticky_map.h"
@@ -72,6 +74,48 @@ void expect_same(const scene::SharedMeasuredCurve& a, const scene::SharedMeasure
     EXPECT_EQ(a.retract[i].z.si, b.retract[i].z.si);
     EXPECT_EQ(a.retract[i].force.si, b.retract[i].force.si);
   }
+}
+
+TEST_F(ForceMap, IsReadWithTheCalibrationThatIsGiven) {
+  const std::string path = write(test::jpk_map(test::sticky_curve));
+  CurveReading calibration;
+  calibration.spring_constant = physics::Stiffness(1.1);  // twice that of the file
+  const auto own = CurveMap::load(path, kGoOn), given = CurveMap::load(path, kGoOn, calibration);
+  ASSERT_TRUE(own && given);
+  const auto before = own->material({1, 0}, mica()), after = given->material({1, 0}, mica());
+  ASSERT_TRUE(before && after);
+  EXPECT_DOUBLE_EQ(before->entry.contact.spring_constant.si, 0.55);
+  EXPECT_DOUBLE_EQ(after->entry.contact.spring_constant.si, 1.1);
+  ASSERT_TRUE(before->features.adhesion && after->features.adhesion);
+  EXPECT_NEAR(after->features.adhesion->force.si / before->features.adhesion->force.si, 2.0, 1e-6);
+}
+
+TEST_F(ForceMap, HasTheFitOfEachCurveAndWithoutAFitNone) {
+  FitOptions options;
+  options.shape = fits::Shape::Paraboloid;
+  options.radius_m = test::kHertzRadiusM;
+  ASSERT_TRUE(prepare(options));
+  auto entries = test::jpk_map([](std::size_t) { return test::hertz_curve(200); });
+  entries["index/2/segments/1/channels/vDeflection.dat"].pop_back();  // at the lower right
+  const std::string path = write(entries);
+  EXPECT_TRUE(CurveMap::load(path, kGoOn).value().fits().empty());
+  const auto map = CurveMap::load(path, kGoOn, {}, fit_of_each(path, options));
+  ASSERT_TRUE(map) << map.error().message;
+  ASSERT_EQ(map->fits().size(), 6U);
+  const PixelFit &hole = map->fits()[5], &fitted = map->fits()[3];
+  EXPECT_FALSE(map->has_curve({2, 0}));
+  EXPECT_FALSE(hole.usable());
+  EXPECT_TRUE(std::isnan(hole.modulus_pa));
+  EXPECT_THAT(fits_text(*map), HasSubstr("; 0 curves have none"));
+  ASSERT_TRUE(fitted.usable()) << fits_text(*map);
+  EXPECT_NEAR(fitted.modulus_pa, test::kHertzModulusPa, 0.02 * test::kHertzModulusPa);
+
+  CurveReading reading;
+  reading.index = 0;  // at the lower left
+  const FittedCurve alone = fitted_curve(path, load_curve(path, reading), options);
+  ASSERT_TRUE(alone.fit) << alone.why;
+  EXPECT_EQ(fitted.modulus_pa, alone.fit->modulus_pa);
+  EXPECT_EQ(fitted.trust, alone.fit->trust);
 }
 
 TEST_F(ForceMap, HasTheCurveOfEachPixelAsItIsReadAlone) {

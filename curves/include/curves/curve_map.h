@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,12 +12,24 @@
 #include <vector>
 
 #include "core/result.h"
+#include "curves/curve_file.h"
 #include "curves/map_place.h"
 #include "curves/measured_material.h"
 #include "curves/recorded_curve.h"
 #include "curves/sample_model.h"
+#include "fits/elastic_fit.h"
 
 namespace afm::curves {
+
+// Fit of one pixel's curve, with the adhesion found without it. Not a number: not known.
+struct PixelFit {
+  double modulus_pa = std::numeric_limits<double>::quiet_NaN();
+  double adhesion_n = std::numeric_limits<double>::quiet_NaN();  // hardest pull of the retract, a magnitude
+  std::optional<fits::Trust> trust;                              // empty: no fit
+
+  // The fit means something: its verdict is not "no".
+  bool usable() const { return trust && *trust != fits::Trust::No; }
+};
 
 // A map of force curves in a file: the places of its curves, and the heights of its sample. Its curves stay in the
 // file, which must not change. Const after loading; any thread but the servo's.
@@ -25,9 +38,15 @@ class CurveMap {
   // Gets the numbers of curves that were read and of all; returns whether to go on.
   using Progress = std::function<bool(std::size_t read, std::size_t count)>;
 
-  // Reads every curve once, on all processors; of two curves at one pixel the later counts. BadInputFile as
-  // curve_count(), for a file without a grid, and if no curve of it can be read; Failed if `progress` ends it.
-  static core::Result<CurveMap> load(const std::string& path, const Progress& progress);
+  // Fits one curve (curves/fitting/map_fit.h); called by several threads at a time.
+  using Fit = std::function<PixelFit(const RecordedCurve& curve)>;
+
+  // Reads every curve once, on all processors, and fits it with `fit`, if that is not empty; of two curves at one pixel
+  // the later counts. `calibration` counts for all curves, also for those that are read later; its index does not.
+  // BadInputFile as curve_count(), for a file without a grid, and if no curve of it can be read; Failed if `progress`
+  // ends it.
+  static core::Result<CurveMap> load(const std::string& path, const Progress& progress,
+                                     const CurveReading& calibration = {}, const Fit& fit = {});
 
   const std::string& path() const { return path_; }
   const MapGrid& grid() const { return grid_; }
@@ -37,6 +56,9 @@ class CurveMap {
 
   // Height of the lever's base where each curve was pressed hardest, metres, row by row from the top; NaN: no curve.
   const std::vector<double>& heights_m() const { return heights_m_; }
+
+  // The fits in the same order; empty: none was wanted. A pixel without a curve has no fit.
+  const std::vector<PixelFit>& fits() const { return fits_; }
 
   bool holds(const MapPlace& place) const { return place.column < grid_.columns && place.row < grid_.rows; }
   bool has_curve(const MapPlace& place) const { return holds(place) && indexes_[cell_of(place)] != kNoCurve; }
@@ -57,8 +79,10 @@ class CurveMap {
   }
 
   std::string path_;
+  CurveReading calibration_;
   MapGrid grid_;
   std::vector<double> heights_m_;
+  std::vector<PixelFit> fits_;
   std::vector<std::uint32_t> indexes_;  // numbers of the curves in the file, in the order of the heights
 };
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <glm/common.hpp>
@@ -13,15 +12,14 @@
 #include <utility>
 #include <vector>
 
-#include "core/interruption.h"
 #include "core/log.h"
 #include "curves/curve_map.h"
-#include "curves/measured_material.h"
 #include "curves/tapping/driven_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/wall_pictures.h"
 #include "exhibit/models/topography_model.h"
 #include "exhibit/models/user_models.h"
+#include "frame/force_map.h"
 #include "physics/quantity_text.h"
 #include "render/renderer.h"
 #include "scene/display/wall_doubts.h"
@@ -108,52 +106,6 @@ core::Result<std::shared_ptr<const scene::ParticleSet>> load_particles(const Exh
   return std::make_shared<const scene::ParticleSet>(std::move(*set));
 }
 
-// A line a second on what is read; ends after an interruption.
-curves::CurveMap::Progress progress_of(const std::string& file) {
-  return [file, told = std::chrono::steady_clock::now()](std::size_t read, std::size_t count) mutable {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - told >= std::chrono::seconds(1)) {
-      told = now;
-      core::log_line(fmt::format("force map {}: {} of {} curves, {} %", file, read, count, 100 * read / count));
-    }
-    return !core::interrupted();
-  };
-}
-
-// Null if no force map is wanted.
-core::Result<std::shared_ptr<const curves::SampleModel>> load_pixel(const ExhibitFiles& files) {
-  if (files.force_map.empty()) return nullptr;
-  if (!files.particles.empty())
-    return core::wrong_usage("--force-map: its law is no particle's: leave --particles out");
-  const auto library = scene::load_materials(files.assets_dir + "/materials.toml");
-  if (!library) return tl::unexpected(library.error());
-  auto read = curves::CurveMap::load(files.force_map, progress_of(files.force_map));
-  if (!read) return tl::unexpected(read.error());
-  const auto map = std::make_shared<const curves::CurveMap>(std::move(*read));
-  const curves::MapPlace place = files.pixel ? curves::MapPlace{(*files.pixel)[0], (*files.pixel)[1]} : map->middle();
-  auto model = curves::make_sample_model(map, place, library->materials.front());
-  if (!model && !files.pixel) {
-    return core::failure(model.error().category, model.error().message + "; choose another with --pixel");
-  }
-  if (!model) return tl::unexpected(model.error());
-  const std::size_t pixels = map->heights_m().size();
-  const std::string missing = map->pixels_with_curve() < pixels
-                                  ? fmt::format(", {} without a curve", pixels - map->pixels_with_curve())
-                                  : std::string();
-  core::log_line(
-      fmt::format("force map {}: {} x {} pixels{}; felt first: {}{}", files.force_map, map->grid().columns,
-                  map->grid().rows, missing, curves::text_of(model->pixel->place),
-                  model->pixel->measured.features.contact_doubtful ? ", whose contact point is doubtful" : ""));
-  return std::make_shared<const curves::SampleModel>(std::move(*model));
-}
-
-// Without a pixel in its title: it may change.
-scene::MaterialEntry entry_of(const curves::SampleModel& pixel) {
-  scene::MaterialEntry entry = pixel.setup.material;
-  entry.title = curves::title_of(pixel.pixel->map->path());
-  return entry;
-}
-
 // Fits the screen to the ratio at the same height. Nearly the same ratio keeps the screen unchanged.
 void take_aspect(double aspect, scene::Screen& screen) {
   constexpr double kSame = 0.01;
@@ -193,7 +145,7 @@ core::Result<LoadedPhrases> load_phrases(const ExhibitFiles& files) {
 core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
   auto phrases = load_phrases(files);
   if (!phrases) return tl::unexpected(phrases.error());
-  auto pixel = load_pixel(files);
+  auto pixel = load_force_map(files);
   if (!pixel) return tl::unexpected(pixel.error());
   ExhibitFiles with_pixel = files;
   if (*pixel) with_pixel.added.push_back(entry_of(**pixel));

@@ -2,11 +2,15 @@
 #include "exhibit/scan/map_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/enumerators.h"
+#include "curves/curve_map.h"
 #include "curves/live_parameters.h"
 #include "exhibit/models/height_colours.h"
 #include "physics/quantity_text.h"
@@ -21,14 +25,14 @@ constexpr std::size_t kMostCells = 128;  // largest side of the grid; a pixel of
 // Number of cells for so many pixels: whole multiples, or as many as are drawn.
 std::size_t cells_of(std::size_t pixels) { return pixels >= kMostCells ? kMostCells : pixels * (kMostCells / pixels); }
 
-// The range of the heights but the outermost percent at each end.
-Range inner_range(std::vector<double> heights_m) {
+// The range of the values but the outermost percent at each end.
+Range inner_range(std::vector<double> values) {
   constexpr double kCutShare = 0.01;
-  std::erase_if(heights_m, [](double height_m) { return !std::isfinite(height_m); });
-  if (heights_m.empty()) return {};
-  std::sort(heights_m.begin(), heights_m.end());
-  const auto cut = static_cast<std::size_t>(kCutShare * static_cast<double>(heights_m.size()));
-  return {heights_m[cut], heights_m[heights_m.size() - 1 - cut], false};
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const auto cut = static_cast<std::size_t>(kCutShare * static_cast<double>(values.size()));
+  return {values[cut], values[values.size() - 1 - cut], false};
 }
 
 // Pixels that one cell covers along a side.
@@ -40,30 +44,84 @@ Covered covered_by(std::size_t cell, std::size_t cells, std::size_t pixels) {
   return {first, std::max(first + 1, (cell + 1) * pixels / cells)};
 }
 
-// The first measured height of a cell: a single curve among many pixels without one must be seen. NaN: none.
-double height_in(const curves::CurveMap& map, const Covered& rows, const Covered& columns) {
+// The first value of a cell: a single curve among many pixels without one must be seen. NaN: none.
+double value_in(const std::vector<double>& values, std::size_t pixels_across, const Covered& rows,
+                const Covered& columns) {
   for (std::size_t row = rows.first; row < rows.end; ++row) {
     for (std::size_t column = columns.first; column < columns.end; ++column) {
-      const double height_m = map.heights_m()[row * map.grid().columns + column];
-      if (std::isfinite(height_m)) return height_m;
+      const double value = values[row * pixels_across + column];
+      if (std::isfinite(value)) return value;
     }
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-std::string height_text(double height_m, const Phrases& phrases) {
+template <class Q>
+std::string unit_text(Q quantity, const physics::UnitList<Q>& units, const Phrases& phrases) {
   constexpr int kDigits = 3;
-  return phrases.number(
-      curves::typographic(physics::format_quantity(physics::Length(height_m), physics::kLengthUnits, kDigits)));
+  return phrases.number(curves::typographic(physics::format_quantity(quantity, units, kDigits)));
+}
+
+std::string height_text(double height_m, const Phrases& phrases) {
+  return unit_text(physics::Length(height_m), physics::kLengthUnits, phrases);
+}
+std::string modulus_text(double modulus_pa, const Phrases& phrases) {
+  return unit_text(physics::Pressure(modulus_pa), physics::kPressureUnits, phrases);
+}
+std::string adhesion_text(double adhesion_n, const Phrases& phrases) {
+  return unit_text(physics::Force(adhesion_n), physics::kForceUnits, phrases);
+}
+
+double usable_modulus_pa(const curves::PixelFit& fit) {
+  return fit.usable() ? fit.modulus_pa : std::numeric_limits<double>::quiet_NaN();
+}
+double pull_n(const curves::PixelFit& fit) { return fit.adhesion_n; }
+
+// One quantity of the picture.
+struct QuantityRow {
+  MapQuantity quantity;
+  std::string_view name;
+  Phrase title;
+  double least_range;                                         // smallest range of the colours: equal pixels look equal
+  double (*value)(const curves::PixelFit& fit);               // null: the height
+  std::string (*text)(double value, const Phrases& phrases);  // with its unit
+};
+constexpr std::array kQuantities{
+    QuantityRow{MapQuantity::Height, "height", Phrase::MapHeights, kLeastRangeM, nullptr, height_text},
+    QuantityRow{MapQuantity::Modulus, "modulus", Phrase::MapModulus, 1e-3, usable_modulus_pa, modulus_text},
+    QuantityRow{MapQuantity::Adhesion, "adhesion", Phrase::MapAdhesion, 1e-15, pull_n, adhesion_text}};
+static_assert(core::has_row_for_each(kQuantities, &QuantityRow::quantity));
+
+std::vector<double> values_of(const curves::CurveMap& map, const QuantityRow& row) {
+  if (row.value == nullptr) return map.heights_m();
+  std::vector<double> values;
+  values.reserve(map.fits().size());
+  for (const curves::PixelFit& fit : map.fits()) values.push_back(row.value(fit));
+  return values;
 }
 
 }  // namespace
 
-render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPlace& felt, const Phrases& phrases) {
+MapQuantity first_quantity(const curves::CurveMap& map) {
+  return map.fits().empty() ? MapQuantity::Height : MapQuantity::Modulus;
+}
+
+MapQuantity next_quantity(const curves::CurveMap& map, MapQuantity shown) {
+  if (map.fits().empty()) return shown;
+  return kQuantities[(core::index_of(shown) + 1) % kQuantities.size()].quantity;
+}
+
+std::string_view name_of(MapQuantity quantity) { return kQuantities[core::index_of(quantity)].name; }
+
+render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPlace& felt, const Phrases& phrases,
+                               MapQuantity quantity) {
   const curves::MapGrid& pixels = map.grid();
-  const Range inner = inner_range(map.heights_m());
-  const Range range = at_least(inner, kLeastRangeM);
-  render::MapPicture picture{.title = phrases[Phrase::MapHeights],
+  const QuantityRow& row = kQuantities[core::index_of(quantity)];
+  const std::vector<double> values = values_of(map, row);
+  const Range range = at_least(inner_range(values), row.least_range);
+  // only the height has no zero of its own
+  const double zero = row.value == nullptr ? range.low : 0.0;
+  render::MapPicture picture{.title = phrases[row.title],
                              .columns = static_cast<std::uint32_t>(pixels.columns),
                              .rows = static_cast<std::uint32_t>(pixels.rows),
                              .aspect = pixels.width_m / pixels.height_m,
@@ -72,13 +130,13 @@ render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPla
                                       .colors = {}},
                              .marked = target_index(felt, map),
                              .bar = {},
-                             .lowest = "0",
-                             .highest = height_text(range.high - range.low, phrases)};
+                             .lowest = row.value == nullptr ? "0" : row.text(range.low, phrases),
+                             .highest = row.text(range.high - zero, phrases)};
   for (std::size_t y = 0; y < picture.grid.rows; ++y) {
     const Covered rows = covered_by(y, picture.grid.rows, pixels.rows);
     for (std::size_t x = 0; x < picture.grid.columns; ++x) {
-      const double height_m = height_in(map, rows, covered_by(x, picture.grid.columns, pixels.columns));
-      const auto [r, g, b] = height_colour((height_m - range.low) / (range.high - range.low));
+      const double value = value_in(values, pixels.columns, rows, covered_by(x, picture.grid.columns, pixels.columns));
+      const auto [r, g, b] = height_colour((value - range.low) / (range.high - range.low));
       picture.grid.colors.push_back({r, g, b, 255});
     }
   }

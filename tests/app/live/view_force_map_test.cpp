@@ -13,6 +13,7 @@
 #include "servo/session_file.h"
 #include "support/archives/sticky_map.h"
 #include "support/archives/stored_zip.h"
+#include "support/hertz_curve.h"
 #include "support/live_program.h"
 #include "support/places.h"
 #include "support/run_program.h"
@@ -111,6 +112,31 @@ TEST_F(ViewForceMap, IsFeltPixelByPixelAndReplayedBitForBit) {
   EXPECT_GE(second, 1U) << "no session of the chosen pixel touches";
 }
 
+// One pixel is a gel of 3 kPa, with a lever of 0.05 N/m; 22 times the spring constant means 22 times the force.
+TEST_F(ViewForceMap, ShowsTheModulusOfItsFitsAndTheOtherPictures) {
+  const auto curve = [](std::size_t index) { return index == 0 ? test::hertz_curve() : test::sticky_curve(index); };
+  const std::string map = folder_.write("gel.jpk-force-map", test::stored_zip(test::jpk_map(curve)));
+  support::LiveProgram view({support::touchafm(), "view", "--force-map", map, "--fit", "paraboloid", "--radius", "5um",
+                             "--spring-constant", "1.1N/m", "--size", "640x480", "--eye-width", "320", "--frame-rate",
+                             "12", "--servo", support::servo_mode(), "--validate"},
+                            display_.name());
+  ASSERT_TRUE(view.says("doubtful, ")) << view.said();
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  for (const char* shown :
+       {"the picture shows the adhesion", "the picture shows the height", "the picture shows the modulus, 6"}) {
+    // a busy machine may lose a key
+    bool said = false;
+    for (int presses = 0; presses < 20 && !said; ++presses) {
+      xdotool("key F4");
+      said = view.says(shown, std::chrono::seconds(2));
+    }
+    ASSERT_TRUE(said) << view.said();
+  }
+  xdotool("key Escape");
+  ASSERT_EQ(view.ends(), 0) << view.said();
+}
+
 TEST(ViewForceMapFiles, AreRefusedWithTheReason) {
   const support::ScratchFolder folder;
   const std::string bytes = test::stored_zip(test::holed_map());
@@ -131,6 +157,12 @@ TEST(ViewForceMapFiles, AreRefusedWithTheReason) {
   const auto words = view("holed.jpk-force-map", "--pixel middle");
   EXPECT_EQ(words.exit_code, 2);
   EXPECT_THAT(words.err, HasSubstr("is not COLUMN,ROW"));
+  const auto sizeless = view("holed.jpk-force-map", "--fit paraboloid");
+  EXPECT_EQ(sizeless.exit_code, 2);
+  EXPECT_THAT(sizeless.err, HasSubstr("--fit paraboloid needs --radius"));
+  const auto shapeless = view("holed.jpk-force-map", "--radius 50nm");
+  EXPECT_EQ(shapeless.exit_code, 2);
+  EXPECT_THAT(shapeless.err, HasSubstr("add --fit SHAPE"));
 }
 
 }  // namespace view_force_map_test

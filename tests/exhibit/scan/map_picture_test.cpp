@@ -5,10 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 
+#include "curves/curve_map.h"
 #include "curves/live_parameters.h"
-
 #include "exhibit/models/height_colours.h"
 #include "exhibit/panels/parameter_panel.h"
 #include "render/control_layout.h"
@@ -35,12 +36,13 @@ class MapPictureTest : public testing::Test {
   const render::MapPicture picture_ = map_picture(map_, {1, 0}, test::english());
 
   // Colour in the middle of a pixel.
-  Srgb color(std::size_t column, std::size_t row_from_top) const {
-    const std::size_t across = picture_.grid.columns / 3, down = picture_.grid.rows / 2;
+  static Srgb color(const render::MapPicture& picture, std::size_t column, std::size_t row_from_top) {
+    const std::size_t across = picture.grid.columns / 3, down = picture.grid.rows / 2;
     const auto& c =
-        picture_.grid.colors[(row_from_top * down + down / 2) * picture_.grid.columns + column * across + across / 2];
+        picture.grid.colors[(row_from_top * down + down / 2) * picture.grid.columns + column * across + across / 2];
     return {c[0], c[1], c[2]};
   }
+  Srgb color(std::size_t column, std::size_t row_from_top) const { return color(picture_, column, row_from_top); }
 };
 
 TEST_F(MapPictureTest, HasTheHighestPixelAtTheTopLeftAndAHoleAtTheBottomRight) {
@@ -53,6 +55,38 @@ TEST_F(MapPictureTest, HasTheHighestPixelAtTheTopLeftAndAHoleAtTheBottomRight) {
   EXPECT_EQ(color(1, 0), height_colour(0.8));
   EXPECT_EQ(picture_.highest, "50 nm");
   EXPECT_EQ(picture_.marked, 4U);
+}
+
+// A map with made-up fits, whose modulus is 1 kPa more with each curve.
+TEST_F(MapPictureTest, ShowsTheModulusOfTheFitsThatMeanSomething) {
+  std::atomic<int> calls = 0;
+  const auto fit = [&calls](const curves::RecordedCurve& curve) {
+    ++calls;
+    const auto index = static_cast<double>(curve.metadata.pixel->column + 3 * curve.metadata.pixel->row);
+    return curves::PixelFit{.modulus_pa = 1e3 * (1.0 + index),
+                            .adhesion_n = 1e-9 * (6.0 - index),
+                            .trust = index == 4.0 ? fits::Trust::No : fits::Trust::Doubtful};
+  };
+  const auto map = curves::CurveMap::load(map_.path(), [](std::size_t, std::size_t) { return true; }, {}, fit);
+  ASSERT_TRUE(map) << map.error().message;
+  EXPECT_EQ(calls, 5);
+  EXPECT_EQ(first_quantity(*map), MapQuantity::Modulus);
+  EXPECT_EQ(next_quantity(*map, MapQuantity::Modulus), MapQuantity::Adhesion);
+  EXPECT_EQ(next_quantity(*map, MapQuantity::Adhesion), MapQuantity::Height);
+  EXPECT_EQ(next_quantity(map_, first_quantity(map_)), MapQuantity::Height) << "without fits there is no other";
+
+  const render::MapPicture modulus = map_picture(*map, {1, 0}, test::english(), MapQuantity::Modulus);
+  EXPECT_EQ(modulus.lowest, "1 kPa");
+  EXPECT_EQ(modulus.highest, "6 kPa");
+  EXPECT_EQ(modulus.marked, 4U);
+  EXPECT_EQ(color(modulus, 0, 1), height_colour(0.0));
+  EXPECT_EQ(color(modulus, 2, 0), height_colour(1.0));
+  EXPECT_EQ(color(modulus, 1, 0), kNoHeightColour) << "its fit means nothing";
+  EXPECT_EQ(color(modulus, 2, 1), kNoHeightColour) << "a hole";
+  const render::MapPicture pull = map_picture(*map, {1, 0}, test::english(), MapQuantity::Adhesion);
+  EXPECT_EQ(pull.lowest, "1 nN");
+  EXPECT_EQ(pull.highest, "6 nN");
+  EXPECT_EQ(color(pull, 0, 1), height_colour(1.0));
 }
 
 TEST_F(MapPictureTest, ShowsEachOfAFewCurvesOnALargeGrid) {

@@ -13,6 +13,10 @@
 #include "physics/imaging/levelling.h"
 #include "scene/samples/material_library.h"
 
+namespace afm::curves {
+struct MapReading;
+}
+
 namespace afm::scene {
 struct ParticleSet;
 }
@@ -52,6 +56,8 @@ struct ExhibitFiles {
   std::string particles;  // set of assets/particles, or a user's file, on a level sample; empty: none
   std::shared_ptr<const scene::ParticleSet> recorded_particles;  // those of a session instead; null: none
   std::string force_map;                                         // curves of a map, one more sample; empty: none
+  // shared, so that this header need not know its type; null: the file's calibration, without a fit
+  std::shared_ptr<const curves::MapReading> map_reading;
   std::optional<std::array<std::size_t, 2>>
       pixel;                                // its column and row to feel first (curves::MapPlace); empty: the middle
   std::vector<std::string> shown;           // names; empty: all of the user's file, or the paper's three

@@ -1,15 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "curves/curve_map.h"
+#include <cstddef>
+#include <string_view>
+
+#include "curves/map_place.h"
 #include "exhibit/words/phrases.h"
 #include "render/frame.h"
 
+namespace afm::curves {
+class CurveMap;
+}
+
 namespace afm::exhibit {
 
-// The heights of a force map above its lowest one in false colours, between the 1st and the 99th percentile, with
-// `felt` marked. A pixel without a curve has the colour of a place without a measurement.
-render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPlace& felt, const Phrases& phrases);
+// What the picture of a force map shows. All but the height need fits.
+enum class MapQuantity { Height, Modulus, Adhesion };
+
+// "modulus", for the log.
+std::string_view name_of(MapQuantity quantity);
+
+// The one with which a map begins: the modulus, if its curves were fitted.
+MapQuantity first_quantity(const curves::CurveMap& map);
+
+// The next one that the map has; the same without fits.
+MapQuantity next_quantity(const curves::CurveMap& map, MapQuantity shown);
+
+// One quantity of a force map in false colours, between the 1st and the 99th percentile, with `felt` marked: heights
+// above the lowest one; the modulus of the fits that are not worthless; the hardest pull. A pixel without a value has
+// the colour of a place without a measurement.
+render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPlace& felt, const Phrases& phrases,
+                               MapQuantity quantity = MapQuantity::Height);
 
 // Position of a pixel in the picture, as ControlTarget::index, and back.
 std::size_t target_index(const curves::MapPlace& place, const curves::CurveMap& map);

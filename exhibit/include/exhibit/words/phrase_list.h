@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Every phrase of wall and report: PHRASE(enumerator, key in the files, placeholders, limit of exhibit/phrases.h).
-// Placeholders are words in braces, in the order in which the code fills them; one that ends in "?" is optional.
-// Steps in the order of Hint; reasons for a missing force (scene::FaultCode); controls (HandControls, Pointer); Note.
+// Every phrase of wall and report: PHRASE(enumerator, key in the files, placeholders in the order in which the code
+// fills them, with "?" if optional, limit of exhibit/phrases.h). Order: Hint, scene::FaultCode, controls, Note.
 #define AFM_FOR_EACH_GUIDANCE_PHRASE(PHRASE)                       \
   PHRASE(ChooseSample, "choose-sample", kControlPlaces, kLine)     \
   PHRASE(Lift, "lift", kControlPlaces, kLine)                      \
@@ -199,6 +198,8 @@
   PHRASE(PixelLoaded, "pixel-loaded", "", kLine)                         \
   PHRASE(NoSuchPixel, "no-such-pixel", "", kLine)                        \
   PHRASE(MapHeights, "map-heights", "", kLine)                           \
+  PHRASE(MapModulus, "map-modulus", "", kLine)                           \
+  PHRASE(MapAdhesion, "map-adhesion", "", kLine)                         \
   PHRASE(ContactDoubtful, "contact-doubtful", "", kLine)                 \
   PHRASE(ButtonReset, "button-reset", "", kLine)                         \
   PHRASE(ButtonClose, "button-close", "", kLine)                         \
@@ -301,6 +302,7 @@
   PHRASE(KeyScan, "key-scan", "", kLine)                     \
   PHRASE(KeyTruth, "key-truth", "", kLine)                   \
   PHRASE(KeyFalseColours, "key-false-colours", "", kLine)    \
+  PHRASE(KeyMapPicture, "key-map-picture", "", kLine)        \
   PHRASE(KeyFriction, "key-friction", "", kLine)             \
   PHRASE(KeyScanHand, "key-scan-hand", "", kLine)            \
   PHRASE(KeyScanFeedback, "key-scan-feedback", "", kLine)    \

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame/force_map.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "core/interruption.h"
+#include "core/log.h"
+#include "curves/curve_map.h"
+#include "curves/fitting/map_fit.h"
+#include "curves/measured_material.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+// A line a second on what is read; ends after an interruption.
+curves::CurveMap::Progress progress_of(const std::string& file) {
+  return [file, told = std::chrono::steady_clock::now()](std::size_t read, std::size_t count) mutable {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told >= std::chrono::seconds(1)) {
+      told = now;
+      core::log_line(fmt::format("force map {}: {} of {} curves, {} %", file, read, count, 100 * read / count));
+    }
+    return !core::interrupted();
+  };
+}
+
+}  // namespace
+
+core::Result<std::shared_ptr<const curves::SampleModel>> load_force_map(const ExhibitFiles& files) {
+  if (files.force_map.empty()) return nullptr;
+  if (!files.particles.empty())
+    return core::wrong_usage("--force-map: its law is no particle's: leave --particles out");
+  const auto library = scene::load_materials(files.assets_dir + "/materials.toml");
+  if (!library) return tl::unexpected(library.error());
+  curves::MapReading reading = files.map_reading ? *files.map_reading : curves::MapReading{};
+  if (auto prepared = curves::prepare(reading.fit); !prepared) return tl::unexpected(prepared.error());
+  const auto fit = reading.fit.shape ? curves::fit_of_each(files.force_map, reading.fit) : curves::CurveMap::Fit{};
+  auto read = curves::CurveMap::load(files.force_map, progress_of(files.force_map), reading.calibration, fit);
+  if (!read) return tl::unexpected(read.error());
+  const auto map = std::make_shared<const curves::CurveMap>(std::move(*read));
+  const curves::MapPlace place = files.pixel ? curves::MapPlace{(*files.pixel)[0], (*files.pixel)[1]} : map->middle();
+  auto model = curves::make_sample_model(map, place, library->materials.front());
+  if (!model && !files.pixel) {
+    return core::failure(model.error().category, model.error().message + "; choose another with --pixel");
+  }
+  if (!model) return tl::unexpected(model.error());
+  const std::size_t pixels = map->heights_m().size();
+  const std::string missing = map->pixels_with_curve() < pixels
+                                  ? fmt::format(", {} without a curve", pixels - map->pixels_with_curve())
+                                  : std::string();
+  core::log_line(
+      fmt::format("force map {}: {} x {} pixels{}; felt first: {}{}", files.force_map, map->grid().columns,
+                  map->grid().rows, missing, curves::text_of(model->pixel->place),
+                  model->pixel->measured.features.contact_doubtful ? ", whose contact point is doubtful" : ""));
+  if (fit) core::log_line(fmt::format("force map {}: {}", files.force_map, curves::fits_text(*map)));
+  return std::make_shared<const curves::SampleModel>(std::move(*model));
+}
+
+scene::MaterialEntry entry_of(const curves::SampleModel& pixel) {
+  scene::MaterialEntry entry = pixel.setup.material;
+  entry.title = curves::title_of(pixel.pixel->map->path());
+  return entry;
+}
+
+}  // namespace afm::exhibit
