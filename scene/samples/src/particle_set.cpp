@@ -30,6 +30,7 @@ constexpr std::string_view kPadField = "pad_";  // fields that physics refuses b
 constexpr std::int64_t kLargestSeed = 65535;
 constexpr double kWidestAngle = 360.0;  // degrees
 constexpr physics::Velocity kSlowestHand{1e-11}, kFastestHand{1e-4};
+constexpr physics::Time kLongestWait{3600.0};
 
 // A key of a table for a field that physics refuses.
 struct KeyOfField {
@@ -203,12 +204,18 @@ physics::PlacedParticle read_particle(const TomlTable& table, const ParticleSet&
 }
 
 HandMove read_move(const TomlTable& table) {
-  table.allow_only({"x", "y", "z", "speed"});
+  table.allow_only({"x", "y", "z", "speed", "wait"});
   HandMove move{base(table), table.quantity("speed", physics::kVelocityUnits)};
   if (!(move.speed >= kSlowestHand && move.speed <= kFastestHand)) {
     table.refuse("speed",
                  fmt::format("{} is not within {}", physics::format_quantity(move.speed, physics::kVelocityUnits),
                              physics::range_text(kSlowestHand.si, kFastestHand.si, physics::kVelocityUnits)));
+  }
+  if (!table.has("wait")) return move;
+  move.wait = table.quantity("wait", physics::kTimeUnits);
+  if (!(move.wait >= physics::Time(0.0) && move.wait <= kLongestWait)) {
+    table.refuse("wait", fmt::format("{} is not within {}", physics::format_quantity(move.wait, physics::kTimeUnits),
+                                     physics::range_text(0.0, kLongestWait.si, physics::kTimeUnits)));
   }
   return move;
 }

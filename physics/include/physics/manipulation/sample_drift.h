@@ -17,7 +17,6 @@ inline constexpr Velocity kUsualDrift{0.05e-9};
 // A straight drift at a constant rate. Its direction is the same on every machine for a seed.
 class SampleDrift {
  public:
-  SampleDrift() = default;  // none
   SampleDrift(Velocity rate, std::uint64_t seed) noexcept;
 
   // Way of the sample below the scanner since the start (M40).
