@@ -20,7 +20,6 @@
 #include "curves/image_output.h"
 #include "exhibit/report/scratch_report.h"
 #include "physics/manipulation/pushed_particles.h"
-#include "physics/manipulation/tip_meeting.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/hand_script.h"
 #include "scene/samples/particle_files.h"
@@ -28,6 +27,7 @@
 #include "scene/samples/pattern_state.h"
 #include "scene/samples/pattern_task.h"
 #include "scene/samples/scratch_run.h"
+#include "scene/samples/scripted_push.h"
 
 namespace afm::app {
 namespace {
@@ -38,137 +38,23 @@ using physics::kEnergyUnits;
 using physics::kForceUnits;
 using physics::kLengthUnits;
 using physics::Length;
-using physics::LeverBase;
 using physics::ParticlePlace;
 using physics::ParticleSpecies;
 using physics::PushTick;
 using physics::Sideways;
 
 constexpr Frequency kSlowestTicks{10.0}, kFastestTicks{1e5};
-constexpr double kMostTicks = 2e7;  // some minutes
-constexpr std::size_t kMostChanges = 10'000;
+constexpr double kMostTicks = 2e7;   // some minutes
 constexpr double kRounding = 1e-12;  // share of the energy given that the certificate may lack
 
 struct ParticlesOptions {
   std::string file;
-  Frequency rate{1000.0};
+  scene::PushScript script;
   std::string out;
-  int samples = 100;
   bool json = false;
 };
 
-// One tick that is printed.
-struct TickSample {
-  double time_s = 0.0;
-  PushTick tick;
-};
-
-struct Played {
-  double seconds = 0.0;
-  std::size_t ticks = 0, lagging = 0;
-  double least_margin_j = 0.0;  // least certificate of all ticks
-  bool more_changes = false;
-  std::vector<TickSample> samples;  // evenly in time, with the last
-  std::vector<TickSample> changes;  // ticks in which state or particle changes
-  std::vector<TickSample> ends;     // end of each move
-  std::vector<ParticlePlace> at;    // places of the particles at the end
-  scene::TaskScore score;           // only for a set with a pattern
-};
-
-double margin_j(const PushTick& tick) { return (tick.given - tick.lost - tick.stored).si; }
-
-std::vector<ParticlePlace> places_of(const physics::PushedParticles& particles) {
-  std::vector<ParticlePlace> places;
-  places.reserve(particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i) places.push_back({particles.position(i), particles.turn(i)});
-  return places;
-}
-
-// Keeps the score of the scripted hand, as a live window does that of a person, except that a touch too weak to be felt
-// (FeltParticles::kFeltN) can end in a loss, too.
-class ScriptedTask {
- public:
-  explicit ScriptedTask(const scene::ParticleSet& set)
-      : normal_n_per_m_(set.setup.springs.normal.si), task_(set, scene::pattern_of(set)), meeting_(set.setup) {
-    meeting_.begin(set.start);
-  }
-
-  void follow(const physics::PushedParticles& particles, double time_s) {
-    const PushTick& tick = particles.last();
-    const auto events = meeting_.follow(particles, tick.normal.si != 0.0);
-    for (const auto& event : events.all()) task_.add(event.kind);
-    if (!particles.moved().empty()) ++places_;
-    add(particles, time_s);
-  }
-
-  // The hand stays where its last move ended, as long as it takes to end the task.
-  scene::TaskScore end(const physics::PushedParticles& particles, double time_s) {
-    const scene::TaskScore ended = task_.score();
-    add(particles, time_s + 1e-9 * static_cast<double>(scene::PatternTask::kRestNs));
-    return task_.score().state == scene::TaskState::Done ? task_.score() : ended;
-  }
-
- private:
-  void add(const physics::PushedParticles& particles, double time_s) {
-    const PushTick& tick = particles.last();
-    const bool touches = tick.particle != physics::kNoParticle;
-    // of the particles alone, without what a lever that presses on the bare sample would have
-    const double lift_n = tick.lift.si + normal_n_per_m_ * std::min(0.0, tick.base.z.si);
-    const auto lateral = touches ? tick.lateral : Sideways<physics::Force>{};
-    task_.add({.time_ns = std::llround(1e9 * time_s),
-               .base_m = {tick.base.position.x.si, tick.base.position.y.si, tick.base.z.si},
-               .lateral_n = {lateral.x.si, lateral.y.si},
-               .lift_n = touches ? lift_n : 0.0,
-               .places = places_,
-               .carries = tick.state == physics::PushState::Carried});
-    if (task_.unjudged()) task_.judge(places_of(particles));
-  }
-
-  double normal_n_per_m_;
-  scene::PatternTask task_;
-  physics::TipMeeting meeting_;
-  std::uint64_t places_ = 0;
-};
-
-Played play(const scene::ParticleSet& set, const ParticlesOptions& options, std::size_t all_ticks) {
-  physics::PushedParticles particles(set.setup, set.particles, set.start);
-  Played played;
-  std::optional<ScriptedTask> task;
-  if (!set.targets.empty()) task.emplace(set);
-  const double period_s = 1.0 / options.rate.si;
-  const auto sample_count = static_cast<std::size_t>(options.samples);
-  TickSample now{0.0, particles.last()};
-  played.samples.push_back(now);
-  played.least_margin_j = margin_j(now.tick);
-  LeverBase from = set.start;
-  for (const scene::HandMove& move : set.moves) {
-    const std::size_t ticks = scene::ticks_of(from, move, options.rate);
-    for (std::size_t i = 1; i <= ticks; ++i) {
-      const PushTick before = now.tick;
-      const double share = static_cast<double>(i) / static_cast<double>(ticks);
-      now.tick =
-          particles.move_to(i == ticks ? move.to : scene::on_the_way(from, move.to, share), physics::Time(period_s));
-      now.time_s = static_cast<double>(++played.ticks) * period_s;
-      if (task) task->follow(particles, now.time_s);
-      if (now.tick.lagging) ++played.lagging;
-      played.least_margin_j = std::min(played.least_margin_j, margin_j(now.tick));
-      if (now.tick.state != before.state || now.tick.particle != before.particle) {
-        played.more_changes = played.changes.size() == kMostChanges;
-        if (!played.more_changes) played.changes.push_back(now);
-      }
-      // the sample of this tick: the k-th of N is the tick k/(N - 1) of the way
-      if (played.ticks * (sample_count - 1) >= played.samples.size() * all_ticks) played.samples.push_back(now);
-    }
-    played.ends.push_back(now);
-    from = move.to;
-  }
-  played.seconds = now.time_s;
-  if (task) played.score = task->end(particles, played.seconds);
-  played.at = places_of(particles);
-  return played;
-}
-
-nlohmann::json json_of(const TickSample& sample) {
+nlohmann::json json_of(const scene::PushMoment& sample) {
   const PushTick& t = sample.tick;
   return {{"time_s", sample.time_s},
           {"base_m", {t.base.position.x.si, t.base.position.y.si, t.base.z.si}},
@@ -183,7 +69,7 @@ nlohmann::json json_of(const TickSample& sample) {
           {"work_J", t.work.si},
           {"lost_J", t.lost.si},
           {"stored_J", t.stored.si},
-          {"certificate_J", margin_j(t)},
+          {"certificate_J", scene::margin_j(t)},
           {"yields", t.yields},
           {"attached", t.attached},
           {"dragged", t.dragged},
@@ -196,13 +82,14 @@ nlohmann::json json_of(const TickSample& sample) {
           {"set_down", t.set_down}};
 }
 
-nlohmann::json json_of(const scene::PatternState& pattern) {
+nlohmann::json json_of(const scene::PatternState& pattern, bool judged) {
   return {{"particle_of_target", pattern.match.particles},
           {"rms_m", pattern.match.rms.si},
           {"allowed_m", pattern.pads > 0 ? nlohmann::json() : nlohmann::json(pattern.allowed.si)},
           {"pads", pattern.pads},
           {"pads_touched", pattern.touched},
-          {"done", pattern.done()}};
+          {"judged", judged},
+          {"done", judged && pattern.done()}};
 }
 
 nlohmann::json particle_json(const scene::ParticleSet& set, std::size_t i, const ParticlePlace& end) {
@@ -218,7 +105,8 @@ nlohmann::json particle_json(const scene::ParticleSet& set, std::size_t i, const
   return json;
 }
 
-std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions& options, const Played& played) {
+std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions& options,
+                           const scene::ScriptedPush& played) {
   nlohmann::json species = nlohmann::json::array(), particles = nlohmann::json::array();
   for (std::size_t i = 0; i < set.species.size(); ++i) {
     const ParticleSpecies& s = set.setup.species[i];
@@ -232,18 +120,18 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
          {"sources", exhibit::sources_json(set.species[i].sources)}});
   }
   for (std::size_t i = 0; i < set.particles.size(); ++i) particles.push_back(particle_json(set, i, played.at[i]));
-  const auto list = [](const std::vector<TickSample>& samples) {
+  const auto list = [](const std::vector<scene::PushMoment>& samples) {
     nlohmann::json all = nlohmann::json::array();
-    for (const TickSample& sample : samples) all.push_back(json_of(sample));
+    for (const scene::PushMoment& sample : samples) all.push_back(json_of(sample));
     return all;
   };
   nlohmann::json targets = nlohmann::json::array();
   for (const ParticlePlace& target : set.targets) targets.push_back({target.position.x.si, target.position.y.si});
-  const auto pattern = scene::pattern_state(set, scene::pattern_of(set), played.at);
+  const auto pattern = scene::pattern_state(set, scene::pattern_of(set), played.judged_places());
   const nlohmann::json whole{{"title", set.title},
                              {"medium", set.medium},
                              {"note", set.note},
-                             {"rate_Hz", options.rate.si},
+                             {"rate_Hz", options.script.rate.si},
                              {"seconds", played.seconds},
                              {"ticks", played.ticks},
                              {"lagging_ticks", played.lagging},
@@ -253,8 +141,9 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
                              {"species", species},
                              {"particles", particles},
                              {"targets_m", targets},
-                             {"pattern", pattern ? json_of(*pattern) : nlohmann::json()},
+                             {"pattern", pattern ? json_of(*pattern, played.judged()) : nlohmann::json()},
                              {"task", task_json(played.score)},
+                             {"picture", picture_json(options.script, played)},
                              {"states", list(played.samples)},
                              {"changes", list(played.changes)},
                              {"all_changes", !played.more_changes},
@@ -264,9 +153,11 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
 
 const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
 
-std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions& options, const Played& played) {
-  std::string text = fmt::format("{}, in {}: {} particle{}, {:g} s at {:g} Hz\n", set.title, set.medium,
-                                 set.particles.size(), plural(set.particles.size()), played.seconds, options.rate.si);
+std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions& options,
+                           const scene::ScriptedPush& played) {
+  std::string text =
+      fmt::format("{}, in {}: {} particle{}, {:g} s at {:g} Hz\n", set.title, set.medium, set.particles.size(),
+                  plural(set.particles.size()), played.seconds, options.script.rate.si);
   for (std::size_t i = 0; i < set.species.size(); ++i) text += species_figures_text(set, i);
   text += "\nmove       state     particle   force on the lever sideways   friction and slips\n";
   for (std::size_t i = 0; i < played.ends.size(); ++i) {
@@ -287,9 +178,12 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
                     format_quantity(to.x, kLengthUnits), format_quantity(to.y, kLengthUnits),
                     turns ? fmt::format(" at {:.1f} deg", physics::angle_rad(turn) * 180.0 / std::numbers::pi) : "");
   }
-  if (const auto pattern = scene::pattern_state(set, scene::pattern_of(set), played.at)) {
+  if (const auto pattern = scene::pattern_state(set, scene::pattern_of(set), played.judged_places())) {
     text += fmt::format("\npattern of {} target{}: {}, {} off in the root mean square, {}\n", set.targets.size(),
-                        plural(set.targets.size()), pattern->done() ? "done" : "not done",
+                        plural(set.targets.size()),
+                        !played.judged()  ? "not looked at since the last push"
+                        : pattern->done() ? "done"
+                                          : "not done",
                         format_quantity(pattern->match.rms, kLengthUnits, 4),
                         pattern->pads > 0 ? fmt::format("{} of {} pads touched", pattern->touched, pattern->pads)
                                           : format_quantity(pattern->allowed, kLengthUnits, 4) + " allowed");
@@ -297,6 +191,7 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
       text += fmt::format("task of the pattern: {}\n", scene::text_of(played.score));
     }
   }
+  text += picture_text(options.script, played);
   const PushTick& last = played.ends.back().tick;
   // below what rounding leaves of sums, nothing is stored
   const physics::Energy stored = last.stored.si > kRounding * last.given.si ? last.stored : physics::Energy(0.0);
@@ -337,8 +232,9 @@ core::Result<void> certified(double least_margin_j, physics::Energy given, const
 
 core::Result<void> run_scratch(const scene::ParticleSet& set, const ParticlesOptions& options,
                                const std::string& path) {
-  const auto run = scene::play_scratch(set, options.rate, static_cast<std::size_t>(options.samples));
-  auto written = write_stdout((options.json ? exhibit::scratch_json : exhibit::scratch_text)(set, run, options.rate));
+  const auto run = scene::play_scratch(set, options.script.rate, static_cast<std::size_t>(options.script.samples));
+  auto written =
+      write_stdout((options.json ? exhibit::scratch_json : exhibit::scratch_text)(set, run, options.script.rate));
   if (!written) return written;
   if (!options.out.empty()) written = core::write_file(options.out, curves::gwy_bytes(run.image));
   if (!written) return written;
@@ -353,15 +249,20 @@ core::Result<void> run_particles(const ParticlesOptions& options, const std::str
   if (!options.out.empty() && !(set->soft && options.out.ends_with(".gwy"))) {
     return core::wrong_usage("--out: takes the image of a soft sample, in a file that ends in .gwy");
   }
-  const double ticks = scene::all_ticks(*set, options.rate);
+  const bool has_islands = std::any_of(set->setup.species.begin(), set->setup.species.end(), physics::is_island);
+  if (options.script.level > 0 && (set->soft || has_islands)) {
+    return core::wrong_usage(fmt::format("--level {}: only spheres and rods have a picture that grows old; {} has {}",
+                                         options.script.level, *path, set->soft ? "a soft sample" : "flat islands"));
+  }
+  const double ticks = scene::all_ticks(*set, options.script.rate);
   if (ticks > kMostTicks) {
     return core::wrong_usage(
         fmt::format("the moves of {} take {:.0f} s, which are {:.3g} ticks at {:g} Hz, more than {:.3g}: lower --rate, "
                     "or raise the speeds",
-                    *path, ticks / options.rate.si, ticks, options.rate.si, kMostTicks));
+                    *path, ticks / options.script.rate.si, ticks, options.script.rate.si, kMostTicks));
   }
   if (set->soft) return run_scratch(*set, options, *path);
-  const Played played = play(*set, options, static_cast<std::size_t>(ticks));
+  const scene::ScriptedPush played = scene::play(*set, options.script);
   auto written =
       write_stdout(options.json ? particles_json(*set, options, played) : particles_text(*set, options, played));
   if (!written) return written;
@@ -383,13 +284,28 @@ void add_particles_command(OptionList& program, const CommandContext& context) {
       .required()
       .type_name("FILE");
   quantity_option(
-      command, "--rate", [options](Frequency rate) { options->rate = rate; }, physics::kFrequencyUnits,
+      command, "--rate", [options](Frequency rate) { options->script.rate = rate; }, physics::kFrequencyUnits,
       "ticks per second, like the servo's", std::optional(QuantityRange<Frequency>{kSlowestTicks, kFastestTicks}))
       .show_default("1kHz");
-  command.add_option("--samples", options->samples, "number of states that --json prints, evenly spaced in time")
+  command.add_option("--samples", options->script.samples, "number of states that --json prints, evenly spaced in time")
       .type_name("NUMBER")
       .within(2, 1'000'000)
       .show_default();
+  command
+      .add_option(
+          "--level", options->script.level,
+          "how far picture and particles are apart: 0, the particles are seen; 1, the picture is computed after "
+          "each push; 2, the sample drifts and pull-offs scatter, too")
+      .within(0, 2)
+      .show_default();
+  command
+      .add_option("--seed", options->script.seed, "with --level 2: choice of the drift's direction and of the scatter")
+      .type_name("NUMBER")
+      .within(1, 65535)
+      .show_default();
+  command.add_flag(
+      "--no-look", [options] { options->script.looks = false; },
+      "with --level 1 or 2: the hand never looks again at what it has pushed");
   command.add_flag("--json", options->json,
                    "print figures, sources, states, events and final places as JSON, with the unit in each key");
   command.add_option("--out", options->out, "write the scratched sample to FILE, an image of its heights (.gwy)")

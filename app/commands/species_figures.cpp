@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 
 #include "physics/manipulation/island.h"
 #include "physics/manipulation/push_figures.h"
@@ -14,6 +15,7 @@
 #include "physics/manipulation/tip_hold.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
+#include "scene/samples/scripted_push.h"
 
 namespace afm::app {
 namespace {
@@ -255,6 +257,65 @@ nlohmann::json species_figures_json(const scene::ParticleSet& set, std::size_t i
                       {"kT_per_nm", f.kt_per_nm}};
   json["tip_adhesion"] = hold_json(set, set.setup.species[index]);
   return json;
+}
+
+std::string picture_text(const scene::PushScript& script, const scene::ScriptedPush& played) {
+  if (!played.picture) return "";
+  const physics::OperatorsPicture& picture = *played.picture;
+  std::size_t pushed = 0, stale = 0;
+  for (std::size_t i = 0; i < picture.shown().size(); ++i) {
+    pushed += picture.is_measured(i) ? 0U : 1U;
+    stale += picture.is_stale(i) ? 1U : 0U;
+  }
+  std::string text = fmt::format(
+      "\npicture, level {}: {} of {} pixels computed; particles not measured since a push: {}, stale: {}\n",
+      script.level, picture.picture().computed(), picture.picture().heights().height_m.size(), pushed, stale);
+  for (const physics::SecondLook& look : picture.looks()) {
+    const std::string what =
+        look.measured ? format_quantity(magnitude(look.measured->position - look.shown.position), kLengthUnits, 3) +
+                            " from its place in the picture"
+                      : "not found";
+    text +=
+        fmt::format("second look at {:.1f} s, {} lines: particle {} {}\n", look.at.si, look.lines, look.particle, what);
+  }
+  if (script.level > 1) {
+    text += fmt::format("the sample has drifted by {}, at 0.05 nm/s (order of magnitude, estimated)\n",
+                        format_quantity(magnitude(played.drift), kLengthUnits, 3));
+  }
+  return text;
+}
+
+nlohmann::json picture_json(const scene::PushScript& script, const scene::ScriptedPush& played) {
+  if (!played.picture) return nullptr;
+  const physics::OperatorsPicture& picture = *played.picture;
+  const physics::HeightGrid& grid = picture.picture().heights();
+  const auto place = [](const physics::ParticlePlace& p) { return nlohmann::json{p.position.x.si, p.position.y.si}; };
+  nlohmann::json particles = nlohmann::json::array(), looks = nlohmann::json::array();
+  for (std::size_t i = 0; i < picture.shown().size(); ++i) {
+    particles.push_back({{"shown_m", place(picture.shown()[i])},
+                         {"measured", picture.is_measured(i)},
+                         {"age_s", picture.age(i).si},
+                         {"doubt_m", picture.doubt().after(picture.age(i)).si},
+                         {"stale", picture.is_stale(i)}});
+  }
+  for (const physics::SecondLook& look : picture.looks()) {
+    nlohmann::json json{{"time_s", look.at.si},         {"lines", look.lines},   {"particle", look.particle},
+                        {"shown_m", place(look.shown)}, {"measured_m", nullptr}, {"difference_m", nullptr}};
+    if (look.measured) {
+      json["measured_m"] = place(*look.measured);
+      json["difference_m"] = magnitude(look.measured->position - look.shown.position).si;
+    }
+    looks.push_back(std::move(json));
+  }
+  return {{"level", script.level},
+          {"seed", script.seed},
+          {"drift_m", {played.drift.x.si, played.drift.y.si}},
+          {"pixel_m", grid.column_step_m},
+          {"columns", grid.columns},
+          {"rows", grid.rows},
+          {"computed_pixels", picture.picture().computed()},
+          {"particles", particles},
+          {"looks", looks}};
 }
 
 }  // namespace afm::app

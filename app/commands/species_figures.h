@@ -7,7 +7,9 @@
 
 namespace afm::scene {
 struct ParticleSet;
-}
+struct PushScript;
+struct ScriptedPush;
+}  // namespace afm::scene
 
 namespace afm::app {
 
@@ -15,5 +17,10 @@ namespace afm::app {
 // lines of text, and as JSON with the unit in each key.
 std::string species_figures_text(const scene::ParticleSet& set, std::size_t species);
 nlohmann::json species_figures_json(const scene::ParticleSet& set, std::size_t species);
+
+// Measured, computed and stale parts of the picture after the moves, and what each second look found; empty or null
+// without a picture.
+std::string picture_text(const scene::PushScript& script, const scene::ScriptedPush& played);
+nlohmann::json picture_json(const scene::PushScript& script, const scene::ScriptedPush& played);
 
 }  // namespace afm::app

@@ -265,6 +265,65 @@ TEST(ParticlesCommand, TurnsAnIslandAtAnyRate) {
   }
 }
 
+// One sphere of the built-in gold, to be pushed 95 nm by a hand that first waits above it.
+std::string waiting_hand(const std::string& wait) {
+  const std::string gold = *core::read_file(support::source("assets/particles/gold-row.toml"));
+  const auto place = [](const std::string& table, int x, const std::string& more) {
+    return "\n" + table + "\nx = \"" + std::to_string(x) + " nm\"\ny = \"0 nm\"\n" + more;
+  };
+  const auto move = [&](int x, int z, const std::string& more) {
+    return place("[[move]]", x, "z = \"" + std::to_string(z) + " nm\"\nspeed = \"0.1 um/s\"\n" + more);
+  };
+  return gold.substr(0, gold.find("[[particle]]")) + place("[[particle]]", 0, "") +
+         place("[[particle]]", 300, "pinned = true\n") + place("[[target]]", 95, "") +
+         place("[start]", -60, "z = \"80 nm\"\n") + move(-60, 80, "wait = \"" + wait + "\"\n") + move(-60, 0, "") +
+         move(55, 0, "") + move(55, 80, "wait = \"6 s\"\n");
+}
+
+TEST(ParticlesCommand, FailsOnAnOldPictureUnlessTheHandLooksAgain) {
+  const support::ScratchFolder folder;
+  const std::string file = folder.write("old.toml", waiting_hand("260 s"));
+  const auto json_of = [&](const std::string& options) {
+    const ProgramResult result = particles(file + " --json " + options);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return nlohmann::json::parse(result.out);
+  };
+  const auto truth = json_of(""), computed = json_of("--level 1");
+  const auto looks = json_of("--level 2"), blind = json_of("--level 2 --no-look");
+  // a picture that is computed from the truth changes no force
+  EXPECT_TRUE(truth["picture"].is_null());
+  EXPECT_EQ(computed["states"], truth["states"]);
+  EXPECT_EQ(computed["particles"], truth["particles"]);
+  EXPECT_EQ(computed["task"]["done"], true);
+  ASSERT_EQ(computed["picture"]["looks"].size(), 1U);
+  EXPECT_EQ(computed["picture"]["looks"][0]["difference_m"], 0.0);
+  EXPECT_EQ(computed["picture"]["looks"][0]["lines"], 33);
+
+  // once the picture is stale the hand looks again, and its push succeeds
+  EXPECT_EQ(looks["task"]["done"], true);
+  EXPECT_EQ(looks["pattern"]["judged"], true);
+  ASSERT_EQ(looks["picture"]["looks"].size(), 2U);
+  const auto& first = looks["picture"]["looks"][0];
+  EXPECT_GT(first["time_s"].get<double>(), 246.0);
+  EXPECT_LT(first["time_s"].get<double>(), 251.0);
+  EXPECT_NEAR(first["difference_m"].get<double>(), 0.05e-9 * first["time_s"].get<double>(), 0.2e-9);
+  EXPECT_EQ(looks["picture"]["particles"][0]["measured"], true);
+  EXPECT_EQ(looks["picture"]["particles"][0]["stale"], false);
+  EXPECT_EQ(looks["picture"]["particles"][1]["stale"], true);
+
+  // without a look the picture shows success, and the sphere lies elsewhere
+  EXPECT_EQ(blind["task"]["done"], false);
+  EXPECT_EQ(blind["pattern"]["judged"], false);
+  EXPECT_EQ(blind["pattern"]["done"], false);
+  EXPECT_LT(blind["pattern"]["rms_m"].get<double>(), 5e-9);
+  EXPECT_LT(blind["particles"][0]["end_m"][0].get<double>(), 95e-9 - 25e-9);
+  EXPECT_GT(blind["picture"]["computed_pixels"].get<int>(), looks["picture"]["computed_pixels"].get<int>());
+  EXPECT_THAT(particles(file + " --level 2").out, HasSubstr("second look at 249."));
+
+  // the same numbers every time
+  EXPECT_EQ(json_of("--level 2"), looks);
+}
+
 TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
   expect_refusal(particles(""), 2, "file");
   expect_refusal(particles("silver-row"), 2,
@@ -272,9 +331,13 @@ TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
                  "scratch-pmma, sticky-tip, tube-and-electrodes, write-afm");
   expect_refusal(particles("/no/such.toml"), 3, "/no/such.toml");
   expect_refusal(particles("gold-row --rate 4"), 2, "kHz");
+  expect_refusal(particles("islands --level 1"), 2, "flat islands");
+  expect_refusal(particles("scratch-pmma --level 2"), 2, "soft sample");
   expect_refusal(particles("gold-row --rate 1MHz"), 2, "100kHz");
   expect_refusal(particles("gold-row --samples 1"), 2, "2");
+  expect_refusal(particles("gold-row --level 3"), 2, "--level");
   const support::ScratchFolder folder;
+  expect_refusal(particles(folder.write("long.toml", waiting_hand("4000 s"))), 3, "4000 s is not within");
   std::string text = *core::read_file(support::source("assets/particles/gold-row.toml"));
   const std::string speed = "speed = \"0.1 um/s\"";
   text.replace(text.find(speed), speed.size(), "speed = \"0.0001 um/s\"");

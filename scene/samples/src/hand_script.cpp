@@ -14,11 +14,15 @@ std::size_t ticks_of(const LeverBase& from, const HandMove& move, physics::Frequ
   return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(way / move.speed.si * rate.si)));
 }
 
+std::size_t waiting_ticks(const HandMove& move, physics::Frequency rate) {
+  return static_cast<std::size_t>(std::ceil(move.wait.si * rate.si));
+}
+
 double all_ticks(const ParticleSet& set, physics::Frequency rate) {
   double ticks = 0.0;
   LeverBase from = set.start;
   for (const HandMove& move : set.moves) {
-    ticks += static_cast<double>(ticks_of(from, move, rate));
+    ticks += static_cast<double>(ticks_of(from, move, rate) + waiting_ticks(move, rate));
     from = move.to;
   }
   return ticks;

@@ -32,6 +32,7 @@ constexpr std::string_view kPadField = "pad_";  // fields that physics refuses b
 constexpr std::int64_t kLargestSeed = 65535;
 constexpr double kWidestAngle = 360.0;  // degrees
 constexpr physics::Velocity kSlowestHand{1e-11}, kFastestHand{1e-4};
+constexpr physics::Time kLongestWait{3600.0};
 
 // A key of a table for a field that physics refuses.
 struct KeyOfField {
@@ -231,13 +232,20 @@ physics::PlacedParticle read_particle(const TomlTable& table, const ParticleSet&
   return particle;
 }
 
-HandMove read_move(const TomlTable& table) {
-  table.allow_only({"x", "y", "z", "speed"});
+HandMove read_move(const TomlTable& table, bool soft) {
+  table.allow_only({"x", "y", "z", "speed", "wait"});
+  if (soft && table.has("wait")) table.refuse("wait", "a soft sample does not change while the hand waits");
   HandMove move{base(table), table.quantity("speed", physics::kVelocityUnits)};
   if (!(move.speed >= kSlowestHand && move.speed <= kFastestHand)) {
     table.refuse("speed",
                  fmt::format("{} is not within {}", physics::format_quantity(move.speed, physics::kVelocityUnits),
                              physics::range_text(kSlowestHand.si, kFastestHand.si, physics::kVelocityUnits)));
+  }
+  if (!table.has("wait")) return move;
+  move.wait = table.quantity("wait", physics::kTimeUnits);
+  if (!(move.wait >= physics::Time(0.0) && move.wait <= kLongestWait)) {
+    table.refuse("wait", fmt::format("{} is not within {}", physics::format_quantity(move.wait, physics::kTimeUnits),
+                                     physics::range_text(0.0, kLongestWait.si, physics::kTimeUnits)));
   }
   return move;
 }
@@ -372,7 +380,8 @@ ParticleSet read_set(const toml::table& root) {
   const TomlTable start = top.table("start", "[start]");
   start.allow_only({"x", "y", "z"});
   set.start = base(start);
-  for (const TomlTable& table : top.tables("move", kMostMoves)) set.moves.push_back(read_move(table));
+  for (const TomlTable& table : top.tables("move", kMostMoves))
+    set.moves.push_back(read_move(table, set.soft.has_value()));
   if (set.soft) check_soft_moves(top, set);
   return set;
 }

@@ -19,6 +19,7 @@ namespace afm::scene {
 struct HandMove {
   physics::LeverBase to;
   physics::Velocity speed;
+  physics::Time wait{};  // at its end
 };
 
 // A species of particles as in a file.
