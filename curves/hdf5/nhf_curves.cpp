@@ -120,8 +120,9 @@ NhfCurves::Segment NhfCurves::segment_of(hid_t group) const {
     const std::string name = nhf_channel(set.get());
     if (name != "Position Z" && name != "Deflection") continue;
     must_hold_its_data(set.get(), name.c_str());
-    const NhfCalibration calibration = nhf_calibration(set.get(), version_ >= 2.0);
-    (name == "Deflection" ? segment.force : segment.height) = {std::move(set), calibration};
+    Channel& channel = name == "Deflection" ? segment.force : segment.height;
+    channel.calibration = nhf_calibration(set.get(), version_ >= 2.0);
+    channel.data = std::move(set);
   }
   if (!segment.force.data.is_open() || !segment.height.data.is_open()) {
     throw CurveError("a part of its curves has no channel \"Deflection\" and \"Position Z\"");

@@ -16,8 +16,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kSteepest = 0.08, kFlattest = 1.05;  // half angle in radians, 4.6 and 60 degrees
-constexpr double kStiffest = 5.0;                     // least E* over H
+constexpr double kSteepest = 0.08, kWidestCone = 1.05;  // half angle in radians, 4.6 and 60 degrees
+constexpr double kStiffest = 5.0;                       // least E* over H
 constexpr double kSpringBack = 0.75;
 constexpr double kConstraint = 3.0;  // H/Y, Tabor
 constexpr double kYields = 1.6;      // mean pressure over Y at which a ball begins to mark
@@ -41,7 +41,7 @@ void validate(const SoftSurface& surface) {
 
 void validate_marking_tip(const SphereCone& tip) {
   require_range("tip_radius", tip.radius, Length(1e-9), Length(1e-6), kLengthUnits);
-  require_range("half_angle", tip.half_angle_rad, kSteepest, kFlattest, kPlainNumber);
+  require_range("half_angle", tip.half_angle_rad, kSteepest, kWidestCone, kPlainNumber);
 }
 
 TipOutline::TipOutline(const SphereCone& tip) noexcept
