@@ -381,7 +381,7 @@ ParticleSet read_set(const toml::table& root) {
   start.allow_only({"x", "y", "z"});
   set.start = base(start);
   for (const TomlTable& table : top.tables("move", kMostMoves))
-    set.moves.push_back(read_move(table, set.soft.has_value()));
+    set.moves.push_back(read_move(table, set.soft != nullptr));
   if (set.soft) check_soft_moves(top, set);
   return set;
 }

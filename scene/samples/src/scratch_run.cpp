@@ -15,7 +15,7 @@ using physics::Length;
 using physics::LeverBase;
 using physics::ScratchTick;
 
-double margin_j(const ScratchTick& tick) { return (tick.given - tick.lost - tick.stored).si; }
+double scratch_margin_j(const ScratchTick& tick) { return (tick.given - tick.lost - tick.stored).si; }
 
 // Sums over the second half of a move.
 struct Sums {
@@ -77,7 +77,7 @@ ScratchRun play_scratch(const ParticleSet& set, physics::Frequency rate, std::si
   ScratchRun run;
   ScratchSample now{0.0, tip.last()};
   run.samples.push_back(now);
-  run.least_margin_j = margin_j(now.tick);
+  run.least_margin_j = scratch_margin_j(now.tick);
   LeverBase from = set.start;
   for (const HandMove& move : set.moves) {
     const std::size_t ticks = ticks_of(from, move, rate);
@@ -88,7 +88,7 @@ ScratchRun play_scratch(const ParticleSet& set, physics::Frequency rate, std::si
       now.tick = tip.move_to(i == ticks ? move.to : on_the_way(from, move.to, share));
       now.time_s = static_cast<double>(++run.ticks) / rate.si;
       if (now.tick.lagging) ++run.lagging;
-      run.least_margin_j = std::min(run.least_margin_j, margin_j(now.tick));
+      run.least_margin_j = std::min(run.least_margin_j, scratch_margin_j(now.tick));
       if (now.tick.state == physics::ScratchState::Marks) scratched.marks = true;
       if (2 * i > ticks) sums.add(now.tick);
       // the sample of this tick: the k-th of N is the tick k/(N - 1) of the way
