@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "outline.h"
+#include "manipulation/outline.h"
 #include "physics/manipulation/tip_contact.h"
 
 namespace afm::physics {
