@@ -37,8 +37,8 @@ void ServedImage::add(const physics::ScanLine& line) {
 
 render::ColorGrid ServedImage::colored(const std::vector<double>& map, double low, double high,
                                        Srgb (*color)(double)) const {
-  constexpr std::size_t kMostCells = 256;  // a panel shows no more
-  const std::size_t cells = std::min(kMostCells, std::max(size_.columns, size_.rows));
+  constexpr std::size_t kMostPanelCells = 256;  // a panel shows no more
+  const std::size_t cells = std::min(kMostPanelCells, std::max(size_.columns, size_.rows));
   const double side_m = std::max(size_.width_m, size_.height_m);
   // nearest pixel of a cell along one axis; none beside the image
   const auto pixel = [&](std::size_t cell, double length_m, std::size_t pixels) -> std::optional<std::size_t> {
