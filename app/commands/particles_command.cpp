@@ -153,6 +153,38 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
 
 const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
 
+// Energy, adhesion and what went wrong, over all moves.
+std::string energy_text(const scene::ScriptedPush& played) {
+  const PushTick& last = played.ends.back().tick;
+  // below what rounding leaves of sums, nothing is stored
+  const physics::Energy stored = last.stored.si > kRounding * last.given.si ? last.stored : physics::Energy(0.0);
+  std::string text = fmt::format(
+      "\nenergy: {} of work by the hand, {} lost, {} stored; slips: {}\n", format_quantity(last.work, kEnergyUnits, 4),
+      format_quantity(last.lost, kEnergyUnits, 4), format_quantity(stored, kEnergyUnits, 4), last.yields);
+  const physics::Energy begun = played.samples.front().tick.stored;
+  if (begun.si > kRounding * last.given.si) {
+    text +=
+        fmt::format("{} were stored at the start, where the lever is bent\n", format_quantity(begun, kEnergyUnits, 4));
+  }
+  const physics::Energy spent = begun + last.work, rest = spent - last.lost - stored;
+  if (rest.si > 0.01 * spent.si) {
+    text += fmt::format("{} more was lost in jumps of the tip among several particles\n",
+                        format_quantity(rest, kEnergyUnits, 4));
+  }
+  if (last.attached > 0) {
+    text +=
+        fmt::format("tip adhesion: held {} time{}, dragged {}, tore {}, with a loss of {}\n", last.attached,
+                    plural(last.attached), last.dragged, last.torn, format_quantity(last.torn_lost, kEnergyUnits, 4));
+  }
+  if (last.lifted > 0) {
+    text += fmt::format("on the tip: lifted {} time{}, set down {} time{}\n", last.lifted, plural(last.lifted),
+                        last.set_down, plural(last.set_down));
+  }
+  if (played.lagging > 0) text += fmt::format("{} ticks lagged behind the hand: it was too fast\n", played.lagging);
+  if (last.exhausted > 0) text += fmt::format("{} ticks ended before all spheres were at rest\n", last.exhausted);
+  return text;
+}
+
 std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions& options,
                            const scene::ScriptedPush& played) {
   std::string text =
@@ -192,34 +224,7 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
     }
   }
   text += picture_text(options.script, played);
-  const PushTick& last = played.ends.back().tick;
-  // below what rounding leaves of sums, nothing is stored
-  const physics::Energy stored = last.stored.si > kRounding * last.given.si ? last.stored : physics::Energy(0.0);
-  text += fmt::format("\nenergy: {} of work by the hand, {} lost, {} stored; slips: {}\n",
-                      format_quantity(last.work, kEnergyUnits, 4), format_quantity(last.lost, kEnergyUnits, 4),
-                      format_quantity(stored, kEnergyUnits, 4), last.yields);
-  const physics::Energy begun = played.samples.front().tick.stored;
-  if (begun.si > kRounding * last.given.si) {
-    text +=
-        fmt::format("{} were stored at the start, where the lever is bent\n", format_quantity(begun, kEnergyUnits, 4));
-  }
-  const physics::Energy spent = begun + last.work, rest = spent - last.lost - stored;
-  if (rest.si > 0.01 * spent.si) {
-    text += fmt::format("{} more was lost in jumps of the tip among several particles\n",
-                        format_quantity(rest, kEnergyUnits, 4));
-  }
-  if (last.attached > 0) {
-    text +=
-        fmt::format("tip adhesion: held {} time{}, dragged {}, tore {}, with a loss of {}\n", last.attached,
-                    plural(last.attached), last.dragged, last.torn, format_quantity(last.torn_lost, kEnergyUnits, 4));
-  }
-  if (last.lifted > 0) {
-    text += fmt::format("on the tip: lifted {} time{}, set down {} time{}\n", last.lifted, plural(last.lifted),
-                        last.set_down, plural(last.set_down));
-  }
-  if (played.lagging > 0) text += fmt::format("{} ticks lagged behind the hand: it was too fast\n", played.lagging);
-  if (last.exhausted > 0) text += fmt::format("{} ticks ended before all spheres were at rest\n", last.exhausted);
-  return text;
+  return text + energy_text(played);
 }
 
 // Fails if the hand has gained energy.

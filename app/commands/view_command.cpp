@@ -306,8 +306,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   if (!cluster) return tl::unexpected(cluster.error());
   auto display = ViewDisplay::open(*stage, display_of(options, cluster->get()), runtime->get(), clock);
   if (!display) return tl::unexpected(display.error());
-  ViewWindows& windows = (*display)->windows();
-  settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : windows.at(0).refresh_hz();
+  settings.most_frames_per_s = options.frame_rate > 0 ? options.frame_rate : (*display)->windows().at(0).refresh_hz();
   const servo::ServoChoice servo = servo_of(options);
   const auto start_servo = [&] {
     return servo::ServoClient::start(*model, scene::digest(stage->wall_scene.scene()), servo, program,
@@ -321,7 +320,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
                               .instructor = (*display)->instructor()};
   auto ran = run_live_window({.stage = *stage,
                               .materials = materials,
-                              .windows = windows,
+                              .windows = (*display)->windows(),
                               .picture = (*display)->picture(),
                               .drawn_by = (*display)->context().device_name(),
                               .wand = **wand,

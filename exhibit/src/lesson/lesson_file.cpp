@@ -377,9 +377,9 @@ core::Result<std::string> digest_of(const std::string& path, const Lesson& lesso
   auto bytes = core::read_file(path);
   if (!bytes) return bytes;
   if (lesson.set) {
-    const auto file = scene::particle_file(lesson.particles, assets_dir);
+    auto file = scene::particle_file(lesson.particles, assets_dir);
     if (!file) return file;
-    const auto set = core::read_file(*file);
+    auto set = core::read_file(*file);
     if (!set) return set;
     *bytes += *set;
   }
