@@ -231,7 +231,7 @@ void Device::wait_idle() const noexcept {
   try {
     finish_all();
   } catch (const vk::SystemError&) {
-    // a lost device or lack of memory is reported by the next call that needs the device
+    // a lost device or lack of memory is said by the next call that needs the device
   }
 }
 

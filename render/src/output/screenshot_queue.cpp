@@ -111,7 +111,7 @@ ScreenshotQueue::~ScreenshotQueue() {
   try {
     finish();
   } catch (const DeviceFailure&) {
-    // a lost device or lack of memory is reported by the next call that needs the device
+    // a lost device or lack of memory is said by the next call that needs the device
   }
 }
 
