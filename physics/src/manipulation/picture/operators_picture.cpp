@@ -23,7 +23,7 @@ ParticlePlace place_of(const PushedParticles& particles, std::size_t i, const Si
 
 // Part of a look's range of pixels around `middle` that lies within `count` pixels: first and number.
 std::pair<std::size_t, std::size_t> look_range(double middle, std::size_t count) {
-  constexpr double kHalf = (kLookLines - 1) / 2;
+  constexpr double kHalf = 0.5 * static_cast<double>(kLookLines - 1);
   const double most = static_cast<double>(count);
   const double first = std::clamp(std::round(middle) - kHalf, 0.0, most);
   const double end = std::clamp(std::round(middle) + kHalf + 1.0, 0.0, most);
@@ -168,7 +168,7 @@ void OperatorsPicture::end_look(const LeverBase& base) {
   measured.rows = scan.done;
   picture_.measure(measured, scan.there);
   if (model_) model_->hold_over({base.position, Length(std::max(base.z.si, clear_m_))});
-  looks_.push_back(std::move(look));
+  looks_.push_back(look);
 }
 
 bool OperatorsPicture::all_measured() const {

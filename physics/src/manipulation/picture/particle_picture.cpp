@@ -14,7 +14,7 @@ namespace {
 constexpr double kLookReach = 3.0;  // in footprint radii, to each side
 constexpr double kRoom = 2.0 * kLookReach;
 constexpr double kMostPixels = 512.0;  // on a side
-constexpr double kHalfLookPixels = (kLookLines - 1) / 2;
+constexpr double kHalfLookPixels = 0.5 * static_cast<double>(kLookLines - 1);
 
 Outline outline_at(const ParticlePlace& place, double half_m) {
   return {{place.position.x.si, place.position.y.si}, axis_of(place.turn), half_m};
