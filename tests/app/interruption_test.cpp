@@ -34,12 +34,14 @@ namespace fs = std::filesystem;
 // Of the program and its children, from the signal to their end: far less than what they were about to do.
 constexpr auto kMostProcessorTime = milliseconds(2000);
 
-// Waits until the program has blocked SIGTERM to handle it itself; under a sanitizer that takes 0.2 s.
+// Waits until the program has blocked SIGTERM to handle it itself; under a sanitizer that takes 0.2 s. Before it is
+// touchafm, the C library blocks all signals of its process for a moment, within fork().
 bool has_begun(const support::LiveProgram& program) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
   while (std::chrono::steady_clock::now() < end) {
     const auto status = core::read_file(fmt::format("/proc/{}/status", program.pid()));
-    const std::size_t held = status ? status->find("SigBlk:") : std::string::npos;
+    const bool runs = status && status->starts_with("Name:\ttouchafm\n");
+    const std::size_t held = runs ? status->find("SigBlk:") : std::string::npos;
     if (held != std::string::npos && ((std::stoull(status->substr(held + 7), nullptr, 16) >> (SIGTERM - 1)) & 1) != 0) {
       return true;
     }

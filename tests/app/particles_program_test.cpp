@@ -222,7 +222,7 @@ TEST(ParticlesCommand, ScratchesASoftSample) {
   EXPECT_EQ(json["moves"].back()["state"], "free");
   EXPECT_EQ(json["sources"].size(), 11U);
   const ProgramResult text = particles("scratch-pmma");
-  for (const char* part : {"first scratch", "any touch marks", "stand in ridges", "11 of 11 values are estimated"}) {
+  for (const char* part : {"first scratch", "any touch marks", "went into ridges", "11 of 11 values are estimated"}) {
     EXPECT_THAT(text.out, HasSubstr(part));
   }
   const support::ScratchFolder folder;

@@ -181,7 +181,7 @@ std::string scratch_text(const scene::ParticleSet& set, const scene::ScratchRun&
   for (std::size_t i = 0; i < run.moves.size(); ++i) text += move_text(i + 1, run.moves[i]);
   const physics::MarkVolumes& v = last.volumes;
   text += fmt::format(
-      "\nvolume: {:.4g} nm3 pressed down, of which {:.4g} sprang back, {:.4g} stand in ridges, {:.4g} are densified\n",
+      "\nvolume: {:.4g} nm3 pressed down: {:.4g} sprang back, {:.4g} went into ridges, {:.4g} was densified\n",
       v.pressed.si / kNm3, v.sprung_back.si / kNm3, (v.ridges + v.under_way).si / kNm3, v.densified.si / kNm3);
   const physics::ScratchTick& tick = last.end.tick;
   text += fmt::format("energy: at most {} of work by the hand, {} lost, {} stored\n",

@@ -119,7 +119,7 @@ render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPla
   const QuantityRow& row = kQuantities[core::index_of(quantity)];
   const std::vector<double> values = values_of(map, row);
   const Range range = at_least(inner_range(values), row.least_range);
-  // only the height has no zero of its own
+  // heights alone have an arbitrary zero
   const double zero = row.value == nullptr ? range.low : 0.0;
   render::MapPicture picture{.title = phrases[row.title],
                              .columns = static_cast<std::uint32_t>(pixels.columns),
