@@ -83,7 +83,7 @@ target_link_libraries(afm_build_flags INTERFACE afm_glm)
 set(AFM_COLD_CODE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
 
 # What most files include and the compiler needs seconds to read is read once. It replaces no include: the public headers are
-# compiled alone, without it (all_verify_interface_header_sets). Those who share it must agree about what they optimise and
+# compiled alone, without it (scripts/compile-alone). Those who share it must agree about what they optimise and
 # about fmt's macros.
 set(AFM_PRECOMPILED_HEADERS <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
     <optional> <random> <span> <stdexcept> <string> <string_view> <thread> <utility> <vector>
@@ -146,7 +146,7 @@ endfunction()
 
 # afm_module(NAME [COLD] [IN_PYTHON] PUBLIC ... PRIVATE ... [PRECOMPILED ...] [ALONE source that is not compiled together with others ...])
 # A folder is a static library afm::NAME of all that lies in its include/ and src/. Only include/ is exported, so that including a
-# module that is not linked fails; every public header is compiled alone by the target all_verify_interface_header_sets. Headers are
+# module that is not linked fails; every public header is compiled alone by scripts/compile-alone. Headers are
 # precompiled by names in <>: the path of one in quotes would be that of a clone, and the compiler's cache useless to every other.
 # The Python module links those with IN_PYTHON.
 function(afm_module name)
