@@ -303,7 +303,8 @@ core::Result<void> run_render(const RenderOptions& options) {
                                         .pages = replayed->pages,
                                         .push = replayed->push,
                                         .score = task ? task->score() : scene::TaskScore{},
-                                        .plan = replayed->plan};
+                                        .plan = replayed->plan,
+                                        .picture = replayed->picture ? &*replayed->picture : nullptr};
   const exhibit::ParticlesNow* shown = session->particles ? &particles : nullptr;
   if (!session->wall.empty()) return draw_frame(*stage, models, *session, shown, time_ns, options);
   return draw_replayed(*stage, models, *session, material, shown, time_ns, options);

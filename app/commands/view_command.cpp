@@ -265,6 +265,13 @@ core::Result<void> take_spring_constant(const ViewOptions& options, curves::Tapp
   return set_map_spring_constant(text, files);
 }
 
+core::Result<void> lay_particles(const ViewOptions& options, const exhibit::Stage& stage, scene::SharedModel& model) {
+  if (options.level.level > 0 && options.cluster.wanted)
+    return core::wrong_usage("--level of particles does not reach the machines of --cluster; remove one");
+  if (stage.particles) model.particles = scene::shared_particles(*stage.particles);
+  return scene::set_level(options.level, model.particles);
+}
+
 core::Result<void> check_lesson(const ViewLesson* lesson, const std::vector<curves::SampleModel>& materials) {
   return lesson == nullptr ? core::Result<void>() : exhibit::check_samples(lesson->lesson, materials);
 }
@@ -300,7 +307,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
                                      stage->wall_scene.height_fields(), stage->recorded_curves(),
                                      stage->wall_scene.topography().size());
   if (!model) return tl::unexpected(model.error());
-  if (stage->particles) model->particles = scene::shared_particles(*stage->particles);
+  if (auto laid = lay_particles(options, *stage, *model); !laid) return laid;
 
   const auto cluster = other_machines(options, program, *stage, clock);
   if (!cluster) return tl::unexpected(cluster.error());
@@ -358,7 +365,7 @@ void add_view_command(OptionList& program, const CommandContext& context) {
                   keys_of_visitors()));
   auto options = std::make_shared<ViewOptions>();
   add_stage_options(command, options->files, context);
-  add_own_model_options(command, options->files);
+  add_own_model_options(command, options->files, &options->level);
   add_particles_option(command, options->files);
   std::vector<NamedOption> of_map = add_force_map_options(command, options->files);
   command

@@ -15,6 +15,7 @@
 #include "curves/tapping/driven_setup.h"
 #include "exhibit/frame/exhibit_files.h"
 #include "physics/friction/friction.h"
+#include "scene/samples/level_choice.h"
 #include "servo/servo_choice.h"
 
 namespace afm::curves {
@@ -31,6 +32,7 @@ struct ViewLesson;
 // Options of the live window.
 struct ViewOptions {
   exhibit::ExhibitFiles files;
+  scene::LevelChoice level;
   DisplayOptions display;
   ViewSettings settings;                  // without the scale
   std::optional<scene::ScaleMode> scale;  // empty: particles where there are any, otherwise fit

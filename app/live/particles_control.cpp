@@ -14,6 +14,7 @@
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scenery/push_planner.h"
 #include "exhibit/state/moment.h"
+#include "servo/live_picture.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
@@ -34,6 +35,10 @@ ParticlesControl::~ParticlesControl() = default;
 
 void ParticlesControl::take_back() {
   if (!parts_.servo.running()) return;
+  if (const servo::LivePicture* picture = parts_.servo.picture(); picture != nullptr && picture->now().level > 1) {
+    return core::log_line(
+        "take back: no push at level 2, where the sample has drifted since; R puts all particles back");
+  }
   if (parts_.servo.link().push().strokes == 0) return core::log_line("take back: no push has moved a particle");
   core::log_line("take back: the last push");
   give(Order::TakeBack);
@@ -52,6 +57,16 @@ void ParticlesControl::plan_next_place() {
 void ParticlesControl::toggle_groove() {
   core::log_line(planner_->toggle_groove());
   send_plan();
+}
+
+void ParticlesControl::look_again() {
+  if (!parts_.servo.running()) return;
+  const servo::LivePicture* picture = parts_.servo.picture();
+  if (picture == nullptr)
+    return core::log_line("look again: the particles themselves are shown; --level 1 or 2 hides them");
+  if (picture->looks()) return core::log_line("look again: a look goes on");
+  if (!picture->lifted()) core::log_line("look again: as soon as the tip is lifted off the particles");
+  order_ = Order::Look;
 }
 
 bool ParticlesControl::point(const input::Ray& ray) {
@@ -91,23 +106,34 @@ void ParticlesControl::give(Order order) {
 
 void ParticlesControl::update(const ViewFrame& frame) {
   const servo::ServoClient& link = parts_.servo.link();
-  now_.pages = link.particle_pages();
+  const servo::LivePicture* picture = parts_.servo.picture();
+  now_.pages = picture != nullptr ? picture->shown() : link.particle_pages();
+  now_.picture = picture != nullptr ? &picture->now() : nullptr;
   now_.push = link.push();
   if (!parts_.servo.running()) return;
   if (task_) follow_task();
-  if (order_ == Order::None) return;
+  if (order_ != Order::None) carry_out(frame.now_ns);
+}
+
+void ParticlesControl::carry_out(std::int64_t now_ns) {
   servo::ServoClient& servo = parts_.servo.link();
+  if (order_ == Order::Look) {
+    const servo::LivePicture* picture = parts_.servo.picture();
+    if (picture != nullptr && !picture->lifted()) return;
+    order_ = Order::None;
+    return servo.look_again(now_ns);
+  }
   const scene::TipState& tip = servo.tip();
   if (scene::is_armed(tip.servo_state) || tip.hand.force_n != std::array<double, 3>{}) return;
   if (std::exchange(order_, Order::None) == Order::TakeBack) {
-    servo.take_back_push(frame.now_ns);
+    servo.take_back_push(now_ns);
   } else {
-    servo.put_particles_back(frame.now_ns);
+    servo.put_particles_back(now_ns);
   }
 }
 
 void ParticlesControl::follow_task() {
-  const bool ends = task_->look(now_.pages);
+  const bool ends = task_->look(parts_.servo.link().particle_pages(), parts_.servo.picture());
   now_.score = task_->score();
   if (!ends) return;
   core::log_line("the pattern is done: " + scene::text_of(now_.score));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -36,17 +37,23 @@ class ParticlesControl final : public ViewControl {
   void plan_next_place();
   void toggle_groove();
 
+  // Measures the particles near the tip again, at level 1 and 2, as soon as the tip is lifted.
+  void look_again();
+
   void update(const ViewFrame& frame) override;
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
   void restart(Restart what) override;
 
  private:
-  enum class Order { None, TakeBack, PutBack };
+  enum class Order { None, TakeBack, PutBack, Look };
 
   // The servo carries it out only without force, so the request waits until there is none.
   void give(Order order);
 
   void begin_task();
+
+  // Gives an order that has waited, once the servo can carry it out.
+  void carry_out(std::int64_t now_ns);
 
   // Announces that the pattern is done.
   void follow_task();

@@ -89,6 +89,8 @@ constexpr std::array kRows{
         .with_particles(),
     LiveKey{Key::F9, "F9", Phrase::KeyGroove, [](KeyOwners& owners, std::size_t) { owners.particles->toggle_groove(); }}
         .with_particles(),
+    LiveKey{Key::F5, "F5", Phrase::KeyLook, [](KeyOwners& owners, std::size_t) { owners.particles->look_again(); }}
+        .with_particles(),
     LiveKey{Key::Left, "Left", Phrase::KeyHeadAcross,
             [](KeyOwners& owners, std::size_t) { owners.place->move_head(-kHeadStepM, 0.0, 0.0); }}
         .for_staff(),

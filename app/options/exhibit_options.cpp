@@ -48,22 +48,29 @@ Option add_gpu_option(OptionList& command, std::string& gpu) {
       .type_name("NAME");
 }
 
-void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files) {
+void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files, scene::LevelChoice* particles) {
   command
       .add_option("--probe", files.probe,
                   "glTF model of your own cantilever, with nodes for the roles base and tip (see docs/gltf.md)")
       .type_name("FILE");
-  add_own_sample_option(command, files);
+  add_own_sample_option(command, files, particles);
 }
 
-void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files) {
+void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files, scene::LevelChoice* particles) {
   command
       .add_option("--sample", files.sample,
                   fmt::format("your own sample, drawn and felt: a glTF model with a node for the role surface, or a "
                               "measured image ({}); the file's first bytes decide",
                               curves::kImageFiles))
       .type_name("FILE");
-  add_channel_options(command, files.sample_channel, files.sample_levelling);
+  const auto [channel, level] =
+      add_channel_options(command, files.sample_channel, files.sample_levelling, "--channel", particles);
+  if (particles == nullptr) return;
+  command.add_option("--seed", particles->seed, "with --level 2: choice of the drift's direction and of the scatter")
+      .type_name("NUMBER")
+      .within(1, static_cast<int>(scene::kLargestSeed))
+      .needs(level)
+      .show_default();
 }
 
 void add_particles_option(OptionList& command, exhibit::ExhibitFiles& files) {

@@ -10,6 +10,7 @@
 #include "exhibit/frame/exhibit_files.h"
 #include "exhibit/frame/wall_pictures.h"
 #include "physics/friction/friction.h"
+#include "scene/samples/level_choice.h"
 #include "scene/shared/scale_modes.h"
 
 namespace afm::app {
@@ -21,8 +22,9 @@ void add_stereo_options(OptionList& command, exhibit::PictureOptions& options, c
 Option add_gpu_option(OptionList& command, std::string& gpu);
 
 // Adds --probe and --sample; the second function adds only --sample, for a command whose --probe also accepts names.
-void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files);
-void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files);
+// With `particles`, --level also takes their level, and --seed is added.
+void add_own_model_options(OptionList& command, exhibit::ExhibitFiles& files, scene::LevelChoice* particles = nullptr);
+void add_own_sample_option(OptionList& command, exhibit::ExhibitFiles& files, scene::LevelChoice* particles = nullptr);
 
 // Adds --particles.
 void add_particles_option(OptionList& command, exhibit::ExhibitFiles& files);

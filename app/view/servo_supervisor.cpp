@@ -5,8 +5,10 @@
 
 #include <utility>
 
+#include "core/check.h"
 #include "core/log.h"
 #include "core/percentiles.h"
+#include "servo/live_picture.h"
 #include "servo/servo_client.h"
 #include "servo/session_recorder.h"
 #include "servo/tip_stream.h"
@@ -22,6 +24,7 @@ constexpr std::size_t kMostRestarts = 3;  // per minute
 std::string log_text(const scene::TipEvent& event) {
   if (event.kind == physics::EventKind::PushTakenBack) return "the last push was taken back";
   if (event.kind == physics::EventKind::ParticlesPutBack) return "all pushes were taken back";
+  if (event.kind == physics::EventKind::LookedAgain) return "looking again, as long as the tip stays lifted";
   if (event.kind == physics::EventKind::JumpToRepulsion || event.kind == physics::EventKind::JumpToAttraction) {
     const bool in = event.kind == physics::EventKind::JumpToRepulsion;
     return fmt::format("jump to the {} state at Z = {:.3f} nm, mean force {:.4f} nN", in ? "repulsive" : "attractive",
@@ -71,6 +74,7 @@ core::Result<void> ServoSupervisor::launch(const char* message) {
   link_ = std::move(*servo);
   error_.reset();
   *stream_ = {};
+  picture_.reset();
   logged_state_ = scene::ServoState::Disarmed;
   if (message != nullptr) core::log_line(message);
   started_(*link_, chosen_before);
@@ -94,10 +98,11 @@ void ServoSupervisor::update(std::int64_t now_ns) {
       [&](const scene::TipSample& sample) {
         cycles_.add(sample);
         friction_.add(sample);
+        follow_picture(sample);
         for (const auto& hears : hears_) hears(sample);
         audience_.heard(sample);
         if (!folder_) return;
-        if (recorder_->add(sample, *link_)) recorder_->set_earlier(curves_on_wall());
+        if (recorder_->add(sample, *link_, picture_.get())) recorder_->set_earlier(curves_on_wall());
         keep_finished();
       },
       [&](const scene::TipEvent& event) {
@@ -105,11 +110,26 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         recorder_->add(event);
         audience_.heard(event);
         cues_.add(event);
+        if (picture_) picture_->add(event);
         if (const std::string text = log_text(event); !text.empty()) core::log_line(text);
         for (const auto& hears : hears_events_) hears(event);
       });
   keep_part(now_ns);
   log_state();
+}
+
+// A servo that has been taken over has particles elsewhere: they are measured as they lie.
+void ServoSupervisor::follow_picture(const scene::TipSample& sample) {
+  const scene::SharedParticles& particles = link_->model().particles;
+  if (particles.level.level == 0) return;
+  if (!picture_) {
+    auto picture = servo::LivePicture::create(particles, link_->device());
+    AFM_CHECK(picture);  // the servo has built the same particles for this device
+    picture_ = std::move(*picture);
+  }
+  const std::uint64_t looks = picture_->now().looks;
+  picture_->add(sample, link_->particle_pages());
+  if (picture_->now().looks > looks) core::log_line(servo::text_of(picture_->now().newest));
 }
 
 void ServoSupervisor::log_state() {

@@ -16,6 +16,7 @@
 #include "servo/session_folder.h"
 
 namespace afm::servo {
+class LivePicture;
 class ServoClient;
 class SessionRecorder;
 class TipAudience;
@@ -66,6 +67,9 @@ class ServoSupervisor {
   const servo::ServoClient& link() const { return *link_; }
   const std::optional<core::Error>& error() const { return error_; }
   bool running() const { return !error_; }
+
+  // Picture of the particles at level 1 and 2, once the servo's first sample has come; otherwise null.
+  const servo::LivePicture* picture() const { return picture_.get(); }
   std::optional<std::size_t> material() const;  // index of the one under the tip
 
   const exhibit::CycleHistory& cycles() const { return cycles_; }
@@ -79,6 +83,7 @@ class ServoSupervisor {
  private:
   core::Result<void> launch(const char* message);
   void replace(const core::Error& error, std::int64_t now_ns);
+  void follow_picture(const scene::TipSample& sample);
   void keep_finished();
   void keep_part(std::int64_t now_ns);
   void stop_recording(const core::Error& error);
@@ -97,6 +102,7 @@ class ServoSupervisor {
   std::optional<core::Error> error_;      // set once the servo has ended for good
   std::deque<std::int64_t> restarts_ns_;  // times of restarts within the last minute
   std::unique_ptr<servo::TipStream> stream_;
+  std::unique_ptr<servo::LivePicture> picture_;
   exhibit::CycleHistory cycles_;
   exhibit::FrictionHistory friction_;
   std::optional<servo::SessionFolder> folder_;

@@ -183,5 +183,56 @@ TEST_F(ViewParticles, ArePlannedByKeysAndMouseAndPushedAlongAGroove) {
   EXPECT_GT(unguided, 0U);
 }
 
+TEST_F(ViewParticles, AreShownAsAPictureThatAKeyMeasuresAgain) {
+  folder_.write("row.toml", three_in_a_row());
+  support::LiveProgram view({support::touchafm(), "view", "--particles", folder_.file("row.toml"), "--level", "2",
+                             "--seed", "9", "--size", "640x480", "--eye-width", "320", "--frame-rate", "12", "--servo",
+                             support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
+                            display_.name());
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  const auto press = [&](const char* key, const char* said) {
+    xdotool(std::string("key ") + key);
+    return view.says(said);
+  };
+  ASSERT_TRUE(press("1", "chosen: ")) << view.said();
+  ASSERT_TRUE(push(view, 0.018)) << view.said();
+  ASSERT_TRUE(press("F5", "looking again, as long as the tip stays lifted")) << view.said();
+  ASSERT_TRUE(view.says("looked again: particle 1 lies ")) << view.said();
+  ASSERT_TRUE(press("BackSpace", "take back: no push at level 2")) << view.said();
+  xdotool("key Escape");
+  ASSERT_EQ(view.ends(), 0) << view.said();
+
+  std::size_t looks = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder_.file("kept"))) {
+    if (file.path().extension() != ".afms") continue;
+    const auto session = servo::load_session(file.path());
+    ASSERT_TRUE(session) << session.error().message;
+    EXPECT_EQ(session->particles->set.level.seed, 9U);
+    looks += count(*session, physics::EventKind::LookedAgain);
+    const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+    EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
+    const auto drawn = support::run_program(support::touchafm() + " render --session " + file.path().string() +
+                                            " --at 1 --out " + folder_.file("then.png"));
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  }
+  EXPECT_EQ(looks, 1U);
+}
+
+TEST_F(ViewParticles, HaveNoOldPictureWhereTheTipHidesOrTurnsThem) {
+  const auto refused = [&](const std::string& options) {
+    const auto view =
+        support::run_program("DISPLAY=" + display_.name() + " " + support::touchafm() + " view " + options);
+    EXPECT_NE(view.exit_code, 0) << options;
+    return view.err;
+  };
+  EXPECT_THAT(refused("--particles islands --level 1"), HasSubstr("--level 1: only spheres and rods have a picture"));
+  EXPECT_THAT(refused("--particles pick-and-place --level 2"), HasSubstr("--level 2: the tip lifts these spheres"));
+  EXPECT_THAT(refused("--level 1"), HasSubstr("--level 1: there are no particles"));
+  EXPECT_THAT(refused("--particles gold-row --level 3"), HasSubstr("choose plane, lines, none, 0, 1, 2"));
+  EXPECT_THAT(refused("--particles gold-row --seed 3"), HasSubstr("--level"));
+}
+
 }  // namespace view_particles_test
 }  // namespace afm::app

@@ -13,6 +13,7 @@
 #include "exhibit/scan/scan_subject.h"
 #include "exhibit/words/guidance.h"
 #include "scene/shared/shared_blocks.h"
+#include "servo/live_picture.h"
 #include "support/particles/particle_sets.h"
 #include "support/tapped_sample.h"
 
@@ -86,6 +87,18 @@ render::ForcePanel full_dial(const Phrases& phrases) {
   return swing_panel(sample, tip, phrases);
 }
 
+// Of the last particle, with the longest numbers.
+servo::PictureNow old_picture(const scene::ParticleSet& set) {
+  return {.level = 1,
+          .known = std::vector<servo::Known>(set.particles.size(), servo::Known::Computed),
+          .particle = set.particles.size() - 1,
+          .age_s = 9999.0,
+          .doubt_m = 123.4e-9,
+          .all_measured = false,
+          .looks = 99,
+          .newest = {.particle = set.particles.size() - 1, .lines = 33, .off_m = 123.4e-9}};
+}
+
 std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
   std::vector<render::DataPanel> panels;
   for (const char* name : {"gold-row", "latex-letter"}) {
@@ -110,9 +123,12 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
                                        .state = task};
           const scene::PlannedPush plan{
               .to_m = {0.0, 123.4e-9}, .particle = static_cast<std::int32_t>(set.particles.size()) - 1, .guided = 1};
+          const servo::PictureNow picture = old_picture(set);
           for (const auto& lie : {pages, formed}) {
             panels.push_back(
                 particles_panel({.set = &set, .pages = lie, .push = push, .score = score, .plan = plan}, phrases));
+            panels.push_back(particles_panel(
+                {.set = &set, .pages = lie, .push = push, .score = score, .plan = plan, .picture = &picture}, phrases));
           }
         }
       }

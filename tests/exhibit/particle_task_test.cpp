@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -17,6 +18,7 @@
 
 #include "exhibit/state/particles_now.h"
 #include "scene/samples/pattern_state.h"
+#include "servo/live_picture.h"
 #include "servo/recorded_servo.h"
 #include "support/particles/particle_sets.h"
 
@@ -36,16 +38,17 @@ constexpr double kHighM = 16e-3;
 constexpr double kBehindM = 50e-9;  // from the middle of the particle to the tip that comes down behind it
 constexpr double kNearM = 10e-9;    // distance from a target that the person is content with
 
-std::unique_ptr<scene::SharedModel> model_with(const scene::ParticleSet& set) {
+std::unique_ptr<scene::SharedModel> model_with(const scene::ParticleSet& set, std::uint32_t level) {
   auto model = std::make_unique<scene::SharedModel>(test::paper_model());
   model->particles = scene::shared_particles(set);
+  model->particles.level.level = level;
   return model;
 }
 
 class Person {
  public:
-  explicit Person(const scene::ParticleSet& set, unsigned seed)
-      : set_(set), pattern_(scene::shared_pattern_of(set)), random_(seed), recording_(*model_with(set)) {
+  explicit Person(const scene::ParticleSet& set, unsigned seed, std::uint32_t level = 0)
+      : set_(set), pattern_(scene::shared_pattern_of(set)), random_(seed), recording_(*model_with(set, level)) {
     recording_.choose(test::kMica, scene::ScaleMode::Particles);
     recording_.arm();
     m_per_m_ = recording_.state().active.scale.hand_m_per_m;
@@ -65,6 +68,16 @@ class Person {
       push(pattern->match.particles[worst], target(worst));
     }
     rest(1.0);
+  }
+
+  // Looks again at every particle that is not measured.
+  void look() {
+    for (std::size_t i = 0; i < set_.particles.size(); ++i) {
+      if (recording_.picture->now().known[i] == servo::Known::Measured) continue;
+      go(m_per_m_ * place(i), kHighM, kWayMPerS);
+      ++recording_.looks;
+      rest(3.6);
+    }
   }
 
   double time_s() const { return 1e-9 * static_cast<double>(recording_.now_ns); }
@@ -138,7 +151,7 @@ scene::TaskScore live_score(const scene::ParticleSet& set, const servo::Recorded
   const auto replayed = servo::replay(session, {}, [&](const servo::ReplayedTick& now) {
     for (const scene::TipEvent& event : now.events) task.add(event);
     task.add(now.sample);
-    if (++tick % frame == 0) task.look(now.pages);
+    if (++tick % frame == 0) task.look(now.pages, now.picture);
   });
   EXPECT_TRUE(replayed && replayed->identical());
   return task.score();
@@ -163,6 +176,27 @@ TEST(ParticleTask, IsSolvedByAPersonWithDelayAndTremorAndScoredAlikeLiveAndInARe
   EXPECT_EQ(score.undos, 0U);
   EXPECT_EQ(live_score(set, session, 17), score) << "at 60 frames a second";
   EXPECT_EQ(live_score(set, session, 450), score) << "at two frames a second";
+}
+
+TEST(ParticleTask, IsJudgedByMeasuredPlacesAlone) {
+  const scene::ParticleSet set = test::particle_set("gold-row");
+  Person person(set, 11, 1);
+  person.solve(300.0);
+  const auto score_now = [&] {
+    ParticleTask task(set);
+    const auto replayed = servo::replay(person.recording().sessions.front(), {},
+                                        [&](const servo::ReplayedTick& tick) { task.hear(tick); });
+    EXPECT_TRUE(replayed && replayed->identical());
+    return task.score();
+  };
+  const scene::TaskScore pushed = score_now();
+  EXPECT_EQ(pushed.state, scene::TaskState::Running) << "the pattern is done, but only computed";
+  person.look();
+  const scene::TaskScore looked = score_now();
+  EXPECT_EQ(looked.state, scene::TaskState::Done) << scene::text_of(looked);
+  EXPECT_EQ(looked.strokes, pushed.strokes);
+  EXPECT_LT(looked.time_s, pushed.time_s) << "up to the last lift, without the looks";
+  EXPECT_EQ(live_score(set, person.recording().sessions.front(), 17), looked) << "at 60 frames a second";
 }
 
 }  // namespace particle_task_test

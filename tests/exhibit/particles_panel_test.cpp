@@ -13,6 +13,7 @@
 #include "core/enumerators.h"
 #include "exhibit/state/plan_figures.h"
 #include "scene/samples/pattern_state.h"
+#include "servo/live_picture.h"
 #include "support/particles/particle_sets.h"
 #include "support/phrases.h"
 
@@ -103,6 +104,49 @@ TEST_F(ParticlesPanel, HasTheFrictionOfAnIsland) {
               .to_m = {pages_[0].poses[0].x_m, pages_[0].poses[0].y_m + 339e-9},
               .particle = 0};
   EXPECT_NEAR(plan_figures(now)->aim.si, 27.9e-9, 0.2e-9);
+}
+
+TEST_F(ParticlesPanel, SaysWhatIsKnownOfTheNearestParticleAndWhatALookFound) {
+  using servo::Known;
+  servo::PictureNow picture{.level = 2,
+                            .known = std::vector<Known>(set_.particles.size(), Known::Measured),
+                            .particle = 2,
+                            .age_s = 83.2,
+                            .doubt_m = 4.55e-9};
+  picture.known[2] = Known::Computed;
+  picture.all_measured = false;
+  scene::TipPush push = test::push_of(set_, 0, PushState::Free);
+  push.strokes = 4;
+  const auto shown = [&] {
+    return particles_panel({.set = &set_, .pages = pages_, .push = push, .picture = &picture}, test::english());
+  };
+  EXPECT_EQ(row(panel(push), Phrase::PictureName), render::DataRow{}) << "level 0 has none";
+  EXPECT_EQ(row(shown(), Phrase::PictureName),
+            (render::DataRow{"Picture", "computed", "level 2; particle 3, seen 83 s ago, in doubt by 4.55 nm"}));
+  EXPECT_EQ(row(shown(), Phrase::LookName), render::DataRow{}) << "nobody has looked";
+  EXPECT_THAT(shown().subtitle, HasSubstr("to take back: 0")) << "none at level 2";
+  picture.known[2] = Known::Stale;
+  EXPECT_EQ(row(shown(), Phrase::PictureName).value, "stale");
+  picture.look_share = 0.4;
+  EXPECT_EQ(row(shown(), Phrase::PictureName).value, "looking: 40 %");
+  picture.looks = 1;
+  picture.newest = {.particle = 2, .lines = 33, .off_m = 6.7e-9};
+  EXPECT_EQ(row(shown(), Phrase::LookName),
+            (render::DataRow{"Newest look", "6.7 nm", "from the shown place of particle 3; lines: 33"}));
+  picture.newest.off_m.reset();
+  EXPECT_EQ(row(shown(), Phrase::LookName).value, "not found");
+}
+
+TEST_F(ParticlesPanel, CallsNoPatternDoneBeforeAllOfItHasBeenMeasured) {
+  pages_ = test::formed_pages(set_);
+  servo::PictureNow picture{.level = 1, .known = std::vector<servo::Known>(set_.particles.size())};
+  const scene::TipPush push = test::push_of(set_, 0, PushState::Free);
+  const auto shown = [&] {
+    return particles_panel({.set = &set_, .pages = pages_, .push = push, .picture = &picture}, test::english());
+  };
+  EXPECT_THAT(shown().subtitle, StartsWith("Pattern done"));
+  picture.all_measured = false;
+  EXPECT_THAT(shown().subtitle, HasSubstr("by computed places: look again (F5)"));
 }
 
 TEST_F(ParticlesPanel, SaysHowManyPushesCanBeTakenBack) {

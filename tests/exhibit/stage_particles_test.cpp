@@ -16,6 +16,7 @@
 #include "exhibit/scenery/wall_scene.h"
 #include "physics/manipulation/tip_contact.h"
 #include "scene/samples/particle_set.h"
+#include "servo/live_picture.h"
 #include "support/paper_wall.h"
 #include "support/particles/particle_sets.h"
 
@@ -89,6 +90,34 @@ TEST_F(ParticlesOfAWall, FollowThePosesOfTheServo) {
   for (const std::size_t other : {0U, 2U, 3U, 4U}) {
     EXPECT_EQ(moved.copies[0].copies[other], before.copies[0].copies[other]) << other;
   }
+}
+
+// Apart without colour: none, many small or a few large dots around them.
+TEST_F(ParticlesOfAWall, ShowWhetherTheirPlaceWasMeasured) {
+  using servo::Known;
+  const WallScene wall = wall_of(set_);
+  const std::vector<scene::ParticlePage> pages = test::start_pages(set_);
+  servo::PictureNow picture{.level = 2, .known = std::vector<Known>(set_.particles.size(), Known::Measured)};
+  const ParticlesNow now{.set = &set_, .pages = pages, .picture = &picture};
+  const auto node = wall.scene().find_node("doubts/dot").value();
+  const auto dots = [&](const render::FrameState& drawn) {
+    const auto found = std::find_if(drawn.copies.begin(), drawn.copies.end(),
+                                    [&](const render::MeshCopies& copies) { return copies.node == node; });
+    return found == drawn.copies.end() ? std::vector<render::MeshCopy>{} : found->copies;
+  };
+  const render::FrameState measured = frame(wall, &now);
+  EXPECT_TRUE(dots(measured).empty());
+  picture.known[1] = Known::Computed;
+  const std::vector<render::MeshCopy> computed = dots(frame(wall, &now));
+  EXPECT_EQ(computed.size(), 12U);
+  picture.known[1] = Known::Stale;
+  const render::FrameState old = frame(wall, &now);
+  const std::vector<render::MeshCopy> stale = dots(old);
+  ASSERT_EQ(stale.size(), 4U);
+  EXPECT_GT(stale[0].scale, 2.0F * computed[0].scale);
+  EXPECT_LT(old.copies[0].copies[1].tint.g, 0.5F * measured.copies[0].copies[1].tint.g);
+  picture.known.assign(set_.particles.size(), Known::Computed);
+  EXPECT_LE(dots(frame(wall, &now)).size(), wall.scene().nodes[node].most_copies);
 }
 
 TEST_F(ParticlesOfAWall, LieAmongTheCrossesOfTheirPattern) {

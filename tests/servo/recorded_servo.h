@@ -18,6 +18,7 @@
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
 #include "scene/shared/shared_segment.h"
+#include "servo/live_picture.h"
 #include "servo/replay.h"
 #include "support/paper_model.h"
 
@@ -97,7 +98,8 @@ class Recording {
                                                  .stop = stop ? 1U : 0U,
                                                  .unseen = unseen ? 1U : 0U,
                                                  .take_back = taken_back,
-                                                 .put_back = put_back});
+                                                 .put_back = put_back,
+                                                 .look = looks});
       if (scan && tick_ % 16 == 0) {
         scene::ScanLead lead = scan();
         lead.time_ns = now_ns;
@@ -109,8 +111,14 @@ class Recording {
       for (std::uint32_t page = 0; page < pages_.size(); ++page) {
         if (const auto newer = renderer_.new_particle_page(page)) pages_[page] = *newer;
       }
-      while (const auto sample = renderer_.pop_sample()) record(*sample);
-      while (const auto event = renderer_.pop_event()) sessions.back().events.push_back(*event);
+      std::vector<scene::TipEvent> came;
+      while (const auto event = renderer_.pop_event()) came.push_back(*event);
+      while (const auto sample = renderer_.pop_sample()) {
+        draw(*sample, came);
+        record(*sample);
+      }
+      if (came.empty()) continue;
+      sessions.back().events.insert(sessions.back().events.end(), came.begin(), came.end());
     }
   }
 
@@ -154,10 +162,20 @@ class Recording {
   bool unseen = false;
   std::uint32_t taken_back = 0;  // orders to take a push back, and to put all particles back
   std::uint32_t put_back = 0;
+  std::uint32_t looks = 0;                // orders to look again
+  std::unique_ptr<LivePicture> picture;   // at level 1 and 2, after the first tick
   std::function<scene::ScanLead()> scan;  // scan of each frame; empty: none
   std::int64_t now_ns = 7'000'000'000;
 
  private:
+  void draw(const scene::TipSample& sample, const std::vector<scene::TipEvent>& came) {
+    const scene::SharedParticles& particles = segment_.model().particles;
+    if (particles.level.level == 0) return;
+    if (!picture) picture = std::move(*LivePicture::create(particles, *renderer_.device()));
+    for (const scene::TipEvent& event : came) picture->add(event);
+    picture->add(sample, pages_);
+  }
+
   void record(const scene::TipSample& sample) {
     if (sessions.empty() || sessions.back().samples.back().material != sample.material) {
       RecordedSession& session = sessions.emplace_back();
@@ -167,6 +185,11 @@ class Recording {
       session.rate_hz = 1000.0;
       session.room_from_sample = segment_.model().nodes[1].parent_from_node;
       if (!pages_.empty()) session.particles = {.set = segment_.model().particles, .pages = pages_};
+      if (picture) {
+        session.particles->set.level.since_ns = sample.level.since_ns;
+        session.particles->picture = picture->state();
+        session.hand_m_per_m = session.hand_n_per_n = 1.0;
+      }
     }
     sessions.back().samples.push_back(sample);
   }

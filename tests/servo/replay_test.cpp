@@ -287,12 +287,13 @@ TEST(Replay, ComparesEveryNumberThatTheServoComputed) {
     EXPECT_EQ(replay(session)->first_event.value_or(Difference{}).quantity, name);
     quantities.push_back(name);
   }
-  EXPECT_THAT(quantities, testing::ElementsAre(
-                              "z_m", "force_N", "tip_height_m", "deflection_m", "sample_deformation_m", "hand_height_m",
-                              "hand_force_N", "servo_state", "phase", "tip_x_m", "tip_y_m", "surface_height_m",
-                              "lateral_x_N", "lateral_y_N", "particle_digest", "push_x_N", "push_y_N", "push_lift_N",
-                              "push_normal_N", "pushed_particle", "push_state", "amplitude_m", "phase_rad", "guide_x_N",
-                              "guide_y_N", "kind", "time_ns", "z_m", "force_before_N", "force_after_N"));
+  EXPECT_THAT(quantities,
+              testing::ElementsAre("z_m", "force_N", "tip_height_m", "deflection_m", "sample_deformation_m",
+                                   "hand_height_m", "hand_force_N", "servo_state", "phase", "tip_x_m", "tip_y_m",
+                                   "surface_height_m", "lateral_x_N", "lateral_y_N", "particle_digest", "push_x_N",
+                                   "push_y_N", "push_lift_N", "push_normal_N", "pushed_particle", "push_state",
+                                   "amplitude_m", "phase_rad", "guide_x_N", "guide_y_N", "drift_since_ns", "met",
+                                   "kind", "time_ns", "z_m", "force_before_N", "force_after_N"));
 }
 
 TEST(Replay, IsTheSameFromAFile) {

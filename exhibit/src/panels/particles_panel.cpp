@@ -23,6 +23,7 @@
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/pattern_state.h"
+#include "servo/live_picture.h"
 
 namespace afm::exhibit {
 
@@ -38,6 +39,7 @@ constexpr double kSoftened = 1.05;  // beyond this the panel says that the lever
 constexpr double kFinestAimM = 1e-12;
 
 static_assert(after(Phrase::PushFree, core::index_of(PushState::Carried)) == Phrase::PushCarried);
+static_assert(after(Phrase::PictureMeasured, static_cast<std::size_t>(servo::Known::Stale)) == Phrase::PictureStale);
 static_assert(after(Phrase::PushLawArea, core::index_of(ParticleLaw::Measured)) == Phrase::PushLawMeasured);
 
 const std::string& formula_of(ParticleLaw law, const Phrases& phrases) {
@@ -75,6 +77,7 @@ class ParticleRows {
 
   std::vector<render::DataRow> take() {
     add_task();
+    add_picture();
     add_plan();
     add_push();
     add_thresholds();
@@ -105,6 +108,27 @@ class ParticleRows {
             : phrases_.text<Phrase::TaskAided>(fmt::format("{}", score.undos), fmt::format("{}", score.guided)));
     add(Phrase::TaskWork, quantity_text(physics::Energy(score.work_j), physics::kEnergyUnits, phrases_),
         phrases_.text<Phrase::TaskLargest>(force_text(Force(score.largest_lateral_n), phrases_)));
+  }
+
+  // What is known of the particle nearest to the tip, and what the newest look has found.
+  void add_picture() {
+    if (now_.picture == nullptr) return;
+    const servo::PictureNow& picture = *now_.picture;
+    const std::string state =
+        picture.look_share
+            ? phrases_.text<Phrase::PictureLooks>(fmt::format("{:.0f}", 100.0 * *picture.look_share))
+            : phrases_[after(Phrase::PictureMeasured, static_cast<std::size_t>(picture.known[picture.particle]))];
+    add(Phrase::PictureName, state,
+        phrases_.text<Phrase::PictureAge>(
+            fmt::format("{}", picture.level), fmt::format("{}", picture.particle + 1),
+            phrases_.number(fmt::format("{:.0f} s", picture.age_s)),
+            quantity_text(physics::Length(picture.doubt_m), physics::kLengthUnits, phrases_)));
+    if (picture.looks == 0) return;
+    const servo::LookResult& look = picture.newest;
+    add(Phrase::LookName,
+        look.off_m ? quantity_text(physics::Length(*look.off_m), physics::kLengthUnits, phrases_)
+                   : phrases_[Phrase::LookMissed],
+        phrases_.text<Phrase::LookOff>(fmt::format("{}", look.particle + 1), fmt::format("{}", look.lines)));
   }
 
   // Demands of a planned push on the hand.
@@ -220,11 +244,15 @@ class ParticleRows {
 
 // Distance from a pattern, or else the medium of the particles; with the pushes that can be taken back.
 std::string subtitle(const ParticlesNow& now, const Phrases& phrases) {
-  const std::uint32_t strokes = now.push.strokes;
+  // at level 2 none can be taken back
+  const std::uint32_t strokes = now.picture != nullptr && now.picture->level > 1 ? 0 : now.push.strokes;
   const std::string pushes = fmt::format("{}", strokes);
   const std::string& medium = phrases.word(now.set->medium);
   if (const auto pattern = pattern_of(now)) {
     const std::string off = quantity_text(pattern->match.rms, physics::kLengthUnits, phrases);
+    if (pattern->done() && now.picture != nullptr && !now.picture->all_measured) {
+      return phrases.text<Phrase::PatternComputed>(off, pushes);
+    }
     if (pattern->done()) {
       return now.score.state == scene::TaskState::Running ? phrases.text<Phrase::PatternFits>(off, pushes)
                                                           : phrases.text<Phrase::PatternDone>(off, pushes);

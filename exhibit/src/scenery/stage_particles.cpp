@@ -10,6 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "exhibit/scenery/wall_layout.h"
 #include "physics/manipulation/tip_contact.h"
 #include "scene/samples/particle_set.h"
+#include "servo/live_picture.h"
 
 namespace afm::exhibit {
 
@@ -37,6 +39,16 @@ constexpr std::uint32_t kMostDots = 64, kMostDotsInAll = 8192;
 // Sizes of a plan, in radii: its dots are larger and closer than those of a path, its rings wider than a footprint.
 constexpr double kPlanDotSpacing = 0.3, kPlanDotSize = 1.4, kPlanRingSize = 1.8;
 constexpr glm::vec4 kPlanned{0.35F, 1.05F, 1.15F, 1.0F};  // tint
+
+// Dots around a particle that was not measured: how many, and their distance and size in radii.
+struct DoubtMark {
+  int dots = 0;
+  double size = 0;
+};
+constexpr DoubtMark kComputedMark{12, 1.0}, kStaleMark{4, 2.4};
+constexpr double kDoubtRadius = 1.6;
+constexpr std::uint32_t kMostMarked = 512;  // particles with such dots
+constexpr float kStaleShade = 0.3F;
 
 // Linear colours of the species, apart in lightness too.
 constexpr std::array<glm::vec3, 8> kSpeciesColors{{{0.83F, 0.56F, 0.15F},
@@ -71,6 +83,12 @@ std::vector<Placed> placed(const scene::ParticleSet& set) {
 
 // Way from the middle of a rod to its front end, over half its length.
 glm::dvec2 axis_of(const physics::HalfTurn& turn) { return {turn.w * turn.w - turn.z * turn.z, 2.0 * turn.w * turn.z}; }
+
+// Without a picture the particles themselves are shown.
+servo::Known known(const ParticlesNow& now, std::size_t particle) {
+  const bool told = now.picture != nullptr && particle < now.picture->known.size();
+  return told ? now.picture->known[particle] : servo::Known::Measured;
+}
 
 // On the sample, in layout units.
 render::MeshCopy mark_at(const glm::dvec2& place, double size) {
@@ -124,6 +142,7 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   build.part(particle_dot(), "ways", sample);
   build.part(particle_dot(), "plan-line", sample);
   build.part(particle_footprint(), "plan-ends", sample);
+  build.part(particle_dot(), "doubts", sample);
   build.part(particle_ring(), "touched-particle", sample);
   add_flat_and_pads(set, build, sample);
   // up to the drawn lever
@@ -135,6 +154,7 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   dots_ = build.node("ways/dot");
   plan_line_ = build.node("plan-line/dot");
   plan_ends_ = build.node("plan-ends/footprint");
+  doubts_ = build.node("doubts/dot");
   ring_ = build.node("touched-particle/ring");
   tip_ = build.node("true-tip/tip");
   const auto count = static_cast<std::uint32_t>(particles_.size());
@@ -144,6 +164,7 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   scene.nodes[dots_].most_copies = most_dots_ * count;
   scene.nodes[plan_line_].most_copies = kMostDots;
   scene.nodes[plan_ends_].most_copies = 2;
+  scene.nodes[doubts_].most_copies = static_cast<std::uint32_t>(kComputedMark.dots) * std::min(count, kMostMarked);
   scene.nodes[targets_].most_copies = 2 * scene::kMostTargets;
   for (const auto& flat : flat_) {
     if (flat) scene.nodes[*flat].most_copies = count;
@@ -176,7 +197,7 @@ void StageParticles::add_flat_and_pads(const scene::ParticleSet& set, ModelBuild
 }
 
 std::vector<scene::NodeIndex> StageParticles::nodes() const {
-  std::vector<scene::NodeIndex> all{spheres_, targets_, footprints_, dots_, plan_line_, plan_ends_, tip_};
+  std::vector<scene::NodeIndex> all{spheres_, targets_, footprints_, dots_, plan_line_, plan_ends_, doubts_, tip_};
   for (const auto& flat : flat_) {
     if (flat) all.push_back(*flat);
   }
@@ -229,7 +250,9 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
       const auto& [w, x, y, z] = pose->orientation;
       copy.turn = glm::vec4(glm::dvec4(x, y, z, w));
     }
-    copy.tint = glm::vec4(pushed == i ? kTouched * particle.color : particle.color, 1.0F);
+    const bool stale = now != nullptr && known(*now, i) == servo::Known::Stale;
+    copy.tint =
+        glm::vec4((stale ? kStaleShade : 1.0F) * (pushed == i ? kTouched * particle.color : particle.color), 1.0F);
     (flat_[particle.species] ? flat[particle.species] : spheres).copies.push_back(copy);
   }
   if (!spheres.copies.empty()) frame.copies.push_back(std::move(spheres));
@@ -241,6 +264,7 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
   add_targets(layout_per_m, frame);
   if (now == nullptr) return;
   add_marks(*now, layout_per_m, frame);
+  add_doubts(*now, layout_per_m, frame);
   add_plan(*now, layout_per_m, frame);
 }
 
@@ -286,6 +310,26 @@ void StageParticles::add_marks(const ParticlesNow& now, double layout_per_m, ren
   for (render::MeshCopies* marks : {&footprints, &dots}) {
     if (!marks->copies.empty()) frame.copies.push_back(std::move(*marks));
   }
+}
+
+void StageParticles::add_doubts(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const {
+  render::MeshCopies dots{.node = doubts_, .copies = {}};
+  std::uint32_t marked = 0;
+  for (std::size_t i = 0; i < particles_.size() && marked < kMostMarked; ++i) {
+    const servo::Known state = known(now, i);
+    const auto pose = pose_of(now, i);
+    if (state == servo::Known::Measured || !pose) continue;
+    ++marked;
+    const DoubtMark& mark = state == servo::Known::Stale ? kStaleMark : kComputedMark;
+    const double radius_m = particles_[i].half_m + kDoubtRadius * particles_[i].outer_m;
+    for (int dot = 0; dot < mark.dots; ++dot) {
+      const double angle = 2.0 * std::numbers::pi * dot / mark.dots;
+      const glm::dvec2 place_m =
+          glm::dvec2(pose->x_m, pose->y_m) + radius_m * glm::dvec2(std::cos(angle), std::sin(angle));
+      dots.copies.push_back(mark_at(layout_per_m * place_m, layout_per_m * mark.size * particles_[i].outer_m));
+    }
+  }
+  if (!dots.copies.empty()) frame.copies.push_back(std::move(dots));
 }
 
 // The line as planned, the first ring around the sphere wherever it lies now.

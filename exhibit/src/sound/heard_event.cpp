@@ -127,6 +127,11 @@ constexpr std::array kRows{
                   Phrase::SayParticleSetDown,
                   Spoken::AtOnce,
                   {{SignalNote{0, 0.120, 880, 440, 0.22, 0}, SignalNote{0.130, 0.040, 330, 262, 0.26, 0.6}}}},
+    HeardEventRow{LookedAgain,
+                  Phrase::HeardLookedAgain,
+                  Phrase::SayLookedAgain,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.060, 1175, 1175, 0.20, 0}, SignalNote{0.090, 0.060, 1568, 1568, 0.20, 0}}}},
 };
 static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
 static_assert([] {

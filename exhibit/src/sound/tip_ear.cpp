@@ -34,6 +34,7 @@ constexpr auto kRows = std::to_array<EventRow>({
     {physics::EventKind::JumpToAttraction, HeardEvent::JumpToAttraction, ForceOf::After},
     {physics::EventKind::ParticleLifted, HeardEvent::ParticleLifted, ForceOf::Before},
     {physics::EventKind::ParticleSetDown, HeardEvent::ParticleSetDown, ForceOf::Nothing},
+    {physics::EventKind::LookedAgain, HeardEvent::LookedAgain, ForceOf::Nothing},
 });
 static_assert(core::has_row_for_each(kRows, &EventRow::kind));
 

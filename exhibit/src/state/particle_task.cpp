@@ -2,6 +2,7 @@
 #include "exhibit/state/particle_task.h"
 
 #include "exhibit/state/particles_now.h"
+#include "servo/live_picture.h"
 #include "servo/replay.h"
 
 namespace afm::exhibit {
@@ -27,9 +28,10 @@ std::optional<std::vector<physics::ParticlePlace>> ParticleTask::unjudged(
   return places_of({.set = &set_, .pages = pages});
 }
 
-bool ParticleTask::look(std::span<const scene::ParticlePage> pages) {
-  const auto places = unjudged(pages);
-  if (!places) return false;
+bool ParticleTask::look(std::span<const scene::ParticlePage> pages, const servo::LivePicture* picture) {
+  auto places = unjudged(pages);
+  if (!places || (picture != nullptr && !picture->now().all_measured)) return false;
+  if (picture != nullptr) places = places_of({.set = &set_, .pages = picture->shown()});
   task_.judge(*places);
   return task_.score().state == scene::TaskState::Done;
 }
@@ -37,7 +39,7 @@ bool ParticleTask::look(std::span<const scene::ParticlePage> pages) {
 void ParticleTask::hear(const servo::ReplayedTick& tick) {
   for (const scene::TipEvent& event : tick.events) add(event);
   add(tick.sample);
-  look(tick.pages);
+  look(tick.pages, tick.picture);
 }
 
 }  // namespace afm::exhibit

@@ -10,6 +10,7 @@
 
 #include "core/result.h"
 #include "haptics/device.h"
+#include "haptics/felt_drift.h"
 #include "haptics/felt_groove.h"
 #include "haptics/particle_push.h"
 #include "haptics/particle_scale.h"
@@ -30,6 +31,9 @@ namespace afm::haptics {
 //   and on the hand, so that a session can begin there.
 // - Not touching, the tip gets no force at all, and nothing is added to any other.
 // - A groove along the plan of a push (FeltGroove) belongs to them; its force is added separately.
+// - At level 2 the sample drifts below the tip: a tip that rests meets it as if it moved. Places of particles are in
+// the
+//   sample's frame, those of the tip in the scanner's, which the sample leaves.
 // - A tip with a sphere on it is among the particles at any height. A lift() puts the sphere back where it was picked
 //   up.
 //
@@ -46,7 +50,10 @@ class FeltParticles {
   // those of so many particles, and finite.
   void resume(std::span<const scene::ParticlePage> pages);
 
-  // Moves the tip: `tip_xy_m` in the sample's frame, `z_m` that of the unbent lever above the sample, in metres of the
+  // Lets the sample drift up to this time; call once a tick, before step().
+  void drift_to(std::int64_t now_ns) noexcept { drift_.follow(now_ns); }
+
+  // Moves the tip: `tip_xy_m` in the scanner's frame, `z_m` that of the unbent lever above the sample, in metres of the
   // nanoworld.
   ParticlePush step(const glm::dvec2& tip_xy_m, double z_m, double elapsed_s) noexcept;
 
@@ -64,8 +71,11 @@ class FeltParticles {
   bool take_back() noexcept;
 
   // The same for all strokes: puts every particle where it lay in the constructor. This is also a stroke, which can be
-  // undone. False if the tip is among the particles, or if none has moved.
+  // undone. False if the tip is among the particles, or if nothing has moved. The drift starts again.
   bool put_back() noexcept;
+
+  // True if a person can look again: the tip is off the particles, and the particles are not what is shown.
+  bool may_look() const noexcept { return level_ > 0 && tip_ != Tip::Among; }
 
   const ParticleScale& scale() const noexcept { return scale_; }
   double stored_j() const noexcept { return stored_j_; }                    // on the hand; 0 without a touch
@@ -74,6 +84,7 @@ class FeltParticles {
   // State after the newest step, without time and tick.
   scene::TipPush push() const noexcept;
   scene::PushSample sample() const noexcept;
+  scene::LevelSample level() const noexcept;
 
   std::span<const scene::ParticlePage> pages() const noexcept { return pages_; }
 
@@ -108,10 +119,12 @@ class FeltParticles {
   std::vector<scene::ParticlePage> start_;  // pages of the constructor
   std::vector<std::uint32_t> changed_;
   StrokeHistory strokes_;
+  FeltDrift drift_;
   physics::TipMeeting meeting_;
   FeltGroove groove_;
   std::uint64_t digest_ = 0;
   double stiffness_n_per_m_;
+  std::uint32_t level_;
   Tip tip_ = Tip::Waits;
   glm::dvec3 over_m_{0.0};  // place over the particles where the tip was last
   glm::dvec3 push_n_{0.0};  // newest ParticlePush::push_n

@@ -91,6 +91,7 @@ class ServoLoop {
     bool leaving = false;
     bool take_back = false;  // a push, ordered in this tick
     bool put_back = false;   // all particles, ordered in this tick
+    bool look = false;       // a look at the particles, ordered in this tick
   };
   struct Hand {
     glm::dvec3 position_m;

@@ -288,6 +288,7 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
   }
   if (touch.push.near) {
     law.stored_j += particles_->stored_j();
+    law.given_j += touch.push.given_j;
     law.stiffness_n_per_m += particles_->stiffness_n_per_m();
   }
   if (touch.groove.acts) {

@@ -45,10 +45,12 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
       particles_(setup_, scene::start_places(particles), base_at({0.0, 0.0, scale.clear_z_m})),
       pages_(scene::pages_of(particles.count)),
       strokes_(particles.count),
+      drift_(particles.level),
       meeting_(setup_),
       groove_(groove, scale.hand_m_per_m),
       stiffness_n_per_m_(std::max(setup_.springs.lateral, setup_.springs.normal).si * scale.hand_n_per_n /
-                         scale.hand_m_per_m) {
+                         scale.hand_m_per_m),
+      level_(particles.level.level) {
   const double sine = std::sin(setup_.tip.half_angle_rad), cosine = std::cos(setup_.tip.half_angle_rad);
   for (physics::ParticleSpecies species : setup_.species) {
     const physics::TipGrip grip = physics::flank_grip(setup_.tip, species, setup_.tip_friction);
@@ -148,7 +150,8 @@ bool FeltParticles::put_back() noexcept {
   if (tip_ == Tip::Among) return false;
   lift();
   strokes_.begin();
-  bool moved = false;
+  bool moved = drift_.drifts();
+  drift_.begin_again();
   for (std::uint32_t i = 0; i < particles_.size(); ++i) {
     const scene::ParticlePose& start = start_[scene::page_of(i)].poses[i % scene::kPosesPerPage];
     if (pose(i) == start) continue;
@@ -175,7 +178,7 @@ void FeltParticles::change(std::uint32_t particle, const scene::ParticlePose& no
 
 ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double elapsed_s) noexcept {
   ParticlePush step;
-  const glm::dvec3 at_m(tip_xy_m, z_m);
+  const glm::dvec3 at_m(tip_xy_m - drift_.way_m(), z_m);
   const bool over = z_m >= scale_.clear_z_m && !carries();
   if (over) {
     if (tip_ == Tip::Among) lift();
@@ -197,6 +200,7 @@ ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double 
   const std::size_t carried = carries() ? last.particle : physics::kNoParticle;
   const physics::PushTick& tick = particles_.move_to(base_at(at_m), physics::Time(elapsed_s));
   step.near = tick.near;
+  step.given_j = scale_.hand_n_per_n * scale_.hand_m_per_m * glm::dot(glm::dvec2(push_n_), drift_.step_m());
   move_poses(tick);
   if (carried != physics::kNoParticle && !carries()) lay_down(carried);
   account(tick);
@@ -272,8 +276,9 @@ scene::TipPush FeltParticles::push() const noexcept {
                       .met = static_cast<std::uint16_t>(tip_ == Tip::Waits ? 0 : 1),
                       .strokes = static_cast<std::uint32_t>(strokes_.size())};
   if (!among) return push;
-  push.base_m = {tick.base.position.x.si, tick.base.position.y.si, tick.base.z.si};
-  push.apex_m = {tick.apex.position.x.si, tick.apex.position.y.si, tick.apex.z.si};
+  const glm::dvec2& way_m = drift_.way_m();
+  push.base_m = {tick.base.position.x.si + way_m.x, tick.base.position.y.si + way_m.y, tick.base.z.si};
+  push.apex_m = {tick.apex.position.x.si + way_m.x, tick.apex.position.y.si + way_m.y, tick.apex.z.si};
   push.lateral_n = {push_n_.x, push_n_.y};
   push.lift_n = push_n_.z;
   push.lagging = tick.lagging ? 1 : 0;
@@ -284,6 +289,11 @@ scene::TipPush FeltParticles::push() const noexcept {
   push.particle = static_cast<std::int32_t>(tick.particle);
   push.state = tick.state;
   return push;
+}
+
+scene::LevelSample FeltParticles::level() const noexcept {
+  if (level_ == 0) return {};
+  return {.since_ns = drift_.since_ns(), .met = tip_ == Tip::Waits ? 0U : 1U};
 }
 
 scene::PushSample FeltParticles::sample() const noexcept {

@@ -182,6 +182,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   if (hand.turn_on && !hand_.turn_on) ++state_.presses;
   hand_.turn_on = hand.turn_on;
 
+  if (particles_) particles_->drift_to(now_ns);
   const Wanted wanted = meet_sample(elapsed_ns);
   put_particles();
   bool pulled_off = false;
@@ -244,9 +245,12 @@ ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
   return wanted;
 }
 
-// Without force alone, so that no particle jumps at a tip that is felt; an order that comes too early is dropped.
+// Particles are put elsewhere without force alone, so that none jumps at a tip that is felt; an order that comes too
+// early is dropped. A look moves nothing, and needs only a tip that is off them.
 void ServoLoop::put_particles() noexcept {
-  if (!particles_ || model_ == nullptr || !governor_.released()) return;
+  if (!particles_ || model_ == nullptr) return;
+  if (heard_.look && particles_->may_look()) touch_.push.add({.kind = physics::EventKind::LookedAgain});
+  if (!governor_.released()) return;
   if (heard_.put_back && particles_->put_back()) {
     touch_.push.add({.kind = physics::EventKind::ParticlesPutBack});
   } else if (heard_.take_back && particles_->take_back()) {
@@ -265,7 +269,7 @@ std::optional<ScanGuide::Target> ServoLoop::guide_target() const noexcept {
 }
 
 void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
-  heard_.take_back = heard_.put_back = false;
+  heard_.take_back = heard_.put_back = heard_.look = false;
   if (const auto heartbeat = shared_.new_heartbeat()) {
     // the time of arrival counts, not the time in the heartbeat
     heard_.seen_ns = now_ns;
@@ -273,6 +277,7 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
     // a renderer that replaces another counts from zero
     heard_.take_back = heard_.heartbeat && heartbeat->take_back > heard_.heartbeat->take_back;
     heard_.put_back = heard_.heartbeat && heartbeat->put_back > heard_.heartbeat->put_back;
+    heard_.look = heard_.heartbeat && heartbeat->look > heard_.heartbeat->look;
     heard_.heartbeat = heartbeat;
   }
   if (const auto transforms = shared_.new_transforms()) {

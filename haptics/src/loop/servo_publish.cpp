@@ -114,7 +114,8 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                 .push = particles_ ? particles_->sample() : scene::PushSample{},
                                 .swing = state_.swing,
                                 .plan = particles_ ? particles_->groove().plan() : scene::PlannedPush{},
-                                .guide_n = guide_n(particles_)});
+                                .guide_n = guide_n(particles_),
+                                .level = particles_ ? particles_->level() : scene::LevelSample{}});
 }
 
 // Only pages that changed.

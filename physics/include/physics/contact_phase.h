@@ -28,6 +28,7 @@ enum class EventKind : std::uint32_t {
   JumpToAttraction = 13,   // a tapping lever fell back into the attractive state
   ParticleLifted = 14,     // the tip lifted a particle off the sample, which now hangs on it
   ParticleSetDown = 15,    // a particle on the tip came to lie on the sample
+  LookedAgain = 16,        // a person ordered another scan of the particles near the tip, which begins
 };
 
 // Name in reports and replays.
@@ -63,12 +64,15 @@ constexpr const char* name_of(EventKind kind) {
       return "particle-lifted";
     case EventKind::ParticleSetDown:
       return "particle-set-down";
+    case EventKind::LookedAgain:
+      return "looked-again";
   }
   return "unknown";
 }
 
 // True for a jump of the law, whose forces are normal. Those of other events are lateral, except: for a lifted particle
-// the pull-off from the sample, for particles that were put back 0, for a tapping lever the mean over a swing.
+// the pull-off from the sample, for particles that were put back or are looked at 0, for a tapping lever the mean over
+// a swing.
 constexpr bool is_jump(EventKind kind) { return kind == EventKind::JumpToContact || kind == EventKind::JumpOffContact; }
 
 // Both ends of a cycle: a jump, or a change of the state of a tapping lever.

@@ -108,10 +108,12 @@ Length median_radius(const ParticleSet& set) {
 }
 
 ParticleSet recorded_set(const SharedParticles& recorded, const std::string& assets_dir) {
+  const auto plain = std::make_unique<SharedParticles>(recorded);
+  plain->level = {};  // chosen with a set, not part of it
   for (const std::string& name : particle_sets(assets_dir)) {
     const auto path = particle_file(name, assets_dir);
     auto set = path ? load_particle_set(*path) : tl::unexpected(path.error());
-    if (set && *std::make_unique<const SharedParticles>(shared_particles(*set)) == recorded) return std::move(*set);
+    if (set && *std::make_unique<const SharedParticles>(shared_particles(*set)) == *plain) return std::move(*set);
   }
   ParticleSet set;
   set.title = "Recorded particles";

@@ -75,6 +75,10 @@ physics::PushSetup push_setup(const SharedParticles& particles) {
   for (std::size_t i = 0; i < setup.species.size(); ++i) {
     setup.species[i].length = physics::Length(particles.length_m[i]);
     setup.species[i].island_radius = physics::Length(particles.island_radius_m[i]);
+    const bool even = setup.species[i].sticks && setup.species[i].scatter_seed == 0;
+    if (particles.level.level > 1 && even) {
+      setup.species[i].scatter_seed = static_cast<std::uint16_t>(particles.level.seed);
+    }
   }
   for (const SharedPad& pad : particles.pads) {
     if (is_there(pad)) setup.pads.push_back(pad_of(pad));
@@ -143,6 +147,13 @@ std::uint64_t digest_of(std::span<const ParticlePage> pages, std::size_t count) 
   return digest;
 }
 
+std::string why_no_level(const SharedParticles& particles) {
+  if (particles.count == 0) return "there are no particles";
+  if (has_islands(particles)) return "only spheres and rods have a picture that grows old, and these are flat islands";
+  if (has_lift(particles)) return "the tip lifts these spheres, and one that hangs on it hides what lies below";
+  return {};
+}
+
 core::Result<void> validate(const SharedParticles& particles) {
   if (particles.count == 0) return {};
   if (particles.count > kMaxParticles || particles.species_count == 0 || particles.species_count > kMaxSpecies) {
@@ -172,6 +183,12 @@ core::Result<void> validate(const SharedParticles& particles) {
     physics::validate(push_setup(particles), start_places(particles));
   } catch (const std::invalid_argument& error) {
     return particles_refused(fmt::format("the particles of the shared scene: {}", error.what()));
+  }
+  const SharedLevel& level = particles.level;
+  const bool known =
+      level.level <= kHighestLevel && level.seed >= 1 && level.seed <= kLargestSeed && level.since_ns >= 0;
+  if (!known || (level.level > 0 && !why_no_level(particles).empty())) {
+    return particles_refused("the level of the particles in the shared scene is impossible");
   }
   return {};
 }

@@ -302,7 +302,7 @@ bool is_valid(const TipState& state, const SharedModel& model) {
 
 bool is_valid(const TipSample& sample, const SharedModel& model) {
   return is_field_valid(sample) && has_particle(sample.push.particle, model) && sample.device_healthy <= 1 &&
-         sample.changing <= 1 && is_valid(sample.scan) && is_valid(sample.plan, model) &&
+         sample.changing <= 1 && sample.level.met <= 1 && is_valid(sample.scan) && is_valid(sample.plan, model) &&
          within(sample.material, model);
 }
 

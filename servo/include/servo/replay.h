@@ -12,6 +12,7 @@
 
 #include "core/result.h"
 #include "scene/shared/particle_blocks.h"
+#include "servo/live_picture.h"
 #include "servo/session_file.h"
 
 namespace afm::servo {
@@ -51,6 +52,7 @@ struct ReplayedTick {
   const scene::TipSample& sample;
   std::span<const scene::TipEvent> events;
   std::span<const scene::ParticlePage> pages;
+  const LivePicture* picture = nullptr;  // at level 1 and 2
 };
 using HearTick = std::function<void(const ReplayedTick& tick)>;
 
@@ -65,6 +67,7 @@ struct ReplayedParticles {
   std::vector<scene::ParticlePage> pages;
   scene::TipPush push;
   scene::PlannedPush plan;
+  std::optional<PictureNow> picture{};  // at level 1 and 2: pages are those that it shows
 };
 
 // Replays a session with particles up to its last tick at or before `time_ns`, and at least its first. Fails as

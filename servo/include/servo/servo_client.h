@@ -57,6 +57,10 @@ class ServoClient {
   void take_back_push(std::int64_t now_ns);
   void put_particles_back(std::int64_t now_ns);
 
+  // Looks again at the particles near the tip (EventKind::LookedAgain), at level 1 and 2; only while the tip is off the
+  // particles: an order at another time is dropped.
+  void look_again(std::int64_t now_ns);
+
   // Visibility of the picture, sent with every following heartbeat. While nobody sees it, as when a headset is lost,
   // the servo applies no force; when it is seen again, the hand must lift and press Turn-On, as after the start.
   enum class Picture { Seen, Unseen };
@@ -149,6 +153,7 @@ class ServoClient {
   std::uint64_t beats_ = 0;
   std::uint32_t taken_back_ = 0;
   std::uint32_t put_back_ = 0;
+  std::uint32_t looked_ = 0;
   std::optional<std::int64_t> stopped_ns_;  // time of the last stop()
   Picture picture_ = Picture::Seen;         // as last set by set_picture()
   std::unique_ptr<TipListener> listener_;

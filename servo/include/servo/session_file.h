@@ -11,6 +11,7 @@
 #include "core/result.h"
 #include "scene/shared/felt_heights.h"
 #include "scene/shared/tip_blocks.h"
+#include "servo/picture_state.h"
 #include "servo/wall_frame.h"
 
 namespace afm::servo {
@@ -19,6 +20,7 @@ namespace afm::servo {
 struct RecordedParticles {
   scene::SharedParticles set;
   std::vector<scene::ParticlePage> pages;  // pages_of(set.count)
+  PictureState picture{};                  // at level 1 and 2; empty: all measured at the first tick
 };
 
 // Recording of one material, with everything that its forces depend on: every tick's sample and every event of the

@@ -13,6 +13,8 @@
 
 namespace afm::servo {
 
+class LivePicture;
+
 // True if a servo that starts at this sample computes the same forces from here on: no force is applied, and the phase
 // follows from the position alone. In the tick that drops the force, the model still has the phase of the previous
 // tick. `tip` is the newest state; `dynamic` means that the lever oscillates.
@@ -27,7 +29,8 @@ class SessionRecorder {
   static constexpr std::size_t kLongestTicks = 1'800'000;  // 30 minutes at 1 kHz, about 400 MB
 
   // Adds everything new, in time order. True if a session begins with this sample; the previous one is then finished().
-  bool add(const scene::TipSample& sample, const ServoClient& servo);
+  // `picture`, if there is one, has had the sample; no session begins while it looks again.
+  bool add(const scene::TipSample& sample, const ServoClient& servo, const LivePicture* picture = nullptr);
   void add(const scene::TipEvent& event);
   void add(const WallFrame& frame);
 
@@ -51,7 +54,7 @@ class SessionRecorder {
 
  private:
   bool goes_on_with(const scene::TipSample& sample) const;
-  void begin(const scene::TipSample& sample, const ServoClient& servo);
+  void begin(const scene::TipSample& sample, const ServoClient& servo, const LivePicture* picture);
   void take_scale(const scene::TipSample& sample, const scene::TipState& tip);
 
   RecordedSession session_;

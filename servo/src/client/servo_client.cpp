@@ -79,7 +79,8 @@ void ServoClient::beat(std::int64_t now_ns) {
                                        .stop = stop ? 1U : 0U,
                                        .unseen = picture_ == Picture::Unseen ? 1U : 0U,
                                        .take_back = taken_back_,
-                                       .put_back = put_back_});
+                                       .put_back = put_back_,
+                                       .look = looked_});
 }
 
 void ServoClient::take_back_push(std::int64_t now_ns) {
@@ -89,6 +90,11 @@ void ServoClient::take_back_push(std::int64_t now_ns) {
 
 void ServoClient::put_particles_back(std::int64_t now_ns) {
   ++put_back_;
+  beat(now_ns);
+}
+
+void ServoClient::look_again(std::int64_t now_ns) {
+  ++looked_;
   beat(now_ns);
 }
 

@@ -18,6 +18,7 @@
 #include "haptics/sample_axes.h"
 #include "haptics/servo_loop.h"
 #include "scene/shared/shared_segment.h"
+#include "servo/live_picture.h"
 
 namespace afm::servo {
 
@@ -103,6 +104,11 @@ class Player {
                                            {.rate_hz = session.rate_hz, .dead_man = session.dead_man});
     if (!loop) return core::failure(core::ErrorCategory::BadInputFile, loop.error().message);
     player->loop_ = std::move(*loop);
+    if (session.particles && session.particles->set.level.level > 0) {
+      auto picture = LivePicture::create(session.particles->set, session.device, session.particles->picture);
+      if (!picture) return core::failure(core::ErrorCategory::BadInputFile, picture.error().message);
+      player->picture_ = std::move(*picture);
+    }
     player->lay_sample();
     return player;
   }
@@ -131,12 +137,20 @@ class Player {
     const auto given = renderer_.pop_sample();
     if (given) sample_ = *given;
     take_pages();
+    if (picture_) draw(sample);
     return given.has_value();
   }
 
   // As of the newest tick.
   ReplayedParticles particles() {
-    return {.pages = pages_, .push = renderer_.tip_push().value_or(scene::TipPush{}), .plan = sample_.plan};
+    ReplayedParticles now{.pages = pages_,
+                          .push = renderer_.tip_push().value_or(scene::TipPush{}),
+                          .plan = sample_.plan,
+                          .picture = std::nullopt};
+    if (!picture_) return now;
+    now.pages.assign(picture_->shown().begin(), picture_->shown().end());
+    now.picture = picture_->now();
+    return now;
   }
 
   const TipSample& sample() const { return sample_; }
@@ -144,8 +158,7 @@ class Player {
 
   // Passes the newest tick on, whose sample has this index.
   void tell(std::size_t index, const HearTick& hear) const {
-    const auto came = std::span(session_.events).subspan(first_event_, next_event_ - first_event_);
-    if (hear) hear({.sample = session_.samples[index], .events = came, .pages = pages_});
+    if (hear) hear({.sample = session_.samples[index], .events = came(), .pages = pages_, .picture = picture_.get()});
   }
 
  private:
@@ -154,8 +167,19 @@ class Player {
     if (session.particles) pages_ = session.particles->pages;
   }
 
+  // Events since the tick before the newest.
+  std::span<const TipEvent> came() const {
+    return std::span(session_.events).subspan(first_event_, next_event_ - first_event_);
+  }
+
+  void draw(const TipSample& sample) {
+    for (const TipEvent& event : came()) picture_->add(event);
+    picture_->add(sample, pages_);
+  }
+
   void beat(scene::RendererHeartbeat heartbeat) {
     heartbeat.frame = ++frame_;
+    heartbeat.look = looked_;
     heartbeat.take_back = taken_back_;
     heartbeat.put_back = put_back_;
     renderer_.store(heartbeat);
@@ -167,6 +191,7 @@ class Player {
     for (; next_event_ < session_.events.size() && session_.events[next_event_].time_ns <= now_ns; ++next_event_) {
       if (session_.events[next_event_].kind == physics::EventKind::PushTakenBack) ++taken_back_;
       if (session_.events[next_event_].kind == physics::EventKind::ParticlesPutBack) ++put_back_;
+      if (session_.events[next_event_].kind == physics::EventKind::LookedAgain) ++looked_;
     }
   }
 
@@ -251,6 +276,7 @@ class Player {
   std::uint64_t frame_ = 0;
   std::uint32_t taken_back_ = 0;
   std::uint32_t put_back_ = 0;
+  std::uint32_t looked_ = 0;
   std::size_t first_event_ = 0;  // first event of the newest tick
   std::size_t next_event_ = 0;
   std::int32_t chosen_ = 0;
@@ -262,7 +288,8 @@ class Player {
   TipSample sample_;
   std::vector<TipEvent> events_;
   std::vector<scene::ParticlePage> pages_;
-  std::uint64_t digest_ = 0;  // digest of pages_
+  std::uint64_t digest_ = 0;              // digest of pages_
+  std::unique_ptr<LivePicture> picture_;  // null at level 0
 };
 
 }  // namespace

@@ -56,9 +56,21 @@ std::string islands_of(const scene::SharedParticles& set) {
   return bytes;
 }
 
+std::string level_of(const RecordedParticles& particles) {
+  std::string bytes;
+  put(bytes, particles.set.level);
+  put_all(bytes, std::span(particles.picture.shown));
+  put_all(bytes, std::span(particles.picture.measured));
+  put_all(bytes, std::span(particles.picture.seen_ns));
+  return bytes;
+}
+
+bool has_level(const RecordedParticles& particles) { return particles.set.level.level > 0; }
+
 std::uint32_t version_of(const RecordedSession& session) {
   if (scene::taps(session.parameters)) return kVersionWithSwing;
   if (!session.particles) return kSessionVersion;
+  if (has_level(*session.particles)) return kVersionWithLevel;
   if (scene::has_islands(session.particles->set)) return kVersionWithIslands;
   if (lifts(session.particles->set)) return kVersionWithLift;
   if (session.has_plans) return kVersionWithPlans;
@@ -114,14 +126,29 @@ bool read_islands(std::string_view payload, RecordedParticles& particles) {
   return scene::has_islands(set);
 }
 
+bool read_level(std::string_view payload, RecordedParticles& particles) {
+  PictureState& picture = particles.picture;
+  if (!take(payload, particles.set.level) || !take_all(payload, picture.shown) ||
+      !take_all(payload, picture.measured) || !take_all(payload, picture.seen_ns) || !payload.empty()) {
+    return false;
+  }
+  const auto sound = [&](const std::vector<scene::ParticlePage>& pages) {
+    return pages.size() == (picture.empty() ? 0 : particles.pages.size()) &&
+           std::all_of(pages.begin(), pages.end(), [](const auto& page) { return scene::is_valid(page); });
+  };
+  return has_level(particles) && sound(picture.shown) && sound(picture.measured) &&
+         (picture.empty() || picture.seen_ns.size() == particles.set.count);
+}
+
 bool lifts(const scene::SharedParticles& set) { return scene::has_pads(set) || scene::has_lift(set); }
 
 std::size_t sample_bytes_of(const RecordedSession& session) {
   if (scene::taps(session.parameters)) return kSampleBytesWithoutPlan;
   if (!session.particles) return kSampleBytesWithoutPush;
+  if (has_level(*session.particles)) return sizeof(scene::TipSample);
   const scene::SharedParticles& set = session.particles->set;
   const bool whole = session.has_plans || lifts(set) || scene::has_islands(set);
-  return whole ? sizeof(scene::TipSample) : kSampleBytesWithoutSwing;
+  return whole ? kSampleBytesWithoutLevel : kSampleBytesWithoutSwing;
 }
 
 void SessionEncoder::head(const RecordedSession& session) {
@@ -147,6 +174,7 @@ void SessionEncoder::head(const RecordedSession& session) {
   if (session.particles && scene::has_islands(session.particles->set)) {
     chunk(kIslandsChunk, islands_of(session.particles->set));
   }
+  if (session.particles && has_level(*session.particles)) chunk(kLevelChunk, level_of(*session.particles));
 }
 
 void SessionEncoder::part(const RecordedSession& session) {

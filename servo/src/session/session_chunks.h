@@ -13,10 +13,11 @@
 // Session file of version 6, 7 with particles, 8 with rods among them, or 9 with spheres that stick to the tip, whose
 // forces an older program does not know, and with rods or without, 10 for a lever that taps, or 11 for particles of any
 // kind and the plans of their pushes, as touchafm records them today, 12 for those with pads or with spheres that the
-// tip lifts, 13 for flat islands: "AFMS", the version, then chunks. A chunk consists of a name of four letters and the
-// size of its payload in 32 bits, the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a
-// of all bytes from the beginning of the file up to it, so that no chunk can be altered, left out or exchanged. A file
-// that ends inside a chunk was cut; all chunks before it are intact.
+// tip lifts, 13 for flat islands, 14 for particles at level 1 or 2, whose sample may drift: "AFMS", the version, then
+// chunks. A chunk consists of a name of four letters and the size of its payload in 32 bits, the checksum of these, the
+// payload, and its checksum. A checksum is the 64-bit FNV-1a of all bytes from the beginning of the file up to it, so
+// that no chunk can be altered, left out or exchanged. A file that ends inside a chunk was cut; all chunks before it
+// are intact.
 namespace afm::servo {
 
 inline constexpr std::string_view kSessionMagic = "AFMS";
@@ -28,6 +29,7 @@ inline constexpr std::uint32_t kVersionWithSwing = 10;  // the lever taps, witho
 inline constexpr std::uint32_t kVersionWithPlans = 11;  // as 7, 8 or 9; samples end with plan and groove
 inline constexpr std::uint32_t kVersionWithLift = 12;   // as 11; the tip lifts particles, or a chunk has pads
 inline constexpr std::uint32_t kVersionWithIslands = 13;  // as 11; a chunk has the islands
+inline constexpr std::uint32_t kVersionWithLevel = 14;  // as 11; samples end with LevelSample, a chunk has the picture
 
 inline constexpr std::string_view kHeadChunk = "HEAD";        // header_of() as JSON
 inline constexpr std::string_view kSurfaceChunk = "SURF";     // one SharedHeightField, if the sample has one
@@ -36,6 +38,7 @@ inline constexpr std::string_view kParticlesChunk = "PRTC";   // RecordedParticl
 inline constexpr std::string_view kRodsChunk = "RODS";        // their lengths and first angles, after the particles
 inline constexpr std::string_view kPadsChunk = "PADS";        // pads, after the particles, if there are any
 inline constexpr std::string_view kIslandsChunk = "ISLE";     // radii of the species of islands, after the particles
+inline constexpr std::string_view kLevelChunk = "LEVL";       // level and PictureState, after the particles
 inline constexpr std::string_view kPartChunk = "PART";  // samples and events up to one moment, and frames of the wall
 inline constexpr std::string_view kEndChunk = "DONE";   // end of the file, without a payload
 
@@ -74,6 +77,9 @@ bool read_pads(std::string_view payload, RecordedParticles& particles);
 
 // The same for a kIslandsChunk.
 bool read_islands(std::string_view payload, RecordedParticles& particles);
+
+// The same for a kLevelChunk.
+bool read_level(std::string_view payload, RecordedParticles& particles);
 
 // True if the tip lifts some of them, or a pad holds them, which needs version kVersionWithLift.
 bool lifts(const scene::SharedParticles& set);

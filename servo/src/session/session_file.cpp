@@ -106,6 +106,7 @@ std::string read_part(std::string_view payload, RecordedSession& session, nlohma
 
 // True if a file of this version has such particles.
 bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
+  if ((set.level.level > 0) != (version == kVersionWithLevel)) return false;
   if (scene::has_islands(set) != (version == kVersionWithIslands)) return false;
   if (lifts(set) != (version == kVersionWithLift)) return false;
   if (version >= kVersionWithPlans) return true;
@@ -115,12 +116,13 @@ bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
 
 // Size of a sample in a file of this version of chunks.
 std::size_t sample_bytes_in(std::uint32_t version) {
-  if (version >= kVersionWithPlans) return sizeof(TipSample);
+  if (version == kVersionWithLevel) return sizeof(TipSample);
+  if (version >= kVersionWithPlans) return kSampleBytesWithoutLevel;
   if (version == kVersionWithSwing) return kSampleBytesWithoutPlan;
   return version == kSessionVersion ? kSampleBytesWithoutPush : kSampleBytesWithoutSwing;
 }
 
-// Reads version 6 to 13; returns an error message, or nothing.
+// Reads version 6 to 14; returns an error message, or nothing.
 std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
   const bool with_particles = version != kSessionVersion && version != kVersionWithSwing;
   SessionDecoder decoder(file);
@@ -152,6 +154,8 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
       if (!session.particles || !read_pads(payload, *session.particles)) return "its pads are damaged";
     } else if (version == kVersionWithIslands && decoder.name() == kIslandsChunk) {
       if (!session.particles || !read_islands(payload, *session.particles)) return "its islands are damaged";
+    } else if (version == kVersionWithLevel && decoder.name() == kLevelChunk) {
+      if (!session.particles || !read_level(payload, *session.particles)) return "its picture is damaged";
     } else if (decoder.name() == kPartChunk) {
       if (with_particles != session.particles.has_value()) return "its parts are out of order";
       if (with_particles && !is_of(version, session.particles->set)) return "its parts are out of order";
@@ -214,6 +218,16 @@ std::string what_cannot_be(const RecordedSession& session) {
   if (session.samples.front().time_ns < 0 ||
       std::adjacent_find(session.samples.begin(), session.samples.end(), not_before) != session.samples.end()) {
     return "the times of its ticks do not increase";
+  }
+  const auto seen_before = [&](std::int64_t ns) { return ns >= 0 && ns <= session.samples.front().time_ns; };
+  if (session.particles &&
+      !std::all_of(session.particles->picture.seen_ns.begin(), session.particles->picture.seen_ns.end(), seen_before)) {
+    return "the age of its picture is impossible";
+  }
+  if (!std::all_of(session.samples.begin(), session.samples.end(), [](const TipSample& sample) {
+        return sample.level.met <= 1 && sample.level.since_ns >= 0 && sample.level.since_ns <= sample.time_ns;
+      })) {
+    return "the drift of its sample is impossible";
   }
   const auto is_finite = [](const auto& record) { return finite(record); };
   if (!std::all_of(session.samples.begin(), session.samples.end(), is_finite) ||
@@ -296,9 +310,9 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  constexpr std::array kVersions{kVersionOf010,     kSessionVersion,  kVersionWithParticles,
-                                 kVersionWithRods,  kVersionWithHold, kVersionWithSwing,
-                                 kVersionWithPlans, kVersionWithLift, kVersionWithIslands};
+  constexpr std::array kVersions{kVersionOf010,       kSessionVersion,   kVersionWithParticles, kVersionWithRods,
+                                 kVersionWithHold,    kVersionWithSwing, kVersionWithPlans,     kVersionWithLift,
+                                 kVersionWithIslands, kVersionWithLevel};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

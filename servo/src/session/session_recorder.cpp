@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "servo/live_picture.h"
+
 namespace afm::servo {
 
 namespace {
@@ -43,7 +45,7 @@ bool SessionRecorder::goes_on_with(const TipSample& sample) const {
   return previous_ && same_contact(*previous_, sample) && sample.tick == previous_->tick + 1 && ticks_ < kLongestTicks;
 }
 
-bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
+bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo, const LivePicture* picture) {
   const auto put = std::exchange(put_, std::nullopt);
   const bool taken_back = put && put->kind == physics::EventKind::PushTakenBack;
   if (!goes_on_with(sample) || (taken_back && !places_.take_back_to(sample.push.digest))) finish();
@@ -56,7 +58,8 @@ bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo) {
   };
   if (begins && !fresh && !can_begin_with(sample, servo.tip(), is_dynamic())) return false;
   if (begins && !has_poses_of(sample, servo)) return false;
-  if (begins) begin(sample, servo);
+  if (begins && picture != nullptr && picture->looks()) return false;
+  if (begins) begin(sample, servo, picture);
   if (!begins && put) session_.events.push_back(*put);
   places_.add(sample.push);
   if (!scale_known_) take_scale(sample, servo.tip());
@@ -96,7 +99,7 @@ void SessionRecorder::finish() {
 
 std::optional<RecordedSession> SessionRecorder::take_finished() { return std::exchange(finished_, std::nullopt); }
 
-void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo) {
+void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo, const LivePicture* picture) {
   const scene::SharedModel& model = servo.model();
   session_.parameters = servo.parameters(static_cast<std::size_t>(sample.material), sample.edit_revision);
   session_.material = session_.parameters.name.data();
@@ -111,7 +114,10 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo) {
   }
   if (model.particles.count > 0) {
     const auto pages = servo.particle_pages();
-    session_.particles = RecordedParticles{.set = model.particles, .pages = {pages.begin(), pages.end()}};
+    session_.particles =
+        RecordedParticles{.set = model.particles, .pages = {pages.begin(), pages.end()}, .picture = {}};
+    session_.particles->set.level.since_ns = sample.level.since_ns;
+    if (picture != nullptr) session_.particles->picture = picture->state();
     session_.has_plans = true;
   }
   session_.room_from_sample = servo.room_from_sample();

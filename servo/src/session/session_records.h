@@ -19,12 +19,15 @@ namespace afm::servo {
 static_assert(std::endian::native == std::endian::little, "session records are little-endian");
 
 // Record sizes of versions 3 and 6, in bytes; each is the beginning of the next. Version 6 added the lateral force and
-// the scan, version 7 the push, version 10 the swing, version 11 the plan of a push and the force of its groove.
+// the scan, version 7 the push, version 10 the swing, version 11 the plan of a push and the force of its groove,
+// version 14 what a picture is computed from.
 inline constexpr std::size_t kSampleBytesOf010 = 216;
 inline constexpr std::size_t kSampleBytesWithoutPush = 288;
 inline constexpr std::size_t kSampleBytesWithoutSwing = 336;
 inline constexpr std::size_t kSampleBytesWithoutPlan = 352;
-static_assert(sizeof(scene::TipSample) == 408 && offsetof(scene::TipSample, plan) == kSampleBytesWithoutPlan &&
+inline constexpr std::size_t kSampleBytesWithoutLevel = 408;
+static_assert(sizeof(scene::TipSample) == 424 && offsetof(scene::TipSample, level) == kSampleBytesWithoutLevel &&
+              offsetof(scene::TipSample, plan) == kSampleBytesWithoutPlan &&
               offsetof(scene::TipSample, swing) == kSampleBytesWithoutSwing &&
               offsetof(scene::TipSample, push) == kSampleBytesWithoutPush && offsetof(scene::TipSample, scan) == 232 &&
               offsetof(scene::TipSample, lateral_force_n) == kSampleBytesOf010 &&

@@ -23,7 +23,8 @@ class ModelBuilder;
 // touched one, a footprint where each one that has moved lay at the start, with dots from there to where it lies, a
 // cross on each place of the pattern, for a rod on each of its ends, the pads of both kinds, a line of dots for the
 // plan of a push, with a ring around the planned sphere and another around its place, and the tip at its true size. A
-// sphere that hangs on the tip is drawn there. Const after creation.
+// sphere that hangs on the tip is drawn there. Around a particle whose place is computed lie many small dots, around a
+// stale one, which is dark, a few large ones: the three states differ without their colours, too. Const after creation.
 class StageParticles {
  public:
   // Stroke at which a set is drawn: that of the largest picture in which all its particles lie on the sample.
@@ -71,6 +72,7 @@ class StageParticles {
   glm::dvec2 touched_m(const Particle& particle, const scene::ParticlePose& pose, const ParticlesNow& now) const;
   double height_m(std::size_t particle, const scene::ParticlePose& pose, const ParticlesNow& now) const;
   void add_marks(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const;
+  void add_doubts(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const;
   void add_plan(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const;
 
   std::vector<Particle> particles_;
@@ -81,7 +83,7 @@ class StageParticles {
   std::vector<std::optional<scene::NodeIndex>> flat_;  // node of each species of rods or islands
   std::vector<DrawnPad> pads_;
   scene::NodeIndex spheres_ = 0, targets_ = 0, footprints_ = 0, dots_ = 0, ring_ = 0, tip_ = 0;
-  scene::NodeIndex plan_line_ = 0, plan_ends_ = 0;
+  scene::NodeIndex plan_line_ = 0, plan_ends_ = 0, doubts_ = 0;
 };
 
 }  // namespace afm::exhibit

@@ -33,6 +33,7 @@ enum class HeardEvent {
   JumpToAttraction,  // it fell back into the attractive one
   ParticleLifted,
   ParticleSetDown,
+  LookedAgain,  // a scan of the particles near the tip begins
 };
 
 // One note of a signal: a sine that glides between two pitches, with a smooth envelope.

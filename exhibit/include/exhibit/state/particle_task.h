@@ -9,8 +9,9 @@
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::servo {
+class LivePicture;
 struct ReplayedTick;
-}
+}  // namespace afm::servo
 
 namespace afm::exhibit {
 
@@ -25,8 +26,8 @@ class ParticleTask {
   void add(const scene::TipSample& sample);
 
   // Call with the newest pages after the newest sample: ends the task if these are the places that it waits to see.
-  // True if it ended.
-  bool look(std::span<const scene::ParticlePage> pages);
+  // True if it ended. With a picture, it ends only once all that was pushed has been measured, by the measured places.
+  bool look(std::span<const scene::ParticlePage> pages, const servo::LivePicture* picture = nullptr);
 
   // Places of all particles, if the pages hold those that the task waits to see; for another criterion than the
   // pattern, which then ends the task by end().

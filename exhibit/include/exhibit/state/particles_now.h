@@ -13,6 +13,10 @@ namespace afm::physics {
 struct ParticlePlace;
 }
 
+namespace afm::servo {
+struct PictureNow;
+}
+
 namespace afm::scene {
 struct ParticleSet;
 struct PatternState;
@@ -20,13 +24,15 @@ struct PatternState;
 
 namespace afm::exhibit {
 
-// Particles on the stage, as the servo has moved them. All that is referred to must outlive the object.
+// Particles on the stage, as the servo has moved them, or with a picture as that shows them. All that is referred to
+// must outlive the object.
 struct ParticlesNow {
   const scene::ParticleSet* set = nullptr;       // not null
   std::span<const scene::ParticlePage> pages{};  // poses; a particle beyond them is where it started
   scene::TipPush push{};
   scene::TaskScore score{};  // only for a set with a pattern
   scene::PlannedPush plan{};
+  const servo::PictureNow* picture = nullptr;  // at level 1 and 2
 };
 
 // Pose of a particle; nothing beyond the pages.

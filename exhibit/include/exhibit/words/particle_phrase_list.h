@@ -53,4 +53,15 @@
   PHRASE(LeverSideways, "lever-sideways", "", kLine)                       \
   PHRASE(LeverSoftened, "lever-softened", "", kLine)                       \
   PHRASE(TimesSofter, "times-softer", "factor", kLine)                     \
-  PHRASE(LeverSoftenedWhy, "lever-softened-why", "", kLine)
+  PHRASE(LeverSoftenedWhy, "lever-softened-why", "", kLine)                \
+  PHRASE(PatternComputed, "pattern-computed", "distance pushes", kLine)    \
+  PHRASE(PictureName, "particle-picture", "", kLine)                       \
+  PHRASE(PictureMeasured, "picture-measured", "", kLine)                   \
+  PHRASE(PictureComputed, "picture-computed", "", kLine)                   \
+  PHRASE(PictureStale, "picture-stale", "", kLine)                         \
+  PHRASE(PictureLooks, "picture-looks", "share", kLine)                    \
+  PHRASE(PictureAge, "picture-age", "level number age doubt", kLine)       \
+  PHRASE(LookName, "newest-look", "", kLine)                               \
+  PHRASE(LookOff, "look-off", "number lines", kLine)                       \
+  PHRASE(LookMissed, "look-missed", "", kLine)                             \
+  PHRASE(KeyLook, "key-look", "", kLine)

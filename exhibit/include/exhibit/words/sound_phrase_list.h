@@ -26,6 +26,7 @@
   PHRASE(HeardJumpToAttraction, "heard-jump-to-attraction", kEventPlaces, kLine)     \
   PHRASE(HeardParticleLifted, "heard-particle-lifted", kEventPlaces, kLine)          \
   PHRASE(HeardParticleSetDown, "heard-particle-set-down", kEventPlaces, kLine)       \
+  PHRASE(HeardLookedAgain, "heard-looked-again", kEventPlaces, kLine)                \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -49,6 +50,7 @@
   PHRASE(SayJumpToAttraction, "say-jump-to-attraction", kEventPlaces, kLine)         \
   PHRASE(SayParticleLifted, "say-particle-lifted", kEventPlaces, kLine)              \
   PHRASE(SayParticleSetDown, "say-particle-set-down", kEventPlaces, kLine)           \
+  PHRASE(SayLookedAgain, "say-looked-again", kEventPlaces, kLine)                    \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "physics/manipulation/particle_law.h"
@@ -143,6 +144,27 @@ constexpr void for_each_field(Visit&& visit, Record&... pad) {
 }
 static_assert(all_fields_described<SharedPad>());
 
+inline constexpr std::uint32_t kHighestLevel = 2;
+inline constexpr std::uint32_t kLargestSeed = 65535;
+
+// How far the picture of the particles is from them: level and seed of scene::PushScript.
+struct SharedLevel {
+  std::uint32_t level =
+      0;                   // 0: the particles themselves are shown; 1: the computed picture is right; 2: drift, scatter
+  std::uint32_t seed = 1;  // seed of drift and scatter, 1 to 65535
+  std::int64_t since_ns = 0;  // start of the drift, a time as in TipState; 0: first tick of the servo
+
+  bool operator==(const SharedLevel&) const = default;
+};
+
+template <class Visit, RecordOf<SharedLevel>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... level) {
+  visit("level", level.level...);
+  visit("seed", level.seed...);
+  visit("since_ns", level.since_ns...);
+}
+static_assert(all_fields_described<SharedLevel>());
+
 struct SharedParticles {
   std::uint32_t count = 0;  // 0: there are none, and all else is ignored
   std::uint32_t species_count = 0;
@@ -155,6 +177,7 @@ struct SharedParticles {
   // sessions keep them apart, too
   std::array<SharedPad, physics::kMostStickyPads> pads{};
   std::array<double, kMaxSpecies> island_radius_m{};  // R of a species of flat islands; 0: none
+  SharedLevel level{};
 
   bool operator==(const SharedParticles&) const = default;
 };
@@ -174,7 +197,11 @@ bool has_pads(const SharedParticles& particles);
 // True if the tip lifts spheres of a valid set off the sample or off a pad.
 bool has_lift(const SharedParticles& particles);
 
-// The same for the physics; `particles` is valid (validate in scene/shared/shared_segment.h).
+// Reason why particles have no picture of level 1 or 2, or nothing.
+std::string why_no_level(const SharedParticles& particles);
+
+// The same for the physics, with the scatter of its level; `particles` is valid (validate in
+// scene/shared/shared_segment.h).
 physics::PushSetup push_setup(const SharedParticles& particles);
 std::vector<physics::PlacedParticle> start_places(const SharedParticles& particles);
 
@@ -314,6 +341,19 @@ static_assert(all_fields_described<TipPush>());
 constexpr physics::ParticleLaw other_law(physics::ParticleLaw law) {
   return law == physics::ParticleLaw::ContactArea ? physics::ParticleLaw::Amontons : physics::ParticleLaw::ContactArea;
 }
+
+// State of the sample below the tip from which a picture of some level is computed, recorded in every tick.
+struct LevelSample {
+  std::int64_t since_ns = 0;  // start of the drift; 0: none
+  std::uint64_t met = 0;      // as in TipPush, but 0 at level 0
+};
+
+template <class Visit, RecordOf<LevelSample>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... level) {
+  visit("drift_since_ns", level.since_ns...);
+  visit("met", level.met...);
+}
+static_assert(all_fields_described<LevelSample>());
 
 // Part of a push that is recorded in every tick.
 struct PushSample {

@@ -189,7 +189,7 @@ struct RendererHeartbeat {
   std::uint32_t unseen = 0;     // 1: the picture is not visible, so no force is applied
   std::uint32_t take_back = 0;  // number of orders to take a push of particles back, since the renderer's start
   std::uint32_t put_back = 0;   // the same to put all particles back
-  std::uint32_t padding = 0;
+  std::uint32_t look = 0;       // the same to look again at the particles near the tip
 };
 
 // ---- written by touchafm-servo ----

@@ -235,6 +235,7 @@ struct TipSample {
   Swing swing{};                            // default: the lever does not tap
   PlannedPush plan{};                       // in effect in this tick; default: none
   std::array<double, 2> guide_n{};  // force of the plan's groove on the hand, along the sample's x and y, unlimited
+  LevelSample level{};              // default: level 0
 };
 
 // Results of the tick: a replay must reproduce them bit for bit.
@@ -252,6 +253,7 @@ constexpr void for_each_result(Visit&& visit, Record&... sample) {
   visit("swing", sample.swing...);
   visit("guide_x_N", sample.guide_n[0]...);
   visit("guide_y_N", sample.guide_n[1]...);
+  visit("level", sample.level...);
 }
 
 // Inputs of the tick: a replay begins with them.
