@@ -84,7 +84,11 @@ void log_scan(const exhibit::LiveScan& scan) {
 
 ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
                        KeyList key_list)
-    : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials), key_list_(key_list) {
+    : wall_scene_(wall_scene),
+      swatches_(wall_scene.swatch_targets()),
+      edits_(materials),
+      key_list_(key_list),
+      dial_(std::make_shared<exhibit::SwingDial>()) {
   const auto is_of_map = [](const curves::SampleModel& material) { return material.pixel != nullptr; };
   if (std::any_of(materials.begin(), materials.end(), is_of_map)) right_ = RightPanel::Parameters;
 }
@@ -266,7 +270,7 @@ void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, 
       return;
     case RightPanel::FrictionLoop:
       if (const curves::SampleModel& model = edits_.of(material).model(); model.taps()) {
-        return show_right(panels, panels.loop, exhibit::swing_panel(model, tip, phrases()));
+        return show_right(panels, panels.loop, dial_->panel(model, tip, phrases()));
       }
       if (friction_ == nullptr) return;
       const physics::FrictionParameters& friction = edits_.of(material).model().parameters.friction;

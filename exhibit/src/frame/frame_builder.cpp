@@ -34,7 +34,6 @@ using physics::format_quantity;
 constexpr double kAxisBelow = 0.42, kAxisAbove = 1.42;
 constexpr double kPushShare = 0.4;  // deepest push, as a share of the reach
 constexpr double kHardlyPulled = 0.05;
-constexpr double kFreeSwing = 0.002;     // share of the amplitude that a swing may lose and count as free
 constexpr const char* kApart = "     ";  // separates two facts on a line
 
 struct StateSign {
