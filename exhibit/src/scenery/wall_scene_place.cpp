@@ -59,6 +59,12 @@ bool shows_ghost(const WallState& state, bool with_particles) {
          state.cue->kind == physics::EventKind::JumpOffContact;
 }
 
+// Of a lever that taps, unless its swing is too small to be seen.
+bool shows_swing(const WallState& state, double layout_per_m) {
+  return state.centerpiece == Centerpiece::Instrument && state.material &&
+         state.swing.amplitude_m * layout_per_m > kSmallestSwing;
+}
+
 // Beside the place where the tip touches, in the wall's plane; moves with the sample, not with the tip.
 render::Label cue_label(const JumpCue& cue, const Phrases& phrases, const dmat4& room_from_layout,
                         const dvec3& touched_m) {
@@ -131,6 +137,9 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, std::vect
     Instrument::Setting pulled = setting;
     pulled.tip.z_m = pulled.tip.deflection_m = kStrokeHeight / kStrokeOfZjoc / setting.layout_per_m;
     instrument_.place_ghost(pulled, local, bends.emplace_back());
+  }
+  if (shows_swing(state, setting.layout_per_m)) {
+    instrument_.place_swing(setting, state.swing.amplitude_m, local, bends.emplace_back());
   }
   place_sample(state, local);
   if (particles_) {
@@ -206,6 +215,9 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
   if (!topography_mesh_ || state.centerpiece != Instrument || !state.material) hide({height_bar_});
   if (state.centerpiece != Instrument || !state.material) hide(marks_.lever_nodes());
   if (!shows_ghost(state, particles_.has_value())) hide({instrument_.ghost()});
+  if (!shows_swing(state, layout_per_m(state))) {
+    for (const scene::NodeIndex part : instrument_.swing()) hide({part});
+  }
   if (ruler_m_per_unit(state) == 0.0) hide(marks_.ruler_nodes());
   if (particles_) {
     const bool shown = state.centerpiece == Instrument && state.material;

@@ -17,7 +17,7 @@ Moment moment_from(const TipRecord& record) {
   Moment moment;
   moment.wall.tip = record.tip;
   moment.wall.surface = record.surface;
-  moment.swing = record.swing;
+  moment.wall.swing = record.swing;
   moment.servo_state = record.servo_state;
   moment.phase = record.phase;
   return moment;

@@ -41,8 +41,8 @@ constexpr std::array<LeftOut, 5> kOfTheDevice{{{"wall.wand.time_ns", "moves noth
                                                {"wall.wand.push", "a navigation follows from it"},
                                                {"wall.wand.turn", "a navigation follows from it"}}};
 
-constexpr std::array<LeftOut, 8> kNotSent{{{"swing.amplitude_m", "one machine shows a lever that taps"},
-                                           {"swing.phase_rad", "one machine shows a lever that taps"},
+constexpr std::array<LeftOut, 8> kNotSent{{{"wall.swing.amplitude_m", "one machine shows a lever that taps"},
+                                           {"wall.swing.phase_rad", "one machine shows a lever that taps"},
                                            {"curves", "grow from the journal"},
                                            {"scan", "follows from the journal and ShownMoment::scan_frame"},
                                            {"wall.scan", "set by show_scan()"},
@@ -60,10 +60,9 @@ constexpr std::array<LeftOut, 9> kNotRecorded{{{"curves", "follow from the sessi
                                                {"wall.particles", "follow from a replay of the session's ticks"},
                                                {"results", "shown in films, which are made without a live wall"}}};
 
-constexpr std::array<LeftOut, 11> kNotDrawn{
+constexpr std::array<LeftOut, 10> kNotDrawn{
     {{"stopped", "drawn in the state Fault alone"},
-     {"swing.amplitude_m", "drawn of a lever that taps alone"},
-     {"swing.phase_rad", "drawn of a lever that taps alone"},
+     {"wall.swing.phase_rad", "drawn of a lever that taps alone"},
      {"by_wand", "drawn without a sample alone"},
      {"letters", "drawn by the list of keys alone"},
      {"wall.tip.tip_height_m", "the lever is drawn by Z and deflection"},
@@ -144,7 +143,7 @@ class DescribedWall : public ::testing::Test {
     wall.scan = true;
     wall.scan_line = {glm::dvec3(-1e-8, 0.0, 1e-9), glm::dvec3(1e-8, 0.0, 1e-9)};
     wall.particles = &particles_;
-    moment.swing = {.amplitude_m = 18e-9, .phase_rad = 1.2};
+    wall.swing = {.amplitude_m = 18e-9, .phase_rad = 1.2};
     moment.servo_state = scene::ServoState::Running;
     moment.phase = physics::Phase::Free;
     moment.realtime = true;
@@ -188,7 +187,7 @@ class DescribedWall : public ::testing::Test {
     sample.time_ns = kNowNs;
     sample.tip = moment.wall.tip;
     sample.surface = moment.wall.surface;
-    sample.swing = moment.swing;
+    sample.swing = moment.wall.swing;
     sample.servo_state = moment.servo_state;
     sample.phase = moment.phase;
     if (const auto& cue = moment.wall.cue) {
