@@ -124,6 +124,7 @@ void ViewPanels::copy_state(const Copy& copy, Panels& panels, Shown& shown) {
 cluster::ShownPanels ViewPanels::told(const Pointed& pointed, HandSource hand) const {
   cluster::ShownPanels shown;
   copy_state(scene::CopyOut(), *this, shown);
+  if (edits_.builds()) shown.flags |= cluster::ShownPanels::kBuilding;
   shown.marked = std::min(shown.marked, cluster::ShownPanels::kMostRows - 1);
   const Told told{.pointed = pointed, .hand = hand};
   copy_pointed(scene::CopyOut(), told, shown);
@@ -132,6 +133,7 @@ cluster::ShownPanels ViewPanels::told(const Pointed& pointed, HandSource hand) c
 
 ViewPanels::Told ViewPanels::follow(const cluster::ShownPanels& panels) {
   copy_state(scene::CopyBack(), *this, panels);
+  edits_.set_builds_elsewhere((panels.flags & cluster::ShownPanels::kBuilding) != 0);
   if (!core::is_enumerator(right_)) right_ = RightPanel::Data;
   Told told;
   copy_pointed(scene::CopyBack(), told, panels);

@@ -283,6 +283,18 @@ TEST_F(SwingTest, TurnsWhereTheTipTurns) {
   }
 }
 
+TEST_F(SwingTest, IsSlowedDownByTheStroboscope) {
+  for (const auto& [turns, way] : {std::pair{0.0, -1.0}, {0.25, 0.0}, {0.5, 1.0}, {0.75, 0.0}, {1.0, -1.0}}) {
+    WallState state = tapping(5e-9);
+    state.stroboscope = true;
+    state.strobe_turns = turns;
+    EXPECT_NEAR(apex_m(frame(state), "probe/tip"), 4.9e-9 + way * kSwingM, 0.05e-9) << turns;
+    EXPECT_NEAR(apex_m(frame(state), "probe-turn-low"), 4.9e-9 - kSwingM, 0.05e-9) << turns;
+    state.stroboscope = false;
+    EXPECT_NEAR(apex_m(frame(state), "probe/tip"), 4.9e-9, 0.05e-9) << turns;
+  }
+}
+
 TEST_F(SwingTest, FillsABandBetweenTheTurns) {
   const render::FrameState shown = frame(tapping(5e-9));
   const auto bend = std::find_if(shown.bends.begin(), shown.bends.end(),

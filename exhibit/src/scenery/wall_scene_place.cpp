@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
 #include <optional>
 
 #include "core/check.h"
@@ -130,8 +131,12 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, std::vect
                                                              ? looks_[*state.material].full_deflection_m *
                                                                    parameter_factor(*state.material, state.release_z_m)
                                                              : 1.0};
+  Instrument::Setting drawn = setting;
+  if (state.stroboscope && shows_swing(state, setting.layout_per_m)) {
+    drawn.tip.deflection_m += state.swing.amplitude_m * std::cos(2.0 * std::numbers::pi * state.strobe_turns);
+  }
   bends.resize(1);
-  instrument_.place_probe(scene_, setting, marks_, local, bends.front());
+  instrument_.place_probe(scene_, drawn, marks_, local, bends.front());
   if (shows_ghost(state, particles_.has_value())) {
     // the tip still on the sample, the lever's end as far below as the pull-off is high
     Instrument::Setting pulled = setting;
@@ -146,7 +151,7 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, std::vect
     const double height = setting.layout_per_m * (state.tip.z_m - state.tip.deflection_m);
     particles_->place(state.particles, setting.layout_per_m, setting.below_tip + dvec3(0.0, 0.0, height), local);
   }
-  instrument_.place_optics(scene_, setting, local);
+  instrument_.place_optics(scene_, drawn, local);
   if (state.navigation != dmat4(1.0)) {
     const dmat4 navigated = glm::inverse(places_.room_from_layout()) * state.navigation * places_.room_from_layout();
     for (const scene::NodeIndex root : {sample_frame_, instrument_.optics()}) local[root] = navigated * local[root];

@@ -41,8 +41,7 @@ constexpr std::array<LeftOut, 5> kOfTheDevice{{{"wall.wand.time_ns", "moves noth
                                                {"wall.wand.push", "a navigation follows from it"},
                                                {"wall.wand.turn", "a navigation follows from it"}}};
 
-constexpr std::array<LeftOut, 8> kNotSent{{{"wall.swing.amplitude_m", "one machine shows a lever that taps"},
-                                           {"wall.swing.phase_rad", "one machine shows a lever that taps"},
+constexpr std::array<LeftOut, 7> kNotSent{{{"wall.strobe_turns", "follows from the time of the tip's state"},
                                            {"curves", "grow from the journal"},
                                            {"scan", "follows from the journal and ShownMoment::scan_frame"},
                                            {"wall.scan", "set by show_scan()"},
@@ -50,15 +49,16 @@ constexpr std::array<LeftOut, 8> kNotSent{{{"wall.swing.amplitude_m", "one machi
                                            {"wall.particles", "follow from the journal"},
                                            {"results", "shown in films, which one machine draws"}}};
 
-constexpr std::array<LeftOut, 9> kNotRecorded{{{"curves", "follow from the session's samples"},
-                                               {"by_wand", "drawn without a sample, of which a session has one"},
-                                               {"stopped", "follows from TipSample::renderer"},
-                                               {"letters", "labels of the keyboard at hand"},
-                                               {"scan", "recorded as ScanProgress: scan_progress_of()"},
-                                               {"wall.scan", "set by show_scan()"},
-                                               {"wall.scan_line", "set by show_scan()"},
-                                               {"wall.particles", "follow from a replay of the session's ticks"},
-                                               {"results", "shown in films, which are made without a live wall"}}};
+constexpr std::array<LeftOut, 10> kNotRecorded{{{"curves", "follow from the session's samples"},
+                                                {"wall.strobe_turns", "follows from the time of the sample"},
+                                                {"by_wand", "drawn without a sample, of which a session has one"},
+                                                {"stopped", "follows from TipSample::renderer"},
+                                                {"letters", "labels of the keyboard at hand"},
+                                                {"scan", "recorded as ScanProgress: scan_progress_of()"},
+                                                {"wall.scan", "set by show_scan()"},
+                                                {"wall.scan_line", "set by show_scan()"},
+                                                {"wall.particles", "follow from a replay of the session's ticks"},
+                                                {"results", "shown in films, which are made without a live wall"}}};
 
 constexpr std::array<LeftOut, 10> kNotDrawn{
     {{"stopped", "drawn in the state Fault alone"},
@@ -143,6 +143,8 @@ class DescribedWall : public ::testing::Test {
     wall.scan = true;
     wall.scan_line = {glm::dvec3(-1e-8, 0.0, 1e-9), glm::dvec3(1e-8, 0.0, 1e-9)};
     wall.particles = &particles_;
+    wall.stroboscope = true;
+    wall.strobe_turns = 0.25;
     wall.swing = {.amplitude_m = 18e-9, .phase_rad = 1.2};
     moment.servo_state = scene::ServoState::Running;
     moment.phase = physics::Phase::Free;
@@ -159,6 +161,7 @@ class DescribedWall : public ::testing::Test {
   static scene::TipState tip_of(const Moment& moment) {
     scene::TipState tip;
     tip.tip = moment.wall.tip;
+    tip.swing = moment.wall.swing;
     tip.surface = moment.wall.surface;
     tip.active.release_z_m = moment.wall.release_z_m;
     tip.active.slow_motion = moment.slow_motion;

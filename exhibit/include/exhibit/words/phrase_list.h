@@ -293,6 +293,7 @@
   PHRASE(KeyFalseColours, "key-false-colours", "", kLine)    \
   PHRASE(KeyMapPicture, "key-map-picture", "", kLine)        \
   PHRASE(KeyFriction, "key-friction", "", kLine)             \
+  PHRASE(KeyStroboscope, "key-stroboscope", "", kLine)       \
   PHRASE(KeyScanHand, "key-scan-hand", "", kLine)            \
   PHRASE(KeyScanFeedback, "key-scan-feedback", "", kLine)    \
   PHRASE(KeyNextSetting, "key-next-setting", "", kLine)      \
