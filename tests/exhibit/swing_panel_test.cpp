@@ -89,10 +89,15 @@ TEST(SwingPanel, ShowsStatesThatLoseEnergyOffTheCircle) {
 }
 
 TEST(SwingPanel, ShowsStatesBesideTheResonance) {
-  const curves::SampleModel beside = sample_with("299.75kHz", "");
+  const curves::SampleModel beside = sample_with("300.1kHz", "");
   const render::ForcePanel free = panel_of(beside, 40.0);
-  expect_hand(free, "free", 20.0, std::atan2(299.75 / 300.0 / 400.0, 1.0 - std::pow(299.75 / 300.0, 2)) / kDegree);
-  EXPECT_EQ(panel_of(beside, 18.5).stage, "both states exist at this height");
+  const double ratio = 300.1 / 300.0;
+  expect_hand(free, "free", 20.0, std::atan2(ratio / 400.0, 1.0 - ratio * ratio) / kDegree);
+  // as touchafm curve --mode tapping --at 17nm prints them
+  const render::ForcePanel both = panel_of(beside, 17.0);
+  EXPECT_EQ(both.stage, "both states exist at this height");
+  expect_hand(both, "attractive", 16.910, 125.22);
+  expect_hand(both, "repulsive", 18.657, 64.34);
 }
 
 TEST(SwingPanel, StaysWithinItsAxes) {
@@ -102,8 +107,10 @@ TEST(SwingPanel, StaysWithinItsAxes) {
       const render::ForcePanel panel = panel_of(model, z_nm);
       for (const render::PlotCurve& curve : panel.curves) {
         for (const render::PlotPoint& point : curve.retract) {
-          EXPECT_TRUE(point.place_nm >= panel.place_min_nm && point.place_nm <= panel.place_max_nm &&
-                      point.force_nn >= panel.force_min_nn && point.force_nn <= panel.force_max_nn)
+          constexpr double kRounding = 1e-9;
+          EXPECT_TRUE(
+              point.place_nm >= panel.place_min_nm - kRounding && point.place_nm <= panel.place_max_nm + kRounding &&
+              point.force_nn >= panel.force_min_nn - kRounding && point.force_nn <= panel.force_max_nn + kRounding)
               << drive << " " << z_nm << " " << curve.label;
         }
       }
@@ -114,7 +121,7 @@ TEST(SwingPanel, StaysWithinItsAxes) {
 // One dial for all samples and heights.
 TEST(SwingPanel, FollowsTheSampleAndTheHeight) {
   SwingDial dial;
-  const curves::SampleModel beside = sample_with("299.75kHz", "");
+  const curves::SampleModel beside = sample_with("300.1kHz", "");
   for (const double z_nm : {17.5, 25.0, 17.5, 17.5}) {
     for (const curves::SampleModel& model : {sample(), beside}) {
       scene::TipState tip;

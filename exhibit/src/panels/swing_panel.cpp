@@ -30,8 +30,17 @@ render::PlotPoint end_of(double amplitude_m, double phase_rad) {
           .force_nn = amplitude_m * std::sin(phase_rad) * curves::kNmPerM};
 }
 
-render::PlotCurve hand(const std::string& label, const glm::vec3& color, const render::PlotPoint& end) {
-  return {.label = label, .color = color, .faded = false, .approach = {}, .retract = {{}, end}};
+// From the origin to a point, or as far as the axes reach.
+void add_hand(const std::string& label, const glm::vec3& color, const render::PlotPoint& end,
+              render::ForcePanel& panel) {
+  const double across = std::abs(end.place_nm) / panel.place_max_nm;
+  const double upwards = end.force_nn / (end.force_nn < 0.0 ? panel.force_min_nn : panel.force_max_nn);
+  const double beyond = std::max({1.0, across, upwards});
+  panel.curves.push_back({.label = label,
+                          .color = color,
+                          .faded = false,
+                          .approach = {},
+                          .retract = {{}, {end.place_nm / beyond, end.force_nn / beyond}}});
 }
 
 // The parts of a line within the axes, in the same colour; the first one has the label.
@@ -73,13 +82,13 @@ std::vector<render::PlotPoint> line_of(const std::vector<physics::SwingPoint>& e
   return line;
 }
 
-render::PlotCurve state_hand(const physics::TapState& state, const physics::DrivenLever& lever,
-                             const Phrases& phrases) {
+void add_state(const physics::TapState& state, const physics::DrivenLever& lever, const Phrases& phrases,
+               render::ForcePanel& panel) {
   const bool attracted = std::sin(state.phase - lever.free_phase) > 0.0;
   const bool free = std::abs(state.amplitude / lever.free_amplitude - 1.0) < kFreeSwing;
   const Phrase name = free ? Phrase::SwingFree : attracted ? Phrase::SwingAttractive : Phrase::SwingRepulsive;
-  return hand(phrases[name], attracted || free ? kAttractiveColor : kRepulsiveColor,
-              end_of(state.amplitude.si, state.phase));
+  add_hand(phrases[name], attracted || free ? kAttractiveColor : kRepulsiveColor,
+           end_of(state.amplitude.si, state.phase), panel);
 }
 
 }  // namespace
@@ -130,10 +139,10 @@ render::ForcePanel SwingDial::panel(const curves::SampleModel& model, const scen
     add_within_axes(line_of(edge), look(label, kEdgeColor, false), panel);
     if (panel.curves.size() > before) label.clear();
   }
-  for (const physics::TapState& state : portrait.states) panel.curves.push_back(state_hand(state, lever, phrases));
+  for (const physics::TapState& state : portrait.states) add_state(state, lever, phrases, panel);
   if (tip.swing.amplitude_m > 0.0) {
     panel.cursor = end_of(tip.swing.amplitude_m, tip.swing.phase_rad);
-    panel.curves.push_back(hand(phrases[Phrase::DialNow], kNowColor, *panel.cursor));
+    add_hand(phrases[Phrase::DialNow], kNowColor, *panel.cursor, panel);
   }
   return panel;
 }

@@ -55,9 +55,10 @@ struct Portrayed {
 };
 
 // At the resonance and beside it, with and without loss, and the island of row T45, which no slow path reaches.
-const std::array kTwoStates{
-    std::pair{TappedSample{}, 17.4149}, std::pair{TappedSample{}, 18.4}, std::pair{TappedSample{.ratio = 0.9992}, 18.5},
-    std::pair{TappedSample{.eta_w0_mpa = 20.0}, 17.6}, std::pair{TappedSample{.a0_nm = 10.0}, 7.5}};
+const std::array kTwoStates{std::pair{TappedSample{}, 17.4149}, std::pair{TappedSample{}, 18.4},
+                            std::pair{TappedSample{.ratio = 300.1 / 300.0}, 17.0},
+                            std::pair{TappedSample{.eta_w0_mpa = 20.0}, 17.6},
+                            std::pair{TappedSample{.a0_nm = 10.0}, 7.5}};
 
 TEST(TapPortrait, HasTheStableStatesOfTheFlow) {
   for (const auto& [sample, z_nm] : kTwoStates) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// A lever that taps: the plot of its amplitude, and its dial.
+// A lever that taps: the plot of its amplitude, its dial, and images beside it.
 #define AFM_FOR_EACH_TAPPING_PHRASE(PHRASE)                 \
   PHRASE(PlotTitleTapping, "plot-title-tapping", "", kLine) \
   PHRASE(SwingAmplitude, "swing-amplitude", "", kLine)      \
@@ -14,4 +14,5 @@
   PHRASE(DialBoth, "dial-both", "", kLine)                  \
   PHRASE(DialOne, "dial-one", "", kLine)                    \
   PHRASE(DialNow, "dial-now", "", kLine)                    \
-  PHRASE(DialEdge, "dial-edge", "", kLine)
+  PHRASE(DialEdge, "dial-edge", "", kLine)                  \
+  PHRASE(ScanInContact, "scan-in-contact", "", kLine)
