@@ -58,6 +58,7 @@ core::Result<exhibit::WallModel> wall_model(const exhibit::ExhibitFiles& files, 
   model.friction = choice.friction;
   model.picture = choice.picture;
   model.contrast = choice.contrast;
+  if (choice.tapping.choice.mode == "tapping") model.tapping = choice.tapping;
   return model;
 }
 

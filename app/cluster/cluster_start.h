@@ -8,6 +8,7 @@
 #include "app/options/command_line.h"
 #include "cluster/network.h"
 #include "core/result.h"
+#include "curves/tapping/tapped_hand.h"
 #include "exhibit/frame/wall_pictures.h"
 #include "physics/friction/friction.h"
 #include "render/renderer.h"
@@ -51,6 +52,7 @@ struct WallChoice {
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   exhibit::PictureOptions picture;
   render::PanelContrast contrast = render::PanelContrast::Normal;
+  curves::TappedHand tapping{};
 };
 
 // The network, opened as the machine with the hand. WrongUsage if the wall has no nodes or another machine drives it.

@@ -136,7 +136,7 @@ core::Result<std::unique_ptr<NodeStage>> load_stage(const std::string& name, clu
   if (const std::uint64_t here = scene::digest(stage->wall_scene.scene()); here != model->scene) {
     return tl::unexpected(refuse(link, document.header, *node, cluster::NodeState::OtherScene, here, model->scene));
   }
-  auto materials = exhibit::felt_samples(*stage, model->friction);
+  auto materials = exhibit::felt_samples(*stage, model->friction, &model->tapping);
   if (!materials) return tl::unexpected(materials.error());
   scene::keep_outputs_of(*node, stage->wall);
   return std::make_unique<NodeStage>(

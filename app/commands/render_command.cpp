@@ -206,9 +206,12 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
   }
   const bool travels = then.moment.wall.centerpiece == exhibit::Centerpiece::Journey;
   const auto material = travels ? std::nullopt : then.moment.wall.material;
+  scene::TipState tip;
+  tip.tip = then.moment.wall.tip;
+  tip.swing = then.moment.wall.swing;
   const auto add_panels = [&](render::FrameState& frame) {
     panels.add_to(frame, {}, material, material ? stage.phrases().word(stage.materials.materials[*material].title) : "",
-                  {}, HandSource::Mouse);
+                  tip, HandSource::Mouse);
   };
   return draw(stage, models, then.moment, picture, options.out, add_panels);
 }

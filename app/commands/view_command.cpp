@@ -209,7 +209,8 @@ core::Result<std::unique_ptr<ClusterMaster>> other_machines(const ViewOptions& o
                                                             exhibit::Stage& stage, const core::Clock& clock) {
   if (options.cluster.wanted) {
     return start_cluster(options.cluster, options.files,
-                         {options.friction, options.display.picture, options.display.contrast}, program, stage, clock);
+                         {options.friction, options.display.picture, options.display.contrast, options.tapping},
+                         program, stage, clock);
   }
   if (auto alone = check_one_machine(stage.wall, options.display.window); !alone) return tl::unexpected(alone.error());
   return nullptr;
@@ -250,7 +251,7 @@ core::Result<std::unique_ptr<render::HeadsetRuntime>> headset_of(const ViewOptio
 
 // True without options that tapping excludes.
 bool taps_alone(const ViewOptions& options) {
-  return options.files.particles.empty() && options.files.force_map.empty() && !options.cluster.wanted &&
+  return options.files.particles.empty() && options.files.force_map.empty() &&
          options.friction == physics::FrictionLaw::None;
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/display/view_picture.h"
 #include "app/view/servo_supervisor.h"
+#include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
 #include "app/view/view_wand.h"
 #include "core/log.h"
@@ -69,6 +70,15 @@ void PlaceControl::bring_to_wall() {
                              before_m < 0.0 ? "towards" : "away from"));
 }
 
+void PlaceControl::toggle_stroboscope() {
+  const auto material = parts_.servo.material();
+  if (!material || !parts_.panels.edits().of(*material).model().taps()) {
+    return core::log_line("stroboscope: no lever vibrates; start with --mode tapping, and choose a sample");
+  }
+  stroboscope_ = !stroboscope_;
+  core::log_line(stroboscope_ ? "stroboscope: one swing a second" : "stroboscope: off");
+}
+
 double PlaceControl::before_wall_m() const {
   const glm::dvec3 contact(to_wall_ * parts_.wand.navigation() * glm::dvec4(parts_.stage.wall_scene.contact_m(), 1.0));
   return glm::dot(contact - parts_.stage.screen.lower_left, parts_.stage.screen.normal());
@@ -76,6 +86,7 @@ double PlaceControl::before_wall_m() const {
 
 void PlaceControl::add_to_moment(exhibit::Moment& now, ViewFrame& frame) {
   now.wall.navigation = to_wall_ * parts_.wand.navigation();
+  now.wall.stroboscope = stroboscope_;
   if (std::abs(before_wall_m()) > kBesideWallM) frame.relief = exhibit::Relief::BringToWall;
 }
 
@@ -84,7 +95,9 @@ void PlaceControl::add_to_log(servo::FrameRecord& record) {
 }
 
 void PlaceControl::restart(Restart what) {
-  if (what == Restart::Visitor) bring_home();
+  if (what != Restart::Visitor) return;
+  bring_home();
+  stroboscope_ = false;
 }
 
 void PlaceControl::finish() {

@@ -12,7 +12,7 @@ namespace afm::app {
 
 struct ViewParts;
 
-// Position of the viewer's head, and offset of the scene.
+// Position of the viewer's head, and offset and stroboscope of the scene.
 class PlaceControl final : public ViewControl {
  public:
   enum class Eyes { Followed, OfHeadset };
@@ -28,6 +28,9 @@ class PlaceControl final : public ViewControl {
   // Moves the contact into the wall's plane, where both eyes see it at the same place.
   void bring_to_wall();
 
+  // Lets a lever that taps swing visibly, slowed down, or not.
+  void toggle_stroboscope();
+
   void update(const ViewFrame& frame) override;
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
   void add_to_log(servo::FrameRecord& record) override;
@@ -42,6 +45,7 @@ class PlaceControl final : public ViewControl {
   input::ViewHead head_;
   input::SimulatedHead simulated_head_;  // used if there is no tracker
   glm::dmat4 to_wall_{1.0};              // applied after the wand's navigation
+  bool stroboscope_ = false;
 };
 
 }  // namespace afm::app

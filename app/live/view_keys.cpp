@@ -52,6 +52,9 @@ constexpr std::array kRows{
     LiveKey{Key::F, "F", Phrase::KeyFriction,
             [](KeyOwners& owners, std::size_t) { owners.parts.choice.toggle_friction_loop(); }}
         .outside_lessons(),
+    LiveKey{Key::F6, "F6", Phrase::KeyStroboscope,
+            [](KeyOwners& owners, std::size_t) { owners.place->toggle_stroboscope(); }}
+        .outside_lessons(),
     LiveKey{Key::L, "L", Phrase::KeyScanHand, [](KeyOwners& owners, std::size_t) { owners.scan->next_hand(); }}
         .outside_lessons(),
     LiveKey{Key::K, "K", Phrase::KeyScanFeedback,

@@ -133,7 +133,7 @@ core::Result<void> check_tapped_view(const curves::TappedHand& hand, bool alone)
   if (const auto checked = check_tapping_options(hand.choice); !checked) return checked;
   if (hand.choice.mode == "contact") return curves::check_contact_mode(hand);
   if (alone) return {};
-  return wrong_usage("--mode tapping is felt without --particles, --force-map, --friction and --cluster; remove them");
+  return wrong_usage("--mode tapping is felt without --particles, --force-map and --friction; remove them");
 }
 
 core::Result<void> check_tapping_options(const curves::TappingChoice& choice) {

@@ -141,9 +141,14 @@ void ParameterEdits::resend(servo::ServoClient& servo) {
   }
 }
 
+bool ParameterEdits::builds() const {
+  return builds_elsewhere_ ||
+         std::any_of(edits_.begin(), edits_.end(), [](const Edit& edit) { return edit.build.running(); });
+}
+
 exhibit::ChangeState ParameterEdits::state(std::size_t material, const scene::TipState& tip) const {
   const Edit& edit = edits_[material];
-  if (edit.build.running()) return exhibit::ChangeState::Waiting;
+  if (builds()) return exhibit::ChangeState::Waiting;
   const bool under_tip = tip.material == static_cast<std::int32_t>(material);
   const bool taken = under_tip ? tip.active.edit_revision == edit.revision : edit.revision == 0;
   if (edit.revision != 0 && tip.acknowledged.refused_edit == edit.revision) return exhibit::ChangeState::Refused;

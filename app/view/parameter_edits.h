@@ -65,6 +65,10 @@ class ParameterEdits {
 
   bool changed(std::size_t material) const;
 
+  // True while the law of a lever that taps is being built, here or on the machine with the hand, which tells it.
+  bool builds() const;
+  void set_builds_elsewhere(bool builds) { builds_elsewhere_ = builds; }
+
   // State of the newest change; for the panel: Held where a pixel of a force map cannot be left.
   exhibit::ChangeState state(std::size_t material, const scene::TipState& tip) const;
   exhibit::ChangeState shown_state(std::size_t material, const scene::TipState& tip) const;
@@ -82,6 +86,7 @@ class ParameterEdits {
 
   std::vector<curves::SampleModel> loaded_;
   std::vector<Edit> edits_;
+  bool builds_elsewhere_ = false;
 };
 
 }  // namespace afm::app

@@ -84,7 +84,11 @@ void log_scan(const exhibit::LiveScan& scan) {
 
 ViewPanels::ViewPanels(const exhibit::WallScene& wall_scene, const std::vector<curves::SampleModel>& materials,
                        KeyList key_list)
-    : wall_scene_(wall_scene), swatches_(wall_scene.swatch_targets()), edits_(materials), key_list_(key_list) {
+    : wall_scene_(wall_scene),
+      swatches_(wall_scene.swatch_targets()),
+      edits_(materials),
+      key_list_(key_list),
+      dial_(std::make_shared<exhibit::SwingDial>()) {
   const auto is_of_map = [](const curves::SampleModel& material) { return material.pixel != nullptr; };
   if (std::any_of(materials.begin(), materials.end(), is_of_map)) right_ = RightPanel::Parameters;
 }
@@ -120,6 +124,7 @@ void ViewPanels::copy_state(const Copy& copy, Panels& panels, Shown& shown) {
 cluster::ShownPanels ViewPanels::told(const Pointed& pointed, HandSource hand) const {
   cluster::ShownPanels shown;
   copy_state(scene::CopyOut(), *this, shown);
+  if (edits_.builds()) shown.flags |= cluster::ShownPanels::kBuilding;
   shown.marked = std::min(shown.marked, cluster::ShownPanels::kMostRows - 1);
   const Told told{.pointed = pointed, .hand = hand};
   copy_pointed(scene::CopyOut(), told, shown);
@@ -128,6 +133,7 @@ cluster::ShownPanels ViewPanels::told(const Pointed& pointed, HandSource hand) c
 
 ViewPanels::Told ViewPanels::follow(const cluster::ShownPanels& panels) {
   copy_state(scene::CopyBack(), *this, panels);
+  edits_.set_builds_elsewhere((panels.flags & cluster::ShownPanels::kBuilding) != 0);
   if (!core::is_enumerator(right_)) right_ = RightPanel::Data;
   Told told;
   copy_pointed(scene::CopyBack(), told, panels);
@@ -266,7 +272,7 @@ void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, 
       return;
     case RightPanel::FrictionLoop:
       if (const curves::SampleModel& model = edits_.of(material).model(); model.taps()) {
-        return show_right(panels, panels.loop, exhibit::swing_panel(model, tip, phrases()));
+        return show_right(panels, panels.loop, dial_->panel(model, tip, phrases()));
       }
       if (friction_ == nullptr) return;
       const physics::FrictionParameters& friction = edits_.of(material).model().parameters.friction;

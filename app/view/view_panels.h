@@ -29,6 +29,7 @@ class FrictionHistory;
 class LiveScan;
 struct Moment;
 struct Stage;
+class SwingDial;
 class WallScene;
 }  // namespace afm::exhibit
 
@@ -137,6 +138,7 @@ class ViewPanels {
   KeyList key_list_;
   exhibit::LiveScan* scan_ = nullptr;
   const exhibit::FrictionHistory* friction_ = nullptr;
+  std::shared_ptr<exhibit::SwingDial> dial_;  // never null
   std::string drawn_by_;
   std::shared_ptr<const curves::CurveMap> pictured_;  // map of the picture; null: none yet
   exhibit::MapQuantity quantity_{};                   // what it shows

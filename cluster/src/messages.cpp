@@ -13,8 +13,9 @@ namespace afm::cluster {
 
 namespace {
 
-constexpr double kLargestSent = 1e9;          // same limit as in the shared scene
-constexpr double kUnitTolerance = 1e-3;       // deviation of an orientation's length from 1
+constexpr double kLargestSent = 1e9;     // same limit as in the shared scene
+constexpr double kUnitTolerance = 1e-3;  // deviation of an orientation's length from 1
+constexpr double kLargestSwingM = 1e-3;
 constexpr std::int32_t kFarthestStep = 8192;  // steps between an edited and the loaded value: the side of a map
 
 template <std::floating_point Number>
@@ -108,8 +109,10 @@ bool is_valid(const ShownPanels& panels) {
 }
 
 bool is_valid(const FrameMessage& frame) {
-  return sound(frame.tip) && frame.tip.slow_motion > 0 && frame.tip.realtime <= 1 && is_material(frame.tip.material) &&
-         is_valid(frame.moment) && is_valid(frame.view) && is_valid(frame.panels) && frame.texts.bytes.back() == '\0';
+  const double amplitude_m = frame.tip.swing.amplitude_m;
+  return sound(frame.tip) && amplitude_m >= 0 && amplitude_m <= kLargestSwingM && frame.tip.slow_motion > 0 &&
+         frame.tip.realtime <= 1 && is_material(frame.tip.material) && is_valid(frame.moment) && is_valid(frame.view) &&
+         is_valid(frame.panels) && frame.texts.bytes.back() == '\0';
 }
 
 bool is_valid(const JournalBatch& batch) {

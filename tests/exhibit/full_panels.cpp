@@ -84,7 +84,7 @@ render::ForcePanel full_dial(const Phrases& phrases) {
   scene::TipState tip;
   tip.tip.z_m = 17.4e-9;
   tip.swing = {.amplitude_m = 16e-9, .phase_rad = 2.0};
-  return swing_panel(sample, tip, phrases);
+  return SwingDial().panel(sample, tip, phrases);
 }
 
 // Of the last particle, with the longest numbers.

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "exhibit/scenery/wall_scene.h"
 #include "physics/beam_shape.h"
@@ -234,6 +236,111 @@ TEST_F(InstrumentTest, TheArrowOfTheForcePointsAsTheForceActsAndIsAsLongAsTheBen
   }
   EXPECT_NEAR(arrow(4e-9, "pull") / arrow(2e-9, "pull"), 2.0, 0.1);
   for (const char* name : {"push", "pull"}) EXPECT_EQ(arrow(0.0, name), 0.0) << name;
+}
+
+// The band reaches as far as the tip swings, on the sample's scale.
+class SwingTest : public InstrumentTest {
+ protected:
+  static constexpr double kSwingM = 2e-9;
+
+  static WallState tapping(double z_m, double deflection_m = 0.1e-9) {
+    return {.material = 0, .tip = {.z_m = z_m, .deflection_m = deflection_m}, .swing = {.amplitude_m = kSwingM}};
+  }
+
+  // Height of the apex of a node with the tip's mesh above the place below the tip, metres of the nanoworld.
+  double apex_m(const render::FrameState& frame, const std::string& name) const {
+    const glm::dmat4 sample_from_node =
+        glm::inverse(frame.room_from_node[node("sample")]) * frame.room_from_node[node(name)];
+    double lowest = HUGE_VAL;
+    for (const scene::Primitive& primitive : scene_.scene().meshes[*scene_.scene().nodes[node(name)].mesh].primitives) {
+      for (const scene::Vertex& vertex : primitive.vertices) {
+        lowest = std::min(lowest, (sample_from_node * glm::dvec4(glm::dvec3(vertex.position), 1.0)).z);
+      }
+    }
+    return lowest * scene_.unit_m() * scene_.drawn_scale(0).sample_m_per_m;
+  }
+};
+
+TEST_F(SwingTest, OfALeverThatDoesNotTapIsNotDrawn) {
+  WallState still = tapping(6e-9);
+  still.swing = {};
+  WallState elsewhere = tapping(6e-9);
+  elsewhere.centerpiece = Centerpiece::Analogy;
+  for (const char* name : {"probe-band", "probe-turn-high", "probe-turn-low"}) {
+    EXPECT_EQ(frame(still).visible[node(name)], 0) << name;
+    EXPECT_EQ(frame(elsewhere).visible[node(name)], 0) << name;
+    EXPECT_EQ(frame(tapping(6e-9)).visible[node(name)], 1) << name;
+  }
+  EXPECT_EQ(frame(still).bends.size(), 1U);
+}
+
+TEST_F(SwingTest, TurnsWhereTheTipTurns) {
+  for (const double z_m : {2e-9, 4e-9, 6e-9}) {
+    const render::FrameState shown = frame(tapping(z_m));
+    // the tip's rounded end is lowest where the tip is upright
+    EXPECT_NEAR(apex_m(shown, "probe-turn-high"), z_m - 0.1e-9 + kSwingM, 0.05e-9) << z_m;
+    EXPECT_NEAR(apex_m(shown, "probe-turn-low"), z_m - 0.1e-9 - kSwingM, 0.05e-9) << z_m;
+  }
+}
+
+TEST_F(SwingTest, IsSlowedDownByTheStroboscope) {
+  for (const auto& [turns, way] : {std::pair{0.0, -1.0}, {0.25, 0.0}, {0.5, 1.0}, {0.75, 0.0}, {1.0, -1.0}}) {
+    WallState state = tapping(5e-9);
+    state.stroboscope = true;
+    state.strobe_turns = turns;
+    EXPECT_NEAR(apex_m(frame(state), "probe/tip"), 4.9e-9 + way * kSwingM, 0.05e-9) << turns;
+    EXPECT_NEAR(apex_m(frame(state), "probe-turn-low"), 4.9e-9 - kSwingM, 0.05e-9) << turns;
+    state.stroboscope = false;
+    EXPECT_NEAR(apex_m(frame(state), "probe/tip"), 4.9e-9, 0.05e-9) << turns;
+  }
+}
+
+TEST_F(SwingTest, FillsABandBetweenTheTurns) {
+  const render::FrameState shown = frame(tapping(5e-9));
+  const auto bend = std::find_if(shown.bends.begin(), shown.bends.end(),
+                                 [&](const render::BeamBend& one) { return one.node == node("probe-band"); });
+  ASSERT_NE(bend, shown.bends.end());
+  const auto length = static_cast<double>(bend->length), middle = static_cast<double>(bend->end_deflection);
+  const glm::dmat4& room_from_band = shown.room_from_node[node("probe-band")];
+  for (const auto& [name, side] : {std::pair{"probe-turn-high", 1.0}, std::pair{"probe-turn-low", -1.0}}) {
+    const glm::dvec3 end(room_from_band * glm::dvec4(length, 0.0, middle + side, 1.0));
+    EXPECT_LT(glm::distance(end, origin(shown, name)), 1e-6) << name;
+  }
+  // the outline of the lever, whose clamp stands still
+  const scene::Mesh& band = scene_.scene().meshes[*scene_.scene().nodes[node("probe-band")].mesh];
+  const scene::Mesh& lever = scene_.scene().meshes[*scene_.scene().nodes[node("probe/cantilever")].mesh];
+  const auto span = [](const scene::Mesh& mesh) {
+    glm::vec2 low(HUGE_VALF), high(-HUGE_VALF);
+    for (const scene::Primitive& primitive : mesh.primitives) {
+      for (const scene::Vertex& vertex : primitive.vertices) {
+        low = glm::min(low, glm::vec2(vertex.position));
+        high = glm::max(high, glm::vec2(vertex.position));
+      }
+    }
+    return high - low;
+  };
+  EXPECT_NEAR(span(band).x / span(lever).x, 1.0F, 0.05F);
+  EXPECT_NEAR(span(band).y / span(lever).y, 1.0F, 0.1F);
+  for (const scene::Vertex& vertex : band.primitives.front().vertices) {
+    const double shape = physics::beam_deflection(static_cast<double>(vertex.position.x) / length);
+    EXPECT_NEAR(std::abs(static_cast<double>(vertex.position.z)), shape, 1e-6);
+  }
+}
+
+// A closed surface, each triangle of which is seen from outside: its volume is that of the band.
+TEST_F(SwingTest, HasABandWithoutHoles) {
+  const scene::Primitive& band =
+      scene_.scene().meshes[*scene_.scene().nodes[node("probe-band")].mesh].primitives.front();
+  double volume = 0.0, sheets = 0.0;
+  for (std::size_t i = 0; i + 2 < band.indices.size(); i += 3) {
+    const auto corner = [&](std::size_t k) { return glm::dvec3(band.vertices[band.indices[i + k]].position); };
+    const glm::dvec3 a = corner(0), b = corner(1), c = corner(2);
+    volume += glm::dot(a, glm::cross(b, c)) / 6.0;
+    const double area = 0.5 * glm::cross(b - a, c - a).z;  // seen from above
+    if (area > 0.0) sheets += 2.0 * area * (a.z + b.z + c.z) / 3.0;
+  }
+  EXPECT_GT(sheets, 0.0);
+  EXPECT_NEAR(volume / sheets, 1.0, 1e-3);
 }
 
 }  // namespace instrument_test

@@ -20,12 +20,22 @@ const curves::SampleModel& sample() {
   return model;
 }
 
-render::ForcePanel panel_at(double z_nm, const scene::Swing& swing = {}) {
+// The sample of the tests with another option of the lever or the contact.
+curves::SampleModel sample_with(const std::string& drive, const std::string& viscosity) {
+  curves::TappedHand hand = test::tapped_hand();
+  hand.choice.numbers.drive = drive;
+  hand.choice.numbers.viscosity = viscosity;
+  return curves::make_sample_model(curves::tapped_setup(sample().setup.material, hand).value()).value();
+}
+
+render::ForcePanel panel_of(const curves::SampleModel& model, double z_nm, const scene::Swing& swing = {}) {
   scene::TipState tip;
   tip.tip.z_m = z_nm * 1e-9;
   tip.swing = swing;
-  return swing_panel(sample(), tip, test::english());
+  return SwingDial().panel(model, tip, test::english());
 }
+
+render::ForcePanel panel_at(double z_nm, const scene::Swing& swing = {}) { return panel_of(sample(), z_nm, swing); }
 
 // The end of a hand; none: there is no such hand.
 const render::PlotPoint* end_of(const render::ForcePanel& panel, const std::string& label) {
@@ -35,24 +45,29 @@ const render::PlotPoint* end_of(const render::ForcePanel& panel, const std::stri
   return nullptr;
 }
 
+void expect_hand(const render::ForcePanel& panel, const std::string& label, double a_nm, double phase_deg) {
+  const render::PlotPoint* const end = end_of(panel, label);
+  ASSERT_NE(end, nullptr) << label;
+  EXPECT_NEAR(std::hypot(end->place_nm, end->force_nn), a_nm, 0.03) << label;
+  EXPECT_NEAR(std::atan2(end->force_nn, end->place_nm) / kDegree, phase_deg, 0.3) << label;
+}
+
 // Row T42 of the cases: amplitudes and phases of both states.
-TEST(SwingPanel, ShowsBothStatesWhereBothExist) {
+TEST(SwingPanel, ShowsBothStatesAndTheEdgeWhereBothExist) {
   const render::ForcePanel panel = panel_at(17.4149);
   EXPECT_EQ(panel.stage, "both states exist at this height");
-  const render::PlotPoint* const attractive = end_of(panel, "attractive");
-  const render::PlotPoint* const repulsive = end_of(panel, "repulsive");
-  ASSERT_TRUE(attractive != nullptr && repulsive != nullptr);
-  EXPECT_NEAR(std::hypot(attractive->place_nm, attractive->force_nn), 17.4935, 0.03);
-  EXPECT_NEAR(std::atan2(attractive->force_nn, attractive->place_nm) / kDegree, 118.99, 0.3);
-  EXPECT_NEAR(std::hypot(repulsive->place_nm, repulsive->force_nn), 18.8572, 0.03);
-  EXPECT_NEAR(std::atan2(repulsive->force_nn, repulsive->place_nm) / kDegree, 70.54, 0.3);
+  expect_hand(panel, "attractive", 17.4935, 118.99);
+  expect_hand(panel, "repulsive", 18.8572, 70.54);
+  EXPECT_NE(end_of(panel, "edge"), nullptr);
 }
 
 TEST(SwingPanel, ShowsOneStateBeyondTheFolds) {
   EXPECT_EQ(panel_at(25.0).stage, "one state at this height");
   EXPECT_EQ(end_of(panel_at(25.0), "repulsive"), nullptr);
+  EXPECT_NE(end_of(panel_at(25.0), "free"), nullptr);
   EXPECT_EQ(end_of(panel_at(12.0), "attractive"), nullptr);
   EXPECT_NE(end_of(panel_at(12.0), "repulsive"), nullptr);
+  for (const double z_nm : {12.0, 25.0, -2.0}) EXPECT_EQ(end_of(panel_at(z_nm), "edge"), nullptr) << z_nm;
 }
 
 TEST(SwingPanel, PointsAtTheSwingOfNow) {
@@ -65,12 +80,56 @@ TEST(SwingPanel, PointsAtTheSwingOfNow) {
   EXPECT_GT(panel.force_max_nn, 20.0);
 }
 
-TEST(SwingPanel, ShowsNoStatesThatLoseEnergy) {
-  curves::SampleModel viscous = sample();
-  viscous.parameters.viscosity_pa_s = 1.0;
-  scene::TipState tip;
-  tip.tip.z_m = 17.4e-9;
-  EXPECT_EQ(end_of(swing_panel(viscous, tip, test::english()), "attractive"), nullptr);
+TEST(SwingPanel, ShowsStatesThatLoseEnergyOffTheCircle) {
+  const render::ForcePanel panel = panel_of(sample_with("", "10Pa*s"), 12.0);
+  const render::PlotPoint* const end = end_of(panel, "repulsive");
+  ASSERT_NE(end, nullptr);
+  const double on_circle = 20.0 * end->force_nn / std::hypot(end->place_nm, end->force_nn);
+  EXPECT_LT(std::hypot(end->place_nm, end->force_nn), on_circle - 0.1);
+}
+
+TEST(SwingPanel, ShowsStatesBesideTheResonance) {
+  const curves::SampleModel beside = sample_with("300.1kHz", "");
+  const render::ForcePanel free = panel_of(beside, 40.0);
+  const double ratio = 300.1 / 300.0;
+  expect_hand(free, "free", 20.0, std::atan2(ratio / 400.0, 1.0 - ratio * ratio) / kDegree);
+  // as touchafm curve --mode tapping --at 17nm prints them
+  const render::ForcePanel both = panel_of(beside, 17.0);
+  EXPECT_EQ(both.stage, "both states exist at this height");
+  expect_hand(both, "attractive", 16.910, 125.22);
+  expect_hand(both, "repulsive", 18.657, 64.34);
+}
+
+TEST(SwingPanel, StaysWithinItsAxes) {
+  for (const char* drive : {"", "299.5kHz", "310kHz"}) {
+    const curves::SampleModel model = sample_with(drive, "");
+    for (const double z_nm : {12.0, 17.5, 18.5, 25.0}) {
+      const render::ForcePanel panel = panel_of(model, z_nm);
+      for (const render::PlotCurve& curve : panel.curves) {
+        for (const render::PlotPoint& point : curve.retract) {
+          constexpr double kRounding = 1e-9;
+          EXPECT_TRUE(
+              point.place_nm >= panel.place_min_nm - kRounding && point.place_nm <= panel.place_max_nm + kRounding &&
+              point.force_nn >= panel.force_min_nn - kRounding && point.force_nn <= panel.force_max_nn + kRounding)
+              << drive << " " << z_nm << " " << curve.label;
+        }
+      }
+    }
+  }
+}
+
+// One dial for all samples and heights.
+TEST(SwingPanel, FollowsTheSampleAndTheHeight) {
+  SwingDial dial;
+  const curves::SampleModel beside = sample_with("300.1kHz", "");
+  for (const double z_nm : {17.5, 25.0, 17.5, 17.5}) {
+    for (const curves::SampleModel& model : {sample(), beside}) {
+      scene::TipState tip;
+      tip.tip.z_m = z_nm * 1e-9;
+      const render::ForcePanel kept = dial.panel(model, tip, test::english()), fresh = panel_of(model, z_nm);
+      EXPECT_TRUE(kept.curves == fresh.curves) << z_nm;
+    }
+  }
 }
 
 }  // namespace swing_panel_test

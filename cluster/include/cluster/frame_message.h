@@ -20,6 +20,7 @@ namespace afm::cluster {
 struct ShownTip {
   std::int64_t time_ns = 0;
   scene::Tip tip{};
+  scene::Swing swing{};
   scene::SurfacePoint surface{};
   double release_z_m = 0;
   double slow_motion = 1;
@@ -35,6 +36,7 @@ template <class Visit, scene::RecordOf<ShownTip>... Record>
 constexpr void for_each_field(Visit&& visit, Record&... tip) {
   visit("time_ns", tip.time_ns...);
   visit("tip", tip.tip...);
+  visit("swing", tip.swing...);
   visit("surface", tip.surface...);
   visit("release_z_m", tip.release_z_m...);
   visit("slow_motion", tip.slow_motion...);
@@ -50,7 +52,7 @@ static_assert(scene::all_fields_described<ShownTip>());
 // Panels shown in the live window, and the targets pointed at on them.
 struct ShownPanels {
   static constexpr std::uint32_t kKeys = 1, kHidden = 2, kKeysKnown = 4, kMarking = 8, kUnattended = 16, kTab = 32,
-                                 kControl = 64, kAllFlags = 127;
+                                 kControl = 64, kBuilding = 128, kAllFlags = 255;
   static constexpr std::uint32_t kMostRows = 64, kMostTargets = 8192U * 8192U;  // those of a map's pixels
 
   std::uint32_t flags = 0;
@@ -111,7 +113,7 @@ struct ShownMoment {
   static constexpr double kLongestCueS = 1.5;
   static constexpr std::uint32_t kRetracting = 1, kWand = 2, kWandOriented = 4, kWandPlaced = 8, kWandConnected = 16,
                                  kCue = 32, kBlank = 64, kScan = 128, kTruth = 256, kStopped = 512, kByWand = 1024,
-                                 kFalseColours = 2048, kAllFlags = 4095;
+                                 kFalseColours = 2048, kStroboscope = 4096, kAllFlags = 8191;
 
   std::array<double, 16> navigation{};  // room from room, column by column
   scene::Pose wand{};
@@ -149,7 +151,7 @@ static_assert(scene::all_fields_described<ShownMoment>());
 // Texts of a frame, one after the other, each terminated by a zero byte. Texts that do not fit are cut, the same on
 // every machine.
 struct ShownTexts {
-  static constexpr std::size_t kBytes = 736;
+  static constexpr std::size_t kBytes = 720;
   std::array<char, kBytes> bytes{};
 
   std::vector<std::string> list() const;  // without empty ones at the end

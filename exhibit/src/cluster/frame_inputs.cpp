@@ -21,6 +21,7 @@ template <class Copy, class Tip, class Shown>
 void copy_tip(const Copy& copy, Tip& tip, Shown& shown) {
   copy(tip.time_ns, shown.time_ns);
   copy(tip.tip, shown.tip);
+  copy(tip.swing, shown.swing);
   copy(tip.surface, shown.surface);
   copy(tip.active.release_z_m, shown.release_z_m);
   copy(tip.active.slow_motion, shown.slow_motion);
@@ -53,6 +54,7 @@ void copy_moment(const Copy& copy, Moment& moment, Shown& shown) {
   copy(wall.centerpiece, shown.centerpiece);
   copy(wall.hovered, shown.hovered);
   copy.flag(wall.false_colours, shown.flags, M::kFalseColours);
+  copy.flag(wall.stroboscope, shown.flags, M::kStroboscope);
   copy.flag(moment.by_wand, shown.flags, M::kByWand);
   copy.flag(moment.retracting, shown.flags, M::kRetracting);
   copy.flag(moment.stopped, shown.flags, M::kStopped);

@@ -13,6 +13,7 @@
 #include "core/enumerators.h"
 #include "core/fnv1a.h"
 #include "core/whole_file.h"
+#include "curves/contact_setup.h"
 #include "render/renderer.h"
 #include "scene/samples/particle_files.h"
 
@@ -47,6 +48,33 @@ std::map<std::string, std::string> meshes_of(const json& root) {
   return meshes;
 }
 
+// A lever that taps, as its user typed it: whether it can be felt is checked with each sample.
+curves::TappedHand tapping_of(const json& root) {
+  curves::TappedHand hand;
+  root.at("mode").get_to(hand.choice.mode);
+  root.at("free_amplitude").get_to(hand.choice.numbers.free_amplitude);
+  root.at("drive").get_to(hand.choice.numbers.drive);
+  root.at("viscosity").get_to(hand.choice.numbers.viscosity);
+  root.at("model").get_to(hand.model);
+  for (auto& [option, text] : root.at("values").get<std::map<std::string, std::string>>()) {
+    if (curves::find_contact_parameter(option) == nullptr)
+      throw std::invalid_argument("a number of the lever is unknown");
+    hand.values.emplace(option, text);
+  }
+  if (hand.choice.mode != "contact" && hand.choice.mode != "tapping")
+    throw std::invalid_argument("its mode is unknown");
+  return hand;
+}
+
+json json_of(const curves::TappedHand& hand) {
+  return {{"mode", hand.choice.mode},
+          {"free_amplitude", hand.choice.numbers.free_amplitude},
+          {"drive", hand.choice.numbers.drive},
+          {"viscosity", hand.choice.numbers.viscosity},
+          {"model", hand.model},
+          {"values", hand.values}};
+}
+
 WallModel model_of(const json& root) {
   WallModel model;
   root.at("build").get_to(model.build);
@@ -68,6 +96,7 @@ WallModel model_of(const json& root) {
   root.at("shown").get_to(model.files.shown);
   root.at("text_size").get_to(model.files.text_size);
   model.friction = enumerator_of<physics::FrictionLaw>(root.at("friction"));
+  model.tapping = tapping_of(root.at("tapping"));
   const auto mode = root.at("stereo").get<std::string>();
   if (!mode.empty()) {
     const auto parsed = scene::parse_stereo_mode(mode);
@@ -126,6 +155,7 @@ std::vector<std::byte> document_of(const WallModel& model) {
                   {"shown", model.files.shown},
                   {"text_size", model.files.text_size},
                   {"friction", static_cast<std::uint32_t>(model.friction)},
+                  {"tapping", json_of(model.tapping)},
                   {"stereo", model.picture.mode ? std::string(scene::name_of(*model.picture.mode)) : std::string()},
                   {"eyes_swapped", model.picture.order == scene::EyeOrder::Swapped},
                   {"high_contrast", model.contrast == render::PanelContrast::High}};

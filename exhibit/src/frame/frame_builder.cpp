@@ -34,7 +34,6 @@ using physics::format_quantity;
 constexpr double kAxisBelow = 0.42, kAxisAbove = 1.42;
 constexpr double kPushShare = 0.4;  // deepest push, as a share of the reach
 constexpr double kHardlyPulled = 0.05;
-constexpr double kFreeSwing = 0.002;     // share of the amplitude that a swing may lose and count as free
 constexpr const char* kApart = "     ";  // separates two facts on a line
 
 struct StateSign {
@@ -159,7 +158,7 @@ void show_swing(const Moment& moment, const curves::SampleModel& material, const
     panel.stage = phrases[Phrase::StageLift];
     return;
   }
-  const double a_nm = moment.swing.amplitude_m * curves::kNmPerM;
+  const double a_nm = moment.wall.swing.amplitude_m * curves::kNmPerM;
   const bool free = std::abs(a_nm / a0_nm - 1.0) < kFreeSwing;
   const bool repelled = moment.phase == physics::Phase::Attached;
   const std::string amplitude = phrases.number(fmt::format("{:.2f} nm", a_nm));
@@ -167,7 +166,7 @@ void show_swing(const Moment& moment, const curves::SampleModel& material, const
   panel.live = amplitude;
   panel.figures = {{phrases[Phrase::SwingAmplitude], amplitude, ""},
                    {phrases[Phrase::SwingPhase],
-                    phrases.number(fmt::format("{:.1f}\u00b0", glm::degrees(moment.swing.phase_rad))), ""},
+                    phrases.number(fmt::format("{:.1f}\u00b0", glm::degrees(moment.wall.swing.phase_rad))), ""},
                    {phrases[Phrase::SwingState], panel.stage, ""}};
   panel.cursor = render::PlotPoint{moment.wall.tip.z_m * curves::kNmPerM, a_nm};
 }

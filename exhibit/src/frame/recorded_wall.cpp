@@ -124,6 +124,7 @@ servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::
   copy_moment(scene::CopyOut(), moment, frame);
   frame.centerpiece = name_of(moment.wall.centerpiece);
   if (moment.wall.false_colours) frame.false_colours = true;
+  if (moment.wall.stroboscope) frame.stroboscope = true;
   if (moment.wall.hovered) frame.hovered = materials[*moment.wall.hovered];
   if (moment.scan != nullptr) {
     const ScanProgress& scan = moment.scan->progress();
@@ -159,6 +160,7 @@ RecordedMoment moment_on_wall(const servo::RecordedSession& session, std::span<c
   then.wall.hovered = index_of(materials, frame.hovered);
   then.wall.centerpiece = centerpiece_of(frame.centerpiece);
   then.wall.false_colours = frame.false_colours.value_or(false);
+  then.wall.stroboscope = frame.stroboscope.value_or(false);
   for (const auto& [name, value, source] : frame.servo_row) then.servo.push_back({name, value, source});
   return {.frame = &frame,
           .curves = curves_until(session, materials, own, frame.time_ns),

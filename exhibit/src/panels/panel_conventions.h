@@ -10,7 +10,8 @@ namespace afm::exhibit {
 
 // Ranges of the force axis above and below zero in all panels, in units of the greatest force in either direction.
 inline constexpr double kForceAbove = 0.52, kForceBelow = 1.22;
-inline constexpr int kDigits = 3;  // significant digits of a value
+inline constexpr int kDigits = 3;            // significant digits of a value
+inline constexpr double kFreeSwing = 0.002;  // share of the amplitude that a swing may lose and count as free
 
 // A force law in the wall's language; `name` is that of curves::law_name().
 inline std::string law_word(const std::string& name, const Phrases& phrases) {

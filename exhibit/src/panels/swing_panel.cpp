@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/panels/swing_panel.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "curves/plot_units.h"
+#include "panels/panel_conventions.h"
 #include "physics/tapping/driven_lever.h"
+#include "physics/tapping/tap_surface.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::exhibit {
@@ -18,40 +19,101 @@ namespace afm::exhibit {
 namespace {
 
 constexpr glm::vec3 kAttractiveColor{0.337F, 0.706F, 0.914F}, kRepulsiveColor{0.902F, 0.624F, 0.0F},
-    kNowColor{0.00F, 0.78F, 0.56F}, kCircleColor{0.6F, 0.6F, 0.6F};
+    kNowColor{0.00F, 0.78F, 0.56F}, kEdgeColor{0.80F, 0.47F, 0.65F}, kCircleColor{0.6F, 0.6F, 0.6F};
 constexpr double kMargin = 0.08;  // share of the circle beside it
 constexpr int kPointsOfCircle = 90;
-constexpr double kAtResonance = 1e-6;  // largest distance of the drive, as a share of it
+constexpr double kWidest = 2.0;            // shown diameter of the circle, in free amplitudes
+constexpr double kHeightsOfSwing = 500.0;  // heights with a portrait of their own, on a free amplitude
 
 render::PlotPoint end_of(double amplitude_m, double phase_rad) {
   return {.place_nm = amplitude_m * std::cos(phase_rad) * curves::kNmPerM,
           .force_nn = amplitude_m * std::sin(phase_rad) * curves::kNmPerM};
 }
 
-render::PlotCurve hand(const std::string& label, const glm::vec3& color, const render::PlotPoint& end) {
-  return {.label = label, .color = color, .faded = false, .approach = {}, .retract = {{}, end}};
+// From the origin to a point, or as far as the axes reach.
+void add_hand(const std::string& label, const glm::vec3& color, const render::PlotPoint& end,
+              render::ForcePanel& panel) {
+  const double across = std::abs(end.place_nm) / panel.place_max_nm;
+  const double upwards = end.force_nn / (end.force_nn < 0.0 ? panel.force_min_nn : panel.force_max_nn);
+  const double beyond = std::max({1.0, across, upwards});
+  panel.curves.push_back({.label = label,
+                          .color = color,
+                          .faded = false,
+                          .approach = {},
+                          .retract = {{}, {end.place_nm / beyond, end.force_nn / beyond}}});
 }
 
-// The circle through the origin and the free swing.
-render::PlotCurve circle(double diameter_m) {
-  render::PlotCurve curve{.label = "", .color = kCircleColor, .faded = true, .approach = {}, .retract = {}};
+// The parts of a line within the axes, in the same colour; the first one has the label.
+void add_within_axes(const std::vector<render::PlotPoint>& line, render::PlotCurve look, render::ForcePanel& panel) {
+  const auto end_part = [&] {
+    if (look.retract.size() > 1) {
+      panel.curves.push_back(look);
+      look.label.clear();
+    }
+    look.retract.clear();
+  };
+  for (const render::PlotPoint& point : line) {
+    const bool within = point.place_nm >= panel.place_min_nm && point.place_nm <= panel.place_max_nm &&
+                        point.force_nn >= panel.force_min_nn && point.force_nn <= panel.force_max_nn;
+    if (within) {
+      look.retract.push_back(point);
+    } else {
+      end_part();
+    }
+  }
+  end_part();
+}
+
+// Through the origin and the largest swing of this drive.
+std::vector<render::PlotPoint> circle(double diameter_m) {
+  std::vector<render::PlotPoint> line;
   for (int i = 0; i <= kPointsOfCircle; ++i) {
     const double phase = std::numbers::pi * i / kPointsOfCircle;
-    curve.retract.push_back(end_of(diameter_m * std::sin(phase), phase));
+    line.push_back(end_of(diameter_m * std::sin(phase), phase));
   }
-  return curve;
+  return line;
 }
 
-bool has_no_loss(const scene::SharedContact& parameters) {
-  const bool latches = parameters.law == physics::Law::Jkr || parameters.law == physics::Law::MaugisDugdale;
-  return !latches && parameters.viscosity_pa_s == 0.0 && parameters.has_meniscus == 0;
+std::vector<render::PlotPoint> line_of(const std::vector<physics::SwingPoint>& edge) {
+  std::vector<render::PlotPoint> line;
+  for (const physics::SwingPoint& point : edge) {
+    line.push_back({.place_nm = point.u.si * curves::kNmPerM, .force_nn = point.v.si * curves::kNmPerM});
+  }
+  return line;
+}
+
+void add_state(const physics::TapState& state, const physics::DrivenLever& lever, const Phrases& phrases,
+               render::ForcePanel& panel) {
+  const bool attracted = std::sin(state.phase - lever.free_phase) > 0.0;
+  const bool free = std::abs(state.amplitude / lever.free_amplitude - 1.0) < kFreeSwing;
+  const Phrase name = free ? Phrase::SwingFree : attracted ? Phrase::SwingAttractive : Phrase::SwingRepulsive;
+  add_hand(phrases[name], attracted || free ? kAttractiveColor : kRepulsiveColor,
+           end_of(state.amplitude.si, state.phase), panel);
 }
 
 }  // namespace
 
-render::ForcePanel swing_panel(const curves::SampleModel& model, const scene::TipState& tip, const Phrases& phrases) {
+const physics::TapPortrait& SwingDial::portrait(const curves::SampleModel& model, double z_m, double reach_m) {
+  const double step_m = model.parameters.free_amplitude_m / kHeightsOfSwing;
+  const std::int64_t height = std::llround(z_m / step_m);
+  if (tables_ == model.tables && height_ == height) return portrait_;
+  if (tables_ != model.tables) {
+    const scene::SharedContact& sample = model.parameters;
+    surface_ = std::make_shared<const physics::TapSurface>(sample.law, sample.contact, scene::law_options(sample),
+                                                           physics::Viscosity(sample.viscosity_pa_s));
+    tables_ = model.tables;
+  }
+  height_ = height;
+  portrait_ = physics::tap_portrait(surface_, scene::tapping_lever(model.parameters),
+                                    physics::Length(static_cast<double>(height) * step_m), physics::Length(reach_m));
+  return portrait_;
+}
+
+render::ForcePanel SwingDial::panel(const curves::SampleModel& model, const scene::TipState& tip,
+                                    const Phrases& phrases) {
   const physics::DrivenLever lever = scene::tapping_lever(model.parameters);
   const double diameter_m = lever.quality_factor * lever.base_amplitude.si / lever.ratio;
+  const double shown_nm = std::min(diameter_m, kWidest * lever.free_amplitude.si) * curves::kNmPerM;
   render::ForcePanel panel;
   panel.title = phrases[Phrase::DialTitle];
   panel.words = {.approach = {},
@@ -59,30 +121,28 @@ render::ForcePanel swing_panel(const curves::SampleModel& model, const scene::Ti
                  .place_axis = "A cos (nm)",
                  .force_axis = "A sin (nm)",
                  .decimal_mark = phrases.decimal_mark()};
-  const double reach_nm = (0.5 + kMargin) * diameter_m * curves::kNmPerM;
-  panel.place_min_nm = -reach_nm;
-  panel.place_max_nm = reach_nm;
-  panel.force_min_nn = -2.0 * kMargin * diameter_m * curves::kNmPerM;
-  panel.force_max_nn = (1.0 + 2.0 * kMargin) * diameter_m * curves::kNmPerM;
-  panel.curves.push_back(circle(diameter_m));
-
-  const physics::Length z(tip.tip.z_m);
-  const bool attracts = z >= model.figures().z_jtc, repels = z <= model.figures().z_joc;
-  panel.stage = phrases[attracts && repels ? Phrase::DialBoth : Phrase::DialOne];
-  const auto add_state = [&](const physics::BranchTable& branch, bool attractive) {
-    const double share = std::clamp(1.0 - branch.force(z) / model.tables->tapped_full, 0.0, 1.0);
-    const double phase = attractive ? std::numbers::pi - std::asin(share) : std::asin(share);
-    panel.curves.push_back(hand(phrases[attractive ? Phrase::SwingAttractive : Phrase::SwingRepulsive],
-                                attractive ? kAttractiveColor : kRepulsiveColor,
-                                end_of(share * lever.free_amplitude.si, phase)));
+  panel.place_max_nm = (0.5 + kMargin) * shown_nm;
+  panel.place_min_nm = -panel.place_max_nm;
+  panel.force_min_nn = -2.0 * kMargin * shown_nm;
+  panel.force_max_nn = (1.0 + 2.0 * kMargin) * shown_nm;
+  const auto look = [](const std::string& label, const glm::vec3& color, bool faded) {
+    return render::PlotCurve{.label = label, .color = color, .faded = faded, .approach = {}, .retract = {}};
   };
-  if (std::abs(lever.ratio - 1.0) < kAtResonance && has_no_loss(model.parameters)) {
-    if (attracts) add_state(model.tables->free, true);
-    if (repels) add_state(model.tables->attached, false);
+  add_within_axes(circle(diameter_m), look("", kCircleColor, true), panel);
+
+  const double reach_m = std::hypot(panel.place_max_nm, panel.force_max_nn) / curves::kNmPerM;
+  const physics::TapPortrait& portrait = this->portrait(model, tip.tip.z_m, reach_m);
+  panel.stage = phrases[portrait.states.size() > 1 ? Phrase::DialBoth : Phrase::DialOne];
+  std::string label = phrases[Phrase::DialEdge];
+  for (const std::vector<physics::SwingPoint>& edge : portrait.edges) {
+    const std::size_t before = panel.curves.size();
+    add_within_axes(line_of(edge), look(label, kEdgeColor, false), panel);
+    if (panel.curves.size() > before) label.clear();
   }
+  for (const physics::TapState& state : portrait.states) add_state(state, lever, phrases, panel);
   if (tip.swing.amplitude_m > 0.0) {
     panel.cursor = end_of(tip.swing.amplitude_m, tip.swing.phase_rad);
-    panel.curves.push_back(hand(phrases[Phrase::DialNow], kNowColor, *panel.cursor));
+    add_hand(phrases[Phrase::DialNow], kNowColor, *panel.cursor, panel);
   }
   return panel;
 }

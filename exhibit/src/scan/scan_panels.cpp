@@ -177,6 +177,7 @@ render::ImagePanel image_panel(const LiveScan& scan, const std::string& sample, 
   panel.subtitle =
       phrases.text<Phrase::ScanSubtitle>(side_text(scan.subject().side_m), value_text(scan.choice(), ScanRow::Rate),
                                          fmt::format("{}", scan.row() + 1), fmt::format("{}", LiveScan::kPixels));
+  if (scan.subject().beside_tapping) panel.subtitle += ", " + phrases[Phrase::ScanInContact];
   panel.decimal_mark = phrases.decimal_mark();
   panel.heights = {render::ImageMap{phrases[Phrase::ScanTrace], colored(maps.height_m[0], heights, height_colour)},
                    render::ImageMap{phrases[Phrase::ScanRetrace], colored(maps.height_m[1], heights, height_colour)}};
@@ -227,6 +228,7 @@ void show_scan(const LiveScan& scan, Moment& moment) {
   }
   wall.scan_line = {glm::dvec3(-half_m, apex_m.y, highest_m), glm::dvec3(half_m, apex_m.y, highest_m)};
   if (!scan.progress().hand && hand_uses_tip(moment.phase, moment.servo_state)) return;
+  wall.swing = {};
   wall.surface = {.xy_m = {apex_m.x, apex_m.y}, .height_m = apex_m.z};
   const double deflection_m = -scan.force_n() / settings_of(scan.choice(), 0.0).spring_constant.si;
   wall.tip = {.z_m = deflection_m, .force_n = scan.force_n(), .height_m = 0.0, .deflection_m = deflection_m};

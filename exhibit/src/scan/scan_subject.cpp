@@ -14,7 +14,9 @@
 #include "physics/imaging/height_grid.h"
 #include "physics/imaging/morphology.h"
 #include "physics/imaging/rim.h"
+#include "physics/law_tables.h"
 #include "scene/shared/felt_heights.h"
+#include "scene/shared/shared_segment.h"
 
 namespace afm::exhibit {
 
@@ -65,12 +67,21 @@ double slope_of(const physics::HeightGrid& grid) {
   return *steep;
 }
 
+// Pull-off force of the sample under the lever at rest.
+double pull_off_n(const curves::SampleModel& model) {
+  if (!model.taps()) return std::abs(model.figures().force_before_joc.si);
+  const scene::SharedContact& sample = model.parameters;
+  return std::abs(
+      physics::build_law_tables(sample.law, sample.contact, scene::law_options(sample))->figures.force_before_joc.si);
+}
+
 }  // namespace
 
 ScanSubject scan_subject(const WallScene& wall_scene, std::size_t material, const curves::SampleModel& model) {
   ScanSubject subject;
   subject.tip_radius_m = model.parameters.contact.tip_radius.si;
-  subject.adhesion_n = std::abs(model.figures().force_before_joc.si);
+  subject.adhesion_n = pull_off_n(model);
+  subject.beside_tapping = model.taps();
   scene::SharedContact laid;
   wall_scene.lay_surface_on(laid, material);
   const double scale = scene::surface_scale(laid, model.scaling.release_z_m());

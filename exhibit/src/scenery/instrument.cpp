@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 #include <utility>
 
 #include "exhibit/models/model_builder.h"
@@ -12,6 +13,7 @@
 #include "exhibit/scenery/wall_layout.h"
 #include "exhibit/scenery/wall_marks.h"
 #include "physics/beam_shape.h"
+#include "scenery/swing_band.h"
 
 namespace afm::exhibit {
 
@@ -20,28 +22,45 @@ using glm::dvec3;
 
 namespace {
 
-// A node with the lever's mesh, of light: it hides nothing.
-scene::NodeIndex add_ghost(scene::Scene& scene, scene::NodeIndex lever, scene::NodeIndex parent) {
+constexpr glm::vec3 kLight{0.72F, 0.80F, 0.88F};
+constexpr float kGhostAlpha = 0.38F, kBandAlpha = 0.22F;
+
+// A material of light: it hides nothing.
+std::uint32_t add_light(scene::Scene& scene, const char* name, float alpha) {
   scene::PbrMaterial light;
-  light.name = "lever of light";
-  light.base_color = {0.72F, 0.80F, 0.88F, 0.38F};
+  light.name = name;
+  light.base_color = glm::vec4(kLight, alpha);
   light.metallic = 0.0F;
   light.blended = light.unlit = true;
-  const auto material = static_cast<std::uint32_t>(scene.materials.size());
   scene.materials.push_back(light);
-  scene::Node ghost{.name = "probe-ghost", .parent = parent, .mesh = {}};
-  ghost.role = "mark";
-  if (scene.nodes[lever].mesh) {
-    scene::Mesh mesh = scene.meshes[*scene.nodes[lever].mesh];
-    for (scene::Primitive& primitive : mesh.primitives) {
-      primitive.material = material;
-      primitive.variants.clear();
-    }
-    ghost.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-    scene.meshes.push_back(std::move(mesh));
-  }
-  scene.nodes.push_back(std::move(ghost));
+  return static_cast<std::uint32_t>(scene.materials.size() - 1);
+}
+
+// A node with this mesh, or without one.
+scene::NodeIndex add_mark(scene::Scene& scene, const char* name, scene::NodeIndex parent,
+                          std::optional<std::uint32_t> mesh) {
+  scene::Node mark{.name = name, .parent = parent, .mesh = mesh};
+  mark.role = "mark";
+  scene.nodes.push_back(std::move(mark));
   return static_cast<scene::NodeIndex>(scene.nodes.size() - 1);
+}
+
+// A copy of a node's mesh in another material; none if it has no mesh.
+std::optional<std::uint32_t> add_copy(scene::Scene& scene, scene::NodeIndex node, std::uint32_t material) {
+  if (!scene.nodes[node].mesh) return std::nullopt;
+  scene::Mesh mesh = scene.meshes[*scene.nodes[node].mesh];
+  for (scene::Primitive& primitive : mesh.primitives) {
+    primitive.material = material;
+    primitive.variants.clear();
+  }
+  scene.meshes.push_back(std::move(mesh));
+  return static_cast<std::uint32_t>(scene.meshes.size() - 1);
+}
+
+// The tip is fixed to the end of a lever bent like this, and rotates with it.
+dmat4 lever_from_tip(double end, double angle) {
+  const dvec3 tip_z(-std::sin(angle), 0.0, std::cos(angle));
+  return frame_matrix({std::cos(angle), 0.0, std::sin(angle)}, {0.0, 1.0, 0.0}, tip_z, {kLeverDrawnLength, 0.0, end});
 }
 
 }  // namespace
@@ -71,12 +90,22 @@ void Instrument::measure(scene::Scene& scene, ModelBuilder& build) {
   beam_out_ = static_cast<scene::NodeIndex>(scene.nodes.size());
   scene.nodes.push_back(beam_out);
 
-  ghost_ = add_ghost(scene, cantilever_, sample_frame_);
-
+  const std::uint32_t light = add_light(scene, "lever of light", kGhostAlpha);
+  ghost_ = add_mark(scene, "probe-ghost", sample_frame_, add_copy(scene, cantilever_, light));
   lever_length_ =
       dvec3(glm::inverse(ancestor_from_node(scene, lever_, cantilever_)) * ancestor_from_node(scene, lever_, tip_)[3])
           .x;
   tip_length_ = -bounds_below(scene, tip_).low.z;
+  std::optional<std::uint32_t> band;
+  if (const auto lever = scene.nodes[cantilever_].mesh) {
+    const std::uint32_t pale = add_light(scene, "swing of light", kBandAlpha);
+    scene.meshes.push_back(swing_band(scene.meshes[*lever], lever_length_, pale));
+    band = static_cast<std::uint32_t>(scene.meshes.size() - 1);
+  }
+  band_ = add_mark(scene, "probe-band", sample_frame_, band);
+  const auto tip = add_copy(scene, tip_, light);
+  turns_ = {add_mark(scene, "probe-turn-high", sample_frame_, tip),
+            add_mark(scene, "probe-turn-low", sample_frame_, tip)};
   const scene::Bounds stage = bounds_below(scene, build.node("stage/stage"));
   stage_scale_ = kStageDrawnWidth / (stage.high.x - stage.low.x);
   stage_height_ = stage_scale_ * (stage.high.z - stage.low.z);
@@ -118,11 +147,7 @@ void Instrument::place_probe(const scene::Scene& scene, const Setting& setting, 
           .length = static_cast<float>(lever_length_),
           .end_deflection = static_cast<float>(end / lever_scale)};
 
-  // the tip is fixed to the lever's end and rotates with it
-  const dvec3 end_point(kLeverDrawnLength, 0.0, end);
-  const dvec3 tip_z(-std::sin(angle), 0.0, std::cos(angle));
-  const dmat4 lever_from_tip = frame_matrix({std::cos(angle), 0.0, std::sin(angle)}, {0.0, 1.0, 0.0}, tip_z, end_point);
-  const dmat4 frame_from_tip = frame_from_lever * glm::scale(lever_from_tip, dvec3(tip_scale));
+  const dmat4 frame_from_tip = frame_from_lever * glm::scale(lever_from_tip(end, angle), dvec3(tip_scale));
   const dmat4 frame_from_parent = local[lever_] * ancestor_from_node(scene, lever_, *scene.nodes[tip_].parent);
   local[tip_] = glm::inverse(frame_from_parent) * frame_from_tip;
 
@@ -148,6 +173,25 @@ void Instrument::place_ghost(const Setting& setting, std::vector<dmat4>& local, 
   bend = {.node = ghost_,
           .length = static_cast<float>(lever_length_),
           .end_deflection = static_cast<float>(pose.end / lever_scale)};
+}
+
+void Instrument::place_swing(const Setting& setting, double amplitude_m, std::vector<dmat4>& local,
+                             render::BeamBend& bend) const {
+  const double lever_scale = kLeverDrawnLength / lever_length_;
+  const dmat4 frame_from_lever = lever_pose(setting).frame_from_lever;
+  Setting turn = setting;
+  turn.tip.deflection_m = setting.tip.deflection_m - amplitude_m;
+  const LeverPose high = lever_pose(turn);
+  turn.tip.deflection_m = setting.tip.deflection_m + amplitude_m;
+  const LeverPose low = lever_pose(turn);
+
+  const double half = 0.5 * (high.end - low.end), middle = 0.5 * (high.end + low.end);
+  local[band_] = frame_from_lever * glm::scale(dmat4(1.0), dvec3(lever_scale, lever_scale, half));
+  bend = {
+      .node = band_, .length = static_cast<float>(lever_length_), .end_deflection = static_cast<float>(middle / half)};
+  const dvec3 tip_scale(kTipDrawnLength / tip_length_);
+  local[turns_[0]] = frame_from_lever * glm::scale(lever_from_tip(high.end, high.angle), tip_scale);
+  local[turns_[1]] = frame_from_lever * glm::scale(lever_from_tip(low.end, low.angle), tip_scale);
 }
 
 void Instrument::place_optics(const scene::Scene& scene, const Setting& setting, std::vector<dmat4>& local) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
 #include <optional>
 
 #include "core/check.h"
@@ -57,6 +58,12 @@ void place_light(const WallPlaces& places, render::FrameState& frame) {
 bool shows_ghost(const WallState& state, bool with_particles) {
   return state.centerpiece == Centerpiece::Instrument && state.material && !with_particles && state.cue &&
          state.cue->kind == physics::EventKind::JumpOffContact;
+}
+
+// Of a lever that taps, unless its swing is too small to be seen.
+bool shows_swing(const WallState& state, double layout_per_m) {
+  return state.centerpiece == Centerpiece::Instrument && state.material &&
+         state.swing.amplitude_m * layout_per_m > kSmallestSwing;
 }
 
 // Beside the place where the tip touches, in the wall's plane; moves with the sample, not with the tip.
@@ -124,20 +131,27 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, std::vect
                                                              ? looks_[*state.material].full_deflection_m *
                                                                    parameter_factor(*state.material, state.release_z_m)
                                                              : 1.0};
+  Instrument::Setting drawn = setting;
+  if (state.stroboscope && shows_swing(state, setting.layout_per_m)) {
+    drawn.tip.deflection_m += state.swing.amplitude_m * std::cos(2.0 * std::numbers::pi * state.strobe_turns);
+  }
   bends.resize(1);
-  instrument_.place_probe(scene_, setting, marks_, local, bends.front());
+  instrument_.place_probe(scene_, drawn, marks_, local, bends.front());
   if (shows_ghost(state, particles_.has_value())) {
     // the tip still on the sample, the lever's end as far below as the pull-off is high
     Instrument::Setting pulled = setting;
     pulled.tip.z_m = pulled.tip.deflection_m = kStrokeHeight / kStrokeOfZjoc / setting.layout_per_m;
     instrument_.place_ghost(pulled, local, bends.emplace_back());
   }
+  if (shows_swing(state, setting.layout_per_m)) {
+    instrument_.place_swing(setting, state.swing.amplitude_m, local, bends.emplace_back());
+  }
   place_sample(state, local);
   if (particles_) {
     const double height = setting.layout_per_m * (state.tip.z_m - state.tip.deflection_m);
     particles_->place(state.particles, setting.layout_per_m, setting.below_tip + dvec3(0.0, 0.0, height), local);
   }
-  instrument_.place_optics(scene_, setting, local);
+  instrument_.place_optics(scene_, drawn, local);
   if (state.navigation != dmat4(1.0)) {
     const dmat4 navigated = glm::inverse(places_.room_from_layout()) * state.navigation * places_.room_from_layout();
     for (const scene::NodeIndex root : {sample_frame_, instrument_.optics()}) local[root] = navigated * local[root];
@@ -206,6 +220,9 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
   if (!topography_mesh_ || state.centerpiece != Instrument || !state.material) hide({height_bar_});
   if (state.centerpiece != Instrument || !state.material) hide(marks_.lever_nodes());
   if (!shows_ghost(state, particles_.has_value())) hide({instrument_.ghost()});
+  if (!shows_swing(state, layout_per_m(state))) {
+    for (const scene::NodeIndex part : instrument_.swing()) hide({part});
+  }
   if (ruler_m_per_unit(state) == 0.0) hide(marks_.ruler_nodes());
   if (particles_) {
     const bool shown = state.centerpiece == Instrument && state.material;

@@ -9,7 +9,8 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kTurnM = 0.2e-9;  // rise of Z above its minimum that counts as retracting
+constexpr std::int64_t kStrobePeriodNs = 1'000'000'000;  // a swing of the stroboscope
+constexpr double kTurnM = 0.2e-9;                        // rise of Z above its minimum that counts as retracting
 
 // Fields common to the newest state and a recorded sample.
 template <class TipRecord>
@@ -17,7 +18,9 @@ Moment moment_from(const TipRecord& record) {
   Moment moment;
   moment.wall.tip = record.tip;
   moment.wall.surface = record.surface;
-  moment.swing = record.swing;
+  moment.wall.swing = record.swing;
+  moment.wall.strobe_turns =
+      static_cast<double>(record.time_ns % kStrobePeriodNs) / static_cast<double>(kStrobePeriodNs);
   moment.servo_state = record.servo_state;
   moment.phase = record.phase;
   return moment;

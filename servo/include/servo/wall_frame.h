@@ -123,6 +123,7 @@ struct WallFrame {
   std::vector<RecordedScanChange> scan_changes{};  // changes of `scan`
   std::optional<RecordedHandPart> scan_hand{};
   std::optional<bool> false_colours{};  // colours of the sample's heights; absent from older files
+  std::optional<bool> stroboscope{};    // swing of a lever that taps, slowed down; absent from older files
 
   bool operator==(const WallFrame&) const = default;
 };
@@ -150,6 +151,7 @@ constexpr void for_each_field(Visit&& visit, Record&... frame) {
   visit("scan_changes", frame.scan_changes...);
   visit("scan_hand", frame.scan_hand...);
   visit("false_colours", frame.false_colours...);
+  visit("stroboscope", frame.stroboscope...);
 }
 static_assert(scene::all_fields_described<WallFrame>());
 

@@ -145,6 +145,28 @@ TEST_F(ClusterViewTest, ShowsThePixelOfAForceMapThatIsFelt) {
   EXPECT_THAT(hand->said(), Not(HasSubstr("otherwise: ")));
 }
 
+TEST_F(ClusterViewTest, ShowsALeverThatTapsWithItsDialAndItsChanges) {
+  const auto left = node("left"), right = node("right");
+  std::vector<std::string> command = master_command();
+  command.insert(command.end(), {"--mode", "tapping", "--free-amplitude", "20nm", "--resonance", "300kHz",
+                                 "--quality-factor", "400", "--spring-constant", "40N/m", "--haptics", "sim"});
+  const auto hand = start(command);
+  expect_both_shown(*hand);
+  press_at_master("1 F6 f");
+  ASSERT_TRUE(hand->says("chosen: Mica")) << hand->said();
+  ASSERT_TRUE(hand->says("jump to the repulsive state")) << hand->said();
+  press_at_master("plus");
+  ASSERT_TRUE(hand->says("the changed parameters are now in effect")) << hand->said();
+  ASSERT_TRUE(hand->says("jump to the repulsive state")) << hand->said();
+  press_at_master("KP_Enter");
+  ASSERT_TRUE(hand->says("force off: Stop was pressed")) << hand->said();
+  EXPECT_TRUE(all_same()) << hand->said();
+  press_at_master("Escape");
+  EXPECT_EQ(hand->ends(), 0) << hand->said();
+  EXPECT_THAT(hand->said(), HasSubstr(" 0 built otherwise"));
+  EXPECT_THAT(hand->said(), Not(HasSubstr("otherwise: ")));
+}
+
 // Junk, another build, and a wall that names what this machine lacks.
 TEST_F(ClusterViewTest, ANodeThatShowsAWallKeepsItWhenADescriptionCannotBeShown) {
   const auto left = node("left");

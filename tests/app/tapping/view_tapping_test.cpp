@@ -46,6 +46,10 @@ TEST_F(ViewTapping, FeelsParametersThatChanged) {
   ASSERT_TRUE(view.says("chosen: Mica")) << view.said();
   ASSERT_TRUE(view.says("jump to the repulsive state")) << view.said();
   ASSERT_TRUE(view.says("jump to the attractive state")) << view.said();
+  key("F6");
+  ASSERT_TRUE(view.says("stroboscope: one swing a second")) << view.said();
+  key("F");
+  ASSERT_TRUE(view.says("dial of the swing: shown")) << view.said();
   key("plus plus");
   ASSERT_TRUE(view.says("parameters: 59.5 nm")) << view.said();
   ASSERT_TRUE(view.says("parameters: 70.7 nm")) << view.said();

@@ -41,8 +41,7 @@ constexpr std::array<LeftOut, 5> kOfTheDevice{{{"wall.wand.time_ns", "moves noth
                                                {"wall.wand.push", "a navigation follows from it"},
                                                {"wall.wand.turn", "a navigation follows from it"}}};
 
-constexpr std::array<LeftOut, 8> kNotSent{{{"swing.amplitude_m", "one machine shows a lever that taps"},
-                                           {"swing.phase_rad", "one machine shows a lever that taps"},
+constexpr std::array<LeftOut, 7> kNotSent{{{"wall.strobe_turns", "follows from the time of the tip's state"},
                                            {"curves", "grow from the journal"},
                                            {"scan", "follows from the journal and ShownMoment::scan_frame"},
                                            {"wall.scan", "set by show_scan()"},
@@ -50,20 +49,20 @@ constexpr std::array<LeftOut, 8> kNotSent{{{"swing.amplitude_m", "one machine sh
                                            {"wall.particles", "follow from the journal"},
                                            {"results", "shown in films, which one machine draws"}}};
 
-constexpr std::array<LeftOut, 9> kNotRecorded{{{"curves", "follow from the session's samples"},
-                                               {"by_wand", "drawn without a sample, of which a session has one"},
-                                               {"stopped", "follows from TipSample::renderer"},
-                                               {"letters", "labels of the keyboard at hand"},
-                                               {"scan", "recorded as ScanProgress: scan_progress_of()"},
-                                               {"wall.scan", "set by show_scan()"},
-                                               {"wall.scan_line", "set by show_scan()"},
-                                               {"wall.particles", "follow from a replay of the session's ticks"},
-                                               {"results", "shown in films, which are made without a live wall"}}};
+constexpr std::array<LeftOut, 10> kNotRecorded{{{"curves", "follow from the session's samples"},
+                                                {"wall.strobe_turns", "follows from the time of the sample"},
+                                                {"by_wand", "drawn without a sample, of which a session has one"},
+                                                {"stopped", "follows from TipSample::renderer"},
+                                                {"letters", "labels of the keyboard at hand"},
+                                                {"scan", "recorded as ScanProgress: scan_progress_of()"},
+                                                {"wall.scan", "set by show_scan()"},
+                                                {"wall.scan_line", "set by show_scan()"},
+                                                {"wall.particles", "follow from a replay of the session's ticks"},
+                                                {"results", "shown in films, which are made without a live wall"}}};
 
-constexpr std::array<LeftOut, 11> kNotDrawn{
+constexpr std::array<LeftOut, 10> kNotDrawn{
     {{"stopped", "drawn in the state Fault alone"},
-     {"swing.amplitude_m", "drawn of a lever that taps alone"},
-     {"swing.phase_rad", "drawn of a lever that taps alone"},
+     {"wall.swing.phase_rad", "drawn of a lever that taps alone"},
      {"by_wand", "drawn without a sample alone"},
      {"letters", "drawn by the list of keys alone"},
      {"wall.tip.tip_height_m", "the lever is drawn by Z and deflection"},
@@ -144,7 +143,9 @@ class DescribedWall : public ::testing::Test {
     wall.scan = true;
     wall.scan_line = {glm::dvec3(-1e-8, 0.0, 1e-9), glm::dvec3(1e-8, 0.0, 1e-9)};
     wall.particles = &particles_;
-    moment.swing = {.amplitude_m = 18e-9, .phase_rad = 1.2};
+    wall.stroboscope = true;
+    wall.strobe_turns = 0.25;
+    wall.swing = {.amplitude_m = 18e-9, .phase_rad = 1.2};
     moment.servo_state = scene::ServoState::Running;
     moment.phase = physics::Phase::Free;
     moment.realtime = true;
@@ -160,6 +161,7 @@ class DescribedWall : public ::testing::Test {
   static scene::TipState tip_of(const Moment& moment) {
     scene::TipState tip;
     tip.tip = moment.wall.tip;
+    tip.swing = moment.wall.swing;
     tip.surface = moment.wall.surface;
     tip.active.release_z_m = moment.wall.release_z_m;
     tip.active.slow_motion = moment.slow_motion;
@@ -188,7 +190,7 @@ class DescribedWall : public ::testing::Test {
     sample.time_ns = kNowNs;
     sample.tip = moment.wall.tip;
     sample.surface = moment.wall.surface;
-    sample.swing = moment.swing;
+    sample.swing = moment.wall.swing;
     sample.servo_state = moment.servo_state;
     sample.phase = moment.phase;
     if (const auto& cue = moment.wall.cue) {

@@ -10,6 +10,7 @@
 #include "exhibit/cluster/wall_history.h"
 #include "exhibit/cluster/wall_model.h"
 #include "support/scratch_folder.h"
+#include "support/tapped_sample.h"
 
 namespace wall_messages_test {
 
@@ -264,6 +265,7 @@ TEST(WallModelTest, ComesBackAndRefusesWhatIsNotValid) {
   model.files.text_size = 1.25;
   model.files.pixel = {3, 1};
   model.contrast = render::PanelContrast::High;
+  model.tapping = test::tapped_hand();
   const auto document = document_of(model);
   const auto came = read_wall_model(document);
   ASSERT_TRUE(came) << came.error().message;
@@ -274,6 +276,10 @@ TEST(WallModelTest, ComesBackAndRefusesWhatIsNotValid) {
   EXPECT_EQ(came->files.text_size, 1.25);
   EXPECT_EQ(came->files.pixel, model.files.pixel);
   EXPECT_EQ(came->contrast, render::PanelContrast::High);
+  EXPECT_EQ(came->tapping.choice.mode, "tapping");
+  EXPECT_EQ(came->tapping.choice.numbers.free_amplitude, "20nm");
+  EXPECT_EQ(came->tapping.model, "dmt");
+  EXPECT_EQ(came->tapping.values, model.tapping.values);
   for (std::size_t length = 0; length < document.size(); ++length) {
     EXPECT_FALSE(read_wall_model(std::span(document).first(length))) << length;
   }
@@ -292,6 +298,13 @@ TEST(WallModelTest, ComesBackAndRefusesWhatIsNotValid) {
   EXPECT_FALSE(read_wall_model(document_of(model)));
   model.files.text_size = 1.0;
   model.files.language = "xx";
+  EXPECT_FALSE(read_wall_model(document_of(model)));
+  model.files.language = "de";
+  EXPECT_TRUE(read_wall_model(document_of(model)));
+  model.tapping.values["no-such-option"] = "1";
+  EXPECT_FALSE(read_wall_model(document_of(model)));
+  model.tapping = {};
+  model.tapping.choice.mode = "no-such-mode";
   EXPECT_FALSE(read_wall_model(document_of(model)));
 }
 

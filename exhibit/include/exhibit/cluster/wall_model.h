@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "curves/tapping/tapped_hand.h"
 #include "exhibit/frame/exhibit_files.h"
 #include "exhibit/frame/wall_pictures.h"
 #include "physics/friction/friction.h"
@@ -27,6 +28,7 @@ struct WallModel {
   std::map<std::string, std::string> meshes;  // texts of the outputs' meshes by name, relative to the wall file
   ExhibitFiles files;                         // without these three files and the assets
   physics::FrictionLaw friction = physics::FrictionLaw::None;
+  curves::TappedHand tapping;
   PictureOptions picture;  // mode and order of the eyes
   render::PanelContrast contrast = render::PanelContrast::Normal;
 };

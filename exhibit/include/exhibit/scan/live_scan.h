@@ -29,7 +29,8 @@ struct ScanSubject {
   scene::TopographyScale shown{};                         // metres of the sample's frame per metre here
   double tip_radius_m = 0;                                // radius of the probe in use
   double adhesion_n = 0;                                  // pull-off force, a magnitude
-  double slope = 0;  // exceeded almost nowhere; 0: the usual settings suit the sample
+  bool beside_tapping = false;  // under the hand its lever taps; the image is taken in contact all the same
+  double slope = 0;             // exceeded almost nowhere; 0: the usual settings suit the sample
 
   double shown_side_m() const { return shown.lateral * side_m; }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -43,6 +44,9 @@ class Instrument {
                    std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
   // A pale copy of the lever.
   void place_ghost(const Setting& setting, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
+  // The space that the lever sweeps as it swings about that pose, and the tip at both turning points.
+  void place_swing(const Setting& setting, double amplitude_m, std::vector<glm::dmat4>& local,
+                   render::BeamBend& bend) const;
   void place_optics(const scene::Scene& scene, const Setting& setting, std::vector<glm::dmat4>& local) const;
   void place_stage(const scene::Scene& scene, double thickness, std::vector<glm::dmat4>& local) const;
 
@@ -53,6 +57,7 @@ class Instrument {
   scene::NodeIndex lever() const { return lever_; }
   scene::NodeIndex apex() const { return apex_; }
   scene::NodeIndex ghost() const { return ghost_; }
+  std::array<scene::NodeIndex, 3> swing() const { return {band_, turns_[0], turns_[1]}; }
   scene::NodeIndex optics() const { return optics_; }
   scene::NodeIndex stage() const { return stage_; }
   scene::NodeIndex floor() const { return floor_; }
@@ -69,7 +74,8 @@ class Instrument {
   LeverPose lever_pose(const Setting& setting) const;
 
   scene::NodeIndex layout_{}, sample_frame_{}, probe_frame_{}, lever_{}, cantilever_{}, tip_{}, apex_{}, ghost_{},
-      stage_{}, body_{}, floor_{}, floor_surface_{};
+      band_{}, stage_{}, body_{}, floor_{}, floor_surface_{};
+  std::array<scene::NodeIndex, 2> turns_{};  // tip at the highest and the lowest point of the swing
   scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{};
   double lever_length_ = 0;  // glTF metres, clamp to tip axis
   double tip_length_ = 0;    // glTF metres, base to apex

@@ -19,6 +19,7 @@ inline constexpr double kStrokeHeight = 0.30 * kReferenceWallHeightM;
 // Width of the drawn sample in strokes; 1.70 to 1.71 for the paper's three.
 inline constexpr double kNarrowestSample = 1.6, kWidestSample = 1.8;
 inline constexpr double kTipDrawnLength = 0.14;
+inline constexpr double kSmallestSwing = 0.004;   // half height of the band of a lever that taps
 inline constexpr double kSampleTiltRad = 0.26;    // towards the viewer, to make terraces visible
 inline constexpr double kLeverAzimuthRad = 0.42;  // direction of the lever: from behind, a little from the left
 inline constexpr double kLeverDrawnLength = 1.25;

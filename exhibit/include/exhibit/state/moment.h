@@ -29,7 +29,6 @@ class LiveScan;
 // One moment of the demonstration, from the live servo or from a session: everything that the wall shows.
 struct Moment {
   WallState wall;
-  scene::Swing swing{};  // none: the lever does not tap
   scene::ServoState servo_state = scene::ServoState::Disarmed;
   bool stopped = false;  // in Fault: a person has stopped the force
   physics::Phase phase = physics::Phase::WaitForLift;
@@ -49,7 +48,6 @@ struct Moment {
 template <class Visit, scene::RecordOf<Moment>... Record>
 constexpr void for_each_field(Visit&& visit, Record&... moment) {
   visit("wall", moment.wall...);
-  visit("swing", moment.swing...);
   visit("servo_state", moment.servo_state...);
   visit("stopped", moment.stopped...);
   visit("phase", moment.phase...);

@@ -24,6 +24,9 @@ enum class Centerpiece { Instrument, Plot, Analogy, Journey };
 struct WallState {
   std::optional<std::size_t> material{};  // empty: no sample on the stage yet
   scene::Tip tip{};
+  scene::Swing swing{};      // none: the lever does not tap
+  bool stroboscope = false;  // shows the lever where it is in its swing, slowed down
+  double strobe_turns = 0;   // of that slow swing, from its lowest point, 0 to 1
   scene::SurfacePoint surface{};
   double release_z_m = 0;  // with the tip's current parameters; 0: with the material's
   std::optional<std::size_t> hovered{};
@@ -44,6 +47,9 @@ template <class Visit, scene::RecordOf<WallState>... Record>
 constexpr void for_each_field(Visit&& visit, Record&... wall) {
   visit("material", wall.material...);
   visit("tip", wall.tip...);
+  visit("swing", wall.swing...);
+  visit("stroboscope", wall.stroboscope...);
+  visit("strobe_turns", wall.strobe_turns...);
   visit("surface", wall.surface...);
   visit("release_z_m", wall.release_z_m...);
   visit("hovered", wall.hovered...);

@@ -124,13 +124,6 @@
 #define AFM_FOR_EACH_PANEL_PHRASE(PHRASE)                                \
   PHRASE(PlotTitle, "plot-title", "", kLine)                             \
   PHRASE(PlotTitleAll, "plot-title-all", "", kLine)                      \
-  PHRASE(PlotTitleTapping, "plot-title-tapping", "", kLine)              \
-  PHRASE(SwingAmplitude, "swing-amplitude", "", kLine)                   \
-  PHRASE(SwingPhase, "swing-phase", "", kLine)                           \
-  PHRASE(SwingState, "swing-state", "", kLine)                           \
-  PHRASE(SwingAttractive, "swing-attractive", "", kLine)                 \
-  PHRASE(SwingRepulsive, "swing-repulsive", "", kLine)                   \
-  PHRASE(SwingFree, "swing-free", "", kLine)                             \
   PHRASE(PlotApproach, "plot-approach", "", kLine)                       \
   PHRASE(PlotRetract, "plot-retract", "", kLine)                         \
   PHRASE(PlotPredicted, "plot-predicted", "", kLine)                     \
@@ -218,10 +211,6 @@
 
 // Friction loop.
 #define AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)                        \
-  PHRASE(DialTitle, "dial-title", "", kLine)                        \
-  PHRASE(DialBoth, "dial-both", "", kLine)                          \
-  PHRASE(DialOne, "dial-one", "", kLine)                            \
-  PHRASE(DialNow, "dial-now", "", kLine)                            \
   PHRASE(FrictionTitle, "friction-title", "", kLine)                \
   PHRASE(FrictionOff, "friction-off", "", kLine)                    \
   PHRASE(FrictionAdvice, "friction-advice", "", kLine)              \
@@ -304,6 +293,7 @@
   PHRASE(KeyFalseColours, "key-false-colours", "", kLine)    \
   PHRASE(KeyMapPicture, "key-map-picture", "", kLine)        \
   PHRASE(KeyFriction, "key-friction", "", kLine)             \
+  PHRASE(KeyStroboscope, "key-stroboscope", "", kLine)       \
   PHRASE(KeyScanHand, "key-scan-hand", "", kLine)            \
   PHRASE(KeyScanFeedback, "key-scan-feedback", "", kLine)    \
   PHRASE(KeyNextSetting, "key-next-setting", "", kLine)      \
@@ -391,6 +381,7 @@
   AFM_FOR_EACH_BANNER_PHRASE(PHRASE)             \
   AFM_FOR_EACH_CLUSTER_PHRASE(PHRASE)            \
   AFM_FOR_EACH_PANEL_PHRASE(PHRASE)              \
+  AFM_FOR_EACH_TAPPING_PHRASE(PHRASE)            \
   AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)           \
   AFM_FOR_EACH_PARTICLE_PHRASE(PHRASE)           \
   AFM_FOR_EACH_SCAN_PHRASE(PHRASE)               \
