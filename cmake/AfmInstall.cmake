@@ -10,6 +10,12 @@ if(NOT release MATCHES "^## ${PROJECT_VERSION} \\(([0-9]+-[0-9]+-[0-9]+)\\)$")
   message(FATAL_ERROR "CHANGELOG.md begins with \"${release}\": it must begin with \"## ${PROJECT_VERSION} (YEAR-MONTH-DAY)\"")
 endif()
 set(release_date ${CMAKE_MATCH_1})
+# Those who cite it name the same.
+file(STRINGS ${CMAKE_SOURCE_DIR}/CITATION.cff cited REGEX "^(version|date-released): ")
+if(NOT cited STREQUAL "version: ${PROJECT_VERSION};date-released: ${release_date}")
+  message(FATAL_ERROR "CITATION.cff says \"${cited}\": it must say \"version: ${PROJECT_VERSION}\" and \"date-released: ${release_date}\"")
+endif()
+set_property(DIRECTORY ${CMAKE_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/CITATION.cff)
 
 # gzip without names and times, as Debian's policy asks for
 function(afm_compressed source result)
@@ -79,7 +85,7 @@ install(FILES ${reference}/touchafm.bash DESTINATION share/bash-completion/compl
 set(documents share/doc/touchafm)
 set(docs ${CMAKE_SOURCE_DIR}/docs)
 install(FILES ${CMAKE_SOURCE_DIR}/cmake/debian/copyright ${reference}/changelog.gz ${reference}/changelog.Debian.gz
-        ${docs}/manual.md ${docs}/physics.md ${docs}/curves.md ${docs}/fits.md ${docs}/lever.md ${docs}/tapping.md
+        ${CMAKE_SOURCE_DIR}/CITATION.cff ${docs}/manual.md ${docs}/physics.md ${docs}/curves.md ${docs}/fits.md ${docs}/lever.md ${docs}/tapping.md
         ${docs}/manipulation.md ${docs}/generate.md ${docs}/serve.md ${docs}/gltf.md ${docs}/host-tuning.md ${docs}/glossary.md
         ${docs}/tutorial.md ${docs}/teaching.md ${docs}/teaching.de.md ${docs}/worksheet.md ${docs}/worksheet.de.md ${docs}/museum.md
         ${docs}/troubleshooting.md ${docs}/comparison.md ${docs}/adding-a-material.md ${docs}/adding-a-wand.md DESTINATION ${documents})

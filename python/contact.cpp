@@ -169,9 +169,7 @@ void add_contact_class(py::module_& module) {
   contact.def_static(
       "material",
       [](const std::string& material, const py::kwargs& given) {
-        py::kwargs all(given);
-        all["material"] = material;
-        return py::type::of<Contact>()(**all);
+        return py::type::of<Contact>()(py::arg("material") = material, **given);
       },
       py::arg("material"), "Contact(material=material, ...).");
   for (const curves::ContactParameter& parameter : curves::contact_parameters()) {
@@ -228,7 +226,8 @@ void add_contacts(py::module_& module) {
       "materials", [] { return value_of(load_materials(built_in())).names(); }, "Names of the built-in materials.");
   module.def("probes", &probe_names, "Names of the built-in probes.");
   module.def("law", &make_law, py::arg("name"), py::arg("contact"),
-             "The law of that name (as --model of touchafm curve) for a contact. ValueError if there is none.");
+             "The law of that name (as --model of touchafm curve) for a contact. ValueError if there is none.\n"
+             "docs/physics.md has its equations with their sources.");
 }
 
 }  // namespace afm::python

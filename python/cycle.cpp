@@ -141,7 +141,7 @@ void add_cycle(py::module_& module) {
              "One cycle of a contact, as touchafm curve computes it.\n\n"
              "law: instead of the contact's; dynamic-... includes the lever's mass and thermal noise.\n"
              "z_from, z_to, step: path of the lever's base, m; speed in m/s and seed for dynamic laws only.\n"
-             "Raises ValueError for what the law does not know.");
+             "Raises ValueError for what the law does not know. docs/physics.md has the equations with their sources.");
 }
 
 Sweep make_sweep(const Contact& contact, const std::optional<std::string>& law, const py::kwargs& given) {
@@ -232,7 +232,7 @@ void add_sweep(py::module_& module) {
       "sweep", &make_sweep, py::arg("contact"), py::arg("law") = py::none(),
       "The events for arrays of one parameter of the contact or of two: tip_radius=numpy.geomspace(...).\n\n"
       "On all cores, with Python's lock released. Raises ValueError for a parameter without effect, more than a\n"
-      "million points, and if no point has a curve.");
+      "million points, and if no point has a curve. docs/physics.md has the equations with their sources.");
 }
 
 // Tables 1 and 2 of Liu & Peng beside the same from the paper's equations, as touchafm paper writes them.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "python/errors.h"
 
-#include <stdexcept>
+#include <exception>
+#include <utility>
 
 #include "python/bindings.h"
 
@@ -15,7 +16,7 @@ void add_errors(py::module_& module) {
   file_error.attr("__doc__") = "A file cannot be read, understood or written; the message names it and says why.";
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const Refusal& refusal) {
       const bool usage = refusal.category() == core::ErrorCategory::WrongUsage;
       PyErr_SetString(usage ? PyExc_ValueError : file_error.ptr(), refusal.what());

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -172,8 +173,7 @@ void add_curve(py::module_& module) {
       .def_property_readonly(
           "time",
           [](const py::object& self) {
-            return column(self, self.cast<const Curve&>().recorded.time_s,
-                          [](const double& time) -> const double& { return time; });
+            return column(self, self.cast<const Curve&>().recorded.time_s, std::identity());
           },
           "Time since the first point, s; empty if unknown.")
       .def_property_readonly("metadata", &metadata_of, "What the file says of the recording, in SI.")

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -131,7 +132,8 @@ void add_analysis(py::module_& module) {
       .def("__repr__", [](const AnalysedCurve& self) { return fmt::format("<touchafm.Analysis of {}>", self.name); });
   module.def("analyse", &analyse, py::arg("curve"), py::kw_only(), py::arg("contact_point") = py::none(),
              "Figures of a curve, as touchafm analyse finds them. contact_point: name of a method instead of the\n"
-             "analysis's choice. FileError if the curve cannot be analysed, ValueError for an unknown method.");
+             "analysis's choice. FileError if the curve cannot be analysed, ValueError for an unknown method.\n"
+             "docs/curves.md defines the figures.");
 }
 
 py::tuple interval(const fits::Interval& of) { return py::make_tuple(of.low, of.high); }
@@ -184,10 +186,7 @@ void add_fit(py::module_& module) {
           "Reasons for the flag, each with its figure and limit.")
       .def_property_readonly(
           "force",
-          [](const py::object& self) {
-            return column(self, self.cast<const Fit&>().found.model_n,
-                          [](const double& force) -> const double& { return force; });
-          },
+          [](const py::object& self) { return column(self, self.cast<const Fit&>().found.model_n, std::identity()); },
           "Force of the model at each fitted point, N, baseline included.")
       .def(
           "as_dict", [](const Fit& self) { return dict_of(curves::fit_json(self.found, self.options)); },
@@ -196,6 +195,9 @@ void add_fit(py::module_& module) {
         return fmt::format("<touchafm.Fit {}, E = {:.4g} Pa, {}>", fits::row_of(self.found.shape).name,
                            self.found.modulus_pa, fits::name_of(self.found.trust));
       });
+}
+
+void add_fit_function(py::module_& module) {
   module.def("fit", &fit, py::arg("curve"), py::kw_only(), py::arg("model"), py::arg("base") = py::none(),
              py::arg("against") = py::none(), py::arg("tilt") = false, py::arg("white_noise") = false,
              py::arg("uncertainties") = std::map<std::string, double>(), py::arg("contact_point") = py::none(),
@@ -203,7 +205,8 @@ void add_fit(py::module_& module) {
              "curve: a Curve or its Analysis. model: a shape or a law of adhesion of --fit.\n"
              "Numbers: tip_radius m, half_angle rad, layer m, poisson, atomic_distance m, most_force N, most_depth m.\n"
              "uncertainties: relative standard deviations of what is given, {\"spring_constant\": 0.1}.\n"
-             "Raises ValueError as the command refuses its options, FileError for a curve that nothing fits.");
+             "Raises ValueError as the command refuses its options, FileError for a curve that nothing fits.\n"
+             "docs/fits.md has the equations with their sources; as_dict()[\"source\"] is that of the shape.");
 }
 
 }  // namespace
@@ -211,6 +214,7 @@ void add_fit(py::module_& module) {
 void add_fits(py::module_& module) {
   add_analysis(module);
   add_fit(module);
+  add_fit_function(module);
 }
 
 }  // namespace afm::python

@@ -104,7 +104,8 @@ void add_frequency_shifts(py::module_& module) {
              "The frequency shift at constant amplitude, as touchafm curve --mode fm computes it, or its value at the\n"
              "height `at`, m.\n\n"
              "amplitude, m, zero-to-peak; resonance, Hz, instead of the contact's; contact_gap, m, instead of the\n"
-             "contact's work of adhesion; viscosity, Pa*s. Raises ValueError as the command refuses its options.");
+             "contact's work of adhesion; viscosity, Pa*s. Raises ValueError as the command refuses its options.\n"
+             "docs/tapping.md has the equations with their sources.");
 }
 
 }  // namespace afm::python

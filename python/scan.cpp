@@ -259,7 +259,8 @@ void add_scans(py::module_& module) {
       "0.8\n"
       "of it), drive, Hz, viscosity, Pa*s, contact_gap, m, resonance, Hz, and quality_factor.\n"
       "Further numbers in SI have the names of the command's options: rate Hz, setpoint N, integral_gain 1/s, ...\n"
-      "Raises ValueError as the command refuses its options, FileError for a file that cannot be used.");
+      "Raises ValueError as the command refuses its options, FileError for a file that cannot be used.\n"
+      "docs/physics.md and docs/tapping.md have the equations with their sources.");
   module.def("level", &level_heights, py::arg("heights"), py::arg("how") = "plane",
              "Heights without their tilt, as --level of touchafm analyse: \"plane\" subtracts the plane of least\n"
              "squares, \"lines\" the steps between lines, too. An array of rows by columns, m, in which NaN is not\n"

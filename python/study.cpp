@@ -95,6 +95,7 @@ void add_studies(py::module_& module) {
           "participants",
           [](const Study& self) {
             std::vector<std::string> ids;
+            ids.reserve(self.data.members.size());
             for (const study::StudyData::Member& member : self.data.members) ids.push_back(member.person.id);
             return ids;
           },

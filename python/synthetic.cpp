@@ -126,7 +126,8 @@ void add_synthetic(py::module_& module) {
       "Curves as an instrument records them and their truth, as touchafm generate curve makes them: a list of\n"
       "Curve, and the dict of the truth file.\n\n"
       "Numbers in SI, with the names of the command's options: modulus, tip_radius, spring_constant, most_force,\n"
-      "noise, ... The same seed gives the same bytes. Raises ValueError as the command refuses its options.");
+      "noise, ... The same seed gives the same bytes. Raises ValueError as the command refuses its options.\n"
+      "docs/generate.md has the keys of the truth, docs/fits.md the equations with their sources.");
   module.def(
       "generate_map", &generate_map, py::arg("law") = py::none(), py::kw_only(), py::arg("pixels") = py::none(),
       py::arg("size") = py::none(), py::arg("field") = py::none(), py::arg("second_modulus") = py::none(),
@@ -137,7 +138,8 @@ void add_synthetic(py::module_& module) {
       "the dict of the truth file.\n\n"
       "pixels: curves in x and y; size: width, m; field: \"uniform\", \"step\", \"gradient\" or \"islands\", with\n"
       "second_modulus, Pa, and second_work_of_adhesion, J/m2. The rest as for generate(). Raises ValueError as the\n"
-      "command refuses its options.");
+      "command refuses its options. docs/generate.md has the keys of the truth, docs/fits.md the equations with their\n"
+      "sources.");
 }
 
 }  // namespace afm::python

@@ -93,16 +93,17 @@ void add_tapping(py::module_& module) {
         return fmt::format("<touchafm.Tapping {} on {}, {} points>", self.model, self.setup.material.name,
                            self.curve.points.size());
       });
-  module.def("tapping", &make_tapping, py::arg("contact"), py::kw_only(), py::arg("free_amplitude"),
-             py::arg("resonance") = py::none(), py::arg("quality_factor") = py::none(), py::arg("drive") = py::none(),
-             py::arg("contact_gap") = py::none(), py::arg("viscosity") = py::none(), py::arg("law") = py::none(),
-             py::arg("method") = py::none(), py::arg("at") = py::none(), py::arg("z_from") = py::none(),
-             py::arg("z_to") = py::none(), py::arg("step") = py::none(), py::arg("speed") = py::none(),
-             "A tapping curve, as touchafm curve --mode tapping computes it, or the states at the height `at`, m.\n\n"
-             "free_amplitude, m, zero-to-peak; resonance, Hz, and quality_factor instead of the contact's; drive, Hz,\n"
-             "default: at the resonance; contact_gap, m, instead of the contact's work of adhesion; viscosity, Pa*s;\n"
-             "method: \"averaged\" (Q of at least 100) or \"direct\"; speed, m/s, default: at rest at each height.\n"
-             "Raises ValueError as the command refuses its options.");
+  module.def(
+      "tapping", &make_tapping, py::arg("contact"), py::kw_only(), py::arg("free_amplitude"),
+      py::arg("resonance") = py::none(), py::arg("quality_factor") = py::none(), py::arg("drive") = py::none(),
+      py::arg("contact_gap") = py::none(), py::arg("viscosity") = py::none(), py::arg("law") = py::none(),
+      py::arg("method") = py::none(), py::arg("at") = py::none(), py::arg("z_from") = py::none(),
+      py::arg("z_to") = py::none(), py::arg("step") = py::none(), py::arg("speed") = py::none(),
+      "A tapping curve, as touchafm curve --mode tapping computes it, or the states at the height `at`, m.\n\n"
+      "free_amplitude, m, zero-to-peak; resonance, Hz, and quality_factor instead of the contact's; drive, Hz,\n"
+      "default: at the resonance; contact_gap, m, instead of the contact's work of adhesion; viscosity, Pa*s;\n"
+      "method: \"averaged\" (Q of at least 100) or \"direct\"; speed, m/s, default: at rest at each height.\n"
+      "Raises ValueError as the command refuses its options. docs/tapping.md has the equations with their sources.");
 }
 
 }  // namespace afm::python

@@ -27,6 +27,7 @@
 #include "core/whole_file.h"
 #include "core/write_all.h"
 #include "curves/modulus_statistics.h"
+#include "curves/written_by.h"
 #include "physics/quantity_text.h"
 
 namespace afm::app {
@@ -44,7 +45,8 @@ constexpr const char* kColumns =
     "radius_m\thalf_angle_rad\tlayer_m\tbase\tpoisson_ratio\tagainst\twhite_noise\tmost_force_N\tmost_depth_m\t"
     "law\tW_J_per_m2\tW_low_J_per_m2\tW_high_J_per_m2\tpull_off_N\ttabor\tmodulus_systematic_Pa\tW_systematic_J_per_"
     "m2\t"
-    "curve\tx_m\ty_m\tcolumn\trow\tadhesion_N\tsnap_in_N\tcontact_slope_N_per_m\tloop_energy_J\tadhesion_energy_J\n";
+    "curve\tx_m\ty_m\tcolumn\trow\tadhesion_N\tsnap_in_N\tcontact_slope_N_per_m\tloop_energy_J\tadhesion_energy_J\t"
+    "source\tsoftware\n";
 
 std::string reasons(const fits::ElasticFit& fit) {
   std::string text;
@@ -95,24 +97,30 @@ std::string adhesion_cells(const fits::ElasticFit& fit) {
                      given(adheres && erred, shares.work * adhesion.work_j_per_m2));
 }
 
+// Publication of the law, and the program.
+std::string origin(fits::Shape shape) {
+  return fmt::format("{}\t{}", fits::row_of(shape).meaning, curves::written_by());
+}
+
 std::string row_of(const std::string& file, std::size_t index, const curves::FittedCurve& fitted,
                    const curves::FitOptions& options) {
   const std::string name = core::printable_line(file);
   if (!fitted.fit) {
     constexpr std::size_t kNumbers = 16, kAdhesionCells = 8;
-    return fmt::format("{}\tnone\t{}{}\t{}{}\t{}\n", name, core::printable_line(fitted.why),
+    return fmt::format("{}\tnone\t{}{}\t{}{}\t{}\t{}\n", name, core::printable_line(fitted.why),
                        std::string(kNumbers, '\t'), sizes(options), std::string(kAdhesionCells, '\t'),
-                       features(index, fitted));
+                       features(index, fitted), origin(*options.shape));
   }
   const fits::ElasticFit& fit = *fitted.fit;
   const auto finite = [](double value) { return cell(std::isfinite(value) ? std::optional(value) : std::nullopt); };
   const std::string order = fit.noise_order ? fmt::format("{}", *fit.noise_order) : "";
-  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", name,
-                     fits::name_of(fit.trust), reasons(fit), fit.modulus_pa, fit.modulus_interval_pa.low,
+  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n",
+                     name, fits::name_of(fit.trust), reasons(fit), fit.modulus_pa, fit.modulus_interval_pa.low,
                      finite(fit.modulus_interval_pa.high), fit.reduced_modulus_pa, fit.contact_z_m, fit.level_n,
                      cell(options.tilt ? std::optional(fit.tilt_n_per_m) : std::nullopt), fit.depth_m, fit.noise_n,
                      fit.rms_n, fit.points, fit.in_contact, order, fit.runs_p, cell(fit.half_depth_modulus_pa),
-                     fitted.spring_n_per_m, sizes(options), adhesion_cells(fit), features(index, fitted));
+                     fitted.spring_n_per_m, sizes(options), adhesion_cells(fit), features(index, fitted),
+                     origin(fit.shape));
 }
 
 core::Result<core::FileDescriptor> new_table(const std::string& folder, const std::string& path) {

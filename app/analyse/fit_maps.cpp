@@ -15,6 +15,7 @@
 #include "core/log.h"
 #include "core/whole_file.h"
 #include "curves/image_output.h"
+#include "curves/written_by.h"
 #include "exhibit/scan/image_picture.h"
 #include "physics/imaging/scan_image.h"
 #include "render/image_file.h"
@@ -122,14 +123,15 @@ core::Result<void> FitMaps::write(const std::string& folder, const std::string& 
     core::log_line(fmt::format(
         "{}: {} of its curves share a pixel with a later one, which is on the map in their place", file, replaced_));
   }
-  physics::ScanImage image{.columns = grid_->columns,
-                           .rows = grid_->rows,
-                           .width_m = grid_->width_m,
-                           .height_m = grid_->height_m,
-                           .x_offset_m = grid_->center_x_m - 0.5 * grid_->width_m,
-                           .y_offset_m = grid_->center_y_m + 0.5 * grid_->height_m,
-                           .channels = {},
-                           .metadata = {{"Source", std::filesystem::path(file).filename().string()}}};
+  physics::ScanImage image{
+      .columns = grid_->columns,
+      .rows = grid_->rows,
+      .width_m = grid_->width_m,
+      .height_m = grid_->height_m,
+      .x_offset_m = grid_->center_x_m - 0.5 * grid_->width_m,
+      .y_offset_m = grid_->center_y_m + 0.5 * grid_->height_m,
+      .channels = {},
+      .metadata = {{"Source", std::filesystem::path(file).filename().string()}, {"Software", curves::written_by()}}};
   exhibit::PictureStyle style{.cut_share = 0.01, .hatched = {}};
   for (const Cell& cell : cells_) style.hatched.push_back(cell.trust && *cell.trust != fits::Trust::Trusted);
   std::vector<const MapRow*> shown;

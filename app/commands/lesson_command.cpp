@@ -89,7 +89,7 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   const auto participant =
       exhibit::SimulatedParticipant::parse(std::string_view(options.participant).substr(kSimulated.size()));
   if (!participant) return tl::unexpected(participant.error());
-  const auto lesson = exhibit::load_lesson(options.lesson, options.view.files.assets_dir);
+  const auto lesson = exhibit::load_lesson(options.lesson, options.view.files.assets_dir, options.view.files.materials);
   if (!lesson) return tl::unexpected(lesson.error());
   const auto phrases = exhibit::load_phrases(options.view.files);
   if (!phrases) return tl::unexpected(phrases.error());
@@ -125,7 +125,7 @@ void remove_empty(const std::string& folder) {
 
 // Runs the lesson in the live window.
 core::Result<void> run_live(const LessonOptions& options, const std::string& program) {
-  auto lesson = exhibit::load_lesson(options.lesson, options.view.files.assets_dir);
+  auto lesson = exhibit::load_lesson(options.lesson, options.view.files.assets_dir, options.view.files.materials);
   if (!lesson) return tl::unexpected(lesson.error());
   const auto& conditions = lesson->conditions;
   const bool heard = std::find(conditions.begin(), conditions.end(), exhibit::Condition::Sound) != conditions.end();

@@ -359,7 +359,7 @@ void add_render_command(OptionList& program, const CommandContext& context) {
   command
       .add_flag("--analogy", options->analogy, "draw Millet's analogy, a magnet on a spring, instead of the instrument")
       .needs(session);
-  command.add_option("--out", options->out, "PNG file to write").writable_file().type_name("FILE.png");
+  command.add_option("--out", options->out, "PNG file to write").picture_file().type_name("FILE.png");
   const Option at = command
                         .add_option("--at", options->at_s,
                                     "time since the start of the session or of the model's animations, in seconds; "

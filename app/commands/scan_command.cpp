@@ -191,7 +191,7 @@ void add_output_options(OptionList& command, ScanOptions& options) {
       .type_name("NAME");
   command.add_flag("--json", options.json, "print settings and figures of every channel in SI units as JSON");
   command.add_option("--picture", options.picture, "write the height, or the channel, as a picture (PNG) to FILE")
-      .writable_file()
+      .picture_file()
       .type_name("FILE");
   command
       .add_option("--out", options.out,

@@ -136,10 +136,6 @@ Option add_thermal_options(OptionList& command, LeverOptions& options) {
 core::Result<void> calibrate_lever(LeverCommand command) {
   LeverOptions& options = command.lever;
   if (const auto read = read_uncertainties(command.uncertainty_texts, options); !read) return read;
-  if (!command.out.empty()) {
-    const auto writable = core::check_writable(command.out);
-    if (!writable) return wrong_usage("--out: " + writable.error().message);
-  }
   const auto result = curves::calibrate(options);
   if (!result) return tl::unexpected(result.error());
   if (!command.out.empty()) {
@@ -183,7 +179,7 @@ void add_lever_command(OptionList& program, const CommandContext&) {
       "standard uncertainty of an input, in per cent or in its unit: " + uncertain_names() + "; one option for each");
   command.add_flag("--json", options->json, "print JSON in SI units; null marks a value that was not computed");
   command.add_option("--out", options->out, "write a plot of spectrum and model (SVG) to FILE")
-      .written()
+      .picture_file()
       .needs(thermal)
       .type_name("FILE");
   command.footer(

@@ -12,18 +12,23 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "core/whole_file.h"
+#include "curves/curve_file.h"
+#include "curves/image_file.h"
+#include "servo/session_file.h"
 
 namespace afm::app {
 
 namespace {
 
-// Name of the check of an option that writes its file.
+// Names of the checks of an option that writes its file, and of one that draws a picture into it.
 constexpr const char* kWrites = "writes";
+constexpr const char* kDraws = "draws";
 
 std::string names_of(const char* word, const std::set<CLI::Option*>& options) {
   // sorted by name, because CLI11's sets of pointers are sorted by address
@@ -82,12 +87,21 @@ CommandDescription describe_command(const CLI::App& app) {
   return command;
 }
 
-bool writes(CLI::Option& option) {
+bool has_check(CLI::Option& option, const char* name) {
   try {
-    return option.get_validator(kWrites) != nullptr;
+    return option.get_validator(name) != nullptr;
   } catch (const CLI::OptionNotFound&) {
     return false;
   }
+}
+
+bool writes(CLI::Option& option) { return has_check(option, kWrites); }
+
+// What a file is if it is a measurement, by its first bytes; empty: none.
+std::string_view measurement_in(const std::string& path) {
+  if (servo::is_session_file(path)) return "a session";
+  if (curves::is_image_file(path)) return "an image";
+  return curves::is_curve_file(path) ? "a curve" : "";
 }
 
 // Whether its value is a file, alone or behind a word and a colon.
@@ -110,13 +124,14 @@ bool is_one_file(const std::string& a, const std::string& b) {
   return std::filesystem::is_regular_file(a, missing) && std::filesystem::equivalent(a, b, missing);
 }
 
-// Refuses to write the file that another option reads, because a measurement would be lost.
+// Refuses to write the file that another option reads, and a picture in place of any measurement, which would be lost.
 core::Result<void> check_written_files(CLI::App& app) {
   std::vector<CLI::Option*> given;
   add_given_options(app, given);
   for (CLI::Option* out : given) {
     if (!writes(*out)) continue;
     const std::string& path = out->results().back();
+    const std::string_view measurement = has_check(*out, kDraws) ? measurement_in(path) : "";
     for (CLI::Option* in : given) {
       if (!reads(*in)) continue;
       for (const std::string& text : in->results()) {
@@ -127,6 +142,9 @@ core::Result<void> check_written_files(CLI::App& app) {
                                              out->get_name(), path, in->get_name()));
       }
     }
+    if (measurement.empty()) continue;
+    return core::wrong_usage(fmt::format("{} {}: it is {}, which a picture would replace; name a new file",
+                                         out->get_name(), path, measurement));
   }
   return {};
 }
@@ -221,6 +239,11 @@ Option& Option::writable_file() {
 Option& Option::written() {
   option_->check(CLI::Validator([](std::string&) { return std::string(); }, "", kWrites));
   return *this;
+}
+
+Option& Option::picture_file() {
+  option_->check(CLI::Validator([](std::string&) { return std::string(); }, "", kDraws));
+  return writable_file();
 }
 
 Option& Option::one_value_each() {

@@ -46,6 +46,8 @@ class Option {
   // The value is a file or folder that is written; writable_file() says so, too. WrongUsage if it is a file that
   // another option reads.
   Option& written();
+  // As writable_file(), for a picture. WrongUsage, too, if the file is a measurement, which the picture would replace.
+  Option& picture_file();
 
   // Leaves the option out of help, man page and completion: for our own programs.
   Option& hidden();

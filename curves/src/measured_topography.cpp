@@ -9,6 +9,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "curves/written_by.h"
 #include "physics/quantity_text.h"
 
 namespace afm::curves {
@@ -152,28 +153,30 @@ nlohmann::ordered_json topography_json(const MeasuredTopography& topography) {
     unread.push_back({{"name", each.name}, {"reason", each.reason}});
   const double pixel_x_m = scan.width_m / static_cast<double>(scan.columns),
                pixel_y_m = scan.height_m / static_cast<double>(scan.rows);
-  return {{"file", topography.name},
-          {"format", name_of(topography.file.format)},
-          {"columns", scan.columns},
-          {"rows", scan.rows},
-          {"width_m", scan.width_m},
-          {"height_m", scan.height_m},
-          {"channels", channels},
-          {"on_other_grids", topography.file.left_out},
-          {"left_out", unread},
-          {"remarks", topography.file.remarks},
-          {"channel", topography.channel().name},
-          {"unit", topography.channel().unit},
-          {"measured", topography.raw.measured},
-          {"mean", topography.raw.mean},
-          {"sq", topography.raw.sq},
-          {"lowest", topography.raw.lowest},
-          {"highest", topography.raw.highest},
-          {"levelling", physics::text_of(topography.levelling).word},
-          {"slope_x", topography.level.slope_x / pixel_x_m},
-          {"slope_y", topography.level.slope_y / pixel_y_m},
-          {"filled", topography.level.filled},
-          {"sq_levelled", topography.levelled.sq}};
+  nlohmann::ordered_json result{{"file", topography.name},
+                                {"format", name_of(topography.file.format)},
+                                {"columns", scan.columns},
+                                {"rows", scan.rows},
+                                {"width_m", scan.width_m},
+                                {"height_m", scan.height_m},
+                                {"channels", channels},
+                                {"on_other_grids", topography.file.left_out},
+                                {"left_out", unread},
+                                {"remarks", topography.file.remarks},
+                                {"channel", topography.channel().name},
+                                {"unit", topography.channel().unit},
+                                {"measured", topography.raw.measured},
+                                {"mean", topography.raw.mean},
+                                {"sq", topography.raw.sq},
+                                {"lowest", topography.raw.lowest},
+                                {"highest", topography.raw.highest},
+                                {"levelling", physics::text_of(topography.levelling).word},
+                                {"slope_x", topography.level.slope_x / pixel_x_m},
+                                {"slope_y", topography.level.slope_y / pixel_y_m},
+                                {"filled", topography.level.filled},
+                                {"sq_levelled", topography.levelled.sq}};
+  name_software(result);
+  return result;
 }
 
 core::Result<scene::Topography> felt_topography(const MeasuredTopography& topography) {

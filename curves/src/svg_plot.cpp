@@ -9,6 +9,8 @@
 #include <limits>
 #include <utility>
 
+#include "curves/written_by.h"
+
 namespace afm::curves {
 namespace {
 
@@ -370,8 +372,8 @@ std::string svg(std::span<const SvgPlot> column) {
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
       "font-family=\"Inter, 'DejaVu Sans', sans-serif\" font-size=\"16\" fill=\"#1d2329\">\n"
-      "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
-      width, height);
+      "<metadata>{2}</metadata>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
+      width, height, written_by());
   int top = 0;
   for (const SvgPlot& plot : column) {
     const Frame frame(plot);

@@ -14,6 +14,7 @@
 
 #include "core/version.h"
 #include "curves/curve_output.h"
+#include "curves/written_by.h"
 #include "over_all_cores.h"
 #include "physics/law_tables.h"
 
@@ -259,7 +260,10 @@ nlohmann::ordered_json sweep_json(const ContactSetup& setup, const std::vector<S
   }
   json parameters = parameters_json(setup);
   for (const SweepAxis& axis : axes) parameters.erase(std::string(axis.parameter->json_key));
-  return {{"model_requested", setup.model.text}, {"parameters", std::move(parameters)}, {"points", std::move(points)}};
+  json result{
+      {"model_requested", setup.model.text}, {"parameters", std::move(parameters)}, {"points", std::move(points)}};
+  name_software(result);
+  return result;
 }
 
 }  // namespace afm::curves

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "adhesive_branch.h"
@@ -191,26 +190,51 @@ const std::array<DoubtRow, 16> kDoubts{{
     {Doubt::BelowJkr, false, Side::Below, 5.0, "Tabor's parameter is below that of JKR"},
 }};
 
+namespace {
+
+// The run in which a middle one of all points lies: between two digits there are many short ones.
+double run_of_middle_point(std::vector<double> runs) {
+  std::sort(runs.begin(), runs.end());
+  const double half = 0.5 * std::accumulate(runs.begin(), runs.end(), 0.0);
+  double points = 0.0;
+  return *std::find_if(runs.begin(), runs.end(), [&](double run) { return (points += run) >= half; });
+}
+
+// Half of a usual change of the force from one point to the next, magnitude.
+double half_a_step_n(std::span<const Sample> samples) {
+  std::vector<double> steps;
+  for (std::size_t t = 1; t < samples.size(); ++t) {
+    steps.push_back(std::abs(samples[t].force_n - samples[t - 1].force_n));
+  }
+  if (steps.empty()) return 0.0;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return 0.5 * *middle;
+}
+
+}  // namespace
+
 // A usual force lasts more than one point where a slow curve was digitised.
 double points_at_greatest_force(std::span<const Sample> samples, double tolerance_n) {
   double greatest_n = samples.front().force_n;
   for (const Sample& sample : samples) greatest_n = std::max(greatest_n, sample.force_n);
-  std::vector<double> lasts;
-  double at_greatest = 0.0, in_row = 0.0, last = 1.0;
+  // a noise that a bad fit has found is no measure of what is equal
+  const double equal_n = std::max(1e-9 * greatest_n, std::min(tolerance_n, half_a_step_n(samples)));
+  std::vector<double> runs;  // points in a row at a force that is pushed, but not the greatest
+  double at_greatest = 0.0, in_row = 0.0, run = 0.0;
   for (std::size_t t = 0; t < samples.size(); ++t) {
-    in_row = samples[t].force_n >= greatest_n - tolerance_n ? in_row + 1.0 : 0.0;
+    in_row = samples[t].force_n >= greatest_n - equal_n ? in_row + 1.0 : 0.0;
     at_greatest = std::max(at_greatest, in_row);
-    if (t == 0 || samples[t].force_n < 0.5 * greatest_n || in_row > 0.0) continue;  // pushed, not at the end
-    if (std::abs(samples[t].force_n - samples[t - 1].force_n) <= tolerance_n) {
-      last += 1.0;
-    } else {
-      lasts.push_back(std::exchange(last, 1.0));
+    const bool pushed = samples[t].force_n >= 0.5 * greatest_n && in_row == 0.0;
+    if (pushed && run > 0.0 && std::abs(samples[t].force_n - samples[t - 1].force_n) <= equal_n) {
+      run += 1.0;
+      continue;
     }
+    if (run > 0.0) runs.push_back(run);
+    run = pushed ? 1.0 : 0.0;
   }
-  if (lasts.empty()) return at_greatest;
-  const auto middle = lasts.begin() + static_cast<std::ptrdiff_t>(lasts.size() / 2);
-  std::nth_element(lasts.begin(), middle, lasts.end());
-  return at_greatest / *middle;
+  if (run > 0.0) runs.push_back(run);
+  return runs.empty() ? at_greatest : at_greatest / run_of_middle_point(runs);
 }
 
 const DoubtRow& row_of(Doubt doubt) { return kDoubts.at(static_cast<std::size_t>(doubt)); }

@@ -17,6 +17,7 @@
 #include "core/log.h"
 #include "curves/angle_units.h"
 #include "curves/tapping/tapping_output.h"
+#include "curves/written_by.h"
 #include "physics/imaging/scan_truth.h"
 #include "physics/tapping/averaged_flow.h"
 
@@ -97,6 +98,7 @@ core::Result<physics::TappingDetector> detector_of(const ScanRequest& request, c
 
 void describe(const ScanRequest& request, const curves::ContactSetup& setup, const physics::TipShape& tip, Scan& scan) {
   auto& metadata = scan.image.metadata;
+  metadata.emplace_back("Software", curves::written_by());
   metadata.emplace_back("Material", setup.material.name);
   if (!request.sample.file.empty()) {
     metadata.emplace_back("Sample", std::filesystem::path(request.sample.file).filename().string());
@@ -282,6 +284,7 @@ nlohmann::json scan_json(const Scan& scan) {
                         {"channels", channels},
                         {"lines_with", artefacts}};
   if (scan.tapping) result["tapping"] = tapping_json(scan);
+  curves::name_software(result);
   return result;
 }
 

@@ -21,6 +21,7 @@
 #include "curves/image_output.h"
 #include "curves/recorded_curve.h"
 #include "curves/tapping/tapping_output.h"
+#include "curves/written_by.h"
 #include "instrument/simulated_instrument.h"
 #include "physics/imaging/scan_image.h"
 #include "refused_request.h"
@@ -244,6 +245,7 @@ struct JsonDoor::Verbs {
                 {"width_m", image.width_m},       {"height_m", image.height_m},
                 {"x_offset_m", image.x_offset_m}, {"y_offset_m", image.y_offset_m}};
     if (stopped) answer["stopped"] = true;
+    image.metadata.emplace_back("Software", curves::written_by());
     door.image_ = std::make_unique<const physics::ScanImage>(std::move(image));
     return answer;
   }

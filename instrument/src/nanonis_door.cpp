@@ -13,6 +13,7 @@
 #include "core/printable.h"
 #include "instrument/simulated_instrument.h"
 #include "nanonis_bytes.h"
+#include "nanonis_properties.h"
 #include "nanonis_signals.h"
 #include "physics/imaging/scan_image.h"
 #include "refused_request.h"
@@ -24,13 +25,6 @@ constexpr std::size_t kNameBytes = 32, kHeaderBytes = 40;
 constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 constexpr double kWithdrawnM = 1e-6;
 constexpr double kMotorStepM = 100e-9;  // step of the coarse motor, along z
-
-double within(const char* what, double value, double smallest, double largest) {
-  if (!(value >= smallest && value <= largest)) {
-    throw RefusedRequest(fmt::format("{}: {} is not within {} to {}", what, value, smallest, largest));
-  }
-  return value;
-}
 
 }  // namespace
 
@@ -167,11 +161,18 @@ struct NanonisDoor::Functions {
     out.add(door.feedback_ ? kOn : kOff);
   }
 
+  static double move_speed(const NanonisDoor& door) {
+    const double scan_speed = 2.0 * door.instrument_.frame().width_m * door.instrument_.settings().scan.line_rate.si;
+    return door.custom_speed_ != 0 ? door.follow_speed_m_per_s_ : scan_speed;
+  }
   static void scan_action(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
-    constexpr std::uint16_t kStart = 0, kLast = 3;
+    constexpr std::uint16_t kStart = 0, kGoToCentre = 6;  // from 4 on since the protocol of June 2024
     const auto action = in.read<std::uint16_t>();
     const bool upwards = in.read<std::uint32_t>() != 0;
-    if (action > kLast) throw RefusedRequest(fmt::format("there is no scan action {}", action));
+    if (action > kGoToCentre) throw RefusedRequest(fmt::format("there is no scan action {}", action));
+    if (action == kGoToCentre || (action == kStart && door.instrument_.position().engaged)) {
+      door.instrument_.move_to(door.frame_x_m_, door.frame_y_m_, move_speed(door));
+    }
     if (action != kStart) return;  // whatever was started is done
     change(door, [upwards](InstrumentSettings& settings) { settings.upwards = upwards; });
     door.upwards_ = upwards;
@@ -183,23 +184,25 @@ struct NanonisDoor::Functions {
     out.add(std::uint32_t{0}).add_text("");  // no time-out, and no file
   }
   static void frame_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
-    const SimulatedInstrument::Position& at = door.instrument_.position();
     const auto [width_m, height_m] = door.instrument_.frame();
-    out.add(static_cast<float>(at.x_m)).add(static_cast<float>(at.y_m));
+    out.add(static_cast<float>(door.frame_x_m_)).add(static_cast<float>(door.frame_y_m_));
     out.add(static_cast<float>(width_m)).add(static_cast<float>(height_m));
-    out.add(static_cast<float>(door.instrument_.settings().turn_rad / kRadPerDegree));
+    out.add(static_cast<float>(0.0 - door.instrument_.settings().turn_rad / kRadPerDegree));  // clockwise
   }
   static void frame_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
     const double x_m = within("x", in.real(), -kMostPlaceM, kMostPlaceM),
                  y_m = within("y", in.real(), -kMostPlaceM, kMostPlaceM),
                  width_m = within("width", in.real(), 1e-10, 1e-4), height_m = within("height", in.real(), 1e-10, 1e-4),
                  angle = within("angle", in.real(), -360.0, 360.0);
+    const double wider = door.keeps_speed_ ? width_m / door.instrument_.frame().width_m : 1.0;
     change(door, [&](InstrumentSettings& settings) {
       settings.size_m = width_m;
       settings.height_m = height_m;
-      settings.turn_rad = std::remainder(angle, 360.0) * kRadPerDegree;
+      settings.turn_rad = std::remainder(0.0 - angle, 360.0) * kRadPerDegree;  // theirs is clockwise
+      settings.scan.line_rate = physics::Frequency(settings.scan.line_rate.si / wider);
     });
-    door.instrument_.move_to(x_m, y_m, door.follow_speed_m_per_s_);
+    door.frame_x_m_ = x_m;
+    door.frame_y_m_ = y_m;
   }
   static void buffer_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
     out.add_count(door.channels_.size());
@@ -220,17 +223,12 @@ struct NanonisDoor::Functions {
     door.channels_ = std::move(channels);
   }
   static void props_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
-    out.add(door.continuous_).add(door.bouncing_).add(door.autosave_).add_text(door.series_).add_text(door.comment_);
+    const NanonisProperties& properties = door.properties_;
+    out.add(properties.continuous).add(properties.bouncing).add(properties.autosave);
+    out.add_text(properties.series).add_text(properties.comment);
   }
   static void props_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
-    const auto continuous = in.read<std::uint32_t>(), bouncing = in.read<std::uint32_t>(),
-               autosave = in.read<std::uint32_t>();
-    const std::string series(in.text()), comment(in.text());
-    door.continuous_ = continuous;
-    door.bouncing_ = bouncing;
-    door.autosave_ = autosave;
-    door.series_ = series;
-    door.comment_ = comment;
+    door.properties_ = changed(door.properties_, in);
   }
   static void speed_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
     const auto [width_m, height_m] = door.instrument_.frame();
@@ -238,22 +236,25 @@ struct NanonisDoor::Functions {
     const auto ratio = static_cast<double>(door.speed_ratio_);
     out.add(static_cast<float>(width_m / forward_s)).add(static_cast<float>(ratio * width_m / forward_s));
     out.add(static_cast<float>(forward_s)).add(static_cast<float>(forward_s / ratio));
-    constexpr std::uint16_t kConstantTime = 1;
-    out.add(kConstantTime).add(door.speed_ratio_);
+    constexpr std::uint16_t kConstantSpeed = 0, kConstantTime = 1;
+    out.add(door.keeps_speed_ ? kConstantSpeed : kConstantTime).add(door.speed_ratio_);
   }
   static void speed_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
     const double speed = in.real();
     in.real();
     double forward_s = in.real();
     in.real();
-    constexpr std::uint16_t kKeepSpeed = 1;
-    if (in.read<std::uint16_t>() == kKeepSpeed) forward_s = door.instrument_.frame().width_m / speed;
+    constexpr std::uint16_t kNoChange = 0, kKeepSpeed = 1;
+    const auto kept = in.read<std::uint16_t>();
+    const bool keeps_speed = kept == kNoChange ? door.keeps_speed_ : kept == kKeepSpeed;
+    if (keeps_speed) forward_s = door.instrument_.frame().width_m / speed;
     const double ratio = within("ratio of the speeds", in.real(), 1e-3, 1e3);
     within("forward line time", forward_s, 1e-5, 1e5);
     change(door, [forward_s](InstrumentSettings& settings) {
       settings.scan.line_rate = physics::Frequency(0.5 / forward_s);
     });
     door.speed_ratio_ = static_cast<float>(ratio);
+    door.keeps_speed_ = keeps_speed;
   }
   static void frame_data(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
     const auto index = in.read<std::int32_t>();
@@ -280,10 +281,10 @@ struct NanonisDoor::Functions {
     const double x_m = within("x", in.read<double>(), -kMostPlaceM, kMostPlaceM),
                  y_m = within("y", in.read<double>(), -kMostPlaceM, kMostPlaceM);
     in.read<std::uint32_t>();
-    door.instrument_.move_to(x_m, y_m, door.follow_speed_m_per_s_);
+    door.instrument_.move_to(x_m, y_m, move_speed(door));
   }
   static void follow_speed_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
-    out.add(static_cast<float>(door.follow_speed_m_per_s_)).add(door.custom_speed_);
+    out.add(static_cast<float>(move_speed(door))).add(door.custom_speed_);
   }
   static void follow_speed_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
     const double speed = within("speed", in.real(), 1e-12, 1.0);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "curves/tapping/driven_setup.h"
@@ -95,7 +96,7 @@ core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings
     tip.radius = physics::Length(radius_m);
     auto surface = imaging::scan_surface(*setup, tip, assets_dir_, sample_);
     if (!surface) return tl::unexpected(surface.error());
-    surface_ = std::move(*surface);
+    surface_ = std::make_shared<const imaging::ScanSurface>(std::move(*surface));
     surface_radius_m_ = radius_m;
   }
   settings_ = settings;
@@ -109,8 +110,8 @@ core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings
 physics::ScanSettings SimulatedInstrument::scan_settings() const {
   physics::ScanSettings scan(settings_.scan);
   scan.spring_constant = setup_.material.contact.spring_constant;
-  scan.adhesion = physics::Force(surface_.pull_off_force_n);
-  scan.snap_in = physics::Length(surface_.snap_in_m);
+  scan.adhesion = physics::Force(surface_->pull_off_force_n);
+  scan.snap_in = physics::Length(surface_->snap_in_m);
   scan.second_apex_distance = physics::Length(second_apex_ ? settings_.faults.second_apex_m : 0.0);
   return scan;
 }
@@ -121,15 +122,15 @@ physics::Scanner::Surface SimulatedInstrument::surface_now() const {
   if (!touching_) return [z_m = at_.z_m](double, double) { return z_m; };
   if (settings_.flat) return [](double, double) { return 0.0; };
   const double cosine = std::cos(settings_.turn_rad), sine = std::sin(settings_.turn_rad);
-  return [height = surface_.height_m, drift_x = drift_x_m_, drift_y = drift_y_m_, middle_x = at_.x_m,
-          middle_y = at_.y_m, cosine, sine](double x_m, double y_m) {
+  return [surface = surface_, drift_x = drift_x_m_, drift_y = drift_y_m_, middle_x = at_.x_m, middle_y = at_.y_m,
+          cosine, sine](double x_m, double y_m) {
     const double x = x_m - middle_x, y = y_m - middle_y;
-    return height(middle_x + cosine * x - sine * y - drift_x, middle_y + sine * x + cosine * y - drift_y);
+    return surface->height_m(middle_x + cosine * x - sine * y - drift_x, middle_y + sine * x + cosine * y - drift_y);
   };
 }
 
 double SimulatedInstrument::surface_below() const {
-  return settings_.flat ? 0.0 : surface_.height_m(at_.x_m - drift_x_m_, at_.y_m - drift_y_m_);
+  return settings_.flat ? 0.0 : surface_->height_m(at_.x_m - drift_x_m_, at_.y_m - drift_y_m_);
 }
 
 // From 0 to below 1, the same on every machine.
@@ -176,7 +177,15 @@ core::Result<void> SimulatedInstrument::wear(double force_n) {
   highest_force_n_ = std::max(highest_force_n_, force_n);
   const Faults& faults = settings_.faults;
   if (faults.blunting_force_n <= 0.0 || force_n <= faults.blunting_force_n) return {};
-  return build(settings_, growth_m_ + faults.blunting_m_per_n * (force_n - faults.blunting_force_n));
+  const auto worn = build(settings_, growth_m_ + faults.blunting_m_per_n * (force_n - faults.blunting_force_n));
+  if (!worn) return wrong_usage("the tip would wear too much: " + worn.error().message);
+  return {};
+}
+
+void SimulatedInstrument::take_back_to(SimulatedInstrument before) {
+  *this = std::move(before);
+  if (showcase_ != nullptr) showcase_->put_contact(setup_);
+  show_place();
 }
 
 curves::PathOptions SimulatedInstrument::path_of(const std::optional<double>& from,
@@ -185,6 +194,13 @@ curves::PathOptions SimulatedInstrument::path_of(const std::optional<double>& fr
 }
 
 core::Result<SimulatedInstrument::Curve> SimulatedInstrument::curve(const CurveRequest& request) {
+  SimulatedInstrument before(*this);
+  auto curve = take_curve(request);
+  if (!curve) take_back_to(std::move(before));
+  return curve;
+}
+
+core::Result<SimulatedInstrument::Curve> SimulatedInstrument::take_curve(const CurveRequest& request) {
   curves::PathOptions path = path_of(request.z_from_m, request.z_to_m);
   if (!request.z_from_m || !request.z_to_m) {
     // the usual ends depend on the contact
@@ -218,9 +234,9 @@ core::Result<SimulatedInstrument::Curve> SimulatedInstrument::curve(const CurveR
     if (faults.detector_range_n > 0.0) shown_n = std::clamp(shown_n, -faults.detector_range_n, faults.detector_range_n);
     result.shown_n.push_back(shown_n);
   }
-  if (showcase_ != nullptr) showcase_->put_curve(result.run.curve);
   pass(2.0 * length_m / request.speed_m_per_s);
   if (const auto worn = wear(highest_n); !worn) return tl::unexpected(worn.error());
+  if (showcase_ != nullptr) showcase_->put_curve(result.run.curve);
   return result;
 }
 
@@ -256,13 +272,20 @@ core::Result<void> SimulatedInstrument::after_line(const physics::ScanLine& line
 }
 
 SimulatedInstrument::Frame SimulatedInstrument::frame() const {
-  const double width_m = settings_.size_m > 0.0 ? settings_.size_m : std::min(surface_.width_m, surface_.depth_m);
+  const double width_m = settings_.size_m > 0.0 ? settings_.size_m : std::min(surface_->width_m, surface_->depth_m);
   const double square_m = width_m / static_cast<double>(settings_.pixels);
   return {width_m,
           settings_.height_m > 0.0 ? settings_.height_m : square_m * static_cast<double>(settings_.lines_or_pixels())};
 }
 
 core::Result<physics::ScanImage> SimulatedInstrument::scan(const TakeLine& taken) {
+  SimulatedInstrument before(*this);
+  auto image = take_image(taken);
+  if (!image) take_back_to(std::move(before));
+  return image;
+}
+
+core::Result<physics::ScanImage> SimulatedInstrument::take_image(const TakeLine& taken) {
   if (!at_.engaged) return wrong_usage("the tip is withdrawn; \"approach\" first");
   const Frame size = frame();
   physics::ScanArea area;

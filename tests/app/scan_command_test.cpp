@@ -247,7 +247,9 @@ TEST(ScanCommand, WritesOneChannelAsAFieldAndAPicture) {
   options.picture = folder.file("image.png");
   options.channel = "Lateral force";
   ASSERT_TRUE(write_scan_command(options));
-  EXPECT_THAT(core::read_file(options.out).value(), HasSubstr("ZUnits = N\nTitle = Lateral force\nMaterial = mica\n"));
+  const std::string field = core::read_file(options.out).value();
+  EXPECT_THAT(field, HasSubstr("ZUnits = N\nTitle = Lateral force\nSoftware = TouchAFM "));
+  EXPECT_THAT(field, HasSubstr("\nMaterial = mica\n"));
   EXPECT_GT(core::read_file(options.picture).value().size(), 1000U);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "curves/curve_file.h"
@@ -79,6 +80,35 @@ TEST(ColumnTable, OfOneWayHasNoTurnInItsNoise) {
   const auto curve = parse_curve(text, "a.txt", columns("height:nm force:pN"));
   ASSERT_TRUE(curve) << curve.error().message;
   for (const auto& point : curve->points) EXPECT_EQ(point.branch, Branch::Approach);
+}
+
+// "25 2" above 25 lines of 2 columns would be a point 25 um high
+TEST(ColumnTable, HasNoPointOfItsCounts) {
+  const auto rows_of = [](double first_um) {
+    std::string text;
+    for (int i = 0; i <= 24; ++i) {
+      const int step = i <= 12 ? i : 24 - i;
+      text += fmt::format("{} {}\n", first_um - 0.5 * step, step < 8 ? 0.0 : 0.5 * (step - 8));
+    }
+    return text;
+  };
+  for (const char* counts : {"25 2\n", "2 25\n", "50 0\n", "exported\n25 25\n"}) {
+    const auto curve = parse_curve(counts + rows_of(6.0), "a.txt", columns("height:um force:nN"));
+    ASSERT_TRUE(curve) << curve.error().message;
+    EXPECT_EQ(curve->points.size(), 25U) << counts;
+    EXPECT_NEAR(curve->points.front().z.si, 6e-6, 1e-15) << counts;
+    EXPECT_THAT(curve->metadata.remarks, testing::ElementsAre(HasSubstr("counts the 25 below it"))) << counts;
+  }
+  // a first point as high as the number of lines below it, one that is not their number, and one of parts
+  for (const auto& [first, points] :
+       {std::pair("24.5 0\n", 26U), std::pair("26 2\n", 26U), std::pair("25 0.5\n", 26U)}) {
+    const auto curve = parse_curve(first + rows_of(24.0), "a.txt", columns("height:um force:nN"));
+    ASSERT_TRUE(curve) << curve.error().message;
+    EXPECT_EQ(curve->points.size(), points) << first;
+  }
+  const auto level = parse_curve("25 0\n" + rows_of(24.0), "a.txt", columns("height:um force:nN"));
+  ASSERT_TRUE(level) << level.error().message;
+  EXPECT_EQ(level->points.size(), 26U) << "the next step of its height";
 }
 
 TEST(ColumnTable, MakesForcesOfADeflection) {

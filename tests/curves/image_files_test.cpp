@@ -70,6 +70,14 @@ TEST(GsfImage, WithoutXRealIsOneWideAndSidesCountByTheirAbsoluteValue) {
   EXPECT_EQ(image.image.height_m, 0.5);
 }
 
+TEST(GsfImage, SaysThatSidesWithoutAUnitAreTakenAsMetres) {
+  for (const char* unit : {"", "XYUnits = \n"}) {
+    const std::string bytes = gsf_file(std::string("XRes = 2\nYRes = 2\nXReal = 0.5\n") + unit, {1, 2, 3, 4});
+    EXPECT_THAT(loaded(bytes).remarks, testing::ElementsAre(HasSubstr("taken as metres"))) << unit;
+  }
+  EXPECT_THAT(loaded(gsf_file(kGsfLines, {0, 1, 2, 3, 4, 5})).remarks, testing::IsEmpty());
+}
+
 TEST(GsfImage, MasksNaNAndWhatIsInfinite) {
   const LoadedImage image = loaded(gsf_file("XRes = 2\nYRes = 2\n", {1, std::nanf(""), -HUGE_VALF, 4}));
   EXPECT_THAT(values(image), testing::ElementsAre(1, testing::IsNan(), testing::IsNan(), 4));
@@ -116,6 +124,15 @@ TEST(GwyImage, IsReadExactly) {
   EXPECT_EQ(image.image.y_offset_m, -2e-7);
   EXPECT_THAT(image.left_out, testing::ElementsAre("Channel 4"));
   EXPECT_THAT(image.image.metadata, testing::Contains(testing::Pair("Rate", "1 Hz")));
+}
+
+TEST(GwyImage, SaysThatSidesWithoutAUnitAreTakenAsMetres) {
+  const std::string fields = two_fields();
+  EXPECT_THAT(loaded(gwy_file(fields)).remarks, testing::IsEmpty());
+  const std::string field = gwy_int("xres", 2) + gwy_int("yres", 2) + gwy_double("xreal", 0.5) +
+                            gwy_double("yreal", 0.5) + gwy_doubles("data", {1, 2, 3, 4});
+  EXPECT_THAT(loaded(gwy_file(gwy_object("/0/data", "GwyDataField", field))).remarks,
+              testing::ElementsAre(HasSubstr("taken as metres")));
 }
 
 TEST(GwyImage, GivesTheChannelThatIsAskedFor) {

@@ -257,6 +257,24 @@ TEST(ElasticFit, OfADigitisedCurveIsTrusted) {
   }
 }
 
+// Eight bits: few digits of push, each at dozens of points, with noise between two of them.
+TEST(ElasticFit, OfFewDigitsDoesNotLookSaturated) {
+  std::mt19937_64 random(1);
+  for (const auto& [digits, end] :
+       {std::pair(2.0, 9.0), std::pair(3.0, 9.0), std::pair(5.0, 9.0), std::pair(10.0, 99.0), std::pair(40.0, 12.0)}) {
+    for (const double noise_digits : {0.02, 0.1}) {
+      std::normal_distribution<double> noise(0.0, noise_digits);
+      std::vector<Sample> samples;
+      for (int i = 0; i < 1000; ++i) {
+        const double push = digits * std::pow(std::max(0.0, 0.002 * i - 1.0), 1.5);
+        samples.push_back({-1e-9 * i, std::min(std::round(push + noise(random)), end)});
+      }
+      const bool ends = points_at_greatest_force(samples, 0.05) > row_of(Doubt::Saturated).limit;
+      EXPECT_EQ(ends, end < digits) << digits << " digits, noise " << noise_digits << ", end " << end;
+    }
+  }
+}
+
 // The contact point against the tip position is where the undeflected tip touches, whatever the detector's zero.
 TEST(ElasticFit, FindsTheContactPointWithoutTheDetectorsZero) {
   const Indenter tip = indenter(Shape::Sphere);

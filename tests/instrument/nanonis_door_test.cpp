@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -135,6 +136,68 @@ TEST_F(NanonisDoorTest, ShowsTheImageOfTheInstrument) {
   EXPECT_FLOAT_EQ(frame.read<float>(), 15.0F);
 }
 
+// A tip that was moved to a place of the image is not its middle.
+TEST_F(NanonisDoorTest, TakesTheImageOfTheFrameWhereverTheTipIs) {
+  InstrumentSettings settings(instrument_.settings());
+  settings.scan.noise = physics::Length();
+  ASSERT_TRUE(instrument_.change(settings));
+  instrument_.approach(NanonisDoor::kApproachSpeedM);
+  results_of("Scan.FrameSet", NanonisWriter().add(2e-9F).add(1e-9F).add(20e-9F).add(20e-9F).add(0.0F));
+  results_of("Scan.BufferSet", NanonisWriter().add_count(0).add(std::int32_t{8}).add(std::int32_t{8}));
+  start_scan();
+  const std::vector<float> before = grab(30, true);
+  results_of("FolMe.XYPosSet", NanonisWriter().add(7e-9).add(-6e-9).add(std::uint32_t{1}));
+  const std::string frame_bytes = results_of("Scan.FrameGet");
+  EXPECT_FLOAT_EQ(NanonisReader(frame_bytes).read<float>(), 2e-9F);
+  start_scan();
+  const std::vector<float> after = grab(30, true);
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(after.at(i), before[i], 1e-12F) << i;
+  results_of("FolMe.XYPosSet", NanonisWriter().add(7e-9).add(-6e-9).add(std::uint32_t{1}));
+  constexpr std::uint16_t kGoToCentre = 6;
+  results_of("Scan.Action", NanonisWriter().add(kGoToCentre).add(0U));
+  EXPECT_NEAR(instrument_.position().x_m, 2e-9, 1e-16);
+  EXPECT_NEAR(instrument_.position().y_m, 1e-9, 1e-16);
+}
+
+// "positive angle means clockwise rotation"
+TEST_F(NanonisDoorTest, TurnsTheFrameClockwise) {
+  results_of("Scan.FrameSet", NanonisWriter().add(0.0F).add(0.0F).add(20e-9F).add(20e-9F).add(30.0F));
+  EXPECT_NEAR(instrument_.settings().turn_rad, -std::numbers::pi / 6.0, 1e-9) << "counterclockwise";
+}
+
+TEST_F(NanonisDoorTest, KeepsTheSpeedOrTheTimeOfALine) {
+  const auto speed_set = [](float speed, float time, std::uint16_t kept) {
+    return NanonisWriter().add(speed).add(speed).add(time).add(time).add(kept).add(1.0F);
+  };
+  const auto frame_set = [](float width) {
+    return NanonisWriter().add(0.0F).add(0.0F).add(width).add(width).add(0.0F);
+  };
+  const auto kept_now = [this] {
+    const std::string bytes = results_of("Scan.SpeedGet");
+    NanonisReader in(bytes);
+    for (int i = 0; i < 4; ++i) in.read<float>();
+    return in.read<std::uint16_t>();
+  };
+  results_of("Scan.FrameSet", frame_set(20e-9F));
+  results_of("Scan.SpeedSet", speed_set(40e-9F, 0.0F, 1));
+  EXPECT_EQ(kept_now(), 0) << "the speed";
+  EXPECT_NEAR(instrument_.settings().scan.line_rate.si, 1.0, 1e-6);
+  results_of("Scan.FrameSet", frame_set(40e-9F));
+  EXPECT_NEAR(instrument_.settings().scan.line_rate.si, 0.5, 1e-6);
+  results_of("Scan.SpeedSet", speed_set(20e-9F, 0.1F, 0));
+  EXPECT_EQ(kept_now(), 0) << "no change";
+  EXPECT_NEAR(instrument_.settings().scan.line_rate.si, 0.25, 1e-6);
+  results_of("Scan.SpeedSet", speed_set(20e-9F, 0.1F, 2));
+  EXPECT_EQ(kept_now(), 1) << "the time";
+  results_of("Scan.FrameSet", frame_set(20e-9F));
+  EXPECT_NEAR(instrument_.settings().scan.line_rate.si, 5.0, 1e-5);
+
+  const auto follow_speed = [this] { return NanonisReader(results_of("FolMe.SpeedGet")).read<float>(); };
+  EXPECT_FLOAT_EQ(follow_speed(), 200e-9F) << "that of the scan";
+  results_of("FolMe.SpeedSet", NanonisWriter().add(3e-6F).add(1U));
+  EXPECT_FLOAT_EQ(follow_speed(), 3e-6F);
+}
+
 TEST_F(NanonisDoorTest, ApproachesAndWithdraws) {
   EXPECT_THAT(error_of("Scan.Action", NanonisWriter().add(std::uint16_t{0}).add(std::uint32_t{0})),
               HasSubstr("approach"));
@@ -159,19 +222,33 @@ TEST_F(NanonisDoorTest, KeepsWhatIsSet) {
   NanonisReader at(at_bytes);
   EXPECT_EQ(at.read<double>(), 3e-9);
   EXPECT_EQ(at.read<double>(), -4e-9);
-  results_of("Scan.PropsSet", NanonisWriter()
-                                  .add(std::uint32_t{0})
-                                  .add(std::uint32_t{1})
-                                  .add(std::uint32_t{0})
-                                  .add_text("series")
-                                  .add_text("words"));
-  const std::string properties_bytes = results_of("Scan.PropsGet");
-  NanonisReader properties(properties_bytes);
-  properties.read<std::uint32_t>();
-  EXPECT_EQ(properties.read<std::uint32_t>(), 1U);
-  properties.read<std::uint32_t>();
-  EXPECT_EQ(properties.text(), "series");
-  EXPECT_EQ(properties.text(), "words");
+}
+
+// Set counts from 1, with 0 for no change; Get from 0.
+TEST_F(NanonisDoorTest, KeepsThePropertiesOfAScan) {
+  const auto set = [](std::uint32_t continuous, std::uint32_t bouncing, std::uint32_t autosave) {
+    return NanonisWriter().add(continuous).add(bouncing).add(autosave).add_text("series").add_text("words");
+  };
+  const auto expect = [this](std::uint32_t continuous, std::uint32_t bouncing, std::uint32_t autosave) {
+    const std::string bytes = results_of("Scan.PropsGet");
+    NanonisReader in(bytes);
+    EXPECT_EQ(in.read<std::uint32_t>(), continuous);
+    EXPECT_EQ(in.read<std::uint32_t>(), bouncing);
+    EXPECT_EQ(in.read<std::uint32_t>(), autosave);
+    const std::string series(in.text());
+    return series + " " + std::string(in.text());
+  };
+  expect(0, 0, 2);
+  results_of("Scan.PropsSet", set(1, 2, 1));
+  EXPECT_EQ(expect(1, 0, 0), "series words");
+  results_of("Scan.PropsSet", set(0, 1, 0));
+  expect(1, 1, 0);
+  results_of("Scan.PropsSet", set(2, 0, 3));
+  expect(0, 1, 2);
+  EXPECT_THAT(error_of("Scan.PropsSet", set(3, 0, 0)), HasSubstr("choice: 3 is not within 0 to 2"));
+  // clients of the protocol of 2024 send the names of modules behind them
+  results_of("Scan.PropsSet", set(1, 0, 0).add_count(8).add_count(1).add_text("Scan"));
+  expect(1, 1, 2);
 }
 
 TEST_F(NanonisDoorTest, NamesItsSignals) {

@@ -136,6 +136,37 @@ TEST(SimulatedInstrument, ATipWearsByTheForceBeyondItsLimit) {
   EXPECT_EQ(instrument.setup().material.contact.tip_radius.si, truth.tip_radius_m);
 }
 
+// No law has a tip as wide as a metre.
+TEST(SimulatedInstrument, NothingHasHappenedIfATipWouldWearTooMuch) {
+  SimulatedInstrument instrument = instrument_with(3), other = instrument_with(3);
+  for (SimulatedInstrument* each : {&instrument, &other}) {
+    set(*each, [](InstrumentSettings& settings) {
+      settings.pixels = 8;
+      settings.scan.noise = physics::Length(50e-12);
+      settings.faults.force_noise_n = 10e-12;
+      settings.faults.blunting_m_per_n = 1e9;
+    });
+    each->approach(1e-6);
+  }
+  const auto blunts_above = [&](double force_n) {
+    set(instrument, [&](InstrumentSettings& settings) { settings.faults.blunting_force_n = force_n; });
+  };
+  blunts_above(1e-12);
+  const auto curve = instrument.curve({});
+  ASSERT_FALSE(curve);
+  EXPECT_THAT(curve.error().message, HasSubstr("the tip would wear too much"));
+  std::size_t lines = 0;
+  const auto image = instrument.scan([&](const physics::ScanLine&, double) { return ++lines > 0; });
+  ASSERT_FALSE(image);
+  EXPECT_EQ(lines, 0U);
+  EXPECT_EQ(instrument.position().time_s, other.position().time_s);
+  EXPECT_EQ(instrument.truth().tip_radius_m, other.truth().tip_radius_m);
+  EXPECT_EQ(instrument.truth().highest_force_n, other.truth().highest_force_n);
+  blunts_above(0.0);
+  EXPECT_EQ(instrument.curve({}).value().shown_n, other.curve({}).value().shown_n) << "the same noise";
+  EXPECT_EQ(heights_of(instrument, 8), heights_of(other, 8)) << "the same chance";
+}
+
 TEST(SimulatedInstrument, AChangedTipShowsASecondApex) {
   SimulatedInstrument instrument = instrument_with();
   set(instrument, [](InstrumentSettings& settings) {

@@ -13,12 +13,12 @@ MICA = {"tip_radius": 50e-9, "spring_constant": 0.1, "hamaker": 24.5e-21, "work_
 
 
 class Contact(unittest.TestCase):
-    def test_has_the_papers_jump_to_contact(self):
+    def test_has_the_papers_jump_to_contact(self):  # case Y01
         mica = touchafm.Contact(law="paper", **MICA)
         self.assertAlmostEqual(mica.figures.z_jtc / 2.397523487e-09, 1.0, delta=1e-9)
         self.assertEqual(touchafm.Contact.material("mica", law="paper").figures.z_jtc, mica.figures.z_jtc)
 
-    def test_refuses_with_the_words_of_the_command(self):
+    def test_refuses_with_the_words_of_the_command(self):  # case Y05
         with self.assertRaises(ValueError) as refused:
             touchafm.Contact.material("mica", tip_radius=-1e-9)
         self.assertEqual(str(refused.exception), error_of("curve", "--material", "mica", "--tip-radius=-1nm"))
@@ -67,7 +67,7 @@ class Law(unittest.TestCase):
     def setUp(self):
         self.law = touchafm.law("dmt", touchafm.Contact.material("mica"))
 
-    def test_takes_any_array_and_gives_its_shape(self):
+    def test_takes_any_array_and_gives_its_shape(self):  # case Y03
         z = np.linspace(-5e-9, 20e-9, 3000).astype(np.float32).reshape(30, 100)[::3, ::2]
         self.assertFalse(z.flags["C_CONTIGUOUS"])
         force = self.law.force(z, branch="attached")

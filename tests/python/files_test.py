@@ -89,6 +89,14 @@ class Curves(Files):
         with self.assertRaises(ValueError):
             touchafm.Curve(z=z, force=z, approach=np.arange(50) > 10)
 
+    def test_give_back_their_modulus_in_nanites_coordinates(self):  # case S04; docs/examples/by_hand has nanite's own fit
+        made, truth = touchafm.generate(tip_radius=5e-6, modulus=3e3, spring_constant=0.05, most_force=1e-9)
+        self.assertAlmostEqual(truth["curves"][0]["reduced_modulus_Pa"], 4e3, delta=1e-9)
+        path = self.folder / "exact.h5"
+        made[0].write(path, format="h5")
+        fit = touchafm.fit(touchafm.read(path)[0], model="paraboloid", tip_radius=5e-6, against="tip", white_noise=True)
+        self.assertAlmostEqual(fit.E / 3e3, 1.0, delta=1e-6)
+
     def test_are_those_of_the_command_for_a_seed(self):
         made, truth = touchafm.generate("paraboloid", seed=7, points=100, **GEL)
         read = touchafm.read(self.made("gel.h5", "--seed", "7", "--points", "100"))

@@ -3,6 +3,8 @@
 
 import ast
 import os
+import pathlib
+import re
 import unittest
 
 import touchafm
@@ -56,6 +58,14 @@ class Stub(unittest.TestCase):
             self.assertTrue(member.__doc__, name)
             for each in public(vars(member)) if isinstance(member, type) and name != "FileError" else ():
                 self.assertTrue(getattr(member, each).__doc__, (name, each))
+
+    def test_names_the_sources_of_what_is_computed(self):
+        documents = pathlib.Path(os.environ["EXAMPLES"]).parent
+        for name in ("analyse", "cycle", "fit", "frequency_shift", "generate", "generate_map", "law", "lever", "scan", "sweep", "tapping"):
+            named = re.findall(r"docs/(\w+\.md)", getattr(touchafm, name).__doc__)
+            self.assertTrue(named, name)
+            for document in named:
+                self.assertTrue((documents / document).is_file(), (name, document))
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ nlohmann::ordered_json parameters_json(const ContactSetup& setup);
 nlohmann::ordered_json law_json(const ContactSetup& setup, const std::string& model,
                                 const std::optional<physics::LawChoice>& place);
 
-// Its last keys: the sources of the numbers that act, and which of them are estimated.
+// Its last keys: the sources of the numbers that act, which of them are estimated, and the program.
 void add_sources(nlohmann::ordered_json& result, const ContactSetup& setup);
 
 // The events as in section 4 of the design, the basis for the choice of the law, and the sources. Null for a jump that

@@ -119,7 +119,10 @@ class TableReader {
       more_fields_at_ = number;
       most_fields_ = fields_.size();
     }
-    if (rows_ == 0) check_heading();
+    if (rows_ == 0) {
+      check_heading();
+      see_first(number);
+    }
     if (++rows_ > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (columns_[i].kind == ColumnKind::Nothing) continue;
@@ -136,7 +139,8 @@ class TableReader {
   }
 
   // Behind the last line.
-  void finish() const {
+  void finish() {
+    leave_out_counts();
     // "0,5,1,2" has two numbers with decimal commas, or four
     if (more_fields_at_ == 0 || points_) return;
     throw CurveError(
@@ -177,6 +181,39 @@ class TableReader {
     return columns_.size();
   }
 
+  void see_first(std::size_t number) {
+    first_at_ = number;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i].kind != ColumnKind::Nothing) first_.push_back(row_[i].value);
+    }
+  }
+
+  // Leaves out a first line that counts the lines or the numbers below it: whole numbers, a height far from the others.
+  void leave_out_counts() {
+    constexpr std::size_t kFewest = 5;
+    constexpr double kFarther = 3.0;
+    if (rows_ < kFewest) return;
+    const auto below = static_cast<double>(rows_ - 1), numbers = below * static_cast<double>(columns_.size());
+    const bool whole = std::all_of(first_.begin(), first_.end(),
+                                   [](double value) { return value >= 0.0 && value == std::floor(value); });
+    const bool counts =
+        std::any_of(first_.begin(), first_.end(), [=](double value) { return value == below || value == numbers; });
+    if (!whole || !counts) return;
+    const auto height = std::find_if(columns_.begin(), columns_.end(),
+                                     [](const TableColumn& column) { return column.kind == ColumnKind::Height; });
+    if (height == columns_.end()) return;
+    const std::vector<double>& heights = table_[static_cast<std::size_t>(height - columns_.begin())];
+    double step = 0.0;
+    for (std::size_t row = 2; row < heights.size(); ++row)
+      step = std::max(step, std::abs(heights[row] - heights[row - 1]));
+    if (std::abs(heights[1] - heights[0]) <= kFarther * step) return;
+    for (std::vector<double>& column : table_) {
+      if (!column.empty()) column.erase(column.begin());
+    }
+    remarks_.push_back(fmt::format("line {} counts the {} below it, and is no point", first_at_, rows_ - 1));
+    --rows_;
+  }
+
   bool has_more_fields() const {
     const auto rest = fields_.begin() + static_cast<std::ptrdiff_t>(columns_.size());
     return std::any_of(rest, fields_.end(), [](std::string_view field) { return !trimmed(field).empty(); });
@@ -195,6 +232,8 @@ class TableReader {
   const TableColumns& columns_;
   std::vector<std::vector<double>> table_;
   std::vector<TableNumber> row_;
+  std::vector<double> first_;  // numbers of the first row as they are written
+  std::size_t first_at_ = 0;   // its line
   std::vector<std::string_view> fields_;
   std::vector<std::string> remarks_;
   std::string_view heading_;  // the last line above the numbers

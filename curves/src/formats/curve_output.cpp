@@ -17,6 +17,7 @@
 #include "bytes/text_table.h"
 #include "core/version.h"
 #include "curves/plot_units.h"
+#include "curves/written_by.h"
 
 namespace afm::curves {
 namespace {
@@ -218,6 +219,7 @@ void add_sources(nlohmann::ordered_json& result, const ContactSetup& setup) {
   }
   result["sources"] = std::move(sources);
   result["estimated"] = std::move(estimated);
+  name_software(result);
 }
 
 nlohmann::ordered_json curve_json(const CurveRun& run) {

@@ -74,6 +74,7 @@ ImagePages read_gsf(std::string_view bytes) {
   }
   const std::string_view numbers = part(bytes, data, columns * rows * sizeof(float));
   if (data + numbers.size() != bytes.size()) throw CurveError("it is longer than its XRes and YRes say");
+  found.remark_if_without(header.xy_unit);
   const double z = header.z_unit.factor;
   found.pages.push_back({.name = header.title,
                          .unit = header.z_unit.unit,

@@ -135,7 +135,7 @@ ScaledUnit gwy_unit(const Components& components, std::string_view name) {
   return text != nullptr ? scaled_unit(text->payload) : ScaledUnit{};
 }
 
-ImagePage gwy_page(std::string_view field, std::string name) {
+ImagePage gwy_page(std::string_view field, std::string name, ImagePages& found) {
   const Components parts = components_of(field);
   const std::size_t columns = gwy_side(parts, "xres"), rows = gwy_side(parts, "yres");
   const Component* data = find_component(parts, "data", 'D');
@@ -143,6 +143,7 @@ ImagePage gwy_page(std::string_view field, std::string name) {
     throw CurveError(fmt::format("its data do not fill {} x {} points", columns, rows));
   }
   const ScaledUnit xy = gwy_unit(parts, "si_unit_xy"), z = gwy_unit(parts, "si_unit_z");
+  found.remark_if_without(xy);
   const std::string_view numbers = data->payload;
   return {.name = std::move(name),
           .unit = z.unit,
@@ -191,7 +192,7 @@ ImagePages read_gwy(std::string_view bytes) {
     const std::string prefix(name.substr(0, name.size() - std::string_view("data").size()));
     const Component* title = find_component(container, prefix + "data/title", 's');
     const std::string channel = title != nullptr ? std::string(title->payload) : fmt::format("Channel {}", number);
-    add_page(channel, found, [&, field = container.at(name).payload] { return gwy_page(field, channel); });
+    add_page(channel, found, [&, field = container.at(name).payload] { return gwy_page(field, channel, found); });
     const Component* meta = find_component(container, prefix + "meta", 'o');
     if (meta == nullptr || !found.metadata.empty()) continue;
     for (const auto& [key, value] : components_of(meta->payload)) {

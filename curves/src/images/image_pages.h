@@ -39,6 +39,10 @@ struct ImagePages {
     const bool known = std::find(remarks.begin(), remarks.end(), sentence) != remarks.end();
     if (!known && remarks.size() < kMostImageRemarks) remarks.push_back(sentence);
   }
+  // For a side whose unit the file does not name.
+  void remark_if_without(const ScaledUnit& side) {
+    if (side.unit.empty()) remark("it does not name the unit of its sides, which are taken as metres");
+  }
 };
 
 // Adds the page that `read` returns. If it throws CurveError, the channel is left out with that reason; CutShort

@@ -11,6 +11,7 @@
 #include "curves/plot_units.h"
 #include "curves/tapping/tapping_output.h"
 #include "curves/tapping/tapping_sweep.h"
+#include "curves/written_by.h"
 #include "tapping/tap_regimes.h"
 
 namespace afm::curves {
@@ -148,6 +149,7 @@ nlohmann::ordered_json tapping_sweep_json(const TappingSweep& sweep) {
     point["refusal"] = row.refusal.empty() ? json() : json(row.refusal);
     points.push_back(std::move(point));
   }
+  name_software(result);
   return result;
 }
 

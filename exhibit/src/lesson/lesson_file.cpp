@@ -372,28 +372,27 @@ Lesson read_lesson(const toml::table& root, const std::string& assets_dir) {
   return lesson;
 }
 
-// Digest of the lesson's file and of the particle file that it names.
-core::Result<std::string> digest_of(const std::string& path, const Lesson& lesson, const std::string& assets_dir) {
-  auto bytes = core::read_file(path);
-  if (!bytes) return bytes;
-  if (lesson.set) {
-    auto file = scene::particle_file(lesson.particles, assets_dir);
-    if (!file) return file;
-    auto set = core::read_file(*file);
-    if (!set) return set;
-    *bytes += *set;
-  }
-  return fmt::format("{:016x}", core::fnv1a(*bytes));
+// Adds the bytes of a file, if one is named.
+core::Result<void> add_bytes(const std::string& file, std::string& all) {
+  if (file.empty()) return {};
+  const auto bytes = core::read_file(file);
+  if (!bytes) return tl::unexpected(bytes.error());
+  all += *bytes;
+  return {};
 }
 
 }  // namespace
 
-core::Result<Lesson> load_lesson(const std::string& path, const std::string& assets_dir) {
+core::Result<Lesson> load_lesson(const std::string& path, const std::string& assets_dir, const std::string& materials) {
   auto lesson = scene::read_toml(kKind, path, [&](const toml::table& root) { return read_lesson(root, assets_dir); });
   if (!lesson) return lesson;
-  auto digest = digest_of(path, *lesson, assets_dir);
-  if (!digest) return tl::unexpected(digest.error());
-  lesson->digest = std::move(*digest);
+  const auto set = lesson->set ? scene::particle_file(lesson->particles, assets_dir) : core::Result<std::string>();
+  if (!set) return tl::unexpected(set.error());
+  std::string all;
+  for (const std::string& file : {path, *set, materials}) {
+    if (auto added = add_bytes(file, all); !added) return tl::unexpected(added.error());
+  }
+  lesson->digest = fmt::format("{:016x}", core::fnv1a(all));
   return lesson;
 }
 

@@ -18,6 +18,14 @@ namespace afm::instrument {
 
 class SimulatedInstrument;
 
+// What a client sets of its scans, as Scan.PropsGet names it: kept, without effect.
+struct NanonisProperties {
+  static constexpr std::uint32_t kSaveNone = 2;
+  std::uint32_t continuous = 0, bouncing = 0;  // 0 off, 1 on
+  std::uint32_t autosave = kSaveNone;          // no image is saved
+  std::string series, comment;
+};
+
 // Nanonis' TCP protocol (SPECS, July 2021) as far as its clients use it to approach, scan and move: docs/serve.md lists
 // the functions. Any other function is answered with an error text. A scan is done as soon as it is started: simulated
 // time never waits for a client.
@@ -41,13 +49,14 @@ class NanonisDoor final : public Door {
   std::unique_ptr<const physics::ScanImage> image_;  // newest
   bool upwards_ = false;                             // direction of its scan
   bool feedback_ = true;
-  float bias_v_ = 0;  // kept, without effect
-  double follow_speed_m_per_s_ = 1e-6;
+  float bias_v_ = 0;                      // kept, without effect
+  double frame_x_m_ = 0, frame_y_m_ = 0;  // middle of the images, wherever the tip is
+  double follow_speed_m_per_s_ = 1e-6;    // with custom_speed_; otherwise the tip moves as fast as it scans
   std::uint32_t custom_speed_ = 0;
+  bool keeps_speed_ = false;  // a wider image takes longer for a line
   std::vector<std::int32_t> channels_{30};
   float speed_ratio_ = 1;  // ratio of retrace and trace; kept: a retrace takes as long as a trace
-  std::uint32_t continuous_ = 0, bouncing_ = 0, autosave_ = 0;
-  std::string series_, comment_;
+  NanonisProperties properties_;
 };
 
 }  // namespace afm::instrument

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <random>
 #include <string>
@@ -62,7 +63,8 @@ class SimulatedInstrument {
   };
   static constexpr std::size_t kMostCurvePoints = 100'000;
 
-  // A curve where the tip is; it is engaged or withdrawn again afterwards. `shown_n` is what the detector shows.
+  // A curve where the tip is; it is engaged or withdrawn again afterwards. `shown_n` is what the detector shows. Fails
+  // as curves::run_curve(), and if the tip would wear beyond what its law allows; then nothing has changed.
   struct Curve {
     curves::CurveRun run;
     std::vector<double> shown_n;
@@ -79,7 +81,7 @@ class SimulatedInstrument {
   Frame frame() const;  // size of the next image
 
   // An image around the tip. Calls `taken` with each line and the time; the scan ends if it returns false. WrongUsage
-  // unless the tip is engaged.
+  // unless the tip is engaged, and if it would wear beyond what its law allows; then nothing has changed.
   using TakeLine = std::function<bool(const physics::ScanLine& line, double time_s)>;
   core::Result<physics::ScanImage> scan(const TakeLine& taken);
 
@@ -103,7 +105,6 @@ class SimulatedInstrument {
   SimulatedInstrument(std::string assets_dir, imaging::OwnSample sample);
 
   core::Result<void> build(const InstrumentSettings& settings, double growth_m);
-  physics::TipShape tip_shape() const;
   physics::ScanSettings scan_settings() const;
   physics::Scanner::Surface surface_now() const;
   double surface_below() const;
@@ -111,14 +112,17 @@ class SimulatedInstrument {
   void pass(double time_s) noexcept;
   void show_place() const;
   core::Result<void> wear(double force_n);
+  core::Result<Curve> take_curve(const CurveRequest& request);
+  core::Result<physics::ScanImage> take_image(const TakeLine& taken);
+  void take_back_to(SimulatedInstrument before);
   core::Result<void> after_line(const physics::ScanLine& line, physics::Scanner& scanner);
   curves::PathOptions path_of(const std::optional<double>& from, const std::optional<double>& to) const;
 
   std::string assets_dir_;
   imaging::OwnSample sample_;
   InstrumentSettings settings_;
-  curves::ContactSetup setup_;    // with the worn tip
-  imaging::ScanSurface surface_;  // under the tip as it was at surface_radius_m_
+  curves::ContactSetup setup_;                           // with the worn tip
+  std::shared_ptr<const imaging::ScanSurface> surface_;  // under the tip as it was at surface_radius_m_
   double surface_radius_m_ = 0;
   double growth_m_ = 0, drift_x_m_ = 0, drift_y_m_ = 0, highest_force_n_ = 0;
   bool touching_ = false, second_apex_ = false;

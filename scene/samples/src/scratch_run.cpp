@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/version.h"
 #include "scene/samples/hand_script.h"
 
 namespace afm::scene {
@@ -47,7 +48,10 @@ physics::ScanImage image_of(const physics::MarkedSurface& surface, const Particl
     }
   }
   image.channels.push_back(std::move(heights));
-  image.metadata = {{"Title", set.title}, {"Sample", set.soft->name}, {"Source", "calculated by touchafm particles"}};
+  image.metadata = {{"Title", set.title},
+                    {"Sample", set.soft->name},
+                    {"Source", "calculated by touchafm particles"},
+                    {"Software", std::string("TouchAFM ") + core::kVersion}};
   return image;
 }
 

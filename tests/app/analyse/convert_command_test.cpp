@@ -68,7 +68,17 @@ TEST(WrittenFile, IsNoneThatTheCommandReads) {
   }
   expect_refusal(run_touchafm("analyse " + data("rising.tab") + " --out " + curve), 2,
                  "it is a curve, which a plot would replace");
+  const std::string image = folder.write("image.spm", core::read_file(data("qnm-log.spm")).value());
+  for (const std::string& command :
+       {"material gold --map " + curve,
+        "lever --thermal " + folder.write("thermal.txt", "Hz m2/Hz\n1 2\n") + " --out " + curve,
+        "scan --material mica --picture " + curve, "render --journey 1 --out " + curve,
+        "wall powerwall --test-pattern --out " + curve}) {
+    expect_refusal(run_touchafm(command), 2, "it is a curve, which a picture would replace");
+  }
+  expect_refusal(run_touchafm("material gold --map " + image), 2, "it is an image, which a picture would replace");
   EXPECT_EQ(core::read_file(curve).value(), core::read_file(data("bom.tab")).value());
+  EXPECT_EQ(core::read_file(image).value(), core::read_file(data("qnm-log.spm")).value());
   EXPECT_EQ(run_touchafm("analyse " + curve + " --out " + folder.file("new.svg")).exit_code, 0);
   EXPECT_EQ(run_touchafm("analyse " + curve + " --out " + folder.file("new.svg")).exit_code, 0) << "a plot is replaced";
 }

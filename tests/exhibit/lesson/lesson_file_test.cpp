@@ -157,6 +157,22 @@ TEST(LessonDigest, IsThatOfTheParticleFileToo) {
   EXPECT_NE(digest(), before);
 }
 
+// With a user's mica another hand is trained.
+TEST(LessonDigest, IsThatOfTheUsersMaterialsToo) {
+  const support::ScratchFolder folder;
+  const std::string lesson = support::source("assets/lessons/first-touch.toml"), assets = support::source("assets");
+  const auto digest = [&](const std::string& materials) {
+    const auto loaded = load_lesson(lesson, assets, materials);
+    EXPECT_TRUE(loaded) << loaded.error().message;
+    return loaded ? loaded->digest : std::string();
+  };
+  const std::string soft = folder.write("soft.toml", "soft"), hard = folder.write("hard.toml", "hard");
+  EXPECT_NE(digest(soft), digest(""));
+  EXPECT_NE(digest(soft), digest(hard));
+  EXPECT_EQ(digest(soft), digest(folder.write("copy.toml", "soft")));
+  EXPECT_FALSE(load_lesson(lesson, assets, folder.file("none.toml")));
+}
+
 TEST(LessonSamples, RefuseALeverThatNoHandCanFeel) {
   const support::ScratchFolder folder;
   const auto lesson =

@@ -120,7 +120,7 @@ struct Lesson {
   std::shared_ptr<const curves::TappedHand> tapping;
   std::vector<Condition> conditions;  // none, or at least two
   std::vector<LessonStep> steps;
-  std::string digest;  // FNV-1a of the file and of its particle file, hexadecimal
+  std::string digest;  // FNV-1a of the file, its particle file and the user's materials, hexadecimal
 };
 
 inline constexpr int kMostLessonMinutes = 20;  // recommended limit for looking at stereo without a break
