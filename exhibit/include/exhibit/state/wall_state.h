@@ -26,7 +26,7 @@ struct WallState {
   scene::Tip tip{};
   scene::Swing swing{};      // none: the lever does not tap
   bool stroboscope = false;  // shows the lever where it is in its swing, slowed down
-  double strobe_turns = 0;   // of that slow swing, from its lowest point, 0 to 1
+  double strobe_turns = 0;   // place in that slow swing, 0 to 1 from its lowest point
   scene::SurfacePoint surface{};
   double release_z_m = 0;  // with the tip's current parameters; 0: with the material's
   std::optional<std::size_t> hovered{};

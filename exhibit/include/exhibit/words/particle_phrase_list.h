@@ -53,6 +53,7 @@
   PHRASE(LeverSideways, "lever-sideways", "", kLine)                       \
   PHRASE(LeverSoftened, "lever-softened", "", kLine)                       \
   PHRASE(TimesSofter, "times-softer", "factor", kLine)                     \
+<<<<<<< HEAD
   PHRASE(LeverSoftenedWhy, "lever-softened-why", "", kLine)                \
   PHRASE(PatternComputed, "pattern-computed", "distance pushes", kLine)    \
   PHRASE(PictureName, "particle-picture", "", kLine)                       \
@@ -65,3 +66,22 @@
   PHRASE(LookOff, "look-off", "number lines", kLine)                       \
   PHRASE(LookMissed, "look-missed", "", kLine)                             \
   PHRASE(KeyLook, "key-look", "", kLine)
+=======
+  PHRASE(LeverSoftenedWhy, "lever-softened-why", "", kLine)
+
+// A lever that taps: the plot of its amplitude, its dial, and images beside it.
+#define AFM_FOR_EACH_TAPPING_PHRASE(PHRASE)                 \
+  PHRASE(PlotTitleTapping, "plot-title-tapping", "", kLine) \
+  PHRASE(SwingAmplitude, "swing-amplitude", "", kLine)      \
+  PHRASE(SwingPhase, "swing-phase", "", kLine)              \
+  PHRASE(SwingState, "swing-state", "", kLine)              \
+  PHRASE(SwingAttractive, "swing-attractive", "", kLine)    \
+  PHRASE(SwingRepulsive, "swing-repulsive", "", kLine)      \
+  PHRASE(SwingFree, "swing-free", "", kLine)                \
+  PHRASE(DialTitle, "dial-title", "", kLine)                \
+  PHRASE(DialBoth, "dial-both", "", kLine)                  \
+  PHRASE(DialOne, "dial-one", "", kLine)                    \
+  PHRASE(DialNow, "dial-now", "", kLine)                    \
+  PHRASE(DialEdge, "dial-edge", "", kLine)                  \
+  PHRASE(ScanInContact, "scan-in-contact", "", kLine)
+>>>>>>> tapping

@@ -13,7 +13,6 @@
 #include "exhibit/words/particle_phrase_list.h"
 #include "exhibit/words/phrase_list.h"
 #include "exhibit/words/sound_phrase_list.h"
-#include "exhibit/words/tapping_phrase_list.h"
 
 namespace afm::exhibit {
 
