@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -29,7 +30,9 @@ namespace afm::app {
 namespace {
 
 constexpr std::uint32_t kHills = 256;  // quads along each side
-constexpr std::uint32_t kBoxes = 10;   // boxes along each side
+constexpr std::uint32_t kBoxes = 1000;
+constexpr std::array<std::uint32_t, 4> kGrowingNodes{1, 1000, 10'000, 100'000};
+constexpr std::uint32_t kCopies = 2000;
 constexpr double kWallBar_ms = 1000.0 / 30.0;
 constexpr double kHeadMovingBar_ms = 1000.0 / 15.0;
 constexpr double kAtRestBar_ms = 5.0;  // summed over all processors
@@ -108,6 +111,8 @@ core::Result<std::vector<RenderSubject>> subjects_of(const RenderBenchOptions& o
   const glm::uvec2 eye_px(options.eye_width, std::max(1U, options.eye_width * 9 / 16));
   subjects.push_back(hills_subject(kHills, eye_px));
   subjects.push_back(boxes_subject(kBoxes, eye_px));
+  for (const std::uint32_t nodes : kGrowingNodes) subjects.push_back(growing_subject(nodes, eye_px));
+  subjects.push_back(copies_subject(kCopies, eye_px));
   for (const std::string& path : options.gltf) {
     auto file = gltf_subject(path, eye_px);
     if (!file) return tl::unexpected(file.error());
@@ -136,6 +141,20 @@ std::string rate_line(std::string_view what, double frame_ms, double bar_ms) {
                      frame_ms <= bar_ms ? "met" : "not met");
 }
 
+// How the time grows: the work of all processors for a frame beyond that for one node, per node or copy.
+std::string growth_lines(const RenderFigures& result) {
+  std::string text;
+  double one_ms = 0.0;
+  for (const RenderFigure& each : result.figures) {
+    if (each.things == 0) continue;
+    if (each.things == 1) one_ms = each.processor_ms;
+    text += fmt::format("growth, {}: {:.1f} ms of all processors a frame", each.subject, each.processor_ms);
+    if (each.things > 1) text += fmt::format(", {:.2f} us for each", 1e3 * (each.processor_ms - one_ms) / each.things);
+    text += "\n";
+  }
+  return text;
+}
+
 std::string table(const RenderFigures& result, const FirstFrame& first, const RenderBenchOptions& options) {
   std::string text = fmt::format(
       "ms per frame, {} samples, {} rounds of {} frames on {}\n"
@@ -162,6 +181,7 @@ std::string table(const RenderFigures& result, const FirstFrame& first, const Re
   text += fmt::format(
       "first frame: {:.0f} ms with an empty shader cache, {:.0f} ms with a full one, target {:.0f} when empty: {}\n",
       first.cold_ms, first.warm_ms, kFirstFrameBar_ms, first.cold_ms <= kFirstFrameBar_ms ? "met" : "not met");
+  text += growth_lines(result);
   text += fmt::format("resident memory: {:.0f} MB at the start, {:.0f} MB at the end\n",
                       1e-6 * result.memory_before_bytes, 1e-6 * result.memory_after_bytes);
   return text;
@@ -193,6 +213,7 @@ std::string json(const RenderFigures& result, const FirstFrame& first, const Ren
                                   {"p99_s", kMillisecond * each.frame_ms.p99},
                                   {"max_s", kMillisecond * each.frame_ms.max},
                                   {"ratio", each.ratio}};
+    if (each.things > 0) figure["things"] = each.things;
     if (each.processor_ms > 0.0) {
       figure["redrawn"] = each.redrawn;
       figure["processor_s"] = kMillisecond * each.processor_ms;

@@ -23,6 +23,7 @@ namespace afm::app {
 namespace {
 
 constexpr int kFrames = 24;
+constexpr int kGrowthFrames = 4;  // each holds the places of all nodes
 
 // ---- the wall ----
 
@@ -97,7 +98,8 @@ core::Result<std::array<scene::EyeView, 2>> eyes_around(const Box& box, double y
   return eyes;
 }
 
-core::Result<RenderSubject> standing_alone(std::string name, scene::Scene scene, glm::uvec2 eye_px) {
+core::Result<RenderSubject> standing_alone(std::string name, scene::Scene scene, glm::uvec2 eye_px,
+                                           int frames = kFrames) {
   const std::vector<glm::dmat4> room = room_from_nodes(scene);
   const Box box = box_of(scene, room);
   if (!(glm::length(box.high - box.low) > 0.0)) {
@@ -108,9 +110,9 @@ core::Result<RenderSubject> standing_alone(std::string name, scene::Scene scene,
                         .scene = std::move(scene),
                         .drawing = {.eye_width = eye_px.x, .eye_height = eye_px.y},
                         .frames = {}};
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < frames; ++i) {
     render::FrameState frame;
-    const double yaw = kSwayRad * std::sin(2.0 * glm::pi<double>() * i / kFrames);
+    const double yaw = kSwayRad * std::sin(2.0 * glm::pi<double>() * i / frames);
     const auto eyes = eyes_around(box, yaw, static_cast<double>(eye_px.x) / eye_px.y);
     if (!eyes) return tl::unexpected(eyes.error());
     frame.eyes = *eyes;
@@ -146,6 +148,32 @@ scene::Primitive cube() {
     add_quad(primitive, first, first + 1, first + 2, first + 3);
   }
   return primitive;
+}
+
+constexpr double kBoxSide = 0.6;  // of the distance between two boxes
+
+// The first `count` places of a grid in a cube.
+std::vector<glm::dvec3> places_in_cube(std::uint32_t count) {
+  const auto side = static_cast<std::uint32_t>(std::ceil(std::cbrt(count) - 1e-9));
+  std::vector<glm::dvec3> places;
+  places.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) places.emplace_back(i % side, i / side % side, i / (side * side));
+  return places;
+}
+
+RenderSubject boxes(std::uint32_t count, glm::uvec2 eye_px, int frames) {
+  scene::Scene scene;
+  scene.materials.push_back(
+      {.name = "brass", .base_color = {0.8F, 0.6F, 0.3F, 1.0F}, .metallic = 1.0F, .roughness = 0.4F});
+  scene.meshes.push_back({.name = "box", .primitives = {cube()}});
+  for (const glm::dvec3& place : places_in_cube(count)) {
+    const glm::dmat4 parent_from_node = glm::scale(glm::translate(glm::dmat4(1.0), place), glm::dvec3(kBoxSide));
+    scene.nodes.push_back({.name = "box", .parent = {}, .mesh = 0, .parent_from_node = parent_from_node});
+  }
+  auto subject =
+      standing_alone(std::to_string(count) + (count == 1 ? " node" : " nodes"), std::move(scene), eye_px, frames);
+  AFM_CHECK(subject.has_value());
+  return std::move(*subject);
 }
 
 // Eyes of a viewer who sways in front of the screen like a standing person.
@@ -237,20 +265,27 @@ RenderSubject hills_subject(std::uint32_t quads, glm::uvec2 eye_px) {
   return std::move(*subject);
 }
 
-RenderSubject boxes_subject(std::uint32_t side, glm::uvec2 eye_px) {
-  scene::Scene scene;
-  scene.materials.push_back(
-      {.name = "brass", .base_color = {0.8F, 0.6F, 0.3F, 1.0F}, .metallic = 1.0F, .roughness = 0.4F});
-  scene.meshes.push_back({.name = "box", .primitives = {cube()}});
-  for (std::uint32_t i = 0; i < side * side * side; ++i) {
-    const glm::dvec3 place(i % side, i / side % side, i / (side * side));
-    const glm::dmat4 parent_from_node = glm::scale(glm::translate(glm::dmat4(1.0), place), glm::dvec3(0.6));
-    scene.nodes.push_back({.name = "box", .parent = {}, .mesh = 0, .parent_from_node = parent_from_node});
+RenderSubject boxes_subject(std::uint32_t count, glm::uvec2 eye_px) { return boxes(count, eye_px, kFrames); }
+
+RenderSubject growing_subject(std::uint32_t count, glm::uvec2 eye_px) {
+  RenderSubject subject = boxes(count, eye_px, kGrowthFrames);
+  subject.things = count;
+  return subject;
+}
+
+RenderSubject copies_subject(std::uint32_t count, glm::uvec2 eye_px) {
+  RenderSubject subject = growing_subject(count, eye_px);
+  subject.name = std::to_string(count) + " copies";
+  subject.scene.nodes.assign(1, {.name = "box", .parent = {}, .mesh = 0, .most_copies = count});
+  render::MeshCopies copies{.node = 0, .copies = {}};
+  for (const glm::dvec3& place : places_in_cube(count)) {
+    copies.copies.push_back({.place = glm::vec3(place), .scale = static_cast<float>(kBoxSide)});
   }
-  std::string name = std::to_string(scene.nodes.size()) + " nodes";
-  auto subject = standing_alone(std::move(name), std::move(scene), eye_px);
-  AFM_CHECK(subject.has_value());
-  return std::move(*subject);
+  for (render::FrameState& frame : subject.frames) {
+    frame.room_from_node.assign(1, glm::dmat4(1.0));
+    frame.copies.assign(1, copies);
+  }
+  return subject;
 }
 
 }  // namespace afm::app

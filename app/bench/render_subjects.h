@@ -24,6 +24,7 @@ struct RenderSubject {
   scene::Scene scene;
   render::RendererOptions drawing{};  // sizes of the eye images and panels
   bool eyes_move = true;
+  std::uint32_t things = 0;  // nodes or copies of a scene that shows how the time grows with them; 0: none such
   std::vector<render::FrameState> frames{};
 };
 
@@ -38,9 +39,13 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
 // and the distance between the eyes is 3 % of the distance to it.
 core::Result<RenderSubject> gltf_subject(const std::string& path, glm::uvec2 eye_px);
 
-// A square of `quads` x `quads` hills of one material, and `side`^3 small boxes, each a separate node. Viewed like a
-// glTF file.
+// A square of `quads` x `quads` hills of one material, and `count` small boxes in a cube, each a separate node. Viewed
+// like a glTF file.
 RenderSubject hills_subject(std::uint32_t quads, glm::uvec2 eye_px);
-RenderSubject boxes_subject(std::uint32_t side, glm::uvec2 eye_px);
+RenderSubject boxes_subject(std::uint32_t count, glm::uvec2 eye_px);
+
+// The same boxes, as one of several scenes of growing size: separate nodes, or copies of the mesh of one node.
+RenderSubject growing_subject(std::uint32_t count, glm::uvec2 eye_px);
+RenderSubject copies_subject(std::uint32_t count, glm::uvec2 eye_px);
 
 }  // namespace afm::app

@@ -23,7 +23,8 @@ namespace afm::app {
 
 namespace {
 
-constexpr int kSettlingFrames = 2;  // frames skipped at the start of each round, after the change of scene
+constexpr int kSettlingFrames = 2;    // frames skipped at the start of each round, after the change of scene
+constexpr int kMostGrowthFrames = 4;  // per round; the largest scene takes about a second a frame
 constexpr std::size_t kMostOutput = 65536;
 
 struct Way {
@@ -171,9 +172,10 @@ core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& sub
       auto renderer = render::Renderer::create(*context, subject.scene, drawing);
       if (!renderer) return tl::unexpected(renderer.error());
       drawings.emplace_back(*context, subject, way, std::move(*renderer));
-      result.figures.push_back({.subject = subject.name, .way = way.name});
+      result.figures.push_back({.subject = subject.name, .way = way.name, .things = subject.things});
       RenderFigure warm_up;
       drawings.back().draw_round(kSettlingFrames, clock, warm_up);
+      if (subject.things > 0) break;
     }
   }
   for (const std::string& peer : plan.peers) result.figures.push_back({.subject = "peer", .way = peer});
@@ -184,7 +186,8 @@ core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& sub
     for (std::size_t i = 0; i < result.figures.size(); ++i) {
       RenderFigure& figure = result.figures[i];
       if (i < drawings.size()) {
-        drawings[i].draw_round(plan.frames, clock, figure);
+        drawings[i].draw_round(figure.things > 0 ? std::min(plan.frames, kMostGrowthFrames) : plan.frames, clock,
+                               figure);
         continue;
       }
       const auto time_ms = printed_frame_ms(figure.way);

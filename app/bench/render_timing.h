@@ -25,6 +25,7 @@ struct RenderTimingPlan {
 // One way of drawing one subject, or a peer.
 struct RenderFigure {
   std::string subject, way;
+  std::uint32_t things = 0;  // as RenderSubject::things
   core::Percentiles frame_ms{};
   double ratio = 1.0;                          // median over the rounds of the ratio to the subject's first way
   double redrawn = 0;                          // share of the eyes' pixels, averaged over the frames
@@ -40,9 +41,9 @@ struct RenderFigures {
          memory_after_bytes = 0;  // resident memory, after everything has been drawn once and at the end
 };
 
-// Draws every subject in every way, and runs the peers, in turn in each round, so that other load on the machine
-// affects all of them equally. Two frames are in flight: a frame's time is that from the end of one render() to that of
-// the next.
+// Draws every subject in every way, those that show growth in the first way only, and runs the peers, in turn in each
+// round, so that other load on the machine affects all of them equally. Two frames are in flight: a frame's time is
+// that from the end of one render() to that of the next.
 core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& subjects, const RenderTimingPlan& plan,
                                            const core::Clock& clock);
 

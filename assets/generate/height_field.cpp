@@ -90,6 +90,39 @@ Surface top_of(const HeightField& field, const std::function<V3(const V3&)>& col
 
 namespace {
 
+// The upper edge of one of the four cut faces, counter-clockwise as seen from above.
+std::vector<V3> rim_of(const HeightField& field, int face) {
+  const std::size_t side = field.vertices_a_side(), last = side - 1;
+  std::vector<V3> rim;
+  for (std::size_t i = 0; i < side; ++i) {
+    const V3 corners[] = {field.position(i, 0), field.position(last, i), field.position(last - i, last),
+                          field.position(0, last - i)};
+    rim.push_back(corners[face]);
+  }
+  return rim;
+}
+
+constexpr V3 kOutward[] = {{0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+
+constexpr double kCornerWidths = 2.5;  // of an outline's strips at the corners; as far as its rim is seen
+
+// Leaves out points whose heights are within `tolerance` of the line between those that are kept.
+std::vector<V3> simplified(const std::vector<V3>& rim, double tolerance) {
+  std::vector<V3> kept{rim.front()};
+  std::size_t from = 0;
+  for (std::size_t to = 2; to < rim.size(); ++to) {
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const double share = static_cast<double>(i - from) / static_cast<double>(to - from);
+      if (std::abs(mix(rim[from].z, rim[to].z, share) - rim[i].z) <= tolerance) continue;
+      from = to - 1;
+      kept.push_back(rim[from]);
+      break;
+    }
+  }
+  kept.push_back(rim.back());
+  return kept;
+}
+
 // A whole rectangle of one cut face, below which no fine edge is needed: a fan joins the many points above to two.
 void add_level_band(Surface& surface, const std::vector<V3>& above, double bottom, V3 outward, V3 color) {
   const V3 left{above.front().x, above.front().y, bottom}, right{above.back().x, above.back().y, bottom};
@@ -119,16 +152,9 @@ void shade_towards_foot(Surface& surface) {
 
 Surface walls_of(const HeightField& field, const std::vector<WallBand>& bands) {
   Surface surface;
-  const std::size_t side = field.vertices_a_side(), last = side - 1;
-  const V3 outward[] = {{0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+  const std::size_t side = field.vertices_a_side();
   for (int face = 0; face < 4; ++face) {
-    // the rim counter-clockwise as seen from above
-    std::vector<V3> rim;
-    for (std::size_t i = 0; i < side; ++i) {
-      const V3 corners[] = {field.position(i, 0), field.position(last, i), field.position(last - i, last),
-                            field.position(0, last - i)};
-      rim.push_back(corners[face]);
-    }
+    std::vector<V3> rim = rim_of(field, face);
     for (const WallBand& band : bands) {
       const auto cut = [&](double height) {
         std::vector<V3> line = rim;
@@ -138,17 +164,40 @@ Surface walls_of(const HeightField& field, const std::vector<WallBand>& bands) {
       const std::vector<V3> above = cut(band.top), below = cut(band.bottom);
       const bool level = std::all_of(rim.begin(), rim.end(), [&](const V3& point) { return point.z >= band.top; });
       if (level) {
-        add_level_band(surface, above, band.bottom, outward[face], band.color);
+        add_level_band(surface, above, band.bottom, kOutward[face], band.color);
         rim = {below.front(), below.back()};
       } else {
         surface.add_grid(2, side, [&](std::size_t row, std::size_t column) {
-          return SurfaceVertex{row == 0 ? below[column] : above[column], outward[face], band.color};
+          return SurfaceVertex{row == 0 ? below[column] : above[column], kOutward[face], band.color};
         });
       }
     }
   }
   shade_towards_foot(surface);
   return surface;
+}
+
+Surface outline_of(const HeightField& field, double bottom, double width) {
+  Surface strips;
+  for (int face = 0; face < 4; ++face) {
+    const V3 out = kOutward[face];
+    std::vector<V3> rim = simplified(rim_of(field, face), 0.3 * width);
+    const V3 along = unit(V3{rim.back().x - rim.front().x, rim.back().y - rim.front().y, 0}) * width;
+    for (V3& point : rim) point = point + out * width;
+    rim.front() = rim.front() - along;
+    rim.back() = rim.back() + along;
+    const auto add_strip = [&](const std::vector<V3>& above, const auto& low_of) {
+      strips.add_grid(2, above.size(), [&](std::size_t row, std::size_t column) {
+        const V3 point = above[column];
+        return SurfaceVertex{{point.x, point.y, row == 0 ? point.z + width : low_of(point)}, out * -1.0};
+      });
+    };
+    add_strip(rim, [&](const V3& point) { return point.z - width; });
+    const auto to_bottom = [&](const V3&) { return bottom; };
+    add_strip({rim.front(), rim.front() + along * kCornerWidths}, to_bottom);
+    add_strip({rim.back() - along * kCornerWidths, rim.back()}, to_bottom);
+  }
+  return strips;
 }
 
 }  // namespace afm::generate

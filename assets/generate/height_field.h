@@ -47,4 +47,8 @@ struct WallBand {
 };
 Surface walls_of(const HeightField& field, const std::vector<WallBand>& bands);
 
+// Inward strips along the upper edges of the cut faces and down their corners to `bottom`, `width` off the faces: seen
+// from above they are a rim around the slab.
+Surface outline_of(const HeightField& field, double bottom, double width);
+
 }  // namespace afm::generate

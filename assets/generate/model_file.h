@@ -27,6 +27,11 @@ struct MaterialSpec {
   bool vertex_colors = false;  // write COLOR_0
 };
 
+// Dark lines around solids.
+inline MaterialSpec outline_material() {
+  return {.name = "outline", .base_color = {0.004, 0.004, 0.005}, .roughness = 1, .unlit = true};
+}
+
 struct Part {
   Surface surface;
   MaterialSpec material;

@@ -24,9 +24,13 @@ NodeSpec surface_node(const HeightField& field, std::vector<Part> parts) {
                   "z of the first primitive's vertices: row by row from -y to +y, x fastest, centred on the origin"}}};
 }
 
-Model sample(std::string name, NodeSpec node) {
+// `bottom`: height of the cut faces' lower edge.
+Model sample(std::string name, NodeSpec node, const HeightField& field, double bottom) {
+  constexpr double kOutline = 0.0028;  // share of the side
   Model model{std::move(name), {}};
-  model.nodes.push_back({.name = "sample", .placement = kYUpFromZUp});
+  model.nodes.push_back({.name = "sample",
+                         .placement = kYUpFromZUp,
+                         .parts = {{outline_of(field, bottom, kOutline * field.side()), outline_material()}}});
   model.nodes.push_back(std::move(node));
   return model;
 }
@@ -73,7 +77,7 @@ Model mica() {
       .name = "mica", .base_color = {0.60, 0.63, 0.66}, .roughness = 0.11, .vertex_colors = true};
   NodeSpec node = surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}});
   node.extras["step_m"] = kLayer;
-  return sample("sample-mica", std::move(node));
+  return sample("sample-mica", std::move(node), field, bands.back().bottom);
 }
 
 // An evaporated film: rounded grains, the middle one with a flat top.
@@ -97,9 +101,11 @@ Model gold() {
   const std::vector<WallBand> film_bands{{kHeight, -9 * kNm, {0.85, 0.82, 0.78}},
                                          {-9 * kNm, -18 * kNm, {0.78, 0.75, 0.70}}};
   const std::vector<WallBand> substrate_bands{{-18 * kNm, -46 * kNm}};
-  return sample("sample-gold", surface_node(field, {{top_of(field, tint), film},
-                                                    {walls_of(field, film_bands), cut},
-                                                    {walls_of(field, substrate_bands), substrate}}));
+  return sample("sample-gold",
+                surface_node(field, {{top_of(field, tint), film},
+                                     {walls_of(field, film_bands), cut},
+                                     {walls_of(field, substrate_bands), substrate}}),
+                field, substrate_bands.back().bottom);
 }
 
 // A deposited film: isotropic, fine, without a direction or a step.
@@ -122,7 +128,8 @@ Model silicon_nitride() {
       .name = "silicon nitride", .base_color = {0.085, 0.110, 0.155}, .roughness = 0.15, .vertex_colors = true};
   const std::vector<WallBand> bands{{3 * kNm, -2 * kNm, {0.85, 0.85, 0.85}}, {-2 * kNm, -9.5 * kNm, {0.7, 0.7, 0.7}}};
   return sample("sample-si3n4",
-                surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}}));
+                surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}}), field,
+                bands.back().bottom);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface.h"
 
+#include <utility>
+
 namespace afm::generate {
 
 std::uint32_t Surface::add(const SurfaceVertex& vertex) {
@@ -114,6 +116,16 @@ void add_prism(Surface& surface, const Outline& outline, double low, double high
            {{inner, low, 0, -1}, {outline, low + bevel, 1, 0}, {outline, high - bevel, 1, 0}, {inner, high, 0, 1}});
   add_cap(surface, inner, low, Facing::Down);
   add_cap(surface, inner, high, Facing::Up);
+}
+
+Surface outline_of(const Outline& foot, double low, const Outline& rim, double high, double width) {
+  Surface shell;
+  const Outline around = inset(foot, -width);
+  add_loft(shell, {{around, low - width, 1, 0}, {inset(rim, -width), high + width, 1, 0}});
+  add_cap(shell, around, low - width, Facing::Down);
+  for (std::size_t i = 0; i + 2 < shell.indices.size(); i += 3) std::swap(shell.indices[i], shell.indices[i + 1]);
+  for (SurfaceVertex& vertex : shell.vertices) vertex.normal = vertex.normal * -1.0;
+  return shell;
 }
 
 void add_placed(Surface& surface, const Surface& part, const Placement& placement) {

@@ -75,6 +75,10 @@ void add_lathe(Surface& surface, const std::vector<ProfilePoint>& profile, int h
 // A closed prism from z = low to high whose edges are bevelled by `bevel`, with normals that make the bevel look round.
 void add_prism(Surface& surface, const Outline& outline, double low, double high, double bevel);
 
+// A shell around a solid between two outlines of equally many points, `width` off it, without a top and wound inwards:
+// seen from above, or along z, only a rim around the solid is seen of it. Coarser outlines than the solid's will do.
+Surface outline_of(const Outline& foot, double low, const Outline& rim, double high, double width);
+
 // Pose of a part: its axes (orthonormal, right-handed) and origin in the frame that it is put into.
 struct Placement {
   V3 origin;

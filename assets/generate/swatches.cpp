@@ -7,6 +7,7 @@ namespace afm::generate {
 namespace {
 
 constexpr double kCm = 0.01;
+constexpr double kOutline = 0.17 * kCm;
 
 // The plinth, seen from its right side (z to the viewer): a block whose front leans back under the label.
 constexpr double kWidth = 30 * kCm, kDepth = 22 * kCm, kPlinthHeight = 8 * kCm;
@@ -60,10 +61,12 @@ NodeSpec shade() {
                      {.name = "shade", .roughness = 1, .fading = true, .unlit = true, .vertex_colors = true}}}};
 }
 
-Model swatch(std::string name, Surface sample, MaterialSpec material) {
+Model swatch(std::string name, Surface sample, MaterialSpec material, Surface outline) {
   Model model{std::move(name), {}};
   model.nodes.push_back({.name = "swatch",
-                         .parts = {{std::move(sample), std::move(material)}, {plinth(), plinth_material()}},
+                         .parts = {{std::move(sample), std::move(material)},
+                                   {plinth(), plinth_material()},
+                                   {std::move(outline), outline_material()}},
                          .extras = {{"width_m", kWidth}, {"depth_m", kDepth}, {"plinth_height_m", kPlinthHeight}}});
   model.nodes.push_back(label());
   model.nodes.push_back(shade());
@@ -77,7 +80,7 @@ Model mica() {
   constexpr double kHalf = 0.5;
   const double c = std::sqrt(0.75);
   const V2 hexagon[] = {{1, 0}, {kHalf, c}, {-kHalf, c}, {-1, 0}, {-kHalf, -c}, {kHalf, -c}};
-  Surface stack;
+  Surface stack, outline;
   for (int flake = 0; flake < kFlakes; ++flake) {
     const auto random = [&](int what) { return random_unit(flake, what, 61); };
     std::vector<V2> corners;
@@ -95,19 +98,28 @@ Model mica() {
     const V3 x = unit(cross(up, {turn.y, 0, turn.x}));
     const V3 origin{1.2 * kCm * (random(11) - 0.5), kPlinthHeight + 0.1 * kCm + flake * kPitch,
                     kTopMiddle + 1.0 * kCm * (random(12) - 0.5)};
-    add_placed(stack, prism, {origin, x, cross(up, x), up});
+    const Placement placement{origin, x, cross(up, x), up};
+    const Outline around = rounded_polygon(corners, 0.6 * kCm, 0);
+    add_placed(stack, prism, placement);
+    add_placed(outline, outline_of(around, 0, around, kFlake, kOutline), placement);
   }
   return swatch("swatch-mica", std::move(stack),
-                {.name = "mica", .base_color = {0.68, 0.68, 0.68}, .roughness = 0.16, .vertex_colors = true});
+                {.name = "mica", .base_color = {0.68, 0.68, 0.68}, .roughness = 0.16, .vertex_colors = true},
+                std::move(outline));
+}
+
+constexpr double kBarHeight = 5.4 * kCm, kBarLean = 1.3 * kCm, kBarRound = 0.6 * kCm;
+constexpr V2 kBarHalf{11 * kCm, 3.6 * kCm};
+
+Outline bar_outline(double in, int halvings) {
+  const V2 half = kBarHalf - V2{in, in};
+  return rounded_rectangle(half * -1.0, half, kBarRound, halvings);
 }
 
 // A bar whose sides lean in, as it comes out of the mould.
 Surface ingot() {
-  const double half_length = 11 * kCm, half_depth = 3.6 * kCm, height = 5.4 * kCm, lean = 1.3 * kCm;
-  const double round = 0.6 * kCm, bevel = 0.5 * kCm;
-  const Outline foot = rounded_rectangle({-half_length, -half_depth}, {half_length, half_depth}, round, 3);
-  const Outline rim =
-      rounded_rectangle({-half_length + lean, -half_depth + lean}, {half_length - lean, half_depth - lean}, round, 3);
+  const double height = kBarHeight, lean = kBarLean, bevel = 0.5 * kCm;
+  const Outline foot = bar_outline(0, 3), rim = bar_outline(lean, 3);
   Surface bar;
   add_loft(bar, {{inset(foot, bevel * 0.5), 0, 0, -1},
                  {foot, bevel * 0.5, height, lean},
@@ -126,16 +138,20 @@ Surface ingot() {
 
 // Two bars and a third across them.
 Model gold() {
-  Surface pile;
+  Surface pile, outline;
   const Surface bar = ingot();
-  const double height = 5.4 * kCm;
-  add_placed(pile, bar, upright(0, kPlinthHeight, kTopMiddle - 3.9 * kCm));
-  add_placed(pile, bar, upright(0, kPlinthHeight, kTopMiddle + 3.9 * kCm));
+  const Surface around = outline_of(bar_outline(0, 0), 0, bar_outline(kBarLean, 0), kBarHeight, kOutline);
   const V3 along{0.96, 0, -0.28};  // turned by 16 degrees
-  add_placed(pile, bar, {{0, kPlinthHeight + height, kTopMiddle}, along, {-0.28, 0, -0.96}, {0, 1, 0}});
+  for (const Placement& placement :
+       {upright(0, kPlinthHeight, kTopMiddle - 3.9 * kCm), upright(0, kPlinthHeight, kTopMiddle + 3.9 * kCm),
+        Placement{{0, kPlinthHeight + kBarHeight, kTopMiddle}, along, {-0.28, 0, -0.96}, {0, 1, 0}}}) {
+    add_placed(pile, bar, placement);
+    add_placed(outline, around, placement);
+  }
   return swatch(
       "swatch-gold", std::move(pile),
-      {.name = "gold", .base_color = {1.0, 0.72, 0.28}, .metallic = 1, .roughness = 0.24, .vertex_colors = true});
+      {.name = "gold", .base_color = {1.0, 0.72, 0.28}, .metallic = 1, .roughness = 0.24, .vertex_colors = true},
+      std::move(outline));
 }
 
 void add_arc(Outline& outline, V2 center, double radius, V2 from, V2 to, int halvings) {
@@ -143,33 +159,36 @@ void add_arc(Outline& outline, V2 center, double radius, V2 from, V2 to, int hal
 }
 
 // A circle whose lowest part is cut off at y = -flat; fillets of `fillet` join the two.
-Outline disc_with_flat(double radius, double flat, double fillet) {
+Outline disc_with_flat(double radius, double flat, double fillet, int halvings) {
   const double x = std::sqrt((radius - fillet) * (radius - fillet) - (flat - fillet) * (flat - fillet));
   const V2 right{x, fillet - flat}, left{-x, fillet - flat};
   const V2 turns[] = {unit(right), {1, 0}, {0, 1}, {-1, 0}, unit(left)};
   Outline outline;
-  for (std::size_t i = 0; i + 1 < 5; ++i) add_arc(outline, {0, 0}, radius, turns[i], turns[i + 1], 4);
-  add_arc(outline, left, fillet, unit(left), {0, -1}, 2);
-  add_arc(outline, right, fillet, {0, -1}, unit(right), 2);
+  for (std::size_t i = 0; i + 1 < 5; ++i) add_arc(outline, {0, 0}, radius, turns[i], turns[i + 1], halvings);
+  add_arc(outline, left, fillet, unit(left), {0, -1}, halvings / 2);
+  add_arc(outline, right, fillet, {0, -1}, unit(right), halvings / 2);
   return outline;
 }
 
 // A polished disc with the flat that marks its orientation, leaning back in a slotted foot.
 Model silicon_nitride() {
   constexpr double kRadius = 8.8 * kCm, kFlat = 8.2 * kCm, kThickness = 1.3 * kCm;
-  Surface wafer, group;
-  add_prism(wafer, disc_with_flat(kRadius, kFlat, 1.0 * kCm), -kThickness / 2, kThickness / 2, 0.25 * kCm);
-  add_placed(group, wafer,
-             {{0, kPlinthHeight + 0.9 * kCm + kFlat * 0.96, kTopMiddle - kFlat * 0.28},
-              {1, 0, 0},
-              {0, 0.96, -0.28},
-              {0, 0.28, 0.96}});
+  Surface wafer, group, outline;
+  add_prism(wafer, disc_with_flat(kRadius, kFlat, 1.0 * kCm, 4), -kThickness / 2, kThickness / 2, 0.25 * kCm);
+  const Placement leaning{{0, kPlinthHeight + 0.9 * kCm + kFlat * 0.96, kTopMiddle - kFlat * 0.28},
+                          {1, 0, 0},
+                          {0, 0.96, -0.28},
+                          {0, 0.28, 0.96}};
+  const Outline around = disc_with_flat(kRadius, kFlat, 1.0 * kCm, 3);
+  add_placed(group, wafer, leaning);
+  add_placed(outline, outline_of(around, -kThickness / 2, around, kThickness / 2, kOutline), leaning);
   Surface foot;
   add_prism(foot, rounded_rectangle({-6 * kCm, -2.2 * kCm}, {6 * kCm, 2.2 * kCm}, 0.8 * kCm, 3), 0, 1.9 * kCm,
             0.3 * kCm);
   Model model =
       swatch("swatch-si3n4", std::move(group),
-             {.name = "silicon nitride", .base_color = {0.085, 0.100, 0.130}, .metallic = 0.1, .roughness = 0.12});
+             {.name = "silicon nitride", .base_color = {0.085, 0.100, 0.130}, .metallic = 0.1, .roughness = 0.12},
+             std::move(outline));
   Surface stand;
   add_placed(stand, foot, upright(0, kPlinthHeight, kTopMiddle));
   model.nodes.front().parts.push_back(

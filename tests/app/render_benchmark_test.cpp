@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -21,16 +23,23 @@ TEST(RenderBenchmark, PrintsEverySubjectAndItsPeer) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto all = nlohmann::json::parse(result.out);
   std::set<std::string> subjects;
+  std::map<std::uint32_t, std::string> growing;
   double peer_s = 0.0;
   for (const auto& figure : all.at("figures")) {
     subjects.insert(figure.at("subject"));
     if (figure.at("subject") == "peer") peer_s = figure.at("p50_s");
+    if (figure.contains("things")) growing[figure.at("things")] = figure.at("subject");
     if (figure.contains("processor_s") && figure.at("subject") != "wall at rest") {
       EXPECT_GT(figure.at("processor_s"), 0.0) << figure;
     }
   }
   EXPECT_THAT(subjects,
               testing::IsSupersetOf({"wall", "wall, head moving", "wall at rest", "131072 triangles", "1000 nodes"}));
+  EXPECT_EQ(growing, (std::map<std::uint32_t, std::string>{{1, "1 node"},
+                                                           {1000, "1000 nodes"},
+                                                           {2000, "2000 copies"},
+                                                           {10'000, "10000 nodes"},
+                                                           {100'000, "100000 nodes"}}));
   EXPECT_DOUBLE_EQ(peer_s, 0.0025);
   EXPECT_GT(all.at("wall_frames_per_s"), 0.0);
   EXPECT_GT(all.at("first_frame_cold_s"), 0.0);

@@ -13,6 +13,7 @@
 #include <glm/vector_relational.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/bench/render_subjects.h"
@@ -178,6 +179,42 @@ TEST(EveryWall, HasRoomForAllThatMustBeRead) {
   expect("four metres high", 5.3, 4.0, 0.0, {0.0, 1.65, 4.0});
   expect("seen from below", 3.0, 1.7, 2.0, {0.0, 1.4, 4.0});
   expect("on a table", 0.6, 0.34, 0.0, {0.0, 0.5, 0.6});
+}
+
+// Layout z of all vertices of a node's mesh: the least and the largest.
+std::pair<double, double> depth_of(const Stage& stage, const render::FrameState& frame, scene::NodeIndex node) {
+  const scene::Scene& scene = stage.wall_scene.scene();
+  const glm::dmat4 layout_from_node =
+      glm::inverse(stage.wall_scene.places().room_from_layout()) * frame.room_from_node[node];
+  double least = 1e9, largest = -1e9;
+  for (const scene::Primitive& primitive : scene.meshes[scene.nodes[node].mesh.value()].primitives) {
+    for (const scene::Vertex& vertex : primitive.vertices) {
+      const double z = (layout_from_node * glm::dvec4(glm::dvec3(vertex.position), 1.0)).z;
+      least = std::min(least, z);
+      largest = std::max(largest, z);
+    }
+  }
+  return {least, largest};
+}
+
+// The body fades towards the floor, so that it veils what stands in it.
+TEST(EveryWall, ShowsTheWholeSwatchesInFrontOfTheStagesBody) {
+  for (const char* preset : {"powerwall", "3d-tv", "desk-red-cyan", "cave", "wide", "phone"}) {
+    const auto stage = stage_on(fmt::format("{}/assets/walls/{}.toml", support::source(), preset));
+    ASSERT_TRUE(stage) << stage.error().message;
+    const scene::Scene& scene = stage->wall_scene.scene();
+    for (std::size_t material = 0; material < stage->materials.materials.size(); ++material) {
+      render::FrameState frame;
+      stage->wall_scene.update({.material = material}, frame);
+      const double body_front = depth_of(*stage, frame, scene.find_node("stage/body").value()).second;
+      for (const scene::MaterialEntry& each : stage->materials.materials) {
+        const auto swatch = scene.find_node("swatch-" + each.name + "/swatch");
+        ASSERT_TRUE(swatch) << each.name;
+        EXPECT_LE(body_front, depth_of(*stage, frame, *swatch).first + 1e-6)
+            << preset << ": swatch of " << each.name << ", sample of material " << material;
+      }
+    }
+  }
 }
 
 // ---- no default scene asks more of the eyes than one degree ----

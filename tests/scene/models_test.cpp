@@ -119,9 +119,9 @@ TEST(Models, HaveUnitNormalsOnTheOutsideOfEveryTriangle) {
 TEST(Models, HaveTheNodesThatTheProgramLooksFor) {
   const std::map<std::string, std::vector<std::string>> expected{
       {"probe", {"probe", "chip", "cantilever", "tip", "apex"}},
-      {"sample-mica", {"surface"}},
-      {"sample-gold", {"surface"}},
-      {"sample-si3n4", {"surface"}},
+      {"sample-mica", {"sample", "surface"}},
+      {"sample-gold", {"sample", "surface"}},
+      {"sample-si3n4", {"sample", "surface"}},
       {"stage", {"stage"}},
       {"room", {"floor"}},
       {"swatch-mica", {"swatch", "label", "shade"}},
@@ -223,6 +223,52 @@ TEST(Samples, HaveTheSizesOfTheirMaterials) {
     EXPECT_NEAR(static_cast<double>(grid.back().position.y) - static_cast<double>(grid.front().position.y), side,
                 side * 1e-5)
         << name;
+  }
+}
+
+// Dark, seen from inside only, and outside of the slab: as wide as 2 to 4 thousandths of its side.
+TEST(Samples, HaveAnOutlineAroundTheirEdges) {
+  for (const std::string& name : sample_names()) {
+    const Scene scene = load(name);
+    const Primitive& outline = mesh_of(scene, "sample").primitives.at(0);
+    const PbrMaterial& material = scene.materials.at(outline.material);
+    EXPECT_TRUE(material.unlit && !material.double_sided) << name;
+    EXPECT_LT(material.base_color.g, 0.01F) << name;
+    const std::vector<Vertex>& grid = grid_of(scene);
+    const auto side = static_cast<double>(grid.back().position.x) - static_cast<double>(grid.front().position.x);
+    double highest_of_grid = -1, highest = -1;
+    for (const Vertex& vertex : grid)
+      highest_of_grid = std::max(highest_of_grid, static_cast<double>(vertex.position.z));
+    for (const Vertex& vertex : outline.vertices) {
+      const glm::dvec3 place(vertex.position);
+      const double out = std::max(std::abs(place.x), std::abs(place.y)) - 0.5 * side;
+      EXPECT_GT(out, 0.002 * side) << name;
+      EXPECT_LT(out, 0.004 * side) << name;
+      EXPECT_LT(glm::dot(glm::dvec2(place), glm::dvec2(glm::dvec3(vertex.normal))), 0.0) << name << ": wound outwards";
+      highest = std::max(highest, place.z);
+    }
+    EXPECT_LT(highest, highest_of_grid + 0.004 * side) << name;
+    EXPECT_GT(highest, -0.02 * side) << name;
+  }
+}
+
+TEST(Swatches, HaveAnOutlineOfHalfToThreeMillimetres) {
+  for (const char* name : {"swatch-mica", "swatch-gold", "swatch-si3n4"}) {
+    const Scene scene = load(name);
+    const Primitive& solid = mesh_of(scene, "swatch").primitives.at(0);
+    const Primitive& outline = mesh_of(scene, "swatch").primitives.at(2);
+    const auto reach = [](const Primitive& of, glm::dvec3 direction) {
+      double farthest = -1;
+      for (const Vertex& vertex : of.vertices)
+        farthest = std::max(farthest, glm::dot(glm::dvec3(vertex.position), direction));
+      return farthest;
+    };
+    for (const glm::dvec3& direction : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0)}) {
+      const double beyond_m = reach(outline, direction) - reach(solid, direction);
+      EXPECT_GT(beyond_m, 0.0005) << name;
+      EXPECT_LT(beyond_m, 0.003) << name;
+    }
+    EXPECT_TRUE(scene.materials.at(outline.material).unlit) << name;
   }
 }
 

@@ -110,6 +110,7 @@ void Instrument::measure(scene::Scene& scene, ModelBuilder& build) {
   stage_scale_ = kStageDrawnWidth / (stage.high.x - stage.low.x);
   stage_height_ = stage_scale_ * (stage.high.z - stage.low.z);
   stage_depth_ = stage_scale_ * stage.high.y;
+  body_depth_ = stage_scale_ * bounds_below(scene, body_).high.y;
 }
 
 // All in the sample's frame, layout units. The lever extends towards the viewer, parallel to the sample.
@@ -227,8 +228,9 @@ void Instrument::place_stage(const scene::Scene& scene, double thickness, std::v
   const dvec3 normal = glm::normalize(dvec3(layout_from_sample[2]));
   const dvec3 back(layout_from_sample * glm::dvec4(0.0, stage_depth_, -thickness - stage_height_, 1.0));
   const double length = std::max(back.y - floor_y_, 0.0) / normal.y;
+  const double depth = std::clamp(body_front_z_ / (normal.y * body_depth_), kLeastBodyDepth, 1.0);
   local[body_] = glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -stage_height_ / stage_scale_)) *
-                 glm::scale(dmat4(1.0), dvec3(1.0, 1.0, length / stage_scale_)) * local[body_];
+                 glm::scale(dmat4(1.0), dvec3(1.0, depth, length / stage_scale_)) * local[body_];
   local[floor_] = glm::translate(dmat4(1.0), dvec3(0.0, floor_y_, 0.0));
 }
 

@@ -2,6 +2,7 @@
 #include "drawing/draw_list.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -24,8 +25,8 @@ struct Sight {
   bool clipped = false;
 };
 
-Sight sight(const scene::EyeView& eye, const glm::dmat4& room_from_node, const DrawBox& box, double guard_band) {
-  const glm::dmat4 rows = glm::transpose(eye.projection * eye.view * room_from_node);
+Sight sight(const glm::dmat4& clip_from_room, const glm::dmat4& room_from_node, const DrawBox& box, double guard_band) {
+  const glm::dmat4 rows = glm::transpose(clip_from_room * room_from_node);
   const glm::dvec4 near = rows[3] - rows[2];  // reversed depth: the near plane is z = w
   Sight sight{.seen = range(near, box).second >= 0.0, .clipped = range(near, box).first < 0.0};
   for (glm::length_t axis = 0; axis < 2; ++axis) {
@@ -86,6 +87,8 @@ Shading shading(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& r
 void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometry, float guard_band, double pixels_high,
                            DrawList& list) {
   const auto& draws = geometry.draws();
+  const std::array clip_from_room{frame.eyes[0].projection * frame.eyes[0].view,
+                                  frame.eyes[1].projection * frame.eyes[1].view};
   const glm::dvec3 viewer = 0.5 * (frame.eyes[0].eye_position_m + frame.eyes[1].eye_position_m);
   list.shadow.clear();
   list.mirrored.assign(draws.size(), 0);
@@ -112,8 +115,8 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
     list.mirrored[i] = glm::determinant(glm::dmat3(room_from_node)) < 0.0 ? 1 : 0;
     const DrawBox box = shown_box(frame, draw);
     bool seen = false;
-    for (const auto& eye : frame.eyes) {
-      const Sight its = sight(eye, room_from_node, box, static_cast<double>(guard_band));
+    for (const glm::dmat4& clip : clip_from_room) {
+      const Sight its = sight(clip, room_from_node, box, static_cast<double>(guard_band));
       seen = seen || its.seen;
       list.clipped = list.clipped || (its.seen && its.clipped);
     }

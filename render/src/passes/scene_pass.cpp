@@ -159,11 +159,14 @@ ScenePass::PlainPipelines ScenePass::plain_pipelines(const Device& device, vk::P
 }
 
 void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
-                          std::uint32_t i) {
-  const Draw& draw = input.geometry.draws()[i];
+                          std::uint32_t i, Sides& sides) {
+  const bool double_sided = input.geometry.draws()[i].double_sided;
+  const auto culled = double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack;
+  const auto front = input.draws.mirrored[i] != 0 ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise;
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, input.frame_set, i * input.draw_stride);
-  command.setCullMode(draw.double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
-  command.setFrontFace(input.draws.mirrored[i] != 0 ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+  if (sides.culled != culled) command.setCullMode(culled);
+  if (sides.front != front) command.setFrontFace(front);
+  sides = {culled, front};
 }
 
 void ScenePass::draw_one(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t i) {
@@ -189,6 +192,7 @@ EyePipeline& ScenePass::plain_one(const Draw& draw, Shading shading, bool hazy, 
 void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
                                std::span<const std::uint32_t> draws, PlainPipelines& plain) {
   const EyePipeline* bound = nullptr;
+  Sides sides;
   for (const std::uint32_t i : draws) {
     if (input.box && input.frame->bounds(i).within(*input.box).empty()) continue;
     const Draw& draw = input.geometry.draws()[i];
@@ -198,7 +202,7 @@ void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const Eye
       command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
       bound = &pipeline;
     }
-    set_state(command, *layout_, input, i);
+    set_state(command, *layout_, input, i, sides);
     if (draw.variant) {
       command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *variant_layout_, 1,
                                  input.materials.set(draw.material), nullptr);
@@ -211,11 +215,12 @@ void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Inpu
                               std::span<const std::uint32_t> draws) const {
   bind_buffers(command, input);
   const vk::raii::Pipeline* bound = nullptr;
+  Sides sides;
   for (const std::uint32_t i : draws) {
     const vk::raii::Pipeline& pipeline = input.geometry.draws()[i].most_copies > 0 ? shadow_copies_ : shadow_;
     if (&pipeline != bound) command.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
     bound = &pipeline;
-    set_state(command, *shadow_layout_, input, i);
+    set_state(command, *shadow_layout_, input, i, sides);
     draw_one(command, input, i);
   }
 }

@@ -42,8 +42,14 @@ class ScenePass {
   };
   static PlainPipelines plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
                                         std::uint32_t variant);
+  // Sides that are shown; unknown at the start of a list. Set only where they change: a CPU device spends about a
+  // microsecond on each command.
+  struct Sides {
+    std::optional<vk::CullModeFlagBits> culled;
+    std::optional<vk::FrontFace> front;
+  };
   static void set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
-                        std::uint32_t draw);
+                        std::uint32_t draw, Sides& sides);
   static void draw_one(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t draw);
   static void bind_buffers(const vk::raii::CommandBuffer& command, const Input& input);
   EyePipeline& plain_one(const Draw& draw, Shading shading, bool hazy, PlainPipelines& plain);

@@ -28,8 +28,11 @@ class Instrument {
   // Call once, when the graph has all its models without an error.
   void measure(scene::Scene& scene, ModelBuilder& build);
 
-  // Layout units, below the shelf and every sample's stage.
-  void set_floor(double y) { floor_y_ = y; }
+  // The stage's body ends in the floor at height `y`, and no part of it lies in front of `front_z`. Layout units.
+  void set_floor(double y, double front_z) {
+    floor_y_ = y;
+    body_front_z_ = front_z;
+  }
 
   // State of the tip, and the scale that it is shown at.
   struct Setting {
@@ -79,8 +82,8 @@ class Instrument {
   scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{};
   double lever_length_ = 0;  // glTF metres, clamp to tip axis
   double tip_length_ = 0;    // glTF metres, base to apex
-  double stage_scale_ = 0, stage_height_ = 0, stage_depth_ = 0;
-  double floor_y_ = 0;
+  double stage_scale_ = 0, stage_height_ = 0, stage_depth_ = 0, body_depth_ = 0;
+  double floor_y_ = 0, body_front_z_ = 0;
 };
 
 }  // namespace afm::exhibit

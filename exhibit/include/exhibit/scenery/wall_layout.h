@@ -25,6 +25,7 @@ inline constexpr double kLeverAzimuthRad = 0.42;  // direction of the lever: fro
 inline constexpr double kLeverDrawnLength = 1.25;
 inline constexpr double kLeverDrawnThickness = 0.0125;
 inline constexpr double kStageDrawnWidth = 1.44;  // in front of the wall it reaches to the panels on both sides
+inline constexpr double kLeastBodyDepth = 0.2;    // share of the whole depth of the body below the plate
 inline constexpr double kLeastBody = 0.08;        // height of the stage's plate above the floor, at least
 // The light is always on the upper side of the lever, however it bends; both are visible below the banner.
 inline constexpr glm::dvec3 kLaser(-0.48, 0.79, -0.18);
@@ -46,6 +47,7 @@ inline constexpr double kBackZ = 0.52;  // distance in front of the stage
 inline constexpr double kBackSpacing = 0.38;
 inline constexpr double kSwatchRadius = 0.11;  // small enough for the wand's ray to pass
 inline constexpr glm::dvec3 kSwatchCenter(0.0, 0.13, 0.0);
+inline constexpr double kSwatchBehind = 0.11;                    // extent away from the viewer
 inline constexpr double kSwatchReach = 0.17, kWandReach = 0.15;  // extent towards the viewer
 inline constexpr double kLeastShelfZ = 0.10;
 inline constexpr double kComfortMargin = 0.95;  // share of the one degree; allows for small motions of the viewer
