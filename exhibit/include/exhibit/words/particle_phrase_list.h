@@ -53,7 +53,6 @@
   PHRASE(LeverSideways, "lever-sideways", "", kLine)                       \
   PHRASE(LeverSoftened, "lever-softened", "", kLine)                       \
   PHRASE(TimesSofter, "times-softer", "factor", kLine)                     \
-<<<<<<< HEAD
   PHRASE(LeverSoftenedWhy, "lever-softened-why", "", kLine)                \
   PHRASE(PatternComputed, "pattern-computed", "distance pushes", kLine)    \
   PHRASE(PictureName, "particle-picture", "", kLine)                       \
@@ -66,8 +65,6 @@
   PHRASE(LookOff, "look-off", "number lines", kLine)                       \
   PHRASE(LookMissed, "look-missed", "", kLine)                             \
   PHRASE(KeyLook, "key-look", "", kLine)
-=======
-  PHRASE(LeverSoftenedWhy, "lever-softened-why", "", kLine)
 
 // A lever that taps: the plot of its amplitude, its dial, and images beside it.
 #define AFM_FOR_EACH_TAPPING_PHRASE(PHRASE)                 \
@@ -84,4 +81,3 @@
   PHRASE(DialNow, "dial-now", "", kLine)                    \
   PHRASE(DialEdge, "dial-edge", "", kLine)                  \
   PHRASE(ScanInContact, "scan-in-contact", "", kLine)
->>>>>>> tapping
