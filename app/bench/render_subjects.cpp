@@ -150,7 +150,7 @@ scene::Primitive cube() {
   return primitive;
 }
 
-constexpr double kBoxSide = 0.6;  // of the distance between two boxes
+constexpr double kBoxSide = 0.6;  // share of the distance between two boxes
 
 // The first `count` places of a grid in a cube.
 std::vector<glm::dvec3> places_in_cube(std::uint32_t count) {

@@ -86,8 +86,9 @@ Model mica() {
     std::vector<V2> corners;
     corners.reserve(6);
     for (int k = 0; k < 6; ++k) corners.push_back(hexagon[k] * ((8.2 + 2.2 * random(k) - 0.11 * flake) * kCm));
+    const Outline around = rounded_polygon(corners, 0.6 * kCm, 0);
     Surface prism;
-    add_prism(prism, rounded_polygon(corners, 0.6 * kCm, 1), 0, kFlake, 0.14 * kCm);
+    add_prism(prism, around, 0, kFlake, 0.14 * kCm);
     const double shade = flake % 2 == 0 ? 1.0 : 0.84;
     prism.paint(
         {shade * mix(0.90, 1.0, random(8)), shade * mix(0.93, 1.0, random(6)), shade * mix(0.90, 1.06, random(7))});
@@ -99,7 +100,6 @@ Model mica() {
     const V3 origin{1.2 * kCm * (random(11) - 0.5), kPlinthHeight + 0.1 * kCm + flake * kPitch,
                     kTopMiddle + 1.0 * kCm * (random(12) - 0.5)};
     const Placement placement{origin, x, cross(up, x), up};
-    const Outline around = rounded_polygon(corners, 0.6 * kCm, 0);
     add_placed(stack, prism, placement);
     add_placed(outline, outline_of(around, 0, around, kFlake, kOutline), placement);
   }
@@ -119,7 +119,7 @@ Outline bar_outline(double in, int halvings) {
 // A bar whose sides lean in, as it comes out of the mould.
 Surface ingot() {
   const double height = kBarHeight, lean = kBarLean, bevel = 0.5 * kCm;
-  const Outline foot = bar_outline(0, 3), rim = bar_outline(lean, 3);
+  const Outline foot = bar_outline(0, 2), rim = bar_outline(lean, 2);
   Surface bar;
   add_loft(bar, {{inset(foot, bevel * 0.5), 0, 0, -1},
                  {foot, bevel * 0.5, height, lean},

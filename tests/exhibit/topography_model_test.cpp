@@ -7,7 +7,10 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <string>
@@ -91,6 +94,26 @@ TEST_F(MeasuredSample, IsOneMeshAsWideAsTheMaterialsOwn) {
     const double shown_m =
         measured_.topography_scale(material).lateral * 3e-6 / measured_.drawn_scale(material).sample_m_per_m;
     EXPECT_NEAR(shown_m, 1.13, 0.05) << "metres of the paper's wall";
+  }
+}
+
+TEST_F(MeasuredSample, HasADarkOutlineOffItsFaces) {
+  const scene::Scene& scene = measured_.scene();
+  const scene::Mesh& mesh = scene.meshes[scene.nodes[surface(0)].mesh.value()];
+  ASSERT_EQ(mesh.primitives.size(), 3U);
+  const scene::Primitive& top = mesh.primitives[0];
+  const scene::Primitive& outline = mesh.primitives[2];
+  EXPECT_TRUE(scene.materials[outline.material].unlit);
+  const glm::vec3 half = glm::abs(top.vertices.front().position);
+  for (const scene::Vertex& vertex : outline.vertices) {
+    const glm::vec3 beyond = glm::abs(vertex.position) - half;
+    EXPECT_NEAR(std::max(beyond.x, beyond.y), 0.0028F * 2.0F * half.x, 1e-10F);
+    EXPECT_LT(vertex.color.g, 0.01F);
+  }
+  for (std::size_t i = 0; i + 2 < outline.indices.size(); i += 3) {
+    const auto corner = [&](std::size_t k) { return outline.vertices[outline.indices[i + k]].position; };
+    const glm::vec3 front = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+    EXPECT_GT(glm::dot(front, outline.vertices[outline.indices[i]].normal), 0.0F) << "seen from outside";
   }
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -27,11 +28,13 @@ namespace {
 // Side of a sample in units of the material's stroke, as in the assets, and the relief that is easy to feel.
 constexpr double kSideOfStroke = 1.65;
 constexpr double kLeastRelief = 0.05, kMostRelief = 0.25;
-constexpr double kSlabOfSide = 0.12;     // thickness below the lowest place, as a share of the side
-constexpr double kOutlierShare = 0.002;  // share of the points at either end of the colour scale
-constexpr double kFlat_m = 1e-15;        // flat below this relief
+constexpr double kSlabOfSide = 0.12;  // thickness below the lowest place, as a share of the side
+constexpr double kOutlineOfSide = 0.0028, kCornerWidths = 2.5;  // as the outlines of the assets' samples
+constexpr double kOutlierShare = 0.002;                         // share of the points at either end of the colour scale
+constexpr double kFlat_m = 1e-15;                               // flat below this relief
 
 constexpr glm::vec4 kWallColour(0.055F, 0.05F, 0.06F, 1.0F);
+constexpr glm::vec4 kOutlineColour(0.004F, 0.004F, 0.005F, 1.0F);
 
 struct Grid {
   const scene::Topography& topography;
@@ -94,11 +97,21 @@ scene::Primitive top_of(const Grid& grid, double lowest_m, double highest_m) {
   return top;
 }
 
+// Calls face(number of points, outward normal, place of a point on the rim) for each of the four, counter-clockwise as
+// seen from above.
+template <class Face>
+void for_each_face(const Grid& grid, const Face& face) {
+  const std::size_t columns = grid.topography.columns, rows = grid.topography.rows;
+  face(columns, glm::vec3(0, -1, 0), [&](std::size_t i) { return grid.place(i, 0); });
+  face(rows, glm::vec3(1, 0, 0), [&](std::size_t i) { return grid.place(columns - 1, i); });
+  face(columns, glm::vec3(0, 1, 0), [&](std::size_t i) { return grid.place(columns - 1 - i, rows - 1); });
+  face(rows, glm::vec3(-1, 0, 0), [&](std::size_t i) { return grid.place(0, rows - 1 - i); });
+}
+
 // Four faces below the rim.
 scene::Primitive walls_of(const Grid& grid, double bottom_m) {
   scene::Primitive walls;
   walls.material = 1;
-  const std::size_t columns = grid.topography.columns, rows = grid.topography.rows;
   const auto face = [&](std::size_t count, const glm::vec3& outward, const auto& place) {
     for (std::size_t i = 0; i < count; ++i) {
       glm::vec3 above = place(i), below = above;
@@ -110,12 +123,40 @@ scene::Primitive walls_of(const Grid& grid, double bottom_m) {
       walls.indices.insert(walls.indices.end(), {first, first + 1, first + 2, first + 2, first + 1, first + 3});
     }
   };
-  // each counter-clockwise, seen from above
-  face(columns, {0, -1, 0}, [&](std::size_t i) { return grid.place(i, 0); });
-  face(rows, {1, 0, 0}, [&](std::size_t i) { return grid.place(columns - 1, i); });
-  face(columns, {0, 1, 0}, [&](std::size_t i) { return grid.place(columns - 1 - i, rows - 1); });
-  face(rows, {-1, 0, 0}, [&](std::size_t i) { return grid.place(0, rows - 1 - i); });
+  for_each_face(grid, face);
   return walls;
+}
+
+// Strips along the rim and down its corners, `width_m` off the faces, seen from inside only: from above, a dark line
+// around the sample. `rise_m` is the height over the rim.
+scene::Primitive outline_of(const Grid& grid, double bottom_m, double width_m, double rise_m) {
+  scene::Primitive outline;
+  outline.material = 2;
+  const auto width = static_cast<float>(width_m), rise = static_cast<float>(rise_m);
+  const auto add_strip = [&](std::span<const glm::vec3> rim, const glm::vec3& inward, const auto& low_of) {
+    const auto begin = static_cast<std::uint32_t>(outline.vertices.size());
+    for (const glm::vec3& point : rim) {
+      outline.vertices.push_back({point + glm::vec3(0, 0, rise), inward, kOutlineColour});
+      outline.vertices.push_back({glm::vec3(point.x, point.y, low_of(point)), inward, kOutlineColour});
+    }
+    for (std::uint32_t i = begin; i + 2 < outline.vertices.size(); i += 2) {
+      outline.indices.insert(outline.indices.end(), {i, i + 2, i + 1, i + 1, i + 2, i + 3});
+    }
+  };
+  const auto face = [&](std::size_t count, const glm::vec3& outward, const auto& place) {
+    std::vector<glm::vec3> rim;
+    for (std::size_t i = 0; i < count; ++i) rim.push_back(place(i) + width * outward);
+    const glm::vec3 along = width * glm::vec3(-outward.y, outward.x, 0);
+    rim.front() -= along;
+    rim.back() += along;
+    add_strip(rim, -outward, [&](const glm::vec3& point) { return point.z - rise; });
+    const auto corner = static_cast<float>(kCornerWidths) * along;
+    const auto to_bottom = [&](const glm::vec3&) { return static_cast<float>(bottom_m); };
+    add_strip(std::array{rim.front(), rim.front() + corner}, -outward, to_bottom);
+    add_strip(std::array{rim.back() - corner, rim.back()}, -outward, to_bottom);
+  };
+  for_each_face(grid, face);
+  return outline;
 }
 
 double longest_side_m(const scene::Topography& topography) {
@@ -143,8 +184,14 @@ scene::Scene topography_scene(const scene::Topography& topography, double lowest
   scene::Scene sample;
   sample.materials.push_back({.name = "false colours", .metallic = 0.0F, .roughness = 0.55F});
   sample.materials.push_back({.name = "slab", .metallic = 0.0F, .roughness = 0.7F});
+  sample.materials.push_back({.name = "outline", .metallic = 0.0F, .unlit = true});
   const Grid grid{topography};
-  sample.meshes.push_back({"topography", {top_of(grid, lowest_m, highest_m), walls_of(grid, bottom_m)}});
+  // the slab's thickness in proportion gives the outline's height in heights that are drawn exaggerated
+  const double rim_m = static_cast<double>(*std::min_element(topography.height_m.begin(), topography.height_m.end()));
+  sample.meshes.push_back({"topography",
+                           {top_of(grid, lowest_m, highest_m), walls_of(grid, bottom_m),
+                            outline_of(grid, bottom_m, kOutlineOfSide * longest_side_m(topography),
+                                       kOutlineOfSide / kSlabOfSide * (rim_m - bottom_m))}});
   sample.nodes.push_back({"surface", std::nullopt, 0U, glm::dmat4(1.0)});
   return sample;
 }
