@@ -62,7 +62,7 @@ void SimulatedInstrument::show_in(Showcase& showcase) {
 
 void SimulatedInstrument::show_place() const {
   if (showcase_ == nullptr) return;
-  const double surface_m = surface_below(), force_n = touching_ ? settings_.scan.setpoint.si : 0.0;
+  const double surface_m = surface_below(), force_n = touching_ && !settings_.taps ? settings_.scan.setpoint.si : 0.0;
   showcase_->put_place(at_.x_m - drift_x_m_, at_.y_m - drift_y_m_, surface_m, at_.z_m - surface_m, force_n, touching_);
 }
 
@@ -343,8 +343,12 @@ core::Result<physics::ScanImage> SimulatedInstrument::take_image(const TakeLine&
     std::optional<core::Error> error;
     state_flips_ = 0;
     physics::ScanImage image = physics::scan_frame(scanner, [&](const physics::ScanLine& line) {
-      if (showcase_ != nullptr) showcase_->put_line(line);
-      if (*swing) state_flips_ += flips_of(line, **swing);
+      physics::ScanLine shown(line);
+      if (*swing) {
+        state_flips_ += flips_of(line, **swing);
+        for (auto* pass : {&shown.trace, &shown.retrace}) std::fill(pass->error_n.begin(), pass->error_n.end(), 0.0);
+      }
+      if (showcase_ != nullptr) showcase_->put_line(shown);  // an error of the amplitude is no force
       const auto worn = after_line(line, scanner);
       if (!worn) error = worn.error();
       return !error && taken(line, at_.time_s + scanner.time().si);
