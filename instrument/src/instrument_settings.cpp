@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "curves/contact_setup.h"
+#include "curves/tapping/driven_setup.h"
 
 namespace afm::instrument {
 namespace {
@@ -39,6 +40,8 @@ constexpr std::array kNumbers{
               [](Settings& s, double si) { s.height_m = si; }},
     NumberRow{"turn_rad", -std::numbers::pi, std::numbers::pi, [](const Settings& s) { return s.turn_rad; },
               [](Settings& s, double si) { s.turn_rad = si; }},
+    NumberRow{"amplitude_setpoint", 0.01, 0.999, [](const Settings& s) { return s.amplitude_setpoint; },
+              [](Settings& s, double si) { s.amplitude_setpoint = si; }},
     NumberRow{"free_amplitude_m", 1e-12, 1e-6, [](const Settings& s) { return s.free_amplitude_m; },
               [](Settings& s, double si) { s.free_amplitude_m = si; }},
     NumberRow{"drive_Hz", 0.0, 1e8, [](const Settings& s) { return s.drive_hz; },
@@ -100,6 +103,11 @@ core::Result<void> set_tip(const Json& value, Settings& settings) {
 // The settings that are no numbers; empty if the key is none of them.
 std::optional<core::Result<void>> set_word(std::string_view key, const Json& value, Settings& settings) {
   if (key == "tip") return set_tip(value, settings);
+  if (key == "mode") {
+    if (value != "contact" && value != "tapping") return wrong_usage("\"mode\": give \"contact\" or \"tapping\"");
+    settings.taps = value == "tapping";
+    return core::Result<void>{};
+  }
   if (key == "feedback" || key == "flat" || key == "upwards") {
     if (!value.is_boolean()) return wrong_usage(fmt::format("\"{}\": give true or false", key));
     const bool on = value.get<bool>();
@@ -157,9 +165,27 @@ core::Result<void> set_value(const std::string& key, const Json& value, Settings
 
 }  // namespace
 
+core::Result<curves::ContactSetup> contact_of(const curves::ContactOptions& options) {
+  curves::ContactOptions held(options);
+  for (const char* name : {"resonance", "quality-factor"}) held.si_values.erase(name);
+  const auto model = curves::ModelName::parse(options.model);
+  if (held.si_values.size() == options.si_values.size() || (model && model->dynamic)) {
+    return curves::contact_setup(options);
+  }
+  auto setup = curves::contact_setup(held);
+  if (!setup) return setup;
+  curves::TappingChoice choice;
+  choice.mode = "tapping";
+  const auto swung = curves::driven_setup(choice, options);
+  if (!swung) return tl::unexpected(swung.error());
+  setup->material.lever = swung->material.lever;
+  return setup;
+}
+
 Json settings_json(const Settings& settings, const curves::ContactSetup& setup) {
   Json result{{"material", settings.contact.material},
               {"law", settings.contact.model},
+              {"mode", settings.taps ? "tapping" : "contact"},
               {"tip", physics::name_of(settings.tip.kind)},
               {"flat", settings.flat},
               {"upwards", settings.upwards},

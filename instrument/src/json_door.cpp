@@ -228,7 +228,14 @@ struct JsonDoor::Verbs {
     arguments.finish();
     bool stopped = false;
     physics::ScanImage image = value_of(door.instrument_.scan([&](const physics::ScanLine& line, double time_s) {
-      const auto track = [](const physics::ScanTrack& pass) {
+      const auto track = [taps = door.instrument_.settings().taps](const physics::ScanTrack& pass) {
+        if (taps) {
+          return Json{{"height_m", numbers_of(pass.height_m)},
+                      {"error_m", numbers_of(pass.error_n)},
+                      {"phase_deg", numbers_of(pass.phase_deg)},
+                      {"energy_J", numbers_of(pass.energy_j)},
+                      {"peak_force_N", numbers_of(pass.peak_force_n)}};
+        }
         return Json{{"height_m", numbers_of(pass.height_m)},
                     {"error_N", numbers_of(pass.error_n)},
                     {"lateral_N", numbers_of(pass.lateral_n)}};
@@ -265,15 +272,11 @@ struct JsonDoor::Verbs {
   static Json truth(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
     arguments.finish();
     const SimulatedInstrument::Truth truth = door.instrument_.truth();
-    return {{"tip_radius_m", truth.tip_radius_m},
-            {"tip_growth_m", truth.tip_growth_m},
-            {"touching", truth.touching},
-            {"second_apex", truth.second_apex},
-            {"surface_m", truth.surface_m},
-            {"sample_x_m", truth.sample_x_m},
-            {"sample_y_m", truth.sample_y_m},
-            {"highest_force_N", truth.highest_force_n},
-            {"contact", curves::parameters_json(door.instrument_.setup())}};
+    return {{"tip_radius_m", truth.tip_radius_m}, {"tip_growth_m", truth.tip_growth_m},
+            {"touching", truth.touching},         {"second_apex", truth.second_apex},
+            {"surface_m", truth.surface_m},       {"sample_x_m", truth.sample_x_m},
+            {"sample_y_m", truth.sample_y_m},     {"highest_force_N", truth.highest_force_n},
+            {"state_flips", truth.state_flips},   {"contact", curves::parameters_json(door.instrument_.setup())}};
   }
 
   static Json save(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {

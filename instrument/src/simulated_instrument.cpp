@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "curves/tapping/driven_setup.h"
 #include "instrument/showcase.h"
 #include "physics/flexural_modes.h"
+#include "physics/imaging/scan_artefact.h"
+#include "physics/tapping/driven_lever.h"
 #include "physics/thermal_noise.h"
 #include "physics/units.h"
 
@@ -23,6 +26,19 @@ constexpr double kStartAboveM = 1e-6;    // height of the tip at the start
 constexpr double kFalseAboveM = 100e-9;  // highest false engagement above the sample
 constexpr double kGrowthThatIsSeen =
     0.02;  // relative growth of the tip from which the image's surface is computed anew
+
+// Strongest push of a pass; in tapping mode at the lowest points of the swing.
+double push_of(const physics::ScanTrack& pass, bool taps) {
+  if (!taps) return pass.highest_force_n;
+  return *std::max_element(pass.peak_force_n.begin(), pass.peak_force_n.end());
+}
+
+// Changes of state along both passes.
+std::size_t flips_of(const physics::ScanLine& line, const physics::TappingDetector& detector) {
+  const double free_deg = detector.lever().free_phase * 180.0 / std::numbers::pi;
+  return physics::changes_of_state(line.trace.phase_deg, free_deg) +
+         physics::changes_of_state(line.retrace.phase_deg, free_deg);
+}
 
 std::string metres(const std::optional<double>& si) { return si ? fmt::format("{} m", *si) : std::string(); }
 
@@ -46,7 +62,7 @@ void SimulatedInstrument::show_in(Showcase& showcase) {
 
 void SimulatedInstrument::show_place() const {
   if (showcase_ == nullptr) return;
-  const double surface_m = surface_below(), force_n = touching_ ? settings_.scan.setpoint.si : 0.0;
+  const double surface_m = surface_below(), force_n = touching_ && !settings_.taps ? settings_.scan.setpoint.si : 0.0;
   showcase_->put_place(at_.x_m - drift_x_m_, at_.y_m - drift_y_m_, surface_m, at_.z_m - surface_m, force_n, touching_);
 }
 
@@ -58,6 +74,7 @@ core::Result<void> SimulatedInstrument::reset(std::uint64_t seed) {
   surface_radius_m_ = 0.0;
   if (const auto built = build(settings, 0.0); !built) return built;
   growth_m_ = drift_x_m_ = drift_y_m_ = highest_force_n_ = 0.0;
+  state_flips_ = 0;
   touching_ = second_apex_ = false;
   at_ = {.z_m = kStartAboveM};
   chance_.seed(seed);
@@ -79,11 +96,11 @@ core::Result<void> SimulatedInstrument::change(const InstrumentSettings& setting
 // Everything that follows from settings and the worn tip; on failure nothing has changed.
 core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings, double growth_m) {
   curves::ContactOptions options(settings.contact);
-  auto setup = curves::contact_setup(options);
+  auto setup = contact_of(options);
   if (!setup) return tl::unexpected(setup.error());
   if (growth_m > 0.0) {
     options.si_values["tip-radius"] = setup->material.contact.tip_radius.si + growth_m;
-    setup = curves::contact_setup(options);
+    setup = contact_of(options);
     if (!setup) return tl::unexpected(setup.error());
   }
   const double radius_m = setup->material.contact.tip_radius.si;
@@ -147,8 +164,9 @@ void SimulatedInstrument::wait(double time_s) noexcept { pass(time_s); }
 void SimulatedInstrument::approach(double speed_m_per_s) {
   const bool false_alarm = uniform() < settings_.faults.false_engagement;
   const double above_m = false_alarm ? kFalseAboveM * (1.0 - uniform()) : 0.0;
-  // the lever is bent by the setpoint; the sample is taken as rigid, as the scanner takes it
-  const double bend_m = settings_.scan.setpoint.si / setup_.material.contact.spring_constant.si;
+  // the lever is bent by the setpoint, or swings above the sample, which is taken as rigid, as the scanner takes it
+  const double bend_m = settings_.taps ? -settings_.amplitude_setpoint * settings_.free_amplitude_m
+                                       : settings_.scan.setpoint.si / setup_.material.contact.spring_constant.si;
   const double z_m = surface_below() + above_m - (false_alarm ? 0.0 : bend_m);
   pass(std::abs(at_.z_m - z_m) / speed_m_per_s);
   at_.z_m = z_m;
@@ -240,9 +258,7 @@ core::Result<SimulatedInstrument::Curve> SimulatedInstrument::take_curve(const C
   return result;
 }
 
-core::Result<curves::TappingRun> SimulatedInstrument::tapping_curve(const std::optional<double>& z_from_m,
-                                                                    const std::optional<double>& z_to_m,
-                                                                    std::size_t points) {
+core::Result<SimulatedInstrument::Driven> SimulatedInstrument::driven() const {
   curves::TappingChoice choice;
   choice.mode = "tapping";
   choice.numbers.free_amplitude = metres(settings_.free_amplitude_m);
@@ -250,19 +266,42 @@ core::Result<curves::TappingRun> SimulatedInstrument::tapping_curve(const std::o
   if (settings_.viscosity_pa_s > 0.0) choice.numbers.viscosity = fmt::format("{} Pa*s", settings_.viscosity_pa_s);
   curves::ContactOptions options(settings_.contact);
   if (growth_m_ > 0.0) options.si_values["tip-radius"] = setup_.material.contact.tip_radius.si;
-  const auto setup = curves::driven_setup(choice, options);
+  auto setup = curves::driven_setup(choice, options);
   if (!setup) return tl::unexpected(setup.error());
+  return Driven{choice.numbers, std::move(*setup)};
+}
+
+core::Result<std::optional<physics::TappingDetector>> SimulatedInstrument::detector() const {
+  if (!settings_.taps) return std::nullopt;
+  const auto swung = driven();
+  if (!swung) return tl::unexpected(swung.error());
+  const auto sample = curves::driven_sample(swung->setup, swung->numbers);
+  if (!sample) return tl::unexpected(sample.error());
+  try {
+    return physics::TappingDetector(sample->surface, sample->lever,
+                                    settings_.amplitude_setpoint * sample->lever.free_amplitude);
+  } catch (const physics::UnphysicalValue& error) {
+    return wrong_usage(error.what());
+  }
+}
+
+core::Result<curves::TappingRun> SimulatedInstrument::tapping_curve(const std::optional<double>& z_from_m,
+                                                                    const std::optional<double>& z_to_m,
+                                                                    std::size_t points) {
+  const auto swung = driven();
+  if (!swung) return tl::unexpected(swung.error());
   curves::PathOptions path = path_of(z_from_m, z_to_m);
   if (z_from_m && z_to_m && *z_from_m > *z_to_m) {
     path.step = metres((*z_from_m - *z_to_m) / static_cast<double>(points - 1) * (1.0 + 1e-12));
   }
-  return curves::run_tapping(*setup, path, choice.numbers);
+  return curves::run_tapping(swung->setup, path, swung->numbers);
 }
 
 core::Result<void> SimulatedInstrument::after_line(const physics::ScanLine& line, physics::Scanner& scanner) {
   const double grown_m = growth_m_, surface_radius_m = surface_radius_m_;
   const bool had_second = second_apex_;
-  if (const auto worn = wear(std::max(line.trace.highest_force_n, line.retrace.highest_force_n)); !worn) {
+  if (const auto worn = wear(std::max(push_of(line.trace, settings_.taps), push_of(line.retrace, settings_.taps)));
+      !worn) {
     return tl::unexpected(worn.error());
   }
   if (uniform() < settings_.faults.tip_change) second_apex_ = !second_apex_;
@@ -296,12 +335,20 @@ core::Result<physics::ScanImage> SimulatedInstrument::take_image(const TakeLine&
   area.columns = settings_.pixels;
   area.rows = settings_.lines_or_pixels();
   try {
-    physics::Scanner scanner(area, scan_settings(), surface_now(), chance_());
+    const auto swing = detector();
+    if (!swing) return tl::unexpected(swing.error());
+    physics::Scanner scanner(area, scan_settings(), surface_now(), chance_(), *swing);
     scanner.begin_frame(settings_.upwards ? physics::SlowDirection::Up : physics::SlowDirection::Down);
     if (showcase_ != nullptr) showcase_->begin_image(area, settings_.scan.line_rate.si, settings_.turn_rad);
     std::optional<core::Error> error;
+    state_flips_ = 0;
     physics::ScanImage image = physics::scan_frame(scanner, [&](const physics::ScanLine& line) {
-      if (showcase_ != nullptr) showcase_->put_line(line);
+      physics::ScanLine shown(line);
+      if (*swing) {
+        state_flips_ += flips_of(line, **swing);
+        for (auto* pass : {&shown.trace, &shown.retrace}) std::fill(pass->error_n.begin(), pass->error_n.end(), 0.0);
+      }
+      if (showcase_ != nullptr) showcase_->put_line(shown);  // an error of the amplitude is no force
       const auto worn = after_line(line, scanner);
       if (!worn) error = worn.error();
       return !error && taken(line, at_.time_s + scanner.time().si);
@@ -343,7 +390,8 @@ SimulatedInstrument::Truth SimulatedInstrument::truth() const {
           .surface_m = surface_below(),
           .sample_x_m = drift_x_m_,
           .sample_y_m = drift_y_m_,
-          .highest_force_n = highest_force_n_};
+          .highest_force_n = highest_force_n_,
+          .state_flips = state_flips_};
 }
 
 }  // namespace afm::instrument

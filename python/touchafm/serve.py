@@ -24,7 +24,15 @@ import numpy as np
 
 __all__ = ["Client", "Refused", "connect", "start"]
 
-_CHANNELS = {"height_m": "Height", "error_N": "Error", "lateral_N": "Lateral force"}
+_CHANNELS = {
+    "height_m": "Height",
+    "error_N": "Error",
+    "lateral_N": "Lateral force",
+    "error_m": "Amplitude error",
+    "phase_deg": "Phase",
+    "energy_J": "Energy dissipated",
+    "peak_force_N": "Peak force",
+}
 
 
 class Refused(ValueError):
@@ -138,7 +146,8 @@ class Client:
         }
 
     def scan(self, on_line=None):
-        """An image around the tip: a dict of its channels, row 0 on top, "Height" to "Lateral force (retrace)".
+        """An image around the tip: a dict of its channels, row 0 on top, "Height" to "Lateral force (retrace)", in
+        tapping mode to "Peak force (retrace)".
 
         on_line is called with each line as it comes; if it returns False the scan ends, and what was not scanned is NaN."""
         rows = []
@@ -149,7 +158,7 @@ class Client:
 
         answer = self.request("scan", on_line=take)
         image = {}
-        for key, name in _CHANNELS.items():
+        for key, name in ((key, _CHANNELS[key]) for key in rows[0]["trace"]):
             for side, ending in (("trace", ""), ("retrace", " (retrace)")):
                 channel = np.full((answer["rows"], answer["columns"]), np.nan)
                 for line in rows:

@@ -138,13 +138,31 @@ TEST_F(JsonDoorTest, GivesACurveWithItsBranches) {
 }
 
 TEST_F(JsonDoorTest, GivesATappingCurve) {
-  answer_to(R"({"do": "set", "values": {"law": "dmt", "spring_constant_N_per_m": 40, "quality_factor": 400,
-                "resonance_Hz": 300e3, "free_amplitude_m": 2e-8}})");
+  const json set = answer_to(R"({"do": "set", "values": {"law": "dmt", "spring_constant_N_per_m": 40,
+                              "quality_factor": 400, "resonance_Hz": 300e3, "free_amplitude_m": 2e-8}})");
+  ASSERT_EQ(set["ok"], true) << set.dump();
+  EXPECT_EQ(answer_to(R"({"do": "get"})")["values"]["quality_factor"], 400);
   const json answer = answer_to(R"({"do": "tapping_curve", "z_from_m": 3e-8, "z_to_m": 1e-8, "points": 50})");
   ASSERT_EQ(answer["ok"], true) << answer.dump();
   EXPECT_EQ(answer["amplitude_m"].size(), answer["phase_rad"].size());
   EXPECT_NEAR(answer["amplitude_m"][0].get<double>(), 2e-8, 1e-9);
   EXPECT_TRUE(answer["figures"].contains("jumps"));
+}
+
+TEST_F(JsonDoorTest, StreamsAnImageOfASwing) {
+  EXPECT_THAT(refusal_of(R"({"do": "set", "values": {"mode": "lift"}})"), HasSubstr("contact"));
+  answer_to(R"({"do": "set", "values": {"mode": "tapping", "law": "dmt", "spring_constant_N_per_m": 40,
+                "quality_factor": 400, "resonance_Hz": 300e3, "amplitude_setpoint": 0.8, "pixels": 8, "lines": 2}})");
+  EXPECT_EQ(answer_to(R"({"do": "get"})")["values"]["mode"], "tapping");
+  answer_to(R"({"do": "approach"})");
+  const std::vector<std::string> lines = lines_for(R"({"do": "scan"})");
+  ASSERT_EQ(lines.size(), 3U) << lines.back();
+  const json trace = json::parse(lines.front())["trace"];
+  for (const char* channel : {"height_m", "error_m", "phase_deg", "energy_J", "peak_force_N"}) {
+    EXPECT_EQ(trace[channel].size(), 8U) << channel;
+  }
+  EXPECT_FALSE(trace.contains("lateral_N"));
+  EXPECT_EQ(answer_to(R"({"do": "truth"})")["state_flips"], 0);
 }
 
 TEST_F(JsonDoorTest, SavesTheNewestImageAndCurve) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -63,6 +65,33 @@ TEST(Showcase, HasTheNewestOfEverything) {
   EXPECT_EQ(then.lines.size(), 16U);
   EXPECT_FALSE(then.image.running);
   EXPECT_TRUE(showcase.look().lines.empty()) << "they have been taken out";
+}
+
+// In tapping mode the error is one of the amplitude, in metres.
+TEST(Showcase, ShowsNoAmplitudeAsAForce) {
+  SimulatedInstrument instrument = noisy();
+  Showcase showcase;
+  instrument.show_in(showcase);
+  InstrumentSettings settings(instrument.settings());
+  settings.taps = true;
+  settings.contact.model = "dmt";
+  settings.contact.si_values = {{"spring-constant", 40.0}, {"resonance", 300e3}, {"quality-factor", 400.0}};
+  const auto changed = instrument.change(settings);
+  ASSERT_TRUE(changed) << changed.error().message;
+  instrument.approach(1e-6);
+  double largest_m = 0.0;
+  ASSERT_TRUE(instrument.scan([&](const physics::ScanLine& line, double) {
+    for (const double error_m : line.trace.error_n) largest_m = std::max(largest_m, std::abs(error_m));
+    return true;
+  }));
+  EXPECT_GT(largest_m, 0.0);
+  const Shown shown = showcase.look();
+  EXPECT_EQ(shown.force_n, 0.0);
+  ASSERT_EQ(shown.lines.size(), 16U);
+  for (const physics::ScanLine& line : shown.lines) {
+    EXPECT_EQ(line.trace.error_n, std::vector<double>(16, 0.0));
+    EXPECT_EQ(line.retrace.error_n, std::vector<double>(16, 0.0));
+  }
 }
 
 TEST(Showcase, KeepsTheLinesOfOneImageThoughNobodyLooks) {

@@ -230,6 +230,57 @@ TEST(SimulatedInstrument, ThermalNoiseCalibratesItsLever) {
   EXPECT_NEAR(k, instrument.setup().material.contact.spring_constant.si, 0.03 * k);
 }
 
+// Gold under a tip with two states at this setpoint, as in touchafm scan --mode tapping.
+void tap(InstrumentSettings& settings) {
+  settings.taps = true;
+  settings.amplitude_setpoint = 0.85;
+  settings.contact.material = "gold";
+  settings.contact.model = "dmt";
+  settings.contact.si_values = {{"spring-constant", 40.0},    {"tip-radius", 20e-9},      {"hamaker", 64e-21},
+                                {"work-of-adhesion", 0.0623}, {"reduced-modulus", 1.5e9}, {"resonance", 300e3},
+                                {"quality-factor", 400.0}};
+  settings.pixels = 32;
+  settings.scan.line_rate = physics::Frequency(1.0);
+  settings.scan.integral_gain = physics::Frequency(500.0);
+}
+
+TEST(SimulatedInstrument, ImagesByASwingWhoseFlipsItsTruthCounts) {
+  SimulatedInstrument instrument = instrument_with();
+  set(instrument, tap);
+  instrument.approach(1e-6);
+  EXPECT_GT(instrument.position().z_m, instrument.truth().surface_m) << "it swings above the sample";
+  EXPECT_EQ(instrument.truth().state_flips, 0U);
+  double least_deg = 180.0, most_deg = 0.0;
+  const auto image = instrument.scan([&](const physics::ScanLine& line, double) {
+    const auto [least, most] = std::minmax_element(line.trace.phase_deg.begin(), line.trace.phase_deg.end());
+    least_deg = std::min(least_deg, *least);
+    most_deg = std::max(most_deg, *most);
+    return true;
+  });
+  ASSERT_TRUE(image) << image.error().message;
+  EXPECT_LT(least_deg, 80.0) << "repulsive";
+  EXPECT_GT(most_deg, 100.0) << "attractive";
+  EXPECT_GT(instrument.truth().state_flips, 0U);
+  EXPECT_GT(instrument.truth().highest_force_n, 1e-9) << "at the lowest points of its swing";
+  EXPECT_LT(instrument.truth().highest_force_n, 1e-6);
+  set(instrument, [](InstrumentSettings& settings) { settings.taps = false; });
+  instrument.approach(1e-6);
+  ASSERT_TRUE(instrument.scan([](const physics::ScanLine&, double) { return true; }));
+  EXPECT_EQ(instrument.truth().state_flips, 0U) << "of the newest image";
+}
+
+TEST(SimulatedInstrument, RefusesAnImageByASwingThatItCannotCompute) {
+  SimulatedInstrument instrument = instrument_with();
+  set(instrument, tap);
+  set(instrument, [](InstrumentSettings& settings) { settings.contact.si_values["quality-factor"] = 5.0; });
+  instrument.approach(1e-6);
+  const double time_s = instrument.position().time_s;
+  const auto image = instrument.scan([](const physics::ScanLine&, double) { return true; });
+  ASSERT_FALSE(image);
+  EXPECT_THAT(image.error().message, HasSubstr("quality factor"));
+  EXPECT_EQ(instrument.position().time_s, time_s);
+}
+
 TEST(SimulatedInstrument, RepeatsItselfForItsSeedAndNoOther) {
   const auto run = [](std::uint64_t seed) {
     SimulatedInstrument instrument = instrument_with(seed);

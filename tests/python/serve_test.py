@@ -40,6 +40,15 @@ class Serve(unittest.TestCase):
         saved = touchafm.read_image(os.path.join(self.folder.name, "image.gwy"))
         np.testing.assert_allclose(saved["channels"]["Height"][0], image["Height"], atol=1e-15)
 
+    def test_scans_with_a_swing(self):
+        self.afm.set(mode="tapping", law="dmt", spring_constant_N_per_m=40.0, quality_factor=400.0, resonance_Hz=300e3, pixels=8)
+        self.afm.approach()
+        image = self.afm.scan()
+        self.assertEqual(image["Phase"].shape, (8, 8))
+        self.assertFalse(np.isnan(image["Peak force (retrace)"]).any())
+        self.assertNotIn("Lateral force", image)
+        self.assertEqual(self.afm.truth()["state_flips"], 0)
+
     def test_stops_a_scan(self):
         self.afm.set(pixels=128, lines=1000)
         self.afm.approach()

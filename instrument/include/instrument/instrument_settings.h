@@ -36,7 +36,9 @@ struct InstrumentSettings {
   std::size_t pixels = 64;
   std::size_t lines = 0;            // zero: as many as pixels
   bool upwards = false;             // the slow scan begins at the bottom
-  double free_amplitude_m = 20e-9;  // free swing of a tapping curve, zero to peak
+  bool taps = false;                // images in tapping mode
+  double amplitude_setpoint = 0.8;  // share of the free swing that the feedback then keeps
+  double free_amplitude_m = 20e-9;  // free swing, zero to peak
   double drive_hz = 0;              // zero: at the resonance
   double viscosity_pa_s = 0;        // viscosity of the contact
   Faults faults;
@@ -46,6 +48,10 @@ struct InstrumentSettings {
 
 // Widest image of a client: 1024 lines are answered within seconds.
 inline constexpr std::size_t kMostInstrumentPixels = 1024;
+
+// As curves::contact_setup(). The lever may have a resonance and a quality factor of which a static law has no use: its
+// spectrum and its swing have.
+core::Result<curves::ContactSetup> contact_of(const curves::ContactOptions& options);
 
 // Settings as {"material": "mica", "line_rate_hz": 2.0, ...}: every key that change() takes, and its value now. A
 // number of the contact that is not given is the material's, or null if the material has none.

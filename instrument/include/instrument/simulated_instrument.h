@@ -80,7 +80,8 @@ class SimulatedInstrument {
   };
   Frame frame() const;  // size of the next image
 
-  // An image around the tip. Calls `taken` with each line and the time; the scan ends if it returns false. WrongUsage
+  // An image around the tip, in contact or tapping mode; a tip that wears while it taps is sharp until the next image.
+  // Calls `taken` with each line and the time; the scan ends if it returns false. WrongUsage
   // unless the tip is engaged, and if it would wear beyond what its law allows; then nothing has changed.
   using TakeLine = std::function<bool(const physics::ScanLine& line, double time_s)>;
   core::Result<physics::ScanImage> scan(const TakeLine& taken);
@@ -98,6 +99,7 @@ class SimulatedInstrument {
     double surface_m = 0;                   // height of the sample below the tip, for its apex
     double sample_x_m = 0, sample_y_m = 0;  // drift of the sample since the start
     double highest_force_n = 0;             // strongest push so far
+    std::size_t state_flips = 0;  // changes of a swing between its two states along the lines of the newest image
   };
   Truth truth() const;
 
@@ -115,6 +117,12 @@ class SimulatedInstrument {
   core::Result<Curve> take_curve(const CurveRequest& request);
   core::Result<physics::ScanImage> take_image(const TakeLine& taken);
   void take_back_to(SimulatedInstrument before);
+  struct Driven {
+    curves::TappingOptions numbers;
+    curves::ContactSetup setup;
+  };
+  core::Result<Driven> driven() const;
+  core::Result<std::optional<physics::TappingDetector>> detector() const;  // empty: contact mode
   core::Result<void> after_line(const physics::ScanLine& line, physics::Scanner& scanner);
   curves::PathOptions path_of(const std::optional<double>& from, const std::optional<double>& to) const;
 
@@ -125,6 +133,7 @@ class SimulatedInstrument {
   std::shared_ptr<const imaging::ScanSurface> surface_;  // under the tip as it was at surface_radius_m_
   double surface_radius_m_ = 0;
   double growth_m_ = 0, drift_x_m_ = 0, drift_y_m_ = 0, highest_force_n_ = 0;
+  std::size_t state_flips_ = 0;
   bool touching_ = false, second_apex_ = false;
   Position at_;
   std::mt19937_64 chance_;
