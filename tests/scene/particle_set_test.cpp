@@ -36,7 +36,7 @@ TEST(ParticleSet, EveryShippedSetLoadsWithASourceForEachNumber) {
       for (const SourcedValue& value : species.sources) EXPECT_FALSE(value.source.empty()) << value.key;
     }
   }
-  EXPECT_EQ(sets, 8);
+  EXPECT_EQ(sets, 9);
 }
 
 TEST(ParticleSet, GoldRowHasTheNumbersOfTheCases) {

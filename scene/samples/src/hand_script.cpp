@@ -6,12 +6,29 @@
 
 namespace afm::scene {
 
+using physics::Length;
 using physics::LeverBase;
+using physics::Sideways;
+
+namespace {
+
+Length way_of(const LeverBase& from, const HandMove& move) {
+  const Sideways<Length> way = move.to.position - from.position;
+  const double lines = lines_of(from, move);
+  if (lines > 0.0) return magnitude(way) + (lines + 1.0) * move.sweep_width;
+  return Length(std::hypot(way.x.si, way.y.si, (move.to.z - from.z).si));
+}
+
+}  // namespace
+
+double lines_of(const LeverBase& from, const HandMove& move) {
+  if (!(move.sweep_width.si > 0.0)) return 0.0;
+  return std::ceil(magnitude(move.to.position - from.position) / move.line_spacing);
+}
 
 std::size_t ticks_of(const LeverBase& from, const HandMove& move, physics::Frequency rate) {
-  const double way = std::hypot((move.to.position.x - from.position.x).si, (move.to.position.y - from.position.y).si,
-                                (move.to.z - from.z).si);
-  return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(way / move.speed.si * rate.si)));
+  const double way_m = way_of(from, move).si;
+  return std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(way_m / move.speed.si * rate.si)));
 }
 
 std::size_t waiting_ticks(const HandMove& move, physics::Frequency rate) {
@@ -28,8 +45,27 @@ double all_ticks(const ParticleSet& set, physics::Frequency rate) {
   return ticks;
 }
 
-LeverBase on_the_way(const LeverBase& a, const LeverBase& b, double share) {
-  return {a.position + (b.position - a.position) * share, a.z + (b.z - a.z) * share};
+LeverBase on_the_way(const LeverBase& from, const HandMove& move, double share) {
+  if (share >= 1.0) return move.to;
+  const Sideways<Length> way = move.to.position - from.position;
+  const Length z = from.z + (move.to.z - from.z) * share;
+  const double lines = lines_of(from, move);
+  if (!(lines > 0.0)) return {from.position + way * share, z};
+  const double length_m = magnitude(way).si, width_m = move.sweep_width.si, spacing_m = length_m / lines;
+  const double gone_m = share * way_of(from, move).si - 0.5 * width_m;  // since the first line began
+  double ahead_m = 0.0, aside_m = 0.5 * width_m + gone_m;               // aside: to the left
+  if (gone_m > 0.0) {
+    const double line = std::min(lines, std::floor(gone_m / (spacing_m + width_m)));
+    const double on_line_m = gone_m - line * (spacing_m + width_m);
+    const bool at_end = line >= lines;
+    ahead_m = line * spacing_m + (at_end ? 0.0 : std::min(on_line_m, spacing_m));
+    const double across_m = at_end ? on_line_m : std::max(0.0, on_line_m - spacing_m);
+    aside_m = (std::fmod(line, 2.0) == 0.0 ? 1.0 : -1.0) * (0.5 * width_m - across_m);
+  }
+  const Sideways<double> along{way.x.si / length_m, way.y.si / length_m};
+  return {from.position + Sideways<Length>{Length(ahead_m * along.x - aside_m * along.y),
+                                           Length(ahead_m * along.y + aside_m * along.x)},
+          z};
 }
 
 }  // namespace afm::scene

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hand_moves.h"
 #include "particle_field.h"
 #include "physics/contact_parameters.h"
 #include "physics/elasticity.h"
@@ -26,13 +27,10 @@ namespace {
 using physics::Length;
 
 constexpr std::size_t kMostMoves = 1000;
-constexpr Length kWidestPlace{1e-4}, kHighestPlace{1e-5};
 constexpr double kRounding = 1e-6;
 constexpr std::string_view kPadField = "pad_";  // fields that physics refuses begin with it
 constexpr std::int64_t kLargestSeed = 65535;
 constexpr double kWidestAngle = 360.0;  // degrees
-constexpr physics::Velocity kSlowestHand{1e-11}, kFastestHand{1e-4};
-constexpr physics::Time kLongestWait{3600.0};
 
 // A key of a table for a field that physics refuses.
 struct KeyOfField {
@@ -47,20 +45,6 @@ constexpr std::array kIslandKeys{KeyOfField{"radius", "height"}, KeyOfField{"isl
 std::string_view key_of(std::string_view field, std::span<const KeyOfField> keys) {
   const auto at = std::find_if(keys.begin(), keys.end(), [=](const KeyOfField& k) { return k.field == field; });
   return at == keys.end() ? field : at->key;
-}
-
-Length place(const TomlTable& table, std::string_view key, Length most) {
-  const Length value = table.quantity(key, physics::kLengthUnits);
-  if (!(value >= -most && value <= most)) {
-    table.refuse(key, fmt::format("{} is not within -{} to {}", physics::format_quantity(value, physics::kLengthUnits),
-                                  physics::format_quantity(most, physics::kLengthUnits),
-                                  physics::format_quantity(most, physics::kLengthUnits)));
-  }
-  return value;
-}
-
-physics::LeverBase base(const TomlTable& table) {
-  return {{place(table, "x", kWidestPlace), place(table, "y", kWidestPlace)}, place(table, "z", kHighestPlace)};
 }
 
 // A rod's friction is given per length, and its stiffness limits how long it may be: it is pushed as a rigid body.
@@ -232,24 +216,6 @@ physics::PlacedParticle read_particle(const TomlTable& table, const ParticleSet&
   return particle;
 }
 
-HandMove read_move(const TomlTable& table, bool soft) {
-  table.allow_only({"x", "y", "z", "speed", "wait"});
-  if (soft && table.has("wait")) table.refuse("wait", "a soft sample does not change while the hand waits");
-  HandMove move{base(table), table.quantity("speed", physics::kVelocityUnits)};
-  if (!(move.speed >= kSlowestHand && move.speed <= kFastestHand)) {
-    table.refuse("speed",
-                 fmt::format("{} is not within {}", physics::format_quantity(move.speed, physics::kVelocityUnits),
-                             physics::range_text(kSlowestHand.si, kFastestHand.si, physics::kVelocityUnits)));
-  }
-  if (!table.has("wait")) return move;
-  move.wait = table.quantity("wait", physics::kTimeUnits);
-  if (!(move.wait >= physics::Time(0.0) && move.wait <= kLongestWait)) {
-    table.refuse("wait", fmt::format("{} is not within {}", physics::format_quantity(move.wait, physics::kTimeUnits),
-                                     physics::range_text(0.0, kLongestWait.si, physics::kTimeUnits)));
-  }
-  return move;
-}
-
 bool has_movable(const ParticleSet& set, bool rods) {
   return std::any_of(set.particles.begin(), set.particles.end(), [&](const physics::PlacedParticle& p) {
     return !p.pinned && physics::is_rod(set.setup.species[p.species]) == rods;
@@ -381,7 +347,7 @@ ParticleSet read_set(const toml::table& root) {
   start.allow_only({"x", "y", "z"});
   set.start = base(start);
   for (const TomlTable& table : top.tables("move", kMostMoves))
-    set.moves.push_back(read_move(table, set.soft != nullptr));
+    set.moves.push_back(read_move(table, set.moves.empty() ? set.start : set.moves.back().to, set.soft != nullptr));
   if (set.soft) check_soft_moves(top, set);
   return set;
 }

@@ -89,7 +89,7 @@ ScratchRun play_scratch(const ParticleSet& set, physics::Frequency rate, std::si
     Sums sums;
     for (std::size_t i = 1; i <= ticks; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(ticks);
-      now.tick = tip.move_to(i == ticks ? move.to : on_the_way(from, move.to, share));
+      now.tick = tip.move_to(on_the_way(from, move, share));
       now.time_s = static_cast<double>(++run.ticks) / rate.si;
       if (now.tick.lagging) ++run.lagging;
       run.least_margin_j = std::min(run.least_margin_j, scratch_margin_j(now.tick));

@@ -112,7 +112,7 @@ class Player {
     const std::size_t ticks = ticks_of(from, move, script_.rate);
     for (std::size_t i = 1; i <= ticks; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(ticks);
-      go_to(i == ticks ? move.to : on_the_way(from, move.to, share));
+      go_to(on_the_way(from, move, share));
     }
     for (std::size_t i = 0; i < waiting_ticks(move, script_.rate); ++i) go_to(move.to);
     played_.ends.push_back(now_);

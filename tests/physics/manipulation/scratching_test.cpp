@@ -153,6 +153,76 @@ TEST(Scratching, AnImprintBearsTheLoadThatMadeIt) {
   EXPECT_GT(tip.last().lost.si, lost_j);
 }
 
+// What a look at all squares one by one finds, with the exact outline of the tip: the lever presses with what bears,
+// the displaced volume and the resistance are those of the squares, and the expected apex does not change a bit.
+TEST(Scratching, ALookFindsWhatEachSquareBears) {
+  SoftSurface soft = pmma();
+  soft.reduced_modulus = Pressure(1e15);  // nothing springs back: the seen heights are those under the tip
+  const PushSprings springs{Stiffness(10.0), Stiffness(1.0), Stiffness(1.0)};
+  ScratchingTip tip(marking_tip(), springs, soft, {Length(-60e-9), Length(-60e-9)}, {Length(60e-9), Length(60e-9)},
+                    base_at(0.0, 0.0, 50e-9));
+  for (const double x_m : {-30e-9, 0.0, 20e-9}) {
+    move_above(tip, x_m, -50e-9);
+    press(tip, -120e-9);
+    scratch(tip, base_at(-x_m, 40e-9, -100e-9), kStep);
+  }
+  press(tip, 50e-9);
+  const MarkedSurface& surface = tip.surface();
+  const TipOutline outline(marking_tip());
+  const double square_m2 = surface.spacing().si * surface.spacing().si, within_m = 4e-4 * marking_tip().radius.si;
+  const auto each_begin = [&](const Sideways<Length>& place, const auto& look) {
+    for (std::size_t row = 0; row < surface.rows(); ++row) {
+      for (std::size_t column = 0; column < surface.columns(); ++column) {
+        const Sideways<Length> at =
+            surface.middle_of_first() + Sideways<Length>{static_cast<double>(column) * surface.spacing(),
+                                                         static_cast<double>(row) * surface.spacing()};
+        look((surface.square(column, row) - outline.height_at(magnitude(at - place))).si);
+      }
+    }
+  };
+  std::mt19937_64 random(11);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  double resisted_n = 0.0, off_n = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const Sideways<Length> place{Length(uniform(-60e-9, 60e-9)), Length(uniform(-60e-9, 60e-9))};
+    const double angle = uniform(0.0, 6.3);
+    const Sideways<double> along{std::cos(angle), std::sin(angle)};
+    const Length base(-std::exp(uniform(std::log(2e-9), std::log(180e-9))));
+    const auto look = [&](double way_m, Length about) {
+      return surface.sink(place + Sideways<Length>{Length(way_m * along.x), Length(way_m * along.y)}, along, base,
+                          springs.normal, about);
+    };
+    const Sunk sunk = look(0.0, Length(0.0));
+    for (const double about_m : {-150e-9, sunk.apex.si, 20e-9}) {
+      const Sunk again = look(0.0, Length(about_m));
+      ASSERT_EQ(again.apex, sunk.apex);
+      ASSERT_EQ(again.displaced, sunk.displaced);
+      ASSERT_EQ(again.resistance, sunk.resistance);
+    }
+    double most_n = 0.0, least_n = 0.0, displaced_m3 = 0.0, bears_m2 = 0.0;
+    each_begin(place, [&](double begin_m) {
+      if (begin_m > sunk.apex.si - within_m) most_n += soft.hardness.si * square_m2;
+      if (begin_m > sunk.apex.si + within_m) least_n += soft.hardness.si * square_m2;
+      if (begin_m > sunk.apex.si) bears_m2 += square_m2;
+      displaced_m3 += square_m2 * std::max(0.0, begin_m - sunk.apex.si);
+    });
+    const double load_n = (springs.normal * (sunk.apex - base)).si;
+    EXPECT_GE(load_n, least_n - 1e-15) << i;
+    EXPECT_LE(load_n, most_n + 1e-15) << i;
+    EXPECT_NEAR(sunk.displaced.si, displaced_m3, (bears_m2 + square_m2) * within_m) << i;
+    const auto energy_j = [&](const Sunk& at) {
+      const Length bent = at.apex - base;
+      return (0.5 * (springs.normal * (bent * bent)) + soft.hardness * at.displaced).si;
+    };
+    constexpr double kStepM = 1e-13;
+    const double slope_n = (energy_j(look(kStepM, sunk.apex)) - energy_j(look(-kStepM, sunk.apex))) / (2.0 * kStepM);
+    resisted_n += std::abs(slope_n);
+    off_n += std::abs(sunk.resistance.si - slope_n);
+  }
+  EXPECT_GT(resisted_n, 0.0);
+  EXPECT_LT(off_n, 0.01 * resisted_n);
+}
+
 TEST(Scratching, StopsAtTheLowestHeightOfTheModel) {
   ScratchingTip tip = on_pmma({Stiffness(10.0), Stiffness(100.0), Stiffness(100.0)});
   press(tip, -300e-9);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -33,6 +35,7 @@ struct GrooveSection {
 struct Sunk {
   Length apex;         // height
   Volume displaced;    // what it presses down there
+  Force resistance;    // against a motion along the given way
   bool stops = false;  // at the lowest height: the load is more than the surface bears
 };
 
@@ -67,8 +70,10 @@ class MarkedSurface {
   Length spacing() const noexcept { return Length(spacing_m_); }
 
   // The height at which a lever of this spring, whose unbent apex would be at `base`, presses the tip at a place: the
-  // least of energy of the lever and hardness times displaced volume. `place` is one that it holds.
-  Sunk sink(const Sideways<Length>& place, Length base, Stiffness spring) const noexcept;
+  // least of energy of the lever and hardness times displaced volume. `place` is one that it holds, `along` the way on
+  // which the tip comes. An apex near `about` is found sooner, with the same bits.
+  Sunk sink(const Sideways<Length>& place, const Sideways<double>& along, Length base, Stiffness spring,
+            Length about) const noexcept;
 
   // Presses the tip in, with a contact of that radius that rises by `back` in its middle when the tip has left. The
   // volume pressed down.
@@ -98,20 +103,55 @@ class MarkedSurface {
   Sideways<Length> middle_of_first() const noexcept { return {Length(left_m_), Length(bottom_m_)}; }
 
  private:
-  // A square that a call visits: its index, distance of its middle from the tip's axis, and the tip's height above its
-  // apex there.
-  struct Visited {
-    std::size_t index;
-    double x_m, y_m, distance_m, tip_m;
-  };
-  template <class Visit>
-  void around(const Sideways<Length>& place, const Visit& visit) const noexcept;
-  double square_m(std::size_t column, std::size_t row) const noexcept;
-  double ridge_weight(const Visited& at, double radius_m, const Sideways<double>& along) const noexcept;
+  static constexpr int kSide = 2 * kReach + 1;
 
-  TipOutline tip_;
+  struct Columns {
+    std::size_t first, end;
+  };
+
+  // The squares within reach of a place: distances of their middles from it along x and y, and the index of the first.
+  struct Window {
+    std::array<double, kSide> x_m, y_m;
+    double squares_per_m;
+    std::size_t first;
+
+    // The columns whose middles lie between two distances, and perhaps one more at each end.
+    Columns columns_between(double least_m, double most_m) const noexcept {
+      const auto column = [&](double from_m) {
+        return static_cast<int>(std::clamp((from_m - x_m[0]) * squares_per_m, -1.0, 1.0 * kSide));
+      };
+      return {static_cast<std::size_t>(std::max(0, column(least_m))),
+              static_cast<std::size_t>(std::min(kSide, column(most_m) + 2))};
+    }
+  };
+  Window window(const Sideways<Length>& place) const noexcept;
+
+  // Height of the tip above its apex, and what it rises by with r^2.
+  struct Rise {
+    double height_m, per_m2_m;
+  };
+  Rise rise_at(double distance_m2) const noexcept;
+
+  // A square: its index, distances of its middle from the tip's axis, and the tip there.
+  struct Above {
+    std::size_t index;
+    double x_m, y_m, distance_m2;
+    Rise tip;
+  };
+  // Visits each square that is higher than the tip, and few others.
+  template <class Visit>
+  void above_tip(const Window& window, double apex_m, const Visit& visit) const noexcept;
+
+  // Calls visit(index, weight, squared distance from the axis) for each square on which a ridge grows.
+  template <class Visit>
+  void beside(const Window& window, double radius_m, const Sideways<double>& along, const Visit& visit) const noexcept;
+  double square_m(std::size_t column, std::size_t row) const noexcept;
+
   double hardness_pa_, pile_up_share_;
   double spacing_m_, deepest_m_, highest_m_ = 0.0;
+  std::vector<double> profile_m_;  // heights of the tip above its apex, evenly in r^2, beyond all squares within reach
+  double places_per_m2_ = 0.0;     // density of the profile
+  double least_rise_per_m_ = 0.0;  // within reach, the tip is at least as much times r^2 above its apex
   double left_m_ = 0.0, bottom_m_ = 0.0;  // middle of the first square
   std::size_t columns_ = 0, rows_ = 0;
   std::vector<double> pressed_m_;  // height under the tip that pressed last

@@ -41,7 +41,7 @@ struct ScratchTick {
   Energy work;    // work of the hand since the start, by the forces at both ends of each sub-step: an estimate
   Energy lost;    // hardness times the volume pressed down since the start
   Energy stored;  // energy in the lever
-  std::uint64_t exhausted = 0;  // ticks at whose end the tip was not at rest, since the start
+  std::uint64_t exhausted = 0;  // ticks at whose end the lever still pulled the tip on, since the start
   bool stops = false;           // the tip is at the lowest height of the model
   bool lagging = false;
 };
@@ -69,17 +69,17 @@ class ScratchingTip {
   const MarkedSurface& surface() const noexcept { return surface_; }
 
  private:
-  // A place of the tip, and E + R of the step there.
+  // A place of the tip, E + R of the step there, and how that rises on the way to the base.
   struct Step {
     Sideways<Length> place;
     Sunk sunk;
-    double energy_j;
+    double energy_j, slope_n;
   };
 
   double stored_j(const Sideways<Length>& place, Length apex) const noexcept;
-  Step step_to(const Sideways<Length>& place) const noexcept;
-  Step best_towards(const Sideways<Length>& gap, double most) const noexcept;
-  bool take(const Step& step, const Sideways<double>& along) noexcept;
+  Step step_to(const Sideways<Length>& place, const Sideways<double>& along, Length about) noexcept;
+  Step least_on_the_way(const Sideways<Length>& gap, const Sideways<double>& along) noexcept;
+  void take(const Step& step, const Sideways<double>& along) noexcept;
   void settle() noexcept;
   void move_base(const LeverBase& base) noexcept;
   Sideways<Force> pull() const noexcept;
@@ -90,6 +90,7 @@ class ScratchingTip {
   MarkedSurface surface_;
   Sideways<double> along_{0.0, 0.0};  // direction of the last motion in this contact; zero: it has only been pressed
   double last_way_m_;                 // length of the last sideways step
+  int looks_ = 0;                     // left in this tick
   Length contact_radius_;             // contact in which the surface gave last
   bool rested_ = true;
   ScratchTick tick_;

@@ -12,12 +12,17 @@
 namespace afm::physics {
 namespace {
 
-constexpr int kSubStepsOfATick = 8, kStepsOfASubStep = 12, kGuesses = 3;
-constexpr double kLongestGuess = 0.5;    // squares
-constexpr double kShortestGuess = 0.02;  // squares: the first guess of a step is no shorter
-constexpr double kGuessGrowth = 4.0;     // next guess over the last step
-constexpr double kGuessShrinking = 8.0;  // divisor of a guess that gains nothing
-constexpr double kLeastGain = 1e-9;      // least share of the energy that is worth another step
+constexpr int kSubStepsOfATick = 8;
+constexpr int kLooksOfATick = 16;
+constexpr int kLooksOnAWay = 5;
+constexpr int kFineSubSteps = 4;
+constexpr double kLongestWay = 0.5;    // squares: of a step, and of the base in a sub-step
+constexpr double kFineWay = 0.25;      // squares: of the base in a sub-step, if so many fine sub-steps suffice
+constexpr double kShortestWay = 0.02;  // squares: the first look of a way is no nearer
+constexpr double kWayGrowth = 4.0;     // most of a look over the one before
+constexpr double kWorth = 1e-4;        // gain over the pull of the lever times a square for which no look is worth it
+constexpr double kBalanced = 3e-3;     // slope over the pull of the lever at which the tip rests
+constexpr double kInside = 0.1;        // least distance of a look from both ends, over that between them
 
 }  // namespace
 
@@ -50,30 +55,58 @@ Sideways<Force> ScratchingTip::pull() const noexcept {
 
 Force ScratchingTip::press() const noexcept { return springs_.normal * (tick_.apex.z - tick_.base.z); }
 
-ScratchingTip::Step ScratchingTip::step_to(const Sideways<Length>& place) const noexcept {
-  const Sunk sunk = surface_.sink(place, tick_.base.z, springs_.normal);
-  return {place, sunk, stored_j(place, sunk.apex) + (soft_.hardness * sunk.displaced).si};
+ScratchingTip::Step ScratchingTip::step_to(const Sideways<Length>& place, const Sideways<double>& along,
+                                           Length about) noexcept {
+  --looks_;
+  const Sunk sunk = surface_.sink(place, along, tick_.base.z, springs_.normal, about);
+  const Force pull = springs_.lateral * dot(tick_.base.position - place, along);
+  return {place, sunk, stored_j(place, sunk.apex) + (soft_.hardness * sunk.displaced).si, (sunk.resistance - pull).si};
 }
 
-// The best of a step by a share of the gap to the base, of its half, and of the lowest place of the parabola through
-// both and the present place.
-ScratchingTip::Step ScratchingTip::best_towards(const Sideways<Length>& gap, double most) const noexcept {
-  const auto at = [&](double share) {
-    return step_to(share < 1.0 ? tick_.apex.position + gap * share : tick_.base.position);
-  };
-  const Step whole = at(most), half = at(0.5 * most);
-  Step best = half.energy_j < whole.energy_j ? half : whole;
-  const double now_j = tick_.stored.si, bend_j = whole.energy_j - 2.0 * half.energy_j + now_j;
-  if (!(bend_j > 0.0)) return best;
-  const double lowest = 0.5 - 0.25 * (whole.energy_j - now_j) / bend_j;
-  if (!(lowest > 0.0 && lowest < 1.0)) return best;
-  const Step third = at(lowest * most);
-  return third.energy_j < best.energy_j ? third : best;
+// The step of least E + R among some on the way to the base, the next one always where the slopes of those before let
+// expect the least. Sets rested_.
+ScratchingTip::Step ScratchingTip::least_on_the_way(const Sideways<Length>& gap,
+                                                    const Sideways<double>& along) noexcept {
+  const Sideways<Length> from = tick_.apex.position;
+  const double gap_m = magnitude(gap).si, spacing_m = surface_.spacing().si;
+  const double most_m = std::min(gap_m, kLongestWay * spacing_m);
+  const Step here = step_to(from, along, tick_.apex.z);
+  Step best = here;
+  rested_ = false;
+  // way, E + R and slope at the last look short of the least, and at the first one beyond it; 0: no slope is known
+  double low_m = 0.0, low_j = here.energy_j, low_n = 0.0, high_m = most_m, high_j = 0.0, high_n = 0.0;
+  const double pull_n = springs_.lateral.si * gap_m;
+  double way_m = std::min(most_m, std::max(last_way_m_, kShortestWay * spacing_m));
+  for (int i = 0; i < kLooksOnAWay && looks_ > 0; ++i) {
+    const bool at_base = way_m >= gap_m;
+    const Step step = step_to(at_base ? tick_.base.position : from + gap * (way_m / gap_m), along, best.sunk.apex);
+    if (step.energy_j < best.energy_j) best = step;
+    // slope at the start of a parabola through both
+    if (i == 0) low_n = 2.0 * (step.energy_j - here.energy_j) / way_m - step.slope_n;
+    const double before_m = low_m, before_n = low_n;
+    (step.slope_n > 0.0 ? high_m : low_m) = way_m;
+    (step.slope_n > 0.0 ? high_j : low_j) = step.energy_j;
+    (step.slope_n > 0.0 ? high_n : low_n) = step.slope_n;
+    // beyond the first look with a slope upwards, nothing pulls the tip any farther
+    rested_ = high_n > 0.0 || -step.slope_n <= kBalanced * pull_n || low_m >= gap_m;
+    if (std::abs(step.slope_n) <= kBalanced * pull_n || low_n >= 0.0 || low_m >= most_m) break;
+    if (high_n > 0.0) {
+      // Between both ways the sum is nowhere below its tangents there. A square that begins to bear bends it sharply:
+      // then the least is where the tangents meet, otherwise where the slope is 0 on a straight line.
+      const double long_m = high_m - low_m;
+      const double meet = std::clamp((high_j - low_j - high_n * long_m) / ((low_n - high_n) * long_m), 0.0, 1.0);
+      if (best.energy_j - (low_j + low_n * meet * long_m) <= kWorth * pull_n * spacing_m) break;
+      const double share = i % 2 == 0 ? low_n / (low_n - high_n) : meet;
+      way_m = low_m + std::clamp(share, kInside, 1.0 - kInside) * long_m;
+    } else {
+      const double bend = (low_n - before_n) / (low_m - before_m);
+      way_m = std::min({most_m, kWayGrowth * low_m, bend > 0.0 ? low_m - low_n / bend : most_m});
+    }
+  }
+  return best;
 }
 
-// True if the step has been taken.
-bool ScratchingTip::take(const Step& step, const Sideways<double>& along) noexcept {
-  if (!(step.energy_j < tick_.stored.si)) return false;
+void ScratchingTip::take(const Step& step, const Sideways<double>& along) noexcept {
   tick_.apex = {step.place, step.sunk.apex};
   tick_.stops = step.sunk.stops;
   if (along.x != 0.0 || along.y != 0.0) along_ = along;
@@ -88,29 +121,21 @@ bool ScratchingTip::take(const Step& step, const Sideways<double>& along) noexce
   }
   tick_.stored = Energy(stored_j(step.place, step.sunk.apex));
   surface_.pile_up(step.place, step.sunk.apex, contact_radius_, along_);
-  return true;
 }
 
 void ScratchingTip::settle() noexcept {
-  take(step_to(tick_.apex.position), {0.0, 0.0});
-  const double longest_m = kLongestGuess * surface_.spacing().si, shortest_m = kShortestGuess * surface_.spacing().si;
-  rested_ = false;
-  for (int i = 0; i < kStepsOfASubStep && !rested_; ++i) {
-    const Sideways<Length> gap = tick_.base.position - tick_.apex.position;
-    const double gap_m = magnitude(gap).si, before_j = tick_.stored.si;
+  do {
+    const Sideways<Length> from = tick_.apex.position, gap = tick_.base.position - from;
+    const double gap_m = magnitude(gap).si;
+    const Sideways<double> along =
+        gap_m > 0.0 ? Sideways<double>{gap.x.si / gap_m, gap.y.si / gap_m} : Sideways<double>{};
     rested_ = true;
-    if (!(gap_m > 0.0)) return;
-    const Sideways<double> along{gap.x.si / gap_m, gap.y.si / gap_m};
-    double way_m = std::min({gap_m, longest_m, std::max(kGuessGrowth * last_way_m_, shortest_m)});
-    for (int k = 0; k < kGuesses; ++k, way_m /= kGuessShrinking) {
-      const Step step = best_towards(gap, way_m / gap_m);
-      const Sideways<Length> from = tick_.apex.position;
-      if (!take(step, along)) continue;
-      last_way_m_ = magnitude(step.place - from).si;
-      rested_ = before_j - step.energy_j <= kLeastGain * before_j;
-      break;
-    }
-  }
+    const Step step = gap_m > 0.0 ? least_on_the_way(gap, along) : step_to(from, along, tick_.apex.z);
+    if (!(step.energy_j < tick_.stored.si)) return;
+    const double way_m = magnitude(step.place - from).si;
+    if (way_m > 0.0) last_way_m_ = way_m;
+    take(step, way_m > 0.0 ? along : Sideways<double>{});
+  } while (!rested_ && looks_ > 0);
 }
 
 void ScratchingTip::move_base(const LeverBase& base) noexcept {
@@ -136,11 +161,14 @@ const ScratchTick& ScratchingTip::move_to(const LeverBase& base) noexcept {
   } else {
     const Sideways<Length> way = base.position - from.position;
     const Length down = base.z - from.z;
-    const double longest_m = kLongestGuess * surface_.spacing().si;
-    const double steps = std::max(1.0, std::ceil(std::max(magnitude(way).si, std::abs(down.si)) / longest_m));
+    const double way_squares = std::max(magnitude(way).si, std::abs(down.si)) / surface_.spacing().si;
+    const double steps = std::max({1.0, std::ceil(way_squares / kLongestWay),
+                                   std::min<double>(kFineSubSteps, std::ceil(way_squares / kFineWay))});
     tick_.lagging = steps > kSubStepsOfATick;
-    for (int i = 1; i <= kSubStepsOfATick && i <= steps; ++i) {
+    const int taken = static_cast<int>(std::min<double>(steps, kSubStepsOfATick));
+    for (int i = 1; i <= taken; ++i) {
       const double share = i / steps;
+      looks_ = kLooksOfATick / taken;
       move_base(i == steps ? base : LeverBase{from.position + way * share, from.z + down * share});
     }
     if (!rested_) ++tick_.exhausted;

@@ -9,6 +9,13 @@
 // The scripted hand of a particle file in ticks of a rate.
 namespace afm::scene {
 
+// A sweep goes in lines across its way, there and back, each one line spacing farther on: half a line to the left of
+// the start, then on and across, on and back, and so forth, and half a line to the end. The height changes evenly.
+
+// Lines of a sweep from a place, as many as keep their spacing at most that of the move; 0: it is straight, or goes
+// nowhere.
+double lines_of(const physics::LeverBase& from, const HandMove& move);
+
 // Ticks of a move from a place, at least one, without its wait.
 std::size_t ticks_of(const physics::LeverBase& from, const HandMove& move, physics::Frequency rate);
 
@@ -19,7 +26,7 @@ std::size_t waiting_ticks(const HandMove& move, physics::Frequency rate);
 // counter holds.
 double all_ticks(const ParticleSet& set, physics::Frequency rate);
 
-// The place at a share of the straight way from a to b.
-physics::LeverBase on_the_way(const physics::LeverBase& a, const physics::LeverBase& b, double share);
+// The place at a share of the way of a move from a place; at 1 its end.
+physics::LeverBase on_the_way(const physics::LeverBase& from, const HandMove& move, double share);
 
 }  // namespace afm::scene

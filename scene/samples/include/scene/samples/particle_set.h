@@ -15,11 +15,13 @@
 
 namespace afm::scene {
 
-// A straight move of the scripted hand, which holds the lever's base.
+// A move of the scripted hand, which holds the lever's base: straight, or a sweep (hand_script.h).
 struct HandMove {
   physics::LeverBase to;
   physics::Velocity speed;
-  physics::Time wait{};  // at its end
+  physics::Time wait{};            // at its end
+  physics::Length sweep_width{};   // lines of a sweep; 0: the move is straight
+  physics::Length line_spacing{};  // distance of these lines, at most
 };
 
 // A species of particles as in a file.
