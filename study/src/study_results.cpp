@@ -152,17 +152,12 @@ void add_pushes(const TrialGroups& pushes, LessonResults& results) {
 }
 
 bool has_answer(const StudyTrial& trial) {
-  switch (trial.kind) {
-    case StepKind::Identify:
-    case StepKind::Threshold:
+  switch (row_of(trial.kind).answer) {
+    case StepAnswer::Comparison:
       return trial.right.has_value();
-    case StepKind::Cycle:
-    case StepKind::Draw:
-    case StepKind::Question:
-    case StepKind::Push:
+    case StepAnswer::Number:
       return trial.value.has_value();
-    case StepKind::Text:
-    case StepKind::Free:
+    case StepAnswer::None:
       break;
   }
   return true;
