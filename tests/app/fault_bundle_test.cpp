@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/fault_bundle.h"
+#include "app/doctor/fault_bundle.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/commands/private_words.h"
+#include "app/doctor/private_words.h"
 
 namespace afm::app {
 namespace fault_bundle_test {
