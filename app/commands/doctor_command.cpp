@@ -10,10 +10,10 @@
 #include <span>
 
 #include "app/bench/servo_latency.h"
-#include "app/commands/diagnosis.h"
-#include "app/commands/doctor_cluster.h"
-#include "app/commands/fault_bundle.h"
-#include "app/commands/findings_json.h"
+#include "app/doctor/diagnosis.h"
+#include "app/doctor/doctor_cluster.h"
+#include "app/doctor/fault_bundle.h"
+#include "app/doctor/findings_json.h"
 #include "app/options/command.h"
 #include "core/log.h"
 #include "core/percentiles.h"

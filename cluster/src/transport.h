@@ -32,7 +32,7 @@ class Doorbell {
   core::FileDescriptor event_;
 };
 
-enum class ClusterRole { Master, Node, Observer };
+enum class ClusterRole { Master, Node };
 
 // Topics of a wall in DDS; no other code calls Cyclone. A write may block for seconds when a cable is unplugged,
 // whatever its limits, so only one dedicated thread may call this, which neither draws nor sends the servo's heartbeat.

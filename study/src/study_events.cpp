@@ -159,7 +159,9 @@ class EventsLine {
       case StepKind::Free:
         break;
     }
-    if (row_of(trial.kind).compares_forces && !trial.response.empty()) trial.right = trial.stimulus == trial.response;
+    if (row_of(trial.kind).answer == StepAnswer::Comparison && !trial.response.empty()) {
+      trial.right = trial.stimulus == trial.response;
+    }
     const auto said = optional(Correct, 0, 1);
     if (said && *said != std::floor(*said)) refuse(Correct, "0 or 1");
     if (said && trial.right && (*said == 1.0) != *trial.right) refuse(Correct, "what stimulus and response say");

@@ -152,17 +152,12 @@ void add_pushes(const TrialGroups& pushes, LessonResults& results) {
 }
 
 bool has_answer(const StudyTrial& trial) {
-  switch (trial.kind) {
-    case StepKind::Identify:
-    case StepKind::Threshold:
+  switch (row_of(trial.kind).answer) {
+    case StepAnswer::Comparison:
       return trial.right.has_value();
-    case StepKind::Cycle:
-    case StepKind::Draw:
-    case StepKind::Question:
-    case StepKind::Push:
+    case StepAnswer::Number:
       return trial.value.has_value();
-    case StepKind::Text:
-    case StepKind::Free:
+    case StepAnswer::None:
       break;
   }
   return true;
@@ -176,6 +171,77 @@ void correct_side_by_side(std::vector<Row>& rows, TestResult Row::* test) {
   for (Row& row : rows) tests.push_back(&(row.*test));
   correct_by_holm(tests);
 }
+
+Measure measure_of(std::string key, std::string unit, double per_si, const Interval& scale) {
+  Measure like;
+  like.key = std::move(key), like.unit = std::move(unit), like.per_si = per_si, like.scale = scale;
+  return like;
+}
+
+std::optional<double> value_of(const StudyTrial& trial) { return trial.value; }
+
+void add_answer_times(const TrialGroups& groups, LessonResults& results) {
+  add_means(
+      groups, measure_of("answer_time_s", "s", 1.0, kNotNegative), "time to answer",
+      [](const StudyTrial& trial) { return trial.rt_s; }, results.measures);
+}
+
+void add_identified(const TrialGroups& groups, LessonResults& results) {
+  const auto materials = materials_of_steps(groups);
+  for (const auto& [where, trials] : groups) {
+    results.identify.push_back(identify_result(where, trials, materials.at(where.step)));
+  }
+  results.learning = learning_results(groups);
+  add_means(
+      groups, measure_of("right", "", 1.0, kShares), "share right",
+      [](const StudyTrial& trial) { return std::optional(*trial.right ? 1.0 : 0.0); }, results.measures);
+  add_answer_times(groups, results);
+}
+
+void add_compared(const TrialGroups& groups, LessonResults& results) {
+  for (const auto& [where, trials] : groups) results.thresholds.push_back(threshold_result(where, trials));
+  add_thresholds(results.thresholds, results.measures);
+  add_answer_times(groups, results);
+}
+
+void add_drawings(const TrialGroups& groups, LessonResults& results) {
+  add_means(groups, measure_of("drawing", "", 1.0, kShares), "score of the drawing", value_of, results.measures);
+}
+
+void add_felt(const TrialGroups& groups, LessonResults& results) {
+  add_means(groups, measure_of("pull_off_felt_N", "nN", 1e9, kNotNegative), "pull-off force felt", value_of,
+            results.measures);
+}
+
+void add_questions(const TrialGroups& groups, LessonResults& results) {
+  std::map<std::string, std::vector<const StudyTrial*>> questions;
+  for (const auto& [where, people] : groups) {
+    for (const auto& [id, trials] : people) questions[id].insert(questions[id].end(), trials.begin(), trials.end());
+  }
+  for (auto& [id, trials] : questions) {
+    std::stable_sort(trials.begin(), trials.end(),
+                     [](const StudyTrial* a, const StudyTrial* b) { return a->onset_s < b->onset_s; });
+  }
+  add_questionnaires(questions, results);
+}
+
+// Measures of each type of step that has an answer, in the order of the report.
+struct MeasuresRow {
+  StepKind kind;
+  void (*add)(const TrialGroups& groups, LessonResults& results);
+};
+constexpr std::array kMeasures{
+    MeasuresRow{StepKind::Identify, add_identified}, MeasuresRow{StepKind::Threshold, add_compared},
+    MeasuresRow{StepKind::Draw, add_drawings},       MeasuresRow{StepKind::Cycle, add_felt},
+    MeasuresRow{StepKind::Push, add_pushes},         MeasuresRow{StepKind::Question, add_questions}};
+constexpr bool is_measured(const StepKindRow& step) {
+  return std::any_of(kMeasures.begin(), kMeasures.end(), [&](const MeasuresRow& row) { return row.kind == step.kind; });
+}
+static_assert(std::all_of(kStepKinds.begin(), kStepKinds.end(),
+                          [](const StepKindRow& step) {
+                            return is_measured(step) == (step.answer != StepAnswer::None);
+                          }),
+              "every type of step with an answer needs a row in kMeasures");
 
 using GroupsByKind = std::map<StepKind, TrialGroups>;
 
@@ -208,41 +274,7 @@ LessonResults lesson_results(const std::string& task, const LessonVisits& lesson
   results.simulated = static_cast<std::size_t>(std::count_if(
       lesson.visits.begin(), lesson.visits.end(), [](const auto& visit) { return visit.second->facts.simulated; }));
   GroupsByKind groups = counted_trials(lesson, results);
-  const auto materials = materials_of_steps(groups[StepKind::Identify]);
-  for (const auto& [where, trials] : groups[StepKind::Identify]) {
-    results.identify.push_back(identify_result(where, trials, materials.at(where.step)));
-  }
-  for (const auto& [where, trials] : groups[StepKind::Threshold]) {
-    results.thresholds.push_back(threshold_result(where, trials));
-  }
-  results.learning = learning_results(groups[StepKind::Identify]);
-
-  Measure share, seconds, newtons, score;
-  share.key = "right", seconds.key = "answer_time_s", newtons.key = "pull_off_felt_N", score.key = "drawing";
-  seconds.unit = "s";
-  newtons.unit = "nN", newtons.per_si = 1e9;
-  share.scale = score.scale = kShares;
-  seconds.scale = newtons.scale = kNotNegative;
-  const auto value = [](const StudyTrial& trial) { return trial.value; };
-  const auto rt = [](const StudyTrial& trial) { return trial.rt_s; };
-  add_means(
-      groups[StepKind::Identify], share, "share right",
-      [](const StudyTrial& trial) { return std::optional(*trial.right ? 1.0 : 0.0); }, results.measures);
-  add_means(groups[StepKind::Identify], seconds, "time to answer", rt, results.measures);
-  add_thresholds(results.thresholds, results.measures);
-  add_means(groups[StepKind::Threshold], seconds, "time to answer", rt, results.measures);
-  add_means(groups[StepKind::Draw], score, "score of the drawing", value, results.measures);
-  add_means(groups[StepKind::Cycle], newtons, "pull-off force felt", value, results.measures);
-  add_pushes(groups[StepKind::Push], results);
-  std::map<std::string, std::vector<const StudyTrial*>> questions;
-  for (const auto& [where, people] : groups[StepKind::Question]) {
-    for (const auto& [id, trials] : people) questions[id].insert(questions[id].end(), trials.begin(), trials.end());
-  }
-  for (auto& [id, trials] : questions) {
-    std::stable_sort(trials.begin(), trials.end(),
-                     [](const StudyTrial* a, const StudyTrial* b) { return a->onset_s < b->onset_s; });
-  }
-  add_questionnaires(questions, results);
+  for (const MeasuresRow& row : kMeasures) row.add(groups[row.kind], results);
   for (const Measure& measure : results.measures) {
     const auto compared = compared_conditions(measure);
     results.comparisons.insert(results.comparisons.end(), compared.begin(), compared.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/diagnosis.h"
+#include "app/doctor/diagnosis.h"
 
 #include <gmock/gmock.h>
 

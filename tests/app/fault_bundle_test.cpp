@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/fault_bundle.h"
+#include "app/doctor/fault_bundle.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/commands/private_words.h"
+#include "app/doctor/private_words.h"
+#include "haptics/device_registry.h"
 
 namespace afm::app {
 namespace fault_bundle_test {
@@ -53,6 +54,13 @@ TEST(FaultBundle, KeepsADevicesModelAlone) {
   EXPECT_EQ(model_of("Alice"), "(name left out)");
   EXPECT_EQ(model_of("omega.3, serial 1234"), "omega.3 (rest of the name left out)");
   EXPECT_EQ(model_of("inverse3 049D, minverse 0012"), "inverse3 minverse (rest of the name left out)");
+}
+
+TEST(FaultBundle, KeepsTheNameOfEveryKindOfDevice) {
+  for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
+    if (kind.word == haptics::simulated_kind().word) continue;  // nobody's device
+    EXPECT_EQ(model_of(kind.subject), kind.subject);
+  }
 }
 
 TEST(FaultBundle, HasWhatAReportNeeds) {

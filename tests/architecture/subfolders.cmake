@@ -5,7 +5,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Subfolders of a folder, lowest first; then the arrows of each, which lead down alone, so that they close no circle.
-set(subfolders_app micro options . demo display view cluster headset lesson bench live analyse lever tapping commands)
+set(subfolders_app micro options . demo display view cluster headset lesson bench live analyse lever tapping doctor commands)
 set(arrows_app/. micro options)
 set(arrows_app/demo options)
 set(arrows_app/display options)
@@ -18,7 +18,8 @@ set(arrows_app/live display view cluster headset lesson)
 set(arrows_app/analyse options)
 set(arrows_app/lever options)
 set(arrows_app/tapping options)
-set(arrows_app/commands options demo display view cluster headset lesson bench live tapping)
+set(arrows_app/doctor options view cluster headset bench)
+set(arrows_app/commands options demo display view cluster headset lesson bench live tapping doctor)
 set(subfolders_curves . bytes confined fitting formats images hdf5 lever tapping)
 set(arrows_curves/bytes .)
 set(arrows_curves/confined .)

@@ -9,12 +9,14 @@
 #include <stdlib.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,7 +25,9 @@
 #include "cluster/network.h"
 #include "cluster/node_link.h"
 #include "core/clock.h"
+#include "core/enumerators.h"
 #include "support/scratch_folder.h"
+#include "transport.h"
 
 namespace link_test {
 
@@ -114,6 +118,38 @@ TEST_F(ClusterLinkTest, CarriesModelFramesJournalHistoryAnswersAndSwaps) {
   EXPECT_EQ(document->bytes, history);
   EXPECT_FALSE((*master)->sending_history());
   EXPECT_EQ((*master)->refused() + (*node)->refused(), 0U);
+}
+
+// A topic that neither link writes to fails, and so does one whose message is not sent here.
+TEST_F(ClusterLinkTest, WritesToEveryTopic) {
+  const auto master = MasterLink::open(network(207), model(), 0, clock_);
+  ASSERT_TRUE(master) << master.error().message;
+  const auto node = NodeLink::open(network(207), clock_);
+  ASSERT_TRUE(node) << node.error().message;
+  const auto bell = Doorbell::create().value();
+  std::array<bool, Transport::kTopics> written{};
+  std::vector<std::unique_ptr<Transport>> readers;
+  for (const ClusterRole role : {ClusterRole::Node, ClusterRole::Master}) {
+    readers.push_back(Transport::open(network(207), role, bell).value());
+  }
+
+  std::uint64_t number = 0;
+  FrameMessage frame;
+  const auto write_all = [&] {
+    (*master)->record(JournalRecord());
+    (*master)->send_history(model());
+    (*master)->swap(++number);
+    (*master)->send(number, frame);
+    (*node)->answer({.header = {.session = (*master)->session(), .number = number}});
+    for (const auto& reader : readers) {
+      for (const Transport::Topic topic : core::kEnumerators<Transport::Topic>) {
+        reader->take(topic, [&](std::span<const std::byte>) { written[core::index_of(topic)] = true; });
+      }
+    }
+    return std::find(written.begin(), written.end(), false) == written.end();
+  };
+  until(write_all, **node);
+  for (std::size_t i = 0; i < written.size(); ++i) EXPECT_TRUE(written[i]) << "topic " << i << " of Transport::Topic";
 }
 
 TEST_F(ClusterLinkTest, ASecondMasterRefusesToDriveTheSameWall) {

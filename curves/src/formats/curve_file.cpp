@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bytes/igor_wave.h"
+#include "bytes/nanosurf_header.h"
 #include "confined/confined_child.h"
 #include "confined/mapped_file.h"
 #include "core/enumerators.h"
@@ -23,11 +25,9 @@
 #include "formats/confined_series.h"
 #include "formats/format_table.h"
 #include "formats/igor_file.h"
-#include "formats/igor_wave.h"
 #include "formats/jpk_file.h"
 #include "formats/nanoscope_curve.h"
 #include "formats/nanosurf_curve.h"
-#include "formats/nanosurf_header.h"
 #include "formats/segments.h"
 #include "formats/tab_file.h"
 #include "formats/touchafm_csv_file.h"

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "bytes/igor_wave.h"
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
-#include "formats/igor_wave.h"
 #include "formats/segments.h"
 
 namespace afm::curves {

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "bytes/file_bytes.h"
+#include "bytes/nanoscope_header.h"
 #include "bytes/scaled_unit.h"
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
-#include "formats/nanoscope_header.h"
 #include "formats/segments.h"
 
 namespace afm::curves {

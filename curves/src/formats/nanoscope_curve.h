@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "bytes/nanoscope_header.h"
 #include "curves/curve_file.h"
 #include "curves/recorded_curve.h"
-#include "formats/nanoscope_header.h"
 #include "formats/nanoscope_scan.h"
 
 namespace afm::curves {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bytes/nanoscope_header.h"
 #include "curves/recorded_curve.h"
-#include "formats/nanoscope_header.h"
 
 // The scan of a Nanoscope file: area and scale of an image, and the grid of a force volume. Throws CurveError.
 namespace afm::curves {

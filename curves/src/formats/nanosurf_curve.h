@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "bytes/nanosurf_header.h"
 #include "curves/curve_file.h"
 #include "curves/recorded_curve.h"
-#include "formats/nanosurf_header.h"
 
 namespace afm::curves {
 

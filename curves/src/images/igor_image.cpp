@@ -4,9 +4,9 @@
 #include <array>
 #include <string>
 
+#include "bytes/igor_wave.h"
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
-#include "formats/igor_wave.h"
 
 namespace afm::curves {
 

@@ -12,14 +12,14 @@
 #include <utility>
 
 #include "bytes/file_bytes.h"
+#include "bytes/igor_wave.h"
+#include "bytes/nanosurf_header.h"
 #include "bytes/tiff_page.h"
 #include "core/enumerators.h"
 #include "core/printable.h"
 #include "curves/curve_error.h"
 #include "curves/curve_file.h"
 #include "formats/format_table.h"
-#include "formats/igor_wave.h"
-#include "formats/nanosurf_header.h"
 #include "images/gsf_image.h"
 #include "images/gwy_image.h"
 #include "images/igor_image.h"

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "bytes/file_bytes.h"
+#include "bytes/nanoscope_header.h"
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
-#include "formats/nanoscope_header.h"
 #include "formats/nanoscope_scan.h"
 
 namespace afm::curves {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "formats/nanosurf_header.h"
+#include "bytes/nanosurf_header.h"
 
 namespace afm::curves {
 

@@ -28,6 +28,8 @@ namespace afm::exhibit {
 namespace {
 
 using scene::TomlTable;
+using study::StepAnswer;
+using study::StepBeside;
 
 constexpr const char* kKind = "lesson file";
 constexpr std::size_t kMostSteps = 100, kMostIdLetters = 40, kMostConditions = 4;
@@ -272,29 +274,21 @@ void read_common(const TomlTable& table, const Lesson& lesson, LessonStep& step)
 }
 
 // With particles, the hand is on their scale, on which the sample's force is not to be judged.
-void refuse_kind_beside_particles(const TomlTable& table, StepKind kind, const Lesson& lesson) {
-  switch (kind) {
-    case StepKind::Text:
-    case StepKind::Draw:
-    case StepKind::Question:
-      return;
-    case StepKind::Push:
-      if (!lesson.set) table.refuse("type", "push needs the lesson's particles");
-      return;
-    case StepKind::Free:
-    case StepKind::Cycle:
-    case StepKind::Identify:
-    case StepKind::Threshold:
-      if (lesson.set) table.refuse("type", fmt::format("{} is for lessons without particles", word_of(kind)));
-      return;
+void refuse_kind_beside_particles(const TomlTable& table, const study::StepKindRow& row, const Lesson& lesson) {
+  if (row.particles == StepBeside::Needed && !lesson.set) {
+    table.refuse("type", fmt::format("{} needs the lesson's particles", row.word));
+  }
+  if (row.particles == StepBeside::Refused && lesson.set) {
+    table.refuse("type", fmt::format("{} is for lessons without particles", row.word));
   }
 }
 
 LessonStep read_step(const TomlTable& table, const Lesson& lesson) {
   LessonStep step;
-  step.kind = table.one_of("type", kStepKinds, &study::StepKindRow::word).kind;
-  refuse_kind_beside_particles(table, step.kind, lesson);
-  if (lesson.tapping) refuse_kind_in_tapping(table, step.kind);
+  const study::StepKindRow& row = table.one_of("type", kStepKinds, &study::StepKindRow::word);
+  step.kind = row.kind;
+  refuse_kind_beside_particles(table, row, lesson);
+  refuse_kind_beside_tapping(table, row, lesson);
   allow_keys(table, step.kind);
   read_common(table, lesson, step);
   step.trials = step.kind == StepKind::Free ? whole_or(table, "cycles", 1, kMostTrials, 1)
@@ -323,7 +317,7 @@ LessonStep read_step(const TomlTable& table, const Lesson& lesson) {
       step.materials = read_materials(table, step, lesson);
       break;
   }
-  if (row_of(step.kind).compares_forces && !step.states && lesson.scale != scene::ScaleMode::Common) {
+  if (row.answer == StepAnswer::Comparison && !step.states && lesson.scale != scene::ScaleMode::Common) {
     table.refuse("type", fmt::format("{} needs the lesson's scale = \"common\": on {} every material lets go at the "
                                      "same force of the hand, so that no one can tell them apart",
                                      word_of(step.kind), scene::text_of(lesson.scale).word));

@@ -67,22 +67,16 @@ curves::TappedHand read_tapping(const TomlTable& top) {
   return hand;
 }
 
-void refuse_kind_in_tapping(const TomlTable& table, StepKind kind) {
-  switch (kind) {
-    case StepKind::Text:
-    case StepKind::Free:
-    case StepKind::Identify:
-    case StepKind::Question:
-      return;
-    case StepKind::Cycle:
-    case StepKind::Threshold:
-      table.refuse("type", fmt::format("{} compares pull-offs, which a lesson with tapping does not have; use free or "
-                                       "identify with of = \"states\"",
-                                       word_of(kind)));
-    case StepKind::Draw:
-    case StepKind::Push:
-      table.refuse("type", fmt::format("{} is for lessons without tapping", word_of(kind)));
+void refuse_kind_beside_tapping(const TomlTable& table, const study::StepKindRow& row, const Lesson& lesson) {
+  using study::StepBeside;
+  if (row.tapping == StepBeside::Needed && !lesson.tapping) {
+    table.refuse("type", fmt::format("{} needs the lesson's table [tapping]", row.word));
   }
+  if (row.tapping != StepBeside::Refused || !lesson.tapping) return;
+  if (!row.has_cycles) table.refuse("type", fmt::format("{} is for lessons without tapping", row.word));
+  table.refuse("type", fmt::format("{} compares pull-offs, which a lesson with tapping does not have; use free or "
+                                   "identify with of = \"states\"",
+                                   row.word));
 }
 
 bool read_states(const TomlTable& table, const Lesson& lesson) {

@@ -11,8 +11,8 @@ namespace afm::exhibit {
 // whether a hand can feel the lever depends on the material (lesson_setup()).
 curves::TappedHand read_tapping(const scene::TomlTable& top);
 
-// Refuses a step of this type in a lesson whose lever taps.
-void refuse_kind_in_tapping(const scene::TomlTable& table, StepKind kind);
+// Refuses a type of step that does not go with a lever that taps, or needs one.
+void refuse_kind_beside_tapping(const scene::TomlTable& table, const study::StepKindRow& row, const Lesson& lesson);
 
 // Returns whether a step `identify` asks for the state of the swing instead of the material; refuses what does not go
 // with it.

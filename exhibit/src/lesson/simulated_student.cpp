@@ -207,22 +207,10 @@ core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& pr
 
 std::size_t SimulatedStudent::choose(const LessonPrompt& prompt) {
   if (!prompt.has_right) return rate(prompt);
-  constexpr double kKnown = 0.8;  // probability of knowing a part of the curve
-  switch (prompt.kind) {
-    case StepKind::Threshold:
-      return stronger_of_two();
-    case StepKind::Identify:
-      return identify(prompt);
-    case StepKind::Draw:
-      return random_.unit() < kKnown ? prompt.right : random_.below(prompt.answers.size());
-    case StepKind::Text:
-    case StepKind::Free:
-    case StepKind::Cycle:
-    case StepKind::Question:
-    case StepKind::Push:
-      break;
-  }
-  return rate(prompt);
+  constexpr double kKnown = 0.8;  // probability of knowing the answer, such as a part of the curve
+  if (prompt.kind == StepKind::Threshold) return stronger_of_two();
+  if (prompt.kind == StepKind::Identify) return identify(prompt);
+  return random_.unit() < kKnown ? prompt.right : random_.below(prompt.answers.size());
 }
 
 std::size_t SimulatedStudent::rate(const LessonPrompt& prompt) {

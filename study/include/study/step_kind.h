@@ -11,24 +11,88 @@ namespace afm::study {
 // Types of a lesson's steps, in one table for lesson files, their data, and the study that reads them
 // (docs/adding-a-lesson-step.md).
 enum class StepKind { Text, Free, Cycle, Identify, Threshold, Draw, Question, Push };
+// What a counted trial is answered with. Comparison: of forces on the hand, so it is right or wrong, and needs the
+// common scale. Number: StudyTrial::value.
+enum class StepAnswer { None, Number, Comparison };
+
+// Whether a step may stand in a lesson that has particles, or a lever that taps.
+enum class StepBeside { Allowed, Needed, Refused };
+
 struct StepKindRow {
   StepKind kind;
   std::string_view word;  // in lesson files and in the column trial_type
   std::string_view meaning;
-  bool compares_forces;  // answered by comparing forces on the hand: right or wrong, and only on the common scale
-  bool open_ended;       // continues until someone ends it
-  bool has_cycles;       // the tip snaps in and lets go in each trial
+  StepAnswer answer;
+  bool open_ended;  // continues until someone ends it
+  bool has_cycles;  // the tip snaps in and lets go in each trial
+  StepBeside particles;
+  StepBeside tapping;
 };
 inline constexpr std::array kStepKinds{
-    StepKindRow{StepKind::Text, "text", "a text to read", false, false, false},
-    StepKindRow{StepKind::Free, "free", "exploration at will", false, true, true},
-    StepKindRow{StepKind::Cycle, "cycle", "a guided cycle", false, false, true},
-    StepKindRow{StepKind::Identify, "identify", "a hidden sample, to be named", true, false, true},
-    StepKindRow{StepKind::Threshold, "threshold", "two cycles, of which the one that let go harder is to be named",
-                true, false, true},
-    StepKindRow{StepKind::Draw, "draw", "the curve, put together from its parts", false, false, false},
-    StepKindRow{StepKind::Question, "question", "an item of a questionnaire", false, false, false},
-    StepKindRow{StepKind::Push, "push", "a particle to push, or all to form their pattern", false, false, false}};
+    StepKindRow{.kind = StepKind::Text,
+                .word = "text",
+                .meaning = "a text to read",
+                .answer = StepAnswer::None,
+                .open_ended = false,
+                .has_cycles = false,
+                .particles = StepBeside::Allowed,
+                .tapping = StepBeside::Allowed},
+    StepKindRow{.kind = StepKind::Free,
+                .word = "free",
+                .meaning = "exploration at will",
+                .answer = StepAnswer::None,
+                .open_ended = true,
+                .has_cycles = true,
+                .particles = StepBeside::Refused,
+                .tapping = StepBeside::Allowed},
+    StepKindRow{.kind = StepKind::Cycle,
+                .word = "cycle",
+                .meaning = "a guided cycle",
+                .answer = StepAnswer::Number,
+                .open_ended = false,
+                .has_cycles = true,
+                .particles = StepBeside::Refused,
+                .tapping = StepBeside::Refused},
+    StepKindRow{.kind = StepKind::Identify,
+                .word = "identify",
+                .meaning = "a hidden sample, to be named",
+                .answer = StepAnswer::Comparison,
+                .open_ended = false,
+                .has_cycles = true,
+                .particles = StepBeside::Refused,
+                .tapping = StepBeside::Allowed},
+    StepKindRow{.kind = StepKind::Threshold,
+                .word = "threshold",
+                .meaning = "two cycles, of which the one that let go harder is to be named",
+                .answer = StepAnswer::Comparison,
+                .open_ended = false,
+                .has_cycles = true,
+                .particles = StepBeside::Refused,
+                .tapping = StepBeside::Refused},
+    StepKindRow{.kind = StepKind::Draw,
+                .word = "draw",
+                .meaning = "the curve, put together from its parts",
+                .answer = StepAnswer::Number,
+                .open_ended = false,
+                .has_cycles = false,
+                .particles = StepBeside::Allowed,
+                .tapping = StepBeside::Refused},
+    StepKindRow{.kind = StepKind::Question,
+                .word = "question",
+                .meaning = "an item of a questionnaire",
+                .answer = StepAnswer::Number,
+                .open_ended = false,
+                .has_cycles = false,
+                .particles = StepBeside::Allowed,
+                .tapping = StepBeside::Allowed},
+    StepKindRow{.kind = StepKind::Push,
+                .word = "push",
+                .meaning = "a particle to push, or all to form their pattern",
+                .answer = StepAnswer::Number,
+                .open_ended = false,
+                .has_cycles = false,
+                .particles = StepBeside::Needed,
+                .tapping = StepBeside::Refused}};
 static_assert(core::has_row_for_each(kStepKinds, &StepKindRow::kind));
 constexpr const StepKindRow& row_of(StepKind kind) { return kStepKinds[core::index_of(kind)]; }
 constexpr std::string_view word_of(StepKind kind) { return row_of(kind).word; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/findings_json.h"
+#include "app/doctor/findings_json.h"
 
 #include <nlohmann/json.hpp>
 

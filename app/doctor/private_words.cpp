@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/private_words.h"
+#include "app/doctor/private_words.h"
 
 #include <fmt/format.h>
 #include <pwd.h>

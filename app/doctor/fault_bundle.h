@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/commands/machine_facts.h"
+#include "app/doctor/machine_facts.h"
 
 namespace afm::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/doctor_cluster.h"
+#include "app/doctor/doctor_cluster.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/commands/diagnosis.h"
-#include "app/commands/findings_json.h"
+#include "app/doctor/diagnosis.h"
+#include "app/doctor/findings_json.h"
 #include "cluster/clock_offset.h"
 #include "cluster/master_link.h"
 #include "core/log.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/nanoscope_header.h"
+#include "bytes/nanoscope_header.h"
 
 #include <fmt/format.h>
 

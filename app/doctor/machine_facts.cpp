@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/machine_facts.h"
+#include "app/doctor/machine_facts.h"
 
 #include <fmt/format.h>
 #include <sys/mman.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/commands/fault_bundle.h"
+#include "app/doctor/fault_bundle.h"
 
 #include <fmt/format.h>
 #include <sys/utsname.h>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/commands/private_words.h"
+#include "app/doctor/private_words.h"
 #include "core/printable.h"
 #include "core/version.h"
 

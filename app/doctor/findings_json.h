@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "app/commands/diagnosis.h"
+#include "app/doctor/diagnosis.h"
 
 namespace afm::app {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/commands/machine_facts.h"
+#include "app/doctor/machine_facts.h"
 
 namespace afm::app {
 

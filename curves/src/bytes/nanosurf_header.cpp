@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/nanosurf_header.h"
+#include "bytes/nanosurf_header.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "formats/igor_wave.h"
+#include "bytes/igor_wave.h"
 
 #include <fmt/format.h>
 
