@@ -37,7 +37,8 @@ scene::SharedContact tapped() {
 
 // What a closed path has given to the hand.
 struct Given {
-  double push_j = 0, mean_j = 0;  // of the felt push with its damping; of the mean force, if that were felt
+  double push_j = 0,
+         mean_j = 0;  // energy of the felt push with its damping; energy of the mean force, if that were felt
   double most_excess_j = 0;
 };
 
