@@ -22,7 +22,7 @@ constexpr glm::vec3 kAttractiveColor{0.337F, 0.706F, 0.914F}, kRepulsiveColor{0.
     kNowColor{0.00F, 0.78F, 0.56F}, kEdgeColor{0.80F, 0.47F, 0.65F}, kCircleColor{0.6F, 0.6F, 0.6F};
 constexpr double kMargin = 0.08;  // share of the circle beside it
 constexpr int kPointsOfCircle = 90;
-constexpr double kWidest = 2.0;            // shown diameter of the circle, in free amplitudes
+constexpr double kWidest = 2.0;             // shown diameter of the circle, in free amplitudes
 constexpr double kHeightsOfSwing = 2000.0;  // heights with a portrait of their own, on a free amplitude
 
 render::PlotPoint end_of(double amplitude_m, double phase_rad) {
