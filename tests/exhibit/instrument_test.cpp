@@ -295,6 +295,21 @@ TEST_F(SwingTest, IsSlowedDownByTheStroboscope) {
   }
 }
 
+TEST_F(SwingTest, LeavesTheArrowOfTheForceToTheMeanDeflection) {
+  WallState state = tapping(5e-9, 1.5e-9);
+  const auto pull = [&] {
+    const render::FrameState shown = frame(state);
+    return (glm::inverse(shown.room_from_node[node("sample")]) * shown.room_from_node[node("marks/pull")])[2].z;
+  };
+  const double mean = pull();
+  EXPECT_LT(mean, 0.0);
+  state.stroboscope = true;
+  for (const double turns : {0.0, 0.3, 0.5}) {
+    state.strobe_turns = turns;
+    EXPECT_NEAR(pull(), mean, 1e-9) << turns;
+  }
+}
+
 TEST_F(SwingTest, FillsABandBetweenTheTurns) {
   const render::FrameState shown = frame(tapping(5e-9));
   const auto bend = std::find_if(shown.bends.begin(), shown.bends.end(),

@@ -67,6 +67,7 @@ TEST(SwingPanel, ShowsOneStateBeyondTheFolds) {
   EXPECT_NE(end_of(panel_at(25.0), "free"), nullptr);
   EXPECT_EQ(end_of(panel_at(12.0), "attractive"), nullptr);
   EXPECT_NE(end_of(panel_at(12.0), "repulsive"), nullptr);
+  EXPECT_NE(end_of(panel_at(-2.0), "repulsive"), nullptr) << "as under the hand, which presses no deeper";
   for (const double z_nm : {12.0, 25.0, -2.0}) EXPECT_EQ(end_of(panel_at(z_nm), "edge"), nullptr) << z_nm;
 }
 

@@ -22,8 +22,8 @@ constexpr glm::vec3 kAttractiveColor{0.337F, 0.706F, 0.914F}, kRepulsiveColor{0.
     kNowColor{0.00F, 0.78F, 0.56F}, kEdgeColor{0.80F, 0.47F, 0.65F}, kCircleColor{0.6F, 0.6F, 0.6F};
 constexpr double kMargin = 0.08;  // share of the circle beside it
 constexpr int kPointsOfCircle = 90;
-constexpr double kWidest = 2.0;            // shown diameter of the circle, in free amplitudes
-constexpr double kHeightsOfSwing = 500.0;  // heights with a portrait of their own, on a free amplitude
+constexpr double kWidest = 2.0;             // shown diameter of the circle, in free amplitudes
+constexpr double kHeightsOfSwing = 2000.0;  // heights with a portrait of their own, on a free amplitude
 
 render::PlotPoint end_of(double amplitude_m, double phase_rad) {
   return {.place_nm = amplitude_m * std::cos(phase_rad) * curves::kNmPerM,
@@ -95,14 +95,16 @@ void add_state(const physics::TapState& state, const physics::DrivenLever& lever
 
 const physics::TapPortrait& SwingDial::portrait(const curves::SampleModel& model, double z_m, double reach_m) {
   const double step_m = model.parameters.free_amplitude_m / kHeightsOfSwing;
-  const std::int64_t height = std::llround(z_m / step_m);
-  if (tables_ == model.tables && height_ == height) return portrait_;
   if (tables_ != model.tables) {
     const scene::SharedContact& sample = model.parameters;
     surface_ = std::make_shared<const physics::TapSurface>(sample.law, sample.contact, scene::law_options(sample),
                                                            physics::Viscosity(sample.viscosity_pa_s));
     tables_ = model.tables;
+    height_.reset();
   }
+  // under the hand the base goes no deeper than the lever at rest would touch
+  const auto height = static_cast<std::int64_t>(std::ceil(std::max(z_m, surface_->contact_height().si) / step_m));
+  if (height_ == height) return portrait_;
   height_ = height;
   portrait_ = physics::tap_portrait(surface_, scene::tapping_lever(model.parameters),
                                     physics::Length(static_cast<double>(height) * step_m), physics::Length(reach_m));

@@ -121,7 +121,7 @@ Instrument::LeverPose Instrument::lever_pose(const Setting& setting) const {
 
   // the drawn deflection puts the apex exactly at its height even though the tip rotates with the lever's end
   LeverPose pose;
-  const double deflection = setting.tip.deflection_m * per_m;
+  const double deflection = (setting.tip.deflection_m + setting.strobe_m) * per_m;
   pose.end = -deflection;
   for (int i = 0; i < 4; ++i) {
     pose.angle = std::atan(physics::beam_slope(1.0) * pose.end / kLeverDrawnLength);
@@ -158,8 +158,11 @@ void Instrument::place_probe(const scene::Scene& scene, const Setting& setting, 
   const auto in_frame = [&from_lever = frame_from_lever](double x, double z) {
     return dvec3(from_lever * glm::dvec4(x, kUnbentBeside, z + 0.5 * kLeverDrawnThickness, 1.0));
   };
+  Setting mean = setting;
+  mean.strobe_m = 0.0;
+  const double held = lever_pose(mean).end;
   marks.place_force(in_frame(kLeverDrawnLength, lowest),
-                    in_frame(kLeverDrawnLength, lowest > 0.0 ? std::max(end, lowest) : end), local);
+                    in_frame(kLeverDrawnLength, lowest > 0.0 ? std::max(held, lowest) : held), local);
   if (lowest > 0.0) {
     marks.hide_unbent(local);
   } else {
@@ -210,7 +213,8 @@ void Instrument::place_optics(const scene::Scene& scene, const Setting& setting,
   const dmat4 photodiode =
       looking_along(kPhotodiode, glm::normalize(dvec3(0.0, 0.2, 0.0) - kPhotodiode) + kTowardsViewer);
   const double reach =
-      std::clamp(setting.tip.deflection_m / setting.full_deflection_m, -1.0, 1.0) * kSpotReach * kPhotodiodeHalfSize;
+      std::clamp((setting.tip.deflection_m + setting.strobe_m) / setting.full_deflection_m, -1.0, 1.0) * kSpotReach *
+      kPhotodiodeHalfSize;
   const dmat4 spot = photodiode * glm::translate(dmat4(1.0), dvec3(0.0, reach, 0.004));
 
   set(laser_, looking_along(kLaser, lever_end - kLaser));

@@ -133,7 +133,7 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, std::vect
                                                              : 1.0};
   Instrument::Setting drawn = setting;
   if (state.stroboscope && shows_swing(state, setting.layout_per_m)) {
-    drawn.tip.deflection_m += state.swing.amplitude_m * std::cos(2.0 * std::numbers::pi * state.strobe_turns);
+    drawn.strobe_m = state.swing.amplitude_m * std::cos(2.0 * std::numbers::pi * state.strobe_turns);
   }
   bends.resize(1);
   instrument_.place_probe(scene_, drawn, marks_, local, bends.front());

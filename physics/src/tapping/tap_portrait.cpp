@@ -135,7 +135,7 @@ TapPortrait tap_portrait(const std::shared_ptr<const TapSurface>& surface, const
                          Length reach) {
   TapPortrait portrait;
   const Length contact = surface->contact_height();
-  if ((z - contact).si <= 2.0 * kLeastSwingShare * lever.free_amplitude.si) return portrait;
+  if (z < contact) return portrait;
   AveragedFlow flow(surface, lever);
   const FlowAtHeight at_height(flow, contact.si, z.si, reach.si);
   for (std::size_t i = 0; i + 1 < kNodesOfHeight; ++i) {

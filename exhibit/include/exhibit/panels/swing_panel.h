@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "curves/sample_model.h"
 #include "exhibit/words/phrases.h"
@@ -28,7 +29,7 @@ class SwingDial {
 
   std::shared_ptr<const physics::LawTables> tables_;  // those of the newest sample; null: none yet
   std::shared_ptr<const physics::TapSurface> surface_;
-  std::int64_t height_ = 0;  // height of the portrait, in steps
+  std::optional<std::int64_t> height_;  // height of the portrait, in steps
   physics::TapPortrait portrait_;
 };
 

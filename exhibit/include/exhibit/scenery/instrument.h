@@ -40,6 +40,7 @@ class Instrument {
     double layout_per_m = 0;       // layout units per metre of the nanoworld
     glm::dvec3 below_tip{0.0};     // the surface's point, sample's frame, layout units
     double full_deflection_m = 1;  // shown as the diode's whole reach
+    double strobe_m = 0;           // deflection of the slow swing, which lever and light show, and the arrow does not
   };
 
   // Each sets the transforms of its nodes from their parents.

@@ -23,7 +23,7 @@ struct TapPortrait {
 };
 
 // The states are those of AveragedFlow; the edge follows a table of it at this height, and is accurate to some 1 % of
-// the free amplitude. Empty where the base is so low that nothing can swing. The same arguments give the same numbers.
+// the free amplitude. Empty where the resting lever would touch. The same arguments give the same numbers.
 // Takes milliseconds and allocates.
 TapPortrait tap_portrait(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever, Length z,
                          Length reach);
