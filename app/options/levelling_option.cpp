@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/options/enum_option.h"
+#include "scene/shared/particle_blocks.h"
 
 namespace afm::app {
 
