@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/options/enum_option.h"
+#include "scene/shared/particle_blocks.h"
 
 namespace afm::app {
 
@@ -54,7 +55,8 @@ std::array<Option, 2> add_channel_options(OptionList& command, std::string& chan
       particles->level = static_cast<int>(row - levellings);
     }
   };
-  return {which, choice_option(command, "--level", store, "a way of levelling", names, help)};
+  const std::string sort = particles != nullptr ? "a way of levelling or a level of particles" : "a way of levelling";
+  return {which, choice_option(command, "--level", store, sort, names, help)};
 }
 
 }  // namespace afm::app

@@ -230,7 +230,8 @@ TEST_F(ViewParticles, HaveNoOldPictureWhereTheTipHidesOrTurnsThem) {
   EXPECT_THAT(refused("--particles islands --level 1"), HasSubstr("--level 1: only spheres and rods have a picture"));
   EXPECT_THAT(refused("--particles pick-and-place --level 2"), HasSubstr("--level 2: the tip lifts these spheres"));
   EXPECT_THAT(refused("--level 1"), HasSubstr("--level 1: there are no particles"));
-  EXPECT_THAT(refused("--particles gold-row --level 3"), HasSubstr("choose plane, lines, none, 0, 1, 2"));
+  EXPECT_THAT(refused("--particles gold-row --level 3"),
+              HasSubstr("or a level of particles; choose none, plane, lines, 0, 1, 2"));
   EXPECT_THAT(refused("--particles gold-row --seed 3"), HasSubstr("--level"));
 }
 

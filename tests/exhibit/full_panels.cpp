@@ -127,6 +127,7 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
           for (const auto& lie : {pages, formed}) {
             panels.push_back(
                 particles_panel({.set = &set, .pages = lie, .push = push, .score = score, .plan = plan}, phrases));
+            if (state != physics::PushState::Several) continue;
             panels.push_back(particles_panel(
                 {.set = &set, .pages = lie, .push = push, .score = score, .plan = plan, .picture = &picture}, phrases));
           }

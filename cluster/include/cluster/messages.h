@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -22,7 +23,7 @@ namespace afm::cluster {
 inline constexpr std::size_t kMostDatagramBytes = 1300;
 
 // Increase whenever the meaning of a message changes.
-inline constexpr std::uint32_t kClusterVersion = 7;
+inline constexpr std::uint32_t kClusterVersion = 6;
 
 // Header of every message. Each master draws a random `session` when it starts.
 struct ClusterHeader {
@@ -204,23 +205,30 @@ class JournalRecord {
   bool valid() const;
 
  private:
+  // A sample without its end, what a picture of particles is computed from, which no other machine draws.
+  static constexpr std::size_t kBodyBytes = offsetof(scene::TipSample, level);
+
+  template <class Body>
+  static constexpr std::size_t bytes_of() {
+    static_assert(sizeof(Body) <= kBodyBytes || std::is_same_v<Body, scene::TipSample>);
+    return std::min(sizeof(Body), kBodyBytes);
+  }
   template <class Body>
   void set(const Body& body) {
-    static_assert(sizeof(Body) <= sizeof(body_));
-    const auto bytes = std::as_bytes(std::span(&body, 1));
+    const auto bytes = std::as_bytes(std::span(&body, 1)).first(bytes_of<Body>());
     for (std::size_t i = 0; i < bytes.size(); ++i) body_[i] = bytes[i];
   }
   template <class Body>
   Body get() const {
     Body body;
-    const auto bytes = std::as_writable_bytes(std::span(&body, 1));
+    const auto bytes = std::as_writable_bytes(std::span(&body, 1)).first(bytes_of<Body>());
     for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = body_[i];
     return body;
   }
 
   JournalKind kind_ = JournalKind::Forget;
   std::uint32_t padding_ = 0;
-  alignas(8) std::array<std::byte, sizeof(scene::TipSample)> body_{};
+  alignas(8) std::array<std::byte, kBodyBytes> body_{};
 };
 
 // Records header.number to header.number + count - 1; only these are sent.

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string>
 
+#include "scene/shared/particle_blocks.h"
+
 namespace afm::scene {
 
 core::Result<void> set_level(const LevelChoice& choice, SharedParticles& particles) {

@@ -13,7 +13,7 @@
 #include "core/result.h"
 #include "physics/manipulation/sample_drift.h"
 #include "scene/shared/tip_blocks.h"
-#include "servo/picture_state.h"
+#include "servo/session_file.h"
 
 namespace afm::haptics {
 class FeltParticles;

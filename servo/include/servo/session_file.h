@@ -11,10 +11,17 @@
 #include "core/result.h"
 #include "scene/shared/felt_heights.h"
 #include "scene/shared/tip_blocks.h"
-#include "servo/picture_state.h"
 #include "servo/wall_frame.h"
 
 namespace afm::servo {
+
+// Places in a picture at a moment, in the scanner's frame, and the times at which they were measured, as in TipState.
+struct PictureState {
+  std::vector<scene::ParticlePage> shown{}, measured{};  // pages_of() the particles
+  std::vector<std::int64_t> seen_ns{};                   // one for each particle
+
+  bool empty() const { return seen_ns.empty(); }
+};
 
 // Particles on a sample, and their poses when the session began. The tip was off them.
 struct RecordedParticles {

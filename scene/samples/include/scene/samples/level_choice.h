@@ -2,9 +2,10 @@
 #pragma once
 
 #include "core/result.h"
-#include "scene/shared/particle_blocks.h"
 
 namespace afm::scene {
+
+struct SharedParticles;
 
 // Level and seed of particles that a hand pushes (SharedLevel), as a person chooses them.
 struct LevelChoice {
