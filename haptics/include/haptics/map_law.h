@@ -14,10 +14,11 @@ namespace afm::haptics {
 // A force law that changes from place to place over a sample, on the hand: potentials are interpolated, not forces, so
 // that the sideways force follows and no closed path gains energy.
 //
-// The laws of a family stand on a grid over two coordinates, such as the logarithms of modulus and adhesion. At a place
-// with the coordinates c(x, y) the potential of a branch is that of the four laws around c, weighted bilinearly:
-// U(x, y, h) = sum w_k(c) U_k(h). The force is its exact gradient: along the height sum w_k F_k, sideways -dU/dc grad
-// c. Beyond the grid the outermost laws continue, without a sideways force.
+// The laws of a family stand on a grid over two coordinates, such as the logarithm of the modulus and the adhesion. At
+// a place with the coordinates c(x, y) the potential of a branch is that of the nine laws around c, weighted by uniform
+// quadratic B-splines: U(x, y, h) = sum w_k(c) U_k(h). The force is its exact gradient, and continuous: along the
+// height sum w_k F_k, sideways -dU/dc grad c. Half a step beyond the outermost laws, and from there on, these alone
+// continue, without a sideways force.
 //
 // Where the tip jumps in, and where it lets go, is weighted in the same way. At the jump into contact both branches
 // have one energy, at every place: the attached branch is shifted by a constant that depends on the place, whose slope
@@ -62,24 +63,47 @@ class MapLaw {
   // The phase after a move to this place and height. A wait ends above the jump off contact.
   physics::Phase next_phase(physics::Phase phase, const Place& place, double height_m) const noexcept;
 
+  static constexpr std::size_t kMixed = 9;
+
+  // The laws around a place by their numbers, their weights, which add up to 1, and the slopes of the weights by the
+  // two coordinates.
+  struct Mixture {
+    std::array<std::size_t, kMixed> law{};
+    std::array<double, kMixed> weight{};
+    std::array<glm::dvec2, kMixed> slope{};
+  };
+  Mixture mixture_of(const Place& place) const noexcept;
+
+  // Upper limits over all laws where the hand can be, at heights in a range, on either branch within its jump: how
+  // steeply the force rises on the way down; and how much energy and force change from one law to the next along each
+  // coordinate, and that change of the energy in turn.
+  struct Change {
+    double energy_j = 0;
+    double second_energy_j = 0;
+    double force_n = 0;
+  };
+  struct Steepness {
+    double stiffness_n_per_m = 0;
+    Change by_column, by_row;
+  };
+  Steepness steepness(PotentialEnergy::Range heights) const;
+
+  // The least energy of any law in that range.
+  double least_j(PotentialEnergy::Range heights) const;
+
  private:
   struct Branches {
     HeightPotential free;
     HeightPotential attached;
     double jump_in_m;
     double jump_off_m;
+    double shift_j;  // energy added to the attached branch: both have one energy at the jump into contact
   };
 
-  // Weights of four laws, and their slopes by the two coordinates.
-  struct Mixture {
-    std::array<const Branches*, 4> laws;
-    std::array<double, 4> weight;
-    std::array<glm::dvec2, 4> slope;
-  };
   struct Jumps {
     double in_m = 0;
     double off_m = 0;
-    glm::dvec2 in_slope{0.0};  // by the two coordinates
+    glm::dvec2 in_slope{0.0};  // slopes by the two coordinates
   };
   // Energy and force of a branch, with the energy's slopes by the two coordinates.
   struct Branch {
@@ -88,10 +112,10 @@ class MapLaw {
     glm::dvec2 slope_j{0.0};
   };
 
-  Mixture mixture_of(const Place& place) const noexcept;
-  static Jumps jumps_at(const Mixture& mixture) noexcept;
-  static Branch branch_of(const Mixture& mixture, const HeightPotential Branches::* which, double height_m) noexcept;
-  static Branch attached_of(const Mixture& mixture, double height_m) noexcept;
+  Jumps jumps_at(const Mixture& mixture) const noexcept;
+  Branch branch_of(const Mixture& mixture, const HeightPotential Branches::* which, double height_m) const noexcept;
+  Branch attached_of(const Mixture& mixture, double height_m) const noexcept;
+  HeightPotential::Value value_of(const Branches& law, physics::Phase phase, double height_m) const noexcept;
 
   std::size_t columns_;
   std::size_t rows_;

@@ -12,20 +12,31 @@ using physics::Phase;
 
 namespace {
 
-// Two neighbours along one coordinate, and the share of the second; a slope of zero beyond the ends.
-struct Between {
-  std::size_t first = 0, second = 0;
-  double share = 0;
-  double slope = 0;  // slope of the share by the coordinate
+// Three neighbours along one coordinate, their weights, and the slopes of these by the coordinate.
+struct Around {
+  std::array<std::size_t, 3> law{};
+  std::array<double, 3> weight{};
+  std::array<double, 3> slope{};
 };
 
-Between between(double at, std::size_t count) noexcept {
+// Beyond the ends the outermost law counts again.
+Around around(double at, std::size_t count) noexcept {
   const auto last = static_cast<double>(count - 1);
-  if (!(at > 0.0)) return {};  // NaN, too
-  if (at >= last) return {count - 1, count - 1, 0.0, 0.0};
-  const double first = std::floor(at);
-  const auto i = static_cast<std::size_t>(first);
-  return {i, i + 1, at - first, 1.0};
+  // NaN goes to an end, too
+  const double within = std::fmax(-0.5, std::fmin(at, last + 0.5));
+  const double middle = std::fmin(std::floor(within + 0.5), last);
+  const auto i = static_cast<std::size_t>(std::fmax(middle, 0.0));
+  const double offset = within - static_cast<double>(i), before = 0.5 - offset, after = 0.5 + offset;
+  return {{i > 0 ? i - 1 : 0, i, std::min(i + 1, count - 1)},
+          {0.5 * before * before, 0.75 - offset * offset, 0.5 * after * after},
+          {-before, -2.0 * offset, after}};
+}
+
+constexpr double kEverySo_m = 5e-4;  // distance of the heights at which limits are looked for
+
+template <class Visit>
+void for_each_height(PotentialEnergy::Range heights, const Visit& visit) {
+  for (double height_m = heights.lowest_m; height_m <= heights.highest_m; height_m += kEverySo_m) visit(height_m);
 }
 
 }  // namespace
@@ -38,44 +49,51 @@ MapLaw::MapLaw(const std::vector<Law>& laws, std::size_t columns, PotentialEnerg
     AFM_CHECK(law.jump_off_m >= law.jump_in_m);
     laws_.push_back({HeightPotential([&](double h) { return law.free_n(std::fmax(h, law.jump_in_m)); }, heights),
                      HeightPotential([&](double h) { return law.attached_n(std::fmin(h, law.jump_off_m)); }, heights),
-                     law.jump_in_m, law.jump_off_m});
+                     law.jump_in_m, law.jump_off_m, 0.0});
+    Branches& built = laws_.back();
+    built.shift_j = built.free.at(law.jump_in_m).energy_j - built.attached.at(law.jump_in_m).energy_j;
   }
 }
 
 MapLaw::Mixture MapLaw::mixture_of(const Place& place) const noexcept {
-  const Between x = between(place.at.x, columns_), y = between(place.at.y, rows_);
-  const auto law = [this](std::size_t column, std::size_t row) { return &laws_[row * columns_ + column]; };
-  const double left = 1.0 - x.share, lower = 1.0 - y.share;
-  return {{law(x.first, y.first), law(x.second, y.first), law(x.first, y.second), law(x.second, y.second)},
-          {left * lower, x.share * lower, left * y.share, x.share * y.share},
-          {glm::dvec2(-x.slope * lower, -y.slope * left), glm::dvec2(x.slope * lower, -y.slope * x.share),
-           glm::dvec2(-x.slope * y.share, y.slope * left), glm::dvec2(x.slope * y.share, y.slope * x.share)}};
+  const Around x = around(place.at.x, columns_), y = around(place.at.y, rows_);
+  Mixture mixture;
+  std::size_t k = 0;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column, ++k) {
+      mixture.law[k] = y.law[row] * columns_ + x.law[column];
+      mixture.weight[k] = x.weight[column] * y.weight[row];
+      mixture.slope[k] = {x.slope[column] * y.weight[row], x.weight[column] * y.slope[row]};
+    }
+  }
+  return mixture;
 }
 
-MapLaw::Jumps MapLaw::jumps_at(const Mixture& mixture) noexcept {
+MapLaw::Jumps MapLaw::jumps_at(const Mixture& mixture) const noexcept {
   Jumps jumps;
-  for (std::size_t i = 0; i < mixture.laws.size(); ++i) {
-    jumps.in_m += mixture.weight[i] * mixture.laws[i]->jump_in_m;
-    jumps.off_m += mixture.weight[i] * mixture.laws[i]->jump_off_m;
-    jumps.in_slope += mixture.laws[i]->jump_in_m * mixture.slope[i];
+  for (std::size_t k = 0; k < kMixed; ++k) {
+    const Branches& law = laws_[mixture.law[k]];
+    jumps.in_m += mixture.weight[k] * law.jump_in_m;
+    jumps.off_m += mixture.weight[k] * law.jump_off_m;
+    jumps.in_slope += law.jump_in_m * mixture.slope[k];
   }
   return jumps;
 }
 
 MapLaw::Branch MapLaw::branch_of(const Mixture& mixture, const HeightPotential Branches::* which,
-                                 double height_m) noexcept {
+                                 double height_m) const noexcept {
   Branch branch;
-  for (std::size_t i = 0; i < mixture.laws.size(); ++i) {
-    const HeightPotential::Value value = (mixture.laws[i]->*which).at(height_m);
-    branch.energy_j += mixture.weight[i] * value.energy_j;
-    branch.force_n += mixture.weight[i] * value.force_n;
-    branch.slope_j += value.energy_j * mixture.slope[i];
+  for (std::size_t k = 0; k < kMixed; ++k) {
+    const HeightPotential::Value value = (laws_[mixture.law[k]].*which).at(height_m);
+    branch.energy_j += mixture.weight[k] * value.energy_j;
+    branch.force_n += mixture.weight[k] * value.force_n;
+    branch.slope_j += value.energy_j * mixture.slope[k];
   }
   return branch;
 }
 
 // Shifted so that its energy at the jump into contact is that of the free branch.
-MapLaw::Branch MapLaw::attached_of(const Mixture& mixture, double height_m) noexcept {
+MapLaw::Branch MapLaw::attached_of(const Mixture& mixture, double height_m) const noexcept {
   const Jumps jumps = jumps_at(mixture);
   Branch branch = branch_of(mixture, &Branches::attached, height_m);
   const Branch before = branch_of(mixture, &Branches::free, jumps.in_m),
@@ -110,6 +128,70 @@ Phase MapLaw::next_phase(Phase phase, const Place& place, double height_m) const
   const double rise_j =
       above ? branch_of(mixture, &Branches::free, height_m).energy_j - attached_of(mixture, height_m).energy_j : 0.0;
   return above && rise_j <= 0.0 ? Phase::Free : Phase::Attached;
+}
+
+HeightPotential::Value MapLaw::value_of(const Branches& law, Phase phase, double height_m) const noexcept {
+  if (phase == Phase::Free) return law.free.at(height_m);
+  HeightPotential::Value value = law.attached.at(height_m);
+  value.energy_j += law.shift_j;
+  return value;
+}
+
+MapLaw::Steepness MapLaw::steepness(PotentialEnergy::Range heights) const {
+  Steepness most;
+  for (const Phase phase : {Phase::Free, Phase::Attached}) {
+    // where some law has this branch; its neighbours are mixed in there
+    double lowest_m = heights.lowest_m, highest_m = heights.highest_m;
+    const auto in_m = [](const Branches& law) { return law.jump_in_m; };
+    const auto off_m = [](const Branches& law) { return law.jump_off_m; };
+    if (phase == Phase::Free) lowest_m = std::max(lowest_m, std::ranges::min(laws_, {}, in_m).jump_in_m);
+    if (phase == Phase::Attached) highest_m = std::min(highest_m, std::ranges::max(laws_, {}, off_m).jump_off_m);
+    const auto value = [&](std::size_t column, std::size_t row, double height_m) {
+      return value_of(laws_[row * columns_ + column], phase, height_m);
+    };
+    const auto compare = [](Change& by, const HeightPotential::Value& here, const HeightPotential::Value& after,
+                            const HeightPotential::Value& second) {
+      by.energy_j = std::max(by.energy_j, std::abs(after.energy_j - here.energy_j));
+      by.force_n = std::max(by.force_n, std::abs(after.force_n - here.force_n));
+      by.second_energy_j =
+          std::max(by.second_energy_j, std::abs(second.energy_j - 2.0 * after.energy_j + here.energy_j));
+    };
+    for_each_height({lowest_m, highest_m}, [&](double height_m) {
+      for (std::size_t row = 0; row < rows_; ++row) {
+        for (std::size_t column = 0; column < columns_; ++column) {
+          const HeightPotential::Value here = value(column, row, height_m);
+          const double below_n = value(column, row, height_m - HeightPotential::kSpacingM).force_n;
+          most.stiffness_n_per_m =
+              std::max(most.stiffness_n_per_m, (below_n - here.force_n) / HeightPotential::kSpacingM);
+          // three in a row, or fewer at the end, where nothing of a map lies
+          const std::size_t right = std::min(column + 1, columns_ - 1), above = std::min(row + 1, rows_ - 1);
+          if (column + 2 < columns_) {
+            compare(most.by_column, here, value(right, row, height_m), value(column + 2, row, height_m));
+          }
+          if (row + 2 < rows_) {
+            compare(most.by_row, here, value(column, above, height_m), value(column, row + 2, height_m));
+          }
+          const double twist_j = value(right, above, height_m).energy_j - value(right, row, height_m).energy_j -
+                                 value(column, above, height_m).energy_j + here.energy_j;
+          for (Change* change : {&most.by_column, &most.by_row}) {
+            change->second_energy_j = std::max(change->second_energy_j, std::abs(twist_j));
+          }
+        }
+      }
+    });
+  }
+  return most;
+}
+
+double MapLaw::least_j(PotentialEnergy::Range heights) const {
+  double least = 0.0;
+  for_each_height(heights, [&](double height_m) {
+    for (const Branches& law : laws_) {
+      if (height_m >= law.jump_in_m) least = std::min(least, value_of(law, Phase::Free, height_m).energy_j);
+      if (height_m <= law.jump_off_m) least = std::min(least, value_of(law, Phase::Attached, height_m).energy_j);
+    }
+  });
+  return least;
 }
 
 }  // namespace afm::haptics

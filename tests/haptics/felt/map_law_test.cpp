@@ -249,10 +249,10 @@ TEST(MapLaw, GivesNoEnergyOnPathsWithJumps) {
   EXPECT_GT(jumps, 600) << "the paths hardly ever touch";
 }
 
-TEST(MapLaw, IsTheLawOfAPixelOnThePixel) {
+TEST(MapLaw, IsTheOutermostLawBeyondTheFamily) {
   const MapLaw& law = map_of(Law::Jkr);
-  const MapLaw::Law own = law_of(Law::Jkr, 2, 1);
-  const MapLaw::Place place{.at = {2.0, 1.0}};
+  const MapLaw::Law own = law_of(Law::Jkr, kColumns - 1, 0);
+  const MapLaw::Place place{.at = {kColumns - 0.5, -0.5}};
   EXPECT_DOUBLE_EQ(law.jump_in_m(place), own.jump_in_m);
   EXPECT_DOUBLE_EQ(law.jump_off_m(place), own.jump_off_m);
   for (double height_m = -0.02; height_m < kTopM; height_m += 1.37e-3) {
@@ -310,7 +310,7 @@ TEST(MapLaw, ContinuesFlatBeyondItsEdges) {
   const MapLaw& law = map_of(Law::Dmt);
   const glm::dvec2 slope(100.0, -50.0);
   for (const glm::dvec2& outside : {glm::dvec2(-0.7, 1.5), glm::dvec2(kColumns + 3.0, 1.5)}) {
-    const glm::dvec2 edge(std::clamp(outside.x, 0.0, kColumns - 1.0), outside.y);
+    const glm::dvec2 edge(std::clamp(outside.x, -0.5, kColumns - 0.5), outside.y);
     const MapLaw::Place place{.at = outside, .column_slope = slope, .row_slope = {0.0, 0.0}};
     const MapLaw::Felt beyond = law.at(Phase::Attached, place, -0.01),
                        there = law.at(Phase::Attached, {.at = edge}, -0.01);
@@ -326,10 +326,13 @@ TEST(MapLaw, IsContinuousAcrossTheBordersOfItsLaws) {
   const MapLaw& law = map_of(Law::Jkr);
   for (const Phase phase : {Phase::Free, Phase::Attached}) {
     for (const double height_m : {-0.01, 0.0, 0.01, 0.03}) {
-      const auto at = [&](double column) { return law.at(phase, {.at = {column, 0.7}}, height_m); };
-      for (double border = 0.0; border < kColumns; border += 1.0) {
+      const auto at = [&](double column) {
+        return law.at(phase, {.at = {column, 0.7}, .column_slope = {1.0, 0.0}}, height_m);
+      };
+      for (double border = -0.5; border < kColumns; border += 1.0) {
         EXPECT_NEAR(at(border - 1e-9).energy_j, at(border + 1e-9).energy_j, 1e-9);
         EXPECT_NEAR(at(border - 1e-9).force_n, at(border + 1e-9).force_n, 1e-7);
+        EXPECT_NEAR(at(border - 1e-9).sideways_n.x, at(border + 1e-9).sideways_n.x, 1e-7);
       }
     }
   }
