@@ -13,6 +13,7 @@
 
 #include "core/clock.h"
 #include "core/log.h"
+#include "haptics/law_family.h"
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
 #include "physics/law.h"
@@ -24,6 +25,7 @@ namespace afm::app {
 namespace {
 
 constexpr double kDearestBar_us = 20.0;  // limit set by the design
+constexpr double kMapP99_us = 8.0;
 // CHAI3D's custom effect on a field of 128 x 128 at full speed, on a comparable machine
 constexpr double kFieldP50_us = 0.8;
 constexpr double kFieldP99_us = 1.0;
@@ -33,7 +35,7 @@ constexpr std::size_t kWarmUpTicks = 3000;  // lift, Turn-On, and the ramp
 constexpr std::size_t kHalfCycle = 600;     // ticks
 constexpr double kTop_m = 0.060, kBottom_m = -0.015, kSideways_m = 0.03;
 
-enum class Ground { Plane, Surface, Measured };
+enum class Ground { Plane, Surface, Measured, Map };
 
 struct WorkCase {
   std::string name;
@@ -54,6 +56,7 @@ std::vector<WorkCase> work_cases(const MeasuredSurface& measured) {
     if (law != Law::Paper) all.push_back({std::string(name_of(law)), law, false, Ground::Surface, 0, kDearestBar_us});
   }
   all.push_back({"dynamic-dmt", Law::Dmt, true, Ground::Surface, 0, kDearestBar_us});
+  all.push_back({"map of jkr", Law::Jkr, false, Ground::Map, 0, kMapP99_us});
   return all;
 }
 
@@ -70,6 +73,27 @@ scene::SharedHeightField rough_surface() {
   return field;
 }
 
+// The largest map of modulus and adhesion, with hills of both, about as wide as the hand's way.
+void lay_map(scene::SharedModel& model) {
+  constexpr double kWidthM = 300e-9;
+  scene::SharedContact& rubber = model.materials[0];
+  rubber.law_map = 1;
+  rubber.contact.tip_radius = physics::Length(30e-9);
+  rubber.contact.spring_constant = physics::Stiffness(0.2);
+  rubber.contact = haptics::contact_with(rubber.contact, physics::Pressure(2e6), 40e-3);
+  scene::SharedLawMap& map = model.law_map;
+  map.columns = map.rows = scene::kMaxLawMapSide;
+  map.spacing_m = kWidthM / map.columns;
+  for (std::uint32_t row = 0; row < map.rows; ++row) {
+    for (std::uint32_t column = 0; column < map.columns; ++column) {
+      const double x = 4.0 * column / map.columns, y = 4.0 * row / map.rows;
+      const std::size_t cell = std::size_t{row} * map.columns + column;
+      map.ln_modulus[cell] = static_cast<float>(std::log(3e6) + std::sin(x) * std::cos(y));
+      map.adhesion_j_per_m2[cell] = static_cast<float>(50e-3 + 30e-3 * std::cos(x + y));
+    }
+  }
+}
+
 scene::SharedModel model_of(const WorkCase& work, const MeasuredSurface& measured) {
   scene::SharedModel model = mica_alone();
   scene::SharedContact& mica = model.materials[0];
@@ -80,6 +104,7 @@ scene::SharedModel model_of(const WorkCase& work, const MeasuredSurface& measure
     model.height_fields[0] = rough_surface();
     mica.height_field = 0;
   }
+  if (work.ground == Ground::Map) lay_map(model);
   if (work.ground == Ground::Measured) {
     model.topography = measured.topography.size();
     mica.height_field = scene::kTopography;

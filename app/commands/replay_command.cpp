@@ -108,6 +108,10 @@ std::string plain(const servo::RecordedSession& session, const servo::Replay& re
   if (is_of_map(session)) {
     text += fmt::format("felt at pixel {},{} of a force map\n", session.curve->column, session.curve->row);
   }
+  if (session.law_map) {
+    text += fmt::format("felt over a map of modulus and adhesion of {} x {} points\n", session.law_map->columns,
+                        session.law_map->rows);
+  }
   if (range.from_s > 0 || range.to_s < seconds(session)) {
     text += fmt::format("compared from {:.3f} s to {:.3f} s: {} ticks\n", range.from_s,
                         std::min(range.to_s, seconds(session)), replayed.ticks);

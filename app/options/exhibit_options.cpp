@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -83,6 +85,16 @@ void add_particles_option(OptionList& command, exhibit::ExhibitFiles& files) {
       .type_name("FILE");
 }
 
+namespace {
+
+struct FeltPart {
+  std::string_view name;
+  bool whole;
+};
+constexpr std::array kFeltParts{FeltPart{"pixel", false}, FeltPart{"map", true}};
+
+}  // namespace
+
 std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::ExhibitFiles& files) {
   const Option map =
       command
@@ -106,6 +118,10 @@ std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::Exh
           "analyse prints it; default: the middle")
       .needs(map)
       .type_name("COLUMN,ROW");
+  const Option felt = enum_option(command, "--felt", files.whole_map, "a part of the map", kFeltParts, &FeltPart::name,
+                                  &FeltPart::whole,
+                                  "what is felt of the force map: pixel, the curve of one pixel, or map, the whole map "
+                                  "by the modulus and the adhesion of its fits; default: pixel");
   const auto reading = std::make_shared<curves::MapReading>();
   files.map_reading = reading;
   std::vector<NamedOption> own{add_sensitivity_option(command, reading->calibration)};
@@ -114,6 +130,8 @@ std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::Exh
       "fit every curve of the force map, and show the modulus on the panel; F4 shows the heights and the adhesion:");
   own.insert(own.end(), of_fit.begin(), of_fit.end());
   for (NamedOption& each : own) each.option.needs(map);
+  own.push_back({felt, "--felt"});
+  own.back().option.needs(map);
   return own;
 }
 

@@ -62,6 +62,10 @@ bool ParameterEdits::changed(std::size_t material) const {
 bool ParameterEdits::apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo) {
   using Control = render::ControlTarget::Kind;
   curves::LiveParameters& now = parameters(material);
+  if (now.model().felt_map && target.kind == Control::Pixel) {
+    core::log_line("force map: the whole map is felt; --felt pixel feels the curve of one pixel");
+    return false;
+  }
   if (holds_pixel(material, servo.tip())) {
     core::log_line("force map: lift the tip off the sample before you choose another pixel");
     return false;
@@ -123,8 +127,8 @@ bool ParameterEdits::keeps_force_off(const scene::TipState& tip) {
 }
 
 bool ParameterEdits::holds_pixel(std::size_t material, const scene::TipState& tip) const {
-  return loaded_[material].pixel && tip.material == static_cast<std::int32_t>(material) &&
-         tip.phase == physics::Phase::Attached;
+  return loaded_[material].pixel && !loaded_[material].felt_map &&
+         tip.material == static_cast<std::int32_t>(material) && tip.phase == physics::Phase::Attached;
 }
 
 void ParameterEdits::reset(servo::ServoClient& servo) {

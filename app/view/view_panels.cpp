@@ -11,6 +11,7 @@
 #include "core/enumerators.h"
 #include "core/log.h"
 #include "curves/curve_map.h"
+#include "curves/fitting/felt_map.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/friction/friction_panel.h"
 #include "exhibit/panels/panel_hit.h"
@@ -78,6 +79,15 @@ void log_scan(const exhibit::LiveScan& scan) {
     line += fmt::format("{} {}", row == exhibit::ScanRow::Setpoint ? "" : ",", value.empty() ? "one apex" : value);
   }
   core::log_line(line);
+}
+
+// Adds what is felt of a whole map below the tip, and the place in its picture.
+void add_map(const curves::SampleModel& model, const scene::TipState& tip, const exhibit::Phrases& phrases,
+             render::ControlPanel& panel) {
+  if (!model.felt_map) return;
+  panel.notes = exhibit::felt_map_notes(model, tip, phrases);
+  const auto pixel = curves::pixel_below(model, tip.surface.xy_m);
+  if (pixel && panel.picture) panel.picture->marked = exhibit::target_index(*pixel, *model.pixel->map);
 }
 
 }  // namespace
@@ -177,7 +187,7 @@ render::ControlPanel ViewPanels::control_panel(std::size_t material, const std::
           : exhibit::parameter_panel(edits_.of(material), chosen.pixel ? chosen.setup.material.title : title, state,
                                      phrases(), drawn_by_);
   if (scan_ == nullptr && chosen.pixel) panel.picture = picture_of(*chosen.pixel);
-  if (marking_) panel.marked = std::min(marked_, panel.rows.size() - 1);
+  if (marking_ && !panel.rows.empty()) panel.marked = std::min(marked_, panel.rows.size() - 1);
   return panel;
 }
 
@@ -202,14 +212,16 @@ void ViewPanels::next_map_picture() {
 
 void ViewPanels::mark_next(std::size_t material) {
   const std::size_t rows = control_panel(material, "", exhibit::ChangeState::AsLoaded).rows.size();
+  right_ = RightPanel::Parameters;
+  if (rows == 0) return;
   marked_ = marking_ ? (std::min(marked_, rows - 1) + 1) % rows : 0;
   marking_ = true;
-  right_ = RightPanel::Parameters;
 }
 
 void ViewPanels::step_marked(int steps, std::size_t material, servo::ServoClient* servo) {
   if (!marking_) mark_next(material);
   const std::size_t rows = control_panel(material, "", exhibit::ChangeState::AsLoaded).rows.size();
+  if (rows == 0) return;
   marked_ = std::min(marked_, rows - 1);
   right_ = RightPanel::Parameters;
   using Control = render::ControlTarget::Kind;
@@ -249,6 +261,7 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
          .highlighted = pointed.tab,
          .placement = wall_scene_.places().parameter_tab()});
   }
+  if (parameters.model().felt_map) return;  // the curve changes from place to place
   render::ForcePanel& plot = frame.panels.force.content;
   if (open || parameters.changed()) return exhibit::add_prediction(parameters, phrases(), plot);
   exhibit::add_forecast(parameters, phrases(), plot);
@@ -269,6 +282,7 @@ void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, 
     case RightPanel::Parameters:
       show_right(panels, panels.control, control_panel(material, material_title, edits_.shown_state(material, tip)));
       panels.control.content.pointed = pointed.control;
+      if (scan_ == nullptr) add_map(edits_.of(material).model(), tip, phrases(), panels.control.content);
       return;
     case RightPanel::FrictionLoop:
       if (const curves::SampleModel& model = edits_.of(material).model(); model.taps()) {
@@ -300,7 +314,8 @@ void ViewPanels::add_note(render::FrameState& frame, exhibit::Centerpiece center
 void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::optional<std::size_t> material,
                         const std::string& material_title, const scene::TipState& tip, HandSource hand,
                         std::string_view letters) {
-  const bool changeable = material && use_ != WallUse::Lesson && !edits_.of(*material).rows().empty();
+  const bool changeable = material && use_ != WallUse::Lesson &&
+                          (!edits_.of(*material).rows().empty() || edits_.of(*material).model().felt_map);
   if (changeable) add_parameters(frame, pointed, *material);
   render::FramePanels& panels = frame.panels;
   if (covered()) {

@@ -58,6 +58,7 @@ std::span<const LiveParameters::Row> LiveParameters::rows() const {
   static constexpr std::array kOfLaw{Row::TipRadius,      Row::SpringConstant, Row::Hamaker,
                                      Row::WorkOfAdhesion, Row::ReducedModulus, Row::Law};
   static constexpr std::array kOfMap{Row::PixelColumn, Row::PixelRow};
+  if (loaded_.felt_map) return {};
   if (loaded_.pixel) return kOfMap;
   if (loaded_.parameters.law == Law::Measured) return {};
   return kOfLaw;

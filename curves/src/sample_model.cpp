@@ -52,7 +52,8 @@ core::Result<SampleModel> model_with(const ContactSetup& setup, const scene::Sha
   if (!tables) return tl::unexpected(tables.error());
   auto scaling = haptics::Scaling::fit(**tables, haptics::SimulatedDevice().spec());
   if (!scaling) return refusal(setup.material, scaling.error().category, scaling.error().message);
-  return SampleModel{setup, parameters, physics::choose_law(parameters.contact), std::move(*tables), *scaling, nullptr};
+  return SampleModel{setup,   parameters, physics::choose_law(parameters.contact), std::move(*tables), *scaling,
+                     nullptr, nullptr};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -102,8 +103,8 @@ struct Felt {
 
 Scaling scaling_of(ScaleMode mode, const std::shared_ptr<const LawTables>& tables, const DeviceSpec& device) {
   if (mode == ScaleMode::Fit) return *Scaling::fit(*tables, device);
-  if (mode == ScaleMode::Compressed) return *Scaling::compressed(*tables, device);
-  if (mode == ScaleMode::Atoms) return *Scaling::atoms(*tables, device, 0.246e-9);
+  if (mode == ScaleMode::Compressed) return *Scaling::compressed(std::array{tables}, device);
+  if (mode == ScaleMode::Atoms) return *Scaling::atoms(std::array{tables}, device, 0.246e-9);
   return *Scaling::common(*tables, device, *Scaling::common_scale(std::vector{tables}, device));
 }
 
@@ -256,7 +257,7 @@ TEST_F(PapersMaterials, CompressedAreAllFeltWithoutBeingTooStiff) {
   const FeltEvents expected[] = {
       {3.5717, 0.9163, 8.563, 2.0, 50.0}, {0.50002, 0.6072, 2.0358, 2.0, 50.0}, {2.9998, 0.8794, 7.500, 2.0, 50.0}};
   for (std::size_t i = 0; i < tables_.size(); ++i) {
-    const FeltEvents events = felt(*tables_[i], *Scaling::compressed(*tables_[i], omni_));
+    const FeltEvents events = felt(*tables_[i], *Scaling::compressed(std::array{tables_[i]}, omni_));
     expect(events, expected[i]);
     EXPECT_GE(events.snap_n, 0.6);
     EXPECT_LE(events.pull_n, 2.0 * (1 + 1e-12));
@@ -327,7 +328,7 @@ TEST(AtomsScaling, GivesAnAtomTheSameWidthInTheHandWhateverTheMaterial) {
   const DeviceSpec device = SimulatedDevice().spec();
   for (const double period_m : {0.246e-9, 0.288e-9, 0.52e-9}) {
     const auto tables = build_law_tables(Law::Dmt, mica(0.02));
-    const Scaling fit = *Scaling::fit(*tables, device), atoms = *Scaling::atoms(*tables, device, period_m);
+    const Scaling fit = *Scaling::fit(*tables, device), atoms = *Scaling::atoms(std::array{tables}, device, period_m);
     EXPECT_NEAR(atoms.lateral_m_per_m() * period_m, 0.0019, 1e-12);
     EXPECT_EQ(atoms.hand_m_per_m(), fit.hand_m_per_m());
     EXPECT_EQ(atoms.hand_n_per_n(), fit.hand_n_per_n());
@@ -336,7 +337,8 @@ TEST(AtomsScaling, GivesAnAtomTheSameWidthInTheHandWhateverTheMaterial) {
   }
   // a scale that is larger already stays
   const auto tables = build_law_tables(Law::Dmt, mica(3.0));
-  EXPECT_EQ(Scaling::atoms(*tables, device, 5e-9)->lateral_m_per_m(), Scaling::fit(*tables, device)->hand_m_per_m());
+  EXPECT_EQ(Scaling::atoms(std::array{tables}, device, 5e-9)->lateral_m_per_m(),
+            Scaling::fit(*tables, device)->hand_m_per_m());
 }
 
 }  // namespace scaling_test

@@ -184,6 +184,9 @@ class Recording {
       session.device = *renderer_.device();
       session.rate_hz = 1000.0;
       session.room_from_sample = segment_.model().nodes[1].parent_from_node;
+      if (session.parameters.law_map != 0) {
+        session.law_map = std::make_shared<scene::SharedLawMap>(segment_.model().law_map);
+      }
       if (!pages_.empty()) session.particles = {.set = segment_.model().particles, .pages = pages_};
       if (picture) {
         session.particles->set.level.since_ns = sample.level.since_ns;

@@ -21,11 +21,12 @@
 
 namespace afm::curves {
 
-// Fit of one pixel's curve, with the adhesion found without it. Not a number: not known.
+// Fit of one pixel's curve, with the hardest pull found without it. Not a number: not known.
 struct PixelFit {
   double modulus_pa = std::numeric_limits<double>::quiet_NaN();
-  double adhesion_n = std::numeric_limits<double>::quiet_NaN();  // hardest pull of the retract, a magnitude
-  std::optional<fits::Trust> trust;                              // empty: no fit
+  double adhesion_n = std::numeric_limits<double>::quiet_NaN();         // hardest pull of the retract, a magnitude
+  double adhesion_j_per_m2 = std::numeric_limits<double>::quiet_NaN();  // W, from a fit to a law of adhesion
+  std::optional<fits::Trust> trust;                                     // empty: no fit
 
   // The fit means something: its verdict is not "no".
   bool usable() const { return trust && *trust != fits::Trust::No; }

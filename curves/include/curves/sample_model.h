@@ -16,6 +16,7 @@
 
 namespace afm::curves {
 
+struct FeltMap;
 struct MapCurve;
 
 // A material as it is felt and shown: its entries in files and on the command line, the current parameters, the
@@ -27,6 +28,7 @@ struct SampleModel {
   std::shared_ptr<const physics::LawTables> tables;  // dynamic lever: the same lever at rest; tapping: its push
   haptics::Scaling scaling;                          // Fit, on the simulated hand
   std::shared_ptr<const MapCurve> pixel;             // pixel of a force map (curves/curve_map.h); null: none
+  std::shared_ptr<const FeltMap> felt_map;           // map that is felt whole (curves/fitting/felt_map.h); null: none
 
   const physics::CycleFigures& figures() const { return tables->figures; }
   bool dynamic() const { return parameters.dynamic != 0; }

@@ -18,6 +18,7 @@ CurveMap::Fit fit_of_each(const std::string& path, const FitOptions& options) {
     if (!fitted.fit) return pixel;
     pixel.trust = fitted.fit->trust;
     pixel.modulus_pa = fitted.fit->modulus_pa;
+    if (fitted.fit->adhesion) pixel.adhesion_j_per_m2 = fitted.fit->adhesion->work_j_per_m2;
     return pixel;
   };
 }

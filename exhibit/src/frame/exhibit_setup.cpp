@@ -14,6 +14,7 @@
 
 #include "core/log.h"
 #include "curves/curve_map.h"
+#include "curves/fitting/felt_map.h"
 #include "curves/tapping/driven_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/wall_pictures.h"
@@ -36,7 +37,7 @@ std::vector<std::string> Stage::titles() const {
 }
 
 std::span<const scene::SharedMeasuredCurve> Stage::recorded_curves() const {
-  if (!pixel) return {};
+  if (!pixel || pixel->felt_map) return {};
   return {&pixel->pixel->measured.curve, 1};
 }
 
@@ -165,6 +166,10 @@ core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
   auto own = load_own_models(files.probe, files.sample, {{.channel = files.sample_channel}, files.sample_levelling});
   if (!own) return tl::unexpected(own.error());
   own->particles = *particles;
+  // a map that is felt whole lies on its own heights
+  if (*pixel && (*pixel)->felt_map && files.sample.empty()) {
+    own->topography = topography_model((*pixel)->felt_map->heights);
+  }
   auto wall_scene = WallScene::load(files.assets_dir, *materials, place, phrases->wall, *own);
   if (!wall_scene) return tl::unexpected(wall_scene.error());
   wall_scene->set_text_size(files.text_size);

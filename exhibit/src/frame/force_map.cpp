@@ -10,6 +10,7 @@
 #include "core/interruption.h"
 #include "core/log.h"
 #include "curves/curve_map.h"
+#include "curves/fitting/felt_map.h"
 #include "curves/fitting/map_fit.h"
 #include "curves/measured_material.h"
 
@@ -37,6 +38,8 @@ core::Result<std::shared_ptr<const curves::SampleModel>> load_force_map(const Ex
     return core::wrong_usage("--force-map: its law is no particle's: leave --particles out");
   const auto library = scene::load_materials(files.assets_dir + "/materials.toml");
   if (!library) return tl::unexpected(library.error());
+  if (files.whole_map && !(files.map_reading && files.map_reading->fit.shape))
+    return core::wrong_usage("--felt map: the map is felt by its fits: add --fit SHAPE");
   curves::MapReading reading = files.map_reading ? *files.map_reading : curves::MapReading{};
   if (auto prepared = curves::prepare(reading.fit); !prepared) return tl::unexpected(prepared.error());
   const auto fit = reading.fit.shape ? curves::fit_of_each(files.force_map, reading.fit) : curves::CurveMap::Fit{};
@@ -58,7 +61,12 @@ core::Result<std::shared_ptr<const curves::SampleModel>> load_force_map(const Ex
                   map->grid().rows, missing, curves::text_of(model->pixel->place),
                   model->pixel->measured.features.contact_doubtful ? ", whose contact point is doubtful" : ""));
   if (fit) core::log_line(fmt::format("force map {}: {}", files.force_map, curves::fits_text(*map)));
-  return std::make_shared<const curves::SampleModel>(std::move(*model));
+  if (!files.whole_map) return std::make_shared<const curves::SampleModel>(std::move(*model));
+  auto whole = curves::make_sample_model(*model, reading.fit);
+  if (!whole) return tl::unexpected(whole.error());
+  core::log_line(
+      fmt::format("force map {}: the whole map is felt: {}", files.force_map, curves::felt_text(*whole->felt_map)));
+  return std::make_shared<const curves::SampleModel>(std::move(*whole));
 }
 
 scene::MaterialEntry entry_of(const curves::SampleModel& pixel) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -160,9 +161,10 @@ core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& pr
     if (!built) return tl::unexpected(built.error());
     tables = std::move(*built);
   }
-  const auto scaling = scale_ == scene::ScaleMode::Common       ? haptics::Scaling::common(*tables, device, common_)
-                       : scale_ == scene::ScaleMode::Compressed ? haptics::Scaling::compressed(*tables, device)
-                                                                : haptics::Scaling::fit(*tables, device);
+  const auto scaling = scale_ == scene::ScaleMode::Common ? haptics::Scaling::common(*tables, device, common_)
+                       : scale_ == scene::ScaleMode::Compressed
+                           ? haptics::Scaling::compressed(std::array{tables}, device)
+                           : haptics::Scaling::fit(*tables, device);
   if (!scaling) return tl::unexpected(scaling.error());
   now_s_ += 2.0 + 2.0 * random_.unit();  // lifts and enables the force
   run.force_is(prompt.condition == Condition::Picture ? HandForce::None : HandForce::Full, now_s_);

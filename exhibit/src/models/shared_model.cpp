@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/check.h"
+#include "curves/fitting/felt_map.h"
 
 namespace afm::exhibit {
 
@@ -52,6 +53,9 @@ core::Result<scene::SharedModel> shared_model(const scene::Scene& scene, scene::
   }
   std::transform(materials.begin(), materials.end(), model.materials.begin(),
                  [](const curves::SampleModel& material) { return material.parameters; });
+  for (const curves::SampleModel& material : materials) {
+    if (material.felt_map) model.law_map = material.felt_map->laws;
+  }
   std::copy(surfaces.begin(), surfaces.end(), model.height_fields.begin());
   std::copy(curves.begin(), curves.end(), model.curves.begin());
   return model;

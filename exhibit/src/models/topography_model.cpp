@@ -214,14 +214,9 @@ double exaggeration_of(double relief_m, double side_m) {
   return decade;
 }
 
-core::Result<TopographyModel> load_topography_model(const std::string& file, const curves::TopographyReading& reading) {
-  const scene::LoadingNotice notice(file);
-  const auto measured = curves::load_topography(file, reading);
-  if (!measured) return tl::unexpected(measured.error());
-  auto felt = curves::felt_topography(*measured);
-  if (!felt) return tl::unexpected(felt.error());
+TopographyModel topography_model(scene::Topography topography) {
   TopographyModel model;
-  model.topography = std::move(*felt);
+  model.topography = std::move(topography);
   std::tie(model.lowest_m, model.highest_m) = range_of(model.topography);
   const double side_m = longest_side_m(model.topography);
   model.exaggeration = exaggeration_of(model.highest_m - model.lowest_m, side_m);
@@ -229,7 +224,16 @@ core::Result<TopographyModel> load_topography_model(const std::string& file, con
       static_cast<double>(*std::min_element(model.topography.height_m.begin(), model.topography.height_m.end()));
   model.sample = topography_scene(model.topography, model.lowest_m, model.highest_m,
                                   lowest_m - kSlabOfSide * side_m / model.exaggeration);
+  return model;
+}
 
+core::Result<TopographyModel> load_topography_model(const std::string& file, const curves::TopographyReading& reading) {
+  const scene::LoadingNotice notice(file);
+  const auto measured = curves::load_topography(file, reading);
+  if (!measured) return tl::unexpected(measured.error());
+  auto felt = curves::felt_topography(*measured);
+  if (!felt) return tl::unexpected(felt.error());
+  TopographyModel model = topography_model(std::move(*felt));
   const physics::ScanImage& scan = measured->file.image;
   std::string filled;
   if (measured->level.filled > 0)

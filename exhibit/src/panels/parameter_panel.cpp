@@ -29,6 +29,7 @@ std::string pull(physics::Force value) {
 std::vector<std::string> notes(const curves::LiveParameters& parameters, const Phrases& phrases) {
   using enum Phrase;
   // of a pixel, the plot has the jumps; the picture needs the room
+  if (parameters.model().felt_map) return {};
   if (const auto& pixel = parameters.model().pixel) {
     return pixel->measured.features.contact_doubtful ? std::vector{phrases[ContactDoubtful]}
                                                      : std::vector<std::string>();
@@ -74,6 +75,7 @@ std::string value_text(const curves::LiveParameters& parameters, curves::LivePar
 // Outcome of the last change.
 Phrase status_of(const curves::LiveParameters& parameters, ChangeState state) {
   const bool of_map = parameters.model().pixel != nullptr;
+  if (parameters.model().felt_map) return Phrase::MapFelt;
   if (!parameters.refusal().empty()) return of_map ? Phrase::NoSuchPixel : Phrase::NoSuchParameters;
   if (of_map && state == ChangeState::AsLoaded) return Phrase::PixelLoaded;
   return after(Phrase::ParametersLoaded, core::index_of(state));

@@ -11,10 +11,12 @@
 
 #include "core/enumerators.h"
 #include "curves/curve_map.h"
+#include "curves/fitting/felt_map.h"
 #include "curves/live_parameters.h"
 #include "exhibit/models/height_colours.h"
 #include "physics/quantity_text.h"
 #include "scan/image_maps.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
 
@@ -142,6 +144,26 @@ render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPla
   }
   for (const Srgb& c : kHeightColours) picture.bar.push_back(glm::vec3(c[0], c[1], c[2]) / 255.0F);
   return picture;
+}
+
+std::vector<std::string> felt_map_notes(const curves::SampleModel& model, const scene::TipState& tip,
+                                        const Phrases& phrases) {
+  if (!model.felt_map || !(tip.here.reduced_modulus_pa > 0.0)) return {};
+  const curves::FeltMap& map = *model.felt_map;
+  const std::string modulus = modulus_text(tip.here.reduced_modulus_pa * (1.0 - map.poisson * map.poisson), phrases);
+  const std::string adhesion =
+      unit_text(physics::SurfaceEnergy(tip.here.adhesion_j_per_m2), physics::kSurfaceEnergyUnits, phrases);
+  std::vector<std::string> notes{map.law == physics::Law::Hertz ? phrases.text<Phrase::MapHereModulus>(modulus)
+                                                                : phrases.text<Phrase::MapHere>(modulus, adhesion)};
+  const auto pixel = curves::pixel_below(model, tip.surface.xy_m);
+  if (!pixel) {
+    notes.push_back(phrases[Phrase::MapBeside]);
+  } else if (const std::size_t cell = target_index(*pixel, *model.pixel->map); map.is_filled[cell]) {
+    notes.push_back(phrases[Phrase::MapFilled]);
+  } else if (model.pixel->map->fits()[cell].trust == fits::Trust::Doubtful) {
+    notes.push_back(phrases[Phrase::MapDoubtful]);
+  }
+  return notes;
 }
 
 std::size_t target_index(const curves::MapPlace& place, const curves::CurveMap& map) {

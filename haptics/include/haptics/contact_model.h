@@ -31,6 +31,7 @@
 namespace afm::haptics {
 
 class FeltParticles;
+class MapContact;
 
 // Largest curvature that a surface of this material may have on this device, as limited by create(): where a surface
 // bends, a force on it acts as a lateral stiffness. `fit` is the scale of Fit.
@@ -51,12 +52,22 @@ struct ScanFeedback {
   bool without_force = true;  // a step would not be felt
 };
 
+// One step over a map; forces on the hand.
+struct MapTouch {
+  physics::TipResponse response;
+  double force_n = 0;          // along the normal
+  glm::dvec2 sideways_n{0.0};  // along the sample's x and y, at a constant height above the surface
+  double stored_j = 0;         // potential of the branch, zero at the least of the map
+  scene::LawHere here;         // the law below the tip
+};
+
 // One step of the tip over the sample; positions and forces in the sample's frame.
 struct Touch {
   physics::TipResponse response;
   scene::Swing swing;  // none: the lever does not tap
   double z_m = 0;      // above the surface below the tip
   glm::dvec2 tip_xy_m{0.0};
+  MapTouch map;  // step over a map of modulus and adhesion; its response is the one above
   FeltFriction::Step friction;
   ParticlePush push;
   GroovePull groove;  // along the axes of the sample, on the hand
@@ -85,6 +96,9 @@ struct Touch {
 // felt residual waits. Feedback begins and ends only where the step is not felt: with the tip off the sample, or
 // without force.
 //
+// Over a map of modulus and adhesion (scene::SharedLawMap) the potential also depends on the place, and its slope is
+// one more force sideways (haptics/map_contact.h); all of the map is felt on the same scales.
+//
 // A lever that taps is felt by its push, not by its mean force, which would give energy to the hand. The energy that
 // the push gives because it follows the hand late is excess energy for the passivity observer.
 //
@@ -93,13 +107,19 @@ struct Touch {
 class ContactModel {
  public:
   // `tables` are build_tables() of `material`, `drawn` is its surface (scene::surface_of); `common` is the scale shared
-  // by all materials. Fails if the device cannot render it at this tick period. `edit_revision` is that of the
-  // MaterialEdit with the material's parameters, 0 for none.
+  // by all materials; `map` is valid, and has points, if the
+  // material refers to it. Fails if the device cannot render it
+  // at this tick period. `edit_revision` is that of the MaterialEdit with the material's parameters, 0 for none.
   static core::Result<std::unique_ptr<ContactModel>> create(const scene::SharedContact& material,
                                                             std::uint32_t edit_revision,
                                                             std::shared_ptr<const physics::LawTables> tables,
                                                             const scene::FeltHeights& drawn, const CommonScale& common,
-                                                            const DeviceSpec& device, std::int64_t period_ns);
+                                                            const DeviceSpec& device, std::int64_t period_ns,
+                                                            const scene::SharedLawMap* map = nullptr);
+
+  using Scalings = std::array<Scaling, scene::kScaleModes.size()>;  // in the order of scene::kScaleModes
+
+  ~ContactModel();
 
   static constexpr double kMostResidualM = 0.001;
 
@@ -130,23 +150,22 @@ class ContactModel {
  private:
   using Model = std::variant<physics::ApproachRetractModel, physics::DynamicModel, physics::TappingModel>;
 
-  using Scalings = std::array<Scaling, scene::kScaleModes.size()>;  // in the order of scene::kScaleModes
-
   using StoredEnergies = std::vector<PotentialEnergy>;  // in the same order
 
-  ContactModel(Model model, SampleSurface surface, std::optional<FeltFriction> friction, const Scalings& scalings,
-               StoredEnergies stored_energies, std::shared_ptr<const physics::LawTables> tables, double force_cap_n,
-               std::uint32_t edit_revision);
+  ContactModel(Model model, std::unique_ptr<MapContact> map, SampleSurface surface,
+               std::optional<FeltFriction> friction, const Scalings& scalings, StoredEnergies stored_energies,
+               std::shared_ptr<const physics::LawTables> tables, double force_cap_n, std::uint32_t edit_revision);
 
   physics::TipResponse step_law(physics::Length z) noexcept;
-  physics::Force felt_force(Touch& touch) const noexcept;
+  double felt_force_n(Touch& touch) const noexcept;
   bool may_change_level(double hand_z_m, double height_m, const ScanFeedback& feedback) const noexcept;
   void follow_surface(double hand_z_m, double height_m, const ScanFeedback& feedback, Touch& touch) noexcept;
   void meet_particles(const glm::dvec2& slope, const ScanFeedback& feedback, Touch& touch) noexcept;
-  double attached_j(double z_m) const noexcept;
+  double attached_j(const Touch& touch, double z_m) const noexcept;
   double stiffness_n_per_m() const noexcept;
 
-  Model model_;  // never valueless, so that visiting it cannot throw
+  Model model_;                      // never valueless, so that visiting it cannot throw
+  std::unique_ptr<MapContact> map_;  // replaces the model over a map; null: none
   SampleSurface surface_;
   std::optional<FeltFriction> friction_;
   double steepest_slope_;

@@ -17,15 +17,17 @@ namespace afm::haptics {
 // servo's: building allocates and takes milliseconds.
 class EditBuilder {
  public:
-  // Curves, surfaces and the topography are those of the segment; `common` is that of the existing contact models;
-  // `exchange` must outlive this object.
+  // Curves, surfaces, topography and map are those of the segment, the map null if there is none; `common` is that of
+  // the existing contact models; `exchange` must outlive this object.
   EditBuilder(scene::EditSide edits, std::vector<scene::SharedMeasuredCurve> curves,
-              std::vector<scene::SharedHeightField> surfaces, scene::Topography topography, const CommonScale& common,
-              const DeviceSpec& device, std::int64_t period_ns, ModelSwap& exchange)
+              std::vector<scene::SharedHeightField> surfaces, scene::Topography topography,
+              std::unique_ptr<const scene::SharedLawMap> law_map, const CommonScale& common, const DeviceSpec& device,
+              std::int64_t period_ns, ModelSwap& exchange)
       : edits_(edits),
         curves_(std::move(curves)),
         surfaces_(std::move(surfaces)),
         topography_(std::move(topography)),
+        law_map_(std::move(law_map)),
         common_(common),
         device_(device),
         period_ns_(period_ns),
@@ -44,6 +46,7 @@ class EditBuilder {
   std::vector<scene::SharedMeasuredCurve> curves_;
   std::vector<scene::SharedHeightField> surfaces_;
   scene::Topography topography_;
+  std::unique_ptr<const scene::SharedLawMap> law_map_;
   CommonScale common_;
   DeviceSpec device_;
   std::int64_t period_ns_;

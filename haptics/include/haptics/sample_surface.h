@@ -25,7 +25,8 @@ namespace afm::haptics {
 //   caller's limit: where the tip would touch two slopes at once, the dilated surface has a crease.
 // - A topography measured by an instrument is not dilated: its heights are already those of an apex. It is smoothed
 //   only as far as those limits require, by a bell curve, however many points it has.
-// - It is shifted along z to the height of the drawn surface at the origin, where events are compared.
+// - It is shifted along z to the height of the drawn surface at the origin, where events are compared. Another quantity
+//   of a place (scene::Heights::Scaled) is neither dilated nor shifted, and mirrored at the edge while it is smoothed.
 // - Beyond the edge the heights of the edge merge into one level plane (physics::Rim), never steeper than the sample.
 class SampleSurface {
  public:
@@ -64,7 +65,7 @@ class SampleSurface {
 
  private:
   void trace(double tip_radius_m, double largest_curvature_per_m);
-  void smooth_widely(double largest_curvature_per_m);
+  void smooth_widely(double largest_curvature_per_m, bool mirrored);
   void add_rim(double largest_curvature_per_m);
   bool is_gentle(double largest_curvature_per_m) const;
   const double* line_of(int row) const noexcept;         // row of the grid, clamped

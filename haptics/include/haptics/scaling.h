@@ -60,19 +60,25 @@ class Scaling {
   static constexpr double kAtomM = 0.0019;             // lattice step in the hand
   static constexpr double kUsualPeriodM = 0.52e-9;     // mica's period, for a material with an unknown lattice
 
-  // Both functions fail if the device is too weak or too small, or if the pull of such a stiff contact would be too
+  // Laws that are felt on one scale, of places on one sample (haptics/law_family.h); at least one. The longest stroke
+  // and the strongest force of any determine it, and its stiffness is bounded for every one.
+  using Laws = std::span<const std::shared_ptr<const physics::LawTables>>;
+
+  // These functions fail if the device is too weak or too small, or if the pull of such a stiff contact would be too
   // faint to feel.
+  static core::Result<Scaling> fit(Laws laws, const DeviceSpec& device);
   static core::Result<Scaling> fit(const physics::LawTables& tables, const DeviceSpec& device);
-  static core::Result<Scaling> compressed(const physics::LawTables& tables, const DeviceSpec& device);
+  static core::Result<Scaling> compressed(Laws laws, const DeviceSpec& device);
 
   // `period_m` is the period of the lattice, 0 for none.
-  static core::Result<Scaling> atoms(const physics::LawTables& tables, const DeviceSpec& device, double period_m);
+  static core::Result<Scaling> atoms(Laws laws, const DeviceSpec& device, double period_m);
 
   // Lateral metres of the hand per metre of the nanoworld, for a scale with `hand_m_per_m` along the normal.
   static double lateral_m_per_m(scene::ScaleMode mode, double hand_m_per_m, double period_m) noexcept;
 
   // Uses `scale`, reduced if this material would not suit the device, after a change since the scale was
   // computed. Faint forces stay faint.
+  static core::Result<Scaling> common(Laws laws, const DeviceSpec& device, const CommonScale& scale);
   static core::Result<Scaling> common(const physics::LawTables& tables, const DeviceSpec& device,
                                       const CommonScale& scale);
 

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -12,7 +13,9 @@
 #include <string>
 #include <utility>
 
+#include "core/enumerators.h"
 #include "haptics/felt_particles.h"
+#include "haptics/map_contact.h"
 #include "physics/tapping/driven_lever.h"
 #include "physics/tapping/tap_surface.h"
 #include "scene/shared/shared_segment.h"
@@ -91,6 +94,30 @@ double turn_energy_j(const physics::LawTables& tables, const Scaling& scaling, p
   return sum_n / kSteps * way.si * scaling.hand_m_per_m();
 }
 
+// All scales of a material, in the order of scene::kScaleModes, for all laws under the tip.
+core::Result<ContactModel::Scalings> scalings_of(const scene::SharedContact& material, Scaling::Laws laws,
+                                                 const CommonScale& common, const DeviceSpec& device) {
+  const auto common_scaling = Scaling::common(laws, device, common);
+  const auto fit = Scaling::fit(laws, device);
+  const auto compressed = Scaling::compressed(laws, device);
+  const auto atoms = Scaling::atoms(laws, device, material.friction.period.si);
+  // without particles nothing is felt on their scale
+  const bool has_particles = common.particles.hand_m_per_m > 0.0;
+  const auto particles = has_particles ? Scaling::particles(*laws.front(), device, common.particles) : fit;
+  for (const auto* scaling : {&common_scaling, &fit, &compressed, &atoms, &particles}) {
+    if (!*scaling) return tl::unexpected(scaling->error());
+  }
+  return ContactModel::Scalings{*common_scaling, *fit, *compressed, *atoms, *particles};
+}
+
+// Null without a map.
+core::Result<std::shared_ptr<const LawFamily>> family_of(const scene::SharedContact& material,
+                                                         const scene::SharedLawMap* map) {
+  if (material.law_map == 0) return nullptr;
+  if (map == nullptr || map->columns == 0) return core::failure(core::ErrorCategory::Failed, "it has no map");
+  return LawFamily::create(material, *map);
+}
+
 double slow_motion_of(const physics::ApproachRetractModel& /*at rest at any time*/) { return 1.0; }
 double slow_motion_of(const physics::DynamicModel& model) { return model.slow_motion(); }
 double slow_motion_of(const physics::TappingModel& model) { return model.slow_motion(); }
@@ -118,41 +145,45 @@ core::Result<std::shared_ptr<const physics::LawTables>> build_tables(
 
 core::Result<std::unique_ptr<ContactModel>> ContactModel::create(
     const scene::SharedContact& material, std::uint32_t edit_revision, std::shared_ptr<const physics::LawTables> tables,
-    const scene::FeltHeights& drawn, const CommonScale& common, const DeviceSpec& device, std::int64_t period_ns) {
-  const auto common_scaling = Scaling::common(*tables, device, common);
-  const auto fit = Scaling::fit(*tables, device);
-  const auto compressed = Scaling::compressed(*tables, device);
-  const auto atoms = Scaling::atoms(*tables, device, material.friction.period.si);
-  // without particles nothing is felt on their scale
-  const bool has_particles = common.particles.hand_m_per_m > 0.0;
-  const auto particles = has_particles ? Scaling::particles(*tables, device, common.particles) : fit;
-  for (const auto* scaling : {&common_scaling, &fit, &compressed, &atoms, &particles}) {
-    if (!*scaling) return refusal(material, scaling->error().category, scaling->error().message);
-  }
+    const scene::FeltHeights& drawn, const CommonScale& common, const DeviceSpec& device, std::int64_t period_ns,
+    const scene::SharedLawMap* map) {
+  const auto family = family_of(material, map);
+  if (!family) return refusal(material, family.error().category, family.error().message);
+  const std::array alone{tables};
+  const auto scaled = *family ? scalings_of(material, (*family)->laws(), common, MapContact::along_normal(device))
+                              : scalings_of(material, alone, common, device);
+  if (!scaled) return refusal(material, scaled.error().category, scaled.error().message);
+  const Scalings& scalings = *scaled;
+  const Scaling& fit = scalings[core::index_of(scene::ScaleMode::Fit)];
   try {
     Model model(std::in_place_type<physics::ApproachRetractModel>, tables);
     if (material.dynamic != 0) model = dynamic_model(material, period_ns);
     if (scene::taps(material)) model = tapping_model(material, tables, period_ns);
-    const Scalings scalings{*common_scaling, *fit, *compressed, *atoms, *particles};
-    SampleSurface surface(drawn.scaled(scene::surface_scale(material, fit->release_z_m())),
-                          material.contact.tip_radius.si, largest_curvature_per_m(*fit, device));
+    const double size = scene::surface_scale(material, fit.release_z_m());
+    SampleSurface surface(drawn.scaled(size), material.contact.tip_radius.si, largest_curvature_per_m(fit, device));
+    std::unique_ptr<MapContact> felt_map;
+    if (*family) {
+      felt_map = std::make_unique<MapContact>(*family, tables, *map,
+                                              size * material.topography.lateral * map->spacing_m, scalings, device);
+    }
     std::optional<FeltFriction> friction;
     if (material.friction.law != physics::FrictionLaw::None) friction.emplace(material, tables, device);
     StoredEnergies stored_energies;
     for (const Scaling& scaling : scalings) stored_energies.push_back(stored_energy_of(*tables, scaling, device));
-    return std::unique_ptr<ContactModel>(new ContactModel(std::move(model), std::move(surface), std::move(friction),
-                                                          scalings, std::move(stored_energies), std::move(tables),
-                                                          force_cap_n(device), edit_revision));
+    return std::unique_ptr<ContactModel>(new ContactModel(std::move(model), std::move(felt_map), std::move(surface),
+                                                          std::move(friction), scalings, std::move(stored_energies),
+                                                          std::move(tables), force_cap_n(device), edit_revision));
   } catch (const std::exception& error) {
     return refusal(material, core::ErrorCategory::Failed, error.what());
   }
 }
 
-ContactModel::ContactModel(Model model, SampleSurface surface, std::optional<FeltFriction> friction,
-                           const Scalings& scalings, StoredEnergies stored_energies,
-                           std::shared_ptr<const physics::LawTables> tables, double force_cap_n,
-                           std::uint32_t edit_revision)
+ContactModel::ContactModel(Model model, std::unique_ptr<MapContact> map, SampleSurface surface,
+                           std::optional<FeltFriction> friction, const Scalings& scalings,
+                           StoredEnergies stored_energies, std::shared_ptr<const physics::LawTables> tables,
+                           double force_cap_n, std::uint32_t edit_revision)
     : model_(std::move(model)),
+      map_(std::move(map)),
       surface_(std::move(surface)),
       friction_(std::move(friction)),
       steepest_slope_(surface_.steepest_slope()),
@@ -163,6 +194,8 @@ ContactModel::ContactModel(Model model, SampleSurface surface, std::optional<Fel
       tables_(std::move(tables)),
       slow_motion_(std::visit([](const auto& m) { return slow_motion_of(m); }, model_)),
       edit_revision_(edit_revision) {}
+
+ContactModel::~ContactModel() = default;
 
 Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback) noexcept {
   const Scaling& scale = scaling();
@@ -176,10 +209,12 @@ Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback)
     follow_surface(scale.z_m(hand_m.z), below.height_m, feedback, touch);
     below.slope = glm::dvec2(0.0);
   }
-  touch.response = step_law(physics::Length(touch.z_m));
+  if (map_) touch.map = map_->step(mode_, scale, touch.tip_xy_m, touch.z_m);
+  touch.response = map_ ? touch.map.response : step_law(physics::Length(touch.z_m));
   touch.normal = glm::normalize(glm::dvec3(-below.slope, 1.0));
   const glm::dvec3 gradient(-below.slope * scale.flattening(), 1.0);
-  touch.hand_force_n = scale.hand_force_n(felt_force(touch).si) * gradient;
+  touch.hand_force_n = felt_force_n(touch) * gradient;
+  if (map_) touch.hand_force_n += glm::dvec3(touch.map.sideways_n, 0.0);
   if (friction_) {
     // the loop keeps the load constant
     const double load_z_m = level_ ? scale.z_m(hand_m.z) : touch.z_m;
@@ -223,7 +258,7 @@ void ContactModel::follow_surface(double hand_z_m, double height_m, const ScanFe
   loop_m_ += -std::expm1(-feedback.gain_per_s * feedback.elapsed_s) * (height_m - loop_m_);
   const double most_m = kMostResidualM / scaling().hand_m_per_m();
   const double next_m = std::clamp(height_m - loop_m_, -most_m, most_m);
-  const double given_j = attached_j(hand_z_m - next_m) - attached_j(hand_z_m - residual_m_);
+  const double given_j = attached_j(touch, hand_z_m - next_m) - attached_j(touch, hand_z_m - residual_m_);
   if (given_j <= tank_.held_j()) {
     tank_.take(given_j);
     residual_m_ = next_m;
@@ -233,7 +268,8 @@ void ContactModel::follow_surface(double hand_z_m, double height_m, const ScanFe
 }
 
 // Potential on the attached branch, on the hand.
-double ContactModel::attached_j(double z_m) const noexcept {
+double ContactModel::attached_j(const Touch& touch, double z_m) const noexcept {
+  if (map_) return map_->attached_j(mode_, scaling(), touch.tip_xy_m, z_m);
   const double stored_j = stored_energy().at(physics::Phase::Attached, scaling().hand_height_m(z_m));
   const auto* model = std::get_if<physics::ApproachRetractModel>(&model_);
   if (model == nullptr) return stored_j;
@@ -248,7 +284,8 @@ double ContactModel::attached_j(double z_m) const noexcept {
 double ContactModel::stiffness_n_per_m() const noexcept {
   // a recorded contact's turn adds at most its mean stiffness
   const double turning = tables_->turn.si > 0.0 ? 2.0 : 1.0;
-  return turning * stored_energy().stiffness_n_per_m() * (1.0 + steepest_slope_ * steepest_slope_) +
+  const double law_n_per_m = map_ ? map_->stiffness_n_per_m(mode_) : stored_energy().stiffness_n_per_m();
+  return turning * law_n_per_m * (1.0 + steepest_slope_ * steepest_slope_) +
          force_cap_n_ * largest_curvature_per_m_ / scaling().hand_m_per_m() +
          (friction_ ? friction_->stiffness_n_per_m(scaling()) : 0.0);
 }
@@ -257,21 +294,25 @@ physics::TipResponse ContactModel::step_law(physics::Length z) noexcept {
   return std::visit([z](auto& model) { return model.step(z); }, model_);
 }
 
-physics::Force ContactModel::felt_force(Touch& touch) const noexcept {
+// Along the sample's normal, on the hand.
+double ContactModel::felt_force_n(Touch& touch) const noexcept {
+  if (map_) return touch.map.force_n;
   const auto* tapping = std::get_if<physics::TappingModel>(&model_);
-  if (tapping == nullptr) return touch.response.force;
-  if (tapping->phase() == physics::Phase::WaitForLift) return {};
+  if (tapping == nullptr) return scaling().hand_force_n(touch.response.force.si);
+  if (tapping->phase() == physics::Phase::WaitForLift) return scaling().hand_force_n(0.0);
   touch.swing = {.amplitude_m = tapping->amplitude().si, .phase_rad = tapping->phase_lag()};
-  return tapping->push();
+  return scaling().hand_force_n(tapping->push().si);
 }
 
 void ContactModel::wait_for_lift() noexcept {
   std::visit([](auto& model) { model.wait_for_lift(); }, model_);
+  if (map_) map_->wait_for_lift();
   if (friction_) friction_->lift();
   if (particles_ != nullptr) particles_->drop();
 }
 
 physics::Phase ContactModel::phase() const noexcept {
+  if (map_) return map_->phase();
   return std::visit([](const auto& model) { return model.phase(); }, model_);
 }
 
@@ -280,8 +321,13 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
   PassivityObserver::Law law{.stiffness_n_per_m = stiffness_n_per_m(),
                              .is_dynamic = std::holds_alternative<physics::DynamicModel>(model_)};
   if (touch.response.phase == physics::Phase::WaitForLift) return law;
-  law.stored_j =
-      attached ? attached_j(touch.z_m) : stored_energy().at(touch.response.phase, scaling().hand_height_m(touch.z_m));
+  if (map_) {
+    law.stored_j = touch.map.stored_j;
+  } else if (attached) {
+    law.stored_j = attached_j(touch, touch.z_m);
+  } else {
+    law.stored_j = stored_energy().at(touch.response.phase, scaling().hand_height_m(touch.z_m));
+  }
   if (friction_) {
     law.stored_j += friction_->stored_j(scaling());
     law.given_j = touch.friction.given_j;

@@ -29,7 +29,8 @@ core::Result<std::unique_ptr<ContactModel>> EditBuilder::model_of(const scene::M
   auto tables = build_tables(material, curves);
   if (!tables) return tl::unexpected(tables.error());
   return ContactModel::create(material, edit.revision, std::move(*tables),
-                              scene::surface_of(material, surfaces_, topography_), common_, device_, period_ns_);
+                              scene::surface_of(material, surfaces_, topography_), common_, device_, period_ns_,
+                              law_map_.get());
 }
 
 void EditBuilder::build() {

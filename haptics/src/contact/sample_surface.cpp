@@ -44,12 +44,21 @@ void smooth(const Line& line) {
   }
 }
 
-// Mean over `half_width` rows on either side; beyond the edge, the height of the edge continues.
+// What lies beyond the edge for a mean: the height of the edge, or the mirror image, in which the mean is level there.
+enum class Beyond { Edge, Mirror };
+
+std::size_t row_within(std::ptrdiff_t row, std::size_t rows, Beyond beyond) {
+  const auto count = static_cast<std::ptrdiff_t>(rows);
+  if (beyond == Beyond::Edge) return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(row, 0, count - 1));
+  const std::ptrdiff_t turn = ((row % (2 * count)) + 2 * count) % (2 * count);
+  return static_cast<std::size_t>(std::min(turn, 2 * count - 1 - turn));
+}
+
+// Mean over `half_width` rows on either side.
 void box_over_rows(std::span<const double> from, std::size_t columns, std::size_t rows, std::size_t half_width,
-                   std::vector<double>& sums, std::span<double> to) {
+                   Beyond beyond, std::vector<double>& sums, std::span<double> to) {
   const auto row_at = [&](std::ptrdiff_t row) {
-    const auto within = std::clamp<std::ptrdiff_t>(row, 0, static_cast<std::ptrdiff_t>(rows) - 1);
-    return from.subspan(static_cast<std::size_t>(within) * columns, columns);
+    return from.subspan(row_within(row, rows, beyond) * columns, columns);
   };
   const auto half = static_cast<std::ptrdiff_t>(half_width);
   const double share = 1.0 / static_cast<double>(2 * half_width + 1);
@@ -84,12 +93,13 @@ void transpose(std::span<const double> from, std::size_t columns, std::size_t ro
 }
 
 // Three box averages along both axes: nearly a bell curve, at the same cost for every width.
-void smooth_by_boxes(std::vector<double>& heights_m, std::size_t columns, std::size_t rows, std::size_t half_width) {
+void smooth_by_boxes(std::vector<double>& heights_m, std::size_t columns, std::size_t rows, std::size_t half_width,
+                     Beyond beyond) {
   std::vector<double> other(heights_m.size()), sums;
   for (int axis = 0; axis < 2; ++axis) {
-    box_over_rows(heights_m, columns, rows, half_width, sums, other);
-    box_over_rows(other, columns, rows, half_width, sums, heights_m);
-    box_over_rows(heights_m, columns, rows, half_width, sums, other);
+    box_over_rows(heights_m, columns, rows, half_width, beyond, sums, other);
+    box_over_rows(other, columns, rows, half_width, beyond, sums, heights_m);
+    box_over_rows(heights_m, columns, rows, half_width, beyond, sums, other);
     transpose(other, columns, rows, heights_m);
     std::swap(columns, rows);
   }
@@ -120,12 +130,12 @@ SampleSurface::SampleSurface(const scene::FeltHeights& drawn, double tip_radius_
   const double drawn_m =
       0.25 * (control_m(left, below) + control_m(right, below) + control_m(left, above) + control_m(right, above));
 
-  if (drawn.heights == scene::Heights::Traced) {
-    smooth_widely(largest_curvature_per_m);
-  } else {
+  if (drawn.heights == scene::Heights::Drawn) {
     trace(tip_radius_m, largest_curvature_per_m);
+  } else {
+    smooth_widely(largest_curvature_per_m, drawn.heights == scene::Heights::Scaled);
   }
-  const double shift_m = drawn_m - at({0.0, 0.0}).height_m;
+  const double shift_m = drawn.heights == scene::Heights::Scaled ? 0.0 : drawn_m - at({0.0, 0.0}).height_m;
   for (double& control_m : controls_m_) control_m += shift_m;
   add_rim(largest_curvature_per_m);
 }
@@ -162,13 +172,14 @@ void SampleSurface::trace(double tip_radius_m, double largest_curvature_per_m) {
 }
 
 // Finds the narrowest sufficient bell curve: doubles the half width, then bisects.
-void SampleSurface::smooth_widely(double largest_curvature_per_m) {
+void SampleSurface::smooth_widely(double largest_curvature_per_m, bool mirrored) {
+  const Beyond beyond = mirrored ? Beyond::Mirror : Beyond::Edge;
   if (is_gentle(largest_curvature_per_m)) return;
   const auto columns = static_cast<std::size_t>(columns_), rows = static_cast<std::size_t>(rows_);
   const std::vector<double> heights_m = controls_m_;
   const auto is_gentle_with = [&](std::size_t half_width) {
     controls_m_ = heights_m;
-    smooth_by_boxes(controls_m_, columns, rows, half_width);
+    smooth_by_boxes(controls_m_, columns, rows, half_width, beyond);
     return is_gentle(largest_curvature_per_m);
   };
   // three boxes wider than the grid leave a plane

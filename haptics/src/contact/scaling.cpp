@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +33,12 @@ constexpr double kHandStepM = 50e-6;
 auto refusal(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
 
 using Branch = physics::BranchTable;
+using Laws = Scaling::Laws;
+
+// A view of one law as laws.
+std::shared_ptr<const physics::LawTables> unowned(const physics::LawTables& tables) {
+  return {std::shared_ptr<const physics::LawTables>(), &tables};
+}
 
 double force_n(const Branch& branch, double z_m) { return branch.force(physics::Length(z_m)).si; }
 
@@ -83,6 +90,25 @@ Extent extent_of(const physics::LawTables& tables) {
   return {push_m * Scaling::kStrokeM / Scaling::kPushM, strong_n, strong_n};
 }
 
+// Of laws on one scale.
+Extent extent_of(Laws laws) {
+  Extent all = extent_of(*laws.front());
+  for (const auto& law : laws.subspan(1)) {
+    const Extent extent = extent_of(*law);
+    all = {std::max(all.reach_m, extent.reach_m), std::max(all.strong_n, extent.strong_n),
+           std::max(all.felt_n, extent.felt_n)};
+  }
+  return all;
+}
+
+// True if a law of several has no force that is felt: neither a pull nor the push at the end of the hand's way down.
+bool has_faint(const Scaling& scaling, Laws laws) {
+  return std::any_of(laws.begin(), laws.end(), [&](const auto& law) {
+    const double push_n = force_n(law->attached, scaling.z_m(-Scaling::kPushM));
+    return scaling.hand_n_per_n() * std::max(strongest_pull_n(*law), push_n) < Scaling::kFaintestPullN;
+  });
+}
+
 // Steepest rise of the hand's force on its way down a branch, between two heights of the hand.
 double steepest_n_per_m(const Scaling& scaling, const Branch& branch, double lowest_m, double highest_m) {
   double steepest = 0.0;
@@ -110,6 +136,13 @@ double excess_of_stiffness(const Scaling& scaling, const physics::LawTables& tab
                                                                        std::clamp(jump_in_m, lowest_m, highest_m))
                                               : 0.0;
   return std::max({free, attached, pressed}) / std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
+}
+
+// Of all laws on one scale.
+double excess_of_stiffness(const Scaling& scaling, Laws laws, const DeviceSpec& device) {
+  double most = 0.0;
+  for (const auto& law : laws) most = std::max(most, excess_of_stiffness(scaling, *law, device));
+  return most;
 }
 
 core::Result<void> check_force(const DeviceSpec& device) {
@@ -163,9 +196,18 @@ double compression_bend_n(const physics::LawTables& tables) {
 }
 
 core::Result<Scaling> Scaling::fit(const physics::LawTables& tables, const DeviceSpec& device) {
+  return fit(std::array{unowned(tables)}, device);
+}
+
+core::Result<Scaling> Scaling::common(const physics::LawTables& tables, const DeviceSpec& device,
+                                      const CommonScale& scale) {
+  return common(std::array{unowned(tables)}, device, scale);
+}
+
+core::Result<Scaling> Scaling::fit(Laws laws, const DeviceSpec& device) {
   if (auto enough = check_force(device); !enough) return tl::unexpected(enough.error());
   if (auto enough = check_workspace(device); !enough) return tl::unexpected(enough.error());
-  const Extent extent = extent_of(tables);
+  const Extent extent = extent_of(laws);
   if (auto some = check_extent(extent); !some) return tl::unexpected(some.error());
   Scaling scaling;
   scaling.cap_n_ = force_cap_n(device);
@@ -173,8 +215,8 @@ core::Result<Scaling> Scaling::fit(const physics::LawTables& tables, const Devic
   scaling.hand_n_per_n_ = scaling.cap_n_ / extent.strong_n;
 
   // a weaker scale bends at another depth, so one step may not be enough
-  for (double excess = excess_of_stiffness(scaling, tables, device); excess > 1.0 + kRounding;
-       excess = excess_of_stiffness(scaling, tables, device)) {
+  for (double excess = excess_of_stiffness(scaling, laws, device); excess > 1.0 + kRounding;
+       excess = excess_of_stiffness(scaling, laws, device)) {
     scaling.hand_n_per_n_ *= std::min(0.95, 1.0 / excess);
     if (scaling.hand_n_per_n_ * extent.felt_n < kFaintestPullN) {
       return refusal(
@@ -183,21 +225,31 @@ core::Result<Scaling> Scaling::fit(const physics::LawTables& tables, const Devic
                       std::min(kMaxStiffnessNPerM, device.max_stiffness_n_per_m), 1e9 * extent.strong_n));
     }
   }
+  if (laws.size() > 1 && has_faint(scaling, laws)) {
+    return refusal(
+        fmt::format("its forces differ too much from place to place: on the scale of the strongest, {:.3g} nN, the "
+                    "weakest are too weak to feel",
+                    1e9 * extent.strong_n));
+  }
   return scaling;
 }
 
-core::Result<Scaling> Scaling::compressed(const physics::LawTables& tables, const DeviceSpec& device) {
-  auto scaling = fit(tables, device);
+core::Result<Scaling> Scaling::compressed(Laws laws, const DeviceSpec& device) {
+  auto scaling = fit(laws, device);
   if (!scaling) return scaling;
   scaling->mode_ = scene::ScaleMode::Compressed;
-  const double strong_n = extent_of(tables).strong_n;
-  double bend_n = compression_bend_n(tables);
+  const double strong_n = extent_of(laws).strong_n;
+  double bend_n = strong_n;
+  for (const auto& law : laws) bend_n = std::min(bend_n, compression_bend_n(*law));
   while (bend_n < kLargestBend * strong_n) {
     scaling->bend_n_ = bend_n;
     scaling->bend_gain_n_ = scaling->hand_n_per_n_ * strong_n / std::asinh(strong_n / bend_n);
     // long-range attraction must be too weak to be felt where the force is turned on
-    const double afar_n = -scaling->hand_force_n(force_n(tables.free, scaling->release_z_m()));
-    const double excess = std::max(excess_of_stiffness(*scaling, tables, device), afar_n / kFaintAtReleaseN);
+    double afar_n = 0.0;
+    for (const auto& law : laws) {
+      afar_n = std::max(afar_n, -scaling->hand_force_n(force_n(law->free, scaling->release_z_m())));
+    }
+    const double excess = std::max(excess_of_stiffness(*scaling, laws, device), afar_n / kFaintAtReleaseN);
     if (excess <= 1.0 + kRounding) return scaling;
     bend_n *= std::clamp(excess, 1.002, 1.2);
   }
@@ -206,8 +258,8 @@ core::Result<Scaling> Scaling::compressed(const physics::LawTables& tables, cons
   return scaling;
 }
 
-core::Result<Scaling> Scaling::atoms(const physics::LawTables& tables, const DeviceSpec& device, double period_m) {
-  auto scaling = fit(tables, device);
+core::Result<Scaling> Scaling::atoms(Laws laws, const DeviceSpec& device, double period_m) {
+  auto scaling = fit(laws, device);
   if (!scaling) return scaling;
   scaling->mode_ = scene::ScaleMode::Atoms;
   scaling->lateral_m_per_m_ = lateral_m_per_m(scene::ScaleMode::Atoms, scaling->hand_m_per_m_, period_m);
@@ -223,11 +275,10 @@ double Scaling::common_zero_m(const DeviceSpec& device) noexcept {
   return device.workspace_min_m.y - device.contact_point_m.y + kPushM;
 }
 
-core::Result<Scaling> Scaling::common(const physics::LawTables& tables, const DeviceSpec& device,
-                                      const CommonScale& scale) {
+core::Result<Scaling> Scaling::common(Laws laws, const DeviceSpec& device, const CommonScale& scale) {
   if (auto enough = check_force(device); !enough) return tl::unexpected(enough.error());
   if (auto enough = check_workspace(device); !enough) return tl::unexpected(enough.error());
-  const Extent extent = extent_of(tables);
+  const Extent extent = extent_of(laws);
   if (auto some = check_extent(extent); !some) return tl::unexpected(some.error());
   Scaling scaling;
   scaling.mode_ = scene::ScaleMode::Common;
@@ -237,8 +288,8 @@ core::Result<Scaling> Scaling::common(const physics::LawTables& tables, const De
   scaling.lateral_m_per_m_ = scaling.hand_m_per_m_;
   scaling.hand_n_per_n_ = std::min(scale.hand_n_per_n, scaling.cap_n_ / extent.strong_n);
   scaling.release_m_ = scaling.hand_height_m(extent.reach_m);
-  for (double excess = excess_of_stiffness(scaling, tables, device); excess > 1.0 + kRounding;
-       excess = excess_of_stiffness(scaling, tables, device)) {
+  for (double excess = excess_of_stiffness(scaling, laws, device); excess > 1.0 + kRounding;
+       excess = excess_of_stiffness(scaling, laws, device)) {
     scaling.hand_n_per_n_ *= std::min(0.95, 1.0 / excess);
   }
   return scaling;

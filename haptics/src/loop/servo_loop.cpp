@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -62,6 +63,11 @@ std::unique_ptr<FeltParticles> particles_of(scene::SharedSegment& segment, const
   return felt;
 }
 
+// Null without a map.
+std::unique_ptr<const scene::SharedLawMap> map_of(const scene::SharedModel& model) {
+  return model.law_map.columns > 0 ? std::make_unique<const scene::SharedLawMap>(model.law_map) : nullptr;
+}
+
 std::uint32_t microseconds(std::int64_t ns) {
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(ns / 1000, 0, UINT32_MAX));
 }
@@ -115,9 +121,9 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
   std::vector<std::unique_ptr<ContactModel>> models;
   for (std::uint32_t i = 0; i < shared.material_count; ++i) {
     const auto fields = std::span(shared.height_fields).first(shared.height_field_count);
-    auto model =
-        ContactModel::create(shared.materials[i], 0, tables[i],
-                             scene::surface_of(shared.materials[i], fields, topography), *common, spec, period_ns);
+    auto model = ContactModel::create(shared.materials[i], 0, tables[i],
+                                      scene::surface_of(shared.materials[i], fields, topography), *common, spec,
+                                      period_ns, &shared.law_map);
     if (!model) return tl::unexpected(model.error());
     models.push_back(std::move(*model));
   }
@@ -140,7 +146,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
              {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count},
-             std::move(topography), common, spec_, period_ns_, exchange_),
+             std::move(topography), map_of(model), common, spec_, period_ns_, exchange_),
       governor_(safety_limits(spec_, period_ns_, Scaling::kStrokeM, settings.dead_man)),
       guide_(spec_),
       position_check_(spec_.measures),

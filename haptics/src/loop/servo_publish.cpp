@@ -65,6 +65,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   state_.tip = tip_of(touch_);
   state_.swing = touch_.swing;
   state_.surface = {.xy_m = {touch_.tip_xy_m.x, touch_.tip_xy_m.y}, .height_m = touch_.surface_height_m};
+  state_.here = touch_.map.here;
   state_.normal = array_of(sample_.in_device(touch_.normal));
   state_.hand.position_m = array_of(hand_.position_m);
   state_.safety = {.force_cap_n = governor_.force_cap_n(),

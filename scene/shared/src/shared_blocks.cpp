@@ -37,6 +37,9 @@ bool terminated(const Name& name) { return std::find(name.begin(), name.end(), '
 // Checks a field of a block according to its type, and a block field by field. A number without a unit of length or
 // force may be larger.
 bool is_field_valid(double value) { return sane(value); }
+bool is_field_valid(const LawHere& here) {
+  return std::isfinite(here.reduced_modulus_pa) && std::isfinite(here.adhesion_j_per_m2);
+}
 bool is_field_valid(const HandScale& scale) {
   return std::isfinite(scale.hand_m_per_m) && std::isfinite(scale.hand_n_per_n);
 }
@@ -170,6 +173,13 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
                          !physics::has_dynamics(material.law))) {
     return model_refused(fmt::format("the law {} cannot be tapped on", physics::name_of(material.law)));
   }
+  const bool has_map_laws =
+      material.law == physics::Law::Dmt || material.law == physics::Law::Jkr || material.law == physics::Law::Hertz;
+  if (material.law_map > 1 || (material.law_map == 1 && (!has_map_laws || material.dynamic != 0 || taps(material) ||
+                                                         material.friction.law != physics::FrictionLaw::None))) {
+    return model_refused(
+        "its map of modulus and adhesion is felt with the laws dmt, jkr and hertz alone, without friction");
+  }
   const bool traced = material.height_field == kTopography && topography.columns > 0;
   if (material.height_field != kNoHeightField && material.height_field >= height_field_count && !traced) {
     return model_refused("its surface does not exist");
@@ -245,14 +255,34 @@ core::Result<void> validate(const SharedModel& model) {
     if (!is_valid(model.height_fields[i])) return model_refused(fmt::format("surface {} is not a grid of heights", i));
   }
   if (!is_valid(model.topography)) return model_refused("its topography is not a grid of heights");
+  if (!is_valid(model.law_map)) return model_refused("its map of modulus and adhesion is not a grid of such values");
   if (auto valid = validate(model.particles); !valid) return valid;
   for (std::uint32_t i = 0; i < model.material_count; ++i) {
     if (auto valid = validate(model.materials[i], model.curve_count, model.height_field_count, model.topography);
         !valid) {
       return model_refused(fmt::format("material {} of the shared scene: {}", i, valid.error().message));
     }
+    if (model.materials[i].law_map == 1 && (model.law_map.columns == 0 || model.particles.count > 0)) {
+      return model_refused(
+          fmt::format("material {} of the shared scene needs a map of modulus and adhesion, and no particles", i));
+    }
   }
   return {};
+}
+
+bool is_valid(const SharedLawMap& map) {
+  if (map.columns == 0 && map.rows == 0) return map.spacing_m == 0;
+  const auto counted = [](std::uint32_t count) { return count >= 2 && count <= kMaxLawMapSide; };
+  if (!counted(map.columns) || !counted(map.rows) || !positive(map.spacing_m)) return false;
+  // written so that NaN fails
+  const auto all_within = [&](std::span<const float> values, float least, float most) {
+    return std::all_of(values.begin(), values.begin() + std::size_t{map.columns} * map.rows,
+                       [&](float value) { return value >= least && value <= most; });
+  };
+  constexpr float kLeastLnModulus = 0.0F, kMostLnModulus = 29.0F;  // 1 Pa to 4 TPa
+  constexpr float kLeastAdhesion = 1e-8F, kMostAdhesion = 100.0F;
+  return all_within(map.ln_modulus, kLeastLnModulus, kMostLnModulus) &&
+         all_within(map.adhesion_j_per_m2, kLeastAdhesion, kMostAdhesion);
 }
 
 bool is_valid(const SharedMeasuredCurve& curve) {

@@ -36,9 +36,10 @@ struct RecordedParticles {
 struct RecordedSession {
   std::string material;             // name in the material file
   scene::SharedContact parameters;  // parameters in effect; a replay has one curve and one surface at most
-  std::optional<scene::SharedMeasuredCurve> curve;  // Law::Measured only
-  std::optional<scene::SharedHeightField> surface;  // none: a topography, or a plane
-  scene::Topography topography;                     // without columns: none
+  std::optional<scene::SharedMeasuredCurve> curve;     // Law::Measured only
+  std::optional<scene::SharedHeightField> surface;     // none: a topography, or a plane
+  scene::Topography topography;                        // without columns: none
+  std::shared_ptr<const scene::SharedLawMap> law_map;  // map for parameters.law_map; null: none
   std::optional<RecordedParticles> particles;
   bool has_plans = false;  // true: its samples have the plans of pushes; false: none, or an older file
   std::array<double, 16> room_from_sample{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // as in SceneTransforms

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <vector>
 
 #include "scene/shared/shared_segment.h"
 #include "session_header.h"
@@ -67,7 +69,19 @@ std::string level_of(const RecordedParticles& particles) {
 
 bool has_level(const RecordedParticles& particles) { return particles.set.level.level > 0; }
 
+std::string bytes_of(const scene::SharedLawMap& map) {
+  const std::size_t count = std::size_t{map.columns} * map.rows;
+  std::string bytes;
+  put(bytes, map.columns);
+  put(bytes, map.rows);
+  put(bytes, map.spacing_m);
+  put_all(bytes, std::span(map.ln_modulus).first(count));
+  put_all(bytes, std::span(map.adhesion_j_per_m2).first(count));
+  return bytes;
+}
+
 std::uint32_t version_of(const RecordedSession& session) {
+  if (session.law_map) return kVersionWithLawMap;
   if (scene::taps(session.parameters)) return kVersionWithSwing;
   if (!session.particles) return kSessionVersion;
   if (has_level(*session.particles)) return kVersionWithLevel;
@@ -79,6 +93,20 @@ std::uint32_t version_of(const RecordedSession& session) {
 }
 
 }  // namespace
+
+std::shared_ptr<const scene::SharedLawMap> read_law_map(std::string_view payload) {
+  auto map = std::make_shared<scene::SharedLawMap>();
+  std::vector<float> moduli, adhesions;
+  if (!take(payload, map->columns) || !take(payload, map->rows) || !take(payload, map->spacing_m) ||
+      !take_all(payload, moduli) || !take_all(payload, adhesions) || !payload.empty() ||
+      moduli.size() > map->ln_modulus.size() || moduli.size() != std::uint64_t{map->columns} * map->rows ||
+      adhesions.size() != moduli.size()) {
+    return nullptr;
+  }
+  std::copy(moduli.begin(), moduli.end(), map->ln_modulus.begin());
+  std::copy(adhesions.begin(), adhesions.end(), map->adhesion_j_per_m2.begin());
+  return map;
+}
 
 bool read_particles(std::string_view payload, RecordedParticles& particles) {
   std::vector<scene::SharedSpecies> species;
@@ -168,6 +196,7 @@ void SessionEncoder::head(const RecordedSession& session) {
     put_all(topography, std::span(session.topography.height_m));
     chunk(kTopographyChunk, topography);
   }
+  if (session.law_map) chunk(kLawMapChunk, bytes_of(*session.law_map));
   if (session.particles) chunk(kParticlesChunk, bytes_of(*session.particles));
   if (session.particles && scene::has_rods(session.particles->set)) chunk(kRodsChunk, rods_of(session.particles->set));
   if (session.particles && scene::has_pads(session.particles->set)) chunk(kPadsChunk, pads_of(session.particles->set));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -13,11 +14,11 @@
 // Session file of version 6, 7 with particles, 8 with rods among them, or 9 with spheres that stick to the tip, whose
 // forces an older program does not know, and with rods or without, 10 for a lever that taps, or 11 for particles of any
 // kind and the plans of their pushes, as touchafm records them today, 12 for those with pads or with spheres that the
-// tip lifts, 13 for flat islands, 14 for particles at level 1 or 2, whose sample may drift: "AFMS", the version, then
-// chunks. A chunk consists of a name of four letters and the size of its payload in 32 bits, the checksum of these, the
-// payload, and its checksum. A checksum is the 64-bit FNV-1a of all bytes from the beginning of the file up to it, so
-// that no chunk can be altered, left out or exchanged. A file that ends inside a chunk was cut; all chunks before it
-// are intact.
+// tip lifts, 13 for flat islands, 14 for particles at level 1 or 2, whose sample may drift, 15 for a map of modulus and
+// adhesion: "AFMS", the version, then chunks. A chunk consists of a name of four letters and the size of its payload in
+// 32 bits, the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a of all bytes from the
+// beginning of the file up to it, so that no chunk can be altered, left out or exchanged. A file that ends inside a
+// chunk was cut; all chunks before it are intact.
 namespace afm::servo {
 
 inline constexpr std::string_view kSessionMagic = "AFMS";
@@ -29,11 +30,13 @@ inline constexpr std::uint32_t kVersionWithSwing = 10;  // the lever taps, witho
 inline constexpr std::uint32_t kVersionWithPlans = 11;  // as 7, 8 or 9; samples end with plan and groove
 inline constexpr std::uint32_t kVersionWithLift = 12;   // as 11; the tip lifts particles, or a chunk has pads
 inline constexpr std::uint32_t kVersionWithIslands = 13;  // as 11; a chunk has the islands
-inline constexpr std::uint32_t kVersionWithLevel = 14;  // as 11; samples end with LevelSample, a chunk has the picture
+inline constexpr std::uint32_t kVersionWithLevel = 14;   // as 11; samples end with LevelSample, a chunk has the picture
+inline constexpr std::uint32_t kVersionWithLawMap = 15;  // as 6; a chunk has a map of modulus and adhesion
 
 inline constexpr std::string_view kHeadChunk = "HEAD";        // header_of() as JSON
 inline constexpr std::string_view kSurfaceChunk = "SURF";     // one SharedHeightField, if the sample has one
 inline constexpr std::string_view kTopographyChunk = "TOPO";  // size, spacing and heights, if it has a topography
+inline constexpr std::string_view kLawMapChunk = "LAWS";      // size, spacing, moduli, adhesions, if it has such a map
 inline constexpr std::string_view kParticlesChunk = "PRTC";   // RecordedParticles, if there are any
 inline constexpr std::string_view kRodsChunk = "RODS";        // their lengths and first angles, after the particles
 inline constexpr std::string_view kPadsChunk = "PADS";        // pads, after the particles, if there are any
@@ -65,6 +68,9 @@ class SessionEncoder {
   nlohmann::json last_frame_;
   std::size_t sample_bytes_ = 0;
 };
+
+// Reads a kLawMapChunk; null if it is damaged. The values are checked with the scene.
+std::shared_ptr<const scene::SharedLawMap> read_law_map(std::string_view payload);
 
 // Reads a kParticlesChunk; false if it is damaged. The set itself is checked with its scene.
 bool read_particles(std::string_view payload, RecordedParticles& particles);

@@ -117,14 +117,16 @@ bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
 // Size of a sample in a file of this version of chunks.
 std::size_t sample_bytes_in(std::uint32_t version) {
   if (version == kVersionWithLevel) return sizeof(TipSample);
-  if (version >= kVersionWithPlans) return kSampleBytesWithoutLevel;
+  if (version >= kVersionWithPlans && version != kVersionWithLawMap) return kSampleBytesWithoutLevel;
   if (version == kVersionWithSwing) return kSampleBytesWithoutPlan;
-  return version == kSessionVersion ? kSampleBytesWithoutPush : kSampleBytesWithoutSwing;
+  const bool without_push = version == kSessionVersion || version == kVersionWithLawMap;
+  return without_push ? kSampleBytesWithoutPush : kSampleBytesWithoutSwing;
 }
 
-// Reads version 6 to 14; returns an error message, or nothing.
+// Reads version 6 to 15; returns an error message, or nothing.
 std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
-  const bool with_particles = version != kSessionVersion && version != kVersionWithSwing;
+  const bool with_map = version == kVersionWithLawMap;
+  const bool with_particles = version != kSessionVersion && version != kVersionWithSwing && !with_map;
   SessionDecoder decoder(file);
   nlohmann::json last_frame;
   for (bool first = true;; first = false) {
@@ -139,12 +141,16 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
     if (first) {
       if (std::string wrong = read_header(payload, sample_bytes_in(version), session); !wrong.empty()) return wrong;
       if (scene::taps(session.parameters) != (version == kVersionWithSwing)) return "its lever is of another version";
+      if ((session.parameters.law_map != 0) != with_map) return "its law is of another version";
     } else if (decoder.name() == kSurfaceChunk) {
       if (payload.size() != sizeof(SharedHeightField) || !take(payload, session.surface.emplace())) {
         return "the size of its surface differs from this program's";
       }
     } else if (decoder.name() == kTopographyChunk) {
       if (!read_topography(payload, session.topography)) return "its topography is damaged";
+    } else if (with_map && decoder.name() == kLawMapChunk) {
+      session.law_map = read_law_map(payload);
+      if (!session.law_map) return "its map of modulus and adhesion is damaged";
     } else if (with_particles && decoder.name() == kParticlesChunk) {
       if (!read_particles(payload, session.particles.emplace())) return "its particles are damaged";
       session.has_plans = version >= kVersionWithPlans;
@@ -158,6 +164,7 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
       if (!session.particles || !read_level(payload, *session.particles)) return "its picture is damaged";
     } else if (decoder.name() == kPartChunk) {
       if (with_particles != session.particles.has_value()) return "its parts are out of order";
+      if (with_map != (session.law_map != nullptr)) return "its parts are out of order";
       if (with_particles && !is_of(version, session.particles->set)) return "its parts are out of order";
       if (std::string wrong = read_part(payload, session, last_frame); !wrong.empty()) return wrong;
     } else if (decoder.name() == kEndChunk) {
@@ -274,6 +281,7 @@ std::unique_ptr<scene::SharedModel> model_of(const RecordedSession& session) {
     model->common_hand_n_per_n = session.hand_n_per_n;
   }
   model->topography = session.topography.size();
+  if (session.law_map) model->law_map = *session.law_map;
   if (session.particles) model->particles = session.particles->set;
   if (session.surface) {
     model->height_field_count = 1;
@@ -312,7 +320,7 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   if (!take(body, version)) return bad("it is truncated");
   constexpr std::array kVersions{kVersionOf010,       kSessionVersion,   kVersionWithParticles, kVersionWithRods,
                                  kVersionWithHold,    kVersionWithSwing, kVersionWithPlans,     kVersionWithLift,
-                                 kVersionWithIslands, kVersionWithLevel};
+                                 kVersionWithIslands, kVersionWithLevel, kVersionWithLawMap};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

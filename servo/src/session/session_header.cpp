@@ -67,10 +67,11 @@ nlohmann::json json_of(const scene::SharedContact& m) {
                         {"contact_angle_rad", m.meniscus.contact_angle_rad},
                         {"relative_humidity", m.meniscus.relative_humidity}};
   }
-  if (m.height_field == scene::kTopography) {
+  if (m.height_field == scene::kTopography || m.law_map != 0) {
     json["topography"] = {{"lateral", m.topography.lateral}, {"vertical", m.topography.vertical}};
   }
   if (m.surface_release_m != 0.0) json["surface_release_m"] = m.surface_release_m;
+  if (m.law_map != 0) json["law_map"] = true;
   if (m.dynamic != 0) json["dynamics"] = json_of(m.lever);
   if (scene::taps(m)) {
     json["tapping"] = json_of(m.lever);
@@ -106,6 +107,7 @@ scene::SharedContact parameters_of(const nlohmann::json& json, const std::string
                     .vertical = topography->at("vertical").get<double>()};
   }
   m.surface_release_m = json.value("surface_release_m", 0.0);
+  m.law_map = json.value("law_map", false) ? 1 : 0;
   if (const auto dynamics = json.find("dynamics"); dynamics != json.end()) {
     m.dynamic = 1;
     m.lever = lever_of(*dynamics);

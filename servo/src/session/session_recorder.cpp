@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo/session_recorder.h"
 
+#include <memory>
 #include <utility>
 
 #include "servo/live_picture.h"
@@ -112,6 +113,7 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo, c
   } else if (session_.parameters.height_field != scene::kNoHeightField) {
     session_.surface = model.height_fields[std::exchange(session_.parameters.height_field, 0)];
   }
+  if (session_.parameters.law_map != 0) session_.law_map = std::make_shared<scene::SharedLawMap>(model.law_map);
   if (model.particles.count > 0) {
     const auto pages = servo.particle_pages();
     session_.particles =

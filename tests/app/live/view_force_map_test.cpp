@@ -137,6 +137,60 @@ TEST_F(ViewForceMap, ShowsTheModulusOfItsFitsAndTheOtherPictures) {
   ASSERT_EQ(view.ends(), 0) << view.said();
 }
 
+TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
+  const std::string map = folder_.file("rubber.h5");
+  const auto made = support::run_program(
+      support::touchafm() +
+      " generate map --pixels 4x3 --size 1um --field step --law jkr --modulus 5MPa --second-modulus 20MPa"
+      " --work-of-adhesion 30mJ/m2 --second-work-of-adhesion 40mJ/m2 --radius 30nm --spring-constant 0.2N/m"
+      " --most-force 1nN --noise 10pN --points 300 --out " +
+      map);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  support::LiveProgram view({support::touchafm(),
+                             "view",
+                             "--force-map",
+                             map,
+                             "--fit",
+                             "jkr",
+                             "--radius",
+                             "30nm",
+                             "--felt",
+                             "map",
+                             "--size",
+                             "640x480",
+                             "--eye-width",
+                             "320",
+                             "--frame-rate",
+                             "12",
+                             "--servo",
+                             support::servo_mode(),
+                             "--record",
+                             folder_.file("whole"),
+                             "--validate"},
+                            display_.name());
+  ASSERT_TRUE(view.says("the whole map is felt: E ")) << view.said();
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  ASSERT_TRUE(touch(view)) << view.said();
+  lift(0.130);
+  ASSERT_NE(view.says_one_of({"jump off contact", "force off"}), "") << view.said();
+  xdotool("key Escape");
+  ASSERT_EQ(view.ends(), 0) << view.said();
+  int touched = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder_.file("whole"))) {
+    if (file.path().extension() != ".afms") continue;
+    const auto session = servo::load_session(file.path());
+    ASSERT_TRUE(session) << session.error().message;
+    ASSERT_TRUE(session->law_map);
+    if (session->find(physics::EventKind::JumpToContact) != nullptr) ++touched;
+    const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+    EXPECT_THAT(replayed.out, HasSubstr("felt over a map of modulus and adhesion of 4 x 3 points"));
+    EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
+  }
+  EXPECT_GE(touched, 1) << "no session of the map touches";
+}
+
 TEST(ViewForceMapFiles, AreRefusedWithTheReason) {
   const support::ScratchFolder folder;
   const std::string bytes = test::stored_zip(test::holed_map());
@@ -160,6 +214,12 @@ TEST(ViewForceMapFiles, AreRefusedWithTheReason) {
   const auto sizeless = view("holed.jpk-force-map", "--fit paraboloid");
   EXPECT_EQ(sizeless.exit_code, 2);
   EXPECT_THAT(sizeless.err, HasSubstr("--fit paraboloid needs --radius"));
+  const auto unfitted = view("holed.jpk-force-map", "--felt map");
+  EXPECT_EQ(unfitted.exit_code, 2);
+  EXPECT_THAT(unfitted.err, HasSubstr("--felt map: the map is felt by its fits: add --fit SHAPE"));
+  const auto lawless = view("holed.jpk-force-map", "--felt map --fit cone --half-angle 20deg");
+  EXPECT_EQ(lawless.exit_code, 2);
+  EXPECT_THAT(lawless.err, HasSubstr("fit it with --fit dmt, jkr, paraboloid or sphere"));
   const auto shapeless = view("holed.jpk-force-map", "--radius 50nm");
   EXPECT_EQ(shapeless.exit_code, 2);
   EXPECT_THAT(shapeless.err, HasSubstr("add --fit SHAPE"));

@@ -7,13 +7,17 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "curves/curve_map.h"
+#include "curves/fitting/felt_map.h"
 #include "curves/live_parameters.h"
 #include "exhibit/models/height_colours.h"
 #include "exhibit/panels/parameter_panel.h"
 #include "render/control_layout.h"
 #include "scene/samples/material_library.h"
+#include "scene/shared/tip_blocks.h"
 #include "support/archives/sticky_map.h"
 #include "support/archives/stored_zip.h"
 #include "support/phrases.h"
@@ -24,6 +28,7 @@ namespace afm::exhibit {
 namespace map_picture_test {
 
 using Target = render::ControlTarget;
+using testing::ElementsAre;
 
 class MapPictureTest : public testing::Test {
  protected:
@@ -147,6 +152,41 @@ TEST_F(MapPictureTest, LiesBesideTheRowsOfThePixelAlone) {
   ASSERT_FALSE(pixel.step(curves::LiveParameters::Row::PixelColumn, 1));
   EXPECT_EQ(parameter_panel(pixel, "gel", ChangeState::AsLoaded, test::english()).status,
             "not changed: no curve there that can be felt");
+}
+
+TEST_F(MapPictureTest, SaysWhatIsFeltOfAWholeMapBelowTheTip) {
+  curves::FeltMap felt;
+  felt.law = physics::Law::Jkr;
+  felt.poisson = 0.5;
+  felt.grid = map_.grid();
+  felt.is_filled.assign(6, false);
+  felt.is_filled[5] = true;  // the right end of the lower row
+  const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
+  const auto fit = [](const curves::RecordedCurve& curve) {
+    const bool doubtful = curve.metadata.pixel->column == 1 && curve.metadata.pixel->row == 0;
+    return curves::PixelFit{.modulus_pa = 2e6, .trust = doubtful ? fits::Trust::Doubtful : fits::Trust::Trusted};
+  };
+  auto map = curves::CurveMap::load(map_.path(), [](std::size_t, std::size_t) { return true; }, {}, fit);
+  ASSERT_TRUE(map) << map.error().message;
+  auto model = curves::make_sample_model(std::make_shared<const curves::CurveMap>(std::move(*map)), {1, 0},
+                                         library.materials.front());
+  ASSERT_TRUE(model) << model.error().message;
+  model->felt_map = std::make_shared<const curves::FeltMap>(felt);
+  scene::TipState tip;
+  EXPECT_TRUE(felt_map_notes(*model, tip, test::english()).empty()) << "before the first tick";
+  tip.here = {.reduced_modulus_pa = 2.3e6 / 0.75, .adhesion_j_per_m2 = 40e-3};
+  const auto at = [&](double x, double y) {
+    tip.surface.xy_m = {x * felt.grid.width_m, y * felt.grid.height_m};
+    return felt_map_notes(*model, tip, test::english());
+  };
+  const std::string here = "map: E 2.3 MPa, W 40 mJ/m\u00b2 here";
+  EXPECT_THAT(at(0.4, -0.2), ElementsAre(here, "filled from its neighbours: no fit to trust"));
+  EXPECT_THAT(at(-0.4, 0.2), ElementsAre(here));
+  EXPECT_THAT(at(0.0, -0.2), ElementsAre(here, "the fit of this pixel is doubtful"));
+  EXPECT_THAT(at(0.6, 0.0), ElementsAre(here, "beside the map: as at its edge"));
+  felt.law = physics::Law::Hertz;
+  model->felt_map = std::make_shared<const curves::FeltMap>(felt);
+  EXPECT_THAT(at(-0.4, 0.2), ElementsAre("map: E 2.3 MPa here"));
 }
 
 }  // namespace map_picture_test

@@ -60,6 +60,7 @@ struct ExhibitFiles {
   std::shared_ptr<const curves::MapReading> map_reading;
   std::optional<std::array<std::size_t, 2>>
       pixel;                                // its column and row to feel first (curves::MapPlace); empty: the middle
+  bool whole_map = false;                   // true: the whole fitted map is felt, not one pixel
   std::vector<std::string> shown;           // names; empty: all of the user's file, or the paper's three
   std::vector<scene::MaterialEntry> added;  // shown after the others
 };

@@ -25,6 +25,9 @@ struct TopographyModel {
 // BadInputFile as from curves::load_topography() and felt_topography().
 core::Result<TopographyModel> load_topography_model(const std::string& file, const curves::TopographyReading& reading);
 
+// The same for heights that are known, without a summary.
+TopographyModel topography_model(scene::Topography topography);
+
 // Mesh of the heights, with the felt height at every vertex, coloured by exhibit/height_colours.h from `lowest_m` to
 // `highest_m`, with the walls of a slab down to `bottom_m`. The first primitive is the grid, row by row from -y.
 scene::Scene topography_scene(const scene::Topography& topography, double lowest_m, double highest_m, double bottom_m);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "curves/map_place.h"
 #include "exhibit/words/phrases.h"
@@ -10,6 +12,10 @@
 
 namespace afm::curves {
 class CurveMap;
+struct SampleModel;
+}  // namespace afm::curves
+namespace afm::scene {
+struct TipState;
 }
 
 namespace afm::exhibit {
@@ -31,6 +37,11 @@ MapQuantity next_quantity(const curves::CurveMap& map, MapQuantity shown);
 // the colour of a place without a measurement.
 render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPlace& felt, const Phrases& phrases,
                                MapQuantity quantity = MapQuantity::Height);
+
+// What is felt of a whole map, for the panel: "map: E 2.3 MPa, W 40 mJ/m² here", and a line more if that pixel has no
+// fit, a doubtful one, or none lies below the tip. Empty without a map below the tip.
+std::vector<std::string> felt_map_notes(const curves::SampleModel& model, const scene::TipState& tip,
+                                        const Phrases& phrases);
 
 // Position of a pixel in the picture, as ControlTarget::index, and back.
 std::size_t target_index(const curves::MapPlace& place, const curves::CurveMap& map);

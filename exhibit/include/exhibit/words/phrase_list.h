@@ -185,15 +185,6 @@
   PHRASE(ParametersRefused, "parameters-refused", "", kLine)             \
   PHRASE(ParametersHeld, "parameters-held", "", kLine)                   \
   PHRASE(NoSuchParameters, "no-such-parameters", "", kLine)              \
-  PHRASE(ChangePixel, "change-pixel", "", kLine)                         \
-  PHRASE(PixelColumn, "pixel-column", "", kLine)                         \
-  PHRASE(PixelRow, "pixel-row", "", kLine)                               \
-  PHRASE(PixelLoaded, "pixel-loaded", "", kLine)                         \
-  PHRASE(NoSuchPixel, "no-such-pixel", "", kLine)                        \
-  PHRASE(MapHeights, "map-heights", "", kLine)                           \
-  PHRASE(MapModulus, "map-modulus", "", kLine)                           \
-  PHRASE(MapAdhesion, "map-adhesion", "", kLine)                         \
-  PHRASE(ContactDoubtful, "contact-doubtful", "", kLine)                 \
   PHRASE(ButtonReset, "button-reset", "", kLine)                         \
   PHRASE(ButtonClose, "button-close", "", kLine)                         \
   PHRASE(AnalogySpring, "analogy-spring", "", kLine)                     \
@@ -382,6 +373,7 @@
   AFM_FOR_EACH_CLUSTER_PHRASE(PHRASE)            \
   AFM_FOR_EACH_PANEL_PHRASE(PHRASE)              \
   AFM_FOR_EACH_TAPPING_PHRASE(PHRASE)            \
+  AFM_FOR_EACH_MAP_PHRASE(PHRASE)                \
   AFM_FOR_EACH_FRICTION_PHRASE(PHRASE)           \
   AFM_FOR_EACH_PARTICLE_PHRASE(PHRASE)           \
   AFM_FOR_EACH_SCAN_PHRASE(PHRASE)               \

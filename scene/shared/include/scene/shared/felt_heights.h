@@ -23,8 +23,9 @@ struct Topography {
 
 // Meaning of a surface's heights.
 enum class Heights {
-  Drawn,  // heights of the sample, still to be traced by a tip
-  Traced  // heights of an apex that traced the sample: a microscope's image
+  Drawn,   // heights of the sample, still to be traced by a tip
+  Traced,  // heights of an apex that traced the sample: a microscope's image
+  Scaled   // another quantity of a place, times a length
 };
 
 // Surface under the tip, as felt: a view of a grid of heights owned elsewhere.

@@ -26,6 +26,7 @@ inline constexpr std::uint32_t kMaxMeasuredPoints = 512;  // per branch
 inline constexpr std::uint32_t kMaxHeightFields = 8;
 inline constexpr std::uint32_t kMaxHeightFieldSide = 129;  // vertices
 inline constexpr std::uint32_t kMaxTopographySide = 1024;  // points
+inline constexpr std::uint32_t kMaxLawMapSide = 128;       // points
 inline constexpr std::uint32_t kNoParent = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kNoMeasuredCurve = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kNoHeightField = 0xFFFFFFFFU;
@@ -67,6 +68,8 @@ struct SharedContact {
   double drive_hz = 0;
   double viscosity_pa_s = 0;  // viscosity under the tip
   physics::FrictionParameters friction{};
+  std::uint32_t law_map = 0;  // 1: modulus and adhesion are those of the model's map at each place
+  std::uint32_t padding = 0;
 };
 
 // True if the material is felt by a lever in tapping mode.
@@ -99,6 +102,17 @@ struct SharedTopography {
   double spacing_m = 0;
 };
 
+// Modulus and work of adhesion of a sample from place to place, for the materials with SharedContact::law_map: a square
+// grid centred on the origin of the sample's frame, row by row from -y to +y, x fastest, in metres as measured, which
+// SharedContact::topography scales. No columns: no map.
+struct SharedLawMap {
+  std::uint32_t columns = 0;
+  std::uint32_t rows = 0;
+  double spacing_m = 0;
+  std::array<float, kMaxLawMapSide * kMaxLawMapSide> ln_modulus{};  // natural logarithm of E* in pascals
+  std::array<float, kMaxLawMapSide * kMaxLawMapSide> adhesion_j_per_m2{};
+};
+
 struct SharedModel {
   std::uint32_t node_count = 0;
   std::uint32_t material_count = 0;
@@ -111,6 +125,7 @@ struct SharedModel {
   double common_hand_m_per_m = 0;
   double common_hand_n_per_n = 0;
   SharedTopography topography{};
+  SharedLawMap law_map{};
   SharedParticles particles{};
   std::array<SharedNode, kMaxNodes> nodes{};
   std::array<SharedContact, kMaxMaterials> materials{};

@@ -104,6 +104,18 @@ constexpr void for_each_field(Visit&& visit, Record&... active) {
 }
 static_assert(all_fields_described<ActiveContact>());
 
+// Law below the tip of a material whose modulus and adhesion change from place to place, as felt; zero for any other.
+struct LawHere {
+  double reduced_modulus_pa = 0;  // E*
+  double adhesion_j_per_m2 = 0;   // work of adhesion W
+};
+template <class Visit, RecordOf<LawHere>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... here) {
+  visit("reduced_modulus_Pa", here.reduced_modulus_pa...);
+  visit("adhesion_J_per_m2", here.adhesion_j_per_m2...);
+}
+static_assert(all_fields_described<LawHere>());
+
 // Limits on the force on the hand, from the safety governor.
 struct SafetyFigures {
   double force_cap_n = 0;  // current limit on the force vector
@@ -150,6 +162,7 @@ struct TipState {
   std::array<double, 3> normal{0.0, 1.0, 0.0};  // outward normal of the surface below the tip, device frame, unit
   HandState hand{};
   ActiveContact active{};
+  LawHere here{};
   SafetyFigures safety{};
   std::int32_t material = -1;
   physics::Phase phase = physics::Phase::WaitForLift;
@@ -175,6 +188,7 @@ constexpr void for_each_field(Visit&& visit, Record&... state) {
   visit("normal", state.normal...);
   visit("hand", state.hand...);
   visit("active", state.active...);
+  visit("here", state.here...);
   visit("safety", state.safety...);
   visit("material", state.material...);
   visit("phase", state.phase...);

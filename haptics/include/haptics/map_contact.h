@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <vector>
+
+#include "core/result.h"
+#include "haptics/contact_model.h"
+#include "haptics/device.h"
+#include "haptics/law_family.h"
+#include "haptics/map_law.h"
+#include "haptics/sample_surface.h"
+#include "haptics/scaling.h"
+#include "physics/force_model.h"
+#include "scene/shared/scale_modes.h"
+#include "scene/shared/tip_blocks.h"
+
+namespace afm::haptics {
+
+// A tip on a sample whose modulus and adhesion change from place to place: the latch of physics/force_model.h over
+// haptics/map_law.h, for every scale.
+//
+// The map's coordinates are smooth surfaces of their own, continuous with their slopes. Where they rise steeply, the
+// hand feels a force sideways. Along the normal a map has kShareAlong of the largest force on the device; on each scale
+// the surfaces are smoothed (haptics/sample_surface.h) until the force sideways is at most kShareSideways of it for
+// each coordinate, so that both together need no clamp, which would cost energy on one way and not on another; and
+// until each of the three parts of the stiffness that a coordinate adds, by the bend of its surface, by the bend of the
+// energy between the laws, and by the change of the force along the normal, is at most kShareOfStiffness of what the
+// device renders. Beyond the edge the values of the edge merge into one.
+//
+// Deeper than Scaling::kPushM of the hand all places become as stiff as the stiffest, over another kFloorM or more:
+// energies deep in the sample would differ so much from place to place that hardly any map could be felt.
+//
+// Building takes tenths of a second and allocates; step() may be called in a tick of the servo.
+class MapContact {
+ public:
+  static constexpr double kShareAlong = 0.8;
+  static constexpr double kShareSideways = 0.42;
+  static constexpr double kShareOfStiffness = 0.2;
+  static constexpr double kFloorM = 0.010;
+
+  using Scalings = ContactModel::Scalings;
+
+  // The device for which all scalings of a map are made.
+  static DeviceSpec along_normal(const DeviceSpec& device) {
+    return limited_to(device, kShareAlong * force_cap_n(device));
+  }
+
+  // `nominal` are the tables of the material, for lever and support. `spacing_m` is the distance of the map's points as
+  // felt. All scalings are those of the family on along_normal() of the device.
+  MapContact(std::shared_ptr<const LawFamily> family, std::shared_ptr<const physics::LawTables> nominal,
+             const scene::SharedLawMap& map, double spacing_m, const Scalings& scalings, const DeviceSpec& device);
+
+  // At a place in the sample's frame and a height above its surface; `scale` is that of the mode.
+  MapTouch step(scene::ScaleMode mode, const Scaling& scale, const glm::dvec2& xy_m, double z_m) noexcept;
+
+  void wait_for_lift() noexcept { phase_ = physics::Phase::WaitForLift; }
+  physics::Phase phase() const noexcept { return phase_; }
+
+  // Potential on the attached branch, as in MapTouch::stored_j.
+  double attached_j(scene::ScaleMode mode, const Scaling& scale, const glm::dvec2& xy_m, double z_m) const noexcept;
+
+  // Upper limit of the stiffness on this scale, in any direction, over a level surface.
+  double stiffness_n_per_m(scene::ScaleMode mode) const noexcept { return on(mode).stiffness_n_per_m; }
+
+ private:
+  // A coordinate as a surface over the sample.
+  struct Laid {
+    double length_m = 1;  // height where the coordinate is 1
+    SampleSurface surface;
+    double steepest_per_m = 0;  // upper limit of the coordinate's slope on the hand
+    double bend_per_m2 = 0;     // upper limit of its bend there
+  };
+
+  // The family and the map on one scale.
+  struct OnScale {
+    std::shared_ptr<const MapLaw> law;
+    MapLaw::Steepness steepness;
+    double least_j = 0;
+    double stiffness_n_per_m = 0;
+    Laid columns, rows;
+  };
+  const OnScale& on(scene::ScaleMode mode) const noexcept { return scales_[static_cast<std::size_t>(mode)]; }
+  static MapLaw::Place place_at(const OnScale& scale, const glm::dvec2& xy_m, double lateral_m_per_m) noexcept;
+  physics::Force tip_force(physics::Phase phase, const MapLaw::Mixture& mixture, double z_m) const noexcept;
+  void note_jump(const MapLaw& law, const Scaling& scale, const MapLaw::Place& place, double hand_m,
+                 physics::Phase before, MapTouch& touch) const noexcept;
+
+  std::shared_ptr<const LawFamily> family_;
+  std::shared_ptr<const physics::LawTables> nominal_;
+  std::array<OnScale, scene::kScaleModes.size()> scales_;
+  physics::Phase phase_ = physics::Phase::WaitForLift;
+  double above_in_m_ = 0, above_off_m_ = 0;  // previous height of the hand above those of the jumps
+};
+
+}  // namespace afm::haptics
