@@ -31,8 +31,8 @@ namespace afm::haptics {
 //   and on the hand, so that a session can begin there.
 // - Not touching, the tip gets no force at all, and nothing is added to any other.
 // - A groove along the plan of a push (FeltGroove) belongs to them; its force is added separately.
-// - At level 2 the sample drifts below the tip: a tip that rests meets it as if it moved. Places of particles are in the
-//   frame of the sample, those of the tip in that of the scanner, which the sample leaves.
+// - At level 2 the sample drifts below the tip: a tip that rests meets it as if it moved. Places of particles are those
+//   on the sample, places of the tip those of the scanner, from which the sample drifts away.
 // - A tip with a sphere on it is among the particles at any height. A lift() puts the sphere back where it was picked
 //   up.
 //
