@@ -187,6 +187,7 @@ TEST_F(ClusterFailures, ANodeOfAnotherBuildOrWithOtherModelsIsRefusedAndBothAreN
                                    .materials = {},
                                    .meshes = {},
                                    .files = {},
+                                   .tapping = {},
                                    .picture = {}};
     const core::MonotonicClock clock;
     const auto master = cluster::MasterLink::open({.interface_address = "127.0.0.1",
