@@ -22,7 +22,7 @@ TEST(HapticsBenchmark, PrintsEveryFigureAsJson) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto all = nlohmann::json::parse(result.out);
   // each computed law, the paper's three times, a dynamic one, and a tip that scratches
-  EXPECT_EQ(all.at("work").size(), physics::laws_with(&physics::LawTraits::computed).size() + 4);
+  EXPECT_EQ(all.at("work").size(), physics::laws_with(&physics::LawTraits::computed).size() + 5);
   for (const auto& work : all.at("work")) EXPECT_EQ(work.at("ticks"), 1000) << work;
   for (const char* loop : {"servo", "plain_loop"}) EXPECT_GT(all.at("wake").at(loop).at("ticks"), 0) << loop;
   EXPECT_GT(all.at("wake").at("beside").at("frames"), 0);
