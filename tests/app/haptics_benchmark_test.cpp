@@ -21,7 +21,7 @@ TEST(HapticsBenchmark, PrintsEveryFigureAsJson) {
   const support::ProgramResult result = bench("--seconds 0.5 --rounds 1 --ticks 1000 --json");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto all = nlohmann::json::parse(result.out);
-  // each computed law, the paper's three times, a dynamic one, and a tip that scratches
+  // each computed law, the paper's three times, a dynamic one, a map, and a tip that scratches
   EXPECT_EQ(all.at("work").size(), physics::laws_with(&physics::LawTraits::computed).size() + 5);
   for (const auto& work : all.at("work")) EXPECT_EQ(work.at("ticks"), 1000) << work;
   for (const char* loop : {"servo", "plain_loop"}) EXPECT_GT(all.at("wake").at(loop).at("ticks"), 0) << loop;

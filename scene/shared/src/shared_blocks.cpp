@@ -276,8 +276,8 @@ bool is_valid(const SharedLawMap& map) {
   if (!counted(map.columns) || !counted(map.rows) || !positive(map.spacing_m)) return false;
   // written so that NaN fails
   const auto all_within = [&](std::span<const float> values, float least, float most) {
-    return std::all_of(values.begin(), values.begin() + std::size_t{map.columns} * map.rows,
-                       [&](float value) { return value >= least && value <= most; });
+    const auto used = values.first(std::size_t{map.columns} * map.rows);
+    return std::all_of(used.begin(), used.end(), [&](float value) { return value >= least && value <= most; });
   };
   constexpr float kLeastLnModulus = 0.0F, kMostLnModulus = 29.0F;  // 1 Pa to 4 TPa
   constexpr float kLeastAdhesion = 1e-8F, kMostAdhesion = 100.0F;
