@@ -38,6 +38,7 @@ std::array<Option, 2> add_channel_options(OptionList& command, std::string& chan
   std::string help = fmt::format("levelling of a measured image: {}; default: {}", meanings_of_levellings(),
                                  physics::text_of(levelling).word);
   std::vector<std::string_view> names;
+  names.reserve(physics::kLevellings.size() + kLevels.size());
   for (const physics::LevellingText& row : physics::kLevellings) names.emplace_back(row.word);
   const std::size_t levellings = names.size();
   if (particles != nullptr) {
