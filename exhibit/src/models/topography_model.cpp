@@ -145,6 +145,7 @@ scene::Primitive outline_of(const Grid& grid, double bottom_m, double width_m, d
   };
   const auto face = [&](std::size_t count, const glm::vec3& outward, const auto& place) {
     std::vector<glm::vec3> rim;
+    rim.reserve(count);
     for (std::size_t i = 0; i < count; ++i) rim.push_back(place(i) + width * outward);
     const glm::vec3 along = width * glm::vec3(-outward.y, outward.x, 0);
     rim.front() -= along;

@@ -76,6 +76,7 @@ std::vector<render::PlotPoint> circle(double diameter_m) {
 
 std::vector<render::PlotPoint> line_of(const std::vector<physics::SwingPoint>& edge) {
   std::vector<render::PlotPoint> line;
+  line.reserve(edge.size());
   for (const physics::SwingPoint& point : edge) {
     line.push_back({.place_nm = point.u.si * curves::kNmPerM, .force_nn = point.v.si * curves::kNmPerM});
   }

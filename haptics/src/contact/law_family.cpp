@@ -61,7 +61,7 @@ core::Result<std::shared_ptr<const LawFamily>> LawFamily::create(const scene::Sh
                                      "factor of {:.0f} on one scale",
                                      std::exp(range), text_of(modulus.low), text_of(modulus.high), kWidest));
   }
-  const std::shared_ptr<LawFamily> family(new LawFamily);
+  std::shared_ptr<LawFamily> family(new LawFamily);
   const double softest_pa = std::exp(modulus.low), stiffest_pa = std::exp(modulus.high);
   constexpr double kDepth = 0.1;  // depth in tip radii
   family->as_lever_pa_ =
