@@ -65,7 +65,7 @@ class ParameterEdits {
 
   bool changed(std::size_t material) const;
 
-  // True while the law of a lever that taps is being built, here or on the machine with the hand, which tells it.
+  // True while the law of a lever that taps is being built, here or on the machine with the hand.
   bool builds() const;
   void set_builds_elsewhere(bool builds) { builds_elsewhere_ = builds; }
 

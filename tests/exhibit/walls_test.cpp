@@ -197,7 +197,7 @@ std::pair<double, double> depth_of(const Stage& stage, const render::FrameState&
   return {least, largest};
 }
 
-// The body fades towards the floor, so that it veils what stands in it.
+// The body fades towards the floor, so that it veils what is inside it.
 TEST(EveryWall, ShowsTheWholeSwatchesInFrontOfTheStagesBody) {
   for (const char* preset : {"powerwall", "3d-tv", "desk-red-cyan", "cave", "wide", "phone"}) {
     const auto stage = stage_on(fmt::format("{}/assets/walls/{}.toml", support::source(), preset));

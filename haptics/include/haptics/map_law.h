@@ -14,7 +14,7 @@ namespace afm::haptics {
 // A force law that changes from place to place over a sample, on the hand: potentials are interpolated, not forces, so
 // that the sideways force follows and no closed path gains energy.
 //
-// The laws of a family stand on a grid over two coordinates, such as the logarithm of the modulus and the adhesion. At
+// The laws of a family form a grid over two coordinates, such as a share that grows with the modulus and adhesion. At
 // a place with the coordinates c(x, y) the potential of a branch is that of the nine laws around c, weighted by uniform
 // quadratic B-splines: U(x, y, h) = sum w_k(c) U_k(h). The force is its exact gradient, and continuous: along the
 // height sum w_k F_k, sideways -dU/dc grad c. Half a step beyond the outermost laws, and from there on, these alone

@@ -15,7 +15,7 @@ enum class StepKind { Text, Free, Cycle, Identify, Threshold, Draw, Question, Pu
 // common scale. Number: StudyTrial::value.
 enum class StepAnswer { None, Number, Comparison };
 
-// Whether a step may stand in a lesson that has particles, or a lever that taps.
+// Use of a step in a lesson with particles, or with a lever that taps.
 enum class StepBeside { Allowed, Needed, Refused };
 
 struct StepKindRow {
