@@ -54,7 +54,7 @@ TEST(GovernorFuzz, StaysFiniteWithinCapAndSlewWhateverComesIn) {
     input.hand_height_m = calm ? 0.060 : any_double(random);
     const bool steady = calm && i % 2000 < 200;
     input.wanted_force_n =
-        steady ? glm::dvec3(0.0) : glm::dvec3(any_double(random), any_double(random), any_double(random));
+        steady ? glm::dvec3(0.0) : glm::dvec3{any_double(random), any_double(random), any_double(random)};
     if (calm && !std::isfinite(glm::dot(input.wanted_force_n, glm::dvec3(1.0)))) input.wanted_force_n = glm::dvec3(0.0);
     input.phase = calm ? Phase::Free : static_cast<Phase>(random() % 3);
     input.pulled_off = random() % 100 == 0;

@@ -171,9 +171,9 @@ TEST(TopographyOfTheMostPoints, TakesAndGivesNoEnergyOnClosedPathsOfOneBranch) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> part(-1.0, 1.0), turn_of(0.0, 6.28);
   for (int path = 0; path < 40; ++path) {
-    const glm::dvec3 middle(0.03 * part(random), 0.03 * part(random), height(-8e-9));
-    const glm::dvec3 amplitude(0.02 * part(random), 0.02 * part(random), 0.001 * part(random));
-    const glm::dvec3 phase(turn_of(random), turn_of(random), turn_of(random));
+    const glm::dvec3 middle{0.03 * part(random), 0.03 * part(random), height(-8e-9)};
+    const glm::dvec3 amplitude{0.02 * part(random), 0.02 * part(random), 0.001 * part(random)};
+    const glm::dvec3 phase{turn_of(random), turn_of(random), turn_of(random)};
     const auto at = [&](double turn) {
       return middle + amplitude * glm::sin(glm::dvec3(1.0, 2.0, 3.0) * 6.283185307179586 * turn + phase);
     };
@@ -344,7 +344,7 @@ TEST(SampleAxes, TurnWhatTheHandMeetsExactly) {
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (int i = 0; i < 100; ++i) {
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), i == 0 ? glm::radians(30.0) : 3.0 * any(random),
-                                        glm::normalize(glm::dvec3(any(random), any(random), any(random) + 2.0)));
+                                        glm::normalize(glm::dvec3{any(random), any(random), any(random) + 2.0}));
     EXPECT_LT(glm::length(press(turn) - glm::dvec3(turn * glm::dvec4(level, 0.0))), 1e-12);
   }
 }

@@ -56,9 +56,9 @@ TEST(Navigation, GrabbingAndComingBackLeavesTheSceneExactlyWhereItWas) {
     navigation.update(start, kFrameS, false);
     WandState wand = start;
     for (int i = 0; i < 500; ++i) {
-      wand.position_m += 0.05 * glm::dvec3(normal(random), normal(random), normal(random));
+      wand.position_m += 0.05 * glm::dvec3{normal(random), normal(random), normal(random)};
       wand.room_from_wand = glm::normalize(
-          glm::angleAxis(0.2 * normal(random), glm::normalize(glm::dvec3(normal(random), 1.0, normal(random)))) *
+          glm::angleAxis(0.2 * normal(random), glm::normalize(glm::dvec3{normal(random), 1.0, normal(random)})) *
           wand.room_from_wand);
       navigation.update(wand, kFrameS, false);
     }

@@ -94,7 +94,7 @@ void expect_one_picture(const std::string& text, double black) {
   std::uniform_real_distribution<double> x(-4.0, 4.0), y(0.0, 4.0);
   int covered = 0, overlapped = 0;
   for (int i = 0; i < 20000; ++i) {
-    const glm::dvec2 place(x(random), y(random));
+    const glm::dvec2 place{x(random), y(random)};
     const Together sum = together(*wall, place);
     if (sum.screens == 0) continue;
     ++covered;

@@ -264,7 +264,7 @@ TEST(FeltFriction, OffLeavesEveryBitOfTheForce) {
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> sideways(-0.03, 0.03), height(-0.01, 0.065);
     for (int i = 0; i < 5000; ++i) {
-      const glm::dvec3 hand(sideways(random), sideways(random), height(random));
+      const glm::dvec3 hand{sideways(random), sideways(random), height(random)};
       const haptics::Touch touch = model->step(hand);
       const auto below = model->surface().at(glm::dvec2(hand) / scale.hand_m_per_m());
       const glm::dvec3 force = scale.hand_force_n(touch.response.force.si) * glm::dvec3(-below.slope, 1.0);
@@ -292,7 +292,7 @@ TEST(FeltFriction, NeverGivesMoreThanASampledSpring) {
       auto before = model->energy(touch);
       double lost = 0.0, largest = 0.0;
       for (int i = 0; i < 40'000; ++i) {
-        velocity = 0.98 * velocity + 1e-5 * glm::dvec3(gauss(random), gauss(random), 0.3 * gauss(random));
+        velocity = 0.98 * velocity + 1e-5 * glm::dvec3{gauss(random), gauss(random), 0.3 * gauss(random)};
         glm::dvec3 next = hand + velocity;
         next.z = std::clamp(next.z, -0.010, 0.020);
         const glm::dvec3 force = touch.hand_force_n, moved = next - hand;

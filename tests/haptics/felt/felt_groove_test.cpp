@@ -90,7 +90,8 @@ TEST_F(FullGroove, HasAPotential) {
   std::uniform_real_distribution<double> along(-0.03, length_m_ + 0.03), aside(-0.012, 0.012), turn(0.0, 7.0);
   constexpr double kStepM = 1e-6;
   for (int i = 0; i < 20'000; ++i) {
-    const glm::dvec2 hand_m = place(along(random), aside(random));
+    const double along_m = along(random);
+    const glm::dvec2 hand_m = place(along_m, aside(random));
     const double angle = turn(random);
     const glm::dvec2 way(std::cos(angle), std::sin(angle));
     const GroovePull here = at(hand_m), before = at(hand_m - kStepM * way), after = at(hand_m + kStepM * way);
@@ -105,7 +106,10 @@ TEST_F(FullGroove, GivesNoEnergyOnAnyClosedPath) {
   std::uniform_real_distribution<double> along(-0.05, length_m_ + 0.05), aside(-0.02, 0.02);
   for (int path = 0; path < 50; ++path) {
     std::vector<glm::dvec2> corners;
-    for (int i = 0; i < 5; ++i) corners.push_back(place(along(random), aside(random)));
+    for (int i = 0; i < 5; ++i) {
+      const double along_m = along(random);
+      corners.push_back(place(along_m, aside(random)));
+    }
     corners.push_back(corners.front());
     double work_j = 0.0;
     for (std::size_t i = 1; i < corners.size(); ++i) {
@@ -163,7 +167,10 @@ TEST(FeltGroove, SatisfiesTheObserverWhateverIsSwitched) {
   GroovePull last;
   double most_j = 0.0, most_n = 0.0;
   for (int i = 0; i < 200'000; ++i) {
-    if (share(random) < 0.003) groove.follow(plan_to(1e-6 * (share(random) - 0.5), 1e-6 * (share(random) - 0.5)));
+    if (share(random) < 0.003) {
+      const double x_m = 1e-6 * (share(random) - 0.5);
+      groove.follow(plan_to(x_m, 1e-6 * (share(random) - 0.5)));
+    }
     if (share(random) < 0.002) groove.follow({});
     if (share(random) < 0.01) to_m = {place_m(random), place_m(random)};
     velocity += kTickS * (400.0 * (to_m - hand_m) - 25.0 * velocity);

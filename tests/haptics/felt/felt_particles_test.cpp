@@ -110,7 +110,7 @@ TEST(FeltParticles, OnOtherScalesAreNotThere) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> place(-0.02, 0.02), height(-0.01, 0.065);
     for (int i = 0; i < 2000; ++i) {
-      const glm::dvec3 at(place(random), place(random), height(random));
+      const glm::dvec3 at{place(random), place(random), height(random)};
       ASSERT_TRUE(same_bits(hand.step(at), hand.bare->step(at, Hand::force_on()))) << i;
     }
   }
@@ -243,7 +243,7 @@ TEST(FeltParticles, NeverGiveMoreThanASampledSpring) {
     double largest_j = 0.0;
     int touches = 0;
     for (int i = 0; i < 40'000; ++i) {
-      velocity = 0.97 * velocity + 1.5e-5 * glm::dvec3(gauss(random), gauss(random), gauss(random));
+      velocity = 0.97 * velocity + 1.5e-5 * glm::dvec3{gauss(random), gauss(random), gauss(random)};
       glm::dvec3 next = at + velocity;
       // stays about the particles, which it pushes away
       const scene::ParticlePose& first = hand.felt.pages()[0].poses[0];
@@ -297,7 +297,7 @@ TEST(FeltParticles, GiveNoEnergyOnAClosedStrokeWhenTheyStick) {
     for (int stroke = 0; stroke < 200; ++stroke) {
       const scene::ParticlePose there = hand.felt.pages()[0].poses[0];
       const glm::dvec2 middle = hand.scale.hand_m_per_m * glm::dvec2(there.x_m, there.y_m);
-      const auto near = [&] { return middle + glm::dvec2(beside(random), beside(random)); };
+      const auto near = [&] { return middle + glm::dvec2{beside(random), beside(random)}; };
       const glm::dvec3 over(near(), hand.release_m() + 0.005);
       go(over);
       for (int i = 0; i < 4; ++i) go(glm::dvec3(near(), low(random)));

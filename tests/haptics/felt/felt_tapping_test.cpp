@@ -102,7 +102,10 @@ TEST(FeltTapping, GivesAHandNoEnergyOnAnyClosedPathWhileItsMeanForceWould) {
   for (int path = 0; path < paths; ++path) {
     Given given;
     hand.rest_at(kHighestNm);
-    for (int leg = 0; leg < 4; ++leg) hand.move_to(height_nm(random), speed_m_per_s(random), given);
+    for (int leg = 0; leg < 4; ++leg) {
+      const double to_nm = height_nm(random);
+      hand.move_to(to_nm, speed_m_per_s(random), given);
+    }
     hand.move_to(kHighestNm, speed_m_per_s(random), given);
     most_push_j = std::max(most_push_j, given.push_j);
     most_mean_j = std::max(most_mean_j, given.mean_j);

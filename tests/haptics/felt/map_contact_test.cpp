@@ -53,9 +53,9 @@ class Loop {
   explicit Loop(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> across(-0.03, 0.03), height(-0.025, 0.035);
-    const glm::dvec3 start(across(random), across(random), 0.07);
+    const glm::dvec3 start{across(random), across(random), 0.07};
     places_.push_back(start);
-    for (int i = 0; i < 5; ++i) places_.emplace_back(across(random), across(random), height(random));
+    for (int i = 0; i < 5; ++i) places_.push_back({across(random), across(random), height(random)});
     places_.push_back(start);
   }
 

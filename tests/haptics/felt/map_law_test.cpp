@@ -71,9 +71,9 @@ class Terrain {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> number(-1.0, 1.0);
     for (Wave& wave : waves_) {
-      wave = {.per_m = glm::dvec2(150.0 * number(random), 150.0 * number(random)),
+      wave = {.per_m = glm::dvec2{150.0 * number(random), 150.0 * number(random)},
               .phase = 3.0 * number(random),
-              .size = glm::dvec2(1.2 * number(random), 0.9 * number(random))};
+              .size = glm::dvec2{1.2 * number(random), 0.9 * number(random)}};
     }
   }
 
@@ -195,7 +195,7 @@ double largest_gain_j(const MapLaw& law, Phase phase, bool sideways, int paths) 
     const Terrain terrain(static_cast<unsigned>(i / kPathsOfOneMap));
     const Hand hand(law, terrain, sideways, tolerance_j);
     const double height_m = height(random);
-    const auto corner = [&] { return glm::dvec3(across(random), across(random), height_m + rise(random)); };
+    const auto corner = [&] { return glm::dvec3{across(random), across(random), height_m + rise(random)}; };
     const glm::dvec3 a = corner(), b = corner(), c = corner();
     const double gain_j = hand.work_on(phase, a, b) + hand.work_on(phase, b, c) + hand.work_on(phase, c, a);
     largest = std::max(largest, std::abs(gain_j));
@@ -231,12 +231,12 @@ TEST(MapLaw, GivesNoEnergyOnPathsWithJumps) {
     for (int i = 0; i < 300; ++i) {
       const Terrain terrain(static_cast<unsigned>(i));
       const Hand hand(law, terrain, true, 1e-8 * most_j);
-      const glm::dvec3 start(across(random), across(random), kTopM);
+      const glm::dvec3 start{across(random), across(random), kTopM};
       Phase phase = Phase::Free;
       double work_j = 0.0;
       glm::dvec3 at = start;
       for (int k = 0; k < 4; ++k) {
-        const glm::dvec3 next(across(random), across(random), height(random));
+        const glm::dvec3 next{across(random), across(random), height(random)};
         work_j += hand.work_with_jumps(phase, at, next, jumps);
         at = next;
       }

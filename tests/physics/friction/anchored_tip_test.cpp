@@ -36,7 +36,10 @@ TEST(AnchoredTip, DoesNotDriftUnderATremor) {
   tip.land(place(0.0));
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> tremor(-0.2e-9, 0.2e-9);
-  for (int i = 0; i < 100'000; ++i) tip.move_to(place(tremor(random), tremor(random)), kYield);
+  for (int i = 0; i < 100'000; ++i) {
+    const double x_m = tremor(random);
+    tip.move_to(place(x_m, tremor(random)), kYield);
+  }
   tip.move_to(place(0.0), kYield);
   EXPECT_NEAR(magnitude(tip.force()).si, 0.0, 1e-20);
 }
@@ -79,13 +82,17 @@ TEST(AnchoredTip, NeverGivesEnergyOnAClosedPath) {
   int slid = 0;
   for (int path = 0; path < 100'000; ++path) {
     AnchoredTip tip(kSpring);
-    const Sideways<Length> start = place(way(random), way(random));
+    const auto anywhere = [&] {
+      const double x_m = way(random);
+      return place(x_m, way(random));
+    };
+    const Sideways<Length> start = anywhere();
     tip.land(start);
     double paid = 0.0, all = 0.0, lost = 0.0;
     Sideways<Length> at = start;
     const int ways = 2 + path % 4;
     for (int i = 0; i < ways; ++i) {
-      const Sideways<Length> to = i == ways - 1 ? start : place(way(random), way(random));
+      const Sideways<Length> to = i == ways - 1 ? start : anywhere();
       const double before = tip.stored().si;
       const double gone = tip.move_to(to, kYield * share(random)).si;
       ASSERT_GE(gone, 0.0);

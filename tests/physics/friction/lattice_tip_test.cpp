@@ -194,8 +194,8 @@ TEST(LatticeTip, NeverGivesEnergyOnAClosedPath) {
     const auto kind = static_cast<LatticeKind>(path % 3);
     const Energy full = LatticeLandscape::scale_of_row(kind, row_amplitude(6.0));
     const auto anywhere = [&] {
-      return std::pair{place((share(random) - 0.5) * 1.6 * kPeriod.si, (share(random) - 0.5) * 1.6 * kPeriod.si),
-                       full * share(random)};
+      const double x_m = (share(random) - 0.5) * 1.6 * kPeriod.si;
+      return std::pair{place(x_m, (share(random) - 0.5) * 1.6 * kPeriod.si), full * share(random)};
     };
     const auto [start, start_scale] = anywhere();
     Traveller traveller{LatticeTip(kind, kPeriod, kSpring), start, start_scale};

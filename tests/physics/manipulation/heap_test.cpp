@@ -75,7 +75,8 @@ TEST(Heap, IsFinishedInNearlyEveryTick) {
   std::uniform_real_distribution<double> place(-400e-9, 400e-9);
   int ticks = 0;
   for (int line = 0; line < 12; ++line) {
-    const LeverBase to = base_at(place(random), place(random), 5e-9);
+    const double x_m = place(random);
+    const LeverBase to = base_at(x_m, place(random), 5e-9);
     ticks += static_cast<int>(magnitude(to.position - particles.last().base.position).si / 1e-9);
     drag(particles, to, 1e-6, 1000.0);
   }

@@ -76,7 +76,8 @@ TEST(PushCases, N69ThePixelsOfAPatch) {
   double pixels = 0.0;
   constexpr int kRounds = 400;
   for (int round = 0; round < kRounds; ++round) {
-    const std::vector<PlacedParticle> particles{particle_at(place_nm(random), place_nm(random))};
+    const double x_nm = place_nm(random);
+    const std::vector<PlacedParticle> particles{particle_at(x_nm, place_nm(random))};
     ParticlePicture picture(setup, particles, usual_frame());
     const ParticlePlace before = place_of(particles[0]);
     ParticlePlace after = before;
@@ -133,7 +134,8 @@ TEST(ParticlePicture, IsUpdatedToTheBitsOfTheWholePicture) {
   for (int round = 0; round < 60; ++round) {
     std::vector<PlacedParticle> particles;
     for (std::size_t i = 0; i < 12; ++i) {
-      particles.push_back(particle_at(place_nm(random), place_nm(random), i < 9 ? 0 : 1, i < 9 ? 0.0 : angle(random)));
+      const double x_nm = place_nm(random), y_nm = place_nm(random);
+      particles.push_back(particle_at(x_nm, y_nm, i < 9 ? 0 : 1, i < 9 ? 0.0 : angle(random)));
     }
     ParticlePicture picture(setup, particles, usual_frame());
     const HeightGrid old = picture.heights();

@@ -40,9 +40,13 @@ TEST(Pattern, IsMatchedByTheAssignmentWithTheLeastSquares) {
   std::uniform_real_distribution<double> place(-500.0, 500.0);
   for (int round = 0; round < 300; ++round) {
     const std::size_t particles = 1 + random() % 7, targets = 1 + random() % particles;
+    const auto anywhere = [&] {
+      const double x_nm = place(random);
+      return at_nm(x_nm, place(random));
+    };
     Places wanted, there;
-    for (std::size_t i = 0; i < targets; ++i) wanted.push_back(at_nm(place(random), place(random)));
-    for (std::size_t i = 0; i < particles; ++i) there.push_back(at_nm(place(random), place(random)));
+    for (std::size_t i = 0; i < targets; ++i) wanted.push_back(anywhere());
+    for (std::size_t i = 0; i < particles; ++i) there.push_back(anywhere());
     const PatternMatch match = match_pattern(wanted, there);
     ASSERT_NEAR(match.rms.si, least_rms_m(wanted, there), 1e-9 * match.rms.si) << round;
     const std::set<std::size_t> each(match.particles.begin(), match.particles.end());
