@@ -97,8 +97,9 @@ class Terrain {
   std::array<Wave, 3> waves_;
 };
 
-// Integral from 0 to 1, halved until it is exact: it also finds kinks.
-double integral(const std::function<double(double)>& f, double tolerance) {
+// Integral from 0 to 1 in equal parts, each halved until it is exact: it also finds kinks, all that differ among the
+// five places of a part.
+double integral(const std::function<double(double)>& f, double tolerance, int parts) {
   const std::function<double(double, double, double, double, double, int)> part =
       [&](double from, double to, double first, double middle, double last, int depth) -> double {
     const double half = 0.5 * (from + to), whole = (to - from) / 6.0 * (first + 4.0 * middle + last);
@@ -108,9 +109,8 @@ double integral(const std::function<double(double)>& f, double tolerance) {
     return part(from, half, first, left, middle, depth - 1) + part(half, to, middle, right, last, depth - 1);
   };
   double sum = 0.0;
-  constexpr int kParts = 8;
-  for (int i = 0; i < kParts; ++i) {
-    const double from = i / static_cast<double>(kParts), to = (i + 1) / static_cast<double>(kParts);
+  for (int i = 0; i < parts; ++i) {
+    const double from = i / static_cast<double>(parts), to = (i + 1) / static_cast<double>(parts);
     sum += part(from, to, f(from), f(0.5 * (from + to)), f(to), 30);
   }
   return sum;
@@ -122,7 +122,7 @@ class Hand {
   Hand(const MapLaw& law, const Terrain& terrain, bool sideways, double tolerance_j)
       : law_(law), terrain_(terrain), sideways_(sideways), tolerance_j_(tolerance_j) {}
 
-  double work_on(Phase phase, const glm::dvec3& from_m, const glm::dvec3& to_m) const {
+  double work_on(Phase phase, const glm::dvec3& from_m, const glm::dvec3& to_m, int parts = 64) const {
     const glm::dvec3 way_m = to_m - from_m;
     return integral(
         [&](double share) {
@@ -130,18 +130,18 @@ class Hand {
           const MapLaw::Felt felt = law_.at(phase, terrain_.at(glm::dvec2(at_m)), at_m.z);
           return felt.force_n * way_m.z + (sideways_ ? glm::dot(felt.sideways_n, glm::dvec2(way_m)) : 0.0);
         },
-        tolerance_j_);
+        tolerance_j_, parts);
   }
 
   // The same with all jumps on the way, each at its place.
   double work_with_jumps(Phase& phase, const glm::dvec3& from_m, const glm::dvec3& to_m, int& jumps) const {
-    constexpr int kSteps = 50;
+    constexpr int kSteps = 50, kParts = 8;
     double work_j = 0.0;
     glm::dvec3 before_m = from_m;
     for (int i = 1; i <= kSteps; ++i) {
       const glm::dvec3 after_m = from_m + (i / static_cast<double>(kSteps)) * (to_m - from_m);
       if (next(phase, after_m) == phase) {
-        work_j += work_on(phase, before_m, after_m);
+        work_j += work_on(phase, before_m, after_m, kParts);
       } else {
         double low = 0.0, high = 1.0;
         while (high - low > 1e-13) {
@@ -149,10 +149,10 @@ class Hand {
           (next(phase, before_m + middle * (after_m - before_m)) == phase ? low : high) = middle;
         }
         const glm::dvec3 jump_m = before_m + high * (after_m - before_m);
-        work_j += work_on(phase, before_m, jump_m);
+        work_j += work_on(phase, before_m, jump_m, kParts);
         phase = next(phase, jump_m);
         ++jumps;
-        work_j += work_on(phase, jump_m, after_m);
+        work_j += work_on(phase, jump_m, after_m, kParts);
       }
       before_m = after_m;
     }
