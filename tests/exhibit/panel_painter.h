@@ -5,8 +5,10 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <map>
 #include <memory>
 
 #include "panels/panel_painting.h"
@@ -44,6 +46,11 @@ class Painter {
     fonts_.atlas->GetTexDataAsAlpha8(&pixels, &width, &height);
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+    for (const ImFont* font : fonts_.fonts) {
+      for (const ImFontGlyph& glyph : font->Glyphs) {
+        em_of_height_.try_emplace({glyph.U0, glyph.V0, glyph.U1, glyph.V1}, font->FontSize / (glyph.Y1 - glyph.Y0));
+      }
+    }
   }
 
   template <class Content>
@@ -94,12 +101,8 @@ class Painter {
     float least = 1e9F;
     for (int i = 0; i + 3 < list.VtxBuffer.Size; ++i) {
       const ImDrawVert &from = list.VtxBuffer[i], &to = list.VtxBuffer[i + 2];
-      for (const ImFont* font : fonts_.fonts) {
-        for (const ImFontGlyph& glyph : font->Glyphs) {
-          if (glyph.U0 != from.uv.x || glyph.V0 != from.uv.y || glyph.U1 != to.uv.x || glyph.V1 != to.uv.y) continue;
-          least = std::min(least, font->FontSize * (to.pos.y - from.pos.y) / (glyph.Y1 - glyph.Y0));
-        }
-      }
+      const auto em = em_of_height_.find({from.uv.x, from.uv.y, to.uv.x, to.uv.y});
+      if (em != em_of_height_.end()) least = std::min(least, em->second * (to.pos.y - from.pos.y));
     }
     return least;
   }
@@ -115,6 +118,7 @@ class Painter {
   render::PanelFonts fonts_;
   double millimetre_m_;
   std::unique_ptr<ImGuiContext, ContextEnd> imgui_;
+  std::map<std::array<float, 4>, float> em_of_height_;  // em of a letter by its height, by its place in the atlas
   render::CanvasMemory memory_;
 };
 
