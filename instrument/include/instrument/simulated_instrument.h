@@ -63,8 +63,9 @@ class SimulatedInstrument {
   };
   static constexpr std::size_t kMostCurvePoints = 100'000;
 
-  // A curve where the tip is; it is engaged or withdrawn again afterwards. `shown_n` is what the detector shows. Fails
-  // as curves::run_curve(), and if the tip would wear beyond what its law allows; then nothing has changed.
+  // A curve where the tip is; afterwards the tip is engaged or withdrawn as before. `shown_n` is what the
+  // detector shows. Fails as curves::run_curve(), and if the tip would wear beyond what its law allows; then nothing
+  // has changed.
   struct Curve {
     curves::CurveRun run;
     std::vector<double> shown_n;
