@@ -226,14 +226,14 @@ TEST_F(ParticlesPanel, SaysWhatAPlanAsksOfTheHand) {
   const render::DataPanel shown = particles_panel(now, test::english());
   // rho is 40.25 nm, 8.05 mm in the hand
   EXPECT_EQ(row(shown, Phrase::PlanWay),
-            (render::DataRow{"Planned way left", "120 nm", "of particle 3; without a groove"}));
+            (render::DataRow{"Planned path left", "120 nm", "of particle 3; without a groove"}));
   EXPECT_EQ(row(shown, Phrase::PlanAim).value, "4.07 nm") << "40.25 nm/cosh(120/40.25)";
   EXPECT_EQ(row(shown, Phrase::PlanHand),
             (render::DataRow{"Hand at most", "32.2 mm/s", "to steer it: distance of tip and sphere/0.25 s"}));
   now.plan.guided = 1;
   pages_[0].poses[2].y_m += 80e-9;
   EXPECT_EQ(row(particles_panel(now, test::english()), Phrase::PlanWay),
-            (render::DataRow{"Planned way left", "40 nm", "of particle 3; a groove guides the hand"}));
+            (render::DataRow{"Planned path left", "40 nm", "of particle 3; a groove guides the hand"}));
   now.plan.to_m[1] += 2e-6;
   EXPECT_EQ(row(particles_panel(now, test::english()), Phrase::PlanAim).value, "< 1 pm");
   now.push.hand_m_per_m = 0.0;

@@ -38,9 +38,8 @@ constexpr std::array kEventTexts{
     ColumnText{"trial", "number of the trial within its step, from 1", nullptr},
     ColumnText{"level", "w of a threshold's trial: the stronger F_ad is 1 + w times the weaker one", nullptr},
     ColumnText{"stimulus",
-               "identify: material shown, or state of the swing; threshold: cycle that let go harder; question: item; "
-               "push: what ended it "
-               "(moved, target, pattern, lost)",
+               "identify: material shown, or state of the swing; threshold: cycle that needed more force to let go; "
+               "question: item; push: what ended it (moved, target, pattern, lost)",
                nullptr},
     ColumnText{"response",
                "identify: material or state answered; threshold: cycle answered; question: number answered (paper 0 to "
