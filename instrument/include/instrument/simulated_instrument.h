@@ -26,7 +26,7 @@ class Showcase;
 // results, bit for bit. Lengths in m of the sample's frame, z away from it; time in s. One thread; allocates.
 class SimulatedInstrument {
  public:
-  // Fails as curves::contact_setup() and imaging::scan_surface(). `sample`: instead of the one drawn for the material.
+  // Fails as curves::contact_setup() and imaging::scan_surface(). `sample` replaces the one drawn for the material.
   static core::Result<SimulatedInstrument> create(std::string assets_dir, std::uint64_t seed,
                                                   imaging::OwnSample sample = {});
 
