@@ -46,7 +46,7 @@ constexpr std::array kEventTexts{
                "4, sus 1 "
                "to 5, tlx 0 to 100, ssq 0 to 3); draw: share of right parts; cycle: F_ad in N; push: in m, for target "
                "and pattern the root mean square "
-               "distance from the targets, for moved and lost the way of the particle from its start",
+               "distance from the targets; for moved and lost, of the particle from its start",
                nullptr},
     ColumnText{"correct", "whether the answer is right", nullptr, {{{"0", "wrong"}, {"1", "right"}}}},
     ColumnText{"rt", "time from the question to the answer; push: from the first push to the last lift of the tip",
