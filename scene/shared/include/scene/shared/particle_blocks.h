@@ -13,7 +13,7 @@
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/name.h"
 
-// Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/physics.md, "Particles"). Places
+// Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/manipulation.md). Places
 // are in the sample's frame, in metres of the nanoworld; the particles rest on its plane z = 0.
 namespace afm::physics {
 struct HalfTurn;
