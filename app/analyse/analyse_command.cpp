@@ -162,7 +162,7 @@ core::Result<physics::WayRange> parse_way_range(const std::string& text) {
       physics::parse_quantity(colon == std::string::npos ? "" : text.substr(colon + 1), physics::kLengthUnits);
   if (!from.value || !to.value || from.value->si < 0.0 || *from.value >= *to.value) {
     return wrong_usage(
-        fmt::format("\"{}\" is no range of ways from the outermost point of the approach, such as 0um:1.5um", text));
+        fmt::format("\"{}\" is not a range of distances from the outermost point, such as 0um:1.5um", text));
   }
   return physics::WayRange{*from.value, *to.value};
 }

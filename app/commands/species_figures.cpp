@@ -175,7 +175,7 @@ nlohmann::json island_figures_json(const scene::ParticleSet& set, const Particle
 std::string hold_text(const scene::ParticleSet& set, const ParticleSpecies& species) {
   const physics::SphereCone& tip = set.setup.tip;
   return fmt::format(
-      "  tip adhesion         tears off at {} on the flank, {} on top; a tip that goes away {} it\n"
+      "  tip adhesion         tears away at {} on the flank, {} on top; a tip that moves away {} it\n"
       "  lifted               by a tip adhesion above {}: this one {}\n",
       format_quantity(physics::tip_pull_off(tip, species, true), kForceUnits, 4),
       format_quantity(physics::tip_pull_off(tip, species, false), kForceUnits, 4),

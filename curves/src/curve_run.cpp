@@ -109,7 +109,7 @@ core::Result<std::uint64_t> noise_seed(const PathOptions& path) {
   const char* end = path.seed.data() + path.seed.size();
   if (path.seed.empty()) return seed;
   if (const auto read = std::from_chars(path.seed.data(), end, seed); read.ec != std::errc() || read.ptr != end) {
-    return wrong_usage(fmt::format("--seed: \"{}\" is no whole number from 0 to 18446744073709551615", path.seed));
+    return wrong_usage(fmt::format("--seed: \"{}\" is not a whole number from 0 to 18446744073709551615", path.seed));
   }
   return seed;
 }

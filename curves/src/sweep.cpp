@@ -136,7 +136,7 @@ core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelNam
   axis.parameter = beside != more.end() ? &*beside : find_contact_parameter(key);
   if (axis.parameter == nullptr || (beside == more.end() && !changes_force(*axis.parameter, model))) {
     return wrong_axis(
-        text, fmt::format("\"{}\" is no number of the model {}; it has {}",
+        text, fmt::format("\"{}\" is not a number of the model {}; it has {}",
                           text.substr(0, std::min<std::size_t>(equals, 40)), model.text, sweepable(model, more)));
   }
   const auto from = parse_parameter(*axis.parameter, parts[0]);
@@ -155,7 +155,7 @@ core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelNam
   if (status == std::errc::result_out_of_range) axis.count = std::numeric_limits<std::uint64_t>::max();
   if (status == std::errc::invalid_argument || end != count.data() + count.size() || axis.count < 2 ||
       axis.count > kLargestParameterSweep) {
-    return wrong_axis(text, fmt::format("the count \"{}\" is no whole number within 2 to {}", count.substr(0, 40),
+    return wrong_axis(text, fmt::format("the count \"{}\" is not a whole number from 2 to {}", count.substr(0, 40),
                                         kLargestParameterSweep));
   }
   return axis;

@@ -38,7 +38,7 @@ core::Result<KeyUncertainty> parse_uncertainty(const std::string& text, std::spa
                              value.ends_with('%')};
   if (!(found.value > 0.0) || (found.is_share && found.value > kMostUncertainty)) {
     return wrong_usage(
-        fmt::format("--uncertainty {}: it is above 0 % and up to {:g} %", text, 100.0 * kMostUncertainty));
+        fmt::format("--uncertainty {}: it must be above 0 % and at most {:g} %", text, 100.0 * kMostUncertainty));
   }
   return found;
 }

@@ -26,7 +26,8 @@ constexpr int kMostReportsAPoll = 64;
 constexpr auto kSetUpPause = std::chrono::milliseconds(20);  // a Wii Remote drops an output report sent sooner
 constexpr std::size_t kLongestReport = 256;
 constexpr const char* kRule =
-    "copy assets/wands/70-touchafm-wands.rules to /etc/udev/rules.d, run sudo udevadm control --reload, replug it";
+    "copy 70-touchafm-wands.rules (in assets/wands; in a bundle: lib/udev/rules.d) to /etc/udev/rules.d, "
+    "run sudo udevadm control --reload, replug it";
 
 // Use of a wand: changes within a quarter of a second. Sticks jitter by 0.02, sensors at rest drift by less than 1
 // degree a second.

@@ -53,12 +53,12 @@ def _places(curves: Sequence[Curve]) -> tuple[tuple[int, int], list[tuple[int, i
     """Shape of the map, and row and column of each curve."""
     grids = {curve.metadata.get("grid") for curve in curves}
     if None in grids:
-        raise ValueError("a curve of them has no pixel: touchafm.fit() fits curves that are no map")
+        raise ValueError("one of the curves has no pixel; touchafm.fit() fits curves that are not a map")
     if len(grids) != 1:
         raise ValueError(f"the curves are of {len(grids)} grids; give those of one map")
     columns, rows = next(iter(grids))
     if columns * rows > max(512 * 512, 16 * len(curves)):
-        raise ValueError(f"{len(curves)} curves on a grid of {columns} x {rows} pixels are no map")
+        raise ValueError(f"{len(curves)} curves on a grid of {columns} x {rows} pixels are not a map")
     pixels = [curve.metadata["pixel"] for curve in curves]
     return (rows, columns), [(rows - 1 - row, column) for column, row in pixels]
 
@@ -67,7 +67,7 @@ def fit(curves: Sequence[Curve], *, threads: Optional[int] = None, **settings: A
     """Fits every curve of a map, on all cores or so many threads. settings: the arguments of touchafm.fit().
 
     A curve that nothing fits is NaN, with its reason; of two curves at one pixel the later counts. ValueError for curves
-    that are no map, and for what touchafm.fit() refuses.
+    that are not a map, and for what touchafm.fit() refuses.
     """
     if not curves:
         raise ValueError("there is no curve")

@@ -61,7 +61,7 @@ class Client:
         self.close()
 
     def close(self):
-        """Leaves; a server of start() ends."""
+        """Disconnects; a server that start() started ends."""
         self._answers.close()
         self._socket.close()
         if self._server is not None:
@@ -95,7 +95,7 @@ class Client:
             raise Refused(answer.get("error", "the server gave no reason"))
 
     def hello(self, seed=None):
-        """Who answers; with a seed, the microscope starts anew."""
+        """Name, version and verbs of the server; with a seed, the microscope starts anew."""
         return self.request("hello", seed=seed)
 
     def get(self):

@@ -186,7 +186,7 @@ core::Result<PeopleFile> parse_people(std::string_view bytes, const std::string&
 
 core::Result<LessonFacts> parse_lesson_facts(std::string_view bytes, const std::string& name) {
   const auto json = nlohmann::json::parse(bytes, nullptr, false);
-  if (!json.is_object()) return bad_file(name, "it is no JSON object");
+  if (!json.is_object()) return bad_file(name, "it is not a JSON object");
   const auto lesson = json.find("Lesson");
   if (lesson == json.end() || !lesson->is_object()) return bad_file(name, "there is no table \"Lesson\"");
   const auto lost = lesson->find("sound_lost_s");

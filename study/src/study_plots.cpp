@@ -99,7 +99,7 @@ std::string identify_svg(const LessonResults& lesson) {
 
 std::string thresholds_svg(const LessonResults& lesson) {
   SvgPlot plot;
-  plot.title = lesson.task + ": which one let go harder?";
+  plot.title = lesson.task + ": which one needed more force to let go?";
   plot.x_label = "level w, the stronger pull-off force is 1 + w times the weaker one";
   plot.y_label = "share right";
   plot.height = kPlotHeight;

@@ -90,7 +90,7 @@ std::vector<PageBlock> method_blocks() {
   list.items.emplace_back(
       "Means: Student's t; an interval ends where the scale of its values does. Conditions: paired where at least two "
       "people did both, otherwise Welch's t; d and d_z with "
-      "intervals by the noncentral t. Holm's correction is for the number of tests that stand side by side: a lesson's "
+      "intervals by the noncentral t. Holm's correction is for the number of tests reported side by side: a lesson's "
       "comparisons of conditions, over "
       "all of its measures; its identifications against chance; its changes; the scales of the SSQ; the questions of "
       "Table 3.");

@@ -77,7 +77,7 @@ TEST(CurveProgram, RefusesModelsAndOptionsThatDoNotFit) {
   expect_refusal("curve --material mica --work-of-adhesion 1mJ/m2 --model hertz", 2,
                  "--work-of-adhesion has no effect");
   expect_refusal("curve --material mica --sweep reduced-modulus=1GPa:2GPa:2 --model lj", 2,
-                 "is no number of the model lj");
+                 "is not a number of the model lj");
   expect_refusal("curve --material mica --tip-radius ''", 2, "--tip-radius: its value is empty");
   for (const char* path : {"--from 30nm", "--to -1nm", "--step 1nm"}) {
     expect_refusal(std::string("curve --material mica --sweep tip-radius=1nm:9nm:3 ") + path, 2, "excludes --sweep");

@@ -336,7 +336,7 @@ TEST(TableColumns, AreNamedWithTheirUnits) {
   };
   EXPECT_EQ(error(" height:pm   force:uN "), "accepted");
   EXPECT_EQ(error("height:um deflection:mV time:ms - segment"), "accepted");
-  EXPECT_THAT(error("height:um power:W"), HasSubstr("\"power:W\" is no column; write NAME:UNIT"));
+  EXPECT_THAT(error("height:um power:W"), HasSubstr("\"power:W\" is not a column; write NAME:UNIT"));
   EXPECT_THAT(error("height:nN force:nN"), HasSubstr("\"height:nN\" has no unit of its quantity"));
   EXPECT_THAT(error("height force:nN"), HasSubstr("has no unit of its quantity"));
   for (const char* text :

@@ -90,7 +90,7 @@ TEST(GsfImage, IsRefusedWhereItIsDamaged) {
   EXPECT_THAT(error_of(gsf_file("XRes = 2\n", {1})), HasSubstr("no XRes or no YRes"));
   EXPECT_THAT(error_of(gsf_file("XRes = 1e9\nYRes = 1e9\n", {1})), HasSubstr("2 to 8192"));
   EXPECT_THAT(error_of(gsf_file("XRes = 2.5\nYRes = 2\n", {1})), HasSubstr("2 to 8192"));
-  EXPECT_THAT(error_of(gsf_file("XRes = 2\nYRes = 2\nXReal = 0\n", {1, 2, 3, 4})), HasSubstr("no scan's"));
+  EXPECT_THAT(error_of(gsf_file("XRes = 2\nYRes = 2\nXReal = 0\n", {1, 2, 3, 4})), HasSubstr("not that of a scan"));
   EXPECT_THAT(error_of(gsf_file("XRes = 2\nYRes = two\n", {1})), HasSubstr("not a finite number"));
 }
 
@@ -295,7 +295,7 @@ TEST(IgorImage, IsRefusedWhereItIsDamaged) {
   EXPECT_THAT(error_of(altered), HasSubstr("checksum"));
   EXPECT_THAT(error_of(igor_image_file(3, 2, {"HeightTrace"}, 5e-9, "", layers())), HasSubstr("does not fit"));
   EXPECT_THAT(error_of(igor_image_file(3, 2, {"HeightTrace", "B"}, std::nan(""), "", layers())),
-              HasSubstr("no scan's"));
+              HasSubstr("not that of a scan"));
 }
 
 // ---- JPK ----
@@ -345,7 +345,7 @@ TEST(JpkImage, IsRefusedWhereItIsDamaged) {
               HasSubstr("no linear calibration \"absent\""));
   EXPECT_THAT(error_of(jpk_image_file(3e-6, 2e-6, {jpk_channel("h", false, 4, 2, kSlots, "volts", 16, kRaw)})),
               HasSubstr("do not fill it"));
-  EXPECT_THAT(error_of(jpk_image_file(std::nan(""), 2e-6, {channel})), HasSubstr("no scan's"));
+  EXPECT_THAT(error_of(jpk_image_file(std::nan(""), 2e-6, {channel})), HasSubstr("not that of a scan"));
   TiffPage packed = channel;
   packed.number(0x0103, 3, 5);
   EXPECT_THAT(error_of(jpk_image_file(3e-6, 2e-6, {packed})), HasSubstr("compressed"));

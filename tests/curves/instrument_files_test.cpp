@@ -274,9 +274,10 @@ TEST(IgorFile, RefusesOtherVersionsDamageAndEveryCut) {
   EXPECT_THAT(error_of(damaged), HasSubstr("the checksum of its header is wrong"));
   EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(132, 1 << 30).bytes()), HasSubstr("cut short"));
   EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(12, -1).bytes()), HasSubstr("negative"));
-  EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(140, 7).bytes()), HasSubstr("no table of channels"));
+  EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(140, 7).bytes()), HasSubstr("not a table of channels"));
   EXPECT_THAT(error_of(igor_cycle().put<std::int16_t>(80, 16).bytes()), HasSubstr("neither 32-bit nor 64-bit"));
-  EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(40, 0).bytes()), HasSubstr("no table of channels with labels"));
+  EXPECT_THAT(error_of(igor_cycle().put<std::int32_t>(40, 0).bytes()),
+              HasSubstr("not a table of channels with labels"));
 }
 
 }  // namespace instrument_files_test

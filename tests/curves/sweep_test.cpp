@@ -53,13 +53,13 @@ TEST(SweepAxis, RefusesWhatIsNone) {
   EXPECT_THAT(refusal("tip-radius"), HasSubstr("write key=from:to:count"));
   EXPECT_THAT(refusal("tip-radius=1nm:2nm"), HasSubstr("write key=from:to:count"));
   EXPECT_THAT(refusal("tip-radius=1nm:2nm:3:cubic"), HasSubstr("write key=from:to:count"));
-  EXPECT_THAT(refusal("colour=1nm:2nm:3"), HasSubstr("\"colour\" is no number of the model dmt; it has tip-radius"));
-  EXPECT_THAT(refusal("resonance=1kHz:2kHz:3"), HasSubstr("is no number of the model dmt"));
+  EXPECT_THAT(refusal("colour=1nm:2nm:3"), HasSubstr("\"colour\" is not a number of the model dmt; it has tip-radius"));
+  EXPECT_THAT(refusal("resonance=1kHz:2kHz:3"), HasSubstr("is not a number of the model dmt"));
   EXPECT_THAT(refusal("tip-radius=1:2:3"), HasSubstr("it has no unit"));
-  EXPECT_THAT(refusal("tip-radius=1nm:2nm:1"), HasSubstr("no whole number within 2 to 1000000"));
-  EXPECT_THAT(refusal("tip-radius=1nm:2nm:1e3"), HasSubstr("no whole number"));
-  EXPECT_THAT(refusal("tip-radius=1nm:2nm:1000000000"), HasSubstr("no whole number within 2 to 1000000"));
-  EXPECT_THAT(refusal("tip-radius=1nm:2nm:99999999999999999999"), HasSubstr("no whole number"));
+  EXPECT_THAT(refusal("tip-radius=1nm:2nm:1"), HasSubstr("not a whole number from 2 to 1000000"));
+  EXPECT_THAT(refusal("tip-radius=1nm:2nm:1e3"), HasSubstr("not a whole number"));
+  EXPECT_THAT(refusal("tip-radius=1nm:2nm:1000000000"), HasSubstr("not a whole number from 2 to 1000000"));
+  EXPECT_THAT(refusal("tip-radius=1nm:2nm:99999999999999999999"), HasSubstr("not a whole number"));
   EXPECT_THAT(refusal("tip-radius=-1nm:2nm:5:log"), HasSubstr("two positive ends"));
   EXPECT_THAT(refusal("sample-stiffness=1N/m:inf N/m:5"), HasSubstr("must be finite"));
 }

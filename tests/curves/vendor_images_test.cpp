@@ -78,7 +78,7 @@ TEST(ParkImage, IsRefusedWhereItIsDamaged) {
   EXPECT_THAT(error_of(park_image_file({.columns = 1}, kNumbers)), HasSubstr("points on a side: 1"));
   EXPECT_THAT(error_of(park_image_file({.number_type = 3}, kNumbers)), HasSubstr("its numbers are of type 3"));
   EXPECT_THAT(error_of(park_image_file({.gain = 0}, kNumbers)), HasSubstr("no calibration"));
-  EXPECT_THAT(error_of(park_image_file({.width_um = std::nan("")}, kNumbers)), HasSubstr("no scan's"));
+  EXPECT_THAT(error_of(park_image_file({.width_um = std::nan("")}, kNumbers)), HasSubstr("not that of a scan"));
   TiffPage photo;
   photo.number(0x0100, 4, 2);
   std::string file("MM\0*\0\0\0\x08", 8);

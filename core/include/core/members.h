@@ -10,7 +10,7 @@
 // can lack one.
 namespace afm::core {
 
-// Stands for a member of any type.
+// Placeholder for a member of any type.
 struct AnyMember {
   template <class Member>
   constexpr operator Member() const {  // NOLINT(google-explicit-constructor): an initializer is converted implicitly

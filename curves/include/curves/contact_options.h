@@ -23,7 +23,7 @@ struct ContactOptions {
   std::map<std::string, std::string, std::less<>> values;  // as typed; keyed by the option's name without dashes
   std::map<std::string, double, std::less<>> si_values;    // the same in SI, from a program; a key is in one of the two
   bool exact_sphere = false;
-  bool driven = false;  // a drive swings the lever (ModelName)
+  bool driven = false;  // lever with a drive (ModelName)
 };
 
 // Loads the built-in and the user's materials. A user's material replaces a built-in one of the same name.

@@ -6,7 +6,7 @@
 
 namespace afm::curves {
 
-// Figures of moduli that a few wrong ones hardly move, and the mean of a log-normal sample.
+// Statistics of moduli that a few outliers hardly change, and the mean of a log-normal sample.
 struct ModulusFigures {
   double median_pa = 0;
   double deviation_pa = 0;  // 1.4826 times the median distance from the median; a normal sample's standard deviation

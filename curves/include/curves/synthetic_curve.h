@@ -17,7 +17,7 @@
 // bytes on every machine with the same mathematical library. Any thread; allocates.
 namespace afm::curves {
 
-// Curves of one file, and their truth: JSON in SI with the unit in each key. The curves themselves do not have it.
+// Curves of one file, and their truth: JSON in SI with the unit in each key. The curves do not contain the truth.
 struct SyntheticFile {
   std::vector<RecordedCurve> curves;
   std::string truth;

@@ -73,7 +73,7 @@ void read_data(std::string_view bytes, IgorWave& wave) {
   if (!looks_like_igor_image(bytes)) wave.layers = 0;
   if (is_matrix(bytes)) wave.layers = 1;
   if (wave.rows == 0 || wave.columns == 0) {
-    throw CurveError("its wave is no table of channels with labels: it has one dimension");
+    throw CurveError("its wave is not a table of channels with labels: it has one dimension");
   }
   switch (number_at<std::int16_t>(bytes, kDataType, wave.order)) {
     case 2:

@@ -211,7 +211,7 @@ core::Result<TableColumns> parse_table_columns(std::string_view text) {
                                   [&](const ColumnRow& known) { return known.name == name; });
     if (row == kColumnRows.end()) {
       return core::wrong_usage(fmt::format(
-          "--columns: \"{}\" is no column; write NAME:UNIT for each, with a name of {}", word, known_columns()));
+          "--columns: \"{}\" is not a column; write NAME:UNIT for each, with a name of {}", word, known_columns()));
     }
     const bool reversed = unit.starts_with('-');
     auto column = column_of(*row, unit.substr(reversed ? 1 : 0));

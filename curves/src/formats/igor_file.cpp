@@ -179,7 +179,7 @@ void split_by(const std::vector<Section>& sections, const std::vector<std::size_
 
 RecordedCurve read_igor(std::string_view bytes, const CurveReading& reading) {
   if (looks_like_igor_image(bytes))
-    throw CurveError("its wave is no table of channels with labels: it is an image or a volume");
+    throw CurveError("its wave is not a table of channels with labels: it is an image or a volume");
   const IgorWave wave = read_igor_wave(bytes);
   check_curve_trailer(wave.trailer);
   if (wave.rows > kMostCurvePoints) throw CurveError("it has more points than a curve may have");

@@ -23,7 +23,7 @@ double image_length_m(double length, const ScaledUnit& unit) {
   const double length_m = std::abs(length * unit.factor);
   if (!(length_m > 0.0 && length_m <= kLongestSideM)) {
     throw CurveError(
-        fmt::format("its side of {:g} m is no scan's: up to {:g} m is read; set its size in the program "
+        fmt::format("its side of {:g} m is not that of a scan: up to {:g} m is read; set its size in the program "
                     "that wrote it",
                     length * unit.factor, kLongestSideM));
   }

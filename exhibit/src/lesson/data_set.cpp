@@ -169,7 +169,7 @@ core::Result<std::int64_t> started_day(const std::string& folder, std::optional<
     if (!text) return tl::unexpected(text.error());
     ordered_json old = ordered_json::parse(*text, nullptr, false);
     if (!old.is_object()) {
-      return core::failure(core::ErrorCategory::BadInputFile, path + ": is no JSON object; restore or delete it");
+      return core::failure(core::ErrorCategory::BadInputFile, path + ": is not a JSON object; restore or delete it");
     }
     changed = describe_anew(json, old);
     json = std::move(old);

@@ -38,16 +38,15 @@ constexpr std::array kEventTexts{
     ColumnText{"trial", "number of the trial within its step, from 1", nullptr},
     ColumnText{"level", "w of a threshold's trial: the stronger F_ad is 1 + w times the weaker one", nullptr},
     ColumnText{"stimulus",
-               "identify: material shown, or state of the swing; threshold: cycle that let go harder; question: item; "
-               "push: what ended it "
-               "(moved, target, pattern, lost)",
+               "identify: material shown, or state of the swing; threshold: cycle that needed more force to let go; "
+               "question: item; push: what ended it (moved, target, pattern, lost)",
                nullptr},
     ColumnText{"response",
                "identify: material or state answered; threshold: cycle answered; question: number answered (paper 0 to "
                "4, sus 1 "
                "to 5, tlx 0 to 100, ssq 0 to 3); draw: share of right parts; cycle: F_ad in N; push: in m, for target "
                "and pattern the root mean square "
-               "distance from the targets, for moved and lost the way of the particle from its start",
+               "distance from the targets; for moved and lost, of the particle from its start",
                nullptr},
     ColumnText{"correct", "whether the answer is right", nullptr, {{{"0", "wrong"}, {"1", "right"}}}},
     ColumnText{"rt", "time from the question to the answer; push: from the first push to the last lift of the tip",

@@ -52,8 +52,8 @@ physics::EventKind kind_of_jump(physics::EventKind kind, bool taps) {
 
 core::Error bad_participant(std::string_view text) {
   return {core::ErrorCategory::WrongUsage,
-          fmt::format("sim:{} is no simulated participant; write sim:SEED, where SEED is a whole number, or sim:SEED "
-                      "with d-prime=0 to 10, weber=0.001 to 10, bias=-10 to 10 behind it, each after a comma",
+          fmt::format("sim:{} is not a simulated participant; write sim:SEED, where SEED is a whole number, "
+                      "or sim:SEED followed by d-prime=0 to 10, weber=0.001 to 10, bias=-10 to 10, each after a comma",
                       text)};
 }
 

@@ -26,7 +26,7 @@ namespace afm::haptics {
 // The map's coordinates are smooth surfaces of their own, continuous with their slopes. Where they rise steeply, the
 // hand feels a force sideways. Along the normal a map has kShareAlong of the largest force on the device; on each scale
 // the surfaces are smoothed (haptics/sample_surface.h) until the force sideways is at most kShareSideways of it for
-// each coordinate, so that both together need no clamp, which would cost energy on one way and not on another; and
+// each coordinate, so that both together need no clamp, which would cost energy on one path and not on another; and
 // until each of the three parts of the stiffness that a coordinate adds, by the bend of its surface, by the bend of the
 // energy between the laws, and by the change of the force along the normal, is at most kShareOfStiffness of what the
 // device renders. Beyond the edge the values of the edge merge into one.

@@ -14,11 +14,11 @@ namespace afm::haptics {
 // Scale on which a hand pushes particles, the same along the sample and upwards.
 //
 // The median particle has SharedPusher::diameter_in_hand_m, or less, so that all of them lie within kFieldShare of the
-// workspace. A hand bears kMaxStiffnessNPerM of a lever: a stiffer one is drawn softer, and the figures say how many
-// times. The particle gives at threshold_on_hand_n, or less, so that the lever bends by at most kMostBend of the
-// distance of tip and particle before it gives: a force F at the distance r pushes a tip aside like a spring of -F/r,
-// and bent further, lever and grip, each of some 200 N/m, let it slip round the particle. At a flat island it bends so
-// little that the tip climbs at most as much of the rim.
+// workspace. A lever stiffer than kMaxStiffnessNPerM is felt softer, and the figures give the factor. The particle
+// gives at threshold_on_hand_n, or less, so that the lever bends by at most kMostBend of the distance of tip and
+// particle before it gives: a force F at the distance r pushes a tip aside like a spring of -F/r, and bent further,
+// lever and grip, each of some 200 N/m, let it slip round the particle. At a flat island it bends so little that the
+// tip climbs at most as much of the rim.
 struct ParticleScale {
   static constexpr double kMaxStiffnessNPerM = 200.0;
   static constexpr double kFieldShare = 0.6;

@@ -27,8 +27,8 @@ namespace afm::haptics {
 // motion pays for the difference. That difference is known in every tick, before anything could corrupt it. Its amount
 // along the path is granted, and a tick in which the branch changes does not count.
 //
-// The controller adds the damping that would pay back the excess within a tick, kMostDampingNSPerM at most. Beyond
-// kLimitJ that was not sufficient, and the force must be removed.
+// The controller adds the damping that dissipates the excess within a tick, at most kMostDampingNSPerM. An excess
+// beyond kLimitJ shows that this was not enough, and the force must be removed.
 class PassivityObserver {
  public:
   static constexpr double kToleranceJ = 5e-6;  // above the interpolation error of U

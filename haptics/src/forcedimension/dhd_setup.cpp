@@ -84,7 +84,8 @@ core::Result<DhdId> take_device(const DhdFunctions& functions, const std::string
                          count < 0 ? fmt::format("the library cannot look for devices: {}",
                                                  error_text(functions, functions.get_last_error()))
                                    : "no device is connected, or permission is denied; switch it on, or install "
-                                     "assets/haptics/70-touchafm-haptics.rules and plug it in again");
+                                     "70-touchafm-haptics.rules (in assets/haptics; in a bundle: "
+                                     "lib/udev/rules.d) and plug it in again");
   }
 
   std::string refusals;

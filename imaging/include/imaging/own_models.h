@@ -8,7 +8,7 @@
 
 namespace afm::imaging {
 
-// Models of one's own instead of those of the assets (docs/gltf.md, "Roles"), at rest. Each part becomes one node, so
+// A user's own models instead of those of the assets (docs/gltf.md, "Roles"), at rest. Each part becomes one node, so
 // that the servo's block has room whatever the number of nodes in the file. The error names the file and the part that
 // it lacks.
 

@@ -40,7 +40,7 @@ class Listener {
   core::FileDescriptor socket_;
 };
 
-// A way in, with its protocol; both outlive serve().
+// An entrance for clients, with its protocol; both outlive serve().
 struct OpenDoor {
   const Listener* listener;
   Door* door;

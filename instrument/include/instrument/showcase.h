@@ -33,9 +33,9 @@ struct Shown {
   std::vector<physics::ScanLine> lines;  // lines of the newest image, not yet shown
 };
 
-// Carries the newest state from the instrument's thread to a window's. Whatever is not looked at in time is replaced by
-// what follows, so that it holds one curve and the lines of one image at most, and nobody waits for longer than the
-// other's copy of a few pointers.
+// Carries the newest state from the instrument's thread to a window's. State that the window does not fetch in time is
+// replaced by newer state, so the showcase holds at most one curve and the lines of one image. Neither thread waits
+// longer than the other takes to copy a few pointers.
 class Showcase {
  public:
   // By the instrument's thread.

@@ -26,7 +26,7 @@ class Showcase;
 // results, bit for bit. Lengths in m of the sample's frame, z away from it; time in s. One thread; allocates.
 class SimulatedInstrument {
  public:
-  // Fails as curves::contact_setup() and imaging::scan_surface(). `sample`: instead of the one drawn for the material.
+  // Fails as curves::contact_setup() and imaging::scan_surface(). `sample` replaces the one drawn for the material.
   static core::Result<SimulatedInstrument> create(std::string assets_dir, std::uint64_t seed,
                                                   imaging::OwnSample sample = {});
 
@@ -63,8 +63,9 @@ class SimulatedInstrument {
   };
   static constexpr std::size_t kMostCurvePoints = 100'000;
 
-  // A curve where the tip is; it is engaged or withdrawn again afterwards. `shown_n` is what the detector shows. Fails
-  // as curves::run_curve(), and if the tip would wear beyond what its law allows; then nothing has changed.
+  // A curve where the tip is; afterwards the tip is engaged or withdrawn as before. `shown_n` is what the
+  // detector shows. Fails as curves::run_curve(), and if the tip would wear beyond what its law allows; then nothing
+  // has changed.
   struct Curve {
     curves::CurveRun run;
     std::vector<double> shown_n;

@@ -37,7 +37,7 @@ CurveSummary summarise(std::span<const CurveSample> samples);
 std::vector<CurvePoint> points_of(std::span<const CurveSample> samples);
 
 // Interference of the laser's light at lever and sample: a wave along Z with this period, as a sum of a sine and a
-// cosine of the way from the outermost point.
+// cosine of the distance from the outermost point.
 struct Waves {
   Length period;  // zero: none
   Force sine, cosine;

@@ -3,7 +3,7 @@
 
 #include <array>
 
-// Friction that is uniform along the line on which a rod rests (docs/physics.md, "Rods").
+// Friction that is uniform along the line on which a rod rests (docs/manipulation.md, "Rods").
 namespace afm::physics {
 
 // Motion of a rod, or the forces that do work on it, in its frame: along its axis, across it, and the motion of its

@@ -36,7 +36,7 @@ void read_sweep(const TomlTable& table, const physics::LeverBase& from, HandMove
   move.sweep_width = within(table, "sweep_width", physics::kLengthUnits, kLeastSweep, kWidestPlace);
   move.line_spacing = within(table, "line_spacing", physics::kLengthUnits, kLeastSweep, kWidestPlace);
   const double lines = lines_of(from, move);
-  if (!(lines > 0.0)) table.refuse("sweep_width", "a sweep goes across its way, and this move stays where it is");
+  if (!(lines > 0.0)) table.refuse("sweep_width", "a sweep goes across its path, and this move stays where it is");
   if (lines > kMostLines) {
     table.refuse("line_spacing", fmt::format("the sweep has {:.0f} lines, {:.0f} at most", lines, kMostLines));
   }

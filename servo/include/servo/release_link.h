@@ -23,7 +23,7 @@ class ReleaseLink {
   // A new renderer takes the place of one that died: it also gets the newest path.
   void set_renderer(int socket) noexcept;
 
-  // Announces that the servo ticks no more, and closes its device within kWatchdogCloseMs.
+  // Announces that the servo no longer ticks, and closes its device within kWatchdogCloseMs.
   void expect_end() noexcept;
 
  private:

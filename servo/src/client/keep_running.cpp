@@ -217,7 +217,7 @@ core::Result<KeptBeat> KeptBeat::at(int descriptor) {
   struct stat kind{};
   if (::fstat(descriptor, &kind) != 0 || !S_ISSOCK(kind.st_mode)) {
     return core::wrong_usage(
-        fmt::format("--kept: descriptor {} is no socket; this option is for view --kiosk alone", descriptor));
+        fmt::format("--kept: descriptor {} is not a socket; this option is for view --kiosk alone", descriptor));
   }
   ::fcntl(descriptor, F_SETFD, FD_CLOEXEC);  // not for the programs that this one starts
   return KeptBeat(core::FileDescriptor(descriptor));

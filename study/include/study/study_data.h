@@ -45,7 +45,7 @@ struct StudyTrial {
 // A last line without a line end is dropped, because a killed program wrote it.
 struct EventsFile {
   std::vector<StudyTrial> trials;
-  std::size_t cut_line = 0;  // number of that line; 0: none
+  std::size_t cut_line = 0;  // number of the dropped line; 0: none
 };
 
 // `name` is the file's name in errors. BadInputFile for an unknown, missing or repeated column, a wrong number of

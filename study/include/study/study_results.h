@@ -28,7 +28,7 @@ struct IdentifyResult {
   double chance = kNoValue;             // 1 divided by the number of materials
   TestResult against_chance;            // exact binomial
   std::optional<SmallestCount> needed;  // number of right answers that is improbable by chance
-  Estimate d_prime;                     // as of an unbiased choice among the materials
+  Estimate d_prime;                     // d' of an unbiased choice among the materials
   struct Material {
     YesNo plain, corrected;  // one against all others, with unchanged and log-linear rates
   };

@@ -87,7 +87,8 @@ TEST(AnalyseCommand, RefusesABaselineThatIsNone) {
   expect_refusal(run_touchafm("analyse x.tab --baseline wavy"), 2,
                  "\"wavy\" is not a baseline; choose tilted, flat, waves");
   for (const char* range : {"1um", "2um:1um", "-1um:1um", "0:1um", ":", "1um:"}) {
-    expect_refusal(run_touchafm(std::string("analyse x.tab --baseline-range ") + range), 2, "is no range of ways");
+    expect_refusal(run_touchafm(std::string("analyse x.tab --baseline-range ") + range), 2,
+                   "is not a range of distances");
   }
   expect_refusal(run_touchafm("analyse " + data("bom.tab") + " --baseline-range 1mm:2mm"), 3,
                  "the range of the baseline has 0 points of the approach");

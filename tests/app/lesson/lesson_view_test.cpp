@@ -174,7 +174,7 @@ TEST_F(LessonView, LaysTheVariantsOfAThresholdAndHidesWhatABlindStepAsksFor) {
   key("1");
   ASSERT_TRUE(view.says("First cycle.")) << view.said();
   ASSERT_TRUE(view.says("Second cycle.", std::chrono::minutes(2))) << view.said();
-  ASSERT_TRUE(view.says("Which cycle let go harder?", std::chrono::minutes(2))) << view.said();
+  ASSERT_TRUE(view.says("Which cycle needed more force to let go?", std::chrono::minutes(2))) << view.said();
   // one of both is half as strong again
   EXPECT_THAT(view.said(), HasSubstr("pull 0.9001 nN"));
   EXPECT_THAT(view.said(), HasSubstr("pull 0.6000 nN"));

@@ -23,7 +23,7 @@ struct DrivenSample {
   physics::Viscosity viscosity;  // viscosity under the tip
 };
 
-// For the setup of driven_setup(). WrongUsage, naming the option, for a number that is none or not possible.
+// For the setup of driven_setup(). WrongUsage, naming the option, for a value that is no number or impossible.
 core::Result<DrivenSample> driven_sample(const ContactSetup& setup, const TappingOptions& options);
 
 // One resting swing at a height.

@@ -33,8 +33,8 @@ struct LanguageRow {
 };
 inline constexpr std::array kLanguages{LanguageRow{"en", "English"}, LanguageRow{"de", "German"}};
 
-// Language of the first set one of the values of LC_ALL, LC_MESSAGES and LANG: "de" for "de_AT.UTF-8"; "en" if the
-// assets lack it.
+// Language of the first value that is set, of LC_ALL, LC_MESSAGES and LANG: "de" for "de_AT.UTF-8"; "en" if the assets
+// lack it.
 std::string language_of_locale(std::span<const std::string> values);
 
 // Largest enlargement for which panels have room.

@@ -70,8 +70,8 @@ struct Stage {
 // A force map is read whole: that of a large one takes minutes, with progress in the log; Failed if it is interrupted.
 core::Result<Stage> load_exhibit(const ExhibitFiles& files);
 
-// The samples of the stage as the servo needs them, with the surfaces that the stage draws; where `tapping` has that
-// mode, under its lever and without friction.
+// The samples of the stage as the servo needs them, with the surfaces that the stage draws; in tapping mode under the
+// lever of `tapping` and without friction.
 core::Result<std::vector<curves::SampleModel>> felt_samples(const Stage& stage, physics::FrictionLaw friction,
                                                             const curves::TappedHand* tapping = nullptr);
 

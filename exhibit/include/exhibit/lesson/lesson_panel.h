@@ -23,7 +23,7 @@ struct LessonTarget {
   bool marked = false;
 };
 
-// Up to as many answers as keys 1 to 9 are numbered; more are a scale.
+// Largest number of answers that are numbered, for keys 1 to 9; more of them form a scale.
 inline constexpr std::size_t kMostNumberedAnswers = 9;
 
 bool is_scale(const LessonPrompt& prompt);

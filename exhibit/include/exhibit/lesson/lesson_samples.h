@@ -12,7 +12,7 @@
 
 namespace afm::exhibit {
 
-// The contact of one of the lesson's materials, below the lesson's lever if that taps. Fails as
+// The contact of one of the lesson's materials, under the lesson's tapping lever if it has one. Fails as
 // curves::tapped_setup(), as an error of the file.
 core::Result<curves::ContactSetup> lesson_setup(const Lesson& lesson, const scene::MaterialEntry& entry);
 

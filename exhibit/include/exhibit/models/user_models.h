@@ -23,7 +23,7 @@ struct UserModels {
   std::optional<scene::Scene> probe;          // nodes "cantilever" > "tip" > "apex", as in the assets' probe.glb
   std::optional<scene::Scene> sample;         // node "surface", as in the assets' sample-*.glb
   std::optional<TopographyModel> topography;  // an instrument's topography instead of a sample
-  std::shared_ptr<const scene::ParticleSet> particles;  // on a level sample instead of one; may be null
+  std::shared_ptr<const scene::ParticleSet> particles;  // particles on a level sample; may be null
 };
 
 // An empty name means no model. The first bytes of the sample's file decide whether it is an image. The error names the

@@ -40,7 +40,7 @@ class StageParticles {
   void place(const ParticlesNow* now, double layout_per_m, const glm::dvec3& apex,
              std::vector<glm::dmat4>& local) const;
 
-  // The copies, at their start places where `now` is null or does not know better.
+  // The copies; those whose place `now` lacks, or all if it is null, at their start.
   void add_copies(const ParticlesNow* now, double layout_per_m, render::FrameState& frame) const;
 
   // All but the ring.

@@ -24,7 +24,7 @@ inline constexpr double kSampleTiltRad = 0.26;    // towards the viewer, to make
 inline constexpr double kLeverAzimuthRad = 0.42;  // direction of the lever: from behind, a little from the left
 inline constexpr double kLeverDrawnLength = 1.25;
 inline constexpr double kLeverDrawnThickness = 0.0125;
-inline constexpr double kStageDrawnWidth = 1.44;  // in front of the wall it reaches to the panels on both sides
+inline constexpr double kStageDrawnWidth = 1.44;  // from one side's panels to the other's, in front of the wall
 inline constexpr double kLeastBodyDepth = 0.2;    // share of the whole depth of the body below the plate
 inline constexpr double kLeastBody = 0.08;        // height of the stage's plate above the floor, at least
 // The light is always on the upper side of the lever, however it bends; both are visible below the banner.

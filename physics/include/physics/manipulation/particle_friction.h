@@ -11,8 +11,8 @@
 #include "physics/rows_of_enum.h"
 #include "physics/units.h"
 
-// Force at which a sphere on the sample starts to move, and whether it then slides or rolls (docs/physics.md,
-// "Particles"). The contact of sphere and sample is that of JKR. Any thread; nothing allocates unless it throws.
+// Force at which a sphere on the sample starts to move, and whether it then slides or rolls (docs/manipulation.md). The
+// contact of sphere and sample is that of JKR. Any thread; nothing allocates unless it throws.
 namespace afm::physics {
 
 // One kind of sphere, rod or flat island on one sample. A parameter that the law does not use may be zero; rods and

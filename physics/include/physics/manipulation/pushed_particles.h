@@ -16,7 +16,7 @@
 #include "physics/units.h"
 
 // Spheres, rods and flat islands on a flat sample, pushed by the tip of a lever: quasi-static, without mass or velocity
-// (docs/physics.md, "Particles" and "Rods"; docs/decisions/0019, 0022).
+// (docs/manipulation.md; docs/decisions/0019, 0022).
 namespace afm::physics {
 
 // A flat rectangle of the sample along x and y that holds spheres by another work of adhesion than the rest of it. A

@@ -4,7 +4,7 @@
 #include "physics/units.h"
 
 // A rod on a flat sample, pushed across its axis at a place off its middle. Its friction q is the same everywhere along
-// its length (docs/physics.md, "Rods"; equation numbers (M...)). Any thread.
+// its length (docs/manipulation.md, "Rods"; equation numbers (M...)). Any thread.
 namespace afm::physics {
 
 // d = sqrt(s^2 + L^2/4) - |s| (M19): distance from the middle to the point about which the rod turns, on the other side

@@ -3,7 +3,7 @@
 
 #include "physics/units.h"
 
-// Contact of a tip with a sphere that lies on the sample (docs/physics.md, "Particles"; equation numbers (M...)). Any
+// Contact of a tip with a sphere that lies on the sample (docs/manipulation.md; equation numbers (M...)). Any
 // thread.
 namespace afm::physics {
 

@@ -44,7 +44,7 @@ class AveragedFlow {
   // One step of the midpoint rule over the angle w0 dt with the base at `z`; keep it below 0.1 * 2Q.
   void step(TapState& state, Length z, double angle) noexcept;
 
-  // The step of step() that is a tenth of the relaxation.
+  // Longest angle for step(): a tenth of the relaxation, 2Q.
   double longest_step() const noexcept { return 0.2 * lever_.quality_factor; }
 
   // Follows a swing until it rests at `z`: on its branch, or where the flow leads if the branch has ended. If it does

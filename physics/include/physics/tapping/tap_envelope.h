@@ -48,7 +48,7 @@ class TapEnvelope {
   double peak_force_n() const noexcept { return contact_.peak; }  // at the lowest point of the swing
   double mean_force_n() const noexcept { return contact_.mean; }  // force of the sample on the tip, over a swing
 
-  // Sine of the phase's excess over that of the free lever: positive where the sample attracts on balance.
+  // Sine of the phase's excess over that of the free lever: positive where the sample attracts on average.
   double attraction() const noexcept;
 
   const DrivenLever& lever() const noexcept { return *lever_; }

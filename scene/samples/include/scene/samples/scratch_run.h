@@ -49,7 +49,7 @@ struct ScratchRun {
   double seconds = 0.0;
   std::size_t ticks = 0, lagging = 0;
   double least_margin_j = 0.0;         // least certificate of all ticks
-  std::vector<ScratchSample> samples;  // evenly in time, with the last
+  std::vector<ScratchSample> samples;  // evenly spaced in time, including the last
   std::vector<ScratchedMove> moves;
   physics::ScanImage image;  // heights at the end, when the tip has left; one channel
 };

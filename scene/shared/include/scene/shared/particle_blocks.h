@@ -13,7 +13,7 @@
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/name.h"
 
-// Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/physics.md, "Particles"). Places
+// Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/manipulation.md). Places
 // are in the sample's frame, in metres of the nanoworld; the particles rest on its plane z = 0.
 namespace afm::physics {
 struct HalfTurn;
@@ -174,7 +174,7 @@ struct SharedParticles {
   // for rods only; sessions store them separately, so that those without rods are unchanged
   std::array<double, kMaxSpecies> length_m{};     // length of a species' axis; 0: spheres
   std::array<double, kMaxParticles> angle_rad{};  // angle of a rod's axis from x
-  // sessions keep them apart, too
+  // stored separately in sessions, too
   std::array<SharedPad, physics::kMostStickyPads> pads{};
   std::array<double, kMaxSpecies> island_radius_m{};  // R of a species of flat islands; 0: none
   SharedLevel level{};
