@@ -26,6 +26,7 @@
 #include "app/options/standard_output.h"
 #include "core/file_kind.h"
 #include "core/whole_file.h"
+#include "core/written_by.h"
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
 #include "curves/image_file.h"
@@ -248,16 +249,14 @@ core::Result<void> analyse_session(const AnalyseOptions& options) {
   }
   using namespace physics;
   if (options.json) {
-    return write_stdout(nlohmann::json{{"material", session->material},
-                                       {"friction", text_of(session->parameters.friction.law).word},
-                                       {"half_width_N", loop->half_width.si},
-                                       {"offset_N", loop->offset.si},
-                                       {"slope_N_per_m", loop->slope.si},
-                                       {"dissipated_J", loop->dissipated.si}}
-                            .dump(2) +
-                        "\n");
+    nlohmann::json report{
+        {"material", session->material},       {"friction", text_of(session->parameters.friction.law).word},
+        {"half_width_N", loop->half_width.si}, {"offset_N", loop->offset.si},
+        {"slope_N_per_m", loop->slope.si},     {"dissipated_J", loop->dissipated.si}};
+    core::name_software(report);
+    return write_stdout(report.dump(2) + "\n");
   }
-  return write_stdout(fmt::format(
+  return write_report(fmt::format(
       "{}, friction {}: the last complete loop\n"
       "  half width            {}\n"
       "  offset                {}\n"
@@ -296,7 +295,7 @@ core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
     if (const auto written = core::write_file(options.out, curves::svg(plot)); !written) return written;
   }
   if (!options.json) {
-    return write_stdout(curves::features_text(*measured, compared) + (fit ? fit_text(*fit, options.fit) : ""));
+    return write_report(curves::features_text(*measured, compared) + (fit ? fit_text(*fit, options.fit) : ""));
   }
   nlohmann::ordered_json result = curves::features_json(*measured, compared);
   if (fit) result["fit"] = fit_json(*fit, options.fit);

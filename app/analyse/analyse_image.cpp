@@ -10,8 +10,8 @@ namespace afm::app {
 core::Result<void> analyse_image_file(const std::string& file, const curves::TopographyReading& reading, bool json) {
   const auto topography = curves::load_topography(file, reading);
   if (!topography) return tl::unexpected(topography.error());
-  return write_stdout(json ? curves::topography_json(*topography).dump(2) + "\n"
-                           : curves::topography_text(*topography));
+  return json ? write_stdout(curves::topography_json(*topography).dump(2) + "\n")
+              : write_report(curves::topography_text(*topography));
 }
 
 }  // namespace afm::app

@@ -26,8 +26,8 @@
 #include "core/system_error.h"
 #include "core/whole_file.h"
 #include "core/write_all.h"
+#include "core/written_by.h"
 #include "curves/modulus_statistics.h"
-#include "curves/written_by.h"
 #include "physics/quantity_text.h"
 
 namespace afm::app {
@@ -56,16 +56,36 @@ std::string reasons(const fits::ElasticFit& fit) {
   return text;
 }
 
-// A size that the shape lacks is an empty cell.
-std::string sizes(const curves::FitOptions& options) {
+// Settings of the fit by their columns; a size that the shape lacks is empty.
+std::vector<std::pair<std::string, std::string>> settings_of(const curves::FitOptions& options) {
   const fits::ShapeRow& shape = fits::row_of(*options.shape);
   const auto cell = [](bool has, double value) { return has ? fmt::format("{}", value) : std::string(); };
-  const std::string_view base = shape.is_exact ? fits::kBases.at(static_cast<std::size_t>(options.base)).name : "";
-  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}", shape.name, cell(shape.has_radius, options.radius_m),
-                     cell(!shape.has_radius, options.half_angle_rad), cell(shape.has_layer, options.layer_m), base,
-                     options.poisson, fits::kAgainst.at(static_cast<std::size_t>(options.against)).name,
-                     options.white ? "yes" : "no", cell(std::isfinite(options.most_force_n), options.most_force_n),
-                     cell(std::isfinite(options.most_depth_m), options.most_depth_m));
+  const auto name = [](std::string_view word) { return std::string(word); };
+  return {{"shape", name(shape.name)},
+          {"radius_m", cell(shape.has_radius, options.radius_m)},
+          {"half_angle_rad", cell(!shape.has_radius, options.half_angle_rad)},
+          {"layer_m", cell(shape.has_layer, options.layer_m)},
+          {"base", shape.is_exact ? name(fits::kBases.at(static_cast<std::size_t>(options.base)).name) : ""},
+          {"poisson_ratio", fmt::format("{}", options.poisson)},
+          {"against", name(fits::kAgainst.at(static_cast<std::size_t>(options.against)).name)},
+          {"white_noise", options.white ? "yes" : "no"},
+          {"most_force_N", cell(std::isfinite(options.most_force_n), options.most_force_n)},
+          {"most_depth_m", cell(std::isfinite(options.most_depth_m), options.most_depth_m)}};
+}
+
+std::string sizes(const curves::FitOptions& options) {
+  std::string cells;
+  for (const auto& [column, value] : settings_of(options)) cells += (cells.empty() ? "" : "\t") + value;
+  return cells;
+}
+
+// What the maps of a file say of their fit.
+FitMaps::Texts map_texts(const curves::FitOptions& options) {
+  FitMaps::Texts texts{{"Law", std::string(fits::row_of(*options.shape).meaning)}};
+  for (const auto& [column, value] : settings_of(options)) {
+    if (!value.empty()) texts.emplace_back(column, value);
+  }
+  return texts;
 }
 
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); }
@@ -98,9 +118,7 @@ std::string adhesion_cells(const fits::ElasticFit& fit) {
 }
 
 // Publication of the law, and the program.
-std::string origin(fits::Shape shape) {
-  return fmt::format("{}\t{}", fits::row_of(shape).meaning, curves::written_by());
-}
+std::string origin(fits::Shape shape) { return fmt::format("{}\t{}", fits::row_of(shape).meaning, core::written_by()); }
 
 std::string row_of(const std::string& file, std::size_t index, const curves::FittedCurve& fitted,
                    const curves::FitOptions& options) {
@@ -230,14 +248,15 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
       }
       if (index < *count) break;
       pool.forget(whole_files);
-      if (auto written = maps.write(options.out, file); !written && drawn) drawn = std::move(written);
+      if (auto written = maps.write(options.out, file, map_texts(options.fit)); !written && drawn)
+        drawn = std::move(written);
     }
   }
   if (const std::string histograms = summary.histograms(); !histograms.empty()) {
     const std::string picture = (std::filesystem::path(options.out) / kHistograms).string();
     if (auto written = core::write_file(picture, histograms); !written && drawn) drawn = std::move(written);
   }
-  if (const auto printed = write_stdout(summary.text(path)); !printed) return printed;
+  if (const auto printed = write_report(summary.text(path)); !printed) return printed;
   if (whole_files < files.size()) {
     return core::failure(core::ErrorCategory::Failed,
                          fmt::format("interrupted: {} has {} curves, and {} of {} files whole", path, summary.done(),

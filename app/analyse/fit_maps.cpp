@@ -14,8 +14,8 @@
 
 #include "core/log.h"
 #include "core/whole_file.h"
+#include "core/written_by.h"
 #include "curves/image_output.h"
-#include "curves/written_by.h"
 #include "exhibit/scan/image_picture.h"
 #include "physics/imaging/scan_image.h"
 #include "render/image_file.h"
@@ -101,7 +101,7 @@ void FitMaps::add(const curves::FittedCurve& curve) {
 
 bool FitMaps::is_drawn() const { return curves_ > 1 && curves::is_map_of(curves_, *grid_); }
 
-core::Result<void> FitMaps::write(const std::string& folder, const std::string& file) const {
+core::Result<void> FitMaps::write(const std::string& folder, const std::string& file, const Texts& fitted_with) const {
   if (!grid_ || curves_ == 1) return {};
   if (!is_drawn()) {
     core::log_line(fmt::format("{}: no map is drawn of {} curves on a grid of {} x {} pixels", file, curves_,
@@ -131,7 +131,8 @@ core::Result<void> FitMaps::write(const std::string& folder, const std::string& 
       .x_offset_m = grid_->center_x_m - 0.5 * grid_->width_m,
       .y_offset_m = grid_->center_y_m + 0.5 * grid_->height_m,
       .channels = {},
-      .metadata = {{"Source", std::filesystem::path(file).filename().string()}, {"Software", curves::written_by()}}};
+      .metadata = {{"Source", std::filesystem::path(file).filename().string()}, {"Software", core::written_by()}}};
+  image.metadata.insert(image.metadata.end(), fitted_with.begin(), fitted_with.end());
   exhibit::PictureStyle style{.cut_share = 0.01, .hatched = {}};
   for (const Cell& cell : cells_) style.hatched.push_back(cell.trust && *cell.trust != fits::Trust::Trusted);
   std::vector<const MapRow*> shown;
@@ -149,7 +150,8 @@ core::Result<void> FitMaps::write(const std::string& folder, const std::string& 
   if (const auto written = core::write_file(name + ".gwy", curves::gwy_bytes(image)); !written) return written;
   for (std::size_t map = 0; map < shown.size(); ++map) {
     const auto picture = exhibit::picture_of(image, map, shown[map]->striped ? style : exhibit::PictureStyle{});
-    const auto written = render::write_png(picture, fmt::format("{}-{}.png", name, shown[map]->word));
+    const auto written = render::write_png(picture, fmt::format("{}-{}.png", name, shown[map]->word),
+                                           exhibit::picture_texts(image, map));
     if (!written) return written;
   }
   return {};

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/result.h"
@@ -21,6 +22,9 @@ class FitMaps {
     std::optional<fits::Trust> trust;
   };
 
+  // Keys and values of the fit, which picture and image files keep.
+  using Texts = std::vector<std::pair<std::string, std::string>>;
+
   // For a file with so many curves.
   explicit FitMaps(std::size_t curves) : curves_(curves) {}
 
@@ -33,7 +37,7 @@ class FitMaps {
   // not trusted are striped. Nothing without a pixel, of a
   // single curve, or, with a line of the log, of a grid far larger than the number of curves. A name that exists gets a
   // number. Failed names the path and the reason.
-  core::Result<void> write(const std::string& folder, const std::string& file) const;
+  core::Result<void> write(const std::string& folder, const std::string& file, const Texts& fitted_with) const;
 
  private:
   bool is_drawn() const;

@@ -21,7 +21,7 @@
 #include "core/interruption.h"
 #include "core/percentiles.h"
 #include "core/system_error.h"
-#include "core/version.h"
+#include "core/written_by.h"
 
 namespace afm::app {
 
@@ -102,10 +102,11 @@ std::string cluster_table(const ClusterTiming& timing, const ClusterTimingPlan& 
 }
 
 std::string cluster_json(const ClusterTiming& timing, const ClusterTimingPlan& plan) {
-  nlohmann::ordered_json root{{"version", core::kVersion},
-                              {"nodes", plan.nodes},
-                              {"frames", timing.frames},
-                              {"frames_per_s", plan.frames_per_s}};
+  nlohmann::ordered_json root;
+  core::name_software(root);
+  root["nodes"] = plan.nodes;
+  root["frames"] = timing.frames;
+  root["frames_per_s"] = plan.frames_per_s;
   const auto row = [&](const char* key, const std::vector<double>& values_ms) {
     const core::Percentiles p = core::percentiles(values_ms);
     root[key] = {{"p50", 1e-3 * p.p50}, {"p99", 1e-3 * p.p99}, {"max", 1e-3 * p.max}};

@@ -17,7 +17,7 @@
 #include "app/bench/servo_reaction.h"
 #include "app/bench/servo_work.h"
 #include "core/log.h"
-#include "core/version.h"
+#include "core/written_by.h"
 #include "curves/image_file.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
@@ -159,7 +159,8 @@ nlohmann::ordered_json in_seconds(const core::Percentiles& values, double unit_s
 
 std::string json(const Figures& figures, const HapticsBenchOptions& options) {
   constexpr double kMicrosecond = 1e-6, kMillisecond = 1e-3;
-  nlohmann::ordered_json root{{"version", core::kVersion}};
+  nlohmann::ordered_json root;
+  core::name_software(root);
   for (const WorkFigure& each : figures.work) {
     nlohmann::ordered_json& work = root["work"][each.name];
     work = in_seconds(each.us, kMicrosecond);

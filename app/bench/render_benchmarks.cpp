@@ -20,7 +20,7 @@
 #include "app/options/standard_output.h"
 #include "core/clock.h"
 #include "core/log.h"
-#include "core/version.h"
+#include "core/written_by.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "render/context.h"
 #include "render/renderer.h"
@@ -190,8 +190,7 @@ std::string table(const RenderFigures& result, const FirstFrame& first, const Re
 std::string json(const RenderFigures& result, const FirstFrame& first, const RenderBenchOptions& options) {
   constexpr double kMillisecond = 1e-3;
   const WallFigures wall = wall_figures(result);
-  nlohmann::ordered_json root{{"version", core::kVersion},
-                              {"device", result.device},
+  nlohmann::ordered_json root{{"device", result.device},
                               {"samples", options.plan.samples},
                               {"rounds", options.plan.rounds},
                               {"frames", options.plan.frames},
@@ -206,6 +205,7 @@ std::string json(const RenderFigures& result, const FirstFrame& first, const Ren
                               {"bar_first_frame_cold_s", kMillisecond * kFirstFrameBar_ms},
                               {"memory_first_bytes", result.memory_before_bytes},
                               {"memory_end_bytes", result.memory_after_bytes}};
+  core::name_software(root);
   for (const RenderFigure& each : result.figures) {
     nlohmann::ordered_json figure{{"subject", each.subject},
                                   {"way", each.way},

@@ -19,6 +19,7 @@
 #include "core/percentiles.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
+#include "core/written_by.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
@@ -70,21 +71,21 @@ std::string plain(const MachineFacts& facts, const std::vector<Finding>& finding
   for (const Finding& f : findings) {
     if (f.verdict != Verdict::Good) fix += fmt::format("  {}: {}\n", f.check, f.fix);
   }
-  return text + (fix.empty() ? "\nno fixes needed\n" : "\nfixes\n" + fix);
+  return core::with_software_line(text + (fix.empty() ? "\nno fixes needed\n" : "\nfixes\n" + fix));
 }
 
 std::string json(const MachineFacts& facts, const std::vector<Finding>& findings) {
   const SchedulingLatency& jitter = facts.jitter;
   const core::Percentiles late = core::percentiles(jitter.late_us, jitter.max_us);
-  const nlohmann::json root{
-      {"checks", to_json(findings)},
-      {"wake",
-       {{"rate_hz", servo::kServoRateHz},
-        {"policy", jitter.grant.priority > 0 ? "SCHED_FIFO" : "SCHED_OTHER"},
-        {"ticks", jitter.ticks},
-        {"missed", jitter.missed},
-        {"late_us", {{"p50", late.p50}, {"p99", late.p99}, {"p99.9", late.p999}, {"max", late.max}}},
-        {"histogram_us", jitter.late_us}}}};
+  nlohmann::json root{{"checks", to_json(findings)},
+                      {"wake",
+                       {{"rate_hz", servo::kServoRateHz},
+                        {"policy", jitter.grant.priority > 0 ? "SCHED_FIFO" : "SCHED_OTHER"},
+                        {"ticks", jitter.ticks},
+                        {"missed", jitter.missed},
+                        {"late_us", {{"p50", late.p50}, {"p99", late.p99}, {"p99.9", late.p999}, {"max", late.max}}},
+                        {"histogram_us", jitter.late_us}}}};
+  core::name_software(root);
   return root.dump() + "\n";
 }
 
@@ -97,15 +98,15 @@ core::Result<void> examine_servo(const std::string& program, bool as_json) {
   const core::Percentiles late = core::percentiles(servo.wake_us, servo.wake_max_us);
   const bool met = late.p999 < kLabLateness_us && servo.missed == 0;
   if (as_json) {
-    const nlohmann::json root{
-        {"servo",
-         {{"rate_hz", servo.rate_hz},
-          {"policy", servo.policy_fifo != 0 ? "SCHED_FIFO" : "SCHED_OTHER"},
-          {"ticks", servo.ticks},
-          {"missed", servo.missed},
-          {"late_us", {{"p50", late.p50}, {"p99", late.p99}, {"p99.9", late.p999}, {"max", late.max}}},
-          {"histogram_us", servo.wake_us},
-          {"met", met}}}};
+    nlohmann::json root{{"servo",
+                         {{"rate_hz", servo.rate_hz},
+                          {"policy", servo.policy_fifo != 0 ? "SCHED_FIFO" : "SCHED_OTHER"},
+                          {"ticks", servo.ticks},
+                          {"missed", servo.missed},
+                          {"late_us", {{"p50", late.p50}, {"p99", late.p99}, {"p99.9", late.p999}, {"max", late.max}}},
+                          {"histogram_us", servo.wake_us},
+                          {"met", met}}}};
+    core::name_software(root);
     std::fputs((root.dump() + "\n").c_str(), stdout);
   } else {
     std::fputs(

@@ -151,7 +151,7 @@ core::Result<void> print_material(const MaterialOptions& options) {
     }
     const auto list = material_list(options.contact);
     if (!list) return tl::unexpected(list.error());
-    return write_stdout(*list);
+    return write_report(*list);
   }
   const auto setup = contact_setup(options.contact);
   if (!setup) return tl::unexpected(setup.error());
@@ -162,7 +162,7 @@ core::Result<void> print_material(const MaterialOptions& options) {
     if (!map) return tl::unexpected(map.error());
     if (const auto written = core::write_file(options.map, *map); !written) return written;
   }
-  return write_stdout(*text);
+  return write_report(*text);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
 #include "core/whole_file.h"
+#include "core/written_by.h"
 #include "curves/image_output.h"
 #include "exhibit/report/scratch_report.h"
 #include "physics/manipulation/pushed_particles.h"
@@ -128,26 +129,27 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
   nlohmann::json targets = nlohmann::json::array();
   for (const ParticlePlace& target : set.targets) targets.push_back({target.position.x.si, target.position.y.si});
   const auto pattern = scene::pattern_state(set, scene::pattern_of(set), played.judged_places());
-  const nlohmann::json whole{{"title", set.title},
-                             {"medium", set.medium},
-                             {"note", set.note},
-                             {"rate_Hz", options.script.rate.si},
-                             {"seconds", played.seconds},
-                             {"ticks", played.ticks},
-                             {"lagging_ticks", played.lagging},
-                             {"exhausted_ticks", played.ends.back().tick.exhausted},
-                             {"least_certificate_J", played.least_margin_j},
-                             {"sources", exhibit::sources_json(set.sources)},
-                             {"species", species},
-                             {"particles", particles},
-                             {"targets_m", targets},
-                             {"pattern", pattern ? json_of(*pattern, played.judged()) : nlohmann::json()},
-                             {"task", task_json(played.score)},
-                             {"picture", picture_json(options.script, played)},
-                             {"states", list(played.samples)},
-                             {"changes", list(played.changes)},
-                             {"all_changes", !played.more_changes},
-                             {"moves", list(played.ends)}};
+  nlohmann::json whole{{"title", set.title},
+                       {"medium", set.medium},
+                       {"note", set.note},
+                       {"rate_Hz", options.script.rate.si},
+                       {"seconds", played.seconds},
+                       {"ticks", played.ticks},
+                       {"lagging_ticks", played.lagging},
+                       {"exhausted_ticks", played.ends.back().tick.exhausted},
+                       {"least_certificate_J", played.least_margin_j},
+                       {"sources", exhibit::sources_json(set.sources)},
+                       {"species", species},
+                       {"particles", particles},
+                       {"targets_m", targets},
+                       {"pattern", pattern ? json_of(*pattern, played.judged()) : nlohmann::json()},
+                       {"task", task_json(played.score)},
+                       {"picture", picture_json(options.script, played)},
+                       {"states", list(played.samples)},
+                       {"changes", list(played.changes)},
+                       {"all_changes", !played.more_changes},
+                       {"moves", list(played.ends)}};
+  core::name_software(whole);
   return whole.dump() + "\n";
 }
 
@@ -238,8 +240,8 @@ core::Result<void> certified(double least_margin_j, physics::Energy given, const
 core::Result<void> run_scratch(const scene::ParticleSet& set, const ParticlesOptions& options,
                                const std::string& path) {
   const auto run = scene::play_scratch(set, options.script.rate, static_cast<std::size_t>(options.script.samples));
-  auto written =
-      write_stdout((options.json ? exhibit::scratch_json : exhibit::scratch_text)(set, run, options.script.rate));
+  auto written = options.json ? write_stdout(exhibit::scratch_json(set, run, options.script.rate))
+                              : write_report(exhibit::scratch_text(set, run, options.script.rate));
   if (!written) return written;
   if (!options.out.empty()) written = core::write_file(options.out, curves::gwy_bytes(run.image));
   if (!written) return written;
@@ -268,8 +270,8 @@ core::Result<void> run_particles(const ParticlesOptions& options, const std::str
   }
   if (set->soft) return run_scratch(*set, options, *path);
   const scene::ScriptedPush played = scene::play(*set, options.script);
-  auto written =
-      write_stdout(options.json ? particles_json(*set, options, played) : particles_text(*set, options, played));
+  auto written = options.json ? write_stdout(particles_json(*set, options, played))
+                              : write_report(particles_text(*set, options, played));
   if (!written) return written;
   return certified(played.least_margin_j, played.ends.back().tick.given, *path);
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "app/commands/task_figures.h"
 #include "app/options/command.h"
@@ -13,6 +14,7 @@
 #include "core/log.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
+#include "core/written_by.h"
 #include "exhibit/sound/session_sound.h"
 #include "exhibit/state/particle_task.h"
 #include "scene/samples/particle_set.h"
@@ -75,25 +77,25 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
     scored["set"] = task->set;
     scored["from_the_start"] = task->from_the_start;
   }
-  return nlohmann::json{
-             {"material", session.material},
-             {"pixel", pixel_of(session)},
-             {"rate_Hz", session.rate_hz},
-             {"device", session.device.name.data()},
-             {"seconds", seconds(session)},
-             {"complete", session.complete},
-             {"from_s", range.from_s},
-             {"to_s", std::min(range.to_s, seconds(session))},
-             {"ticks", replayed.ticks},
-             {"events", events},
-             {"task", scored},
-             {"identical", replayed.identical()},
-             {"different_ticks", replayed.different_ticks},
-             {"first_difference", json_of(replayed.first)},
-             {"first_different_event", json_of(replayed.first_event)},
-             {"largest_difference", {{"tip_N", replayed.largest_tip_n}, {"hand_N", replayed.largest_hand_n}}}}
-             .dump() +
-         "\n";
+  nlohmann::json report{
+      {"material", session.material},
+      {"pixel", pixel_of(session)},
+      {"rate_Hz", session.rate_hz},
+      {"device", session.device.name.data()},
+      {"seconds", seconds(session)},
+      {"complete", session.complete},
+      {"from_s", range.from_s},
+      {"to_s", std::min(range.to_s, seconds(session))},
+      {"ticks", replayed.ticks},
+      {"events", events},
+      {"task", scored},
+      {"identical", replayed.identical()},
+      {"different_ticks", replayed.different_ticks},
+      {"first_difference", json_of(replayed.first)},
+      {"first_different_event", json_of(replayed.first_event)},
+      {"largest_difference", {{"tip_N", replayed.largest_tip_n}, {"hand_N", replayed.largest_hand_n}}}};
+  core::name_software(report);
+  return report.dump() + "\n";
 }
 
 std::string plain(const servo::RecordedSession& session, const servo::Replay& replayed, const servo::ReplayRange& range,
@@ -129,7 +131,7 @@ std::string plain(const servo::RecordedSession& session, const servo::Replay& re
   text += fmt::format("largest difference: {:.3g} nN on the tip, {:.3g} N on the hand\n", replayed.largest_tip_n * 1e9,
                       replayed.largest_hand_n);
   if (replayed.identical()) text += "every force on the tip and on the hand is identical, bit for bit\n";
-  return text;
+  return core::with_software_line(std::move(text));
 }
 
 std::string difference_text(const servo::RecordedSession& session, const servo::Replay& replayed) {

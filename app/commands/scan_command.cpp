@@ -14,8 +14,8 @@
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
 #include "app/tapping/tapping_command.h"
-#include "core/version.h"
 #include "core/whole_file.h"
+#include "core/written_by.h"
 #include "curves/angle_units.h"
 #include "curves/image_file.h"
 #include "curves/image_output.h"
@@ -51,7 +51,8 @@ core::Result<void> write_scan_command(const ScanOptions& options) {
     if (const auto kept = imaging::keep_channel(options.channel, scan->image); !kept) return kept;
   }
   if (!options.picture.empty()) {
-    const auto written = render::write_png(exhibit::picture_of(scan->image, 0), options.picture);
+    const auto written =
+        render::write_png(exhibit::picture_of(scan->image, 0), options.picture, exhibit::picture_texts(scan->image, 0));
     if (!written) return written;
   }
   if (!options.out.empty()) {
@@ -68,8 +69,7 @@ core::Result<TrueScan> scan_with_truth(const ScanOptions& options) {
   if (!scan) return tl::unexpected(scan.error());
   nlohmann::json truth = imaging::scan_json(*scan);
   truth["kind"] = "image";
-  truth["software"] = "TouchAFM";
-  truth["software_version"] = core::kVersion;
+  core::name_software(truth);
   truth["seed"] = options.seed;
   truth["surface"] = std::filesystem::path(options.out).filename().string() + ".truth.gwy";
   return TrueScan{curves::gwy_bytes(scan->image), curves::gwy_bytes(imaging::true_image_of(*scan)),

@@ -19,6 +19,7 @@
 #include "core/log.h"
 #include "core/percentiles.h"
 #include "core/printable.h"
+#include "core/written_by.h"
 #include "exhibit/cluster/frame_inputs.h"
 #include "exhibit/cluster/wall_history.h"
 #include "exhibit/frame/exhibit_setup.h"
@@ -118,7 +119,9 @@ Finding judge(const scene::WallNode& node, const NodeAnswers& answers, const clu
 
 void print_findings(const std::vector<Finding>& findings, bool as_json) {
   if (as_json) {
-    std::fputs((nlohmann::json{{"checks", to_json(findings)}}.dump() + "\n").c_str(), stdout);
+    nlohmann::json root{{"checks", to_json(findings)}};
+    core::name_software(root);
+    std::fputs((root.dump() + "\n").c_str(), stdout);
     return;
   }
   std::string text;

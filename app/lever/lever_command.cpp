@@ -142,8 +142,8 @@ core::Result<void> calibrate_lever(LeverCommand command) {
     if (const auto written = core::write_file(command.out, curves::svg(curves::lever_plot(*result))); !written)
       return written;
   }
-  return write_stdout(command.json ? curves::lever_json(options, *result).dump(2) + "\n"
-                                   : curves::lever_text(options, *result));
+  return command.json ? write_stdout(curves::lever_json(options, *result).dump(2) + "\n")
+                      : write_report(curves::lever_text(options, *result));
 }
 
 }  // namespace

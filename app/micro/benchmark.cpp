@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/log.h"
-#include "core/version.h"
+#include "core/written_by.h"
 
 namespace afm::app {
 namespace {
@@ -105,7 +105,7 @@ std::string benchmark_table(const std::vector<BenchmarkFigure>& figures) {
 
 std::string benchmark_json(const std::vector<BenchmarkFigure>& figures) {
   nlohmann::ordered_json root;
-  root["version"] = core::kVersion;
+  core::name_software(root);
   root["repetitions"] = kBenchmarkRepetitions;
   root["benchmarks"] = nlohmann::ordered_json::array();
   for (const BenchmarkFigure& figure : figures) {

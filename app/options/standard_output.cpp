@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/options/standard_output.h"
 #include "core/system_error.h"
+#include "core/written_by.h"
 
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <cstdio>
+#include <utility>
 
 namespace afm::app {
 
@@ -23,6 +25,8 @@ core::Result<void> write_stdout(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) return cannot_write();
   return flush_stdout();
 }
+
+core::Result<void> write_report(std::string text) { return write_stdout(core::with_software_line(std::move(text))); }
 
 core::Result<void> flush_stdout() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return cannot_write();

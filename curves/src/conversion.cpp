@@ -7,10 +7,10 @@
 #include <cmath>
 #include <utility>
 
+#include "core/written_by.h"
 #include "curves/curve_series.h"
 #include "curves/image_file.h"
 #include "curves/image_output.h"
-#include "curves/written_by.h"
 #include "physics/imaging/scan_image.h"
 #include "physics/quantity_text.h"
 
@@ -130,7 +130,7 @@ core::Result<Converted> converted_image(const std::string& file, const std::stri
   if (!loaded) return tl::unexpected(loaded.error());
   constexpr const char* kConverter = "Converted by";  // last one only
   std::erase_if(loaded->image.metadata, [](const auto& entry) { return entry.first == kConverter; });
-  loaded->image.metadata.emplace_back(kConverter, written_by());
+  loaded->image.metadata.emplace_back(kConverter, core::written_by());
   const physics::ScanImage& image = loaded->image;
   Converted result{.bytes = {}, .contents = {}, .remarks = loaded->remarks};
   for (const std::string& other : loaded->left_out) {

@@ -10,8 +10,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/written_by.h"
 #include "curves/plot_units.h"
-#include "curves/written_by.h"
 #include "fits/elastic_fit.h"
 #include "physics/quantity_text.h"
 
@@ -263,7 +263,7 @@ json features_json(const AnalysedCurve& measured, const AnalysedCurve* other) {
       parameters[key] = number && std::isfinite(*number) ? json(*number) : json(value);
     }
   }
-  name_software(result);
+  core::name_software(result);
   if (other == nullptr) return result;
   result["beside"]["name"] = other->name;
   for (const Figure& figure : kFigures) {

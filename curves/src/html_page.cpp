@@ -8,25 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/base64.h"
+
 namespace afm::curves {
 
 namespace {
-
-std::string base64(const std::string& bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      word = word << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k <= bytes.size() ? kDigits[word >> (18U - 6U * k) & 63U] : '=';
-    }
-  }
-  return text;
-}
 
 constexpr const char* kStyle = R"(
 body { font: 16px/1.5 Inter, "DejaVu Sans", sans-serif; color: #1c2430; background: #f4f5f7; margin: 0 auto; max-width: 1100px; padding: 1.5em; }
@@ -111,13 +97,14 @@ std::string html_figure(const std::string& html, const std::string& caption) {
 }
 
 std::string html_picture(const std::string& png, const std::string& caption) {
-  return fmt::format("<img class=\"pair\" alt=\"{}\" src=\"data:image/png;base64,{}\">", escaped(caption), base64(png));
+  return fmt::format("<img class=\"pair\" alt=\"{}\" src=\"data:image/png;base64,{}\">", escaped(caption),
+                     core::base64(png));
 }
 
 std::string html_one_eye(const std::string& png, const std::string& caption, std::uint32_t width,
                          std::uint32_t height) {
   return fmt::format("<img class=\"one\" style=\"aspect-ratio: {} / {}\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
-                     width, height, escaped(caption), base64(png));
+                     width, height, escaped(caption), core::base64(png));
 }
 
 std::string html_fitting(const std::string& figure) { return "<div class=\"fits\">" + figure + "</div>\n"; }

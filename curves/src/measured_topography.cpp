@@ -9,7 +9,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "curves/written_by.h"
+#include "core/written_by.h"
 #include "physics/quantity_text.h"
 
 namespace afm::curves {
@@ -175,7 +175,7 @@ nlohmann::ordered_json topography_json(const MeasuredTopography& topography) {
                                 {"slope_y", topography.level.slope_y / pixel_y_m},
                                 {"filled", topography.level.filled},
                                 {"sq_levelled", topography.levelled.sq}};
-  name_software(result);
+  core::name_software(result);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/written_by.h"
 #include "curves/plot_units.h"
 #include "curves/svg_plot.h"
 #include "paper_contact_mechanics.h"
@@ -147,25 +148,26 @@ std::string paper_markdown(const PaperTables& tables, const scene::MaterialLibra
       std::string(survey) + "## Errata\n\n";
   int count = 0;
   for (const Erratum& erratum : errata()) text += fmt::format("{}. **{}**: {}\n", ++count, erratum.name, erratum.text);
-  return text;
+  return text + fmt::format("\nComputed by {}.\n", core::written_by());
 }
 
 std::string paper_json(const PaperTables& tables, const scene::MaterialLibrary& library, const json& survey) {
   json list = json::array();
   for (const Erratum& erratum : errata()) list.push_back({{"name", erratum.name}, {"text", erratum.text}});
-  const json root{{"table1", table_json(tables.table1)},
-                  {"table2", table_json(tables.table2)},
-                  {"f_ad_agreement_is_circular", true},
-                  {"contact_mechanics", contact_mechanics_json(library)},
-                  {"table3", survey},
-                  {"errata", list}};
+  json root{{"table1", table_json(tables.table1)},
+            {"table2", table_json(tables.table2)},
+            {"f_ad_agreement_is_circular", true},
+            {"contact_mechanics", contact_mechanics_json(library)},
+            {"table3", survey},
+            {"errata", list}};
+  core::name_software(root);
   return root.dump(2) + "\n";
 }
 
 std::string table1_csv(const PaperTables& tables) {
-  std::string text =
-      "# Liu & Peng, Table 1: magnitudes, each in its unit\n"
-      "material,quantity,unit,printed,exact,measured_in_the_run,erratum\n";
+  std::string text = fmt::format("# software: {}\n", core::written_by()) +
+                     "# Liu & Peng, Table 1: magnitudes, each in its unit\n"
+                     "material,quantity,unit,printed,exact,measured_in_the_run,erratum\n";
   for (const TableCell& cell : tables.table1) {
     text += fmt::format("{},{},{},{},{},{},{}\n", cell.material, cell.quantity, cell.unit, cell.printed, cell.exact,
                         csv_number(cell.measured), cell.erratum);
@@ -175,6 +177,7 @@ std::string table1_csv(const PaperTables& tables) {
 
 std::string table2_csv(const PaperTables& tables) {
   std::string text =
+      fmt::format("# software: {}\n", core::written_by()) +
       "# Liu & Peng, Table 2: magnitudes, each in its unit; the agreement of F_ad with the experiment is "
       "circular\n"
       "material,quantity,unit,experiment,printed_calculation,exact,printed_simulation,"

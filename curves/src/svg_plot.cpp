@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "curves/written_by.h"
+#include "core/written_by.h"
 
 namespace afm::curves {
 namespace {
@@ -373,7 +373,7 @@ std::string svg(std::span<const SvgPlot> column) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
       "font-family=\"Inter, 'DejaVu Sans', sans-serif\" font-size=\"16\" fill=\"#1d2329\">\n"
       "<metadata>{2}</metadata>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
-      width, height, written_by());
+      width, height, core::written_by());
   int top = 0;
   for (const SvgPlot& plot : column) {
     const Frame frame(plot);

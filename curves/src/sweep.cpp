@@ -12,9 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/version.h"
+#include "core/written_by.h"
 #include "curves/curve_output.h"
-#include "curves/written_by.h"
 #include "over_all_cores.h"
 #include "physics/law_tables.h"
 
@@ -212,7 +211,7 @@ std::string sweep_csv(const ContactSetup& setup, const std::vector<SweepAxis>& a
   std::vector<const ContactParameter*> swept;
   swept.reserve(axes.size());
   for (const SweepAxis& axis : axes) swept.push_back(axis.parameter);
-  fmt::format_to(out, "# TouchAFM sweep\n# software: TouchAFM {}\n{}", core::kVersion, setup_header(setup, swept));
+  fmt::format_to(out, "# TouchAFM sweep\n# software: {}\n{}", core::written_by(), setup_header(setup, swept));
   for (const SweepAxis& axis : axes) {
     fmt::format_to(out, "# swept: {} from {} to {}, {} values{}\n", axis.parameter->json_key, axis.from, axis.to,
                    axis.count, axis.logarithmic ? ", equal ratios" : "");
@@ -262,7 +261,7 @@ nlohmann::ordered_json sweep_json(const ContactSetup& setup, const std::vector<S
   for (const SweepAxis& axis : axes) parameters.erase(std::string(axis.parameter->json_key));
   json result{
       {"model_requested", setup.model.text}, {"parameters", std::move(parameters)}, {"points", std::move(points)}};
-  name_software(result);
+  core::name_software(result);
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/enumerators.h"
-#include "core/version.h"
+#include "core/written_by.h"
 
 namespace afm::curves {
 
@@ -40,13 +40,12 @@ static_assert(core::has_row_for_each(kLawSources, &LawSource::shape));
 
 json truth_of(const SyntheticSetup& setup, std::string_view kind) {
   const LawSource& law = kLawSources[static_cast<std::size_t>(setup.shape)];
-  json truth{{"kind", kind},
-             {"software", "TouchAFM"},
-             {"software_version", core::kVersion},
-             {"seed", setup.seed},
-             {"law", fits::row_of(setup.shape).name},
-             {"equation", law.equation},
-             {"source", law.source}};
+  json truth{{"kind", kind}};
+  core::name_software(truth);
+  truth["seed"] = setup.seed;
+  truth["law"] = fits::row_of(setup.shape).name;
+  truth["equation"] = law.equation;
+  truth["source"] = law.source;
   truth["signs"] =
       "z is the height of the lever's base, contact_z_m that at which the undeformed tip meets the undeformed sample; "
       "force on the tip positive away from the sample";

@@ -15,9 +15,9 @@
 
 #include "core/check.h"
 #include "core/log.h"
+#include "core/written_by.h"
 #include "curves/angle_units.h"
 #include "curves/tapping/tapping_output.h"
-#include "curves/written_by.h"
 #include "physics/imaging/scan_truth.h"
 #include "physics/tapping/averaged_flow.h"
 
@@ -98,7 +98,7 @@ core::Result<physics::TappingDetector> detector_of(const ScanRequest& request, c
 
 void describe(const ScanRequest& request, const curves::ContactSetup& setup, const physics::TipShape& tip, Scan& scan) {
   auto& metadata = scan.image.metadata;
-  metadata.emplace_back("Software", curves::written_by());
+  metadata.emplace_back("Software", core::written_by());
   metadata.emplace_back("Material", setup.material.name);
   if (!request.sample.file.empty()) {
     metadata.emplace_back("Sample", std::filesystem::path(request.sample.file).filename().string());
@@ -133,6 +133,10 @@ void describe(const ScanRequest& request, const curves::ContactSetup& setup, con
   metadata.emplace_back("Feedback", scan.settings.feedback == physics::Feedback::On ? "on" : "off");
   metadata.emplace_back("Slow direction", request.direction == physics::SlowDirection::Down ? "down" : "up");
   metadata.emplace_back("Seed", std::to_string(request.seed));
+  for (const scene::SourcedValue& source : setup.material.sources) {
+    metadata.emplace_back("Source of " + source.key,
+                          fmt::format("{}, {}{}", source.value, source.source, source.estimated ? " (estimated)" : ""));
+  }
 }
 
 nlohmann::json channel_json(const physics::ImageChannel& channel) {
@@ -284,7 +288,7 @@ nlohmann::json scan_json(const Scan& scan) {
                         {"channels", channels},
                         {"lines_with", artefacts}};
   if (scan.tapping) result["tapping"] = tapping_json(scan);
-  curves::name_software(result);
+  core::name_software(result);
   return result;
 }
 

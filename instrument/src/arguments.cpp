@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "refused_request.h"
 
@@ -40,12 +42,21 @@ std::optional<std::string> Arguments::text(const char* name, std::size_t most_le
   return value->get<std::string>();
 }
 
+bool Arguments::packs_arrays() const {
+  const auto found = object_.find("arrays");
+  if (found == object_.end() || found->is_null()) return false;
+  for (const char* form : kArrayForms) {
+    if (*found == form) return form == std::string_view(kArrayForms.back());
+  }
+  throw RefusedRequest("\"arrays\": give \"numbers\" or \"base64\"");
+}
+
 void Arguments::finish() const {
   for (const auto& [name, value] : object_.items()) {
     if (asked_.contains(name)) continue;
     std::string known;
     for (const std::string& each : asked_) {
-      if (each != "id" && each != "do") known += (known.empty() ? "" : ", ") + each;
+      if (std::find(kCommon.begin(), kCommon.end(), each) == kCommon.end()) known += (known.empty() ? "" : ", ") + each;
     }
     throw RefusedRequest(fmt::format("\"{}\" has no effect here; known: {}", name, known.empty() ? "nothing" : known));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -24,11 +25,19 @@ class Arguments {
   // Null if the request does not have it.
   const nlohmann::ordered_json* member(const char* name);
 
+  // Forms of an answer's arrays that "arrays" may ask for in any request; the first is that of a request without it.
+  static constexpr std::array<const char*, 2> kArrayForms{"numbers", "base64"};
+
+  // True for base64.
+  bool packs_arrays() const;
+
   void finish() const;
 
  private:
+  static constexpr std::array<const char*, 3> kCommon{"id", "do", "arrays"};
+
   const nlohmann::ordered_json& object_;
-  std::set<std::string> asked_{"id", "do"};
+  std::set<std::string> asked_{kCommon.begin(), kCommon.end()};
 };
 
 }  // namespace afm::instrument

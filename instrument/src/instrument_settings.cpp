@@ -10,7 +10,10 @@
 #include <numbers>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "core/written_by.h"
 #include "curves/contact_setup.h"
 #include "curves/tapping/driven_setup.h"
 
@@ -211,6 +214,24 @@ core::Result<void> change(const Json& values, Settings& settings) {
   }
   settings = std::move(changed);
   return {};
+}
+
+std::vector<std::pair<std::string, std::string>> image_metadata(const InstrumentSettings& settings) {
+  constexpr std::array kChosen{std::pair("line_rate", "Line rate"), std::pair("setpoint", "Setpoint"),
+                               std::pair("integral_gain", "Integral gain"),
+                               std::pair("proportional_gain", "Proportional gain")};
+  std::vector<std::pair<std::string, std::string>> texts{{"Software", core::written_by()},
+                                                         {"Material", settings.contact.material},
+                                                         {"Mode", settings.taps ? "tapping" : "contact"}};
+  if (settings.taps) texts.emplace_back("Amplitude setpoint", fmt::format("{}", settings.amplitude_setpoint));
+  for (const physics::ScanField& field : physics::kScanFields) {
+    if (settings.taps && field.name == "setpoint") continue;
+    for (const auto& [name, title] : kChosen) {
+      if (field.name == name) texts.emplace_back(title, field.text(field.get(settings.scan)));
+    }
+  }
+  texts.emplace_back("Feedback", settings.scan.feedback == physics::Feedback::On ? "on" : "off");
+  return texts;
 }
 
 }  // namespace afm::instrument

@@ -12,16 +12,16 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "answer_arrays.h"
 #include "arguments.h"
 #include "core/printable.h"
-#include "core/version.h"
 #include "core/whole_file.h"
+#include "core/written_by.h"
 #include "curves/curve_output.h"
 #include "curves/curve_series.h"
 #include "curves/image_output.h"
 #include "curves/recorded_curve.h"
 #include "curves/tapping/tapping_output.h"
-#include "curves/written_by.h"
 #include "instrument/simulated_instrument.h"
 #include "physics/imaging/scan_image.h"
 #include "refused_request.h"
@@ -56,20 +56,6 @@ bool is_too_deep(std::string_view text) {
   return false;
 }
 
-template <class Rows, class Value>
-Json column(const Rows& rows, const Value& value) {
-  Json numbers = Json::array();
-  for (const auto& row : rows) {
-    const double number = value(row);
-    numbers.push_back(std::isfinite(number) ? Json(number) : Json(nullptr));
-  }
-  return numbers;
-}
-
-Json numbers_of(const std::vector<double>& values) {
-  return column(values, [](double value) { return value; });
-}
-
 double speed_of(Arguments& arguments) {
   return arguments.number_or("speed_m_per_s", kUsualSpeedM, kLeastSpeedM, kMostSpeedM);
 }
@@ -94,6 +80,19 @@ std::string file_name_of(Arguments& arguments) {
 
 }  // namespace
 
+// A curve, converted only to be saved.
+struct JsonDoor::TakenCurve : SimulatedInstrument::Curve {
+  explicit TakenCurve(SimulatedInstrument::Curve curve) : Curve(std::move(curve)) {}
+
+  // As a microscope would keep it: with what its detector shows, and without the numbers that it cannot know.
+  curves::RecordedCurve recorded() const {
+    curves::RecordedCurve kept = curves::recorded_curve(run);
+    kept.metadata.parameters.clear();
+    for (std::size_t i = 0; i < kept.points.size(); ++i) kept.points[i].force = physics::Force(shown_n.at(i));
+    return kept;
+  }
+};
+
 // One function a verb: takes its arguments and returns the members of the answer.
 struct JsonDoor::Verbs {
   struct Row {
@@ -115,7 +114,12 @@ struct JsonDoor::Verbs {
     }
     Json verbs = Json::object();
     for (const Row& row : kRows) verbs[std::string(row.name)] = row.meaning;
-    return {{"software", "TouchAFM"}, {"software_version", core::kVersion}, {"protocol", kProtocol}, {"verbs", verbs}};
+    Json answer = Json::object();
+    core::name_software(answer);
+    answer["protocol"] = kProtocol;
+    answer["arrays"] = Arguments::kArrayForms;
+    answer["verbs"] = std::move(verbs);
+    return answer;
   }
 
   static Json get(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
@@ -172,35 +176,33 @@ struct JsonDoor::Verbs {
         .z_to_m = arguments.number("z_to_m", -kMostPlaceM, kMostPlaceM),
         .points = arguments.count_or("points", 500, 2, SimulatedInstrument::kMostCurvePoints),
         .speed_m_per_s = speed_of(arguments)};
+    const AnswerArrays arrays(arguments);
     arguments.finish();
-    const SimulatedInstrument::Curve curve = value_of(door.instrument_.curve(request));
+    SimulatedInstrument::Curve curve = value_of(door.instrument_.curve(request));
     const auto& samples = curve.run.curve.samples;
     const auto turn = std::find_if(samples.begin(), samples.end(), [](const physics::CurveSample& sample) {
       return sample.branch == physics::Branch::Retract;
     });
-    // as a microscope would keep it: with what its detector shows, and without the numbers that it cannot know
-    curves::RecordedCurve recorded = curves::recorded_curve(curve.run);
-    recorded.metadata.parameters.clear();
-    for (std::size_t i = 0; i < recorded.points.size(); ++i)
-      recorded.points[i].force = physics::Force(curve.shown_n.at(i));
-    door.curve_ = std::make_unique<const curves::RecordedCurve>(std::move(recorded));
-    return {{"z_m", column(samples, [](const physics::CurveSample& sample) { return sample.z.si; })},
-            {"force_N", numbers_of(curve.shown_n)},
-            {"approach_points", turn - samples.begin()},
-            {"spring_constant_N_per_m", curve.run.setup.material.contact.spring_constant.si}};
+    Json answer{{"z_m", arrays.of(samples, [](const physics::CurveSample& sample) { return sample.z.si; })},
+                {"force_N", arrays.of(curve.shown_n)},
+                {"approach_points", turn - samples.begin()},
+                {"spring_constant_N_per_m", curve.run.setup.material.contact.spring_constant.si}};
+    door.curve_ = std::make_unique<const TakenCurve>(std::move(curve));
+    return answer;
   }
 
   static Json tapping_curve(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
     const auto from = arguments.number("z_from_m", -kMostPlaceM, kMostPlaceM);
     const auto to = arguments.number("z_to_m", -kMostPlaceM, kMostPlaceM);
     const std::size_t points = arguments.count_or("points", 400, 2, SimulatedInstrument::kMostCurvePoints);
+    const AnswerArrays arrays(arguments);
     arguments.finish();
     const curves::TappingRun run = value_of(door.instrument_.tapping_curve(from, to, points));
     const auto& rows = run.curve.points;
     using physics::TapPoint;
-    Json answer{{"z_m", column(rows, [](const TapPoint& row) { return row.z.si; })},
-                {"amplitude_m", column(rows, [](const TapPoint& row) { return row.state.amplitude.si; })},
-                {"phase_rad", column(rows, [](const TapPoint& row) { return row.state.phase; })},
+    Json answer{{"z_m", arrays.of(rows, [](const TapPoint& row) { return row.z.si; })},
+                {"amplitude_m", arrays.of(rows, [](const TapPoint& row) { return row.state.amplitude.si; })},
+                {"phase_rad", arrays.of(rows, [](const TapPoint& row) { return row.state.phase; })},
                 {"approach_points", std::count_if(rows.begin(), rows.end(), [](const TapPoint& row) {
                    return row.branch == physics::Branch::Approach;
                  })}};
@@ -225,20 +227,21 @@ struct JsonDoor::Verbs {
   }
 
   static Json scan(JsonDoor& door, Arguments& arguments, const Json& id, const Send& send) {
+    const AnswerArrays arrays(arguments);
     arguments.finish();
     bool stopped = false;
     physics::ScanImage image = value_of(door.instrument_.scan([&](const physics::ScanLine& line, double time_s) {
-      const auto track = [taps = door.instrument_.settings().taps](const physics::ScanTrack& pass) {
+      const auto track = [&arrays, taps = door.instrument_.settings().taps](const physics::ScanTrack& pass) {
         if (taps) {
-          return Json{{"height_m", numbers_of(pass.height_m)},
-                      {"error_m", numbers_of(pass.error_n)},
-                      {"phase_deg", numbers_of(pass.phase_deg)},
-                      {"energy_J", numbers_of(pass.energy_j)},
-                      {"peak_force_N", numbers_of(pass.peak_force_n)}};
+          return Json{{"height_m", arrays.of(pass.height_m)},
+                      {"error_m", arrays.of(pass.error_n)},
+                      {"phase_deg", arrays.of(pass.phase_deg)},
+                      {"energy_J", arrays.of(pass.energy_j)},
+                      {"peak_force_N", arrays.of(pass.peak_force_n)}};
         }
-        return Json{{"height_m", numbers_of(pass.height_m)},
-                    {"error_N", numbers_of(pass.error_n)},
-                    {"lateral_N", numbers_of(pass.lateral_n)}};
+        return Json{{"height_m", arrays.of(pass.height_m)},
+                    {"error_N", arrays.of(pass.error_n)},
+                    {"lateral_N", arrays.of(pass.lateral_n)}};
       };
       const Json text{{"id", id},
                       {"line", line.row},
@@ -252,7 +255,7 @@ struct JsonDoor::Verbs {
                 {"width_m", image.width_m},       {"height_m", image.height_m},
                 {"x_offset_m", image.x_offset_m}, {"y_offset_m", image.y_offset_m}};
     if (stopped) answer["stopped"] = true;
-    image.metadata.emplace_back("Software", curves::written_by());
+    image.metadata = image_metadata(door.instrument_.settings());
     door.image_ = std::make_unique<const physics::ScanImage>(std::move(image));
     return answer;
   }
@@ -262,10 +265,11 @@ struct JsonDoor::Verbs {
     const std::size_t points = arguments.count_or("points", 2000, 20, kMostSpectrumPoints),
                       averages = arguments.count_or("averages", 100, 1, kMostSpectrumWork / points);
     const double most_hz = arguments.number_or("most_Hz", 2.0 * resonance_hz, 1.0, 1e9);
+    const AnswerArrays arrays(arguments);
     arguments.finish();
     const auto spectrum = door.instrument_.thermal(points, most_hz, averages);
-    return {{"frequency_Hz", column(spectrum, [](const fits::SpectrumPoint& point) { return point.frequency_hz; })},
-            {"density_m2_per_Hz", column(spectrum, [](const fits::SpectrumPoint& point) { return point.density; })},
+    return {{"frequency_Hz", arrays.of(spectrum, [](const fits::SpectrumPoint& point) { return point.frequency_hz; })},
+            {"density_m2_per_Hz", arrays.of(spectrum, [](const fits::SpectrumPoint& point) { return point.density; })},
             {"averages", averages}};
   }
 
@@ -294,7 +298,8 @@ struct JsonDoor::Verbs {
     }
     if (const auto format = curves::writable_format_of(name)) {
       if (!door.curve_) throw RefusedRequest("there is no curve yet; \"curve\" first");
-      value_of(core::write_file(path, value_of(curves::series_bytes(format->format, std::array{*door.curve_}))));
+      value_of(
+          core::write_file(path, value_of(curves::series_bytes(format->format, std::array{door.curve_->recorded()}))));
       return {{"file", name}};
     }
     throw RefusedRequest("\"file\": name it .gwy or .gsf for the newest image, .h5, .tab or .csv for the newest curve");
@@ -367,10 +372,11 @@ Door::Then JsonDoor::answer(std::string_view request, const Send& send) {
     const auto name = arguments.text("do", 32).value_or("");
     const Verbs::Row* verb = Verbs::find(name);
     if (verb == nullptr) throw RefusedRequest(fmt::format("there is no verb \"{}\"; \"hello\" lists them", name));
+    static_cast<void>(arguments.packs_arrays());  // an unknown form, refused whatever the verb
     if (verb->run == &Verbs::quit) then = Then::Quit;
-    const Json members = verb->run(*this, arguments, id, send);
+    Json members = verb->run(*this, arguments, id, send);
     Json answer{{"id", id}, {"ok", true}, {"time_s", instrument_.position().time_s}};
-    answer.update(members);
+    for (auto& [key, value] : members.items()) answer[key] = std::move(value);
     say(answer);
   } catch (const RefusedRequest& refusal) {
     then = Then::GoOn;

@@ -118,6 +118,7 @@ core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings
   }
   settings_ = settings;
   setup_ = std::move(*setup);
+  usual_path_.reset();
   growth_m_ = growth_m;
   if (showcase_ != nullptr) showcase_->put_contact(setup_);
   show_place();
@@ -221,12 +222,12 @@ core::Result<SimulatedInstrument::Curve> SimulatedInstrument::curve(const CurveR
 core::Result<SimulatedInstrument::Curve> SimulatedInstrument::take_curve(const CurveRequest& request) {
   curves::PathOptions path = path_of(request.z_from_m, request.z_to_m);
   if (!request.z_from_m || !request.z_to_m) {
-    // the usual ends depend on the contact
-    curves::PathOptions events(path);
-    events.events_only = true;
-    const auto usual = curves::run_curve(setup_, events);
-    if (!usual) return tl::unexpected(usual.error());
-    path = path_of(usual->plan.from.si, usual->plan.to.si);
+    if (!usual_path_) {
+      const auto usual = curves::run_curve(setup_, {.events_only = true});
+      if (!usual) return tl::unexpected(usual.error());
+      usual_path_ = usual->plan;
+    }
+    path = path_of(request.z_from_m.value_or(usual_path_->from.si), request.z_to_m.value_or(usual_path_->to.si));
   }
   const auto from = physics::parse_quantity(path.from, physics::kLengthUnits).value;
   const auto to = physics::parse_quantity(path.to, physics::kLengthUnits).value;

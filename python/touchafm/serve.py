@@ -11,6 +11,7 @@ Every number is in SI. A request that the microscope refuses raises Refused, a V
 answer raises TimeoutError or ConnectionError, an OSError. An object belongs to one thread.
 """
 
+import base64
 import json
 import os
 import pathlib
@@ -44,6 +45,7 @@ class Client:
 
     def __init__(self, path, *, timeout=60.0, server=None, folder=None):
         self._number = 0
+        self._packs = None  # whether the server can pack arrays; None: not asked yet
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:
             self._socket.settimeout(timeout)
@@ -73,7 +75,12 @@ class Client:
             self._folder = None
 
     def request(self, do, *, on_line=None, **members):
-        """The answer to any request as a dict. on_line is called with each line of a scan as it comes; False stops the scan."""
+        """The answer to any request as a dict, whose lists of numbers are arrays: they travel as bytes, which takes less time.
+        on_line is called with each line of a scan as it comes; False stops the scan."""
+        if self._packs is None and do != "hello":
+            self._packs = "base64" in self.request("hello").get("arrays", ())
+        if self._packs:
+            members.setdefault("arrays", "base64")
         self._number += 1
         text = json.dumps({"id": self._number, "do": do, **members}, default=_plain)
         self._socket.sendall(text.encode() + b"\n")
@@ -82,7 +89,7 @@ class Client:
             line = self._answers.readline()
             if not line.endswith(b"\n"):
                 raise ConnectionError(f"the server left while it was asked to {do}")
-            answer = json.loads(line)
+            answer = json.loads(line, object_hook=_unpacked)
             if "line" in answer:
                 if on_line is not None and on_line(answer) is False and not stopping:
                     stopping = True
@@ -183,6 +190,12 @@ class Client:
         """Ends the server."""
         self.request("quit")
         self.close()
+
+
+def _unpacked(members):
+    if len(members) == 1 and "base64" in members:
+        return np.frombuffer(base64.b64decode(members["base64"]), "<f8")
+    return members
 
 
 def _plain(value):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
+#include "core/written_by.h"
 #include "study/study_report.h"
 #include "study/survey_report.h"
 #include "study_page.h"
@@ -151,16 +152,17 @@ std::string study_json(const StudyResults& results) {
                       {"against_paper", json_of(here.against_paper)}});
   }
   const auto test = [](const TestResult& each) { return json_of(each); };
-  const Json root{{"listed", results.listed},
-                  {"participants", results.people},
-                  {"ages", results.ages},
-                  {"left_out", results.left_out},
-                  {"remarks", results.remarks},
-                  {"lessons", array_of(results.lessons, lesson_json)},
-                  {"survey", survey},
-                  {"haptics_against_graphics", array_of(results.haptics_against_graphics, test)},
-                  {"cronbach_alpha", {{"survey", json_of(results.survey_alpha)}, {"sus", json_of(results.sus_alpha)}}},
-                  {"paper_table3", paper_survey_json()}};
+  Json root{{"listed", results.listed},
+            {"participants", results.people},
+            {"ages", results.ages},
+            {"left_out", results.left_out},
+            {"remarks", results.remarks},
+            {"lessons", array_of(results.lessons, lesson_json)},
+            {"survey", survey},
+            {"haptics_against_graphics", array_of(results.haptics_against_graphics, test)},
+            {"cronbach_alpha", {{"survey", json_of(results.survey_alpha)}, {"sus", json_of(results.sus_alpha)}}},
+            {"paper_table3", paper_survey_json()}};
+  core::name_software(root);
   return root.dump(2) + "\n";
 }
 

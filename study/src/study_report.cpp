@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/written_by.h"
 #include "study/age_band.h"
 #include "study/survey_report.h"
 #include "study_page.h"
@@ -109,6 +110,7 @@ ReportFiles study_report(const StudyResults& results) {
   }
   append_blocks(page, survey_blocks(results));
   append_blocks(page, method_blocks());
+  page.push_back(PageText{"Computed by " + core::written_by() + "."});
   ReportFiles files{{"study.md", fmt::format("# {}\n\n", kStudyTitle) + page_markdown(page)},
                     {"study.html", page_html(kStudyTitle, page)},
                     {"study.json", study_json(results)}};

@@ -8,9 +8,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/base64.h"
+#include "core/whole_file.h"
+#include "core/written_by.h"
 #include "curves/curve_file.h"
 #include "curves/image_file.h"
 #include "instrument/simulated_instrument.h"
@@ -137,6 +141,40 @@ TEST_F(JsonDoorTest, GivesACurveWithItsBranches) {
   EXPECT_EQ(answer.contains("work_of_adhesion"), false);
 }
 
+TEST_F(JsonDoorTest, PacksArraysWhereTheRequestAsksForIt) {
+  const std::string request = R"({"do": "curve", "points": 20, "z_from_m": 3e-8, "z_to_m": -5e-9, "arrays": )";
+  const json numbers = answer_to(request + R"("numbers"})"), packed = answer_to(request + R"("base64"})");
+  for (const char* array : {"z_m", "force_N"}) {
+    const auto values = numbers[array].get<std::vector<double>>();
+    const std::string_view bytes(reinterpret_cast<const char*>(values.data()), 8 * values.size());
+    EXPECT_EQ(packed[array], (json{{"base64", core::base64(bytes)}})) << array;
+  }
+  EXPECT_EQ(packed["approach_points"], numbers["approach_points"]);
+  EXPECT_EQ(answer_to(request + "null}")["z_m"], numbers["z_m"]) << "as without the member";
+  EXPECT_THAT(refusal_of(request + R"("base32"})"), HasSubstr(R"("arrays": give "numbers" or "base64")"));
+  EXPECT_THAT(refusal_of(R"({"do": "get", "arrays": 3})"), HasSubstr("\"arrays\""));
+  EXPECT_EQ(answer_to(R"({"do": "hello"})")["arrays"], (json{"numbers", "base64"}));
+}
+
+TEST_F(JsonDoorTest, PacksTheLinesOfAnImageAndASpectrum) {
+  answer_to(R"({"do": "approach"})");
+  answer_to(R"({"do": "set", "values": {"lines": 2, "pixels": 3}})");
+  const json line = json::parse(lines_for(R"({"do": "scan", "arrays": "base64"})").front());
+  EXPECT_EQ(line["trace"]["height_m"]["base64"].get<std::string>().size(), 32U);
+  EXPECT_EQ(line["retrace"]["lateral_N"]["base64"].get<std::string>().size(), 32U);
+  EXPECT_TRUE(answer_to(R"({"do": "thermal", "points": 30, "arrays": "base64"})")["frequency_Hz"].contains("base64"));
+}
+
+TEST_F(JsonDoorTest, TakesTheUsualPathOfTheContactThatIsThere) {
+  const std::string request = R"({"do": "curve", "points": 20})";
+  const json mica = answer_to(request)["z_m"];
+  EXPECT_EQ(answer_to(request)["z_m"], mica);
+  answer_to(R"({"do": "set", "values": {"material": "gold"}})");
+  EXPECT_NE(answer_to(request)["z_m"][0], mica[0]);
+  answer_to(R"({"do": "set", "values": {"material": "mica"}})");
+  EXPECT_EQ(answer_to(request)["z_m"], mica);
+}
+
 TEST_F(JsonDoorTest, GivesATappingCurve) {
   const json set = answer_to(R"({"do": "set", "values": {"law": "dmt", "spring_constant_N_per_m": 40,
                               "quality_factor": 400, "resonance_Hz": 300e3, "free_amplitude_m": 2e-8}})");
@@ -172,6 +210,8 @@ TEST_F(JsonDoorTest, SavesTheNewestImageAndCurve) {
   answer_to(R"({"do": "curve", "points": 60})");
   EXPECT_EQ(answer_to(R"({"do": "save", "file": "a.gwy"})")["ok"], true);
   EXPECT_EQ(answer_to(R"({"do": "save", "file": "a.tab"})")["ok"], true);
+  const std::string image = core::read_file(folder_.file("a.gwy")).value();
+  EXPECT_THAT(image, testing::AllOf(HasSubstr(core::written_by()), HasSubstr("Line rate"), HasSubstr("mica")));
   EXPECT_TRUE(curves::load_image(folder_.file("a.gwy")));
   const auto curve = curves::load_curve(folder_.file("a.tab"));
   ASSERT_TRUE(curve);

@@ -47,6 +47,18 @@ TEST(SimulatedInstrument, ShowsTheForceOfTheCurveThatTouchafmComputes) {
   }
 }
 
+TEST(SimulatedInstrument, F06TakesTheTimeOfAForceVolume) {
+  constexpr double kServoRateHz = 1e3;
+  SimulatedInstrument instrument = instrument_with();
+  const double begin_s = instrument.position().time_s;
+  const SimulatedInstrument::CurveRequest request{
+      .z_from_m = 180e-9, .z_to_m = -20e-9, .points = 3, .speed_m_per_s = 1e-6};
+  ASSERT_TRUE(instrument.curve(request));
+  EXPECT_NEAR((instrument.position().time_s - begin_s) * kServoRateHz, 400.0, 1e-9 * 400.0) << "samples of a servo";
+  for (int curve = 1; curve < 32 * 32; ++curve) ASSERT_TRUE(instrument.curve(request));
+  EXPECT_NEAR(instrument.position().time_s - begin_s, 409.6, 1e-9 * 409.6);
+}
+
 TEST(SimulatedInstrument, HasTheNumberOfPointsThatWasAskedFor) {
   SimulatedInstrument instrument = instrument_with();
   for (const std::size_t points : {2U, 7U, 500U, 1024U}) {

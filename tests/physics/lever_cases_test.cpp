@@ -203,5 +203,10 @@ TEST_P(LeverCase, Agrees) { expect_agrees(GetParam(), value_of(GetParam())); }
 INSTANTIATE_TEST_SUITE_P(Research, LeverCase, testing::ValuesIn(cases_of(CaseProgram::Lever)),
                          [](const auto& test) { return test.param.name; });
 
+TEST(LeverCases, F13TurnsABeamByTwiceTheSlopeOfTheEnd) {
+  EXPECT_NEAR(end_slope(200_um, 1_nm) / 7.5e-6, 1.0, 1e-9);
+  EXPECT_NEAR(spot_displacement(200_um, Length(30e-3), 1_nm).si / 4.5e-7, 1.0, 1e-9);
+}
+
 }  // namespace lever_cases_test
 }  // namespace afm::physics

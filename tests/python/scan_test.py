@@ -15,6 +15,12 @@ SMALL = {"size": 40 / 1e9, "pixels": 24, "rate": 20.0, "seed": 5}  # 40 / 1e9: a
 SMALL_COMMAND = ("--size", "40nm", "--pixels", "24", "--rate", "20Hz", "--seed", "5")
 
 
+def without_sources(report):
+    """What was typed has another source than what a program gives."""
+    metadata = {key: text for key, text in report["metadata"].items() if not key.startswith("Source of ")}
+    return {**report, "metadata": metadata}
+
+
 class Scan(unittest.TestCase):
     def test_is_the_json_of_the_command(self):
         scan = touchafm.scan(MICA, **SMALL)
@@ -32,7 +38,7 @@ class Scan(unittest.TestCase):
         stiff = touchafm.Contact.material("mica", spring_constant=40.0)
         command = ("scan", "--material", "mica", "--spring-constant", "40N/m", "--mode", "tapping", "--free-amplitude", "20nm",
                    "--resonance", "300kHz", "--quality-factor", "400", *SMALL_COMMAND, "--json")
-        self.assertEqual(touchafm.scan(stiff, **tapped, **SMALL).as_dict(), json_of(*command))
+        self.assertEqual(without_sources(touchafm.scan(stiff, **tapped, **SMALL).as_dict()), without_sources(json_of(*command)))
         low = touchafm.scan(stiff, amplitude_setpoint=12e-9, **tapped, **SMALL)
         self.assertAlmostEqual(low.as_dict()["tapping"]["setpoint_ratio"], 0.6)
         self.assertIn("Phase (retrace)", low.channels)

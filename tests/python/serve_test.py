@@ -72,13 +72,20 @@ class Serve(unittest.TestCase):
         self.assertLess(lever.k_interval[0], truth)
         self.assertGreater(lever.k_interval[1], truth)
 
+    def test_packs_its_arrays_without_changing_a_number(self):
+        packed = self.afm.request("curve", points=5)["z_m"]
+        numbers = self.afm.request("curve", points=5, arrays=None)["z_m"]
+        self.assertIsInstance(packed, np.ndarray)
+        self.assertIsInstance(numbers, list)
+        np.testing.assert_array_equal(packed, numbers)
+
     def test_says_why_it_refuses(self):
         with self.assertRaisesRegex(serve.Refused, "approach"):
             self.afm.scan()
         with self.assertRaisesRegex(ValueError, "no setting \"colour\""):
             self.afm.set(colour=3)
 
-    def test_times_its_curves(self):
+    def test_times_its_curves(self):  # case S06
         begin = time.monotonic()
         for _ in range(100):
             self.afm.curve(points=500)

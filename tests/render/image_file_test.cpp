@@ -5,7 +5,12 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "core/whole_file.h"
+#include "core/written_by.h"
 #include "support/pictures.h"
 
 namespace afm::test {
@@ -38,6 +43,17 @@ TEST_F(ImageFile, HoldsTheSameBytes) {
   EXPECT_EQ(back.width, 31U);
   EXPECT_EQ(back.height, 7U);
   EXPECT_EQ(back.rgba, gradient().rgba);
+}
+
+TEST_F(ImageFile, NamesTheProgramAndWhatItShows) {
+  const auto path = (folder_ / "picture.png").string();
+  const std::vector<std::pair<std::string, std::string>> texts{{"Tip radius", "7 \u00b5m"}, {"Software", "another"}};
+  ASSERT_TRUE(render::write_png(gradient(), path, texts));
+  const std::string file = core::read_file(path).value(), end(5, '\0');
+  EXPECT_THAT(file, testing::HasSubstr("iTXtSoftware" + end + core::written_by()));
+  EXPECT_THAT(file, testing::HasSubstr("iTXtTip radius" + end + "7 \u00b5m"));
+  EXPECT_THAT(file, testing::Not(testing::HasSubstr("another")));
+  EXPECT_EQ(read_png(path).rgba, gradient().rgba) << "libpng checks the sums of the chunks";
 }
 
 TEST_F(ImageFile, LeavesNothingButTheWholeFile) {

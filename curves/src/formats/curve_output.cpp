@@ -15,9 +15,8 @@
 #include <utility>
 
 #include "bytes/text_table.h"
-#include "core/version.h"
+#include "core/written_by.h"
 #include "curves/plot_units.h"
-#include "curves/written_by.h"
 
 namespace afm::curves {
 namespace {
@@ -161,7 +160,7 @@ std::string setup_header(const ContactSetup& setup, std::span<const ContactParam
 
 std::string setup_header(const ContactSetup& setup, const std::string& model,
                          const std::optional<physics::LawChoice>& place) {
-  std::string text = fmt::format("# software: TouchAFM {}\n# model: {}\n", core::kVersion, model);
+  std::string text = fmt::format("# software: {}\n# model: {}\n", core::written_by(), model);
   if (place) {
     if (setup.model.automatic) text += fmt::format("# law_because: {}\n", place->reason);
     text += fmt::format("# tabor_parameter: {}\n# maugis_lambda: {}\n# regime: {}\n", place->tabor, place->maugis,
@@ -219,7 +218,7 @@ void add_sources(nlohmann::ordered_json& result, const ContactSetup& setup) {
   }
   result["sources"] = std::move(sources);
   result["estimated"] = std::move(estimated);
-  name_software(result);
+  core::name_software(result);
 }
 
 nlohmann::ordered_json curve_json(const CurveRun& run) {

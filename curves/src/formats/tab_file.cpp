@@ -9,7 +9,7 @@
 
 #include "bytes/text_table.h"
 #include "core/printable.h"
-#include "core/version.h"
+#include "core/written_by.h"
 #include "curves/curve_error.h"
 #include "formats/afmformats_metadata.h"
 #include "formats/segments.h"
@@ -77,7 +77,7 @@ void check_count(const nlohmann::json& metadata, std::size_t points, std::string
 std::string tab_bytes(const RecordedCurve& curve) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "# TouchAFM {}\n", core::kVersion);
+  fmt::format_to(out, "# {}\n", core::written_by());
   for (const auto& [key, value] : curve.metadata.parameters) {
     if (!key.starts_with(kBegin)) fmt::format_to(out, "# {}: {}\n", key, value);
   }

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "curves/written_by.h"
+#include "core/written_by.h"
 #include "physics/cantilever.h"
 #include "physics/flexural_modes.h"
 #include "physics/thermal_noise.h"
@@ -245,7 +245,7 @@ std::string lever_text(const LeverOptions& options, const LeverCalibration& resu
 
 LeverJson lever_json(const LeverOptions& options, const LeverCalibration& result) {
   LeverJson json;
-  name_software(json);
+  core::name_software(json);
   json["temperature_K"] = json_of(result.inputs[LeverInput::Temperature]);
   json["spectrum"] = result.fit ? spectrum_json(options, result) : LeverJson();
   json["sensitivity_m_per_V"] = result.sensitivity ? LeverJson(result.sensitivity->measured_m_per_v) : LeverJson();

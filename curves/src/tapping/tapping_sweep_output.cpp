@@ -6,12 +6,11 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "core/version.h"
+#include "core/written_by.h"
 #include "curves/curve_output.h"
 #include "curves/plot_units.h"
 #include "curves/tapping/tapping_output.h"
 #include "curves/tapping/tapping_sweep.h"
-#include "curves/written_by.h"
 #include "tapping/tap_regimes.h"
 
 namespace afm::curves {
@@ -91,7 +90,7 @@ std::string tapping_sweep_csv(const TappingSweep& sweep) {
   std::vector<const ContactParameter*> swept;
   swept.reserve(sweep.axes.size());
   for (const SweepAxis& axis : sweep.axes) swept.push_back(axis.parameter);
-  fmt::format_to(out, "# TouchAFM tapping sweep\n# software: TouchAFM {}\n{}", core::kVersion,
+  fmt::format_to(out, "# TouchAFM tapping sweep\n# software: {}\n{}", core::written_by(),
                  setup_header(sweep.setup, swept));
   const TappingOptions& numbers = sweep.choice.numbers;
   if (!is_swept(sweep, "free-amplitude")) fmt::format_to(out, "# free amplitude: {}\n", numbers.free_amplitude);
@@ -149,7 +148,7 @@ nlohmann::ordered_json tapping_sweep_json(const TappingSweep& sweep) {
     point["refusal"] = row.refusal.empty() ? json() : json(row.refusal);
     points.push_back(std::move(point));
   }
-  name_software(result);
+  core::name_software(result);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "core/written_by.h"
 #include "exhibit/models/model_view.h"
 #include "scene/gltf/loading_notice.h"
 #include "scene/graph/pose.h"
@@ -130,6 +131,7 @@ core::Result<void> describe_model(const std::string& file, DescriptionForm form,
   if (!scene) return tl::unexpected(scene.error());
   if (form == DescriptionForm::Json) {
     nlohmann::json json = json_of(*scene);
+    core::name_software(json);
     json["file"] = file;
     json["generator"] = notes.generator;
     json["understood"] = notes.extensions;

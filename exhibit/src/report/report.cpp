@@ -15,6 +15,7 @@
 
 #include "core/percentiles.h"
 #include "core/version.h"
+#include "core/written_by.h"
 #include "curves/html_page.h"
 
 namespace afm::exhibit {
@@ -246,27 +247,29 @@ nlohmann::json summary_json(const DemoResult& result) {
     variations.back()["material"] = variation.measurement.material;
     variations.back()["title"] = variation.measurement.title;
   }
-  return {{"materials", materials},
-          {"variations", variations},
-          {"servo",
-           {{"rate_hz", result.servo.rate_hz},
-            {"policy", result.servo.policy_fifo != 0 ? "SCHED_FIFO" : "SCHED_OTHER"},
-            {"priority", result.servo.priority},
-            {"pages_locked", result.servo.pages_locked != 0},
-            {"ticks", result.servo.ticks},
-            {"missed", result.servo.missed},
-            {"lost_samples", result.lost_samples},
-            {"wake_us", json_of(core::percentiles(result.servo.wake_us, result.servo.wake_max_us))},
-            {"work_us", json_of(core::percentiles(result.servo.work_us, result.servo.work_max_us))}}},
-          {"frames",
-           {{"count", result.frame_ms.size()},
-            {"eye_width", result.eye_width},
-            {"eye_height", result.eye_height},
-            {"ms", json_of(core::percentiles(result.frame_ms))}}},
-          {"device", {{"vulkan", result.vulkan_device}, {"haptic", result.haptic_device}}},
-          {"hand_speed_m_per_s", result.hand_speed_m_per_s},
-          {"seconds", result.seconds},
-          {"versions", {{"touchafm", core::kVersion}}}};
+  nlohmann::json summary{{"materials", materials},
+                         {"variations", variations},
+                         {"servo",
+                          {{"rate_hz", result.servo.rate_hz},
+                           {"policy", result.servo.policy_fifo != 0 ? "SCHED_FIFO" : "SCHED_OTHER"},
+                           {"priority", result.servo.priority},
+                           {"pages_locked", result.servo.pages_locked != 0},
+                           {"ticks", result.servo.ticks},
+                           {"missed", result.servo.missed},
+                           {"lost_samples", result.lost_samples},
+                           {"wake_us", json_of(core::percentiles(result.servo.wake_us, result.servo.wake_max_us))},
+                           {"work_us", json_of(core::percentiles(result.servo.work_us, result.servo.work_max_us))}}},
+                         {"frames",
+                          {{"count", result.frame_ms.size()},
+                           {"eye_width", result.eye_width},
+                           {"eye_height", result.eye_height},
+                           {"ms", json_of(core::percentiles(result.frame_ms))}}},
+                         {"device", {{"vulkan", result.vulkan_device}, {"haptic", result.haptic_device}}},
+                         {"hand_speed_m_per_s", result.hand_speed_m_per_s},
+                         {"seconds", result.seconds},
+                         {"versions", {{"touchafm", core::kVersion}}}};
+  core::name_software(summary);
+  return summary;
 }
 
 std::string report_html(const DemoResult& result, const std::vector<ReportPicture>& pictures,
@@ -290,8 +293,8 @@ std::string session_csv(const servo::RecordedSession& session) {
   const RecordedCycle cycle = cycle_of(session.samples);
   fmt::memory_buffer csv;
   const auto out = std::back_inserter(csv);
-  fmt::format_to(out, "# TouchAFM force-displacement curve, as the servo recorded it\n# software: TouchAFM {}\n",
-                 core::kVersion);
+  fmt::format_to(out, "# TouchAFM force-displacement curve, as the servo recorded it\n# software: {}\n",
+                 core::written_by());
   fmt::format_to(out, "# material: {}\n# model: {}\n# samples: {}\n", session.material, curves::law_name(m),
                  session.samples.empty() ? 0 : cycle.end - cycle.begin + 1);
   for (const physics::ContactField& field : physics::kContactFields) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/written_by.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/scratch_run.h"
@@ -155,21 +156,22 @@ std::string scratch_json(const scene::ParticleSet& set, const scene::ScratchRun&
   nlohmann::json states = nlohmann::json::array(), moves = nlohmann::json::array();
   for (const scene::ScratchSample& sample : run.samples) states.push_back(sample_json(sample));
   for (const scene::ScratchedMove& move : run.moves) moves.push_back(move_json(move));
-  const nlohmann::json whole{{"title", set.title},
-                             {"medium", set.medium},
-                             {"note", set.note},
-                             {"sample", set.soft->name},
-                             {"rate_Hz", rate.si},
-                             {"seconds", run.seconds},
-                             {"ticks", run.ticks},
-                             {"lagging_ticks", run.lagging},
-                             {"exhausted_ticks", run.moves.back().end.tick.exhausted},
-                             {"least_certificate_J", run.least_margin_j},
-                             {"sources", sources_json(set.sources)},
-                             {"figures", figures_json(figures_of(set))},
-                             {"volumes", volumes_json(run.moves.back().volumes)},
-                             {"states", states},
-                             {"moves", moves}};
+  nlohmann::json whole{{"title", set.title},
+                       {"medium", set.medium},
+                       {"note", set.note},
+                       {"sample", set.soft->name},
+                       {"rate_Hz", rate.si},
+                       {"seconds", run.seconds},
+                       {"ticks", run.ticks},
+                       {"lagging_ticks", run.lagging},
+                       {"exhausted_ticks", run.moves.back().end.tick.exhausted},
+                       {"least_certificate_J", run.least_margin_j},
+                       {"sources", sources_json(set.sources)},
+                       {"figures", figures_json(figures_of(set))},
+                       {"volumes", volumes_json(run.moves.back().volumes)},
+                       {"states", states},
+                       {"moves", moves}};
+  core::name_software(whole);
   return whole.dump() + "\n";
 }
 

@@ -156,4 +156,15 @@ render::Image picture_of(const physics::ScanImage& image, std::size_t channel, c
   return canvas.take();
 }
 
+std::vector<std::pair<std::string, std::string>> picture_texts(const physics::ScanImage& image, std::size_t channel) {
+  const physics::ImageChannel& shown = image.channels.at(channel);
+  const auto length = [](double si) { return physics::format_quantity(physics::Length(si), physics::kLengthUnits); };
+  std::vector<std::pair<std::string, std::string>> texts{
+      {"Title", shown.unit.empty() ? shown.name : shown.name + " in " + shown.unit},
+      {"Width", length(image.width_m)},
+      {"Height", length(image.height_m)}};
+  texts.insert(texts.end(), image.metadata.begin(), image.metadata.end());
+  return texts;
+}
+
 }  // namespace afm::exhibit

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/written_by.h"
 #include "exhibit/sound/stream_clock.h"
 
 namespace afm::exhibit {
@@ -30,13 +31,25 @@ std::uint32_t get(std::string_view bytes, std::size_t at, std::size_t size) {
   return value;
 }
 
+// Names the program in the chunk that players read it from.
+std::string info_chunk() {
+  std::string name = core::written_by();
+  name.resize(name.size() + 2 - name.size() % 2);  // zero at the end, even length
+  std::string chunk = "LIST";
+  put(chunk, static_cast<std::uint32_t>(name.size() + 12), 4);
+  chunk += "INFOISFT";
+  put(chunk, static_cast<std::uint32_t>(name.size()), 4);
+  return chunk + name;
+}
+
 }  // namespace
 
 std::string wav_bytes(std::span<const float> interleaved) {
+  const std::string info = info_chunk();
   const auto size = static_cast<std::uint32_t>(interleaved.size() * kSampleBytes);
   constexpr std::uint32_t kFrameBytes = kSampleBytes * kChannels;
   std::string bytes = "RIFF";
-  put(bytes, size + 36, 4);
+  put(bytes, static_cast<std::uint32_t>(size + 36 + info.size()), 4);
   bytes += "WAVEfmt ";
   put(bytes, kFormatBytes, 4);
   put(bytes, kPcm, 2);
@@ -47,12 +60,12 @@ std::string wav_bytes(std::span<const float> interleaved) {
   put(bytes, 8 * kSampleBytes, 2);
   bytes += "data";
   put(bytes, size, 4);
-  bytes.reserve(bytes.size() + size);
+  bytes.reserve(bytes.size() + size + info.size());
   for (const float sample : interleaved) {
     const auto value = static_cast<std::int16_t>(std::lround(kFullScale * std::clamp(sample, -1.0F, 1.0F)));
     put(bytes, static_cast<std::uint16_t>(value), kSampleBytes);
   }
-  return bytes;
+  return bytes + info;
 }
 
 std::optional<MonoWav> parse_mono_wav(std::string_view bytes) {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/result.h"
 #include "curves/contact_options.h"
@@ -60,5 +62,9 @@ nlohmann::ordered_json settings_json(const InstrumentSettings& settings, const c
 // Takes the values of an object over; null for a number of the contact: that of the material. WrongUsage, naming the
 // key, its range and unit, for an unknown key and for any other value, without a change.
 core::Result<void> change(const nlohmann::ordered_json& values, InstrumentSettings& settings);
+
+// Keys and texts that a microscope writes into its image files: what its operator chose, without faults and the
+// numbers of the contact.
+std::vector<std::pair<std::string, std::string>> image_metadata(const InstrumentSettings& settings);
 
 }  // namespace afm::instrument

@@ -9,9 +9,6 @@
 
 #include "instrument/door.h"
 
-namespace afm::curves {
-struct RecordedCurve;
-}
 namespace afm::physics {
 struct ScanImage;
 }
@@ -36,11 +33,12 @@ class JsonDoor final : public Door {
 
  private:
   struct Verbs;
+  struct TakenCurve;
 
   SimulatedInstrument& instrument_;
   std::string folder_;
-  std::unique_ptr<const physics::ScanImage> image_;     // newest, for "save"
-  std::unique_ptr<const curves::RecordedCurve> curve_;  // newest, for "save"
+  std::unique_ptr<const physics::ScanImage> image_;  // newest, for "save"
+  std::unique_ptr<const TakenCurve> curve_;          // newest, for "save"
 };
 
 }  // namespace afm::instrument

@@ -131,6 +131,7 @@ class SimulatedInstrument {
   imaging::OwnSample sample_;
   InstrumentSettings settings_;
   curves::ContactSetup setup_;                           // with the worn tip
+  std::optional<physics::SweepPlan> usual_path_;         // default of its curves; empty: not computed yet
   std::shared_ptr<const imaging::ScanSurface> surface_;  // under the tip as it was at surface_radius_m_
   double surface_radius_m_ = 0;
   double growth_m_ = 0, drift_x_m_ = 0, drift_y_m_ = 0, highest_force_n_ = 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/result.h"
@@ -29,11 +30,15 @@ struct ImageSpan {
 // An independent copy.
 Image to_image(const ImageSpan& span);
 
-// Encodes the image as a PNG file: 8-bit sRGB without alpha.
-core::Result<std::vector<std::uint8_t>> encode_png(const ImageSpan& image);
+// What a picture shows, as keys and texts: a key has 1 to 79 characters of ASCII.
+using PictureTexts = std::span<const std::pair<std::string, std::string>>;
+
+// Encodes the image as a PNG file: 8-bit sRGB without alpha, with the texts and "Software", the program and its
+// version.
+core::Result<std::vector<std::uint8_t>> encode_png(const ImageSpan& image, PictureTexts texts = {});
 
 // Writes a temporary file next to `path` and renames it, so that a file of that name is always complete. The error
 // names the path.
-core::Result<void> write_png(const ImageSpan& image, const std::string& path);
+core::Result<void> write_png(const ImageSpan& image, const std::string& path, PictureTexts texts = {});
 
 }  // namespace afm::render

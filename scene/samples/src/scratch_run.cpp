@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/check.h"
-#include "core/version.h"
+#include "core/written_by.h"
 #include "scene/samples/hand_script.h"
 
 namespace afm::scene {
@@ -51,7 +51,7 @@ physics::ScanImage image_of(const physics::MarkedSurface& surface, const Particl
   image.metadata = {{"Title", set.title},
                     {"Sample", set.soft->name},
                     {"Source", "calculated by touchafm particles"},
-                    {"Software", std::string("TouchAFM ") + core::kVersion}};
+                    {"Software", core::written_by()}};
   return image;
 }
 

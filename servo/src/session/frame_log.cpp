@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "core/system_error.h"
-#include "core/version.h"
 #include "core/write_all.h"
+#include "core/written_by.h"
 
 namespace afm::servo {
 
@@ -69,7 +69,7 @@ FrameLog::FrameLog(std::string path, core::FileDescriptor file, std::int64_t sta
     : path_(std::move(path)),
       file_(std::move(file)),
       start_ns_(start_ns),
-      waiting_(fmt::format("# TouchAFM {}: frames of touchafm view\n{}", core::kVersion, kColumns)),
+      waiting_(fmt::format("# {}: frames of touchafm view\n{}", core::written_by(), kColumns)),
       writer_([this] { write_all_that_comes(); }) {}
 
 FrameLog::~FrameLog() { end(); }

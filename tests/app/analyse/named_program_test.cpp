@@ -3,11 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "app/options/command.h"
 #include "core/version.h"
 #include "core/whole_file.h"
+#include "core/written_by.h"
 #include "support/places.h"
 #include "support/programs/run_touchafm.h"
 #include "support/scratch_folder.h"
@@ -18,6 +24,31 @@ namespace named_program_test {
 using support::run_touchafm;
 using testing::HasSubstr;
 
+const std::string kScan = "scan --material mica --size 20nm --pixels 8";
+
+std::string data(const std::string& file) { return support::source("tests/data/afm/" + file); }
+
+// Commands with --json.
+std::vector<std::string> reports() {
+  return {"curve --material mica",
+          "curve --material mica --sweep tip-radius=5nm:50nm:3",
+          "curve --material mica --mode fm --resonance 30kHz --amplitude 1nm",
+          "curve --material mica --mode tapping --free-amplitude 20nm --resonance 300kHz --quality-factor 400 "
+          "--spring-constant 40N/m --at 15nm",
+          "analyse " + data("bom.tab"),
+          "analyse " + data("qnm-log.spm"),
+          "lever --sader --length 120um --width 30um --resonance 70kHz --quality-factor 150",
+          kScan + " --rate 20Hz",
+          "particles gold-row",
+          "particles scratch-pmma",
+          "replay " + support::source("tests/formats/0.2.0/session-mica.afms"),
+          "render --describe --gltf " + support::source("assets/models/probe.glb"),
+          "doctor --seconds 0.1"};
+}
+
+// Their JSON is a list of what this machine has, and of the geometry of a wall.
+constexpr std::array<std::string_view, 2> kLists{"devices", "wall"};
+
 std::string contents(const std::string& command, const std::string& file) {
   const auto made = run_touchafm(command + " --out " + file);
   EXPECT_EQ(made.exit_code, 0) << command << made.err;
@@ -25,16 +56,7 @@ std::string contents(const std::string& command, const std::string& file) {
 }
 
 TEST(NamedProgram, IsInEveryReport) {
-  const std::string data = support::source("tests/data/afm/");
-  for (const std::string& command :
-       {std::string("curve --material mica"), std::string("curve --material mica --sweep tip-radius=5nm:50nm:3"),
-        std::string("curve --material mica --mode fm --resonance 30kHz --amplitude 1nm"),
-        std::string(
-            "curve --material mica --mode tapping --free-amplitude 20nm --resonance 300kHz --quality-factor 400 "
-            "--spring-constant 40N/m --at 15nm"),
-        "analyse " + data + "bom.tab", "analyse " + data + "qnm-log.spm",
-        std::string("lever --sader --length 120um --width 30um --resonance 70kHz --quality-factor 150"),
-        std::string("scan --material mica --size 20nm --pixels 8 --rate 20Hz")}) {
+  for (const std::string& command : reports()) {
     const auto made = run_touchafm(command + " --json");
     ASSERT_EQ(made.exit_code, 0) << command << made.err;
     const auto report = nlohmann::json::parse(made.out);
@@ -43,22 +65,84 @@ TEST(NamedProgram, IsInEveryReport) {
   }
 }
 
+TEST(NamedProgram, IsLookedForInEveryCommandWithJson) {
+  const auto commands = reports();
+  for (const Command& command : kCommands) {
+    const std::string name(command.name);
+    if (run_touchafm(name + " --help").out.find("--json") == std::string::npos) continue;
+    const bool listed = std::find(kLists.begin(), kLists.end(), name) != kLists.end();
+    EXPECT_NE(listed, std::any_of(commands.begin(), commands.end(),
+                                  [&](const std::string& each) { return each.starts_with(name + " "); }))
+        << name << " --json is in none of both lists of this test, or in both";
+  }
+}
+
+TEST(NamedProgram, EndsEveryReportInWords) {
+  const std::string end = "\ncomputed by " + core::written_by() + "\n";
+  for (const std::string& command :
+       {"analyse " + data("bom.tab"), "analyse " + data("qnm-log.spm"), std::string("material"),
+        std::string("material gold"), std::string("particles gold-row"), std::string("particles scratch-pmma"),
+        std::string("lever --sader --length 120um --width 30um --resonance 70kHz --quality-factor 150"),
+        "replay " + support::source("tests/formats/0.2.0/session-mica.afms")}) {
+    const auto made = run_touchafm(command);
+    EXPECT_EQ(made.exit_code, 0) << command << made.err;
+    EXPECT_TRUE(made.out.ends_with(end)) << command << made.out;
+  }
+}
+
 TEST(NamedProgram, IsInEveryFile) {
   const support::ScratchFolder folder;
-  const std::string name = std::string("TouchAFM ") + core::kVersion,
-                    scan = "scan --material mica --size 20nm --pixels 8";
+  const std::string name = core::written_by();
   EXPECT_THAT(contents("curve --material mica", folder.file("a.csv")), HasSubstr(name));
   EXPECT_THAT(contents("curve --material mica --format tab", folder.file("a.tab")), HasSubstr(name));
   EXPECT_THAT(contents("curve --material mica --format svg", folder.file("a.svg")), HasSubstr(name));
-  EXPECT_THAT(contents(scan, folder.file("a.gwy")), HasSubstr(name));
-  EXPECT_THAT(contents(scan, folder.file("a.gsf")), HasSubstr("Software = " + name));
-  const std::string fit = "analyse " + support::source("tests/data/afm/rising.tab") + " --fit paraboloid --radius 5um";
+  EXPECT_THAT(contents(kScan, folder.file("a.gwy")), HasSubstr(name));
+  EXPECT_THAT(contents(kScan, folder.file("a.gsf")), HasSubstr("Software = " + name));
+  EXPECT_THAT(contents("particles scratch-pmma", folder.file("b.gwy")), HasSubstr(name));
+  ASSERT_EQ(run_touchafm("paper --out " + folder.file("paper")).exit_code, 0);
+  for (const char* file : {"paper.md", "table1.csv", "table2.csv", "fig2.svg", "fig5e.svg"}) {
+    EXPECT_THAT(core::read_file(folder.file(std::string("paper/") + file)).value(), HasSubstr(name)) << file;
+  }
+  const auto paper = nlohmann::json::parse(core::read_file(folder.file("paper/paper.json")).value());
+  EXPECT_EQ(paper["software_version"], core::kVersion);
+  const std::string fit = "analyse " + data("rising.tab") + " --fit paraboloid --radius 5um";
   ASSERT_EQ(run_touchafm(fit + " --out " + folder.file("fits")).exit_code, 0);
   const std::string table = core::read_file(folder.file("fits/fits.tsv")).value();
   EXPECT_THAT(table, HasSubstr("\tsource\tsoftware\n"));
   EXPECT_THAT(table, HasSubstr("\tHertz 1881"));
   EXPECT_TRUE(table.ends_with("\t" + name + "\n")) << table;
   EXPECT_THAT(core::read_file(folder.file("fits/modulus.svg")).value(), HasSubstr(name));
+}
+
+// A text of a picture, as the file has it: key, end of the key, not compressed, no language, the text.
+std::string text_in_png(const std::string& key, const std::string& text) { return key + std::string(5, '\0') + text; }
+
+TEST(NamedProgram, IsInEveryPictureWithItsParameters) {
+  const support::ScratchFolder folder;
+  ASSERT_EQ(run_touchafm(kScan + " --tip-radius 7nm --picture " + folder.file("a.png")).exit_code, 0);
+  const std::string scan = core::read_file(folder.file("a.png")).value();
+  EXPECT_THAT(scan, HasSubstr(text_in_png("Software", core::written_by())));
+  EXPECT_THAT(scan, HasSubstr(text_in_png("Title", "Height in m")));
+  EXPECT_THAT(scan, HasSubstr(text_in_png("Width", "20 nm")));
+  EXPECT_THAT(scan, HasSubstr(text_in_png("Material", "mica")));
+  EXPECT_THAT(scan, HasSubstr(text_in_png("Tip radius", "7 nm")));
+  EXPECT_THAT(scan, HasSubstr(text_in_png("Source of tip_radius", "7nm, --tip-radius on the command line")));
+
+  ASSERT_EQ(
+      run_touchafm("generate map --modulus 4kPa --radius 5um --spring-constant 0.05N/m --most-force 1nN --pixels 2x2 "
+                   "--size 1um --out " +
+                   folder.file("map.h5"))
+          .exit_code,
+      0);
+  ASSERT_EQ(
+      run_touchafm("analyse " + folder.file("map.h5") + " --fit paraboloid --radius 5um --out " + folder.file("fits"))
+          .exit_code,
+      0);
+  const std::string map = core::read_file(folder.file("fits/map-modulus.png")).value();
+  EXPECT_THAT(map, HasSubstr(text_in_png("Software", core::written_by())));
+  EXPECT_THAT(map, HasSubstr(text_in_png("Title", "Modulus in Pa")));
+  EXPECT_THAT(map, HasSubstr(text_in_png("radius_m", "5e-06")));
+  EXPECT_THAT(map, HasSubstr("Hertz 1881"));
 }
 
 }  // namespace named_program_test

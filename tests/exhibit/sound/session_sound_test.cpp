@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/written_by.h"
 #include "exhibit/sound/stream_clock.h"
 #include "exhibit/sound/wav_file.h"
 #include "haptics/contact_model.h"
@@ -71,7 +72,8 @@ TEST(SessionSound, IsTheSameEveryTimeAndAsLoudAsAsked) {
   EXPECT_EQ(test::channel(mono, 0), test::channel(mono, 1));
   EXPECT_EQ(sound.size(), 2U * (2999U * 48U + 48'000U)) << "a second more than the session";
   const std::string wav = wav_bytes(sound);
-  EXPECT_EQ(wav.size(), 44 + 2 * sound.size());
+  EXPECT_EQ(wav.rfind("LIST"), 44 + 2 * sound.size());
+  EXPECT_THAT(wav, testing::HasSubstr(core::written_by()));
   EXPECT_EQ(wav.substr(0, 4) + wav.substr(8, 8), "RIFFWAVEfmt ");
 }
 

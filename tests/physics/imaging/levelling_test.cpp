@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <stdexcept>
 #include <vector>
+
+#include "physics/normal_generator.h"
 
 namespace afm::physics {
 namespace levelling_test {
@@ -117,6 +120,19 @@ TEST(HeightStatistics, CountWhatWasMeasuredAlone) {
   EXPECT_EQ(statistics.lowest, 1.0);
   EXPECT_EQ(statistics.highest, 7.0);
   EXPECT_EQ(height_statistics(std::vector<double>{kNan}).measured, 0U);
+}
+
+TEST(Levelling, F17FindsTheNoiseOfAFlatSample) {
+  constexpr int kRuns = 10;
+  constexpr std::size_t kPoints = std::size_t{256} * 256;
+  double sum = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    NormalGenerator noise(static_cast<std::uint64_t>(run + 1));
+    std::vector<double> heights(kPoints);
+    for (double& height : heights) height = 0.1e-9 * noise();
+    sum += height_statistics(heights).sq;
+  }
+  EXPECT_NEAR(sum / kRuns, 1e-10, 0.005 * 1e-10);
 }
 
 }  // namespace levelling_test

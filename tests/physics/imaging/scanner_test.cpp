@@ -13,7 +13,7 @@
 #include "physics/contact_parameters.h"
 #include "support/no_alloc.h"
 
-// A27 to A29 and F15 are rows of the table of cases.
+// A27 to A29, F12 and F15 are rows of the table of cases.
 namespace scanner_test {
 
 using namespace afm::physics;
@@ -98,6 +98,22 @@ TEST(Scanner, A29FeelsASlopeSideways) {
   ASSERT_TRUE(scanner.next_line(line));
   EXPECT_NEAR(line.trace.lateral_n[128] / 6.637521988e-09, 1.0, 1e-3);
   EXPECT_NEAR(line.retrace.lateral_n[128] / -2.621212942e-09, 1.0, 1e-3);
+}
+
+TEST(Scanner, F12MovesAtTwiceTheWidthAndTheLineRate) {
+  constexpr double kServoRateHz = 1e3;
+  ScanArea area;
+  area.width = area.height = Length(1e-6);
+  area.columns = 512;
+  ScanSettings settings = table_settings();
+  settings.line_rate = Frequency(1.0);
+  Scanner scanner(area, settings, [](double, double) { return 0.0; });
+  EXPECT_NEAR(scanner.pixel_time().si, 0.0009765625, 1e-9 * 0.0009765625);
+  EXPECT_NEAR(scanner.pixel_time().si * kServoRateHz, 0.9765625, 1e-9);
+  ASSERT_TRUE(scanner.next());
+  const double x_m = scanner.x_m(), time_s = scanner.time().si;
+  ASSERT_TRUE(scanner.next());
+  EXPECT_NEAR((scanner.x_m() - x_m) / (scanner.time().si - time_s), 2e-6, 1e-9 * 2e-6);
 }
 
 double bumps(double x, double y) { return 2e-9 * std::sin(x / 20e-9) * std::cos(y / 31e-9); }

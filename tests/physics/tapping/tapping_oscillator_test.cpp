@@ -153,6 +153,16 @@ TEST(TappingOscillator, CountsTheHarmonicsLossesOnlyInClevelandsEnergy) {
   }
 }
 
+// F07 of the table of cases: Cleveland's energy where the drive is at the resonance, sin(phi) = A/A0 + Q E/(pi k A A0).
+TEST(TappingOscillator, F07InfersTheEnergyLostFromAmplitudeAndPhase) {
+  const DrivenLever lever =
+      driven_lever(Stiffness(40.0), {.resonance = Frequency(300e3), .quality_factor = 400.0, .temperature = {}},
+                   {20_nm, Frequency(300e3)});
+  const double lost_j = cleveland_energy(lever, 15_nm, std::numbers::pi / 3.0).si;
+  EXPECT_NEAR(lost_j / 1.093513668e-17, 1.0, 1e-9);
+  EXPECT_NEAR(lost_j / 1.602176634e-19 / 68.25175485, 1.0, 1e-9) << "in eV";
+}
+
 // Criterion: the identities of virial and energy, for any Q and in any state that repeats itself.
 TEST(TappingDeep, IdentitiesOfVirialAndEnergyHold) {
   RandomInteraction random(13);

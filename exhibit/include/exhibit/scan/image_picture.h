@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "physics/imaging/scan_image.h"
@@ -17,5 +19,8 @@ struct PictureStyle {
 // Draws a channel in false colours, at least 256 pixels wide, row 0 on top; places without a value are grey. Adds a
 // labelled colour bar on the right and a scale bar of a round length below.
 render::Image picture_of(const physics::ScanImage& image, std::size_t channel, const PictureStyle& style = {});
+
+// Texts for its file: the channel with its unit, the size of the image, and its metadata.
+std::vector<std::pair<std::string, std::string>> picture_texts(const physics::ScanImage& image, std::size_t channel);
 
 }  // namespace afm::exhibit
