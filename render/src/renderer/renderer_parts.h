@@ -47,7 +47,7 @@ struct Renderer::Parts {
   SceneMaterials materials;
   std::size_t node_count;
   ShadowMap shadow_map;
-  vk::raii::DescriptorSetLayout frame_set_layout, shadow_set_layout;
+  FrameSetLayouts set_layouts;
   ScenePass scene_pass;
   Panels panels;
   Enlarger enlarger;
