@@ -49,8 +49,13 @@
 #define AFM_SMALLEST_POINT 2
 #define AFM_LARGEST_POINT 16
 
-// texels each way
-#define AFM_SHADOW_MAP_SIZE 2048
+// texels each way: of the shadow map, and of the map with soft edges
+#define AFM_SHADOW_MAP_SIZE 1024
+#define AFM_SOFT_SHADOW_SIZE 512
+
+// Half the width of a shadow's edge for each metre between the caster and the surface, and most of it, in texels.
+#define AFM_PENUMBRA 0.16
+#define AFM_PENUMBRA_REACH 3
 
 // set 1 of the panels, set 0 of the canvas and of the compose pass: textures to sample
 #define AFM_BINDING_TEXTURE 0

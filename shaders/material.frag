@@ -14,7 +14,7 @@
 layout(constant_id = 0) const uint kVariant = 0;
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
-layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map;
+layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
 // in the order of scene::TextureSlot
 const int kBaseColor = 0, kMetallicRoughness = 1, kNormal = 2, kOcclusion = 3, kEmissive = 4, kSpecular = 5,

@@ -13,7 +13,7 @@
 // few pixels of every triangle, so each pixel would otherwise be shaded several times.
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = AFM_SET_DRAW, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
-layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map;
+layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

@@ -13,7 +13,7 @@
 layout(constant_id = 0) const uint kVariant = 0;
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
-layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map;
+layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
 layout(location = 0) in vec3 room_position;
 layout(location = 1) centroid in vec3 room_normal;

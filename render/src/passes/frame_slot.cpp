@@ -31,12 +31,10 @@ vk::raii::DescriptorPool create_frame_pool(const Device& device, std::uint32_t s
 
 void write_uniforms(const Device& device, vk::DescriptorSet set, std::uint32_t binding, vk::DescriptorType type,
                     const vk::DescriptorBufferInfo& uniforms) {
-  device->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
-                                                      .dstBinding = binding,
-                                                      .descriptorCount = 1,
-                                                      .descriptorType = type,
-                                                      .pBufferInfo = &uniforms},
-                               nullptr);
+  device->updateDescriptorSets(
+      vk::WriteDescriptorSet{
+          .dstSet = set, .dstBinding = binding, .descriptorCount = 1, .descriptorType = type, .pBufferInfo = &uniforms},
+      nullptr);
 }
 
 void write_frame(const Device& device, vk::DescriptorSet set, const Buffer& uniforms) {
@@ -44,8 +42,8 @@ void write_frame(const Device& device, vk::DescriptorSet set, const Buffer& unif
                  {.buffer = *uniforms.buffer, .range = VK_WHOLE_SIZE});
 }
 
-void write_shadow_map(const Device& device, vk::DescriptorSet set, const ShadowMap& shadow_map) {
-  const vk::DescriptorImageInfo shadow_info = shadow_map.descriptor();
+void write_shadow(const Device& device, vk::DescriptorSet set, const SoftShadow& shadow) {
+  const vk::DescriptorImageInfo shadow_info = shadow.descriptor();
   device->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
                                                       .dstBinding = AFM_BINDING_SHADOW,
                                                       .descriptorCount = 1,
@@ -54,16 +52,15 @@ void write_shadow_map(const Device& device, vk::DescriptorSet set, const ShadowM
                                nullptr);
 }
 
-enum class ShadowMapUse { Read, Drawn };
+enum class ShadowUse { Read, Drawn };
 
-vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowMapUse use) {
+vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowUse use) {
   const auto both = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
-  std::vector<vk::DescriptorSetLayoutBinding> bindings{
-      {.binding = AFM_BINDING_FRAME,
-       .descriptorType = vk::DescriptorType::eUniformBuffer,
-       .descriptorCount = 1,
-       .stageFlags = both}};
-  if (use == ShadowMapUse::Read) {
+  std::vector<vk::DescriptorSetLayoutBinding> bindings{{.binding = AFM_BINDING_FRAME,
+                                                        .descriptorType = vk::DescriptorType::eUniformBuffer,
+                                                        .descriptorCount = 1,
+                                                        .stageFlags = both}};
+  if (use == ShadowUse::Read) {
     bindings.push_back({.binding = AFM_BINDING_SHADOW,
                         .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                         .descriptorCount = 1,
@@ -84,11 +81,11 @@ vk::raii::DescriptorSetLayout create_draw_set_layout(const Device& device) {
 }  // namespace
 
 FrameSetLayouts::FrameSetLayouts(const Device& device)
-    : eyes(create_frame_set_layout(device, ShadowMapUse::Read)),
-      shadow(create_frame_set_layout(device, ShadowMapUse::Drawn)),
+    : eyes(create_frame_set_layout(device, ShadowUse::Read)),
+      shadow(create_frame_set_layout(device, ShadowUse::Drawn)),
       draw(create_draw_set_layout(device)) {}
 
-FrameSlot::FrameSlot(const Device& device, const FrameSetLayouts& layouts, const ShadowMap& shadow_map,
+FrameSlot::FrameSlot(const Device& device, const FrameSetLayouts& layouts, const SoftShadow& shadow,
                      const SceneGeometry& geometry)
     : pool_(*device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                .queueFamilyIndex = device.queue_family()}),
@@ -108,7 +105,7 @@ FrameSlot::FrameSlot(const Device& device, const FrameSetLayouts& layouts, const
         create_host_buffer(device, "frame uniforms", sizeof(FrameBlock), vk::BufferUsageFlagBits::eUniformBuffer));
     sets_.push_back(allocate(*layouts.eyes));
     write_frame(device, *sets_.back(), uniforms_.back());
-    write_shadow_map(device, *sets_.back(), shadow_map);
+    write_shadow(device, *sets_.back(), shadow);
   }
   if (geometry.copy_count() > 0) {
     copies_ = create_host_buffer(device, "copies", geometry.copy_count() * sizeof(MeshCopy),

@@ -9,11 +9,11 @@
 #include "drawing/eye_targets.h"
 #include "drawing/frame_blocks.h"
 #include "drawing/pixel_area.h"
-#include "passes/shadow_map.h"
+#include "passes/soft_shadow.h"
 
 namespace afm::render {
 
-// Sets of the pipelines that draw the room. Set 0 has the uniforms of the frame and, for the eyes, the shadow map to read.
+// Sets of the pipelines that draw the room. Set 0 has the uniforms of the frame and, for the eyes, the shadows to read.
 // Pipelines that draw the shadow map have a set without it; otherwise lavapipe would finish each draw before the next,
 // to let it read the result. Set AFM_SET_DRAW has the uniforms of a draw.
 struct FrameSetLayouts {
@@ -25,7 +25,7 @@ struct FrameSetLayouts {
 // Resources of one frame in flight: commands, uniforms and draw blocks. Reused once the frame is finished.
 class FrameSlot {
  public:
-  FrameSlot(const Device& device, const FrameSetLayouts& layouts, const ShadowMap& shadow_map,
+  FrameSlot(const Device& device, const FrameSetLayouts& layouts, const SoftShadow& shadow,
             const SceneGeometry& geometry);
 
   // Writes everything that the frame's shaders read; `blocks` has one entry per draw, `copies` one for each of

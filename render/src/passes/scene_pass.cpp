@@ -98,8 +98,8 @@ PipelineRequest variant_request(vk::PipelineLayout layout, const ShaderVariant& 
           .variant = variant.bits};
 }
 
-vk::raii::PipelineLayout create_layout(const Device& device, vk::DescriptorSetLayout frame,
-                                       const FrameSetLayouts& layouts) {
+vk::raii::PipelineLayout create_scene_layout(const Device& device, vk::DescriptorSetLayout frame,
+                                             const FrameSetLayouts& layouts) {
   const std::array sets{frame, *layouts.draw};
   return create_pipeline_layout(device, {.sets = sets});
 }
@@ -136,8 +136,8 @@ vk::raii::Pipeline create_shadow_of_copies(const Device& device, vk::PipelineLay
 
 ScenePass::ScenePass(const Device& device, const FrameSetLayouts& layouts, const SceneMaterials& materials,
                      const std::vector<ShaderVariant>& variants)
-    : layout_(create_layout(device, *layouts.eyes, layouts)),
-      shadow_layout_(create_layout(device, *layouts.shadow, layouts)),
+    : layout_(create_scene_layout(device, *layouts.eyes, layouts)),
+      shadow_layout_(create_scene_layout(device, *layouts.shadow, layouts)),
       variant_layout_(create_variant_layout(device, layouts, materials.layout())),
       shadow_(create_pipeline(device, shadow_request(*shadow_layout_))),
       opaque_{plain_pipelines(device, *layout_, Blending::Opaque, 0),
@@ -212,7 +212,8 @@ void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const Eye
     set_state(command, *layout_, input, i, sides);
     if (const auto material = draw.variant ? input.materials.set(draw.material) : bound_material;
         material != bound_material) {
-      command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *variant_layout_, AFM_SET_MATERIAL, material, nullptr);
+      command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *variant_layout_, AFM_SET_MATERIAL, material,
+                                 nullptr);
       bound_material = material;
     }
     draw_one(command, input, i);
@@ -235,7 +236,7 @@ void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Inpu
 }
 
 void ScenePass::record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
-                                  const Input& input, EyePipeline& pipeline) const {
+                                  EyePipeline& pipeline) {
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
   command.setCullMode(vk::CullModeFlagBits::eNone);
   command.draw(4, 1, 0, 0);
@@ -245,9 +246,9 @@ void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const EyePas
   bind_buffers(command, input);
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, nullptr);
   const std::size_t fog = input.draws.hazy ? 1 : 0;
-  if (input.box) record_background(command, drawing, input, erasing_background_);
+  if (input.box) record_background(command, drawing, erasing_background_);
   record_in_eyes(command, drawing, input, input.draws.opaque, opaque_[fog]);
-  if (!input.box) record_background(command, drawing, input, background_);
+  if (!input.box) record_background(command, drawing, background_);
   record_in_eyes(command, drawing, input, input.draws.blended, blended_[fog]);
   command.setFrontFace(vk::FrontFace::eCounterClockwise);
 }

@@ -55,8 +55,8 @@ class ScenePass {
   static void draw_one(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t draw);
   static void bind_buffers(const vk::raii::CommandBuffer& command, const Input& input);
   EyePipeline& plain_one(const Draw& draw, Shading shading, bool hazy, PlainPipelines& plain);
-  void record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
-                         EyePipeline& pipeline) const;
+  static void record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
+                                EyePipeline& pipeline);
   void record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
                       std::span<const std::uint32_t> draws, PlainPipelines& plain);
 

@@ -75,6 +75,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       materials(device, scene),
       node_count(scene.nodes.size()),
       shadow_map(device),
+      soft_shadow(device, shadow_map.view()),
       set_layouts(device),
       scene_pass(device, set_layouts, materials, geometry.variants()),
       panels(device, std::move(fonts), *set_layouts.eyes, options),
@@ -82,7 +83,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       composer(device, eyes, eye_changes),
       timeline(create_timeline(device)) {
   for (std::size_t i = 0; i < kFramesInFlight; ++i) {
-    slots.emplace_back(device, set_layouts, shadow_map, geometry);
+    slots.emplace_back(device, set_layouts, soft_shadow, geometry);
     if (options.time_passes && TimestampQueries::works_on(device)) {
       clocks.emplace_back(device);
     }
@@ -148,6 +149,7 @@ void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
     scene_pass.record_shadow(command, input, shadow_casters.dynamic_casters());
   }
   shadow_map.end(command);
+  soft_shadow.record(command, shadow_casters.changed());
   mark(command, slot_index, GpuTimer::Mark::ShadowEnd);
   command.end();
 }
@@ -182,7 +184,7 @@ void Renderer::Parts::render(const FrameState& frame) {
   eyes.begin_frame(choose_drawing(frame, slot.draws));
   slot.painted = panels.update(frame, slot_index);
   panels.set_apart(frame.panels_apart, PanelSight(frame, geometry, slot.draws));
-  now.take(frame, geometry, slot.draws, eyes.drawing(), eyes.guard_band(), panels, drawn);
+  now.take(frame, geometry, slot.draws, eyes.drawing(), eyes.guard_band(), panels);
   if (options.redraw == Redraw::Everything) drawn.forget();
   slot.area = damage.between(drawn, now, geometry);
   const ShadowStep step = shadow_casters.update(frame, geometry, slot.draws);

@@ -15,6 +15,7 @@
 #include "passes/scene_pass.h"
 #include "passes/shadow_casters.h"
 #include "passes/shadow_map.h"
+#include "passes/soft_shadow.h"
 #include "render/renderer.h"
 
 namespace afm::render {
@@ -47,6 +48,7 @@ struct Renderer::Parts {
   SceneMaterials materials;
   std::size_t node_count;
   ShadowMap shadow_map;
+  SoftShadow soft_shadow;
   FrameSetLayouts set_layouts;
   ScenePass scene_pass;
   Panels panels;
