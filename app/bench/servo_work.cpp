@@ -26,6 +26,7 @@ namespace {
 
 constexpr double kDearestBar_us = 20.0;  // limit set by the design
 constexpr double kMapP99_us = 8.0;
+constexpr double kTapP99_us = 5.0;
 // CHAI3D's custom effect on a field of 128 x 128 at full speed, on a comparable machine
 constexpr double kFieldP50_us = 0.8;
 constexpr double kFieldP99_us = 1.0;
@@ -35,7 +36,7 @@ constexpr std::size_t kWarmUpTicks = 3000;  // lift, Turn-On, and the ramp
 constexpr std::size_t kHalfCycle = 600;     // ticks
 constexpr double kTop_m = 0.060, kBottom_m = -0.015, kSideways_m = 0.03;
 
-enum class Ground { Plane, Surface, Measured, Map };
+enum class Ground { Plane, Surface, Measured, Map, Tapped };
 
 struct WorkCase {
   std::string name;
@@ -57,6 +58,7 @@ std::vector<WorkCase> work_cases(const MeasuredSurface& measured) {
   }
   all.push_back({"dynamic-dmt", Law::Dmt, true, Ground::Surface, 0, kDearestBar_us});
   all.push_back({"map of jkr", Law::Jkr, false, Ground::Map, 0, kMapP99_us});
+  all.push_back({"tapping", Law::Dmt, false, Ground::Tapped, 0, kTapP99_us});
   return all;
 }
 
@@ -94,6 +96,19 @@ void lay_map(scene::SharedModel& model) {
   }
 }
 
+// The sample and the lever of docs/tapping.md.
+void tap_on(scene::SharedContact& polymer) {
+  polymer.contact.tip_radius = physics::Length(20e-9);
+  polymer.contact.spring_constant = physics::Stiffness(40.0);
+  polymer.contact.hamaker = physics::Energy(64e-21);
+  polymer.contact.mean_surface_energy = physics::SurfaceEnergy(31.2e-3);
+  polymer.contact.reduced_modulus = physics::Pressure(1.5e9);
+  polymer.lever.resonance = physics::Frequency(300e3);
+  polymer.lever.quality_factor = 400.0;
+  polymer.free_amplitude_m = 20e-9;
+  polymer.drive_hz = 300e3;
+}
+
 scene::SharedModel model_of(const WorkCase& work, const MeasuredSurface& measured) {
   scene::SharedModel model = mica_alone();
   scene::SharedContact& mica = model.materials[0];
@@ -105,6 +120,7 @@ scene::SharedModel model_of(const WorkCase& work, const MeasuredSurface& measure
     mica.height_field = 0;
   }
   if (work.ground == Ground::Map) lay_map(model);
+  if (work.ground == Ground::Tapped) tap_on(mica);
   if (work.ground == Ground::Measured) {
     model.topography = measured.topography.size();
     mica.height_field = scene::kTopography;

@@ -19,7 +19,6 @@
 #include "curves/angle_units.h"
 #include "curves/tapping/tapping_output.h"
 #include "physics/imaging/scan_truth.h"
-#include "physics/tapping/averaged_flow.h"
 
 namespace afm::imaging {
 namespace {
@@ -79,13 +78,6 @@ core::Result<physics::TappingDetector> detector_of(const ScanRequest& request, c
   const auto driven = curves::driven_sample(setup, request.tapping.numbers);
   if (!driven) return tl::unexpected(driven.error());
   const physics::DrivenLever& lever = driven->lever;
-  if (lever.quality_factor < physics::AveragedFlow::kLeastQuality) {
-    return wrong_usage(
-        fmt::format("--mode tapping takes images with a quality factor of at least {:g}, not {:g}: below "
-                    "it the averaged motion misses the harmonics; touchafm curve --mode tapping "
-                    "--method direct computes its curve",
-                    physics::AveragedFlow::kLeastQuality, lever.quality_factor));
-  }
   const auto setpoint =
       setpoint_of(request.amplitude_setpoint.empty() ? "0.8" : request.amplitude_setpoint, lever.free_amplitude);
   if (!setpoint) return tl::unexpected(setpoint.error());
@@ -95,6 +87,9 @@ core::Result<physics::TappingDetector> detector_of(const ScanRequest& request, c
     return wrong_usage(error.what());
   }
 }
+
+// As --method of touchafm curve.
+const char* method_of(const physics::TappingDetector& detector) { return detector.is_direct() ? "direct" : "averaged"; }
 
 void describe(const ScanRequest& request, const curves::ContactSetup& setup, const physics::TipShape& tip, Scan& scan) {
   auto& metadata = scan.image.metadata;
@@ -121,6 +116,7 @@ void describe(const ScanRequest& request, const curves::ContactSetup& setup, con
     add("Resonance", lever.resonance, physics::kFrequencyUnits);
     add("Drive", lever.ratio * lever.resonance, physics::kFrequencyUnits);
     metadata.emplace_back("Quality factor", fmt::format("{:g}", lever.quality_factor));
+    metadata.emplace_back("Method", method_of(*scan.tapping));
     const auto conventions = curves::tapping_conventions();
     for (const auto& [key, text] : conventions.items()) {
       metadata.emplace_back("Convention of " + key, text.get<std::string>());
@@ -181,6 +177,7 @@ nlohmann::json tapping_json(const Scan& scan) {
                         {"resonance_Hz", lever.resonance.si},
                         {"frequency_Hz", (lever.ratio * lever.resonance).si},
                         {"quality_factor", lever.quality_factor},
+                        {"method", method_of(*scan.tapping)},
                         {"free_phase_deg", free_deg},
                         {"relaxation_time_s", lever.relaxation().si},
                         {"integral_gain_without_overshoot_per_s", 0.25 / lever.relaxation().si},

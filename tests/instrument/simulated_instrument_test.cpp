@@ -284,7 +284,7 @@ TEST(SimulatedInstrument, ImagesByASwingWhoseFlipsItsTruthCounts) {
 TEST(SimulatedInstrument, RefusesAnImageByASwingThatItCannotCompute) {
   SimulatedInstrument instrument = instrument_with();
   set(instrument, tap);
-  set(instrument, [](InstrumentSettings& settings) { settings.contact.si_values["quality-factor"] = 5.0; });
+  set(instrument, [](InstrumentSettings& settings) { settings.contact.si_values["quality-factor"] = 0.3; });
   instrument.approach(1e-6);
   const double time_s = instrument.position().time_s;
   const auto image = instrument.scan([](const physics::ScanLine&, double) { return true; });

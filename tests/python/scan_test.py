@@ -42,7 +42,7 @@ class Scan(unittest.TestCase):
         low = touchafm.scan(stiff, amplitude_setpoint=12e-9, **tapped, **SMALL)
         self.assertAlmostEqual(low.as_dict()["tapping"]["setpoint_ratio"], 0.6)
         self.assertIn("Phase (retrace)", low.channels)
-        for given in ({"mode": "fm"}, {"mode": "tapping"}, {**tapped, "adhesion": 1e-9}, {**tapped, "quality_factor": 50.0}):
+        for given in ({"mode": "fm"}, {"mode": "tapping"}, {**tapped, "adhesion": 1e-9}, {**tapped, "quality_factor": 0.3}):
             with self.assertRaises(ValueError):
                 touchafm.scan(stiff, **given, **SMALL)
         with self.assertRaises(TypeError):

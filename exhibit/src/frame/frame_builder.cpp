@@ -144,7 +144,7 @@ void show_swing(const Moment& moment, const curves::SampleModel& material, const
                 render::ForcePanel& panel) {
   using Kind = render::PlotMarker::Kind;
   const double a0_nm = material.parameters.free_amplitude_m * curves::kNmPerM;
-  panel.title = phrases[Phrase::PlotTitleTapping];
+  panel.title = phrases[material.tables->taps ? Phrase::PlotTitleDirect : Phrase::PlotTitleTapping];
   panel.words.force_axis = "A (nm)";
   panel.force_min_nn = 0.0;
   panel.force_max_nn = kAxisAbove * a0_nm;

@@ -12,6 +12,7 @@
 #include "panels/panel_conventions.h"
 #include "physics/tapping/driven_lever.h"
 #include "physics/tapping/tap_surface.h"
+#include "physics/tapping/tap_table.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::exhibit {
@@ -107,8 +108,12 @@ const physics::TapPortrait& SwingDial::portrait(const curves::SampleModel& model
   const auto height = static_cast<std::int64_t>(std::ceil(std::max(z_m, surface_->contact_height().si) / step_m));
   if (height_ == height) return portrait_;
   height_ = height;
-  portrait_ = physics::tap_portrait(surface_, scene::tapping_lever(model.parameters),
-                                    physics::Length(static_cast<double>(height) * step_m), physics::Length(reach_m));
+  const physics::Length z(static_cast<double>(height) * step_m);
+  if (model.tables->taps) {
+    portrait_ = {.states = model.tables->taps->states_at(z), .edges = {}};
+    return portrait_;
+  }
+  portrait_ = physics::tap_portrait(surface_, scene::tapping_lever(model.parameters), z, physics::Length(reach_m));
   return portrait_;
 }
 

@@ -14,6 +14,8 @@
 
 namespace afm::physics {
 
+class TapTable;
+
 // A force law in the servo's form: two monotone branches F(Z) of the lever's force and the two Z at which they end.
 // Built when a material is chosen, constant afterwards, shared between threads.
 struct LawTables {
@@ -33,6 +35,8 @@ struct LawTables {
   // amplitude of zero. Zero: it does not tap.
   Length tapped_from;
   Force tapped_full;
+  // For a quality factor too low for averages, the swings of such a lever. Shared, because tables are copied.
+  std::shared_ptr<const TapTable> taps;
 
   // Force in contact at `z`, after the tip was pressed down to `lowest`, at or below `z`. Depends on the deepest place
   // and not on the direction of motion, so an oscillation costs no work. Never below the attached branch, so no path

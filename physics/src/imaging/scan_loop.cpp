@@ -45,6 +45,12 @@ void ScanLoop::change(const ScanSettings& settings, Time tick) {
   find_limit();
 }
 
+void ScanLoop::hold_amplitude(Length setpoint) {
+  tapping_->hold(setpoint);
+  setpoint_m_ = tapping_->free_amplitude_m() - tapping_->setpoint_m();
+  held_gap_m_ = tapping_->engaged_gap_m();
+}
+
 void ScanLoop::set_swing(const ScanSettings& settings) noexcept {
   const double w0 = 2.0 * std::numbers::pi * settings.z_resonance.si, damping = 0.5 * w0 / settings.z_quality_factor;
   const std::complex<double> rate = std::sqrt(std::complex<double>(damping * damping - w0 * w0));

@@ -80,6 +80,11 @@ void Scanner::change(const ScanSettings& settings) {
   look_for_swings();
 }
 
+void Scanner::hold_amplitude(Length setpoint) {
+  loop_.hold_amplitude(setpoint);
+  look_for_swings();
+}
+
 void Scanner::change_surface(Surface surface) { surface_ = std::move(surface); }
 
 Time Scanner::pixel_time() const noexcept {

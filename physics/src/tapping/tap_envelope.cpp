@@ -2,26 +2,44 @@
 #include "physics/tapping/tap_envelope.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "physics/tapping/averaged_flow.h"
 #include "physics/tapping/driven_lever.h"
 #include "physics/tapping/tap_surface.h"
+#include "physics/tapping/tap_table.h"
 
 namespace afm::physics {
 namespace {
 
 constexpr std::size_t kAmplitudes = 48;
-constexpr double kFinestGap = 0.1e-9;    // m; from contact this far the columns are evenly spaced, then by factors
-constexpr double kGapStep = 0.025;       // step in asinh(gap/kFinestGap)
-constexpr double kFirstShare = 0.01;     // first row, as a share of the free amplitude
-constexpr double kLastShare = 1.25;      // last row, as a share of the free amplitude
-constexpr double kFarthestGap = 300e-9;  // gap of the last column
-constexpr double kLongestShare = 0.1;    // longest step, as a share of the relaxation
-constexpr double kLargestTurn = 0.25;    // rad a step
-constexpr double kLargestRing = 0.4;     // rad a step; more, and a step gives a stiff contact more than a swing loses
-constexpr double kNudge = 0.05;          // share of a row, for the slope of w
+constexpr double kFinestGap = 0.1e-9;      // m; from contact this far the columns are evenly spaced
+constexpr double kColumnsOfOctave = 36.0;  // columns for each doubling of the gap beyond, evenly spaced
+constexpr double kFirstShare = 0.01;       // first row, as a share of the free amplitude
+constexpr double kLastShare = 1.25;        // last row, as a share of the free amplitude
+constexpr double kFarthestGap = 300e-9;    // gap of the last column
+constexpr double kLongestShare = 0.1;      // longest step, as a share of the relaxation
+constexpr double kLargestTurn = 0.25;      // rad a step
+constexpr double kLargestRing = 0.4;       // rad a step; more, and a step gives a stiff contact more than a swing loses
+constexpr double kNudge = 0.05;            // share of a row, for the slope of w
+
+// The column of a gap, and the gap of a column. Between powers of two it is a straight line, read from the bits of a
+// number: a logarithm would be the dearest part of a tick.
+double column_of(double gap_m) noexcept {
+  constexpr std::int64_t kOne = std::bit_cast<std::int64_t>(1.0);
+  constexpr double kOctave = 0x1p-52;
+  const std::int64_t bits = std::bit_cast<std::int64_t>(1.0 + std::abs(gap_m) * (1.0 / kFinestGap)) - kOne;
+  return std::copysign(kColumnsOfOctave * kOctave * static_cast<double>(bits), gap_m);
+}
+
+double gap_of(double column) noexcept {
+  const double octaves = std::abs(column) / kColumnsOfOctave, whole = std::floor(octaves);
+  return std::copysign(kFinestGap * (std::ldexp(1.0 + octaves - whole, static_cast<int>(whole)) - 1.0), column);
+}
 
 }  // namespace
 
@@ -29,77 +47,123 @@ double TapEnvelope::longest_step(const DrivenLever& lever) noexcept {
   return 2.0 * lever.quality_factor * kLongestShare;
 }
 
+TapEnvelope::TapEnvelope(std::shared_ptr<const TapTable> rests)
+    : lever_(rests, &rests->lever()),
+      rests_(std::move(rests)),
+      free_cosine_(std::cos(lever_->free_phase)),
+      free_sine_(std::sin(lever_->free_phase)),
+      u_(lever_->free_amplitude.si * free_cosine_),
+      v_(lever_->free_amplitude.si * free_sine_) {}
+
 TapEnvelope::TapEnvelope(AveragedFlow& flow, Length contact_height)
-    : lever_(std::make_shared<const DrivenLever>(flow.lever())), contact_m_(contact_height.si) {
+    : lever_(std::make_shared<const DrivenLever>(flow.lever())),
+      contact_m_(contact_height.si),
+      free_cosine_(std::cos(lever_->free_phase)),
+      free_sine_(std::sin(lever_->free_phase)) {
   const double a0 = lever_->free_amplitude.si;
   least_amplitude_m_ = kFirstShare * a0;
   amplitude_step_m_ = (kLastShare - kFirstShare) * a0 / static_cast<double>(kAmplitudes - 1);
-  least_x_ = -std::asinh(2.0 * a0 / kFinestGap);
-  columns_ = static_cast<std::size_t>(std::ceil((std::asinh(kFarthestGap / kFinestGap) - least_x_) / kGapStep)) + 1;
-  auto table = std::make_shared<std::vector<Node>>(kAmplitudes * columns_);
+  least_x_ = std::floor(column_of(-2.0 * a0));
+  columns_ = static_cast<std::size_t>(std::ceil(column_of(kFarthestGap)) - least_x_) + 1;
+  Tables tables{std::vector<Moving>(kAmplitudes * columns_), std::vector<Forces>(kAmplitudes * columns_)};
   for (std::size_t row = 0; row < kAmplitudes; ++row) {
     const double amplitude = least_amplitude_m_ + static_cast<double>(row) * amplitude_step_m_;
     // from far away inwards, so that the shift of each swing begins near its own
     for (std::size_t i = columns_; i-- > 0;) {
-      const double gap = kFinestGap * std::sinh(least_x_ + static_cast<double>(i) * kGapStep);
+      const double gap = gap_of(least_x_ + static_cast<double>(i));
       const SwingAverages& swing = flow.averages(Length(amplitude), Length(contact_m_ + gap + amplitude));
       const double root = std::sqrt(amplitude);
-      (*table)[row * columns_ + i] = {swing.virial.si / root, swing.lost.si / root, swing.peak.si,
-                                      swing.mean.si * root};
+      const std::size_t node = row * columns_ + i;
+      tables.moving[node] = {static_cast<float>(swing.virial.si / root), static_cast<float>(swing.lost.si / root)};
+      tables.forces[node] = {static_cast<float>(swing.peak.si), static_cast<float>(swing.mean.si * root)};
     }
   }
-  table_ = std::move(table);
-  u_ = a0 * std::cos(lever_->free_phase);
-  v_ = a0 * std::sin(lever_->free_phase);
+  tables_ = std::make_shared<const Tables>(std::move(tables));
+  u_ = a0 * free_cosine_;
+  v_ = a0 * free_sine_;
 }
 
-TapEnvelope::Node TapEnvelope::sample(double amplitude_m, double gap_m) const noexcept {
-  const double x = std::max(0.0, (std::asinh((gap_m - amplitude_m - contact_m_) / kFinestGap) - least_x_) / kGapStep);
+TapEnvelope::Place TapEnvelope::place_of(double amplitude_m, double gap_m) const noexcept {
+  const double x = std::max(0.0, column_of(gap_m - amplitude_m - contact_m_) - least_x_);
   const double y = std::clamp((amplitude_m - least_amplitude_m_) / amplitude_step_m_, 0.0,
                               static_cast<double>(kAmplitudes) - 1.000001);
+  if (!(x < static_cast<double>(columns_ - 1))) return {};
   const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
-  if (column + 1 >= columns_) return {};
-  const double right = x - static_cast<double>(column), up = y - static_cast<double>(row);
-  const Node* low = table_->data() + row * columns_ + column;
+  return {.node = row * columns_ + column,
+          .right = x - static_cast<double>(column),
+          .up = y - static_cast<double>(row),
+          .beyond = false};
+}
+
+template <class Node>
+double TapEnvelope::between(const std::vector<Node>& nodes, const Place& place, float Node::* value) const noexcept {
+  const Node* low = nodes.data() + place.node;
   const Node* high = low + columns_;
-  const auto between = [&](double Node::* value) {
-    const double below = low[0].*value + right * (low[1].*value - low[0].*value);
-    const double above = high[0].*value + right * (high[1].*value - high[0].*value);
-    return below + up * (above - below);
-  };
-  const double root = std::sqrt(amplitude_m);
-  return {root * between(&Node::virial), root * between(&Node::lost), between(&Node::peak),
-          between(&Node::mean) / root};
+  const double a = static_cast<double>(low[0].*value), b = static_cast<double>(low[1].*value);
+  const double c = static_cast<double>(high[0].*value), d = static_cast<double>(high[1].*value);
+  const double below = a + place.right * (b - a), above = c + place.right * (d - c);
+  return below + place.up * (above - below);
+}
+
+TapEnvelope::Swing TapEnvelope::contact() const noexcept {
+  if (rests_) {
+    const TapTable::Rest rest = rests_->at(repelled_, gap_m_);
+    return {.lost = rest.lost_j, .peak = rest.peak_force_n, .mean = rest.mean_force_n};
+  }
+  const double amplitude = std::max(least_swing_m(), amplitude_m());
+  const Place place = place_of(amplitude, gap_m_);
+  if (place.beyond) return {};
+  const double root = std::sqrt(amplitude);
+  return {.lost = root * between(tables_->moving, place, &Moving::lost),
+          .peak = between(tables_->forces, place, &Forces::peak),
+          .mean = between(tables_->forces, place, &Forces::mean) / root};
 }
 
 void TapEnvelope::place(double u_m, double v_m, double gap_m) noexcept {
   u_ = u_m, v_ = v_m;
-  contact_ = sample(amplitude_m(), gap_m);
+  gap_m_ = gap_m;
+  if (rests_) repelled_ = rests_->repelled_at(attraction() < 0.0, gap_m);
 }
 
 void TapEnvelope::place(const TapState& state, double gap_m) noexcept {
   place(state.amplitude.si * std::cos(state.phase), state.amplitude.si * std::sin(state.phase), gap_m);
 }
 
+void TapEnvelope::approach_rest(double gap_m, double angle) noexcept {
+  repelled_ = rests_->repelled_at(repelled_, gap_m);
+  const TapTable::Rest rest = rests_->at(repelled_, gap_m);
+  const double kept = std::exp(-0.5 * angle / lever_->quality_factor);
+  u_ = rest.u_m + kept * (u_ - rest.u_m);
+  v_ = rest.v_m + kept * (v_ - rest.v_m);
+}
+
 void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int most_steps) noexcept {
-  const double k = lever_->spring_constant.si, r = lever_->ratio, q = lever_->quality_factor;
-  const double drive = lever_->base_amplitude.si / (2.0 * r);
-  const double lowest = least_amplitude_m_ * 1e-3;
+  gap_m_ = to_gap_m;
+  if (rests_) return approach_rest(to_gap_m, angle);
+  const double r = lever_->ratio, q = lever_->quality_factor;
+  const double drive = lever_->base_amplitude.si / (2.0 * r), detuned = (r * r - 1.0) / (2.0 * r);
+  const double lowest = least_swing_m();
+  const double by_stored = 1.0 / (lever_->spring_constant.si * r), by_turn = by_stored / (2.0 * std::numbers::pi);
   struct Rates {
     double g, w;
   };
-  const auto rates = [&](double u, double v, double gap_m) {
-    const double amplitude = std::max(lowest, std::sqrt(u * u + v * v)), stored = k * r * amplitude * amplitude;
-    contact_ = sample(amplitude, gap_m);
-    return Rates{0.5 / q + contact_.lost / (2.0 * std::numbers::pi * stored),
-                 (r * r - 1.0) / (2.0 * r) + contact_.virial / stored};
+  const auto rates = [&](double amplitude, double gap_m) {
+    const Place place = place_of(amplitude, gap_m);
+    if (place.beyond) return Rates{0.5 / q, detuned};
+    const double share = std::sqrt(amplitude) / (amplitude * amplitude);
+    return Rates{0.5 / q + by_turn * share * between(tables_->moving, place, &Moving::lost),
+                 detuned + by_stored * share * between(tables_->moving, place, &Moving::virial)};
   };
+  const auto length = [lowest](double u, double v) { return std::max(lowest, std::sqrt(u * u + v * v)); };
   // angular rate at which amplitude and phase ring about a contact, from w' = dw/dA at this height: sqrt(|w' a/2r cos
   // phi|)
-  const auto ringing = [&](double u, double v, double gap_m, double w) {
-    const double amplitude = std::max(lowest, std::sqrt(u * u + v * v)), more = amplitude + amplitude_step_m_ * kNudge;
-    const double steeper = sample(more, gap_m).virial / (k * r * more * more) - (w - (r * r - 1.0) / (2.0 * r));
-    return std::sqrt(std::abs(steeper / (more - amplitude) * drive * u / amplitude));
+  const auto ringing = [&](double amplitude, double gap_m, double w) {
+    const double more = amplitude + amplitude_step_m_ * kNudge;
+    const Place place = place_of(more, gap_m);
+    if (place.beyond) return 0.0;
+    const double virial = between(tables_->moving, place, &Moving::virial);
+    const double steeper = by_stored * std::sqrt(more) / (more * more) * virial - (w - detuned);
+    return std::sqrt(std::abs(steeper / (more - amplitude) * drive * u_ / amplitude));
   };
   const double way_m = to_gap_m - from_gap_m;
   double left = angle;
@@ -110,14 +174,16 @@ void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int 
   };
   for (int i = 0; left > 0.0 && i < most_steps; ++i) {
     const double gap_m = gap_at(left, i);
-    const Rates first = rates(u_, v_, gap_m);
+    const double amplitude = length(u_, v_);
+    const Rates first = rates(amplitude, gap_m);
     const double turn = kLargestTurn / std::max(std::abs(first.w), 1e-12);
-    const double ring = kLargestRing / std::max(ringing(u_, v_, gap_m, first.w), 1e-12);
+    const double ring = kLargestRing / std::max(ringing(amplitude, gap_m, first.w), 1e-12);
     const double step = std::min({left, 2.0 * q * kLongestShare, turn, ring});
     const double middle_m = 0.5 * (gap_m + gap_at(left - step, i + 1));
     const double half = 0.5 * step;
-    const Rates middle =
-        rates(u_ + half * (-first.g * u_ - first.w * v_), v_ + half * (-first.g * v_ + first.w * u_ + drive), middle_m);
+    const double middle_u = u_ + half * (-first.g * u_ - first.w * v_);
+    const double middle_v = v_ + half * (-first.g * v_ + first.w * u_ + drive);
+    const Rates middle = rates(length(middle_u, middle_v), middle_m);
     // towards the swing at which these rates rest, turning about it: exact at rest, and no step lets the swing grow
     const double decay = 1.0 / (1.0 + step * middle.g * (1.0 + half * middle.g)), tangent = half * middle.w;
     const double scale = 1.0 / (1.0 + tangent * tangent);
@@ -139,8 +205,8 @@ double TapEnvelope::phase_rad() const noexcept {
 }
 
 double TapEnvelope::attraction() const noexcept {
-  const double amplitude = amplitude_m(), free = lever_->free_phase;
-  return amplitude > 0.0 ? (v_ * std::cos(free) - u_ * std::sin(free)) / amplitude : 0.0;
+  const double amplitude = amplitude_m();
+  return amplitude > 0.0 ? (v_ * free_cosine_ - u_ * free_sine_) / amplitude : 0.0;
 }
 
 }  // namespace afm::physics

@@ -81,7 +81,8 @@ class PhaseWatch {
   std::optional<Length> crossed_;
 };
 
-// True if two resting swings a step apart lie on different branches.
+}  // namespace
+
 bool jumped(const TapState& before, const TapState& after, const DrivenLever& lever, Length step) {
   constexpr double kTurn = 10.0 * std::numbers::pi / 180.0;
   const bool passed = (before.phase > lever.free_phase) != (after.phase > lever.free_phase);
@@ -89,7 +90,26 @@ bool jumped(const TapState& before, const TapState& after, const DrivenLever& le
          abs(after.amplitude - before.amplitude + step) > 0.01 * lever.free_amplitude;
 }
 
-}  // namespace
+SlowWalk slow_walk_of(const TappingCurve& curve, const DrivenLever& lever) {
+  SlowWalk walk;
+  for (const TapPoint& point : curve.points) {
+    (point.branch == Branch::Approach ? walk.down : walk.up).push_back(point);
+  }
+  std::reverse(walk.up.begin(), walk.up.end());
+  // a branch may end a little beyond the lag of the free lever, so the ends count that the jumps lead to
+  for (const TapJump& jump : curve.jumps) {
+    const bool rises = jump.after.phase > jump.before.phase, attracted = jump.after.phase > lever.free_phase;
+    if (jump.branch == Branch::Approach && !rises && !attracted) walk.in = jump;
+    if (jump.branch == Branch::Retract && rises && attracted) walk.off = jump;
+  }
+  return walk;
+}
+
+Length meeting_of(const SlowWalk& walk, const DrivenLever& lever) {
+  const auto repelled = std::find_if(walk.down.begin(), walk.down.end(),
+                                     [&](const TapPoint& p) { return p.state.phase < lever.free_phase; });
+  return repelled == walk.down.end() ? walk.down.back().z : repelled->z;
+}
 
 void add_tap_point(TappingCurve& curve, const DrivenLever& lever, Branch branch, Length z, const RestingTap& tap) {
   curve.points.push_back({z, branch, tap.state, tap.deflection, tap.averages,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "physics/tapping/averaged_flow.h"
@@ -15,6 +16,22 @@ struct TapDirection {
   Branch branch = Branch::Approach;
   std::vector<Length> heights;
 };
+
+// A slow walk down and up again, in parts.
+struct SlowWalk {
+  std::vector<TapPoint> down, up;  // each from the highest Z
+  std::optional<TapJump> in, off;  // between the attractive and the repulsive state
+
+  bool hysteretic() const { return in && off && off->z > in->z; }
+};
+
+SlowWalk slow_walk_of(const TappingCurve& curve, const DrivenLever& lever);
+
+// Z at which the walk down passes from attraction to repulsion; the lowest Z if it never does.
+Length meeting_of(const SlowWalk& walk, const DrivenLever& lever);
+
+// True if two resting swings, the later one `step` below the other, lie on different branches.
+bool jumped(const TapState& before, const TapState& after, const DrivenLever& lever, Length step);
 
 void add_tap_point(TappingCurve& curve, const DrivenLever& lever, Branch branch, Length z, const RestingTap& tap);
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "physics/quantity_text.h"
 #include "physics/tapping/averaged_flow.h"
 #include "physics/tapping/driven_lever.h"
 #include "physics/tapping/tap_surface.h"
+#include "physics/tapping/tap_table.h"
 #include "physics/tapping/tapping_model.h"
 #include "require_range.h"
 #include "tapping/tap_walk.h"
@@ -23,33 +22,30 @@ constexpr Length kClearOfSample{2e-9};      // distance from the free swing with
 constexpr double kFaintReduction = 0.02;    // share of the free amplitude
 constexpr double kMostReachOfSwing = 10.0;  // in free amplitudes, for an attraction with a long range
 
-// A slow walk down and up again.
-struct Walk {
-  TappingCurve curve;
-  std::vector<TapPoint> down, up;  // each from the highest Z
-  std::optional<TapJump> in, off;  // between the attractive and the repulsive state
-};
-
-Walk walk_of(AveragedFlow& flow, Length from, Length to) {
+// By the averaged flow, from rest to rest.
+TappingCurve curve_of(AveragedFlow& flow, Length from, Length to) {
   TapDirection down{Branch::Approach, {}}, up{Branch::Retract, {}};
   for (int i = 0; i <= kHeights; ++i) down.heights.push_back(from + (to - from) * (static_cast<double>(i) / kHeights));
   up.heights.assign(down.heights.rbegin(), down.heights.rend());
-  Walk walk;
+  TappingCurve curve;
   const DrivenLever& lever = flow.lever();
   TapState state = flow.settle({lever.free_amplitude, lever.free_phase}, from).state;
-  walk_slowly(flow, down, state, walk.curve);
-  walk_slowly(flow, up, state, walk.curve);
-  for (const TapPoint& point : walk.curve.points) {
-    (point.branch == Branch::Approach ? walk.down : walk.up).push_back(point);
+  walk_slowly(flow, down, state, curve);
+  walk_slowly(flow, up, state, curve);
+  return curve;
+}
+
+// From above the attraction, also where its range is long.
+TappingCurve averaged_curve(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever) {
+  AveragedFlow flow(surface, lever);
+  const Length a0 = lever.free_amplitude, floor = surface->contact_height();
+  Length from = floor + a0 + std::max(kClearOfSample, 0.5 * a0);
+  while (from < kMostReachOfSwing * a0) {
+    const Length amplitude = flow.settle({a0, lever.free_phase}, from).state.amplitude;
+    if (std::abs(amplitude / a0 - 1.0) < 0.5 * kFaintReduction) break;
+    from = from + 0.5 * a0;
   }
-  std::reverse(walk.up.begin(), walk.up.end());
-  // a branch may end a little beyond the lag of the free lever, so the ends count that the jumps lead to
-  for (const TapJump& jump : walk.curve.jumps) {
-    const bool rises = jump.after.phase > jump.before.phase, attracted = jump.after.phase > lever.free_phase;
-    if (jump.branch == Branch::Approach && !rises && !attracted) walk.in = jump;
-    if (jump.branch == Branch::Retract && rises && attracted) walk.off = jump;
-  }
-  return walk;
+  return curve_of(flow, from, floor);
 }
 
 // P over falling Z, between the points of a walk.
@@ -80,13 +76,6 @@ BranchTable table_of(const std::vector<TapPoint>& points, const DrivenLever& lev
   return {end, side, Length(spacing), std::move(nodes)};
 }
 
-// Z at which the walk down passes from attraction to repulsion; the lowest Z if it never does.
-Length meeting_of(const Walk& walk, const DrivenLever& lever) {
-  const auto repelled = std::find_if(walk.down.begin(), walk.down.end(),
-                                     [&](const TapPoint& p) { return p.state.phase < lever.free_phase; });
-  return repelled == walk.down.end() ? walk.down.back().z : repelled->z;
-}
-
 }  // namespace
 
 Force tap_push(const DrivenLever& lever, Length amplitude) noexcept {
@@ -95,26 +84,19 @@ Force tap_push(const DrivenLever& lever, Length amplitude) noexcept {
 
 std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_ptr<const TapSurface>& surface,
                                                    const DrivenLever& lever) {
-  require_range("quality_factor", lever.quality_factor, AveragedFlow::kLeastQuality, 1e5, kPlainNumber);
   require_range("relaxation", lever.relaxation().si, 0.0, kLongestFeltRelaxation.si, kTimeUnits);
-  AveragedFlow flow(surface, lever);
-  const Length a0 = lever.free_amplitude, floor = surface->contact_height();
-  Length from = floor + a0 + std::max(kClearOfSample, 0.5 * a0);
-  // above the attraction, if its range is long
-  while (from < kMostReachOfSwing * a0) {
-    const Length amplitude = flow.settle({a0, lever.free_phase}, from).state.amplitude;
-    if (std::abs(amplitude / a0 - 1.0) < 0.5 * kFaintReduction) break;
-    from = from + 0.5 * a0;
-  }
-  const Walk walk = walk_of(flow, from, floor);
-
   LawTables tables;
+  if (lever.quality_factor < AveragedFlow::kLeastQuality)
+    tables.taps = std::make_shared<const TapTable>(surface, lever);
+  const TappingCurve curve = tables.taps ? tables.taps->walk() : averaged_curve(surface, lever);
+  const SlowWalk walk = slow_walk_of(curve, lever);
+  const Length a0 = lever.free_amplitude, floor = surface->contact_height(), from = walk.down.front().z;
   tables.law = law;
   tables.contact = surface->contact();
   tables.contact_gap = surface->zero_of_indentation();
   tables.tapped_full = tap_push(lever, Length());
   CycleFigures& figures = tables.figures;
-  figures.hysteretic = walk.in && walk.off && walk.off->z > walk.in->z;
+  figures.hysteretic = walk.hysteretic();
   if (figures.hysteretic) {
     figures.z_jtc = walk.in->z;
     figures.z_joc = walk.off->z;
@@ -136,8 +118,8 @@ std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_pt
   tables.attached =
       table_of(figures.hysteretic ? walk.up : walk.down, lever, figures.z_joc, BranchTable::Side::Below, pressed);
   double loop = 0.0;
-  for (std::size_t i = 1; i < walk.curve.points.size(); ++i) {
-    const TapPoint &a = walk.curve.points[i - 1], &b = walk.curve.points[i];
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const TapPoint &a = curve.points[i - 1], &b = curve.points[i];
     loop -= 0.5 * (tap_push(lever, a.state.amplitude) + tap_push(lever, b.state.amplitude)).si * (b.z - a.z).si;
   }
   figures.loop_energy = figures.lost_at_jtc = Energy(std::max(0.0, loop));

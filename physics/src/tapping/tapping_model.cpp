@@ -19,7 +19,9 @@ constexpr double kClearState = 0.02;
 constexpr double kLeastSwing = 0.05;  // share of the free amplitude; a swing that is nearly stopped keeps its state
 constexpr int kLooks = 24;            // at the state, in a step
 
-TapEnvelope envelope_of(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever) {
+TapEnvelope envelope_of(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
+                        const LawTables& tables) {
+  if (tables.taps) return TapEnvelope(tables.taps);
   AveragedFlow flow(surface, lever);
   return {flow, surface->contact_height()};
 }
@@ -29,10 +31,10 @@ TapEnvelope envelope_of(const std::shared_ptr<const TapSurface>& surface, const 
 TappingModel::TappingModel(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
                            std::shared_ptr<const LawTables> tables, Time tick_period)
     : tables_(std::move(tables)),
-      envelope_(std::make_unique<TapEnvelope>(envelope_of(surface, lever))),
+      envelope_(std::make_unique<TapEnvelope>(envelope_of(surface, lever, *tables_))),
       floor_(surface->contact_height()) {
   const double whole = lever.angular_resonance() * tick_period.si;
-  angle_ = std::min(whole, kMostSteps * TapEnvelope::longest_step(lever));
+  angle_ = envelope_->at_rest_only() ? whole : std::min(whole, kMostSteps * TapEnvelope::longest_step(lever));
   slow_motion_ = whole / angle_;
 }
 
@@ -60,7 +62,7 @@ void TappingModel::watch(Length before, Length after, double fraction, TipRespon
   if (!tables_->figures.hysteretic || response.event_count == response.events.size()) return;
   response.add({.kind = repelled ? EventKind::JumpToAttraction : EventKind::JumpToRepulsion,
                 .z = crossed_z_,
-                .force_before = previous_mean_,
+                .force_before = older_mean_,
                 .force_after = Force(envelope_->mean_force_n()),
                 .fraction = crossed_fraction_});
 }
@@ -79,7 +81,7 @@ TipResponse TappingModel::step(Length z) noexcept {
     envelope_->place({lever.free_amplitude, lever.free_phase}, z.si);
     phase_ = Phase::Free;
     previous_z_ = crossed_z_ = z;
-    previous_mean_ = Force(envelope_->mean_force_n());
+    older_mean_ = previous_mean_ = Force(envelope_->mean_force_n());
     previous_attraction_ = 0.0;
   }
   crossed_fraction_ = 0.0;
@@ -96,7 +98,7 @@ TipResponse TappingModel::step(Length z) noexcept {
     wait_for_lift();
     return response;
   }
-  previous_mean_ = mean;
+  older_mean_ = std::exchange(previous_mean_, mean);
   push_ = tap_push(lever, amplitude());
   response.phase = phase_;
   response.force = mean;

@@ -201,7 +201,7 @@ DirectSwing TappingOscillator::swing() noexcept {
   return result;
 }
 
-DirectSwing TappingOscillator::settle() noexcept {
+DirectSwing TappingOscillator::settle(double settled) noexcept {
   constexpr int kBetweenChecks = 50, kAveraged = 16;
   move_base(Length());
   Sums none;
@@ -211,7 +211,7 @@ DirectSwing TappingOscillator::settle() noexcept {
     one_swing<false>(none);
     if (i % kBetweenChecks != 0) continue;
     const DirectSwing last = swing();
-    if (abs(last.state.amplitude - before) < 1e-9 * lever_.free_amplitude) break;
+    if (abs(last.state.amplitude - before) < settled * lever_.free_amplitude) break;
     before = last.state.amplitude;
   }
   DirectSwing sum = swing(), last = sum;

@@ -176,7 +176,7 @@ TEST(LessonDigest, IsThatOfTheUsersMaterialsToo) {
 TEST(LessonSamples, RefuseALeverThatNoHandCanFeel) {
   const support::ScratchFolder folder;
   const auto lesson =
-      load_lesson(folder.write("lesson.toml", kHead + kFit + kTapping + "quality_factor = 50\n" +
+      load_lesson(folder.write("lesson.toml", kHead + kFit + kTapping + "quality_factor = 5000\n" +
                                                   "resonance = \"300 kHz\"\n" + step("type = \"text\"\n")),
                   support::source("assets"));
   ASSERT_TRUE(lesson) << lesson.error().message;

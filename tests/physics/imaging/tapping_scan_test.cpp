@@ -188,7 +188,6 @@ TEST(TappingDetector, NeverReachesAnIslandFromAbove) {
 TEST(TappingDetector, RefusesASetpointThatNoFeedbackKeeps) {
   EXPECT_THROW(detector_at(20.0), UnphysicalValue);
   EXPECT_THROW(detector_at(0.1), UnphysicalValue);
-  EXPECT_THROW(detector_at(16.0, {.q = 50.0}), UnphysicalValue);
 }
 
 ScanImage image_of(const ScanSettings& settings, const Scanner::Surface& surface) {

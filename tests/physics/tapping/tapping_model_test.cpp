@@ -75,8 +75,7 @@ TEST(TappedTables, HaveTheFoldsOfASlowWalk) {
 }
 
 TEST(TappedTables, RefuseALeverThatFollowsTooSlowly) {
-  const TappedSample damped{.q = 99.0}, slow{.q = 3000.0};
-  EXPECT_THROW((void)tapped_law_tables(Law::Dmt, damped.surface(), damped.lever()), UnphysicalValue);
+  const TappedSample slow{.q = 3000.0};
   EXPECT_THROW((void)tapped_law_tables(Law::Dmt, slow.surface(), slow.lever()), UnphysicalValue);
 }
 

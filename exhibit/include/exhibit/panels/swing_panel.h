@@ -16,7 +16,8 @@ namespace afm::exhibit {
 // The dial of a lever that taps: the swing as a pointer of length A at the angle of its phase lag, so that the free
 // swing of a lever at its resonance points up, an attractive one to the left of it, and a repulsive one to the right.
 // Every swing at rest that loses no energy in the sample ends on the circle. The stable states at this Z have pointers,
-// too; where there are several, a line is the edge between the swings that end in one and those that end in another.
+// too; where there are several, a line is the edge between the swings that end in one and those that end in another. A
+// lever of a TapTable has no edge.
 //
 // One thread. The picture of a new Z takes milliseconds.
 class SwingDial {

@@ -67,20 +67,28 @@
   PHRASE(KeyLook, "key-look", "", kLine)
 
 // A lever that taps: the plot of its amplitude, its dial, and images beside it.
-#define AFM_FOR_EACH_TAPPING_PHRASE(PHRASE)                 \
-  PHRASE(PlotTitleTapping, "plot-title-tapping", "", kLine) \
-  PHRASE(SwingAmplitude, "swing-amplitude", "", kLine)      \
-  PHRASE(SwingPhase, "swing-phase", "", kLine)              \
-  PHRASE(SwingState, "swing-state", "", kLine)              \
-  PHRASE(SwingAttractive, "swing-attractive", "", kLine)    \
-  PHRASE(SwingRepulsive, "swing-repulsive", "", kLine)      \
-  PHRASE(SwingFree, "swing-free", "", kLine)                \
-  PHRASE(DialTitle, "dial-title", "", kLine)                \
-  PHRASE(DialBoth, "dial-both", "", kLine)                  \
-  PHRASE(DialOne, "dial-one", "", kLine)                    \
-  PHRASE(DialNow, "dial-now", "", kLine)                    \
-  PHRASE(DialEdge, "dial-edge", "", kLine)                  \
-  PHRASE(ScanInContact, "scan-in-contact", "", kLine)
+#define AFM_FOR_EACH_TAPPING_PHRASE(PHRASE)                           \
+  PHRASE(PlotTitleTapping, "plot-title-tapping", "", kLine)           \
+  PHRASE(PlotTitleDirect, "plot-title-tapping-direct", "", kLine)     \
+  PHRASE(SwingAmplitude, "swing-amplitude", "", kLine)                \
+  PHRASE(SwingPhase, "swing-phase", "", kLine)                        \
+  PHRASE(SwingState, "swing-state", "", kLine)                        \
+  PHRASE(SwingAttractive, "swing-attractive", "", kLine)              \
+  PHRASE(SwingRepulsive, "swing-repulsive", "", kLine)                \
+  PHRASE(SwingFree, "swing-free", "", kLine)                          \
+  PHRASE(DialTitle, "dial-title", "", kLine)                          \
+  PHRASE(DialBoth, "dial-both", "", kLine)                            \
+  PHRASE(DialOne, "dial-one", "", kLine)                              \
+  PHRASE(DialNow, "dial-now", "", kLine)                              \
+  PHRASE(DialEdge, "dial-edge", "", kLine)                            \
+  PHRASE(ScanInContact, "scan-in-contact", "", kLine)                 \
+  PHRASE(ScanInTapping, "scan-in-tapping", "length", kLine)           \
+  PHRASE(ScanPhase, "scan-phase", "low high", kLine)                  \
+  PHRASE(ScanAmplitudeError, "scan-amplitude-error", "length", kLine) \
+  PHRASE(ScanEnergy, "scan-energy", "energy", kLine)                  \
+  PHRASE(ScanAmplitude, "scan-amplitude", "", kLine)                  \
+  PHRASE(CauseLostSwing, "scan-cause-lost-swing", "", kLine)          \
+  PHRASE(CauseSwingInFlight, "scan-cause-swing-in-flight", "", kLine)
 
 // A force map on the panel, and what is felt of it. Rows as in exhibit/words/phrase_list.h, whose length is limited.
 #define AFM_FOR_EACH_MAP_PHRASE(PHRASE)                        \

@@ -3,25 +3,26 @@
 
 #include <memory>
 
+#include "physics/tapping/driven_lever.h"
 #include "physics/units.h"
 
 namespace afm::physics {
 
-class AveragedFlow;
 class TapEnvelope;
 class TapSurface;
-struct DrivenLever;
+class TapTable;
 
 // Signal of a microscope in tapping mode over a surface whose height changes: the swing of TapEnvelope, which the
-// feedback keeps at a setpoint.
+// feedback keeps at a setpoint. Below a quality factor of AveragedFlow::kLeastQuality it is that of a TapTable.
 //
 // One thread. Only the constructor and copies allocate.
 class TappingDetector {
  public:
-  // `setpoint`: amplitude that the feedback keeps. Throws UnphysicalValue unless Q is at least
-  // AveragedFlow::kLeastQuality, the setpoint is within 1 % to 99.9 % of the free amplitude, and a tip that comes from
-  // above finds a height with this amplitude.
-  TappingDetector(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever, Length setpoint);
+  // `setpoint`: amplitude that the feedback keeps. Throws UnphysicalValue unless the setpoint is within 1 % to 99.9 %
+  // of the free amplitude, and a tip that comes from above finds a height with this amplitude. `rests`: a table of this
+  // surface and lever, if one is at hand.
+  TappingDetector(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever, Length setpoint,
+                  std::shared_ptr<const TapTable> rests = nullptr);
 
   ~TappingDetector();
   TappingDetector(const TappingDetector& other);
@@ -32,6 +33,10 @@ class TappingDetector {
   // Puts the swing at rest at the setpoint, in the state that a tip from above finds first.
   void engage() noexcept;
 
+  // Keeps another amplitude from now on; the swing goes on. Takes some milliseconds, and allocates. Throws as the
+  // constructor does, without any change.
+  void hold(Length setpoint);
+
   // Lets the swing follow for `angle`, in w0 t, with the base `gap_m` above the surface.
   void advance(double gap_m, double angle) noexcept;
 
@@ -40,20 +45,24 @@ class TappingDetector {
   double lost_j() const noexcept;        // in the sample, per swing
   double peak_force_n() const noexcept;  // at the lowest point of the swing
 
-  const DrivenLever& lever() const noexcept;
-  double free_amplitude_m() const noexcept { return free_amplitude_m_; }
+  const DrivenLever& lever() const noexcept { return lever_; }
+  bool is_direct() const noexcept { return rests_ != nullptr; }  // by direct integration
+  double free_amplitude_m() const noexcept { return lever_.free_amplitude.si; }
   double setpoint_m() const noexcept { return setpoint_m_; }
   double engaged_gap_m() const noexcept { return engaged_.gap_m; }  // height of the base after engage()
 
  private:
   // A swing at rest at the setpoint.
   struct Engaged {
-    double gap_m, u_m, v_m;
+    double gap_m = 0, u_m = 0, v_m = 0;
   };
-  Engaged find_setpoint(AveragedFlow& flow, double contact_m) const;
-  TappingDetector(AveragedFlow&& flow, Length contact_height, Length setpoint);
+  Engaged find_setpoint(Length setpoint) const;
 
-  double free_amplitude_m_ = 0, setpoint_m_ = 0;
+  std::shared_ptr<const TapSurface> surface_;
+  DrivenLever lever_;
+  std::shared_ptr<const TapTable> rests_;  // null for a high quality factor
+
+  double setpoint_m_ = 0;
   Engaged engaged_;
   std::unique_ptr<TapEnvelope> envelope_;
 };

@@ -10,16 +10,18 @@
 namespace afm::physics {
 
 class AveragedFlow;
+class TapTable;
 struct DrivenLever;
 struct TapState;
 
-// The averaged flow of AveragedFlow over a surface that moves, in the variables u = A cos(phi), v = A sin(phi), time in
-// 1/w0:
+// The swing of a lever over a surface that moves. For a quality factor of at least AveragedFlow::kLeastQuality it is
+// the averaged flow, in the variables u = A cos(phi), v = A sin(phi), time in 1/w0:
 //
 //   u' = -g u - w v,   v' = -g v + w u + a/2r,   g = 1/2Q + E/(2 pi k r A^2),   w = (r^2 - 1)/2r + V/(r k A^2)
 //
 // V, E and the forces come from a table over amplitude and gap, which the constructor builds. At rest the amplitude is
-// that of AveragedFlow within 0.2 %.
+// that of AveragedFlow within 0.2 %. Below that quality factor u and v approach the swing at rest of a TapTable, on the
+// branch that its jumps leave, with the relaxation 2Q/w0; they do not ring, and the forces are those at rest.
 //
 // One thread. Only the constructor allocates; copies share the table.
 class TapEnvelope {
@@ -34,6 +36,9 @@ class TapEnvelope {
   // AveragedFlow::kLeastQuality. The swing is the free one.
   TapEnvelope(AveragedFlow& flow, Length contact_height);
 
+  // A lever with a low quality factor. The swing is the free one.
+  explicit TapEnvelope(std::shared_ptr<const TapTable> rests);
+
   // Puts the swing into this state with the base `gap_m` above the surface.
   void place(double u_m, double v_m, double gap_m) noexcept;
   void place(const TapState& state, double gap_m) noexcept;
@@ -43,31 +48,57 @@ class TapEnvelope {
   void advance(double from_gap_m, double to_gap_m, double angle, int most_steps = kUsualSteps) noexcept;
 
   double amplitude_m() const noexcept;
-  double phase_rad() const noexcept;                              // lag behind the drive, 0 to 2 pi
-  double lost_j() const noexcept { return contact_.lost; }        // in the sample, per swing
-  double peak_force_n() const noexcept { return contact_.peak; }  // at the lowest point of the swing
-  double mean_force_n() const noexcept { return contact_.mean; }  // force of the sample on the tip, over a swing
+  double phase_rad() const noexcept;                               // lag behind the drive, 0 to 2 pi
+  double lost_j() const noexcept { return contact().lost; }        // in the sample, per swing
+  double peak_force_n() const noexcept { return contact().peak; }  // at the lowest point of the swing
+  double mean_force_n() const noexcept { return contact().mean; }  // force of the sample on the tip, over a swing
 
   // Sine of the phase's excess over that of the free lever: positive where the sample attracts on average.
   double attraction() const noexcept;
 
   const DrivenLever& lever() const noexcept { return *lever_; }
+  bool at_rest_only() const noexcept { return rests_ != nullptr; }  // from a TapTable
 
  private:
-  // Averages of one swing. In the table virial and energy are over sqrt(A), and the mean force is times sqrt(A): their
-  // changes with A are then slow.
-  struct Node {
-    double virial = 0, lost = 0, peak = 0, mean = 0;
+  // Averages of one swing.
+  struct Swing {
+    double lost = 0, peak = 0, mean = 0;
   };
-  Node sample(double amplitude_m, double gap_m) const noexcept;
+  // What moves the swing, and its forces. In the tables virial and energy are over sqrt(A), and the mean force is times
+  // sqrt(A): their changes with A are then slow. Single precision halves what a tick reads.
+  struct Moving {
+    float virial = 0, lost = 0;
+  };
+  struct Forces {
+    float peak = 0, mean = 0;
+  };
+  struct Tables {
+    std::vector<Moving> moving;
+    std::vector<Forces> forces;
+  };
+  // Place in the tables.
+  struct Place {
+    std::size_t node = 0;
+    double right = 0, up = 0;
+    bool beyond = true;  // farther than the last column: no force
+  };
+  Place place_of(double amplitude_m, double gap_m) const noexcept;
+  template <class Node>
+  double between(const std::vector<Node>& nodes, const Place& place, float Node::* value) const noexcept;
+  double least_swing_m() const noexcept { return 1e-3 * least_amplitude_m_; }  // that has a phase
+  Swing contact() const noexcept;                                              // now
+  void approach_rest(double gap_m, double angle) noexcept;
 
   std::shared_ptr<const DrivenLever> lever_;
   double contact_m_ = 0;
   double least_amplitude_m_ = 0, amplitude_step_m_ = 0, least_x_ = 0;
   std::size_t columns_ = 0;
-  std::shared_ptr<const std::vector<Node>> table_;
+  std::shared_ptr<const Tables> tables_;    // null for a low quality factor
+  std::shared_ptr<const TapTable> rests_;   // null for a high one
+  bool repelled_ = false;                   // branch of rests_
+  double free_cosine_ = 0, free_sine_ = 1;  // of the free phase
   double u_ = 0, v_ = 0;
-  Node contact_;  // newest swing
+  double gap_m_ = 0;  // of the newest swing
 };
 
 }  // namespace afm::physics

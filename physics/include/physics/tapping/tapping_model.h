@@ -29,8 +29,9 @@ Force tap_push(const DrivenLever& lever, Length amplitude) noexcept;
 
 // P of both branches over Z, as a slow hand meets them; its jumps are the folds. Without jumps the branches meet where
 // the mean swing is neither attracted nor repelled, or never. Below the first height at which the resting lever would
-// touch, P stays constant. Throws UnphysicalValue unless Q is at least AveragedFlow::kLeastQuality and the relaxation
-// at most kLongestFeltRelaxation. Takes tenths of a second and allocates.
+// touch, P stays constant. By the averaged flow, or below its least Q (AveragedFlow::kLeastQuality) by direct
+// integration (physics/tapping/tap_table.h). Throws UnphysicalValue unless the relaxation is at most
+// kLongestFeltRelaxation. Takes tenths of a second, by direct integration some seconds, and allocates.
 std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_ptr<const TapSurface>& surface,
                                                    const DrivenLever& lever);
 
@@ -38,8 +39,10 @@ std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_pt
 //
 // - The mean force over a swing, and the mean pose, are the response; the push is push().
 // - Free: attracted on balance, or free; Attached: repelled. Where the branches have jumps, passing from one to the
-//   other is an event, JumpToRepulsion or JumpToAttraction, with Z interpolated and the mean forces of both ticks.
-// - A step simulates at most kMostSteps of TapEnvelope::longest_step(); a faster lever is in slow motion.
+//   other is an event, JumpToRepulsion or JumpToAttraction, with Z interpolated and the mean forces of this tick
+//   and of the second one before it, since a jump lasts about a tick.
+// - A step simulates at most kMostSteps of TapEnvelope::longest_step(); a faster lever is in slow motion. A lever that
+//   follows a table by direct integration never is.
 // - A Z that is not finite gives zero force and the wait state.
 //
 // step() and wait_for_lift() do not allocate, lock or throw: they are for one servo thread.
@@ -47,7 +50,8 @@ class TappingModel {
  public:
   static constexpr int kMostSteps = 48;
 
-  // `tables` are tapped_law_tables() of this surface and lever. Starts in WaitForLift. Takes tenths of a second.
+  // `tables` are tapped_law_tables() of this surface and lever. Starts in WaitForLift. Takes tenths of a second, unless
+  // the tables are by direct integration.
   TappingModel(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
                std::shared_ptr<const LawTables> tables, Time tick_period);
   ~TappingModel();
@@ -76,7 +80,7 @@ class TappingModel {
   Phase phase_ = Phase::WaitForLift;
   Length floor_;  // lowest base that moves the swing: below, the averages have no meaning
   Length previous_z_, crossed_z_;
-  Force push_, previous_mean_;
+  Force push_, previous_mean_, older_mean_;
   double previous_attraction_ = 0, crossed_fraction_ = 1;
 };
 

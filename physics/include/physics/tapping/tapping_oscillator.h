@@ -56,9 +56,9 @@ class TappingOscillator {
   // Integrates one swing and returns it.
   DirectSwing swing() noexcept;
 
-  // Swings until the amplitude has changed by less than 1e-9 A0 in 50 swings, or for 8 Q swings; returns the mean of
-  // the last 16.
-  DirectSwing settle() noexcept;
+  // Swings until the amplitude has changed by less than this share of A0 in 50 swings, or for 8 Q swings; returns the
+  // mean of the last 16.
+  DirectSwing settle(double settled = 1e-9) noexcept;
 
   Length base() const noexcept { return Length(base_); }
   const DrivenLever& lever() const noexcept { return lever_; }
