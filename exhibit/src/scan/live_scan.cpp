@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "physics/contact_parameters.h"
+
 namespace afm::exhibit {
 
 namespace {
@@ -29,18 +31,18 @@ bool precedes(const ScanChange& change, std::uint32_t frame, std::uint32_t pixel
 }  // namespace
 
 LiveScan::LiveScan(ScanSubject subject, const std::optional<HandPart>& hand) : subject_(std::move(subject)) {
-  usual_ = usual_choice(subject_.tip_radius_m, subject_.side_m, subject_.slope, subject_.adhesion_n);
-  if (hand) subject_.side_m = hand->side_m;
   progress_.hand = hand;
+  prepare_detector();
+  if (hand) subject_.side_m = hand->side_m;
   progress_.changes = {{.choice = usual_}};
   begin_frame();
 }
 
 LiveScan::LiveScan(ScanSubject subject, const ScanProgress& progress, std::span<const scene::TipSample> samples)
     : subject_(std::move(subject)) {
-  usual_ = usual_choice(subject_.tip_radius_m, subject_.side_m, subject_.slope, subject_.adhesion_n);
-  if (progress.hand) subject_.side_m = progress.hand->side_m;
   progress_ = progress;
+  prepare_detector();
+  if (progress.hand) subject_.side_m = progress.hand->side_m;
   progress_.pixel = 0;
   if (is_painted()) {
     begin_frame();
@@ -57,6 +59,33 @@ LiveScan::LiveScan(ScanSubject subject, const ScanProgress& progress, std::span<
     take_until(frame == progress.frame ? progress.pixel : kPixelsOfFrame);
   }
   find_truth();
+}
+
+// Finds the usual settings, and the detector of a lever that taps by itself. One that never has the usual amplitude
+// takes its image in contact.
+void LiveScan::prepare_detector() {
+  usual_ = usual_choice(subject_.tip_radius_m, subject_.side_m, subject_.slope, subject_.adhesion_n);
+  if (!subject_.tapped || progress_.hand) return;
+  const auto& [surface, lever, rests] = *subject_.tapped;
+  const ScanChoice tapping = usual_tapping_choice(subject_.tip_radius_m, subject_.side_m, subject_.slope, lever);
+  try {
+    detector_.emplace(surface, lever, tapping.setpoint_n * lever.free_amplitude, rests);
+    usual_ = tapping;
+  } catch (const physics::UnphysicalValue&) {
+    detector_.reset();
+  }
+}
+
+// Returns false, and changes nothing, if the swing never has this amplitude over the sample.
+bool LiveScan::hold(const ScanChoice& choice) {
+  const physics::Length amplitude = choice.setpoint_n * subject_.tapped->lever.free_amplitude;
+  if (amplitude.si == detector_->setpoint_m()) return true;
+  try {
+    detector_->hold(amplitude);
+    return true;
+  } catch (const physics::UnphysicalValue&) {
+    return false;
+  }
 }
 
 bool LiveScan::valid(const ScanProgress& progress) {
@@ -76,7 +105,7 @@ bool LiveScan::valid(const ScanProgress& progress) {
 // Begins a frame with the current settings and new noise.
 void LiveScan::begin_frame() {
   if (maps_.height_m[0].empty()) {
-    for (auto* maps : {&maps_.height_m, &maps_.error_n, &maps_.lateral_n})
+    for (auto* maps : {&maps_.height_m, &maps_.error_n, &maps_.lateral_n, &maps_.phase_deg, &maps_.energy_j})
       std::for_each(maps->begin(), maps->end(), clear);
   }
   if (progress_.pixel == kPixelsOfFrame) {
@@ -93,7 +122,12 @@ void LiveScan::begin_frame() {
   physics::ScanArea area;
   area.width = area.height = physics::Length(subject_.side_m);
   area.columns = area.rows = kPixels;
-  scanner_.emplace(area, settings_of(applied_, subject_.adhesion_n), traced_, progress_.frame + 1);
+  std::optional<physics::TappingDetector> tapping;
+  if (detector_ && in_tapping(applied_)) {
+    (void)hold(applied_);
+    tapping = detector_;
+  }
+  scanner_.emplace(area, settings_of(applied_, subject_.adhesion_n), traced_, progress_.frame + 1, std::move(tapping));
   if (is_painted()) loop_.emplace(scanner_->settings(), physics::Time(kLoopTickS), progress_.frame + 1);
 }
 
@@ -103,6 +137,9 @@ void LiveScan::apply(const ScanChoice& choice) {
     scanner_->change_surface(traced_);
   }
   applied_ = choice;
+  if (is_tapped() && in_tapping(choice) && hold(choice)) {
+    scanner_->hold_amplitude(physics::Length(detector_->setpoint_m()));
+  }
   scanner_->change(settings_of(choice, subject_.adhesion_n));
   if (loop_) loop_->change(scanner_->settings(), physics::Time(kLoopTickS));
 }
@@ -122,13 +159,17 @@ bool LiveScan::next_pixel() {
   maps_.height_m[pass][at] = pixel->height_m;
   maps_.error_n[pass][at] = pixel->error_n;
   maps_.lateral_n[pass][at] = pixel->lateral_n;
+  if (is_tapped()) {
+    maps_.phase_deg[pass][at] = pixel->phase_deg;
+    maps_.energy_j[pass][at] = pixel->energy_j;
+  }
   LineFacts& facts = facts_[pixel->row];
   if (pass == 0 && pixel->column == 0) facts = {};
   facts.highest_force_n = std::max(facts.highest_force_n, pixel->highest_force_n);
   facts.off_surface += pixel->off_surface / (2.0 * kPixels);
   facts.on_second_apex += pixel->on_second_apex / (2.0 * kPixels);
   facts.ringing += pixel->ringing / (2.0 * kPixels);
-  force_n_ = applied_.setpoint_n + pixel->error_n;
+  force_n_ = is_tapped() ? 0.0 : scanner_->settings().setpoint.si + pixel->error_n;
   return true;
 }
 
@@ -277,6 +318,11 @@ void LiveScan::find_truth() {
 bool LiveScan::step(ScanRow row, int steps) {
   ScanChoice choice = this->choice();
   if (!exhibit::step(choice, row, steps, subject_.side_m)) return false;
+  if (row == ScanRow::Setpoint && detector_ && in_tapping(choice)) {
+    physics::TappingDetector now = *detector_;
+    if (!hold(choice)) return false;
+    detector_ = std::move(now);  // the change takes effect with the next pixel
+  }
   change_to(choice);
   return true;
 }
@@ -301,7 +347,10 @@ std::size_t LiveScan::row() const {
 
 glm::dvec3 LiveScan::apex_m() const {
   const scene::TopographyScale& shown = subject_.shown;
-  return {shown.lateral * scanner_->x_m(), shown.lateral * scanner_->y_m(), shown.vertical * scanner_->z_m()};
+  const physics::TappingDetector* tapping = scanner_->loop().tapping();
+  // a swing, at its lowest point
+  const double z_m = tapping != nullptr ? scanner_->loop().z_m() - tapping->amplitude_m() : scanner_->z_m();
+  return {shown.lateral * scanner_->x_m(), shown.lateral * scanner_->y_m(), shown.vertical * z_m};
 }
 
 double LiveScan::surface_m(double x_m, double y_m) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,18 @@ std::vector<double> passes_of(const LiveScan& scan, std::size_t row) {
   return physics::difference_of_passes(line(0), line(1));
 }
 
+// Changes of state in both passes of a row.
+double state_changes_of(const LiveScan& scan, std::size_t row) {
+  const physics::TappingDetector* tapping = scan.scanner().loop().tapping();
+  if (tapping == nullptr) return 0.0;
+  const double free_deg = tapping->lever().free_phase * 180.0 / std::numbers::pi;
+  std::size_t changes = 0;
+  for (const std::vector<double>& pass : scan.maps().phase_deg) {
+    changes += physics::changes_of_state(std::span(pass).subspan(row * LiveScan::kPixels, LiveScan::kPixels), free_deg);
+  }
+  return static_cast<double>(changes);
+}
+
 physics::ScanEvidence evidence_of(const LiveScan& scan) {
   physics::ScanEvidence evidence;
   evidence.relief_m = relief_m(scan);
@@ -53,6 +66,7 @@ physics::ScanEvidence evidence_of(const LiveScan& scan) {
     evidence.ringing = std::max(evidence.ringing, line.ringing);
     const std::vector<double> passes_m = passes_of(scan, *newest - i);
     evidence.apart_m = std::max(evidence.apart_m, physics::mean_apart_m(passes_m));
+    evidence.state_changes = std::max(evidence.state_changes, state_changes_of(scan, *newest - i));
     if (*newest > i) {
       evidence.noise_m =
           std::max(evidence.noise_m, physics::noise_of_lines_m(passes_m, passes_of(scan, *newest - i - 1)));
@@ -69,7 +83,8 @@ physics::ScanArtefact cause_of(const LiveScan& scan) {
     return physics::ScanArtefact::None;  // too few lines to judge
   const physics::ScanSettings settings = settings_of(scan.choice(), scan.subject().adhesion_n);
   const physics::Scanner& scanner = scan.scanner();
-  return main_artefact({settings, scanner.area(), scanner.loop().largest_integral_gain()}, evidence_of(scan));
+  return main_artefact({settings, scanner.area(), scanner.loop().largest_integral_gain(), scanner.loop().tapping()},
+                       evidence_of(scan));
 }
 
 }  // namespace afm::exhibit

@@ -11,6 +11,7 @@
 #include "curves/live_parameters.h"
 #include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
+#include "physics/tapping/driven_lever.h"
 
 namespace afm::exhibit {
 
@@ -47,6 +48,15 @@ constexpr double kSame = 1e-6;  // largest relative difference of equal values
 constexpr double kSlowestUsualHz = 2.0;  // a minute per image; prefers a stronger force to a slower scan
 constexpr double kMostLag = 0.5;         // share of the bend that adhesion can hold, which keeps the tip on the sample
 
+// The setpoint in tapping mode, in steps of a twentieth of the free amplitude.
+constexpr double kStepsOfShare = 20.0, kLeastShare = 0.3, kMostShare = 0.95, kUsualShare = 0.8;
+constexpr double kUsualTappingHz = 2.0;
+
+double stepped_share(double share, int steps) {
+  const double next = (std::round(share * kStepsOfShare) + steps) / kStepsOfShare;
+  return std::clamp(next, kLeastShare, kMostShare);
+}
+
 // The next value of the series above or below a value, which need not belong to it.
 double neighbour(double value, int direction) {
   const double decade = std::pow(10.0, std::floor(std::log10(value * (1.0 + kSame))));
@@ -72,10 +82,15 @@ double stepped(const Series& series, double value, int direction) {
 
 }  // namespace
 
+bool in_tapping(const ScanChoice& choice) { return choice.setpoint_n >= 0.5 * kLeastShare; }
+
 bool is_valid(const ScanChoice& choice) {
   constexpr double kSharpest = 1e-10, kBluntest = 1e-4;  // limits for tips defined by users
   if (!(choice.apex_distance_m >= 0.0 && choice.apex_distance_m <= kFarthestApexM)) return false;
   return std::all_of(kSeries.begin(), kSeries.end(), [&](const Series& series) {
+    if (series.value == &ScanChoice::setpoint_n && in_tapping(choice)) {
+      return choice.setpoint_n >= kLeastShare && choice.setpoint_n <= kMostShare;
+    }
     const double value = choice.*series.value;
     const bool radius = series.value == &ScanChoice::tip_radius_m;
     const double low = radius ? kSharpest : series.low * (1.0 - kSame);
@@ -89,6 +104,10 @@ bool step(ScanChoice& choice, ScanRow row, int steps, double side_m) {
   const ScanChoice before = choice;
   if (row == ScanRow::SecondApex) {
     choice.apex_distance_m = steps > 0 ? std::min(kApexShare * side_m, kFarthestApexM) : 0.0;
+    return choice != before;
+  }
+  if (row == ScanRow::Setpoint && in_tapping(choice)) {
+    choice.setpoint_n = stepped_share(choice.setpoint_n, steps);
     return choice != before;
   }
   const Series& series = kSeries[core::index_of(row)];
@@ -110,12 +129,25 @@ ScanChoice usual_choice(double tip_radius_m, double side_m, double slope, double
   return choice;
 }
 
+ScanChoice usual_tapping_choice(double tip_radius_m, double side_m, double slope, const physics::DrivenLever& lever) {
+  ScanChoice choice{.setpoint_n = kUsualShare, .line_rate_hz = kUsualTappingHz, .tip_radius_m = tip_radius_m};
+  const double most_per_s = 0.25 / lever.relaxation().si;
+  while (choice.gain_per_s > most_per_s && step(choice, ScanRow::Gain, -1, side_m)) {
+  }
+  const double most_lag_m = kMostLag * (1.0 - kUsualShare) * lever.free_amplitude.si;
+  while (slope * 2.0 * side_m * choice.line_rate_hz / choice.gain_per_s > most_lag_m &&
+         step(choice, ScanRow::Rate, -1, side_m)) {
+  }
+  return choice;
+}
+
 std::string value_text(const ScanChoice& choice, ScanRow row) {
   const auto text = [](double value, const physics::Units& units) {
     return curves::typographic(physics::format_si(value, units.units, kDigits));
   };
   switch (row) {
     case ScanRow::Setpoint:
+      if (in_tapping(choice)) return fmt::format("{:.2f} A0", choice.setpoint_n);
       return text(choice.setpoint_n, physics::kForceUnits);
     case ScanRow::Gain:
       return fmt::format("{:g}/s", choice.gain_per_s);
@@ -136,7 +168,7 @@ std::string value_text(const ScanChoice& choice, ScanRow row) {
 physics::ScanSettings settings_of(const ScanChoice& choice, double adhesion_n) {
   physics::ScanSettings settings;
   settings.line_rate = physics::Frequency(choice.line_rate_hz);
-  settings.setpoint = physics::Force(choice.setpoint_n);
+  if (!in_tapping(choice)) settings.setpoint = physics::Force(choice.setpoint_n);
   settings.integral_gain = physics::Frequency(choice.gain_per_s);
   settings.spring_constant = physics::Stiffness(kSpring);
   settings.adhesion = physics::Force(adhesion_n);

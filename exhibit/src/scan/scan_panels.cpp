@@ -20,6 +20,8 @@ namespace afm::exhibit {
 
 namespace {
 
+// smallest ranges of the shades in tapping mode
+constexpr double kLeastPhaseDeg = 2.0, kLeastErrorM = 0.05e-9, kLeastEnergyJ = 1e-20;
 constexpr double kTipOfRelief = 1.5;  // shown height of the tip in units of the sample's range; the rest cannot touch
 
 render::ColorGrid colored(const std::vector<double>& map, const Range& range, Srgb (*color)(double)) {
@@ -153,6 +155,20 @@ render::ImagePanel painted_panel(const LiveScan& scan, const std::string& sample
   return panel;
 }
 
+// Phase in place of the retrace, which the newest line still shows; amplitude error and energy in place of forces.
+void show_maps_of_swing(const ScanMaps& maps, const Phrases& phrases, render::ImagePanel& panel) {
+  const Range phase = at_least(range_of(maps.phase_deg[0]), kLeastPhaseDeg);
+  const Range errors = at_least(range_of(maps.error_n[0]), kLeastErrorM);
+  const Range energy = at_least(range_of(maps.energy_j[0]), kLeastEnergyJ);
+  const auto degrees = [](double deg) { return fmt::format("{:.0f}", deg); };
+  panel.heights[1] = {phrases.text<Phrase::ScanPhase>(degrees(phase.low), degrees(phase.high)),
+                      colored(maps.phase_deg[0], phase, grey)};
+  panel.smaller = {{phrases.text<Phrase::ScanAmplitudeError>(fmt::format("{:.2g}", 0.5e9 * (errors.high - errors.low))),
+                    colored(maps.error_n[0], errors, grey)},
+                   {phrases.text<Phrase::ScanEnergy>(fmt::format("{:.2g}", 1e18 * energy.high)),
+                    colored(maps.energy_j[0], energy, grey)}};
+}
+
 // In the order of ScanRow.
 constexpr std::array<Phrase, 7> kRowNames{Phrase::ScanSetpoint,  Phrase::ScanGain,  Phrase::ScanRate,
                                           Phrase::TipRadius,     Phrase::ScanNoise, Phrase::ScanDrift,
@@ -177,13 +193,20 @@ render::ImagePanel image_panel(const LiveScan& scan, const std::string& sample, 
   panel.subtitle =
       phrases.text<Phrase::ScanSubtitle>(side_text(scan.subject().side_m), value_text(scan.choice(), ScanRow::Rate),
                                          fmt::format("{}", scan.row() + 1), fmt::format("{}", LiveScan::kPixels));
-  if (scan.subject().beside_tapping) panel.subtitle += ", " + phrases[Phrase::ScanInContact];
+  if (scan.is_tapped()) {
+    const physics::Length a0 = scan.subject().tapped->lever.free_amplitude;
+    panel.subtitle +=
+        ", " + phrases.text<Phrase::ScanInTapping>(physics::format_quantity(a0, physics::kLengthUnits, 3));
+  } else if (scan.subject().tapped) {
+    panel.subtitle += ", " + phrases[Phrase::ScanInContact];
+  }
   panel.decimal_mark = phrases.decimal_mark();
   panel.heights = {render::ImageMap{phrases[Phrase::ScanTrace], colored(maps.height_m[0], heights, height_colour)},
                    render::ImageMap{phrases[Phrase::ScanRetrace], colored(maps.height_m[1], heights, height_colour)}};
   panel.smaller = {
       {phrases.text<Phrase::ScanError>(nanonewtons(errors)), colored(maps.error_n[0], errors, grey)},
       {phrases.text<Phrase::ScanLateral>(nanonewtons(lateral)), colored(maps.lateral_n[0], lateral, grey)}};
+  if (scan.is_tapped()) show_maps_of_swing(maps, phrases, panel);
   panel.profile = newest_line(scan, heights, phrases);
   show_side(scan.subject().side_m, panel);
   panel.line = (static_cast<double>(scan.row()) + 0.5) / static_cast<double>(LiveScan::kPixels);
@@ -198,7 +221,8 @@ render::ControlPanel scan_panel(const LiveScan& scan, const std::string& title, 
   panel.status = scan_guidance(scan, phrases);
   for (const ScanRow row : core::kEnumerators<ScanRow>) {
     const std::string value = value_text(scan.choice(), row), usual = value_text(scan.usual(), row);
-    panel.rows.push_back({.name = phrases[kRowNames[core::index_of(row)]],
+    const bool amplitude = row == ScanRow::Setpoint && scan.is_tapped();
+    panel.rows.push_back({.name = phrases[amplitude ? Phrase::ScanAmplitude : kRowNames[core::index_of(row)]],
                           .value = value.empty() ? phrases[Phrase::ScanOneApex] : phrases.number(value),
                           .changed = value != usual});
   }
@@ -209,7 +233,11 @@ render::ControlPanel scan_panel(const LiveScan& scan, const std::string& title, 
 
 std::string scan_guidance(const LiveScan& scan, const Phrases& phrases) {
   static_assert(after(Phrase::CauseNone, core::kEnumerators<physics::ScanArtefact>.size()) == Phrase::Keys);
-  return phrases[after(Phrase::CauseNone, core::index_of(cause_of(scan)))];
+  const physics::ScanArtefact cause = cause_of(scan);
+  // a lower amplitude holds a tip better, a lower force worse
+  if (scan.is_tapped() && cause == physics::ScanArtefact::LostContact) return phrases[Phrase::CauseLostSwing];
+  if (scan.is_tapped() && cause == physics::ScanArtefact::Parachuting) return phrases[Phrase::CauseSwingInFlight];
+  return phrases[after(Phrase::CauseNone, core::index_of(cause))];
 }
 
 bool hand_uses_tip(const scene::TipState& tip) { return hand_uses_tip(tip.phase, tip.servo_state); }
@@ -230,6 +258,13 @@ void show_scan(const LiveScan& scan, Moment& moment) {
   if (!scan.progress().hand && hand_uses_tip(moment.phase, moment.servo_state)) return;
   wall.swing = {};
   wall.surface = {.xy_m = {apex_m.x, apex_m.y}, .height_m = apex_m.z};
+  if (const physics::TappingDetector* tapping = scan.scanner().loop().tapping()) {
+    // its mean force bends a lever that taps too little to be seen
+    const double amplitude_m = tapping->amplitude_m();
+    wall.swing = {.amplitude_m = amplitude_m, .phase_rad = tapping->phase_rad()};
+    wall.tip = {.z_m = amplitude_m, .force_n = 0.0, .height_m = amplitude_m, .deflection_m = 0.0};
+    return;
+  }
   const double deflection_m = -scan.force_n() / settings_of(scan.choice(), 0.0).spring_constant.si;
   wall.tip = {.z_m = deflection_m, .force_n = scan.force_n(), .height_m = 0.0, .deflection_m = deflection_m};
 }

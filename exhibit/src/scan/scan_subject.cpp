@@ -15,6 +15,7 @@
 #include "physics/imaging/morphology.h"
 #include "physics/imaging/rim.h"
 #include "physics/law_tables.h"
+#include "physics/tapping/tap_surface.h"
 #include "scene/shared/felt_heights.h"
 #include "scene/shared/shared_segment.h"
 
@@ -81,7 +82,14 @@ ScanSubject scan_subject(const WallScene& wall_scene, std::size_t material, cons
   ScanSubject subject;
   subject.tip_radius_m = model.parameters.contact.tip_radius.si;
   subject.adhesion_n = pull_off_n(model);
-  subject.beside_tapping = model.taps();
+  if (model.taps()) {
+    const scene::SharedContact& sample = model.parameters;
+    subject.tapped = TappedSubject{
+        .surface = std::make_shared<const physics::TapSurface>(sample.law, sample.contact, scene::law_options(sample),
+                                                               physics::Viscosity(sample.viscosity_pa_s)),
+        .lever = scene::tapping_lever(sample),
+        .rests = model.tables->taps};
+  }
   scene::SharedContact laid;
   wall_scene.lay_surface_on(laid, material);
   const double scale = scene::surface_scale(laid, model.scaling.release_z_m());

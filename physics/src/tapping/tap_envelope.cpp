@@ -63,6 +63,15 @@ TapEnvelope::TapEnvelope(AveragedFlow& flow, Length contact_height)
   const double a0 = lever_->free_amplitude.si;
   least_amplitude_m_ = kFirstShare * a0;
   amplitude_step_m_ = (kLastShare - kFirstShare) * a0 / static_cast<double>(kAmplitudes - 1);
+  const double r = lever_->ratio, k = lever_->spring_constant.si;
+  pace_ = {.drive = lever_->base_amplitude.si / (2.0 * r),
+           .detuned = (r * r - 1.0) / (2.0 * r),
+           .damping = 0.5 / lever_->quality_factor,
+           .by_stored = 1.0 / (k * r),
+           .by_turn = 1.0 / (2.0 * std::numbers::pi * k * r),
+           .by_row = 1.0 / amplitude_step_m_,
+           .by_nudge = 1.0 / (amplitude_step_m_ * kNudge),
+           .slowest = 1.0 / longest_step(*lever_)};
   least_x_ = std::floor(column_of(-2.0 * a0));
   columns_ = static_cast<std::size_t>(std::ceil(column_of(kFarthestGap)) - least_x_) + 1;
   Tables tables{std::vector<Moving>(kAmplitudes * columns_), std::vector<Forces>(kAmplitudes * columns_)};
@@ -85,8 +94,8 @@ TapEnvelope::TapEnvelope(AveragedFlow& flow, Length contact_height)
 
 TapEnvelope::Place TapEnvelope::place_of(double amplitude_m, double gap_m) const noexcept {
   const double x = std::max(0.0, column_of(gap_m - amplitude_m - contact_m_) - least_x_);
-  const double y = std::clamp((amplitude_m - least_amplitude_m_) / amplitude_step_m_, 0.0,
-                              static_cast<double>(kAmplitudes) - 1.000001);
+  const double y =
+      std::clamp((amplitude_m - least_amplitude_m_) * pace_.by_row, 0.0, static_cast<double>(kAmplitudes) - 1.000001);
   if (!(x < static_cast<double>(columns_ - 1))) return {};
   const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
   return {.node = row * columns_ + column,
@@ -140,18 +149,16 @@ void TapEnvelope::approach_rest(double gap_m, double angle) noexcept {
 void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int most_steps) noexcept {
   gap_m_ = to_gap_m;
   if (rests_) return approach_rest(to_gap_m, angle);
-  const double r = lever_->ratio, q = lever_->quality_factor;
-  const double drive = lever_->base_amplitude.si / (2.0 * r), detuned = (r * r - 1.0) / (2.0 * r);
-  const double lowest = least_swing_m();
-  const double by_stored = 1.0 / (lever_->spring_constant.si * r), by_turn = by_stored / (2.0 * std::numbers::pi);
+  const double drive = pace_.drive, detuned = pace_.detuned, by_stored = pace_.by_stored, by_turn = pace_.by_turn;
+  const double damping = pace_.damping, lowest = least_swing_m();
   struct Rates {
     double g, w;
   };
   const auto rates = [&](double amplitude, double gap_m) {
     const Place place = place_of(amplitude, gap_m);
-    if (place.beyond) return Rates{0.5 / q, detuned};
+    if (place.beyond) return Rates{damping, detuned};
     const double share = std::sqrt(amplitude) / (amplitude * amplitude);
-    return Rates{0.5 / q + by_turn * share * between(tables_->moving, place, &Moving::lost),
+    return Rates{damping + by_turn * share * between(tables_->moving, place, &Moving::lost),
                  detuned + by_stored * share * between(tables_->moving, place, &Moving::virial)};
   };
   const auto length = [lowest](double u, double v) { return std::max(lowest, std::sqrt(u * u + v * v)); };
@@ -163,36 +170,36 @@ void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int 
     if (place.beyond) return 0.0;
     const double virial = between(tables_->moving, place, &Moving::virial);
     const double steeper = by_stored * std::sqrt(more) / (more * more) * virial - (w - detuned);
-    return std::sqrt(std::abs(steeper / (more - amplitude) * drive * u_ / amplitude));
+    return std::sqrt(std::abs(steeper * pace_.by_nudge * drive * u_ / amplitude));
   };
   const double way_m = to_gap_m - from_gap_m;
+  const double by_angle = angle > 0.0 ? 1.0 / angle : 0.0, by_steps = 1.0 / static_cast<double>(most_steps);
   double left = angle;
   // the base arrives also where the steps are used up and the swing is in slow motion
   const auto gap_at = [&](double undone, int steps) {
-    return from_gap_m +
-           way_m * std::max(1.0 - undone / angle, static_cast<double>(steps) / static_cast<double>(most_steps));
+    return from_gap_m + way_m * std::max(1.0 - undone * by_angle, static_cast<double>(steps) * by_steps);
   };
   for (int i = 0; left > 0.0 && i < most_steps; ++i) {
     const double gap_m = gap_at(left, i);
     const double amplitude = length(u_, v_);
     const Rates first = rates(amplitude, gap_m);
-    const double turn = kLargestTurn / std::max(std::abs(first.w), 1e-12);
-    const double ring = kLargestRing / std::max(ringing(amplitude, gap_m, first.w), 1e-12);
-    const double step = std::min({left, 2.0 * q * kLongestShare, turn, ring});
+    const double fastest = std::max({pace_.slowest, std::abs(first.w) * (1.0 / kLargestTurn),
+                                     ringing(amplitude, gap_m, first.w) * (1.0 / kLargestRing)});
+    const double step = std::min(left, 1.0 / fastest);
     const double middle_m = 0.5 * (gap_m + gap_at(left - step, i + 1));
     const double half = 0.5 * step;
     const double middle_u = u_ + half * (-first.g * u_ - first.w * v_);
     const double middle_v = v_ + half * (-first.g * v_ + first.w * u_ + drive);
     const Rates middle = rates(length(middle_u, middle_v), middle_m);
     // towards the swing at which these rates rest, turning about it: exact at rest, and no step lets the swing grow
-    const double decay = 1.0 / (1.0 + step * middle.g * (1.0 + half * middle.g)), tangent = half * middle.w;
-    const double scale = 1.0 / (1.0 + tangent * tangent);
-    const double cosine = (1.0 - tangent * tangent) * scale, sine = 2.0 * tangent * scale;
-    const double square = middle.g * middle.g + middle.w * middle.w;
-    const double rest_u = -drive * middle.w / square, rest_v = drive * middle.g / square;
+    const double lost = 1.0 + step * middle.g * (1.0 + half * middle.g), tangent = half * middle.w;
+    const double kept = 1.0 / (lost * (1.0 + tangent * tangent));
+    const double cosine = kept * (1.0 - tangent * tangent), sine = kept * 2.0 * tangent;
+    const double pull = drive / (middle.g * middle.g + middle.w * middle.w);
+    const double rest_u = -pull * middle.w, rest_v = pull * middle.g;
     const double u = u_ - rest_u, v = v_ - rest_v;
-    u_ = rest_u + decay * (cosine * u - sine * v);
-    v_ = rest_v + decay * (sine * u + cosine * v);
+    u_ = rest_u + cosine * u - sine * v;
+    v_ = rest_v + sine * u + cosine * v;
     left -= step;
   }
 }

@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -26,7 +25,6 @@
 #include "support/image_files.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
-#include "support/tapped_sample.h"
 
 // The scan that the live wall shows, driven as the keys drive it.
 namespace afm::exhibit {
@@ -107,7 +105,7 @@ TEST(ScanArtefacts, HaveTheirNameAndTheirPhraseInEveryLanguage) {
 class ScanOfAMaterial : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(ScanOfAMaterial, ShowsEveryArtefactNamesItsCauseAndIsCleanAgainAfterwards) {
-  constexpr std::size_t kWithoutKeys = 3;  // none, and two of tapping mode, in which the wall takes no images
+  constexpr std::size_t kWithoutKeys = 3;  // none, and two of tapping mode, whose keys are in tapped_scan_test.cpp
   EXPECT_EQ(kArtefacts.size() + kWithoutKeys, core::kEnumerators<physics::ScanArtefact>.size())
       << "a new cause needs its keys here";
   constexpr double kLines = 10;  // more than are judged
@@ -351,21 +349,6 @@ TEST(LiveScan, TakesThePlaceOfTheCurveAndTheTipFollowsUnlessTheHandHasIt) {
   show_scan(scan, held);
   EXPECT_EQ(held.wall.surface.xy_m[0], 1e-9);
   EXPECT_TRUE(held.wall.scan_line.has_value());
-}
-
-// The tables of a lever that taps have its push; F_ad of DMT is 4 pi R times the mean surface energy.
-TEST(LiveScan, IsTakenInContactBesideALeverThatTaps) {
-  const curves::SampleModel tapped = test::tapped_sample();
-  const LiveScan scan(scan_subject(stage().wall_scene, kMica, tapped));
-  EXPECT_NEAR(scan.subject().adhesion_n, 2.0 * std::numbers::pi * 20e-9 * 62.4e-3, 0.02 * 7.84e-9);
-  const Phrases& phrases = stage().phrases();
-  EXPECT_THAT(image_panel(scan, "Mica", phrases).subtitle, ::testing::HasSubstr("contact mode"));
-  EXPECT_THAT(image_panel(scan_of(kMica), "Mica", phrases).subtitle,
-              ::testing::Not(::testing::HasSubstr("contact mode")));
-  Moment moment;
-  moment.wall.swing = {.amplitude_m = 20e-9, .phase_rad = 1.6};
-  show_scan(scan, moment);
-  EXPECT_EQ(moment.wall.swing.amplitude_m, 0.0);
 }
 
 TEST(LiveScan, LeavesRoomForTheServosNodesWithEveryMaterialOnTheShelf) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,10 +15,24 @@
 #include "exhibit/scan/scan_truth.h"
 #include "physics/imaging/scan_loop.h"
 #include "physics/imaging/scanner.h"
+#include "physics/imaging/tapping_detector.h"
+#include "physics/tapping/driven_lever.h"
 #include "scene/shared/shared_blocks.h"
 #include "scene/shared/tip_blocks.h"
 
+namespace afm::physics {
+class TapSurface;
+class TapTable;
+}  // namespace afm::physics
+
 namespace afm::exhibit {
+
+// A lever that taps, and what it taps on.
+struct TappedSubject {
+  std::shared_ptr<const physics::TapSurface> surface;
+  physics::DrivenLever lever;
+  std::shared_ptr<const physics::TapTable> rests;  // null for a high quality factor
+};
 
 // The sample for a scan, in the metres of a microscope. A measured sample is shown and felt at another scale, that of
 // the sample's frame, because a lever would meet steps of nanometres instead of micrometres.
@@ -29,8 +44,8 @@ struct ScanSubject {
   scene::TopographyScale shown{};                         // metres of the sample's frame per metre here
   double tip_radius_m = 0;                                // radius of the probe in use
   double adhesion_n = 0;                                  // pull-off force, a magnitude
-  bool beside_tapping = false;  // under the hand its lever taps; the image is taken in contact all the same
-  double slope = 0;             // exceeded almost nowhere; 0: the usual settings suit the sample
+  std::optional<TappedSubject> tapped{};  // under a lever that taps; a hand's image is taken in contact all the same
+  double slope = 0;                       // exceeded almost nowhere; 0: the usual settings suit the sample
 
   double shown_side_m() const { return shown.lateral * side_m; }
 };
@@ -68,14 +83,17 @@ struct ScanProgress {
 
 // A quantity of both passes, row by row from the top. NaN: not measured yet.
 struct ScanMaps {
-  std::array<std::vector<double>, 2> height_m;  // trace, retrace; for a painting hand: height, deflection of the lever
-  std::array<std::vector<double>, 2> error_n;
+  std::array<std::vector<double>, 2> height_m;   // trace, retrace; for a painting hand: height, deflection of the lever
+  std::array<std::vector<double>, 2> error_n;    // in tapping mode the amplitude error, metres
   std::array<std::vector<double>, 2> lateral_n;  // trace, retrace; for a painting hand: along x, along y
+  // in tapping mode only
+  std::array<std::vector<double>, 2> phase_deg;  // lag behind the drive
+  std::array<std::vector<double>, 2> energy_j;   // lost in the sample per swing
 };
 
 // Statistics of the tip along one line, both passes.
 struct LineFacts {
-  double highest_force_n = 0;  // force on the lever
+  double highest_force_n = 0;  // force on the lever; in tapping mode loss of amplitude, metres
   double off_surface = 0;      // mean share of the time, 0 to 1
   double on_second_apex = 0;   // mean share of the time, 0 to 1
   double ringing = 0;          // mean share of the time, 0 to 1
@@ -92,6 +110,7 @@ struct ScanTruth {
 
 // The scan on the live wall: frame after frame, each from the top, each replacing the previous one. A pure function of
 // its subject and its progress.
+// Beside a lever that taps the image is taken by that lever, unless a hand has a part in it.
 //
 // A painting hand makes no frames: every tick with the hand's tip on the sample paints the cells of kCell x kCell
 // pixels on its path; other cells stay unmeasured. With feedback, the microscope's loop (physics::ScanLoop) runs over
@@ -129,8 +148,11 @@ class LiveScan {
   // Restores the settings with which a scan begins.
   void reset();
 
-  // Changes all settings, effective from the next pixel on. `choice` must be valid.
-  void choose(const ScanChoice& choice) { change_to(choice); }
+  // Changes all settings, effective from the next pixel on. `choice` must be valid. No effect if it is for the other
+  // mode, contact or tapping.
+  void choose(const ScanChoice& choice) {
+    if (in_tapping(choice) == in_tapping(usual_)) change_to(choice);
+  }
 
   void show_truth(bool shown);
 
@@ -143,10 +165,11 @@ class LiveScan {
   const std::optional<ScanTruth>& truth() const { return truth_; }              // present while it is shown
   const ScanMaps& maps() const { return maps_; }
   const std::array<LineFacts, kPixels>& facts() const { return facts_; }  // newest line of each row
-  const physics::Scanner& scanner() const { return *scanner_; }           // scanner of the current frame
-  std::size_t row() const;                                                // current row; 0 is the top
-  glm::dvec3 apex_m() const;                                              // sample's frame
-  double force_n() const { return force_n_; }                             // on the lever, at the newest pixel
+  bool is_tapped() const { return scanner_->loop().tapping() != nullptr; }
+  const physics::Scanner& scanner() const { return *scanner_; }  // scanner of the current frame
+  std::size_t row() const;                                       // current row; 0 is the top
+  glm::dvec3 apex_m() const;                                     // sample's frame
+  double force_n() const { return force_n_; }                    // on the lever, at the newest pixel; tapping: 0
   // Height traced by the apex at this place, all in the sample's frame.
   double surface_m(double x_m, double y_m) const;
 
@@ -154,6 +177,8 @@ class LiveScan {
   std::optional<std::size_t> newest_row() const;
 
  private:
+  void prepare_detector();
+  bool hold(const ScanChoice& choice);
   void begin_frame();
   void end_frame();
   void take_until(std::uint32_t pixel);
@@ -170,6 +195,7 @@ class LiveScan {
   ScanChoice applied_;
   ScanProgress progress_;
   physics::Scanner::Surface traced_;
+  std::optional<physics::TappingDetector> detector_;  // empty: every image is taken in contact
   std::optional<physics::Scanner> scanner_;
   ScanMaps maps_;
   std::array<LineFacts, kPixels> facts_{};

@@ -6,6 +6,10 @@
 
 #include "physics/imaging/scan_settings.h"
 
+namespace afm::physics {
+struct DrivenLever;
+}
+
 namespace afm::exhibit {
 
 // Rows of the scan's settings on the wall's panel.
@@ -13,7 +17,7 @@ enum class ScanRow { Setpoint, Gain, Rate, TipRadius, Noise, Drift, SecondApex }
 
 // Values of the settings. The tip's radius determines the traced surface; all others are the microscope's.
 struct ScanChoice {
-  double setpoint_n = 2e-9;
+  double setpoint_n = 2e-9;  // in tapping mode the share of the free amplitude, without a unit: see in_tapping()
   double gain_per_s = 2000;  // gain of the integral controller
   double line_rate_hz = 10;
   double tip_radius_m = 10e-9;
@@ -23,6 +27,9 @@ struct ScanChoice {
 
   bool operator==(const ScanChoice&) const = default;
 };
+
+// True if the setpoint is an amplitude: no force is as large.
+bool in_tapping(const ScanChoice& choice);
 
 // Returns whether all values are finite and within the ranges of physics::kScanFields and of the rows.
 bool is_valid(const ScanChoice& choice);
@@ -35,10 +42,14 @@ bool step(ScanChoice& choice, ScanRow row, int steps, double side_m);
 // change divided by its gain, keeps the tip on slopes up to `slope`.
 ScanChoice usual_choice(double tip_radius_m, double side_m, double slope, double adhesion_n);
 
-// "1 nN", "500 pm"; with a decimal point.
+// The same for a lever that taps: at the gain at which its envelope does not overshoot.
+ScanChoice usual_tapping_choice(double tip_radius_m, double side_m, double slope, const physics::DrivenLever& lever);
+
+// "1 nN", "500 pm", "0.80 A0"; with a decimal point.
 std::string value_text(const ScanChoice& choice, ScanRow row);
 
-// Settings of lever and microscope. `adhesion_n` is the sample's pull-off force, a magnitude.
+// Settings of lever and microscope, in tapping mode without its setpoint. `adhesion_n` is the sample's pull-off force,
+// a magnitude.
 physics::ScanSettings settings_of(const ScanChoice& choice, double adhesion_n);
 
 }  // namespace afm::exhibit

@@ -89,10 +89,19 @@ class TapEnvelope {
   Swing contact() const noexcept;                                              // now
   void approach_rest(double gap_m, double angle) noexcept;
 
+  // Numbers of a step that no swing changes.
+  struct Pace {
+    double drive = 0, detuned = 0, damping = 0;  // a/2r, (r^2 - 1)/2r, 1/2Q
+    double by_stored = 0, by_turn = 0;           // 1/kr, 1/(2 pi k r)
+    double by_row = 0, by_nudge = 0;             // 1/m: of the rows' distance, and of a small part of it
+    double slowest = 0;                          // of the longest step
+  };
+
   std::shared_ptr<const DrivenLever> lever_;
   double contact_m_ = 0;
   double least_amplitude_m_ = 0, amplitude_step_m_ = 0, least_x_ = 0;
   std::size_t columns_ = 0;
+  Pace pace_;
   std::shared_ptr<const Tables> tables_;    // null for a low quality factor
   std::shared_ptr<const TapTable> rests_;   // null for a high one
   bool repelled_ = false;                   // branch of rests_

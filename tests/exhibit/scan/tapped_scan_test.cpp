@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "exhibit/scan/live_scan.h"
+#include "exhibit/scan/scan_cause.h"
+#include "exhibit/scan/scan_panels.h"
+#include "exhibit/scan/scan_subject.h"
+#include "scanned_sample.h"
+#include "support/tapped_sample.h"
+
+// The scan that the live wall shows under a lever that taps, driven as the keys drive it.
+namespace afm::exhibit {
+namespace tapped_scan_test {
+
+constexpr std::size_t kMica = 0, kGold = 1;
+constexpr double kFrameS = 1.0 / 60.0;
+
+void scan_lines(LiveScan& scan, double lines) {
+  const double seconds = lines / scan.choice().line_rate_hz;
+  for (double t = 0; t < seconds; t += kFrameS) scan.advance(kFrameS);
+}
+
+// NaN equals NaN.
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
+struct Pressed {
+  ScanRow row;
+  int times;  // number of presses of +, or of - if negative
+};
+struct Artefact {
+  physics::ScanArtefact cause;
+  std::vector<Pressed> keys;
+};
+
+using enum physics::ScanArtefact;
+
+// The sample of docs/tapping.md on the steps of gold.
+LiveScan tapped_scan() { return LiveScan(scan_subject(stage().wall_scene, kGold, test::tapped_sample())); }
+
+// Another surface on that square: the drawn samples are too flat to stop a swing of 20 nm.
+LiveScan scan_of(const std::function<double(double share)>& height_m) {
+  ScanSubject subject = scan_subject(stage().wall_scene, kGold, test::tapped_sample());
+  const auto surface = [height_m, side_m = subject.side_m](double x_m, double) { return height_m(x_m / side_m); };
+  subject.traced = [surface](double) { return surface; };
+  return LiveScan(std::move(subject));
+}
+
+double hills_m(double share) { return 10e-9 * std::cos(4.0 * std::numbers::pi * share); }
+double particle_m(double share) { return std::abs(share) < 0.04 ? 3e-9 : 0.0; }
+
+TEST(TappedScan, IsTakenByALeverThatTaps) {
+  LiveScan scan = tapped_scan();
+  ASSERT_TRUE(scan.is_tapped());
+  EXPECT_EQ(scan.choice().setpoint_n, 0.8);
+  EXPECT_LE(scan.choice().gain_per_s, 589.0) << "w0/(8Q), without overshoot";
+  scan_lines(scan, 3.0);
+  const Phrases& phrases = stage().phrases();
+  const render::ImagePanel panel = image_panel(scan, "Mica", phrases);
+  EXPECT_THAT(panel.subtitle, ::testing::HasSubstr("tapping, A0 20 nm"));
+  EXPECT_THAT(panel.heights[1].title, ::testing::StartsWith("Phase"));
+  EXPECT_THAT(scan_panel(scan, "Mica", phrases).rows.front().value, ::testing::HasSubstr("0.80 A0"));
+  EXPECT_THAT(image_panel(exhibit::scan_of(kMica), "Mica", phrases).subtitle,
+              ::testing::Not(::testing::HasSubstr("tapping")));
+  Moment moment;
+  show_scan(scan, moment);
+  EXPECT_NEAR(moment.wall.swing.amplitude_m, 16e-9, 1e-9);
+  EXPECT_GT(moment.wall.swing.phase_rad, 0.0);
+}
+
+TEST(TappedScan, KeepsAnotherAmplitudeFromTheNextPixelOnAndReplaysIt) {
+  LiveScan scan = tapped_scan();
+  scan_lines(scan, 2.3);
+  EXPECT_TRUE(scan.step(ScanRow::Setpoint, -4));
+  EXPECT_DOUBLE_EQ(scan.choice().setpoint_n, 0.6);
+  scan_lines(scan, 4.0);
+  EXPECT_NEAR(scan.scanner().loop().tapping()->setpoint_m(), 12e-9, 1e-15);
+  EXPECT_NEAR(scan.scanner().loop().tapping()->amplitude_m(), 12e-9, 1e-9);
+  EXPECT_TRUE(LiveScan::valid(scan.progress()));
+  const LiveScan again(scan.subject(), scan.progress());
+  EXPECT_TRUE(same(scan.maps().height_m[0], again.maps().height_m[0]));
+  for (std::size_t pass = 0; pass < 2; ++pass) {
+    EXPECT_TRUE(same(scan.maps().phase_deg[pass], again.maps().phase_deg[pass]));
+    EXPECT_TRUE(same(scan.maps().energy_j[pass], again.maps().energy_j[pass]));
+  }
+  EXPECT_FALSE(scan.step(ScanRow::Setpoint, 1000) && scan.step(ScanRow::Setpoint, 1)) << "0.95 is the last";
+}
+
+void expect_named(LiveScan scan, const std::vector<Artefact>& artefacts) {
+  constexpr double kLines = 10;
+  scan_lines(scan, kLines);
+  ASSERT_EQ(physics::name_of(cause_of(scan)), "none");
+  for (const Artefact& artefact : artefacts) {
+    const std::string where(physics::name_of(artefact.cause));
+    for (const Pressed& key : artefact.keys) EXPECT_TRUE(scan.step(key.row, key.times)) << where;
+    scan_lines(scan, kLines);
+    EXPECT_EQ(physics::name_of(cause_of(scan)), where);
+    for (const Pressed& key : artefact.keys) scan.step(key.row, -key.times);
+    EXPECT_EQ(scan.choice(), scan.usual()) << where;
+    scan_lines(scan, kLines);
+    EXPECT_EQ(physics::name_of(cause_of(scan)), "none") << "after " << where;
+  }
+}
+
+TEST(TappedScan, NamesWhatATappingLeverShowsAndIsCleanAgainAfterwards) {
+  expect_named(scan_of(hills_m), {{Parachuting, {{ScanRow::Setpoint, 3}}},
+                                  {Saturation, {{ScanRow::Setpoint, -10}, {ScanRow::Rate, 2}}},
+                                  {Blur, {{ScanRow::Rate, 1}}}});
+  expect_named(scan_of(particle_m), {{StateFlips, {{ScanRow::Setpoint, 2}}}});
+}
+
+// The tables of a lever that taps have its push; F_ad of DMT is 4 pi R times the mean surface energy.
+TEST(TappedScan, IsTakenInContactByAHandBesideALeverThatTaps) {
+  const LiveScan scan(scan_subject(stage().wall_scene, kMica, test::tapped_sample()),
+                      HandPart{.paints = true, .feedback = true, .side_m = 100e-9, .first_tick = 0});
+  EXPECT_FALSE(scan.is_tapped());
+  EXPECT_NEAR(scan.subject().adhesion_n, 2.0 * std::numbers::pi * 20e-9 * 62.4e-3, 0.02 * 7.84e-9);
+}
+
+}  // namespace tapped_scan_test
+}  // namespace afm::exhibit
