@@ -51,9 +51,9 @@ def _found(curve: Curve, settings: dict[str, Any]) -> _Found:
 
 def _places(curves: Sequence[Curve]) -> tuple[tuple[int, int], list[tuple[int, int]]]:
     """Shape of the map, and row and column of each curve."""
-    grids = {curve.metadata.get("grid") for curve in curves}
-    if None in grids:
+    if any(curve.metadata.get("grid") is None for curve in curves):
         raise ValueError("one of the curves has no pixel; touchafm.fit() fits curves that are not a map")
+    grids = {curve.metadata["grid"] for curve in curves}
     if len(grids) != 1:
         raise ValueError(f"the curves are of {len(grids)} grids; give those of one map")
     columns, rows = next(iter(grids))
