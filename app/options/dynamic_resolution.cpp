@@ -134,10 +134,9 @@ void add_frame_budget(OptionList& command, std::optional<double>& budget_ms) {
             const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ms);
             const bool number = error == std::errc() && end == text.data() + text.size();
             if (text != "none" && !(number && ms >= kLeastBudget_ms && ms <= kMostBudget_ms)) {
-              return core::failure(
-                  core::ErrorCategory::WrongUsage,
-                  fmt::format("\"{}\" is not a frame budget; write {:g} to {:g} milliseconds, or none", text,
-                              kLeastBudget_ms, kMostBudget_ms));
+              return core::failure(core::ErrorCategory::WrongUsage,
+                                   fmt::format("\"{}\" is not a frame budget; write {:g} to {:g} milliseconds, or none",
+                                               text, kLeastBudget_ms, kMostBudget_ms));
             }
             budget_ms = text == "none" ? 0.0 : ms;
             return {};

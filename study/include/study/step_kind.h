@@ -63,7 +63,7 @@ inline constexpr std::array kStepKinds{
                 .tapping = StepBeside::Allowed},
     StepKindRow{.kind = StepKind::Threshold,
                 .word = "threshold",
-                .meaning = "two cycles: which one needed more force to let go?",
+                .meaning = "two cycles, of which the one with the stronger pull-off is to be named",
                 .answer = StepAnswer::Comparison,
                 .open_ended = false,
                 .has_cycles = true,
