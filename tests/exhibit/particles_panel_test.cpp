@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/enumerators.h"
@@ -16,6 +19,7 @@
 #include "servo/live_picture.h"
 #include "support/particles/particle_sets.h"
 #include "support/phrases.h"
+#include "support/places.h"
 
 // The panel of the particles, of five gold spheres on mica.
 namespace afm::exhibit {
@@ -294,6 +298,38 @@ TEST_F(ParticlesPanel, SpeaksGerman) {
   EXPECT_EQ(shown.title, "F\u00fcnf Goldkugeln auf Glimmer");
   EXPECT_EQ(row(shown, Phrase::PushStateName, german).value, "rollt");
   EXPECT_EQ(row(shown, Phrase::PushOtherLaw, german).value, "(3,53 nN)");
+}
+
+// What the panel shows of a set that is not a phrase.
+std::vector<std::string> words_of(const scene::ParticleSet& set) {
+  std::vector<std::string> words{set.title, set.medium};
+  const auto add = [&](std::span<const scene::SourcedValue> sources, std::string_view key) {
+    if (const scene::SourcedValue* found = scene::find_source(sources, key)) words.push_back(found->source);
+  };
+  add(set.sources, "lateral_spring");
+  for (std::size_t i = 0; i < scene::shared_sticky_pads(set).size(); ++i) {
+    add(set.sources, "pad_" + std::to_string(i + 1) + "_work_of_adhesion");
+  }
+  for (std::size_t i = 0; i < set.species.size(); ++i) {
+    words.push_back(set.species[i].name);
+    for (const char* key : {"radius", "work_of_adhesion", "shear_strength", "coefficient"}) {
+      add(set.species[i].sources, key);
+    }
+    if (set.setup.species[i].sticks) add(set.species[i].sources, "tip_adhesion");
+  }
+  return words;
+}
+
+TEST(WordsOfParticles, OfEverySetAreInGerman) {
+  const Phrases german = Phrases::load(test::kPhraseFolder + "de.toml").value();
+  std::size_t sets = 0;
+  for (const auto& file : std::filesystem::directory_iterator(support::source("assets/particles"))) {
+    const scene::ParticleSet set = scene::load_particle_set(file.path().string()).value();
+    if (set.soft != nullptr) continue;  // not on the wall
+    ++sets;
+    for (const std::string& word : words_of(set)) EXPECT_NE(german.word(word), word) << file.path();
+  }
+  EXPECT_GE(sets, 7U);
 }
 
 }  // namespace particles_panel_test
