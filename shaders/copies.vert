@@ -8,7 +8,7 @@
 #include "view.glsl"
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
-layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
+layout(set = AFM_SET_DRAW, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -20,6 +20,8 @@ layout(location = 1) centroid out vec3 room_normal;
 layout(location = 2) out vec4 vertex_color;
 layout(location = 3) out vec3 shadow_place;
 layout(location = 4) flat out vec4 lobe;  // border, spread
+layout(location = 5) flat out vec4 drawn_surface;  // as DrawBlock::surface; z: 1 with an outline
+layout(location = 6) flat out vec4 drawn_emissive;
 
 #include "copy.glsl"
 #include "shadow_place.glsl"
@@ -30,8 +32,10 @@ void main() {
   room_normal = draw.normal_column[0].xyz * in_node.x + draw.normal_column[1].xyz * in_node.y +
                 draw.normal_column[2].xyz * in_node.z;
   vertex_color = color * draw.base_color * vec4(copy_tint.rgb, 1.0);
-  shadow_place = place_in_shadow_map(room_position, normalize(room_normal));
+  shadow_place = place_in_shadow_map(room_position, normalize(room_normal), draw.surface.w);
   Lobe its = lobe_of(draw.surface.y);
   lobe = vec4(its.border, its.spread);
+  drawn_surface = vec4(draw.surface.xy, draw.bend.z, draw.surface.w);
+  drawn_emissive = draw.emissive;
   gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
 }

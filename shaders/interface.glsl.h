@@ -7,13 +7,18 @@
 
 // set 0, the frame
 #define AFM_BINDING_FRAME 0
-#define AFM_BINDING_DRAW 1
-#define AFM_BINDING_SHADOW 2
+#define AFM_BINDING_SHADOW 1
+
+// Set of the draw, for vertices only. Nothing else changes from node to node: after any change of uniforms, textures or
+// samplers of fragments, lavapipe copies their whole state, 30 kB.
+#define AFM_SET_DRAW 1
+#define AFM_BINDING_DRAW 0
 
 // in front of everything; depth is reversed
 #define AFM_FRONT_DEPTH 0.9999
 
-// set 1 of materials with textures or extensions
+// set of materials with textures or extensions
+#define AFM_SET_MATERIAL 2
 #define AFM_BINDING_MATERIAL 0
 #define AFM_BINDING_TEXTURES 1
 
@@ -44,8 +49,13 @@
 #define AFM_SMALLEST_POINT 2
 #define AFM_LARGEST_POINT 16
 
-// texels each way
-#define AFM_SHADOW_MAP_SIZE 2048
+// texels each way: of the shadow map, and of the map with soft edges
+#define AFM_SHADOW_MAP_SIZE 1024
+#define AFM_SOFT_SHADOW_SIZE 512
+
+// Half the width of a shadow's edge for each metre between the caster and the surface, and most of it, in texels.
+#define AFM_PENUMBRA 0.16
+#define AFM_PENUMBRA_REACH 3
 
 // set 1 of the panels, set 0 of the canvas and of the compose pass: textures to sample
 #define AFM_BINDING_TEXTURE 0
@@ -86,7 +96,8 @@ struct FrameBlock {
 };
 
 // One per primitive of a node: a uniform block with a dynamic offset. lavapipe reads a storage buffer indexed in the
-// shader lane by lane, which tripled the frame time.
+// shader lane by lane, which tripled the frame time. Fragments get what they need of it from the vertices, as flat
+// inputs.
 struct DrawBlock {
   mat4 room_from_node;
   vec4 normal_column[3];  // xyz: columns of the normal matrix, scaled so that the longest has length 1

@@ -14,8 +14,7 @@
 layout(constant_id = 0) const uint kVariant = 0;
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
-layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
-layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map;
+layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
 // in the order of scene::TextureSlot
 const int kBaseColor = 0, kMetallicRoughness = 1, kNormal = 2, kOcclusion = 3, kEmissive = 4, kSpecular = 5,
@@ -28,7 +27,7 @@ const int kClearcoatFeature = 0, kIridescenceFeature = 1;
 
 // Properties of scene::PbrMaterial not in DrawBlock: the fields of scene::kPbrFields that are not Plain, in order, and
 // two rows per slot: xyz maps (u, v, 1); w of the first row: set 0 or 1.
-layout(set = 1, binding = AFM_BINDING_MATERIAL, std140) uniform Material {
+layout(set = AFM_SET_MATERIAL, binding = AFM_BINDING_MATERIAL, std140) uniform Material {
   vec4 alpha_cutoff;
   vec4 normal_scale;
   vec4 occlusion_strength;
@@ -43,7 +42,7 @@ layout(set = 1, binding = AFM_BINDING_MATERIAL, std140) uniform Material {
   vec4 iridescence_thickness_nm;  // at texture values 0 and 1
   vec4 uv_rows[2 * kTextureSlots];
 } material;
-layout(set = 1, binding = AFM_BINDING_TEXTURES) uniform sampler2D textures[kTextureSlots];
+layout(set = AFM_SET_MATERIAL, binding = AFM_BINDING_TEXTURES) uniform sampler2D textures[kTextureSlots];
 
 layout(location = 0) in vec3 room_position;
 layout(location = 1) centroid in vec3 room_normal;
@@ -51,6 +50,8 @@ layout(location = 2) in vec4 vertex_color;
 layout(location = 3) in vec3 front_shadow_place;
 layout(location = 4) in vec4 room_tangent;
 layout(location = 5) in vec4 texture_coordinates;
+layout(location = 6) flat in vec4 drawn_surface;  // as DrawBlock::surface
+layout(location = 7) flat in vec4 drawn_emissive;
 
 layout(location = 0) out vec4 out_color;
 
@@ -144,23 +145,24 @@ void put(vec3 shown, float coverage) {
 
 void main() {
   vec4 color = vertex_color * AFM_TEXEL(kBaseColor);
-  vec3 emitted = draw.emissive.rgb * AFM_TEXEL(kEmissive).rgb;
+  vec3 emitted = drawn_emissive.rgb * AFM_TEXEL(kEmissive).rgb;
   vec3 to_eye = normalize(view_eye_position(frame) - room_position);
   vec3 front = normalize(room_normal);
   float facing = gl_FrontFacing ? 1.0 : -1.0;  // a back has its front's normal reversed, bent or not
   vec3 normal = facing * front;
-  shadow_place = enabled(AFM_FEATURE_DOUBLE_SIDED) ? place_in_shadow_map(room_position, normal) : front_shadow_place;
+  shadow_place = front_shadow_place;
+  if (enabled(AFM_FEATURE_DOUBLE_SIDED)) shadow_place = place_in_shadow_map(room_position, normal, drawn_surface.w);
   if (enabled(1u << kNormal)) {
     normal = facing * mapped_normal(front, AFM_TEXEL(kNormal).xyz, material.normal_scale.x, place_in(kNormal));
   }
 
   vec4 metal_rough = AFM_TEXEL(kMetallicRoughness);
-  float metallic = draw.surface.x * metal_rough.b;
-  float roughness = draw.surface.y * metal_rough.g;
+  float metallic = drawn_surface.x * metal_rough.b;
+  float roughness = drawn_surface.y * metal_rough.g;
   vec3 dielectric = min(reflectance(material.ior.x) * material.specular_color.rgb * AFM_TEXEL(kSpecularColor).rgb, vec3(1.0)) *
                     material.specular.x * AFM_TEXEL(kSpecular).a;
   Surface s = Surface(normal, to_eye, color.rgb * (1.0 - metallic), mix(dielectric, color.rgb, metallic), roughness);
-  vec3 own_light = emitted + highlight_glow(s, draw.emissive.a);
+  vec3 own_light = emitted + highlight_glow(s, drawn_emissive.a);
   if (enabled(AFM_FEATURE_UNLIT)) {
     put(min(color.rgb + own_light, vec3(1.0)), color.a);
     return;
@@ -187,5 +189,5 @@ void main() {
     Surface lacquer = Surface(coat_normal, to_eye, vec3(0.0), vec3(0.04), coat_roughness);
     radiance = radiance * through + coat * lit(lacquer, key, occlusion);
   }
-  put(tone_map(radiance + highlight_glow(s, draw.emissive.a)), color.a);
+  put(tone_map(radiance + highlight_glow(s, drawn_emissive.a)), color.a);
 }

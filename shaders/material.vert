@@ -7,7 +7,7 @@
 #include "view.glsl"
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
-layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
+layout(set = AFM_SET_DRAW, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -21,6 +21,8 @@ layout(location = 2) out vec4 vertex_color;
 layout(location = 3) out vec3 shadow_place;
 layout(location = 4) out vec4 room_tangent;
 layout(location = 5) out vec4 texture_coordinates;
+layout(location = 6) flat out vec4 drawn_surface;
+layout(location = 7) flat out vec4 drawn_emissive;
 
 #include "placing.glsl"
 #include "shadow_place.glsl"
@@ -33,7 +35,9 @@ void main() {
   room_tangent = vec4(linear * tangent.xyz, determinant(linear) < 0.0 ? -tangent.w : tangent.w);
   vertex_color = color * draw.base_color;
   texture_coordinates = coordinates;
-  shadow_place = place_in_shadow_map(room_position, normalize(room_normal));
+  drawn_surface = draw.surface;
+  drawn_emissive = draw.emissive;
+  shadow_place = place_in_shadow_map(room_position, normalize(room_normal), draw.surface.w);
   mat4 clip = view_clip_from_room(frame);
   gl_Position = clip * vec4(room_position, 1.0);
   float pixels_per_metre = 0.5 * frame.punctual_count.z * frame.target_size.y * length(vec3(clip[0].y, clip[1].y, clip[2].y)) / gl_Position.w;

@@ -12,8 +12,8 @@
 // Shades opaque surfaces at their vertices if their triangles are about as small as pixels. A device shades at least a
 // few pixels of every triangle, so each pixel would otherwise be shaded several times.
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
-layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
-layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map;
+layout(set = AFM_SET_DRAW, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
+layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -31,8 +31,8 @@ vec3 shadow_place;
 void main() {
   vec3 room_position = (draw.room_from_node * vec4(bent_position(position), 1.0)).xyz;
   vec3 room_normal = normalize(normal_in_room(position, normal));
-  shadow_place = place_in_shadow_map(room_position, room_normal);
-  Surface s = surface_at(room_position, room_normal, (color * draw.base_color).rgb);
-  shown = srgb_from_linear(shaded(room_position, s, lobe_of(s.roughness), key_light_visibility()));
+  shadow_place = place_in_shadow_map(room_position, room_normal, draw.surface.w);
+  Surface s = surface_at(room_position, room_normal, (color * draw.base_color).rgb, draw.surface);
+  shown = srgb_from_linear(shaded(room_position, s, draw.emissive, lobe_of(s.roughness), key_light_visibility()));
   gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
 }

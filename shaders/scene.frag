@@ -13,15 +13,15 @@
 layout(constant_id = 0) const uint kVariant = 0;
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
-layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
-layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map;
+layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
 layout(location = 0) in vec3 room_position;
 layout(location = 1) centroid in vec3 room_normal;
 layout(location = 2) in vec4 vertex_color;
 layout(location = 3) in vec3 front_shadow_place;
-
-layout(location = 4) flat in vec4 lobe;             // border, spread
+layout(location = 4) flat in vec4 lobe;           // border, spread
+layout(location = 5) flat in vec4 drawn_surface;  // as DrawBlock::surface; z: 1 with an outline
+layout(location = 6) flat in vec4 drawn_emissive;
 
 layout(location = 0) out vec4 out_color;
 
@@ -37,21 +37,21 @@ const float kOutlineBegin = 0.12, kOutlineEnd = 0.48, kOutlineDepth = 0.85;
 void main() {
   vec3 front = normalize(room_normal);
   vec3 normal = gl_FrontFacing ? front : -front;
-  Surface s = surface_at(room_position, normal, vertex_color.rgb);
+  Surface s = surface_at(room_position, normal, vertex_color.rgb, drawn_surface);
   vec3 shown;
   if ((kVariant & AFM_FEATURE_UNLIT) != 0u) {
-    shown = vertex_color.rgb + own_light(s);
+    shown = vertex_color.rgb + own_light(s, drawn_emissive);
   } else {
     bool has_back = (kVariant & AFM_FEATURE_DOUBLE_SIDED) != 0u;
-    shadow_place = has_back ? place_in_shadow_map(room_position, normal) : front_shadow_place;
+    shadow_place = has_back ? place_in_shadow_map(room_position, normal, drawn_surface.w) : front_shadow_place;
     float visible = key_light_visibility();
     if ((kVariant & AFM_FEATURE_FOG) != 0u) {
       visible = mix(1.0, visible, frame.light_direction.w) * past_cone(frame, room_position);
     }
-    shown = shaded(room_position, s, Lobe(lobe.x, lobe.yzw), visible);
+    shown = shaded(room_position, s, drawn_emissive, Lobe(lobe.x, lobe.yzw), visible);
     if ((kVariant & AFM_FEATURE_FOG) != 0u) {
       float turned = 1.0 - smoothstep(kOutlineBegin, kOutlineEnd, dot(s.normal, s.to_eye));
-      shown *= 1.0 - draw.bend.z * kOutlineDepth * turned;
+      shown *= 1.0 - drawn_surface.z * kOutlineDepth * turned;
     }
   }
 

@@ -5,7 +5,7 @@
 #include "interface.glsl.h"
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
-layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
+layout(set = AFM_SET_DRAW, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 
 layout(location = 0) in vec3 position;
 

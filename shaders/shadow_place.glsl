@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Position of a point of the room in the shadow map. Needs the blocks `frame` and `draw`.
+// Position of a point of the room in the shadow map. Needs the block `frame`. `unshadowed`: 1 if nothing casts a shadow
+// there.
 
 // Linear across a triangle, because the light is far away. A step off the surface by about a texel of the map, more at
 // grazing light, keeps it from shadowing itself.
-vec3 place_in_shadow_map(vec3 place, vec3 normal) {
+vec3 place_in_shadow_map(vec3 place, vec3 normal, float unshadowed) {
   float grazing = 1.0 - max(dot(normal, frame.light_direction.xyz), 0.0);
   vec3 from = place + normal * frame.light_radiance.w * (0.5 + 1.5 * grazing);
   vec3 clip = (frame.shadow_from_room * vec4(from, 1.0)).xyz;
   // nothing is nearer to the light than depth 0
-  return vec3(0.5 * clip.xy + 0.5, clip.z * (1.0 - draw.surface.w));
+  return vec3(0.5 * clip.xy + 0.5, clip.z * (1.0 - unshadowed));
 }

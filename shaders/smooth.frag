@@ -6,7 +6,7 @@
 #include "tone.glsl"
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
-layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2DShadow shadow_map;
+layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
 layout(location = 0) in vec3 room_position;
 layout(location = 1) in vec3 shadow_place;

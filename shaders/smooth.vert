@@ -13,7 +13,7 @@
 // varies slowly there. Computed once with the key light and once without. The edges of shadows and the shade at the
 // contact are sharp: smooth.frag.
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
-layout(set = 0, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
+layout(set = AFM_SET_DRAW, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -33,11 +33,11 @@ void main() {
   room_position = (draw.room_from_node * vec4(bent_position(position), 1.0)).xyz;
   vec3 room_normal = normalize(normal_in_room(position, normal));
   vec4 its_color = color * draw.base_color;
-  shadow_place = place_in_shadow_map(room_position, room_normal);
-  Surface s = surface_at(room_position, room_normal, its_color.rgb);
+  shadow_place = place_in_shadow_map(room_position, room_normal, draw.surface.w);
+  Surface s = surface_at(room_position, room_normal, its_color.rgb, draw.surface);
   Lobe lobe = lobe_of(s.roughness);
   radiance_in_shadow = radiance(s, lobe, 0.0);
   radiance_in_light = radiance(s, lobe, 1.0);
-  own = vec4(own_light(s), its_color.a);
+  own = vec4(own_light(s, draw.emissive), its_color.a);
   gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
 }

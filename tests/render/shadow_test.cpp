@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Invariant: the shadow map is redrawn only where a caster changed
 // Invariant: no shadow ends where the map does
+// Invariant: a shadow's edge is wider, the farther away its caster is
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
@@ -38,6 +39,8 @@ class ShadowTest : public VulkanTest {
     with("what the light covers", [&](auto& f) { f.key_light.shadow_radius_m *= 0.5F; });
     return frames;
   }
+
+  double edge_m(double height_m);
 
   TestScene test_ = make_test_scene();
 };
@@ -149,6 +152,53 @@ TEST_F(ShadowTest, FallsNeitherOnWhatTakesNoneNorInAFrameWithoutOne) {
   frame.unshadowed.clear();
   frame.key_light.map_share = 0.0F;
   EXPECT_EQ(draw(scene, frame, small(1)).left.rgba, lit.rgba);
+}
+
+// Width of the edge of the shadow that a lid casts on a floor `height_m` below, in a picture of the left eye.
+double ShadowTest::edge_m(double height_m) {
+  scene::Scene scene;
+  const std::uint32_t chalk = add_material(scene, {.name = "chalk", .metallic = 0.0F});
+  const auto flat = [](const glm::dvec3& middle, const glm::dvec3& size) {
+    return glm::translate(glm::dmat4(1.0), middle) *
+           glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), glm::dvec3(1.0, 0.0, 0.0)) *
+           glm::scale(glm::dmat4(1.0), size);
+  };
+  const glm::dvec3 middle(0.0, -0.6, -0.5);
+  add(scene, "floor", quad(chalk), flat(middle, {4.0, 3.0, 1.0}));
+  const scene::NodeIndex lid =
+      add(scene, "lid", quad(chalk), flat(middle + glm::dvec3(0.5, height_m, 0.0), {1.0, 0.3, 1.0}));
+  render::FrameState frame = bare_frame(scene);
+  frame.key_light.direction_to_light = {0.0F, 1.0F, 0.05F};
+  frame.key_light.shadow_center_m = glm::vec3(middle);
+  frame.key_light.shadow_radius_m = 5.0F;
+  const render::Image shaded = draw(scene, frame, small(1)).left;
+  frame.visible.assign(scene.nodes.size(), 1);
+  frame.visible[lid] = 0;
+  const render::Image lit = draw(scene, frame, small(1)).left;
+  const auto darker = [&](double x) {
+    const glm::dvec4 clip =
+        frame.eyes[0].projection * frame.eyes[0].view * glm::dvec4(middle + glm::dvec3(x, 0.0, 0.0), 1.0);
+    const auto column = static_cast<std::size_t>((0.5 + 0.5 * clip.x / clip.w) * lit.width);
+    const auto row = static_cast<std::size_t>((0.5 + 0.5 * clip.y / clip.w) * lit.height);
+    const std::size_t at = 4 * (row * lit.width + column);
+    return static_cast<double>(lit.rgba.at(at)) - static_cast<double>(shaded.rgba.at(at));
+  };
+  const double whole = darker(0.25);
+  EXPECT_GT(whole, 20.0) << height_m;
+  EXPECT_LT(darker(-0.25), 3.0) << height_m;
+  double width_m = 0.0;
+  for (int i = -250; i <= 250; ++i) {
+    const double share = darker(0.001 * i) / whole;
+    if (share > 0.1 && share < 0.9) width_m += 0.001;
+  }
+  return width_m;
+}
+
+TEST_F(ShadowTest, HasAWiderEdgeTheFartherItsCasterIs) {
+  const double near_m = edge_m(0.05), middle_m = edge_m(0.25), far_m = edge_m(0.5);
+  EXPECT_GT(near_m, 0.01);
+  EXPECT_GT(middle_m, 1.15 * near_m);
+  EXPECT_GT(far_m, 1.15 * middle_m);
 }
 
 // The shade of a cone on its tip is a wedge that begins there and grows softer with the distance.

@@ -46,7 +46,10 @@ std::span<const scene::Vertex> shape_of(const FrameState& frame, scene::NodeInde
 
 DrawBox shown_box(const FrameState& frame, const Draw& draw) {
   if (draw.most_copies == 0) return bent_box(draw, bend_of(frame, draw.node));
-  const std::span<const MeshCopy> copies = copies_of(frame, draw.node);
+  return box_around(draw, copies_of(frame, draw.node));
+}
+
+DrawBox box_around(const Draw& draw, std::span<const MeshCopy> copies) {
   if (copies.empty()) return {glm::dvec3(0.0), glm::dvec3(0.0)};
   glm::dvec3 low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
   for (const MeshCopy& copy : copies) {

@@ -37,6 +37,9 @@ std::span<const scene::Vertex> shape_of(const FrameState& frame, scene::NodeInde
 // room for some, a box of size 0.
 DrawBox shown_box(const FrameState& frame, const Draw& draw);
 
+// Bounding box of some copies of a draw's mesh; of size 0 without any.
+DrawBox box_around(const Draw& draw, std::span<const MeshCopy> copies);
+
 // Smallest and largest value of dot(form, (place, 1)) over the box.
 std::pair<double, double> range(const glm::dvec4& form, const DrawBox& box);
 

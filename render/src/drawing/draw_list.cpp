@@ -126,19 +126,12 @@ void DrawListBuilder::list(const FrameState& frame, const SceneGeometry& geometr
       // copies that move among themselves keep their place in the order
       const glm::dvec3 middle = copied ? glm::dvec3(0.0) : box.center;
       const double distance = glm::distance(viewer, glm::dvec3(room_from_node * glm::dvec4(middle, 1.0)));
-      (draw.blended ? blended_ : opaque_).emplace_back(distance, i);
+      (draw.blended ? blended_ : opaque_).add(distance, i);
     }
   }
-  const auto places = [](const Distances& distances, std::vector<std::uint32_t>& to) {
-    to.clear();
-    for (const auto& each : distances) {
-      to.push_back(each.second);
-    }
-  };
-  std::sort(opaque_.begin(), opaque_.end());
-  std::sort(blended_.rbegin(), blended_.rend());
-  places(opaque_, list.opaque);
-  places(blended_, list.blended);
+  opaque_.near_to_far(list.opaque);
+  blended_.near_to_far(list.blended);
+  std::reverse(list.blended.begin(), list.blended.end());
 }
 
 }  // namespace afm::render

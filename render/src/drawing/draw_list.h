@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
+#include "drawing/distance_order.h"
 #include "drawing/scene_geometry.h"
 #include "render/frame.h"
 
@@ -40,8 +40,7 @@ class DrawListBuilder {
             DrawList& list);
 
  private:
-  using Distances = std::vector<std::pair<double, std::uint32_t>>;
-  Distances opaque_, blended_;
+  DistanceOrder opaque_, blended_;
 };
 
 }  // namespace afm::render

@@ -335,7 +335,7 @@ void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const Eye
       return;
     }
     const std::array sets{frame_set, *panel.texture.set};
-    command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *rectangle_layout_, 0, sets, std::uint32_t{0});
+    command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *rectangle_layout_, 0, sets, nullptr);
     const float only_eye = !panel.only_eye ? -1.0F : *panel.only_eye == scene::Eye::Left ? 0.0F : 1.0F;
     const PanelBlock block{.lower_left = glm::vec4(glm::vec3(panel.placement.lower_left_m), only_eye),
                            .right = glm::vec4(glm::vec3(panel.placement.right_m), 0.0F),

@@ -22,9 +22,9 @@ constexpr double kFarDepth =
     1e3;                   // in depth ranges of the shadow map; edges that leave a slab later are parallel to it
 constexpr int kParts = 8;  // parts with bounds of their own: a long object at an angle fills little of its box
 
-// Reach of a surface's shadow lookup, in texels: a step of up to two off the surface, half a texel beside it, and
-// interpolation between four, all with the device's precision.
-constexpr double kShadowTexels = 8.0;
+// Reach of a surface's shadow lookup, in texels of the shadow map: a step of up to two off the surface, interpolation
+// between four texels of the soft shadow, what these reach around them, and the device's precision.
+constexpr double kShadowTexels = 4.0 + (AFM_PENUMBRA_REACH + 1.5) * AFM_SHADOW_MAP_SIZE / AFM_SOFT_SHADOW_SIZE;
 
 // Beyond these radii the mark at the contact is invisible: the shade 1 - 0.72 * exp2(-2 r * r) is 1 in 32 bits
 // (shaders/contact.glsl), and a ring's light, exp2(-(3.5 * 2)^2), is lost in that of any surface.
@@ -189,19 +189,19 @@ void Damage::add_shadow(const DrawnFrame& of, std::uint32_t draw, const DrawnFra
                 [&](const DrawBox& part) { add_column(of, draw, part, now, geometry, tiles); });
 }
 
-// The column behind a part of a draw along the light, in the shadow map's clip space.
+// The column that a part of a draw covers along the light, in the shadow map's clip space. It begins at the light: a
+// soft edge depends on all depths around it.
 void Damage::add_column(const DrawnFrame& of, std::uint32_t draw, const DrawBox& part, const DrawnFrame& now,
                         const SceneGeometry& geometry, PixelTiles& tiles) const {
   const glm::dmat4 map_from_room(of.rest_.shadow_from_room);
   const glm::dmat4 directions = glm::transpose(map_from_room);
   const glm::dmat4 rows = glm::transpose(map_from_room * of.room_from_node(draw));
-  constexpr double kTexel = 1.0 / kShadowMapSize;  // in depth the same length as 2 * kTexel across
-  const glm::dvec3 reach = kShadowTexels * kTexel * glm::dvec3(2.0, 2.0, 1.0);
+  constexpr double kReach = 2.0 * kShadowTexels / kShadowMapSize;
   Volume column{.box_from_room = map_from_room};
   for (glm::length_t axis = 0; axis < 3; ++axis) {
     const auto [least, largest] = range(rows[axis], part);
-    column.low[axis] = least - reach[axis];
-    column.high[axis] = axis == 2 ? std::numeric_limits<double>::max() : largest + reach[axis];
+    column.low[axis] = axis == 2 ? std::numeric_limits<double>::lowest() : least - kReach;
+    column.high[axis] = axis == 2 ? std::numeric_limits<double>::max() : largest + kReach;
     column.per_m[axis] = glm::length(glm::dvec3(directions[axis]));
   }
   add_reached(column, now, geometry, tiles);
@@ -234,12 +234,14 @@ void Damage::add_panels(const DrawnFrame& before, const DrawnFrame& now, PixelTi
   }
 }
 
-PixelArea Damage::between(const DrawnFrame& before, const DrawnFrame& now, const SceneGeometry& geometry) {
+PixelArea Damage::between(DrawnFrame& before, DrawnFrame& now, const SceneGeometry& geometry) {
   PixelArea area;
   if (!now.same_for_all(before) || !find_changed(before, now, geometry) || !same_order(before, now)) {
     area.add_everything();
     return area;
   }
+  before.find_bounds(geometry, before);
+  now.find_bounds(geometry, before);
   PixelTiles tiles(now.drawing_.extent);
   for (const std::uint32_t draw : changes_) {
     add_draw(before, draw, geometry, tiles);

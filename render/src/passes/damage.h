@@ -24,9 +24,8 @@ namespace afm::render {
 // what must be redrawn, so anything drawn must be included here or constant after loading.
 class DrawnFrame {
  public:
-  // Stores a frame. `before` is the frame drawn last; unchanged draws take their bounds from it.
   void take(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list, const EyePassConfig& drawing,
-            float guard_band, const Panels& panels, const DrawnFrame& before);
+            float guard_band, const Panels& panels);
 
   // Makes this frame differ from every other in everything, because the picture's contents are unknown.
   void forget() { known_ = false; }
@@ -40,6 +39,10 @@ class DrawnFrame {
   // SceneGeometry::shape_count() vertices, those of a draw from Draw::first_vertex on; those of earlier frames where
   // this one has none.
   std::span<const scene::Vertex> shapes() const { return shapes_; }
+
+  // Computes bounds(), unless they are known; unchanged draws take them from `before`. Only parts of a picture need
+  // them.
+  void find_bounds(const SceneGeometry& geometry, const DrawnFrame& before);
 
   // Pixels of an eye's image in which either eye may see the draw; empty if it is not drawn.
   const PixelBox& bounds(std::uint32_t draw) const { return bounds_[draw]; }
@@ -73,6 +76,7 @@ class DrawnFrame {
   std::vector<MeshCopy> copies_;
   std::vector<std::uint32_t> copy_counts_;  // indexed by node
   std::vector<scene::Vertex> shapes_;
+  bool bounds_known_ = false;
   std::vector<PixelBox> bounds_;      // indexed by draw
   std::vector<std::uint32_t> order_;  // drawing order
   std::vector<PanelState> panels_;
@@ -85,7 +89,8 @@ class DrawnFrame {
 // memory.
 class Damage {
  public:
-  PixelArea between(const DrawnFrame& before, const DrawnFrame& now, const SceneGeometry& geometry);
+  // Finds the bounds of both if the part is not everything.
+  PixelArea between(DrawnFrame& before, DrawnFrame& now, const SceneGeometry& geometry);
 
  private:
   // Box, in its own frame, whose contents may look different.

@@ -73,7 +73,7 @@ PixelBox DrawnFrame::seen(const PanelState& panel, const PanelPart& part) const 
 }
 
 void DrawnFrame::take(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list,
-                      const EyePassConfig& drawing, float guard_band, const Panels& panels, const DrawnFrame& before) {
+                      const EyePassConfig& drawing, float guard_band, const Panels& panels) {
   const auto& draws = geometry.draws();
   known_ = true;
   drawing_ = drawing;
@@ -116,23 +116,32 @@ void DrawnFrame::take(const FrameState& frame, const SceneGeometry& geometry, co
     std::copy(shape.begin(), shape.end(), shapes_.begin() + draw.first_vertex);
   }
 
+  bounds_.resize(draws.size());
+  bounds_known_ = false;
+  panels.list(panels_);
+}
+
+void DrawnFrame::find_bounds(const SceneGeometry& geometry, const DrawnFrame& before) {
+  if (bounds_known_) return;
+  const auto& draws = geometry.draws();
   bounds_.assign(draws.size(), {});
-  const bool same_eyes = same_for_all(before);
+  const bool same_eyes = before.bounds_known_ && same_for_all(before);
   for (const std::uint32_t i : order_) {
     if (same_eyes && same(before, i) && same_copies(before, draws[i])) {
       bounds_[i] = before.bounds_[i];
-    } else {
-      const DrawBox box = shown_box(frame, draws[i]);
-      bounds_[i] = seen(room_from_node(i), box.center - box.half_size, box.center + box.half_size);
-      const auto& variant = draws[i].variant;
-      if (variant && geometry.variants()[*variant].topology == scene::Topology::Points && !bounds_[i].empty()) {
-        constexpr int kHalfPointPx = AFM_LARGEST_POINT / 2;
-        bounds_[i] = PixelBox{bounds_[i].low - kHalfPointPx, bounds_[i].high + kHalfPointPx}.within(
-            PixelBox::whole(drawing.extent));
-      }
+      continue;
+    }
+    const DrawBox box =
+        draws[i].most_copies == 0 ? bent_box(draws[i], blocks_[i].bend) : box_around(draws[i], copies_of(draws[i]));
+    bounds_[i] = seen(room_from_node(i), box.center - box.half_size, box.center + box.half_size);
+    const auto& variant = draws[i].variant;
+    if (variant && geometry.variants()[*variant].topology == scene::Topology::Points && !bounds_[i].empty()) {
+      constexpr int kHalfPointPx = AFM_LARGEST_POINT / 2;
+      bounds_[i] = PixelBox{bounds_[i].low - kHalfPointPx, bounds_[i].high + kHalfPointPx}.within(
+          PixelBox::whole(drawing_.extent));
     }
   }
-  panels.list(panels_);
+  bounds_known_ = true;
 }
 
 bool DrawnFrame::same_for_all(const DrawnFrame& other) const {

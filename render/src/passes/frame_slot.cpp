@@ -21,7 +21,7 @@ std::uint32_t aligned_stride(const Device& device, std::size_t size) {
 vk::raii::DescriptorPool create_frame_pool(const Device& device, std::uint32_t sets) {
   const std::array sizes{
       vk::DescriptorPoolSize{.type = vk::DescriptorType::eUniformBuffer, .descriptorCount = sets},
-      vk::DescriptorPoolSize{.type = kDynamicUniform, .descriptorCount = sets},
+      vk::DescriptorPoolSize{.type = kDynamicUniform, .descriptorCount = 1},
       vk::DescriptorPoolSize{.type = vk::DescriptorType::eCombinedImageSampler, .descriptorCount = sets}};
   return vk::raii::DescriptorPool(*device, {.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
                                             .maxSets = sets,
@@ -29,24 +29,21 @@ vk::raii::DescriptorPool create_frame_pool(const Device& device, std::uint32_t s
                                             .pPoolSizes = sizes.data()});
 }
 
-void write_uniforms(const Device& device, vk::DescriptorSet set, const Buffer& uniforms, const Buffer& draws) {
-  const vk::DescriptorBufferInfo uniform_info{.buffer = *uniforms.buffer, .range = VK_WHOLE_SIZE};
-  const vk::DescriptorBufferInfo draw_info{.buffer = *draws.buffer, .range = sizeof(DrawBlock)};
-  const std::array writes{vk::WriteDescriptorSet{.dstSet = set,
-                                                 .dstBinding = AFM_BINDING_FRAME,
-                                                 .descriptorCount = 1,
-                                                 .descriptorType = vk::DescriptorType::eUniformBuffer,
-                                                 .pBufferInfo = &uniform_info},
-                          vk::WriteDescriptorSet{.dstSet = set,
-                                                 .dstBinding = AFM_BINDING_DRAW,
-                                                 .descriptorCount = 1,
-                                                 .descriptorType = kDynamicUniform,
-                                                 .pBufferInfo = &draw_info}};
-  device->updateDescriptorSets(writes, nullptr);
+void write_uniforms(const Device& device, vk::DescriptorSet set, std::uint32_t binding, vk::DescriptorType type,
+                    const vk::DescriptorBufferInfo& uniforms) {
+  device->updateDescriptorSets(
+      vk::WriteDescriptorSet{
+          .dstSet = set, .dstBinding = binding, .descriptorCount = 1, .descriptorType = type, .pBufferInfo = &uniforms},
+      nullptr);
 }
 
-void write_shadow_map(const Device& device, vk::DescriptorSet set, const ShadowMap& shadow_map) {
-  const vk::DescriptorImageInfo shadow_info = shadow_map.descriptor();
+void write_frame(const Device& device, vk::DescriptorSet set, const Buffer& uniforms) {
+  write_uniforms(device, set, AFM_BINDING_FRAME, vk::DescriptorType::eUniformBuffer,
+                 {.buffer = *uniforms.buffer, .range = VK_WHOLE_SIZE});
+}
+
+void write_shadow(const Device& device, vk::DescriptorSet set, const SoftShadow& shadow) {
+  const vk::DescriptorImageInfo shadow_info = shadow.descriptor();
   device->updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set,
                                                       .dstBinding = AFM_BINDING_SHADOW,
                                                       .descriptorCount = 1,
@@ -55,17 +52,15 @@ void write_shadow_map(const Device& device, vk::DescriptorSet set, const ShadowM
                                nullptr);
 }
 
-}  // namespace
+enum class ShadowUse { Read, Drawn };
 
-vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowMapUse use) {
+vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowUse use) {
   const auto both = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
-  std::vector<vk::DescriptorSetLayoutBinding> bindings{
-      {.binding = AFM_BINDING_FRAME,
-       .descriptorType = vk::DescriptorType::eUniformBuffer,
-       .descriptorCount = 1,
-       .stageFlags = both},
-      {.binding = AFM_BINDING_DRAW, .descriptorType = kDynamicUniform, .descriptorCount = 1, .stageFlags = both}};
-  if (use == ShadowMapUse::Read) {
+  std::vector<vk::DescriptorSetLayoutBinding> bindings{{.binding = AFM_BINDING_FRAME,
+                                                        .descriptorType = vk::DescriptorType::eUniformBuffer,
+                                                        .descriptorCount = 1,
+                                                        .stageFlags = both}};
+  if (use == ShadowUse::Read) {
     bindings.push_back({.binding = AFM_BINDING_SHADOW,
                         .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                         .descriptorCount = 1,
@@ -75,8 +70,23 @@ vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, Shad
       *device, {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
-FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::DescriptorSetLayout shadow_layout,
-                     const ShadowMap& shadow_map, const SceneGeometry& geometry)
+vk::raii::DescriptorSetLayout create_draw_set_layout(const Device& device) {
+  const vk::DescriptorSetLayoutBinding binding{.binding = AFM_BINDING_DRAW,
+                                               .descriptorType = kDynamicUniform,
+                                               .descriptorCount = 1,
+                                               .stageFlags = vk::ShaderStageFlagBits::eVertex};
+  return vk::raii::DescriptorSetLayout(*device, {.bindingCount = 1, .pBindings = &binding});
+}
+
+}  // namespace
+
+FrameSetLayouts::FrameSetLayouts(const Device& device)
+    : eyes(create_frame_set_layout(device, ShadowUse::Read)),
+      shadow(create_frame_set_layout(device, ShadowUse::Drawn)),
+      draw(create_draw_set_layout(device)) {}
+
+FrameSlot::FrameSlot(const Device& device, const FrameSetLayouts& layouts, const SoftShadow& shadow,
+                     const SceneGeometry& geometry)
     : pool_(*device, vk::CommandPoolCreateInfo{.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
                                                .queueFamilyIndex = device.queue_family()}),
       commands_(*device, {.commandPool = *pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 4}),
@@ -84,7 +94,7 @@ FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::D
       largest_point_px_(device.largest_point_px()),
       draw_blocks_(create_host_buffer(device, "draws", std::max<std::size_t>(geometry.draws().size(), 1) * draw_stride_,
                                       vk::BufferUsageFlagBits::eUniformBuffer)),
-      descriptor_pool_(create_frame_pool(device, kMostPasses + 1)) {
+      descriptor_pool_(create_frame_pool(device, kMostPasses + 2)) {
   const auto allocate = [&](vk::DescriptorSetLayout of) {
     return std::move(vk::raii::DescriptorSets(
                          *device, {.descriptorPool = *descriptor_pool_, .descriptorSetCount = 1, .pSetLayouts = &of})
@@ -93,9 +103,9 @@ FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::D
   for (std::uint32_t pass = 0; pass < kMostPasses; ++pass) {
     uniforms_.push_back(
         create_host_buffer(device, "frame uniforms", sizeof(FrameBlock), vk::BufferUsageFlagBits::eUniformBuffer));
-    sets_.push_back(allocate(layout));
-    write_uniforms(device, *sets_.back(), uniforms_.back(), draw_blocks_);
-    write_shadow_map(device, *sets_.back(), shadow_map);
+    sets_.push_back(allocate(*layouts.eyes));
+    write_frame(device, *sets_.back(), uniforms_.back());
+    write_shadow(device, *sets_.back(), shadow);
   }
   if (geometry.copy_count() > 0) {
     copies_ = create_host_buffer(device, "copies", geometry.copy_count() * sizeof(MeshCopy),
@@ -109,8 +119,11 @@ FrameSlot::FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::D
     written_shapes_.resize(geometry.shape_count());
     std::memcpy(shapes_.mapped, written_shapes_.data(), shapes_.size);
   }
-  shadow_set_ = allocate(shadow_layout);
-  write_uniforms(device, *shadow_set_, uniforms_.front(), draw_blocks_);
+  shadow_set_ = allocate(*layouts.shadow);
+  write_frame(device, *shadow_set_, uniforms_.front());
+  draw_set_ = allocate(*layouts.draw);
+  write_uniforms(device, *draw_set_, AFM_BINDING_DRAW, kDynamicUniform,
+                 {.buffer = *draw_blocks_.buffer, .range = sizeof(DrawBlock)});
 }
 
 bool FrameSlot::Recorded::take(const DrawList& new_draws, const EyePassConfig& new_drawing, std::uint64_t new_panels) {

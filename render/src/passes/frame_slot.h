@@ -9,22 +9,24 @@
 #include "drawing/eye_targets.h"
 #include "drawing/frame_blocks.h"
 #include "drawing/pixel_area.h"
-#include "passes/shadow_map.h"
+#include "passes/soft_shadow.h"
 
 namespace afm::render {
 
-// Set 0 of all pipelines that draw the room: the uniforms of the frame and the draw, and the shadow map if it is read.
+// Sets of the pipelines that draw the room. Set 0 has the uniforms of the frame and, for the eyes, the shadows to read.
 // Pipelines that draw the shadow map have a set without it; otherwise lavapipe would finish each draw before the next,
-// to let it read the result.
-enum class ShadowMapUse { Read, Drawn };
-vk::raii::DescriptorSetLayout create_frame_set_layout(const Device& device, ShadowMapUse use);
+// to let it read the result. Set AFM_SET_DRAW has the uniforms of a draw.
+struct FrameSetLayouts {
+  explicit FrameSetLayouts(const Device& device);
+
+  vk::raii::DescriptorSetLayout eyes, shadow, draw;
+};
 
 // Resources of one frame in flight: commands, uniforms and draw blocks. Reused once the frame is finished.
 class FrameSlot {
  public:
-  // `layout` is used to read the shadow map, `shadow_layout` to draw it.
-  FrameSlot(const Device& device, vk::DescriptorSetLayout layout, vk::DescriptorSetLayout shadow_layout,
-            const ShadowMap& shadow_map, const SceneGeometry& geometry);
+  FrameSlot(const Device& device, const FrameSetLayouts& layouts, const SoftShadow& shadow,
+            const SceneGeometry& geometry);
 
   // Writes everything that the frame's shaders read; `blocks` has one entry per draw, `copies` one for each of
   // SceneGeometry::copy_count(), `shapes` one for each of SceneGeometry::shape_count(). Of copies and shapes, only
@@ -38,7 +40,10 @@ class FrameSlot {
   // Descriptor set of the pass that draws the shadow map.
   vk::DescriptorSet shadow_set() const { return *shadow_set_; }
 
-  // Distance in bytes between the blocks of two draws; dynamic offsets of binding AFM_BINDING_DRAW are multiples of it.
+  // Descriptor set of the draws, with a dynamic offset.
+  vk::DescriptorSet draw_set() const { return *draw_set_; }
+
+  // Distance in bytes between the blocks of two draws; the offsets of draw_set() are multiples of it.
   std::uint32_t draw_stride() const { return draw_stride_; }
 
   // Vertex buffer of all copies; null if the scene has no room for any.
@@ -91,6 +96,7 @@ class FrameSlot {
   vk::raii::DescriptorPool descriptor_pool_{nullptr};
   std::vector<vk::raii::DescriptorSet> sets_;
   vk::raii::DescriptorSet shadow_set_{nullptr};
+  vk::raii::DescriptorSet draw_set_{nullptr};
 };
 
 }  // namespace afm::render

@@ -98,9 +98,15 @@ PipelineRequest variant_request(vk::PipelineLayout layout, const ShaderVariant& 
           .variant = variant.bits};
 }
 
-vk::raii::PipelineLayout create_variant_layout(const Device& device, vk::DescriptorSetLayout frame,
+vk::raii::PipelineLayout create_scene_layout(const Device& device, vk::DescriptorSetLayout frame,
+                                             const FrameSetLayouts& layouts) {
+  const std::array sets{frame, *layouts.draw};
+  return create_pipeline_layout(device, {.sets = sets});
+}
+
+vk::raii::PipelineLayout create_variant_layout(const Device& device, const FrameSetLayouts& layouts,
                                                vk::DescriptorSetLayout material) {
-  const std::array sets{frame, material};
+  const std::array sets{*layouts.eyes, *layouts.draw, material};
   return create_pipeline_layout(device, {.sets = sets});
 }
 
@@ -128,12 +134,11 @@ vk::raii::Pipeline create_shadow_of_copies(const Device& device, vk::PipelineLay
 
 }  // namespace
 
-ScenePass::ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout,
-                     vk::DescriptorSetLayout shadow_set_layout, const SceneMaterials& materials,
+ScenePass::ScenePass(const Device& device, const FrameSetLayouts& layouts, const SceneMaterials& materials,
                      const std::vector<ShaderVariant>& variants)
-    : layout_(create_pipeline_layout(device, {.sets = {&frame_set_layout, 1}})),
-      shadow_layout_(create_pipeline_layout(device, {.sets = {&shadow_set_layout, 1}})),
-      variant_layout_(create_variant_layout(device, frame_set_layout, materials.layout())),
+    : layout_(create_scene_layout(device, *layouts.eyes, layouts)),
+      shadow_layout_(create_scene_layout(device, *layouts.shadow, layouts)),
+      variant_layout_(create_variant_layout(device, layouts, materials.layout())),
       shadow_(create_pipeline(device, shadow_request(*shadow_layout_))),
       opaque_{plain_pipelines(device, *layout_, Blending::Opaque, 0),
               plain_pipelines(device, *layout_, Blending::Opaque, AFM_FEATURE_FOG)},
@@ -163,7 +168,8 @@ void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLa
   const bool double_sided = input.geometry.draws()[i].double_sided;
   const auto culled = double_sided ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack;
   const auto front = input.draws.mirrored[i] != 0 ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise;
-  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 0, input.frame_set, i * input.draw_stride);
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, AFM_SET_DRAW, input.draw_set,
+                             i * input.draw_stride);
   if (sides.culled != culled) command.setCullMode(culled);
   if (sides.front != front) command.setFrontFace(front);
   sides = {culled, front};
@@ -192,6 +198,7 @@ EyePipeline& ScenePass::plain_one(const Draw& draw, Shading shading, bool hazy, 
 void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
                                std::span<const std::uint32_t> draws, PlainPipelines& plain) {
   const EyePipeline* bound = nullptr;
+  vk::DescriptorSet bound_material;
   Sides sides;
   for (const std::uint32_t i : draws) {
     if (input.box && input.frame->bounds(i).within(*input.box).empty()) continue;
@@ -203,9 +210,11 @@ void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const Eye
       bound = &pipeline;
     }
     set_state(command, *layout_, input, i, sides);
-    if (draw.variant) {
-      command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *variant_layout_, 1,
-                                 input.materials.set(draw.material), nullptr);
+    if (const auto material = draw.variant ? input.materials.set(draw.material) : bound_material;
+        material != bound_material) {
+      command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *variant_layout_, AFM_SET_MATERIAL, material,
+                                 nullptr);
+      bound_material = material;
     }
     draw_one(command, input, i);
   }
@@ -214,6 +223,7 @@ void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const Eye
 void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
                               std::span<const std::uint32_t> draws) const {
   bind_buffers(command, input);
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *shadow_layout_, 0, input.frame_set, nullptr);
   const vk::raii::Pipeline* bound = nullptr;
   Sides sides;
   for (const std::uint32_t i : draws) {
@@ -226,19 +236,19 @@ void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Inpu
 }
 
 void ScenePass::record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
-                                  const Input& input, EyePipeline& pipeline) const {
+                                  EyePipeline& pipeline) {
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline.get(drawing.pass, drawing.samples));
-  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, std::uint32_t{0});
   command.setCullMode(vk::CullModeFlagBits::eNone);
   command.draw(4, 1, 0, 0);
 }
 
 void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input) {
   bind_buffers(command, input);
+  command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, nullptr);
   const std::size_t fog = input.draws.hazy ? 1 : 0;
-  if (input.box) record_background(command, drawing, input, erasing_background_);
+  if (input.box) record_background(command, drawing, erasing_background_);
   record_in_eyes(command, drawing, input, input.draws.opaque, opaque_[fog]);
-  if (!input.box) record_background(command, drawing, input, background_);
+  if (!input.box) record_background(command, drawing, background_);
   record_in_eyes(command, drawing, input, input.draws.blended, blended_[fog]);
   command.setFrontFace(vk::FrontFace::eCounterClockwise);
 }

@@ -9,6 +9,7 @@
 #include "drawing/eye_targets.h"
 #include "drawing/scene_geometry.h"
 #include "passes/damage.h"
+#include "passes/frame_slot.h"
 #include "passes/scene_materials.h"
 
 namespace afm::render {
@@ -16,21 +17,22 @@ namespace afm::render {
 // Pipelines that draw a SceneGeometry: into the shadow map, and into the eyes with the background behind.
 class ScenePass {
  public:
-  ScenePass(const Device& device, vk::DescriptorSetLayout frame_set_layout, vk::DescriptorSetLayout shadow_set_layout,
-            const SceneMaterials& materials, const std::vector<ShaderVariant>& variants);
+  ScenePass(const Device& device, const FrameSetLayouts& layouts, const SceneMaterials& materials,
+            const std::vector<ShaderVariant>& variants);
 
   struct Input {
     const SceneGeometry& geometry;
     const SceneMaterials& materials;
     const DrawList& draws;
     vk::DescriptorSet frame_set;
+    vk::DescriptorSet draw_set;         // as FrameSlot::draw_set()
     std::uint32_t draw_stride = 0;      // as FrameSlot::draw_stride()
     const DrawnFrame* frame = nullptr;  // if `box` is set, used to skip draws outside it
     std::optional<PixelBox> box{};      // scissor, over an earlier picture
     vk::Buffer copies{};                // as FrameSlot::copies()
     vk::Buffer shapes{};                // as FrameSlot::shapes()
   };
-  // Draws `draws` of the input's geometry; the input's set is FrameSlot::shadow_set().
+  // Draws `draws` of the input's geometry; the input's frame set is FrameSlot::shadow_set().
   void record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
                      std::span<const std::uint32_t> draws) const;
   void record_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input);
@@ -53,8 +55,8 @@ class ScenePass {
   static void draw_one(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t draw);
   static void bind_buffers(const vk::raii::CommandBuffer& command, const Input& input);
   EyePipeline& plain_one(const Draw& draw, Shading shading, bool hazy, PlainPipelines& plain);
-  void record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
-                         EyePipeline& pipeline) const;
+  static void record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
+                                EyePipeline& pipeline);
   void record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
                       std::span<const std::uint32_t> draws, PlainPipelines& plain);
 

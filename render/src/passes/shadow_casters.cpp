@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 
 #include "drawing/draw_box.h"
 #include "drawing/frame_blocks.h"
@@ -14,7 +15,24 @@ namespace {
 constexpr int kSettled = 120;  // frames
 constexpr vk::Rect2D kWholeMap{.extent = {kShadowMapSize, kShadowMapSize}};
 
+// The smallest part that holds both, of which either may be empty.
+vk::Rect2D around_both(const vk::Rect2D& a, const vk::Rect2D& b) {
+  const auto empty = [](const vk::Rect2D& part) { return part.extent.width == 0 || part.extent.height == 0; };
+  if (empty(a)) return b;
+  if (empty(b)) return a;
+  const auto right = [](const vk::Rect2D& part) {
+    return part.offset.x + static_cast<std::int32_t>(part.extent.width);
+  };
+  const auto low = [](const vk::Rect2D& part) { return part.offset.y + static_cast<std::int32_t>(part.extent.height); };
+  const vk::Offset2D from{std::min(a.offset.x, b.offset.x), std::min(a.offset.y, b.offset.y)};
+  return {.offset = from,
+          .extent = {static_cast<std::uint32_t>(std::max(right(a), right(b)) - from.x),
+                     static_cast<std::uint32_t>(std::max(low(a), low(b)) - from.y)}};
+}
+
 }  // namespace
+
+ShadowCasters::ShadowCasters() : covered_(kWholeMap) {}
 
 // True if the copies are placed as in the previous frame; their tint casts no shadow.
 bool ShadowCasters::follow_copies(std::size_t caster, std::span<const MeshCopy> copies) {
@@ -65,11 +83,12 @@ bool ShadowCasters::separate(const SceneGeometry& geometry, const DrawList& list
   return dynamic_indices <= static_indices;
 }
 
-// Area drawn by the dynamic casters, plus a margin: a texel is drawn if its centre is covered.
-vk::Rect2D ShadowCasters::drawn_by_dynamic(const FrameState& frame, const SceneGeometry& geometry) const {
+// Area that the casters draw, plus a margin: a texel is drawn if its centre is covered.
+vk::Rect2D ShadowCasters::drawn_by(std::span<const std::uint32_t> draws, const FrameState& frame,
+                                   const SceneGeometry& geometry) const {
   constexpr double kSize = kShadowMapSize;
   glm::dvec2 low(kSize), high(0.0);
-  for (const std::uint32_t i : dynamic_) {
+  for (const std::uint32_t i : draws) {
     const Draw& draw = geometry.draws()[i];
     const DrawBox box = shown_box(frame, draw);
     const glm::dmat4 rows = glm::transpose(glm::dmat4(map_from_room_) * frame.room_from_node[draw.node]);
@@ -86,22 +105,30 @@ vk::Rect2D ShadowCasters::drawn_by_dynamic(const FrameState& frame, const SceneG
   return {.offset = {offset.x, offset.y}, .extent = {size.x, size.y}};
 }
 
+void ShadowCasters::draw_everything(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list) {
+  static_drawn_ = false;
+  const vk::Rect2D before = std::exchange(covered_, drawn_by(list.shadow, frame, geometry));
+  changed_ = around_both(before, covered_);
+}
+
 ShadowStep ShadowCasters::update(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list) {
   if (follow(frame, geometry, list)) {
     std::fill(frames_at_rest_.begin(), frames_at_rest_.end(), kSettled);
-    static_drawn_ = false;
+    draw_everything(frame, geometry, list);
     return ShadowStep::Everything;
   }
   if (std::find(frames_at_rest_.begin(), frames_at_rest_.end(), 0) == frames_at_rest_.end()) {
     return ShadowStep::Nothing;
   }
   if (!separate(geometry, list)) {
-    static_drawn_ = false;
+    draw_everything(frame, geometry, list);
     return ShadowStep::Everything;
   }
   const bool same = static_drawn_ && dynamic_ == dynamic_before_;
   dirty_ = same ? drawn_ : kWholeMap;
-  drawn_ = drawn_by_dynamic(frame, geometry);
+  drawn_ = drawn_by(dynamic_, frame, geometry);
+  changed_ = around_both(same ? dirty_ : covered_, drawn_);
+  covered_ = around_both(covered_, drawn_);
   static_drawn_ = true;
   return same ? ShadowStep::Dynamic : ShadowStep::StaticAndDynamic;
 }

@@ -22,12 +22,17 @@ enum class ShadowStep { Nothing, Everything, StaticAndDynamic, Dynamic };
 // moves, and its shadow is a small part of the map.
 class ShadowCasters {
  public:
+  ShadowCasters();
+
   // Call for each frame in turn: the returned steps keep the map up to date with the light and all casters.
   ShadowStep update(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list);
 
   // Draws of the newest step. A static caster has not moved for many frames.
   std::span<const std::uint32_t> static_casters() const { return static_; }
   std::span<const std::uint32_t> dynamic_casters() const { return dynamic_; }
+
+  // Part of the map that the newest step changes; all of it in the first one.
+  const vk::Rect2D& changed() const { return changed_; }
 
   // Part of the map that differs from the static one before the dynamic casters are drawn; all of it in the first step
   // of two.
@@ -46,7 +51,9 @@ class ShadowCasters {
   bool follow_copies(std::size_t caster, std::span<const MeshCopy> copies);
   bool follow(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list);
   bool separate(const SceneGeometry& geometry, const DrawList& list);
-  vk::Rect2D drawn_by_dynamic(const FrameState& frame, const SceneGeometry& geometry) const;
+  vk::Rect2D drawn_by(std::span<const std::uint32_t> draws, const FrameState& frame,
+                      const SceneGeometry& geometry) const;
+  void draw_everything(const FrameState& frame, const SceneGeometry& geometry, const DrawList& list);
 
   glm::mat4 map_from_room_{0.0F};
   std::vector<Caster> casters_;
@@ -54,7 +61,8 @@ class ShadowCasters {
   std::vector<int> frames_at_rest_;            // indexed by caster, up to the count that makes it static
   std::vector<std::uint32_t> static_, dynamic_, dynamic_before_;
   bool static_drawn_ = false;  // the static map shows static_
-  vk::Rect2D dirty_, drawn_;
+  vk::Rect2D dirty_, drawn_, changed_;
+  vk::Rect2D covered_;  // part outside which the map is empty
 };
 
 }  // namespace afm::render

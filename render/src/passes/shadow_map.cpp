@@ -9,9 +9,8 @@
 namespace afm::render {
 namespace {
 
-constexpr ImageUse kShadowSampled{
-    vk::PipelineStageFlagBits2::eVertexShader | vk::PipelineStageFlagBits2::eFragmentShader,
-    vk::AccessFlagBits2::eShaderSampledRead, vk::ImageLayout::eShaderReadOnlyOptimal};
+constexpr ImageUse kShadowSampled{vk::PipelineStageFlagBits2::eFragmentShader, vk::AccessFlagBits2::eShaderSampledRead,
+                                  vk::ImageLayout::eShaderReadOnlyOptimal};
 
 constexpr vk::Extent2D kSize{kShadowMapSize, kShadowMapSize};
 
@@ -37,15 +36,7 @@ ShadowMap::ShadowMap(const Device& device)
     : depth_(create_map(device, "shadow map", vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst)),
       static_(create_map(device, "static shadow map", vk::ImageUsageFlagBits::eTransferSrc)),
       view_(create_view(device, depth_, kDepthAspect, 0, 1)),
-      static_view_(create_view(device, static_, kDepthAspect, 0, 1)),
-      sampler_(*device, vk::SamplerCreateInfo{.magFilter = vk::Filter::eLinear,
-                                              .minFilter = vk::Filter::eLinear,
-                                              .addressModeU = vk::SamplerAddressMode::eClampToBorder,
-                                              .addressModeV = vk::SamplerAddressMode::eClampToBorder,
-                                              .addressModeW = vk::SamplerAddressMode::eClampToBorder,
-                                              .compareEnable = VK_TRUE,
-                                              .compareOp = vk::CompareOp::eLessOrEqual,
-                                              .borderColor = vk::BorderColor::eFloatOpaqueWhite}) {}
+      static_view_(create_view(device, static_, kDepthAspect, 0, 1)) {}
 
 void ShadowMap::begin(const vk::raii::CommandBuffer& command) const {
   record_barriers(command, {image_barrier(*depth_.image, kDepthAspect, kShadowSampled.discarded(), kDepthTested)});
@@ -83,10 +74,6 @@ void ShadowMap::begin_on_static(const vk::raii::CommandBuffer& command, const vk
     record_barriers(command, {image_barrier(*depth_.image, kDepthAspect, kCopiedTo, kDepthTested)});
   }
   begin_drawing(command, *view_, vk::AttachmentLoadOp::eLoad);
-}
-
-vk::DescriptorImageInfo ShadowMap::descriptor() const {
-  return {.sampler = *sampler_, .imageView = *view_, .imageLayout = vk::ImageLayout::eShaderReadOnlyOptimal};
 }
 
 }  // namespace afm::render

@@ -16,8 +16,8 @@ void Renderer::Parts::record_eyes(const vk::raii::CommandBuffer& command, std::s
   for (std::size_t pass = 0; pass < drawing.pass_count; ++pass) {
     const auto record = [&](const std::optional<PixelBox>& box) {
       scene_pass.record_eyes(command, drawing,
-                             {geometry, materials, slot.draws, slot.set(pass), slot.draw_stride(), &now, box,
-                              slot.copies(), slot.shapes()});
+                             {geometry, materials, slot.draws, slot.set(pass), slot.draw_set(), slot.draw_stride(),
+                              &now, box, slot.copies(), slot.shapes()});
       if (!eyes.reduced()) panels.record_rectangles(command, drawing, slot.set(pass));
     };
     eyes.begin(command, pass, around);

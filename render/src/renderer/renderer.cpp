@@ -75,15 +75,15 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       materials(device, scene),
       node_count(scene.nodes.size()),
       shadow_map(device),
-      frame_set_layout(create_frame_set_layout(device, ShadowMapUse::Read)),
-      shadow_set_layout(create_frame_set_layout(device, ShadowMapUse::Drawn)),
-      scene_pass(device, *frame_set_layout, *shadow_set_layout, materials, geometry.variants()),
-      panels(device, std::move(fonts), *frame_set_layout, options),
+      soft_shadow(device, shadow_map.view()),
+      set_layouts(device),
+      scene_pass(device, set_layouts, materials, geometry.variants()),
+      panels(device, std::move(fonts), *set_layouts.eyes, options),
       enlarger(device),
       composer(device, eyes, eye_changes),
       timeline(create_timeline(device)) {
   for (std::size_t i = 0; i < kFramesInFlight; ++i) {
-    slots.emplace_back(device, *frame_set_layout, *shadow_set_layout, shadow_map, geometry);
+    slots.emplace_back(device, set_layouts, soft_shadow, geometry);
     if (options.time_passes && TimestampQueries::works_on(device)) {
       clocks.emplace_back(device);
     }
@@ -126,8 +126,14 @@ void Renderer::Parts::record_painting(std::size_t slot) {
 void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
   FrameSlot& slot = slots[slot_index];
   const auto& command = slot.shadow();
-  const ScenePass::Input input{geometry, materials, slot.draws,    slot.shadow_set(), slot.draw_stride(),
-                               nullptr,  {},        slot.copies(), slot.shapes()};
+  const ScenePass::Input input{.geometry = geometry,
+                               .materials = materials,
+                               .draws = slot.draws,
+                               .frame_set = slot.shadow_set(),
+                               .draw_set = slot.draw_set(),
+                               .draw_stride = slot.draw_stride(),
+                               .copies = slot.copies(),
+                               .shapes = slot.shapes()};
   command.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   mark(command, slot_index, GpuTimer::Mark::ShadowBegin);
   if (step == ShadowStep::Everything) {
@@ -143,6 +149,7 @@ void Renderer::Parts::record_shadow(std::size_t slot_index, ShadowStep step) {
     scene_pass.record_shadow(command, input, shadow_casters.dynamic_casters());
   }
   shadow_map.end(command);
+  soft_shadow.record(command, shadow_casters.changed());
   mark(command, slot_index, GpuTimer::Mark::ShadowEnd);
   command.end();
 }
@@ -177,7 +184,7 @@ void Renderer::Parts::render(const FrameState& frame) {
   eyes.begin_frame(choose_drawing(frame, slot.draws));
   slot.painted = panels.update(frame, slot_index);
   panels.set_apart(frame.panels_apart, PanelSight(frame, geometry, slot.draws));
-  now.take(frame, geometry, slot.draws, eyes.drawing(), eyes.guard_band(), panels, drawn);
+  now.take(frame, geometry, slot.draws, eyes.drawing(), eyes.guard_band(), panels);
   if (options.redraw == Redraw::Everything) drawn.forget();
   slot.area = damage.between(drawn, now, geometry);
   const ShadowStep step = shadow_casters.update(frame, geometry, slot.draws);

@@ -15,6 +15,7 @@
 #include "passes/scene_pass.h"
 #include "passes/shadow_casters.h"
 #include "passes/shadow_map.h"
+#include "passes/soft_shadow.h"
 #include "render/renderer.h"
 
 namespace afm::render {
@@ -47,7 +48,8 @@ struct Renderer::Parts {
   SceneMaterials materials;
   std::size_t node_count;
   ShadowMap shadow_map;
-  vk::raii::DescriptorSetLayout frame_set_layout, shadow_set_layout;
+  SoftShadow soft_shadow;
+  FrameSetLayouts set_layouts;
   ScenePass scene_pass;
   Panels panels;
   Enlarger enlarger;
