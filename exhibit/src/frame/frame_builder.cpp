@@ -104,14 +104,15 @@ std::vector<render::PlotMarker> jump_markers(const physics::CycleFigures& figure
 }  // namespace
 
 glm::vec3 curve_color(std::size_t material) {
-  static constexpr std::array<glm::vec3, 7> kOkabeIto{{{0.34F, 0.71F, 0.91F},
-                                                       {0.90F, 0.62F, 0.00F},
-                                                       {0.00F, 0.78F, 0.56F},
-                                                       {0.80F, 0.47F, 0.65F},
-                                                       {0.94F, 0.89F, 0.26F},
-                                                       {0.00F, 0.45F, 0.70F},
-                                                       {0.84F, 0.37F, 0.00F}}};
-  return kOkabeIto[material % kOkabeIto.size()];
+  // after M. Okabe and K. Ito, moved apart for each kind of dichromat
+  static constexpr std::array<glm::vec3, 7> kColors{{{0.34F, 0.71F, 0.91F},
+                                                     {0.90F, 0.62F, 0.00F},
+                                                     {0.03F, 0.95F, 0.68F},
+                                                     {0.70F, 0.36F, 0.54F},
+                                                     {0.97F, 0.97F, 0.20F},
+                                                     {0.10F, 0.40F, 0.72F},
+                                                     {0.80F, 0.25F, 0.05F}}};
+  return kColors[material % kColors.size()];
 }
 
 core::Result<std::array<scene::EyeView, 2>> eyes_at_sweet_spot(const scene::Wall& wall) {
