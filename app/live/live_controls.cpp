@@ -9,6 +9,7 @@
 #include "app/lesson/lesson_control.h"
 #include "app/live/journey_control.h"
 #include "app/live/kept_control.h"
+#include "app/live/map_control.h"
 #include "app/live/particles_control.h"
 #include "app/live/place_control.h"
 #include "app/live/scan_control.h"
@@ -19,6 +20,7 @@
 #include "app/view/view_controls.h"
 #include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
+#include "curves/sample_model.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "scene/samples/particle_set.h"
 
@@ -62,6 +64,7 @@ LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const
   if (features.lesson != nullptr) owners_.lesson = &add<LessonControl>(*features.lesson);
   if (parts.stage.particles) owners_.particles = &add<ParticlesControl>(*parts.stage.particles);
   owners_.scan = &add<ScanControl>();
+  if (parts.stage.pixel && parts.stage.pixel->felt_map) add<MapControl>();
   owners_.sound = &add<SoundControl>();
   if (features.cluster != nullptr) add<ClusterControl>(*features.cluster);
 }
