@@ -20,7 +20,6 @@
 #include "app/view/view_controls.h"
 #include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
-#include "curves/sample_model.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "scene/samples/particle_set.h"
 
@@ -64,7 +63,7 @@ LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const
   if (features.lesson != nullptr) owners_.lesson = &add<LessonControl>(*features.lesson);
   if (parts.stage.particles) owners_.particles = &add<ParticlesControl>(*parts.stage.particles);
   owners_.scan = &add<ScanControl>();
-  if (parts.stage.pixel && parts.stage.pixel->felt_map) add<MapControl>();
+  owners_.map = &add<MapControl>();
   owners_.sound = &add<SoundControl>();
   if (features.cluster != nullptr) add<ClusterControl>(*features.cluster);
 }

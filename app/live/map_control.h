@@ -6,19 +6,25 @@
 #include "app/view/view_control.h"
 #include "exhibit/models/relief.h"
 #include "exhibit/scan/map_picture.h"
+#include "exhibit/scan/volume_view.h"
 #include "exhibit/state/wall_state.h"
 
 namespace afm::app {
 
 struct ViewParts;
 
-// A force map that is felt whole, on its sample: the quantity of its picture in false colours.
+// A force map that is felt whole, on its sample: the quantity of its picture in false colours, and a slice through its
+// curves.
 class MapControl final : public ViewControl {
  public:
   explicit MapControl(ViewParts& parts) : parts_(parts) {}
 
+  // Shows the slice or hides it; without such a map, a line of the log says so.
+  void toggle_slice();
+
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
   void add_to_picture(render::FrameState& picture, const ViewFrame& frame) override;
+  void restart(Restart what) override;
 
  private:
   // What was laid on the sample last.
@@ -33,7 +39,10 @@ class MapControl final : public ViewControl {
 
   ViewParts& parts_;
   exhibit::WallState wall_;  // of this frame
+  bool retracting_ = false;
   std::optional<Laid> laid_;
+  bool slice_ = false;
+  std::optional<exhibit::VolumeView> volume_;
 };
 
 }  // namespace afm::app

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "curves/curve_map.h"
 #include "curves/fitting/felt_map.h"
 #include "curves/fitting/map_fit.h"
+#include "curves/force_volume.h"
 #include "curves/measured_material.h"
 
 namespace afm::exhibit {
@@ -43,7 +45,16 @@ core::Result<std::shared_ptr<const curves::SampleModel>> load_force_map(const Ex
   curves::MapReading reading = files.map_reading ? *files.map_reading : curves::MapReading{};
   if (auto prepared = curves::prepare(reading.fit); !prepared) return tl::unexpected(prepared.error());
   const auto fit = reading.fit.shape ? curves::fit_of_each(files.force_map, reading.fit) : curves::CurveMap::Fit{};
-  auto read = curves::CurveMap::load(files.force_map, progress_of(files.force_map), reading.calibration, fit);
+  // what is felt whole is also seen whole
+  const auto gatherer = files.whole_map ? std::make_shared<curves::ForceVolume::Gatherer>() : nullptr;
+  curves::CurveMap::Fit each = fit;
+  if (gatherer) {
+    each = [gatherer, fit](const curves::RecordedCurve& curve) {
+      gatherer->add(curve);
+      return fit(curve);
+    };
+  }
+  auto read = curves::CurveMap::load(files.force_map, progress_of(files.force_map), reading.calibration, each);
   if (!read) return tl::unexpected(read.error());
   const auto map = std::make_shared<const curves::CurveMap>(std::move(*read));
   const curves::MapPlace place = files.pixel ? curves::MapPlace{(*files.pixel)[0], (*files.pixel)[1]} : map->middle();
@@ -62,7 +73,8 @@ core::Result<std::shared_ptr<const curves::SampleModel>> load_force_map(const Ex
                   model->pixel->measured.features.contact_doubtful ? ", whose contact point is doubtful" : ""));
   if (fit) core::log_line(fmt::format("force map {}: {}", files.force_map, curves::fits_text(*map)));
   if (!files.whole_map) return std::make_shared<const curves::SampleModel>(std::move(*model));
-  auto whole = curves::make_sample_model(*model, reading.fit);
+  auto whole =
+      curves::make_sample_model(*model, reading.fit, std::make_shared<const curves::ForceVolume>(gatherer->finish()));
   if (!whole) return tl::unexpected(whole.error());
   core::log_line(
       fmt::format("force map {}: the whole map is felt: {}", files.force_map, curves::felt_text(*whole->felt_map)));

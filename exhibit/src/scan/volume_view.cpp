@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/scan/volume_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <string>
+
+#include "core/check.h"
+#include "curves/fitting/felt_map.h"
+#include "curves/live_parameters.h"
+#include "exhibit/models/volume_shapes.h"
+#include "exhibit/scenery/wall_layout.h"
+#include "exhibit/scenery/wall_scene.h"
+#include "models/linear_colour.h"
+#include "physics/quantity_text.h"
+#include "scene/shared/felt_heights.h"
+
+namespace afm::exhibit {
+
+using curves::ForceVolume;
+using glm::dmat4;
+using glm::dvec2;
+using glm::dvec3;
+
+namespace {
+
+constexpr double kWithinRim = 0.998;    // share of the map's width, as of exhibit/scan/map_relief.h
+constexpr double kSliceBehind = 0.012;  // distance of the slice behind the tip's axis, which stays in front of it
+constexpr double kLeastTop = 1e-12;     // height of the curves of a map without any force
+constexpr float kFaintest = 0.30F, kStrongest = 0.92F;  // coverage without force, and of the strongest
+constexpr int kDigits = 2;
+constexpr double kBarGap = 0.03, kTextGap = 0.015, kTextWidth = 0.26, kTextHeight = 0.06;
+
+scene::NodeIndex node_of(const WallScene& wall_scene, const char* name) {
+  const auto node = wall_scene.scene().find_node(name);
+  AFM_CHECK(node.has_value());
+  return *node;
+}
+
+std::string text_of(double force_n, const Phrases& phrases) {
+  return phrases.number(
+      curves::typographic(physics::format_quantity(physics::Force(force_n), physics::kForceUnits, kDigits)));
+}
+
+// Share of the range, from -1 to 1; NaN stays.
+double share_of(double force_n, const ForceVolume& volume) {
+  return force_n < 0.0 ? -force_n / volume.strongest_pull_n() : force_n / volume.strongest_push_n();
+}
+
+glm::vec4 colour_of(double force_n, const ForceVolume& volume) {
+  if (std::isnan(force_n)) return glm::vec4(0.0F);
+  const double share = share_of(force_n, volume);
+  glm::vec4 colour = linear_colour(force_colour(share));
+  colour.a = kFaintest + (kStrongest - kFaintest) * static_cast<float>(std::sqrt(std::fmin(std::abs(share), 1.0)));
+  return colour;
+}
+
+double clamped(double place, double width) { return std::clamp(place, -0.5 * width, 0.5 * width); }
+
+}  // namespace
+
+VolumeView::VolumeView(const WallScene& wall_scene)
+    : wall_scene_(wall_scene), slice_(node_of(wall_scene, "slice/slice")), bar_(node_of(wall_scene, "force-bar/bar")) {}
+
+const VolumeView::Scales& VolumeView::scales_of(const curves::SampleModel& model, const WallState& state) {
+  if (scales_ && scales_->release_z_m == state.release_z_m) return *scales_;
+  cut_.reset();
+  const curves::FeltMap& map = *model.felt_map;
+  Scales scales{.release_z_m = state.release_z_m, .subject = scan_subject(wall_scene_, *state.material, model)};
+  const double drawn_m = wall_scene_.drawn_scale(*state.material, state.release_z_m).sample_m_per_m;
+  scales.per_m = 1.0 / (drawn_m * wall_scene_.unit_m());
+  const double top_m = std::max(map.volume->top_m(), kLeastTop);
+  scales.per_height_m = std::min(scales.per_m, kVolumeHeight / top_m);
+  scales.top = scales.per_height_m * top_m;
+  scales.lateral =
+      model.parameters.topography.lateral * scene::surface_scale(model.parameters, model.scaling.release_z_m());
+  scales.map_m = {map.grid.width_m, map.grid.height_m};
+  scales.size_m = kWithinRim * map.laws.spacing_m * dvec2(map.laws.columns - 1.0, map.laws.rows - 1.0);
+  double lowest = surface(scales, 0.0, 0.0), highest = lowest;
+  constexpr int kPlaces = 64;
+  for (int i = 0; i < kPlaces; ++i) {
+    for (int j = 0; j < kPlaces; ++j) {
+      const dvec2 share = dvec2(i, j) / (kPlaces - 1.0) - 0.5;
+      const double height = surface(scales, share.x * scales.size_m.x, share.y * scales.size_m.y);
+      lowest = std::min(lowest, height);
+      highest = std::max(highest, height);
+    }
+  }
+  scales.floor = lowest;
+  scales.lid = highest + scales.top;
+  scales_ = std::move(scales);
+  return *scales_;
+}
+
+// Height of the drawn surface at a place as measured.
+double VolumeView::surface(const Scales& scales, double x_m, double y_m) const {
+  const double drawn = scales.lateral / scales.subject.shown.lateral;
+  return scales.per_m * scales.subject.shown.vertical * scales.subject.drawn_m(drawn * x_m, drawn * y_m);
+}
+
+VolumeView::Slice VolumeView::cut(const ForceVolume& volume, const Scales& scales, double y_m,
+                                  ForceVolume::Way way) const {
+  Slice slice;
+  slice.way = way;
+  slice.vertices = slice_mesh().meshes.front().primitives.front().vertices;
+  const double height = scales.lid - scales.floor;
+  for (std::size_t column = 0; column < kSliceColumns; ++column) {
+    const double x_m = scales.size_m.x * static_cast<double>(slice.vertices[column].position.x);
+    const double foot = std::max(surface(scales, x_m, y_m), scales.floor);
+    for (std::size_t row = 0; row < kSliceRows; ++row) {
+      const double above = static_cast<double>(row) / (kSliceRows - 1) * scales.top;
+      scene::Vertex& vertex = slice.vertices[row * kSliceColumns + column];
+      vertex.position.z = static_cast<float>(std::clamp((foot + above - scales.floor) / height, 0.0, 1.0));
+      vertex.color = colour_of(
+          volume.force_n(way, 0.5 + x_m / scales.map_m.x, 0.5 + y_m / scales.map_m.y, above / scales.per_height_m),
+          volume);
+    }
+    (column == 0 ? slice.left : slice.right) = foot;
+  }
+  return slice;
+}
+
+// Upright text in the plane of the slice; `place` is the middle of its left edge, in the sample's frame.
+void VolumeView::write(const std::string& text, const dvec3& place, render::FrameState& frame) const {
+  const dmat4& room_from_sample = frame.room_from_node[wall_scene_.sample_node()];
+  const auto vector = [&](const dvec3& v) { return dvec3(room_from_sample * glm::dvec4(v, 0.0)); };
+  const dvec3 corner = place - dvec3(0.0, 0.0, 0.5 * kTextHeight);
+  frame.labels.push_back({.text = text,
+                          .highlighted = false,
+                          .placement = {.lower_left_m = dvec3(room_from_sample * glm::dvec4(corner, 1.0)),
+                                        .right_m = vector({kTextWidth, 0.0, 0.0}),
+                                        .up_m = vector({0.0, 0.0, kTextHeight})}});
+}
+
+void VolumeView::add_bar(const ForceVolume& volume, const Scales& scales, const dvec3& foot,
+                         render::FrameState& frame) const {
+  const double height = std::max(scales.top, 2.0 * kTextHeight);
+  frame.room_from_node[bar_] =
+      frame.room_from_node[wall_scene_.sample_node()] * glm::scale(glm::translate(dmat4(1.0), foot), dvec3(height));
+  frame.shapes.push_back({.node = bar_, .vertices = force_bar_vertices(kForceBarWidth)});
+  const double right = height * kForceBarWidth + kTextGap;
+  const auto beside = [&](double share) { return foot + dvec3(right, 0.0, share * height); };
+  write(text_of(volume.strongest_pull_n(), wall_scene_.phrases()), beside(0.0), frame);
+  write("0", beside(0.5), frame);
+  write(text_of(volume.strongest_push_n(), wall_scene_.phrases()), beside(1.0), frame);
+}
+
+void VolumeView::add_slice(const curves::SampleModel& model, const WallState& state, ForceVolume::Way way,
+                           render::FrameState& frame) {
+  if (state.centerpiece != Centerpiece::Instrument || !state.material) return;
+  const ForceVolume& volume = *model.felt_map->volume;
+  const Scales& scales = scales_of(model, state);
+  const double y_m = clamped(state.surface.xy_m[1] / scales.lateral, scales.size_m.y);
+  // the middle of the line of pixels, so that the slice is drawn anew on another line alone
+  const auto lines = static_cast<double>(model.felt_map->grid.rows);
+  const auto row =
+      static_cast<std::size_t>(std::clamp(std::floor((0.5 + y_m / scales.map_m.y) * lines), 0.0, lines - 1.0));
+  if (!cut_ || cut_->row != row || cut_->way != way) {
+    const double middle_m = ((static_cast<double>(row) + 0.5) / lines - 0.5) * scales.map_m.y;
+    cut_ = cut(volume, scales, clamped(middle_m, scales.size_m.y), way);
+    cut_->row = row;
+  }
+  const double per_measured_m = scales.per_m * scales.lateral, width = per_measured_m * scales.size_m.x;
+  const double y = per_measured_m * y_m + kSliceBehind;
+  frame.room_from_node[slice_] = frame.room_from_node[wall_scene_.sample_node()] *
+                                 glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, y, scales.floor + kReliefLift)),
+                                            dvec3(width, 1.0, scales.lid - scales.floor));
+  frame.shapes.push_back({.node = slice_, .vertices = cut_->vertices});
+  add_bar(volume, scales, {0.5 * width + kBarGap, y, cut_->right + kReliefLift}, frame);
+  const std::string height = curves::typographic(
+      physics::format_quantity(physics::Length(scales.top / scales.per_height_m), physics::kLengthUnits, kDigits));
+  write(wall_scene_.phrases().text<Phrase::SliceHeight>(wall_scene_.phrases().number(height)),
+        {-0.5 * width, y, cut_->left + scales.top + kTextHeight}, frame);
+}
+
+}  // namespace afm::exhibit
