@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live/map_control.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "app/view/view_choice.h"
 #include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
+#include "core/enumerators.h"
 #include "core/log.h"
 #include "curves/curve_map.h"
 #include "curves/fitting/felt_map.h"
@@ -11,6 +16,7 @@
 #include "exhibit/scan/map_relief.h"
 #include "exhibit/scan/scan_subject.h"
 #include "exhibit/state/moment.h"
+#include "physics/quantity_text.h"
 
 namespace afm::app {
 
@@ -22,15 +28,46 @@ const curves::ForceVolume* volume_of(const exhibit::Stage& stage) {
   return stage.pixel->felt_map->volume->known() > 0 ? stage.pixel->felt_map->volume.get() : nullptr;
 }
 
+// 1, 2 or 5 times a power of ten, not above.
+double round_below(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double factor : {5.0, 2.0}) {
+    if (factor * decade <= value) return factor * decade;
+  }
+  return decade;
+}
+
+void log_surface(const curves::ForceVolume& volume, double force_n) {
+  core::log_line(fmt::format("force map: the surface of {}, which {} of {} curves reach",
+                             physics::format_quantity(physics::Force(force_n), physics::kForceUnits, 3),
+                             volume.reached(force_n), volume.known()));
+}
+
 }  // namespace
 
-void MapControl::toggle_slice() {
-  if (volume_of(parts_.stage) == nullptr) {
+MapControl::MapControl(ViewParts& parts, std::optional<double> equal_force_n)
+    : parts_(parts), equal_force_n_(equal_force_n) {
+  const curves::ForceVolume* volume = volume_of(parts.stage);
+  if (volume == nullptr) return;
+  if (equal_force_n_) {
+    seen_ = first_ = Seen::Surface;
+    log_surface(*volume, *equal_force_n_);
+  } else {
+    equal_force_n_ = round_below(0.5 * volume->strongest_push_n());
+  }
+}
+
+void MapControl::next_volume() {
+  const curves::ForceVolume* volume = volume_of(parts_.stage);
+  if (volume == nullptr) {
     return core::log_line(
         "force map: only one that is felt whole has a slice; start with --force-map FILE --fit SHAPE --felt map");
   }
-  slice_ = !slice_;
-  core::log_line(slice_ ? "force map: a slice shows the forces along the tip's line" : "force map: no slice");
+  constexpr auto kAll = core::kEnumerators<Seen>;
+  seen_ = kAll[(core::index_of(seen_) + 1) % kAll.size()];
+  if (seen_ == Seen::Nothing) return core::log_line("force map: no slice and no surface");
+  if (seen_ != Seen::Surface) core::log_line("force map: a slice shows the forces along the tip's line");
+  if (seen_ != Seen::Slice) log_surface(*volume, *equal_force_n_);
 }
 
 const curves::SampleModel* MapControl::map() const {
@@ -49,14 +86,16 @@ void MapControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*
   const curves::SampleModel* sample = map();
   if (sample == nullptr) return;
   lay_colours(*sample, picture);
-  if (!slice_ || volume_of(parts_.stage) == nullptr) return;
+  if (seen_ == Seen::Nothing || volume_of(parts_.stage) == nullptr) return;
   if (!volume_) volume_.emplace(parts_.stage.wall_scene);
   using Way = curves::ForceVolume::Way;
+  if (seen_ != Seen::Slice) volume_->add_surface(*sample, wall_, *equal_force_n_, picture);
+  if (seen_ == Seen::Surface) return;
   volume_->add_slice(*sample, wall_, retracting_ ? Way::Retract : Way::Approach, picture);
 }
 
 void MapControl::restart(Restart what) {
-  if (what != Restart::Servo) slice_ = false;
+  if (what != Restart::Servo) seen_ = first_;
 }
 
 // Heights are those of the sample's own colours; an image, and the colours of key E, show them, too.

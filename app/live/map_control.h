@@ -13,20 +13,22 @@ namespace afm::app {
 
 struct ViewParts;
 
-// A force map that is felt whole, on its sample: the quantity of its picture in false colours, and a slice through its
-// curves.
+// A force map that is felt whole, on its sample: the quantity of its picture in false colours, a slice through its
+// curves, and the surface on which they have one force.
 class MapControl final : public ViewControl {
  public:
-  explicit MapControl(ViewParts& parts) : parts_(parts) {}
+  // `equal_force_n` is that of the surface that is shown first; empty: none.
+  MapControl(ViewParts& parts, std::optional<double> equal_force_n);
 
-  // Shows the slice or hides it; without such a map, a line of the log says so.
-  void toggle_slice();
+  // Shows the slice, the surface of equal force, both, or neither; without such a map, a line of the log says so.
+  void next_volume();
 
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
   void add_to_picture(render::FrameState& picture, const ViewFrame& frame) override;
   void restart(Restart what) override;
 
  private:
+  enum class Seen { Nothing, Slice, Surface, Both };
   // What was laid on the sample last.
   struct Laid {
     exhibit::MapQuantity quantity{};
@@ -41,7 +43,8 @@ class MapControl final : public ViewControl {
   exhibit::WallState wall_;  // of this frame
   bool retracting_ = false;
   std::optional<Laid> laid_;
-  bool slice_ = false;
+  Seen seen_ = Seen::Nothing, first_ = Seen::Nothing;  // now, and at the start
+  std::optional<double> equal_force_n_;
   std::optional<exhibit::VolumeView> volume_;
 };
 

@@ -50,7 +50,7 @@ constexpr std::array kRows{
     LiveKey{Key::F4, "F4", Phrase::KeyMapPicture,
             [](KeyOwners& owners, std::size_t) { owners.parts.panels.next_map_picture(); }}
         .outside_lessons(),
-    LiveKey{Key::F3, "F3", Phrase::KeyMapVolume, [](KeyOwners& owners, std::size_t) { owners.map->toggle_slice(); }}
+    LiveKey{Key::F3, "F3", Phrase::KeyMapVolume, [](KeyOwners& owners, std::size_t) { owners.map->next_volume(); }}
         .outside_lessons(),
     LiveKey{Key::F, "F", Phrase::KeyFriction,
             [](KeyOwners& owners, std::size_t) { owners.parts.choice.toggle_friction_loop(); }}

@@ -139,7 +139,17 @@ double ForceVolume::force_n(Way way, double across, double up, double height_m) 
 }
 
 double ForceVolume::height_of_m(double force_n, double across, double up) const {
-  const Branch& branch = branch_at(force_n < 0.0 ? Way::Retract : Way::Approach, across, up);
+  return height_on(branch_at(force_n < 0.0 ? Way::Retract : Way::Approach, across, up), force_n);
+}
+
+std::size_t ForceVolume::reached(double force_n) const {
+  return static_cast<std::size_t>(std::count_if(cells_.begin(), cells_.end(), [force_n](const Cell& cell) {
+    return std::isfinite(height_on(cell[force_n < 0.0 ? 1 : 0], force_n));
+  }));
+}
+
+// From above, so that the first point that reaches the force is the highest.
+double ForceVolume::height_on(const Branch& branch, double force_n) {
   const auto reaches = [&](const Point& point) {
     const double at_n = static_cast<double>(point.force_n);
     return force_n < 0.0 ? at_n <= force_n : at_n >= force_n;

@@ -68,6 +68,9 @@ TEST(ForceVolume, FindsWhereAForceIsReached) {
   EXPECT_NEAR(volume.height_of_m(20e-9, 0.9, 0.1), 45e-9, 1.5e-9) << "a stiffer pixel reaches it higher";
   EXPECT_NEAR(volume.height_of_m(-3e-9, 0.1, 0.1), 70e-9, 2e-9) << "a pull, on the way up";
   EXPECT_TRUE(std::isnan(volume.height_of_m(1e-6, 0.1, 0.1)));
+  EXPECT_EQ(volume.reached(20e-9), 11U);
+  EXPECT_EQ(volume.reached(120e-9), 5U) << "two columns and a hole";
+  EXPECT_EQ(volume.reached(-3e-9), 11U);
   EXPECT_TRUE(std::isnan(volume.height_of_m(20e-9, 0.9, 0.9)));
 }
 

@@ -49,6 +49,8 @@ class ForceVolume {
 
   // Greatest height at which a curve reaches a force: a push on its approach, a pull on its retract. NaN: nowhere.
   double height_of_m(double force_n, double across, double up) const;
+  // Number of the known pixels at which it is reached.
+  std::size_t reached(double force_n) const;
 
   // Range of the forces without outliers; a pull is negative. Neither is less than a fiftieth of the other.
   double strongest_pull_n() const { return strongest_pull_n_; }
@@ -66,6 +68,7 @@ class ForceVolume {
   using Cell = std::array<Branch, 2>;
 
   const Branch& branch_at(Way way, double across, double up) const;
+  static double height_on(const Branch& branch, double force_n);
   void measure();
   static std::size_t stride_of(const MapGrid& grid);
 

@@ -42,6 +42,10 @@ core::Result<std::shared_ptr<const curves::SampleModel>> load_force_map(const Ex
   if (!library) return tl::unexpected(library.error());
   if (files.whole_map && !(files.map_reading && files.map_reading->fit.shape))
     return core::wrong_usage("--felt map: the map is felt by its fits: add --fit SHAPE");
+  if (!files.whole_map && files.equal_force_n)
+    return core::wrong_usage("--equal-force: the surface lies over a map that is felt whole: add --felt map");
+  if (files.equal_force_n == 0.0)
+    return core::wrong_usage("--equal-force: a surface of no force is everywhere: give a push, such as 1nN, or a pull");
   curves::MapReading reading = files.map_reading ? *files.map_reading : curves::MapReading{};
   if (auto prepared = curves::prepare(reading.fit); !prepared) return tl::unexpected(prepared.error());
   const auto fit = reading.fit.shape ? curves::fit_of_each(files.force_map, reading.fit) : curves::CurveMap::Fit{};

@@ -86,4 +86,17 @@ scene::Scene force_bar(double width) {
                   {.name = "force colours", .metallic = 0.0F, .double_sided = true, .unlit = true});
 }
 
+scene::Scene equal_force_mesh() {
+  scene::Primitive grid = grid_of(kSurfaceSide, kSurfaceSide);
+  for (std::size_t row = 0; row < kSurfaceSide; ++row) {
+    for (std::size_t column = 0; column < kSurfaceSide; ++column) {
+      grid.vertices[row * kSurfaceSide + column].position = {static_cast<float>(column) / (kSurfaceSide - 1) - 0.5F,
+                                                             static_cast<float>(row) / (kSurfaceSide - 1) - 0.5F, 0.0F};
+    }
+  }
+  grid.vertices.back().position.z = 1.0F;  // the box of all shapes
+  return reshaped("surface", std::move(grid),
+                  {.name = "equal force", .metallic = 0.0F, .roughness = 0.5F, .double_sided = true, .blended = true});
+}
+
 }  // namespace afm::exhibit

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 
@@ -30,6 +31,8 @@ constexpr double kSliceBehind = 0.012;  // distance of the slice behind the tip'
 constexpr double kLeastTop = 1e-12;     // height of the curves of a map without any force
 constexpr float kFaintest = 0.30F, kStrongest = 0.92F;  // coverage without force, and of the strongest
 constexpr int kDigits = 2;
+constexpr Srgb kEqualForce{0, 158, 115};
+constexpr float kSurfaceCoverage = 0.55F;
 constexpr double kBarGap = 0.03, kTextGap = 0.015, kTextWidth = 0.26, kTextHeight = 0.06;
 
 scene::NodeIndex node_of(const WallScene& wall_scene, const char* name) {
@@ -56,16 +59,26 @@ glm::vec4 colour_of(double force_n, const ForceVolume& volume) {
   return colour;
 }
 
+// Unit normal of a surface with these rises for a step of the grid along x and y.
+glm::vec3 normal_of(double along_x, double along_y) {
+  constexpr double kSteps = kSurfaceSide - 1.0;
+  return glm::vec3(glm::normalize(dvec3(-along_x * kSteps, -along_y * kSteps, 1.0)));
+}
+
 double clamped(double place, double width) { return std::clamp(place, -0.5 * width, 0.5 * width); }
 
 }  // namespace
 
 VolumeView::VolumeView(const WallScene& wall_scene)
-    : wall_scene_(wall_scene), slice_(node_of(wall_scene, "slice/slice")), bar_(node_of(wall_scene, "force-bar/bar")) {}
+    : wall_scene_(wall_scene),
+      slice_(node_of(wall_scene, "slice/slice")),
+      bar_(node_of(wall_scene, "force-bar/bar")),
+      equal_force_(node_of(wall_scene, "equal-force/surface")) {}
 
 const VolumeView::Scales& VolumeView::scales_of(const curves::SampleModel& model, const WallState& state) {
   if (scales_ && scales_->release_z_m == state.release_z_m) return *scales_;
   cut_.reset();
+  raised_.reset();
   const curves::FeltMap& map = *model.felt_map;
   Scales scales{.release_z_m = state.release_z_m, .subject = scan_subject(wall_scene_, *state.material, model)};
   const double drawn_m = wall_scene_.drawn_scale(*state.material, state.release_z_m).sample_m_per_m;
@@ -121,6 +134,39 @@ VolumeView::Slice VolumeView::cut(const ForceVolume& volume, const Scales& scale
   return slice;
 }
 
+VolumeView::Surface VolumeView::raise(const ForceVolume& volume, const Scales& scales, double force_n) const {
+  Surface surface_of_force{.force_n = force_n,
+                           .vertices = equal_force_mesh().meshes.front().primitives.front().vertices};
+  std::vector<scene::Vertex>& vertices = surface_of_force.vertices;
+  glm::vec4 colour = linear_colour(kEqualForce);
+  const double height = scales.lid - scales.floor;
+  for (scene::Vertex& vertex : vertices) {
+    const double x_m = scales.size_m.x * static_cast<double>(vertex.position.x),
+                 y_m = scales.size_m.y * static_cast<double>(vertex.position.y);
+    const double above_m = volume.height_of_m(force_n, 0.5 + x_m / scales.map_m.x, 0.5 + y_m / scales.map_m.y);
+    const bool reached = std::isfinite(above_m);
+    const double foot = std::max(surface(scales, x_m, y_m), scales.floor);
+    const double there = foot + (reached ? scales.per_height_m * above_m : 0.0);
+    vertex.position.z = static_cast<float>(std::clamp((there - scales.floor) / height, 0.0, 1.0));
+    colour.a = reached ? kSurfaceCoverage : 0.0F;
+    vertex.color = colour;
+  }
+  const auto z = [&](std::size_t column, std::size_t row) {
+    return static_cast<double>(vertices[row * kSurfaceSide + column].position.z);
+  };
+  for (std::size_t row = 0; row < kSurfaceSide; ++row) {
+    for (std::size_t column = 0; column < kSurfaceSide; ++column) {
+      const std::size_t left = column > 0 ? column - 1 : 0, right = std::min(column + 1, kSurfaceSide - 1);
+      const std::size_t front = row > 0 ? row - 1 : 0, back = std::min(row + 1, kSurfaceSide - 1);
+      vertices[row * kSurfaceSide + column].normal =
+          normal_of((z(right, row) - z(left, row)) / static_cast<double>(right - left),
+                    (z(column, back) - z(column, front)) / static_cast<double>(back - front));
+    }
+  }
+  surface_of_force.left = scales.floor + z(0, 0) * height;
+  return surface_of_force;
+}
+
 // Upright text in the plane of the slice; `place` is the middle of its left edge, in the sample's frame.
 void VolumeView::write(const std::string& text, const dvec3& place, render::FrameState& frame) const {
   const dmat4& room_from_sample = frame.room_from_node[wall_scene_.sample_node()];
@@ -172,6 +218,21 @@ void VolumeView::add_slice(const curves::SampleModel& model, const WallState& st
       physics::format_quantity(physics::Length(scales.top / scales.per_height_m), physics::kLengthUnits, kDigits));
   write(wall_scene_.phrases().text<Phrase::SliceHeight>(wall_scene_.phrases().number(height)),
         {-0.5 * width, y, cut_->left + scales.top + kTextHeight}, frame);
+}
+
+void VolumeView::add_surface(const curves::SampleModel& model, const WallState& state, double force_n,
+                             render::FrameState& frame) {
+  if (state.centerpiece != Centerpiece::Instrument || !state.material) return;
+  const Scales& scales = scales_of(model, state);
+  if (!raised_ || raised_->force_n != force_n) raised_ = raise(*model.felt_map->volume, scales, force_n);
+  const dvec2 size = scales.per_m * scales.lateral * scales.size_m;
+  frame.room_from_node[equal_force_] =
+      frame.room_from_node[wall_scene_.sample_node()] *
+      glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, scales.floor + 2.0 * kReliefLift)),
+                 dvec3(size, scales.lid - scales.floor));
+  frame.shapes.push_back({.node = equal_force_, .vertices = raised_->vertices});
+  write(text_of(force_n, wall_scene_.phrases()),
+        {-0.5 * size.x - kTextGap - kTextWidth, -0.5 * size.y, raised_->left + kTextHeight}, frame);
 }
 
 }  // namespace afm::exhibit

@@ -55,6 +55,7 @@ void WallScene::add_frames(ModelBuilder& build, const UserModels& own) {
   if (own.force_volume) {
     build.part(slice_mesh(), "slice", sample_frame_);
     build.part(force_bar(kForceBarWidth), "force-bar", sample_frame_);
+    build.part(equal_force_mesh(), "equal-force", sample_frame_);
   }
 }
 

@@ -144,5 +144,32 @@ TEST(VolumeView, WritesItsForcesAndItsHeight) {
   EXPECT_TRUE(journey.shapes.empty()) << "no sample there";
 }
 
+TEST(VolumeView, RaisesTheSurfaceOfAForceHigherWhereTheSampleIsStiffer) {
+  Shown shown;
+  VolumeView view(*shown.scene);
+  render::FrameState frame = shown.frame();
+  // half of the lines reach it
+  view.add_surface(shown.model, shown.state, 18e-9, frame);
+  const auto& vertices = shape(frame, *shown.scene, "equal-force/surface").vertices;
+  const auto at = [&](double up) {
+    return vertices[static_cast<std::size_t>(up * (kSurfaceSide - 1)) * kSurfaceSide + kSurfaceSide / 2];
+  };
+  EXPECT_EQ(at(0.2).color.a, 0.0F) << "no curve reaches it there";
+  EXPECT_GT(at(0.6).color.a, 0.3F);
+  EXPECT_GT(at(0.95).position.z, 1.2F * at(0.6).position.z);
+  EXPECT_EQ(frame.labels.back().text, "18 nN");
+  for (const scene::Vertex& vertex : vertices) {
+    ASSERT_NEAR(static_cast<double>(glm::length(vertex.normal)), 1.0, 1e-5);
+    ASSERT_GE(vertex.position.z, 0.0F);
+    ASSERT_LE(vertex.position.z, 1.0F);
+  }
+  // a pull is that of the retract, everywhere
+  render::FrameState pulled = shown.frame();
+  view.add_surface(shown.model, shown.state, -1e-9, pulled);
+  const auto& held = shape(pulled, *shown.scene, "equal-force/surface").vertices;
+  EXPECT_TRUE(std::all_of(held.begin(), held.end(), [](const scene::Vertex& vertex) { return vertex.color.a > 0.3F; }));
+  EXPECT_EQ(pulled.labels.back().text, "\u22121 nN");
+}
+
 }  // namespace volume_view_test
 }  // namespace afm::exhibit

@@ -25,4 +25,10 @@ scene::Scene slice_mesh();
 scene::Scene force_bar(double width);
 std::vector<scene::Vertex> force_bar_vertices(double width);
 
+inline constexpr std::size_t kSurfaceSide = 128;  // vertices
+
+// A translucent surface of kSurfaceSide by kSurfaceSide vertices, row by row from below, seen from both sides: x and y
+// from -0.5 to 0.5, z from 0 to 1. Node "surface", whose vertices a frame gives.
+scene::Scene equal_force_mesh();
+
 }  // namespace afm::exhibit

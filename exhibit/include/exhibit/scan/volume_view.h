@@ -35,6 +35,10 @@ class VolumeView {
   void add_slice(const curves::SampleModel& model, const WallState& state, curves::ForceVolume::Way way,
                  render::FrameState& frame);
 
+  // Adds the surface on which the curves have this force, translucent, with the force at its left end: a push on the
+  // approach, a pull, which is negative, on the retract. It is missing where no curve reaches the force.
+  void add_surface(const curves::SampleModel& model, const WallState& state, double force_n, render::FrameState& frame);
+
  private:
   // Scales of a sample and its volume on the wall; lengths in units of the layout.
   struct Scales {
@@ -55,18 +59,25 @@ class VolumeView {
     std::vector<scene::Vertex> vertices;
     double left = 0, right = 0;  // heights of the surface at its ends
   };
+  struct Surface {
+    double force_n = 0;
+    std::vector<scene::Vertex> vertices;
+    double left = 0;  // its height at the left end of its front
+  };
 
   const Scales& scales_of(const curves::SampleModel& model, const WallState& state);
   double surface(const Scales& scales, double x_m, double y_m) const;
   Slice cut(const curves::ForceVolume& volume, const Scales& scales, double y_m, curves::ForceVolume::Way way) const;
+  Surface raise(const curves::ForceVolume& volume, const Scales& scales, double force_n) const;
   void add_bar(const curves::ForceVolume& volume, const Scales& scales, const glm::dvec3& foot,
                render::FrameState& frame) const;
   void write(const std::string& text, const glm::dvec3& place, render::FrameState& frame) const;
 
   const WallScene& wall_scene_;
-  scene::NodeIndex slice_, bar_;
+  scene::NodeIndex slice_, bar_, equal_force_;
   std::optional<Scales> scales_;
   std::optional<Slice> cut_;
+  std::optional<Surface> raised_;
 };
 
 }  // namespace afm::exhibit
