@@ -122,6 +122,9 @@ std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::Exh
                                   &FeltPart::whole,
                                   "what is felt of the force map: pixel, the curve of one pixel, or map, the whole map "
                                   "by the modulus and the adhesion of its fits; default: pixel");
+  const Option viscous = command.add_flag(
+      "--viscous-map", [&files] { files.viscous_map = true; },
+      "with --felt map: damp the hand near the sample, the more the more energy a cycle loses at the place");
   const Option equal_force = quantity_option(
       command, "--equal-force", [&files](physics::Force force) { files.equal_force_n = force.si; },
       physics::kForceUnits,
@@ -138,6 +141,8 @@ std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::Exh
   own.push_back({felt, "--felt"});
   own.back().option.needs(map);
   own.push_back({equal_force, "--equal-force"});
+  own.back().option.needs(map);
+  own.push_back({viscous, "--viscous-map"});
   own.back().option.needs(map);
   return own;
 }

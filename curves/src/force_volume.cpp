@@ -10,11 +10,11 @@ namespace afm::curves {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kOutliers = 0.1;     // share of the pixels whose forces may be beyond the range
-constexpr double kLeastOther = 0.02;  // least share of the larger end of the range at the smaller
-constexpr double kForceless = 0.05;   // share of the range below which there is hardly a force
-constexpr double kAbove = 1.2;        // height that is shown, in heights with a force
+constexpr double kForceUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kOutlyingPixels = 0.1;  // share of the pixels whose forces may be beyond the range
+constexpr double kLeastOther = 0.02;     // least share of the larger end of the range at the smaller
+constexpr double kForceless = 0.05;      // share of the range below which there is hardly a force
+constexpr double kAbove = 1.2;           // height that is shown, in heights with a force
 
 // Value at a share of the sorted ones; 0 without any.
 double at_share(std::vector<double>& values, double share) {
@@ -94,7 +94,7 @@ void ForceVolume::measure() {
     pulls.push_back(pull_n);
     pushes.push_back(push_n);
   }
-  const double pull_n = at_share(pulls, kOutliers), push_n = at_share(pushes, 1.0 - kOutliers);
+  const double pull_n = at_share(pulls, kOutlyingPixels), push_n = at_share(pushes, 1.0 - kOutlyingPixels);
   strongest_pull_n_ = std::min(pull_n, -kLeastOther * push_n);
   strongest_push_n_ = std::max(push_n, -kLeastOther * pull_n);
   for (const Cell& cell : cells_) {
@@ -108,7 +108,7 @@ void ForceVolume::measure() {
     }
     if (top_m > 0.0) tops.push_back(kAbove * top_m);
   }
-  top_m_ = at_share(tops, 1.0 - kOutliers);
+  top_m_ = at_share(tops, 1.0 - kOutlyingPixels);
 }
 
 std::size_t ForceVolume::known() const {
@@ -128,7 +128,7 @@ double ForceVolume::force_n(Way way, double across, double up, double height_m) 
   const auto above = std::lower_bound(branch.begin(), branch.end(), height_m, [](const Point& point, double height) {
     return static_cast<double>(point.height_m) < height;
   });
-  if (above == branch.end()) return kNone;
+  if (above == branch.end()) return kForceUnknown;
   // the approach may turn a little above the deepest point
   if (above == branch.begin()) return static_cast<double>(above->force_n);
   const Point& below = *(above - 1);
@@ -155,7 +155,7 @@ double ForceVolume::height_on(const Branch& branch, double force_n) {
     return force_n < 0.0 ? at_n <= force_n : at_n >= force_n;
   };
   const auto found = std::find_if(branch.rbegin(), branch.rend(), reaches);
-  if (found == branch.rend()) return kNone;
+  if (found == branch.rend()) return kForceUnknown;
   const double height_m = static_cast<double>(found->height_m), there_n = static_cast<double>(found->force_n);
   if (found == branch.rbegin()) return height_m;
   const Point& before = *(found - 1);

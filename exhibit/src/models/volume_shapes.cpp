@@ -12,11 +12,11 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr Srgb kPull{43, 131, 203}, kNoForce{176, 182, 188}, kPush{224, 112, 20};
+constexpr Srgb kPullColour{43, 131, 203}, kNoForceColour{176, 182, 188}, kPushColour{224, 112, 20};
 constexpr std::size_t kBarSteps = 64;
 
 // A grid of so many vertices, row by row, seen from both sides.
-scene::Primitive grid_of(std::size_t columns, std::size_t rows) {
+scene::Primitive two_sided_grid(std::size_t columns, std::size_t rows) {
   scene::Primitive grid;
   grid.vertices.resize(columns * rows);
   grid.indices.reserve(6 * (columns - 1) * (rows - 1));
@@ -30,7 +30,7 @@ scene::Primitive grid_of(std::size_t columns, std::size_t rows) {
   return grid;
 }
 
-scene::Scene reshaped(const char* name, scene::Primitive primitive, const scene::PbrMaterial& material) {
+scene::Scene reshaped_part(const char* name, scene::Primitive primitive, const scene::PbrMaterial& material) {
   scene::Scene part;
   part.materials.push_back(material);
   part.meshes.push_back({name, {std::move(primitive)}});
@@ -42,17 +42,17 @@ scene::Scene reshaped(const char* name, scene::Primitive primitive, const scene:
 
 Srgb force_colour(double share) {
   const double strength = std::fmin(std::abs(share), 1.0);
-  const Srgb& end = share < 0.0 ? kPull : kPush;
+  const Srgb& end = share < 0.0 ? kPullColour : kPushColour;
   Srgb colour{};
   for (std::size_t i = 0; i < colour.size(); ++i) {
-    const double none = kNoForce[i], most = end[i];
+    const double none = kNoForceColour[i], most = end[i];
     colour[i] = static_cast<std::uint8_t>(std::lround(none + strength * (most - none)));
   }
   return colour;
 }
 
 scene::Scene slice_mesh() {
-  scene::Primitive grid = grid_of(kSliceColumns, kSliceRows);
+  scene::Primitive grid = two_sided_grid(kSliceColumns, kSliceRows);
   for (std::size_t row = 0; row < kSliceRows; ++row) {
     for (std::size_t column = 0; column < kSliceColumns; ++column) {
       scene::Vertex& vertex = grid.vertices[row * kSliceColumns + column];
@@ -61,8 +61,8 @@ scene::Scene slice_mesh() {
       vertex.normal = {0.0F, -1.0F, 0.0F};
     }
   }
-  return reshaped("slice", std::move(grid),
-                  {.name = "forces", .metallic = 0.0F, .double_sided = true, .blended = true, .unlit = true});
+  return reshaped_part("slice", std::move(grid),
+                       {.name = "forces", .metallic = 0.0F, .double_sided = true, .blended = true, .unlit = true});
 }
 
 std::vector<scene::Vertex> force_bar_vertices(double width) {
@@ -80,14 +80,14 @@ std::vector<scene::Vertex> force_bar_vertices(double width) {
 }
 
 scene::Scene force_bar(double width) {
-  scene::Primitive strip = grid_of(2, kBarSteps + 1);
+  scene::Primitive strip = two_sided_grid(2, kBarSteps + 1);
   strip.vertices = force_bar_vertices(width);
-  return reshaped("bar", std::move(strip),
-                  {.name = "force colours", .metallic = 0.0F, .double_sided = true, .unlit = true});
+  return reshaped_part("bar", std::move(strip),
+                       {.name = "force colours", .metallic = 0.0F, .double_sided = true, .unlit = true});
 }
 
 scene::Scene equal_force_mesh() {
-  scene::Primitive grid = grid_of(kSurfaceSide, kSurfaceSide);
+  scene::Primitive grid = two_sided_grid(kSurfaceSide, kSurfaceSide);
   for (std::size_t row = 0; row < kSurfaceSide; ++row) {
     for (std::size_t column = 0; column < kSurfaceSide; ++column) {
       grid.vertices[row * kSurfaceSide + column].position = {static_cast<float>(column) / (kSurfaceSide - 1) - 0.5F,
@@ -95,8 +95,9 @@ scene::Scene equal_force_mesh() {
     }
   }
   grid.vertices.back().position.z = 1.0F;  // the box of all shapes
-  return reshaped("surface", std::move(grid),
-                  {.name = "equal force", .metallic = 0.0F, .roughness = 0.5F, .double_sided = true, .blended = true});
+  return reshaped_part(
+      "surface", std::move(grid),
+      {.name = "equal force", .metallic = 0.0F, .roughness = 0.5F, .double_sided = true, .blended = true});
 }
 
 }  // namespace afm::exhibit

@@ -19,13 +19,14 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kWithinRim = 0.998;  // share of the map's width that is coloured: no edge beyond that of the sample
+constexpr double kColouredShare =
+    0.998;  // share of the map's width that is coloured: no edge beyond that of the sample
 
 // Place of a vertex along a side, -0.5 to 0.5.
-double middle_of(std::size_t cell) { return (static_cast<double>(cell) + 0.5) / kReliefSide - 0.5; }
+double vertex_middle(std::size_t cell) { return (static_cast<double>(cell) + 0.5) / kReliefSide - 0.5; }
 
 // Cell of a grid at a place from 0 to 1.
-std::size_t cell_at(double place, std::uint32_t cells) {
+std::size_t grid_cell_at(double place, std::uint32_t cells) {
   return static_cast<std::size_t>(std::clamp(std::floor(place * cells), 0.0, cells - 1.0));
 }
 
@@ -37,7 +38,8 @@ HeightRelief map_relief(const render::MapPicture& picture, const curves::SampleM
   const scene::TopographyScale& scale = model.parameters.topography;
   const double lateral = scale.lateral * scene::surface_scale(model.parameters, model.scaling.release_z_m());
   // between the middles of its outermost pixels, metres as measured
-  const glm::dvec2 size_m = kWithinRim * map.laws.spacing_m * glm::dvec2(map.laws.columns - 1.0, map.laws.rows - 1.0);
+  const glm::dvec2 size_m =
+      kColouredShare * map.laws.spacing_m * glm::dvec2(map.laws.columns - 1.0, map.laws.rows - 1.0);
   const double side_m = std::max(size_m.x, size_m.y);
   const glm::dvec2 share = size_m / side_m;
   const double drawn_per_m = lateral / subject.shown.lateral;
@@ -47,12 +49,12 @@ HeightRelief map_relief(const render::MapPicture& picture, const curves::SampleM
   height_m.reserve(kReliefSide * kReliefSide);
   colours.reserve(kReliefSide * kReliefSide);
   for (std::size_t row = 0; row < kReliefSide; ++row) {
-    const double y_m = -middle_of(row) * size_m.y;
-    const std::size_t line = cell_at(0.5 - y_m / map.grid.height_m, picture.grid.rows);
+    const double y_m = -vertex_middle(row) * size_m.y;
+    const std::size_t line = grid_cell_at(0.5 - y_m / map.grid.height_m, picture.grid.rows);
     for (std::size_t column = 0; column < kReliefSide; ++column) {
-      const double x_m = middle_of(column) * size_m.x;
+      const double x_m = vertex_middle(column) * size_m.x;
       height_m.push_back(subject.drawn_m(drawn_per_m * x_m, drawn_per_m * y_m));
-      const std::size_t cell = cell_at(0.5 + x_m / map.grid.width_m, picture.grid.columns);
+      const std::size_t cell = grid_cell_at(0.5 + x_m / map.grid.width_m, picture.grid.columns);
       const auto& [r, g, b, coverage] = picture.grid.colors[line * picture.grid.columns + cell];
       colours.push_back(linear_colour({r, g, b}));
     }

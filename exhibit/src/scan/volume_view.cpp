@@ -26,54 +26,55 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double kWithinRim = 0.998;    // share of the map's width, as of exhibit/scan/map_relief.h
-constexpr double kSliceBehind = 0.012;  // distance of the slice behind the tip's axis, which stays in front of it
-constexpr double kLeastTop = 1e-12;     // height of the curves of a map without any force
-constexpr float kFaintest = 0.30F, kStrongest = 0.92F;  // coverage without force, and of the strongest
-constexpr int kDigits = 2;
+constexpr double kVolumeWithinRim = 0.998;  // share of the map's width, as of exhibit/scan/map_relief.h
+constexpr double kSliceBehind = 0.012;      // distance of the slice behind the tip's axis, which stays in front of it
+constexpr double kLeastTop = 1e-12;         // height of the curves of a map without any force
+constexpr float kFaintestCoverage = 0.30F, kStrongestCoverage = 0.92F;  // coverage without force, and of the strongest
+constexpr int kForceDigits = 2;
 constexpr Srgb kEqualForce{0, 158, 115};
 constexpr float kSurfaceCoverage = 0.55F;
-constexpr double kBarGap = 0.03, kTextGap = 0.015, kTextWidth = 0.26, kTextHeight = 0.06;
+constexpr double kForceBarGap = 0.03, kForceTextGap = 0.015, kForceTextWidth = 0.26, kForceTextHeight = 0.06;
 
-scene::NodeIndex node_of(const WallScene& wall_scene, const char* name) {
+scene::NodeIndex volume_node(const WallScene& wall_scene, const char* name) {
   const auto node = wall_scene.scene().find_node(name);
   AFM_CHECK(node.has_value());
   return *node;
 }
 
-std::string text_of(double force_n, const Phrases& phrases) {
+std::string force_words(double force_n, const Phrases& phrases) {
   return phrases.number(
-      curves::typographic(physics::format_quantity(physics::Force(force_n), physics::kForceUnits, kDigits)));
+      curves::typographic(physics::format_quantity(physics::Force(force_n), physics::kForceUnits, kForceDigits)));
 }
 
 // Share of the range, from -1 to 1; NaN stays.
-double share_of(double force_n, const ForceVolume& volume) {
+double share_of_range(double force_n, const ForceVolume& volume) {
   return force_n < 0.0 ? -force_n / volume.strongest_pull_n() : force_n / volume.strongest_push_n();
 }
 
-glm::vec4 colour_of(double force_n, const ForceVolume& volume) {
+glm::vec4 coverage_colour(double force_n, const ForceVolume& volume) {
   if (std::isnan(force_n)) return glm::vec4(0.0F);
-  const double share = share_of(force_n, volume);
+  const double share = share_of_range(force_n, volume);
   glm::vec4 colour = linear_colour(force_colour(share));
-  colour.a = kFaintest + (kStrongest - kFaintest) * static_cast<float>(std::sqrt(std::fmin(std::abs(share), 1.0)));
+  colour.a = kFaintestCoverage +
+             (kStrongestCoverage - kFaintestCoverage) * static_cast<float>(std::sqrt(std::fmin(std::abs(share), 1.0)));
   return colour;
 }
 
 // Unit normal of a surface with these rises for a step of the grid along x and y.
-glm::vec3 normal_of(double along_x, double along_y) {
+glm::vec3 steps_normal(double along_x, double along_y) {
   constexpr double kSteps = kSurfaceSide - 1.0;
   return glm::vec3(glm::normalize(dvec3(-along_x * kSteps, -along_y * kSteps, 1.0)));
 }
 
-double clamped(double place, double width) { return std::clamp(place, -0.5 * width, 0.5 * width); }
+double within_width(double place, double width) { return std::clamp(place, -0.5 * width, 0.5 * width); }
 
 }  // namespace
 
 VolumeView::VolumeView(const WallScene& wall_scene)
     : wall_scene_(wall_scene),
-      slice_(node_of(wall_scene, "slice/slice")),
-      bar_(node_of(wall_scene, "force-bar/bar")),
-      equal_force_(node_of(wall_scene, "equal-force/surface")) {}
+      slice_(volume_node(wall_scene, "slice/slice")),
+      bar_(volume_node(wall_scene, "force-bar/bar")),
+      equal_force_(volume_node(wall_scene, "equal-force/surface")) {}
 
 const VolumeView::Scales& VolumeView::scales_of(const curves::SampleModel& model, const WallState& state) {
   if (scales_ && scales_->release_z_m == state.release_z_m) return *scales_;
@@ -89,7 +90,7 @@ const VolumeView::Scales& VolumeView::scales_of(const curves::SampleModel& model
   scales.lateral =
       model.parameters.topography.lateral * scene::surface_scale(model.parameters, model.scaling.release_z_m());
   scales.map_m = {map.grid.width_m, map.grid.height_m};
-  scales.size_m = kWithinRim * map.laws.spacing_m * dvec2(map.laws.columns - 1.0, map.laws.rows - 1.0);
+  scales.size_m = kVolumeWithinRim * map.laws.spacing_m * dvec2(map.laws.columns - 1.0, map.laws.rows - 1.0);
   double lowest = surface(scales, 0.0, 0.0), highest = lowest;
   constexpr int kPlaces = 64;
   for (int i = 0; i < kPlaces; ++i) {
@@ -125,7 +126,7 @@ VolumeView::Slice VolumeView::cut(const ForceVolume& volume, const Scales& scale
       const double above = static_cast<double>(row) / (kSliceRows - 1) * scales.top;
       scene::Vertex& vertex = slice.vertices[row * kSliceColumns + column];
       vertex.position.z = static_cast<float>(std::clamp((foot + above - scales.floor) / height, 0.0, 1.0));
-      vertex.color = colour_of(
+      vertex.color = coverage_colour(
           volume.force_n(way, 0.5 + x_m / scales.map_m.x, 0.5 + y_m / scales.map_m.y, above / scales.per_height_m),
           volume);
     }
@@ -159,8 +160,8 @@ VolumeView::Surface VolumeView::raise(const ForceVolume& volume, const Scales& s
       const std::size_t left = column > 0 ? column - 1 : 0, right = std::min(column + 1, kSurfaceSide - 1);
       const std::size_t front = row > 0 ? row - 1 : 0, back = std::min(row + 1, kSurfaceSide - 1);
       vertices[row * kSurfaceSide + column].normal =
-          normal_of((z(right, row) - z(left, row)) / static_cast<double>(right - left),
-                    (z(column, back) - z(column, front)) / static_cast<double>(back - front));
+          steps_normal((z(right, row) - z(left, row)) / static_cast<double>(right - left),
+                       (z(column, back) - z(column, front)) / static_cast<double>(back - front));
     }
   }
   surface_of_force.left = scales.floor + z(0, 0) * height;
@@ -171,25 +172,25 @@ VolumeView::Surface VolumeView::raise(const ForceVolume& volume, const Scales& s
 void VolumeView::write(const std::string& text, const dvec3& place, render::FrameState& frame) const {
   const dmat4& room_from_sample = frame.room_from_node[wall_scene_.sample_node()];
   const auto vector = [&](const dvec3& v) { return dvec3(room_from_sample * glm::dvec4(v, 0.0)); };
-  const dvec3 corner = place - dvec3(0.0, 0.0, 0.5 * kTextHeight);
+  const dvec3 corner = place - dvec3(0.0, 0.0, 0.5 * kForceTextHeight);
   frame.labels.push_back({.text = text,
                           .highlighted = false,
                           .placement = {.lower_left_m = dvec3(room_from_sample * glm::dvec4(corner, 1.0)),
-                                        .right_m = vector({kTextWidth, 0.0, 0.0}),
-                                        .up_m = vector({0.0, 0.0, kTextHeight})}});
+                                        .right_m = vector({kForceTextWidth, 0.0, 0.0}),
+                                        .up_m = vector({0.0, 0.0, kForceTextHeight})}});
 }
 
 void VolumeView::add_bar(const ForceVolume& volume, const Scales& scales, const dvec3& foot,
                          render::FrameState& frame) const {
-  const double height = std::max(scales.top, 2.0 * kTextHeight);
+  const double height = std::max(scales.top, 2.0 * kForceTextHeight);
   frame.room_from_node[bar_] =
       frame.room_from_node[wall_scene_.sample_node()] * glm::scale(glm::translate(dmat4(1.0), foot), dvec3(height));
   frame.shapes.push_back({.node = bar_, .vertices = force_bar_vertices(kForceBarWidth)});
-  const double right = height * kForceBarWidth + kTextGap;
+  const double right = height * kForceBarWidth + kForceTextGap;
   const auto beside = [&](double share) { return foot + dvec3(right, 0.0, share * height); };
-  write(text_of(volume.strongest_pull_n(), wall_scene_.phrases()), beside(0.0), frame);
+  write(force_words(volume.strongest_pull_n(), wall_scene_.phrases()), beside(0.0), frame);
   write("0", beside(0.5), frame);
-  write(text_of(volume.strongest_push_n(), wall_scene_.phrases()), beside(1.0), frame);
+  write(force_words(volume.strongest_push_n(), wall_scene_.phrases()), beside(1.0), frame);
 }
 
 void VolumeView::add_slice(const curves::SampleModel& model, const WallState& state, ForceVolume::Way way,
@@ -197,14 +198,14 @@ void VolumeView::add_slice(const curves::SampleModel& model, const WallState& st
   if (state.centerpiece != Centerpiece::Instrument || !state.material) return;
   const ForceVolume& volume = *model.felt_map->volume;
   const Scales& scales = scales_of(model, state);
-  const double y_m = clamped(state.surface.xy_m[1] / scales.lateral, scales.size_m.y);
+  const double y_m = within_width(state.surface.xy_m[1] / scales.lateral, scales.size_m.y);
   // the middle of the line of pixels, so that the slice is drawn anew on another line alone
   const auto lines = static_cast<double>(model.felt_map->grid.rows);
   const auto row =
       static_cast<std::size_t>(std::clamp(std::floor((0.5 + y_m / scales.map_m.y) * lines), 0.0, lines - 1.0));
   if (!cut_ || cut_->row != row || cut_->way != way) {
     const double middle_m = ((static_cast<double>(row) + 0.5) / lines - 0.5) * scales.map_m.y;
-    cut_ = cut(volume, scales, clamped(middle_m, scales.size_m.y), way);
+    cut_ = cut(volume, scales, within_width(middle_m, scales.size_m.y), way);
     cut_->row = row;
   }
   const double per_measured_m = scales.per_m * scales.lateral, width = per_measured_m * scales.size_m.x;
@@ -213,11 +214,11 @@ void VolumeView::add_slice(const curves::SampleModel& model, const WallState& st
                                  glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, y, scales.floor + kReliefLift)),
                                             dvec3(width, 1.0, scales.lid - scales.floor));
   frame.shapes.push_back({.node = slice_, .vertices = cut_->vertices});
-  add_bar(volume, scales, {0.5 * width + kBarGap, y, cut_->right + kReliefLift}, frame);
+  add_bar(volume, scales, {0.5 * width + kForceBarGap, y, cut_->right + kReliefLift}, frame);
   const std::string height = curves::typographic(
-      physics::format_quantity(physics::Length(scales.top / scales.per_height_m), physics::kLengthUnits, kDigits));
+      physics::format_quantity(physics::Length(scales.top / scales.per_height_m), physics::kLengthUnits, kForceDigits));
   write(wall_scene_.phrases().text<Phrase::SliceHeight>(wall_scene_.phrases().number(height)),
-        {-0.5 * width, y, cut_->left + scales.top + kTextHeight}, frame);
+        {-0.5 * width, y, cut_->left + scales.top + kForceTextHeight}, frame);
 }
 
 void VolumeView::add_surface(const curves::SampleModel& model, const WallState& state, double force_n,
@@ -231,8 +232,8 @@ void VolumeView::add_surface(const curves::SampleModel& model, const WallState& 
       glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, scales.floor + 2.0 * kReliefLift)),
                  dvec3(size, scales.lid - scales.floor));
   frame.shapes.push_back({.node = equal_force_, .vertices = raised_->vertices});
-  write(text_of(force_n, wall_scene_.phrases()),
-        {-0.5 * size.x - kTextGap - kTextWidth, -0.5 * size.y, raised_->left + kTextHeight}, frame);
+  write(force_words(force_n, wall_scene_.phrases()),
+        {-0.5 * size.x - kForceTextGap - kForceTextWidth, -0.5 * size.y, raised_->left + kForceTextHeight}, frame);
 }
 
 }  // namespace afm::exhibit

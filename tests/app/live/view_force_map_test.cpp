@@ -160,6 +160,7 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
                              "30nm",
                              "--felt",
                              "map",
+                             "--viscous-map",
                              "--equal-force",
                              "0.5nN",
                              "--size",
@@ -194,7 +195,7 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
     if (session->find(physics::EventKind::JumpToContact) != nullptr) ++touched;
     const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
     EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
-    EXPECT_THAT(replayed.out, HasSubstr("felt over a map of modulus and adhesion of 4 x 3 points"));
+    EXPECT_THAT(replayed.out, HasSubstr("felt over a viscous map of modulus and adhesion of 4 x 3 points"));
     EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
   }
   EXPECT_GE(touched, 1) << "no session of the map touches";
@@ -232,6 +233,9 @@ TEST(ViewForceMapFiles, AreRefusedWithTheReason) {
   const auto surfaceless = view("holed.jpk-force-map", "--equal-force 1nN");
   EXPECT_EQ(surfaceless.exit_code, 2);
   EXPECT_THAT(surfaceless.err, HasSubstr("--equal-force: the surface lies over a map that is felt whole"));
+  const auto solid = view("holed.jpk-force-map", "--viscous-map");
+  EXPECT_EQ(solid.exit_code, 2);
+  EXPECT_THAT(solid.err, HasSubstr("--viscous-map: only a map that is felt whole is viscous"));
   const auto shapeless = view("holed.jpk-force-map", "--radius 50nm");
   EXPECT_EQ(shapeless.exit_code, 2);
   EXPECT_THAT(shapeless.err, HasSubstr("add --fit SHAPE"));
