@@ -12,9 +12,12 @@
 #include "core/log.h"
 #include "curves/curve_map.h"
 #include "curves/fitting/felt_map.h"
+#include "curves/force_volume.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/scan/map_picture.h"
 #include "exhibit/scan/map_relief.h"
 #include "exhibit/scan/scan_subject.h"
+#include "exhibit/scan/volume_view.h"
 #include "exhibit/state/moment.h"
 #include "physics/quantity_text.h"
 
@@ -45,6 +48,12 @@ void log_surface(const curves::ForceVolume& volume, double force_n) {
 
 }  // namespace
 
+struct MapControl::Laid {
+  exhibit::MapQuantity quantity{};
+  double release_z_m = 0;  // as in exhibit::WallState: the sample's size
+  exhibit::HeightRelief relief;
+};
+
 MapControl::MapControl(ViewParts& parts, std::optional<double> equal_force_n)
     : parts_(parts), equal_force_n_(equal_force_n) {
   const curves::ForceVolume* volume = volume_of(parts.stage);
@@ -56,6 +65,8 @@ MapControl::MapControl(ViewParts& parts, std::optional<double> equal_force_n)
     equal_force_n_ = round_below(0.5 * volume->strongest_push_n());
   }
 }
+
+MapControl::~MapControl() = default;
 
 void MapControl::next_volume() {
   const curves::ForceVolume* volume = volume_of(parts_.stage);
@@ -87,7 +98,7 @@ void MapControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*
   if (sample == nullptr) return;
   lay_colours(*sample, picture);
   if (seen_ == Seen::Nothing || volume_of(parts_.stage) == nullptr) return;
-  if (!volume_) volume_.emplace(parts_.stage.wall_scene);
+  if (!volume_) volume_ = std::make_unique<exhibit::VolumeView>(parts_.stage.wall_scene);
   using Way = curves::ForceVolume::Way;
   if (seen_ != Seen::Slice) volume_->add_surface(*sample, wall_, *equal_force_n_, picture);
   if (seen_ == Seen::Surface) return;
@@ -107,7 +118,7 @@ void MapControl::lay_colours(const curves::SampleModel& map, render::FrameState&
   const double release_z_m = map.scaling.release_z_m();
   if (!laid_ || laid_->quantity != quantity || laid_->release_z_m != release_z_m) {
     const exhibit::ScanSubject subject = exhibit::scan_subject(parts_.stage.wall_scene, *wall_.material, map);
-    laid_ = {quantity, release_z_m, exhibit::map_relief(shown, map, subject)};
+    laid_ = std::make_unique<const Laid>(Laid{quantity, release_z_m, exhibit::map_relief(shown, map, subject)});
   }
   exhibit::lay_map(laid_->relief, shown, parts_.stage.wall_scene, wall_, picture);
 }

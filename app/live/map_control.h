@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "app/view/view_control.h"
-#include "exhibit/models/relief.h"
-#include "exhibit/scan/map_picture.h"
-#include "exhibit/scan/volume_view.h"
 #include "exhibit/state/wall_state.h"
+
+namespace afm::curves {
+struct SampleModel;
+}
+namespace afm::exhibit {
+class VolumeView;
+}
 
 namespace afm::app {
 
@@ -19,6 +24,7 @@ class MapControl final : public ViewControl {
  public:
   // `equal_force_n` is that of the surface that is shown first; empty: none.
   MapControl(ViewParts& parts, std::optional<double> equal_force_n);
+  ~MapControl() override;
 
   // Shows the slice, the surface of equal force, both, or neither; without such a map, a line of the log says so.
   void next_volume();
@@ -29,12 +35,7 @@ class MapControl final : public ViewControl {
 
  private:
   enum class Seen { Nothing, Slice, Surface, Both };
-  // What was laid on the sample last.
-  struct Laid {
-    exhibit::MapQuantity quantity{};
-    double release_z_m = 0;  // as in exhibit::WallState: the sample's size
-    exhibit::HeightRelief relief;
-  };
+  struct Laid;  // what was laid on the sample last
 
   const curves::SampleModel* map() const;  // null: another sample, or none, is under the tip
   void lay_colours(const curves::SampleModel& map, render::FrameState& picture);
@@ -42,10 +43,10 @@ class MapControl final : public ViewControl {
   ViewParts& parts_;
   exhibit::WallState wall_;  // of this frame
   bool retracting_ = false;
-  std::optional<Laid> laid_;
+  std::unique_ptr<const Laid> laid_;                   // null: nothing
   Seen seen_ = Seen::Nothing, first_ = Seen::Nothing;  // now, and at the start
   std::optional<double> equal_force_n_;
-  std::optional<exhibit::VolumeView> volume_;
+  std::unique_ptr<exhibit::VolumeView> volume_;  // null until something was shown
 };
 
 }  // namespace afm::app

@@ -123,7 +123,7 @@ std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::Exh
                                   "what is felt of the force map: pixel, the curve of one pixel, or map, the whole map "
                                   "by the modulus and the adhesion of its fits; default: pixel");
   const Option viscous = command.add_flag(
-      "--viscous-map", [&files] { files.viscous_map = true; },
+      "--viscous-map", files.viscous_map,
       "with --felt map: damp the hand near the sample, the more the more energy a cycle loses at the place");
   const Option equal_force = quantity_option(
       command, "--equal-force", [&files](physics::Force force) { files.equal_force_n = force.si; },

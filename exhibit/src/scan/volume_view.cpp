@@ -11,6 +11,7 @@
 #include "curves/fitting/felt_map.h"
 #include "curves/live_parameters.h"
 #include "exhibit/models/volume_shapes.h"
+#include "exhibit/scan/scan_subject.h"
 #include "exhibit/scenery/wall_layout.h"
 #include "exhibit/scenery/wall_scene.h"
 #include "models/linear_colour.h"
@@ -30,10 +31,10 @@ constexpr double kVolumeWithinRim = 0.998;  // share of the map's width, as of e
 constexpr double kSliceBehind = 0.012;      // distance of the slice behind the tip's axis, which stays in front of it
 constexpr double kLeastTop = 1e-12;         // height of the curves of a map without any force
 constexpr float kFaintestCoverage = 0.30F, kStrongestCoverage = 0.92F;  // coverage without force, and of the strongest
-constexpr int kForceDigits = 2;
+constexpr int kForceDigits = 3;
 constexpr Srgb kEqualForce{0, 158, 115};
 constexpr float kSurfaceCoverage = 0.55F;
-constexpr double kForceBarGap = 0.03, kForceTextGap = 0.015, kForceTextWidth = 0.26, kForceTextHeight = 0.06;
+constexpr double kForceTextGap = 0.015, kForceTextWidth = 0.18, kForceTextHeight = 0.05;
 
 scene::NodeIndex volume_node(const WallScene& wall_scene, const char* name) {
   const auto node = wall_scene.scene().find_node(name);
@@ -81,11 +82,12 @@ const VolumeView::Scales& VolumeView::scales_of(const curves::SampleModel& model
   cut_.reset();
   raised_.reset();
   const curves::FeltMap& map = *model.felt_map;
-  Scales scales{.release_z_m = state.release_z_m, .subject = scan_subject(wall_scene_, *state.material, model)};
+  const ScanSubject subject = scan_subject(wall_scene_, *state.material, model);
+  Scales scales{.release_z_m = state.release_z_m, .drawn_m = subject.drawn_m, .shown = subject.shown};
   const double drawn_m = wall_scene_.drawn_scale(*state.material, state.release_z_m).sample_m_per_m;
   scales.per_m = 1.0 / (drawn_m * wall_scene_.unit_m());
   const double top_m = std::max(map.volume->top_m(), kLeastTop);
-  scales.per_height_m = std::min(scales.per_m, kVolumeHeight / top_m);
+  scales.per_height_m = std::clamp(scales.per_m, kLeastVolumeHeight / top_m, kVolumeHeight / top_m);
   scales.top = scales.per_height_m * top_m;
   scales.lateral =
       model.parameters.topography.lateral * scene::surface_scale(model.parameters, model.scaling.release_z_m());
@@ -109,8 +111,8 @@ const VolumeView::Scales& VolumeView::scales_of(const curves::SampleModel& model
 
 // Height of the drawn surface at a place as measured.
 double VolumeView::surface(const Scales& scales, double x_m, double y_m) const {
-  const double drawn = scales.lateral / scales.subject.shown.lateral;
-  return scales.per_m * scales.subject.shown.vertical * scales.subject.drawn_m(drawn * x_m, drawn * y_m);
+  const double drawn = scales.lateral / scales.shown.lateral;
+  return scales.per_m * scales.shown.vertical * scales.drawn_m(drawn * x_m, drawn * y_m);
 }
 
 VolumeView::Slice VolumeView::cut(const ForceVolume& volume, const Scales& scales, double y_m,
@@ -180,14 +182,17 @@ void VolumeView::write(const std::string& text, const dvec3& place, render::Fram
                                         .up_m = vector({0.0, 0.0, kForceTextHeight})}});
 }
 
+// Within the right end of the slice, `foot`; its numbers are beside it.
 void VolumeView::add_bar(const ForceVolume& volume, const Scales& scales, const dvec3& foot,
                          render::FrameState& frame) const {
   const double height = std::max(scales.top, 2.0 * kForceTextHeight);
+  const double left = foot.x - height * kForceBarWidth;
   frame.room_from_node[bar_] =
-      frame.room_from_node[wall_scene_.sample_node()] * glm::scale(glm::translate(dmat4(1.0), foot), dvec3(height));
+      frame.room_from_node[wall_scene_.sample_node()] *
+      glm::scale(glm::translate(dmat4(1.0), dvec3(left, foot.y - kReliefLift, foot.z)), dvec3(height));
   frame.shapes.push_back({.node = bar_, .vertices = force_bar_vertices(kForceBarWidth)});
-  const double right = height * kForceBarWidth + kForceTextGap;
-  const auto beside = [&](double share) { return foot + dvec3(right, 0.0, share * height); };
+
+  const auto beside = [&](double share) { return foot + dvec3(kForceTextGap, 0.0, share * height); };
   write(force_words(volume.strongest_pull_n(), wall_scene_.phrases()), beside(0.0), frame);
   write("0", beside(0.5), frame);
   write(force_words(volume.strongest_push_n(), wall_scene_.phrases()), beside(1.0), frame);
@@ -214,7 +219,7 @@ void VolumeView::add_slice(const curves::SampleModel& model, const WallState& st
                                  glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, y, scales.floor + kReliefLift)),
                                             dvec3(width, 1.0, scales.lid - scales.floor));
   frame.shapes.push_back({.node = slice_, .vertices = cut_->vertices});
-  add_bar(volume, scales, {0.5 * width + kForceBarGap, y, cut_->right + kReliefLift}, frame);
+  add_bar(volume, scales, {0.5 * width, y, cut_->right + kReliefLift}, frame);
   const std::string height = curves::typographic(
       physics::format_quantity(physics::Length(scales.top / scales.per_height_m), physics::kLengthUnits, kForceDigits));
   write(wall_scene_.phrases().text<Phrase::SliceHeight>(wall_scene_.phrases().number(height)),
@@ -232,8 +237,8 @@ void VolumeView::add_surface(const curves::SampleModel& model, const WallState& 
       glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, scales.floor + 2.0 * kReliefLift)),
                  dvec3(size, scales.lid - scales.floor));
   frame.shapes.push_back({.node = equal_force_, .vertices = raised_->vertices});
-  write(force_words(force_n, wall_scene_.phrases()),
-        {-0.5 * size.x - kForceTextGap - kForceTextWidth, -0.5 * size.y, raised_->left + kForceTextHeight}, frame);
+  write(force_words(force_n, wall_scene_.phrases()), {-0.5 * size.x, -0.5 * size.y, raised_->left + kForceTextHeight},
+        frame);
 }
 
 }  // namespace afm::exhibit

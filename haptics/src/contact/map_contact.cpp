@@ -25,7 +25,7 @@ constexpr double kNoJumpM = 1e-6;           // width of a loop on the hand, belo
 constexpr double kMostOfStiffness = 1.001;  // share of the device's stiffness, along the normal
 constexpr double kLongestFloorM = 1.0;      // longer than any reach: no floor
 constexpr double kDampedMPerS = 1.0;        // speed at which the damping is no stronger than the device
-constexpr double kFirstShare = 1e-4;        // share of the damping that begins at once
+constexpr double kFirstShare = 1e-6;        // share of the damping that begins at once
 
 // Heights of the hand in the workspace, for a level sample.
 PotentialEnergy::Range within(const DeviceSpec& device) {

@@ -64,13 +64,13 @@ struct Shown {
     const auto wall = scene::load_wall(support::source("assets/walls/powerwall.toml")).value();
     scene.emplace(
         WallScene::load(support::source("assets"), materials, stage_place(wall), test::english(), own).value());
-    model = curves::make_sample_model(curves::ContactSetup{materials.materials.front(), {}, {}}).value();
-    scene->lay_surface_on(model.parameters, 0);
-    model.felt_map = std::make_shared<const curves::FeltMap>(std::move(map));
+    made = curves::make_sample_model(curves::ContactSetup{materials.materials.front(), {}, {}}).value();
+    scene->lay_surface_on(made->parameters, 0);
+    made->felt_map = std::make_shared<const curves::FeltMap>(std::move(map));
     state.material = 0;
     // a whole map in metres of the sample's frame
     const double size =
-        model.parameters.topography.lateral * scene::surface_scale(model.parameters, model.scaling.release_z_m());
+        made->parameters.topography.lateral * scene::surface_scale(made->parameters, made->scaling.release_z_m());
     per_measured = size;
   }
 
@@ -81,7 +81,9 @@ struct Shown {
   }
 
   std::optional<WallScene> scene;
-  curves::SampleModel model;
+  const curves::SampleModel& model() const { return *made; }
+
+  std::optional<curves::SampleModel> made;
   WallState state;
   double per_measured = 1;
 };
@@ -104,7 +106,7 @@ TEST(VolumeView, CutsTheForcesOfTheTipsLineOnTheWayOfTheTip) {
   const auto slice = [&](double y, Way way) {
     shown.state.surface.xy_m = {0.0, shown.per_measured * y * kGrid.height_m};
     render::FrameState frame = shown.frame();
-    view.add_slice(shown.model, shown.state, way, frame);
+    view.add_slice(shown.model(), shown.state, way, frame);
     return frame;
   };
   const render::FrameState soft = slice(-0.44, Way::Approach), stiff = slice(0.44, Way::Approach),
@@ -126,7 +128,7 @@ TEST(VolumeView, WritesItsForcesAndItsHeight) {
   VolumeView view(*shown.scene);
   render::FrameState frame = shown.frame();
   const std::size_t labels = frame.labels.size();
-  view.add_slice(shown.model, shown.state, Way::Approach, frame);
+  view.add_slice(shown.model(), shown.state, Way::Approach, frame);
   ASSERT_EQ(frame.labels.size(), labels + 4);
   EXPECT_EQ(frame.labels[labels].text, "\u22122 nN");
   EXPECT_EQ(frame.labels[labels + 1].text, "0");
@@ -140,7 +142,7 @@ TEST(VolumeView, WritesItsForcesAndItsHeight) {
   }
   shown.state.centerpiece = Centerpiece::Journey;
   render::FrameState journey = shown.frame();
-  view.add_slice(shown.model, shown.state, Way::Approach, journey);
+  view.add_slice(shown.model(), shown.state, Way::Approach, journey);
   EXPECT_TRUE(journey.shapes.empty()) << "no sample there";
 }
 
@@ -149,7 +151,7 @@ TEST(VolumeView, RaisesTheSurfaceOfAForceHigherWhereTheSampleIsStiffer) {
   VolumeView view(*shown.scene);
   render::FrameState frame = shown.frame();
   // half of the lines reach it
-  view.add_surface(shown.model, shown.state, 18e-9, frame);
+  view.add_surface(shown.model(), shown.state, 18e-9, frame);
   const auto& vertices = shape(frame, *shown.scene, "equal-force/surface").vertices;
   const auto at = [&](double up) {
     return vertices[static_cast<std::size_t>(up * (kSurfaceSide - 1)) * kSurfaceSide + kSurfaceSide / 2];
@@ -165,7 +167,7 @@ TEST(VolumeView, RaisesTheSurfaceOfAForceHigherWhereTheSampleIsStiffer) {
   }
   // a pull is that of the retract, everywhere
   render::FrameState pulled = shown.frame();
-  view.add_surface(shown.model, shown.state, -1e-9, pulled);
+  view.add_surface(shown.model(), shown.state, -1e-9, pulled);
   const auto& held = shape(pulled, *shown.scene, "equal-force/surface").vertices;
   EXPECT_TRUE(std::all_of(held.begin(), held.end(), [](const scene::Vertex& vertex) { return vertex.color.a > 0.3F; }));
   EXPECT_EQ(pulled.labels.back().text, "\u22121 nN");

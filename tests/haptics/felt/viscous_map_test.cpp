@@ -68,6 +68,16 @@ double work_j(ContactModel& model, const std::array<glm::dvec3, 3>& corners, dou
   return work;
 }
 
+// Largest energy that the law stores on the way down in the middle of the map.
+double largest_j(ContactModel& model) {
+  lift(model);
+  double largest = 0.0;
+  for (double height_m = 0.07; height_m > -0.02; height_m -= 1e-3) {
+    largest = std::max(largest, model.energy(model.step({0.0, 0.0, height_m}, {.elapsed_s = kTickS})).stored_j);
+  }
+  return largest;
+}
+
 TEST(ViscousMap, TakesEnergyOnEachOfTenThousandClosedPaths) {
   const auto model = model_of(true);
   lift(*model);
@@ -83,7 +93,8 @@ TEST(ViscousMap, TakesEnergyOnEachOfTenThousandClosedPaths) {
     most_j = std::max(most_j, taken_j);
     sum_j += taken_j;
   }
-  EXPECT_LE(most_j, 0.0);
+  // that with which the damping begins, on a path that hardly enters it
+  EXPECT_LE(most_j, 1e-6 * largest_j(*model));
   EXPECT_LT(sum_j, -0.1) << "so weak that nobody feels it";
 }
 
@@ -97,7 +108,7 @@ double damping_at(ContactModel& model, const glm::dvec3& hand_m) {
 TEST(ViscousMap, DampsMoreWhereACycleLosesMoreAndNotFarAbove) {
   const auto model = model_of(true);
   lift(*model);
-  const double weak = damping_at(*model, {0.0, -0.03, 0.03}), strong = damping_at(*model, {0.0, 0.03, 0.03});
+  const double weak = damping_at(*model, {0.0, -0.03, 0.012}), strong = damping_at(*model, {0.0, 0.03, 0.012});
   EXPECT_GT(strong, 2.0 * weak);
   EXPECT_GT(weak, 0.05) << "a drag everywhere near the sample";
   EXPECT_LE(strong, MapContact::kMostDampingNSPerM);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -9,10 +10,10 @@
 #include <vector>
 
 #include "curves/force_volume.h"
-#include "exhibit/scan/scan_subject.h"
 #include "exhibit/state/wall_state.h"
 #include "render/frame.h"
 #include "scene/graph/scene.h"
+#include "scene/shared/shared_blocks.h"
 
 namespace afm::curves {
 struct SampleModel;
@@ -23,8 +24,9 @@ namespace afm::exhibit {
 class WallScene;
 
 // The curves of a force map that is felt whole, as seen over its sample. Every curve begins on the drawn surface, which
-// is the deepest point that it reached; above it, heights have the scale of the ruler, or a smaller one if the curves
-// would be higher than kVolumeHeight. Keeps what it has drawn until something else is to be seen. One thread.
+// is the deepest point that it reached; above it, heights have the scale of the ruler, or another one if the curves
+// would be higher than kVolumeHeight or lower than kLeastVolumeHeight. Keeps what it has drawn until something else is
+// to be seen. One thread.
 class VolumeView {
  public:
   // `wall_scene` must outlive the object, and have been loaded with UserModels::force_volume.
@@ -42,15 +44,16 @@ class VolumeView {
  private:
   // Scales of a sample and its volume on the wall; lengths in units of the layout.
   struct Scales {
-    double release_z_m = -1;    // as in WallState
-    double per_m = 0;           // for a metre of the sample's frame
-    double per_height_m = 0;    // for a metre along the curves
-    double lateral = 1;         // metres of the sample's frame per metre as measured
-    double top = 0;             // height of the curves
-    glm::dvec2 size_m{0.0};     // between the middles of the outermost pixels, as measured
-    glm::dvec2 map_m{0.0};      // whole map
-    ScanSubject subject;        // drawn surface
-    double floor = 0, lid = 0;  // of the surface, and of the highest curve over it
+    double release_z_m = -1;                                // as in WallState
+    double per_m = 0;                                       // for a metre of the sample's frame
+    double per_height_m = 0;                                // for a metre along the curves
+    double lateral = 1;                                     // metres of the sample's frame per metre as measured
+    double top = 0;                                         // height of the curves
+    glm::dvec2 size_m{0.0};                                 // between the middles of the outermost pixels, as measured
+    glm::dvec2 map_m{0.0};                                  // whole map
+    std::function<double(double x_m, double y_m)> drawn_m;  // the drawn surface, in metres of its own
+    scene::TopographyScale shown{};                         // metres of the sample's frame per such metre
+    double floor = 0, lid = 0;                              // of the surface, and of the highest curve over it
   };
   // What was drawn last.
   struct Slice {

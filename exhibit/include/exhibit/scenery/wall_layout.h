@@ -95,7 +95,7 @@ inline constexpr double kScanLineRadius = 0.004;
 inline constexpr double kScanLineLift = 0.004;  // height above the surface
 inline constexpr double kReliefLift = 0.003;    // height of an image above the surface that it shows
 // the curves of a force map over the sample, and the colour scale of their forces
-inline constexpr double kVolumeHeight = 0.75 * kStrokeHeight;
+inline constexpr double kVolumeHeight = 0.75 * kStrokeHeight, kLeastVolumeHeight = 0.3 * kStrokeHeight;
 inline constexpr double kForceBarWidth = 0.08;  // share of its height
 // smaller than the instrument's stroke, so that the hand stays below the banner
 inline constexpr double kAnalogyScale = 0.55;

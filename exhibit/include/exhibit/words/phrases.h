@@ -10,7 +10,6 @@
 
 #include "core/result.h"
 #include "exhibit/words/lesson_phrase_list.h"
-#include "exhibit/words/map_phrase_list.h"
 #include "exhibit/words/particle_phrase_list.h"
 #include "exhibit/words/phrase_list.h"
 #include "exhibit/words/sound_phrase_list.h"
