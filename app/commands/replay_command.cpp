@@ -111,7 +111,8 @@ std::string plain(const servo::RecordedSession& session, const servo::Replay& re
     text += fmt::format("felt at pixel {},{} of a force map\n", session.curve->column, session.curve->row);
   }
   if (session.law_map) {
-    text += fmt::format("felt over a map of modulus and adhesion of {} x {} points\n", session.law_map->columns,
+    text += fmt::format("felt over a {}map of modulus and adhesion of {} x {} points\n",
+                        session.parameters.viscous_map != 0 ? "viscous " : "", session.law_map->columns,
                         session.law_map->rows);
   }
   if (range.from_s > 0 || range.to_s < seconds(session)) {

@@ -233,6 +233,7 @@ servo::ServoChoice servo_of(const ViewOptions& options) {
 // particles on their scale.
 void set_start(const ViewOptions& options, const exhibit::Stage& stage, ViewSettings& settings) {
   const bool particles = stage.particles != nullptr;
+  settings.equal_force_n = options.files.equal_force_n;
   settings.scale = options.scale.value_or(particles ? scene::ScaleMode::Particles : scene::ScaleMode::Fit);
   if (settings.first_material) return;
   if (particles) settings.first_material = 0;

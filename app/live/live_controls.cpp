@@ -9,6 +9,7 @@
 #include "app/lesson/lesson_control.h"
 #include "app/live/journey_control.h"
 #include "app/live/kept_control.h"
+#include "app/live/map_control.h"
 #include "app/live/particles_control.h"
 #include "app/live/place_control.h"
 #include "app/live/scan_control.h"
@@ -62,6 +63,7 @@ LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const
   if (features.lesson != nullptr) owners_.lesson = &add<LessonControl>(*features.lesson);
   if (parts.stage.particles) owners_.particles = &add<ParticlesControl>(*parts.stage.particles);
   owners_.scan = &add<ScanControl>();
+  owners_.map = &add<MapControl>(settings.equal_force_n);
   owners_.sound = &add<SoundControl>();
   if (features.cluster != nullptr) add<ClusterControl>(*features.cluster);
 }

@@ -8,6 +8,7 @@
 #include "app/display/view_windows.h"
 #include "app/lesson/lesson_control.h"
 #include "app/live/journey_control.h"
+#include "app/live/map_control.h"
 #include "app/live/particles_control.h"
 #include "app/live/place_control.h"
 #include "app/live/scan_control.h"
@@ -48,6 +49,8 @@ constexpr std::array kRows{
         .outside_lessons(),
     LiveKey{Key::F4, "F4", Phrase::KeyMapPicture,
             [](KeyOwners& owners, std::size_t) { owners.parts.panels.next_map_picture(); }}
+        .outside_lessons(),
+    LiveKey{Key::F3, "F3", Phrase::KeyMapVolume, [](KeyOwners& owners, std::size_t) { owners.map->next_volume(); }}
         .outside_lessons(),
     LiveKey{Key::F, "F", Phrase::KeyFriction,
             [](KeyOwners& owners, std::size_t) { owners.parts.choice.toggle_friction_loop(); }}

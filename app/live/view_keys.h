@@ -16,6 +16,7 @@ namespace afm::app {
 
 class JourneyControl;
 class LessonControl;
+class MapControl;
 class ParticlesControl;
 class PlaceControl;
 class ScanControl;
@@ -30,6 +31,7 @@ struct KeyOwners {
   LessonControl* lesson = nullptr;  // used by rows of lessons; null without a lesson
   ScanControl* scan = nullptr;
   SoundControl* sound = nullptr;
+  MapControl* map = nullptr;
   ParticlesControl* particles = nullptr;  // used by rows of particles; null without particles
 };
 

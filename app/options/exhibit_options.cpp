@@ -122,6 +122,14 @@ std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::Exh
                                   &FeltPart::whole,
                                   "what is felt of the force map: pixel, the curve of one pixel, or map, the whole map "
                                   "by the modulus and the adhesion of its fits; default: pixel");
+  const Option viscous = command.add_flag(
+      "--viscous-map", files.viscous_map,
+      "with --felt map: damp the hand near the sample, the more the more energy a cycle loses at the place");
+  const Option equal_force = quantity_option(
+      command, "--equal-force", [&files](physics::Force force) { files.equal_force_n = force.si; },
+      physics::kForceUnits,
+      "with --felt map: show the surface on which the curves have this force, a push on the approach, or a negative "
+      "pull on the retract; F3 shows and hides it");
   const auto reading = std::make_shared<curves::MapReading>();
   files.map_reading = reading;
   std::vector<NamedOption> own{add_sensitivity_option(command, reading->calibration)};
@@ -131,6 +139,10 @@ std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::Exh
   own.insert(own.end(), of_fit.begin(), of_fit.end());
   for (NamedOption& each : own) each.option.needs(map);
   own.push_back({felt, "--felt"});
+  own.back().option.needs(map);
+  own.push_back({equal_force, "--equal-force"});
+  own.back().option.needs(map);
+  own.push_back({viscous, "--viscous-map"});
   own.back().option.needs(map);
   return own;
 }

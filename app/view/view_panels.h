@@ -70,6 +70,9 @@ class ViewPanels {
 
   // The next quantity of the force map in its picture; a line of the log says why not.
   void next_map_picture();
+  // The picture of a pixel's map with the pixel marked, and what it shows.
+  const render::MapPicture& picture_of(const curves::MapCurve& pixel);
+  exhibit::MapQuantity map_quantity() const { return quantity_; }
 
   void toggle_all() { hidden_ = !hidden_; }
 
@@ -122,7 +125,6 @@ class ViewPanels {
   bool covered() const { return hidden_ || keys_shown_; }
   const exhibit::Phrases& phrases() const;
   render::ControlPanel control_panel(std::size_t material, const std::string& title, exhibit::ChangeState state);
-  const render::MapPicture& picture_of(const curves::MapCurve& pixel);
   void change(const render::ControlTarget& target, std::size_t material, servo::ServoClient* servo);
   void add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material);
   void add_right(render::FramePanels& panels, const Pointed& pointed, std::size_t material,

@@ -41,8 +41,10 @@ scene::SharedModel model_with_map() {
 }
 
 // Presses the tip on it and slides to the right.
-RecordedSession slid() {
-  Recording recording(model_with_map());
+RecordedSession slid(bool viscous = false) {
+  scene::SharedModel model = model_with_map();
+  model.materials[test::kMica].viscous_map = viscous ? 1 : 0;
+  Recording recording(model);
   recording.choose(test::kMica);
   recording.arm();
   recording.aim(-0.012, 0.6);
@@ -68,6 +70,21 @@ TEST(ReplayOfAMap, GivesEveryBitAgain) {
   EXPECT_EQ(loaded->law_map->ln_modulus, model_with_map().law_map.ln_modulus);
   EXPECT_EQ(loaded->law_map->adhesion_j_per_m2, model_with_map().law_map.adhesion_j_per_m2);
   expect_same(*loaded);
+}
+
+TEST(ReplayOfAMap, GivesTheDampingOfAViscousOneAgain) {
+  RecordedSession session = slid(true);
+  const support::ScratchFolder folder;
+  ASSERT_TRUE(save_session(session, folder.file("viscous.afms")));
+  EXPECT_EQ(core::read_file(folder.file("viscous.afms"))->at(4), 18) << "the version";
+  const auto loaded = load_session(folder.file("viscous.afms"));
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->parameters.viscous_map, 1U);
+  expect_same(*loaded);
+  session.parameters.viscous_map = 0;
+  const auto undamped = replay(session);
+  ASSERT_TRUE(undamped) << undamped.error().message;
+  EXPECT_FALSE(undamped->identical()) << "the damping is not felt";
 }
 
 TEST(ReplayOfAMap, NoticesAnotherMap) {

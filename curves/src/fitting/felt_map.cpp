@@ -200,13 +200,15 @@ core::Result<FeltMap> felt_map(const CurveMap& map, const FitOptions& options) {
   return felt;
 }
 
-core::Result<SampleModel> make_sample_model(const SampleModel& pixel, const FitOptions& options) {
+core::Result<SampleModel> make_sample_model(const SampleModel& pixel, const FitOptions& options,
+                                            std::shared_ptr<const ForceVolume> volume) {
   const std::string& path = pixel.pixel->map->path();
   const auto cannot = [&](const core::Error& error) {
     return core::failure(error.category, fmt::format("force map {}: {}", path, error.message));
   };
   auto felt = felt_map(*pixel.pixel->map, options);
   if (!felt) return cannot(felt.error());
+  felt->volume = std::move(volume);
   const auto middle = [&](std::span<const float> values) {
     const auto some = values.first(std::size_t{felt->laws.columns} * felt->laws.rows);
     return median_of({some.begin(), some.end()});

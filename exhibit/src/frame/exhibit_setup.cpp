@@ -166,6 +166,7 @@ core::Result<Stage> load_exhibit(const ExhibitFiles& files) {
   auto own = load_own_models(files.probe, files.sample, {{.channel = files.sample_channel}, files.sample_levelling});
   if (!own) return tl::unexpected(own.error());
   own->particles = *particles;
+  own->force_volume = *pixel && (*pixel)->felt_map;
   // a map that is felt whole lies on its own heights
   if (*pixel && (*pixel)->felt_map && files.sample.empty()) {
     own->topography = topography_model((*pixel)->felt_map->heights);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "curves/curve_map.h"
 #include "curves/fitting/felt_map.h"
 #include "curves/fitting/map_fit.h"
+#include "curves/force_volume.h"
 #include "curves/measured_material.h"
 
 namespace afm::exhibit {
@@ -30,20 +32,58 @@ curves::CurveMap::Progress progress_of(const std::string& file) {
   };
 }
 
+// Options that need others, or exclude them.
+core::Result<void> check_options(const ExhibitFiles& files) {
+  if (!files.particles.empty())
+    return core::wrong_usage("--force-map: its law is no particle's: leave --particles out");
+  if (files.whole_map && !(files.map_reading && files.map_reading->fit.shape))
+    return core::wrong_usage("--felt map: the map is felt by its fits: add --fit SHAPE");
+  if (!files.whole_map && files.viscous_map)
+    return core::wrong_usage("--viscous-map: only a map that is felt whole is viscous: add --felt map");
+  if (!files.whole_map && files.equal_force_n)
+    return core::wrong_usage("--equal-force: the surface lies over a map that is felt whole: add --felt map");
+  if (files.equal_force_n == 0.0)
+    return core::wrong_usage("--equal-force: a surface of no force is everywhere: give a push, such as 1nN, or a pull");
+  return {};
+}
+
+// The map of this pixel, felt whole.
+core::Result<std::shared_ptr<const curves::SampleModel>> felt_whole(const curves::SampleModel& pixel,
+                                                                    const ExhibitFiles& files,
+                                                                    const curves::FitOptions& fit,
+                                                                    curves::ForceVolume::Gatherer& gatherer) {
+  auto whole = curves::make_sample_model(pixel, fit, std::make_shared<const curves::ForceVolume>(gatherer.finish()));
+  if (!whole) return tl::unexpected(whole.error());
+  if (files.viscous_map && !whole->figures().hysteretic) {
+    return core::wrong_usage(
+        "--viscous-map: a cycle on this map loses no energy that could damp the hand; leave it out");
+  }
+  whole->parameters.viscous_map = files.viscous_map ? 1 : 0;
+  core::log_line(
+      fmt::format("force map {}: the whole map is felt: {}", files.force_map, curves::felt_text(*whole->felt_map)));
+  return std::make_shared<const curves::SampleModel>(std::move(*whole));
+}
+
 }  // namespace
 
 core::Result<std::shared_ptr<const curves::SampleModel>> load_force_map(const ExhibitFiles& files) {
   if (files.force_map.empty()) return nullptr;
-  if (!files.particles.empty())
-    return core::wrong_usage("--force-map: its law is no particle's: leave --particles out");
+  if (auto checked = check_options(files); !checked) return tl::unexpected(checked.error());
   const auto library = scene::load_materials(files.assets_dir + "/materials.toml");
   if (!library) return tl::unexpected(library.error());
-  if (files.whole_map && !(files.map_reading && files.map_reading->fit.shape))
-    return core::wrong_usage("--felt map: the map is felt by its fits: add --fit SHAPE");
   curves::MapReading reading = files.map_reading ? *files.map_reading : curves::MapReading{};
   if (auto prepared = curves::prepare(reading.fit); !prepared) return tl::unexpected(prepared.error());
   const auto fit = reading.fit.shape ? curves::fit_of_each(files.force_map, reading.fit) : curves::CurveMap::Fit{};
-  auto read = curves::CurveMap::load(files.force_map, progress_of(files.force_map), reading.calibration, fit);
+  // what is felt whole is also seen whole
+  const auto gatherer = files.whole_map ? std::make_shared<curves::ForceVolume::Gatherer>() : nullptr;
+  curves::CurveMap::Fit each = fit;
+  if (gatherer) {
+    each = [gatherer, fit](const curves::RecordedCurve& curve) {
+      gatherer->add(curve);
+      return fit(curve);
+    };
+  }
+  auto read = curves::CurveMap::load(files.force_map, progress_of(files.force_map), reading.calibration, each);
   if (!read) return tl::unexpected(read.error());
   const auto map = std::make_shared<const curves::CurveMap>(std::move(*read));
   const curves::MapPlace place = files.pixel ? curves::MapPlace{(*files.pixel)[0], (*files.pixel)[1]} : map->middle();
@@ -62,11 +102,7 @@ core::Result<std::shared_ptr<const curves::SampleModel>> load_force_map(const Ex
                   model->pixel->measured.features.contact_doubtful ? ", whose contact point is doubtful" : ""));
   if (fit) core::log_line(fmt::format("force map {}: {}", files.force_map, curves::fits_text(*map)));
   if (!files.whole_map) return std::make_shared<const curves::SampleModel>(std::move(*model));
-  auto whole = curves::make_sample_model(*model, reading.fit);
-  if (!whole) return tl::unexpected(whole.error());
-  core::log_line(
-      fmt::format("force map {}: the whole map is felt: {}", files.force_map, curves::felt_text(*whole->felt_map)));
-  return std::make_shared<const curves::SampleModel>(std::move(*whole));
+  return felt_whole(*model, files, reading.fit, *gatherer);
 }
 
 scene::MaterialEntry entry_of(const curves::SampleModel& pixel) {

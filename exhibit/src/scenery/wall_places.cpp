@@ -172,6 +172,12 @@ double WallPlaces::height_bar_x() const {
   return std::max(kHeightBarX, kPanelMargin + kHeightBarTextWidth + kHeightBarTextGap - half_width_);
 }
 
+render::PanelPlacement WallPlaces::height_bar_text(double share) const {
+  return in_wall(height_bar_x() - kHeightBarTextGap - kHeightBarTextWidth,
+                 kHeightBarBottom + share * kHeightBarHeight - 0.5 * kHeightBarTextHeight, kHeightBarTextWidth,
+                 kHeightBarTextHeight);
+}
+
 double WallPlaces::unit_m() const { return glm::length(dvec3(room_from_layout_[0])); }
 
 glm::dvec3 WallPlaces::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(wand_grip_, 1.0)); }

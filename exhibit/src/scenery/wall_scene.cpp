@@ -13,6 +13,7 @@
 #include "exhibit/models/particle_models.h"
 #include "exhibit/models/relief.h"
 #include "exhibit/models/user_models.h"
+#include "exhibit/models/volume_shapes.h"
 #include "imaging/drawn_surface.h"
 #include "models/height_bar.h"
 #include "physics/contact.h"
@@ -51,6 +52,11 @@ void WallScene::add_frames(ModelBuilder& build, const UserModels& own) {
       glm::translate(dmat4(1.0), dvec3(places_.height_bar_x(), kHeightBarBottom, 0.0)), dvec3(kHeightBarHeight));
   build.part(relief_mesh(), "image", sample_frame_);
   relief_ = build.node("image/relief");
+  if (own.force_volume) {
+    build.part(slice_mesh(), "slice", sample_frame_);
+    build.part(force_bar(kForceBarWidth), "force-bar", sample_frame_);
+    build.part(equal_force_mesh(), "equal-force", sample_frame_);
+  }
 }
 
 void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir, const scene::MaterialEntry& material,

@@ -104,17 +104,12 @@ void add_height_labels(const WallPlaces& places, const Phrases& phrases, double 
     if (const auto micro = text.find("um"); micro != std::string::npos) text.replace(micro, 1, "\u00b5");
     return text;
   };
-  const double left = places.height_bar_x() - kHeightBarTextGap - kHeightBarTextWidth;
-  const auto beside = [&](double height) {
-    return places.in_wall(left, kHeightBarBottom + height - 0.5 * kHeightBarTextHeight, kHeightBarTextWidth,
-                          kHeightBarTextHeight);
-  };
-  frame.labels.push_back({length(range_m), false, beside(kHeightBarHeight)});
+  frame.labels.push_back({length(range_m), false, places.height_bar_text(1.0)});
   if (exaggeration) {
-    frame.labels.push_back({phrases.text<Phrase::HeightsTimes>(fmt::format("{:g}", *exaggeration)), false,
-                            beside(0.5 * kHeightBarHeight)});
+    frame.labels.push_back(
+        {phrases.text<Phrase::HeightsTimes>(fmt::format("{:g}", *exaggeration)), false, places.height_bar_text(0.5)});
   }
-  frame.labels.push_back({"0", false, beside(0.0)});
+  frame.labels.push_back({"0", false, places.height_bar_text(0.0)});
 }
 
 }  // namespace

@@ -34,6 +34,12 @@ namespace afm::haptics {
 // Deeper than Scaling::kPushM of the hand all places become as stiff as the stiffest, over another kFloorM or more:
 // energies deep in the sample would differ so much from place to place that hardly any map could be felt.
 //
+// A viscous map also damps the hand, from kLeastOfDamping of kMostDampingNSPerM to all of it, in proportion to the
+// energy that the law below the tip loses in a slow cycle; kDampsAboveM above the height at which the tip lets go there
+// is none. On a device whose force is limited the most is what its force cap damps at 1 m/s. The damping only takes
+// energy: it acts on a velocity behind a low-pass (haptics/hand_motion.h) with the time constant T, which holds back
+// the energy b T v^2 / 2, and grows by no more than a factor of e in T, though such a low-pass would bear two.
+//
 // Building takes tenths of a second and allocates; step() may be called in a tick of the servo.
 class MapContact {
  public:
@@ -41,6 +47,9 @@ class MapContact {
   static constexpr double kShareSideways = 0.42;
   static constexpr double kShareOfStiffness = 0.2;
   static constexpr double kFloorM = 0.010;
+  static constexpr double kMostDampingNSPerM = 2.0;
+  static constexpr double kLeastOfDamping = 0.1;
+  static constexpr double kDampsAboveM = 0.020;
 
   using Scalings = ContactModel::Scalings;
 
@@ -52,10 +61,13 @@ class MapContact {
   // `nominal` are the tables of the material, for lever and support. `spacing_m` is the distance of the map's points as
   // felt. All scalings are those of the family on along_normal() of the device.
   MapContact(std::shared_ptr<const LawFamily> family, std::shared_ptr<const physics::LawTables> nominal,
-             const scene::SharedLawMap& map, double spacing_m, const Scalings& scalings, const DeviceSpec& device);
+             const scene::SharedLawMap& map, double spacing_m, const Scalings& scalings, const DeviceSpec& device,
+             bool viscous);
 
   // At a place in the sample's frame and a height above its surface; `scale` is that of the mode.
-  MapTouch step(scene::ScaleMode mode, const Scaling& scale, const glm::dvec2& xy_m, double z_m) noexcept;
+  // `elapsed_s` is the time since the previous step.
+  MapTouch step(scene::ScaleMode mode, const Scaling& scale, const glm::dvec2& xy_m, double z_m,
+                double elapsed_s) noexcept;
 
   void wait_for_lift() noexcept { phase_ = physics::Phase::WaitForLift; }
   physics::Phase phase() const noexcept { return phase_; }
@@ -86,6 +98,7 @@ class MapContact {
   const OnScale& on(scene::ScaleMode mode) const noexcept { return scales_[static_cast<std::size_t>(mode)]; }
   static MapLaw::Place place_at(const OnScale& scale, const glm::dvec2& xy_m, double lateral_m_per_m) noexcept;
   physics::Force tip_force(physics::Phase phase, const MapLaw::Mixture& mixture, double z_m) const noexcept;
+  double damp(const MapLaw& law, const MapLaw::Place& place, double hand_m, double elapsed_s) noexcept;
   void note_jump(const MapLaw& law, const Scaling& scale, const MapLaw::Place& place, double hand_m,
                  physics::Phase before, MapTouch& touch) const noexcept;
 
@@ -94,6 +107,8 @@ class MapContact {
   std::array<OnScale, scene::kScaleModes.size()> scales_;
   physics::Phase phase_ = physics::Phase::WaitForLift;
   double above_in_m_ = 0, above_off_m_ = 0;  // previous height of the hand above those of the jumps
+  double most_damping_n_s_per_m_ = 0;        // 0: not viscous
+  double damping_n_s_per_m_ = 0;
 };
 
 }  // namespace afm::haptics

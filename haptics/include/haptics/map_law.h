@@ -60,6 +60,10 @@ class MapLaw {
   double jump_in_m(const Place& place) const noexcept { return jumps_at(mixture_of(place)).in_m; }
   double jump_off_m(const Place& place) const noexcept { return jumps_at(mixture_of(place)).off_m; }
 
+  // Energy that the hand loses at a place in one slow cycle down and up, and the largest of all laws. Not negative.
+  double loss_j(const Place& place) const noexcept;
+  double most_loss_j() const noexcept { return most_loss_j_; }
+
   // The phase after a move to this place and height. A wait ends above the jump off contact.
   physics::Phase next_phase(physics::Phase phase, const Place& place, double height_m) const noexcept;
 
@@ -98,6 +102,7 @@ class MapLaw {
     double jump_in_m;
     double jump_off_m;
     double shift_j;  // energy added to the attached branch: both have one energy at the jump into contact
+    double loss_j;   // energy that the jump off contact loses
   };
 
   struct Jumps {
@@ -120,6 +125,7 @@ class MapLaw {
   std::size_t columns_;
   std::size_t rows_;
   std::vector<Branches> laws_;
+  double most_loss_j_ = 0;
 };
 
 }  // namespace afm::haptics

@@ -82,6 +82,7 @@ class ServoLoop {
     double hand_height_m = 0;
     PassivityObserver::Law energy;
     bool led = false;
+    double damping_n_s_per_m = 0;
   };
 
   // Newest requests of the renderer.

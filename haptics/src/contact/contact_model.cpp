@@ -163,8 +163,9 @@ core::Result<std::unique_ptr<ContactModel>> ContactModel::create(
     SampleSurface surface(drawn.scaled(size), material.contact.tip_radius.si, largest_curvature_per_m(fit, device));
     std::unique_ptr<MapContact> felt_map;
     if (*family) {
-      felt_map = std::make_unique<MapContact>(*family, tables, *map,
-                                              size * material.topography.lateral * map->spacing_m, scalings, device);
+      felt_map =
+          std::make_unique<MapContact>(*family, tables, *map, size * material.topography.lateral * map->spacing_m,
+                                       scalings, device, material.viscous_map != 0);
     }
     std::optional<FeltFriction> friction;
     if (material.friction.law != physics::FrictionLaw::None) friction.emplace(material, tables, device);
@@ -209,7 +210,7 @@ Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback)
     follow_surface(scale.z_m(hand_m.z), below.height_m, feedback, touch);
     below.slope = glm::dvec2(0.0);
   }
-  if (map_) touch.map = map_->step(mode_, scale, touch.tip_xy_m, touch.z_m);
+  if (map_) touch.map = map_->step(mode_, scale, touch.tip_xy_m, touch.z_m, feedback.elapsed_s);
   touch.response = map_ ? touch.map.response : step_law(physics::Length(touch.z_m));
   touch.normal = glm::normalize(glm::dvec3(-below.slope, 1.0));
   const glm::dvec3 gradient(-below.slope * scale.flattening(), 1.0);

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <span>
 #include <utility>
 
 #include "core/enumerators.h"
+#include "haptics/hand_motion.h"
 
 namespace afm::haptics {
 
@@ -22,6 +24,8 @@ constexpr double kWidestBend_per_m = 1e15;  // curvature that limits nothing
 constexpr double kNoJumpM = 1e-6;           // width of a loop on the hand, below which there is no jump
 constexpr double kMostOfStiffness = 1.001;  // share of the device's stiffness, along the normal
 constexpr double kLongestFloorM = 1.0;      // longer than any reach: no floor
+constexpr double kDampedMPerS = 1.0;        // speed at which the damping is no stronger than the device
+constexpr double kFirstShare = 1e-6;        // share of the damping that begins at once
 
 // Heights of the hand in the workspace, for a level sample.
 PotentialEnergy::Range within(const DeviceSpec& device) {
@@ -104,8 +108,10 @@ struct Sheet {
 
 MapContact::MapContact(std::shared_ptr<const LawFamily> family, std::shared_ptr<const physics::LawTables> nominal,
                        const scene::SharedLawMap& map, double spacing_m, const Scalings& scalings,
-                       const DeviceSpec& device)
-    : family_(std::move(family)), nominal_(std::move(nominal)) {
+                       const DeviceSpec& device, bool viscous)
+    : family_(std::move(family)),
+      nominal_(std::move(nominal)),
+      most_damping_n_s_per_m_(viscous ? std::min(kMostDampingNSPerM, force_cap_n(device) / kDampedMPerS) : 0.0) {
   const double stands_n_per_m = std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
   for (const scene::ScaleModeText& row : scene::kScalesOfSamples) {
     const Scaling& scaling = scalings[core::index_of(row.mode)];
@@ -176,7 +182,20 @@ void MapContact::note_jump(const MapLaw& law, const Scaling& scale, const MapLaw
                       .fraction = was_m != is_m ? std::clamp(was_m / (was_m - is_m), 0.0, 1.0) : 1.0});
 }
 
-MapTouch MapContact::step(ScaleMode mode, const Scaling& scale, const glm::dvec2& xy_m, double z_m) noexcept {
+// None while the tip waits for a lift.
+double MapContact::damp(const MapLaw& law, const MapLaw::Place& place, double hand_m, double elapsed_s) noexcept {
+  if (most_damping_n_s_per_m_ == 0.0 || phase_ == Phase::WaitForLift) return damping_n_s_per_m_ = 0.0;
+  const double share = law.most_loss_j() > 0.0 ? law.loss_j(place) / law.most_loss_j() : 0.0;
+  const double above = std::clamp((hand_m - law.jump_off_m(place)) / kDampsAboveM, 0.0, 1.0);
+  const double near = 1.0 - above * above * (3.0 - 2.0 * above);
+  const double wanted = most_damping_n_s_per_m_ * near * (kLeastOfDamping + (1.0 - kLeastOfDamping) * share);
+  const double grown = std::max(damping_n_s_per_m_, kFirstShare * most_damping_n_s_per_m_) *
+                       std::exp(2.0 * std::numbers::pi * HandMotion::kCutoffHz * elapsed_s);
+  return damping_n_s_per_m_ = std::min(wanted, grown);
+}
+
+MapTouch MapContact::step(ScaleMode mode, const Scaling& scale, const glm::dvec2& xy_m, double z_m,
+                          double elapsed_s) noexcept {
   MapTouch touch;
   if (!std::isfinite(z_m) || !std::isfinite(xy_m.x) || !std::isfinite(xy_m.y)) {
     phase_ = Phase::WaitForLift;
@@ -197,6 +216,7 @@ MapTouch MapContact::step(ScaleMode mode, const Scaling& scale, const glm::dvec2
   touch.force_n = felt.force_n;
   touch.sideways_n = felt.sideways_n;
   if (phase_ != Phase::WaitForLift) touch.stored_j = felt.energy_j - on_scale.least_j;
+  touch.damping_n_s_per_m = damp(law, place, hand_m, elapsed_s);
   touch.here = {.reduced_modulus_pa = family_->modulus_pa(place.at.x),
                 .adhesion_j_per_m2 = family_->adhesion_j_per_m2(place.at.y)};
   return touch;

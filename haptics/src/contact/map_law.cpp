@@ -49,10 +49,20 @@ MapLaw::MapLaw(const std::vector<Law>& laws, std::size_t columns, PotentialEnerg
     AFM_CHECK(law.jump_off_m >= law.jump_in_m);
     laws_.push_back({HeightPotential([&](double h) { return law.free_n(std::fmax(h, law.jump_in_m)); }, heights),
                      HeightPotential([&](double h) { return law.attached_n(std::fmin(h, law.jump_off_m)); }, heights),
-                     law.jump_in_m, law.jump_off_m, 0.0});
+                     law.jump_in_m, law.jump_off_m, 0.0, 0.0});
     Branches& built = laws_.back();
     built.shift_j = built.free.at(law.jump_in_m).energy_j - built.attached.at(law.jump_in_m).energy_j;
+    built.loss_j = std::max(
+        0.0, built.attached.at(law.jump_off_m).energy_j + built.shift_j - built.free.at(law.jump_off_m).energy_j);
+    most_loss_j_ = std::max(most_loss_j_, built.loss_j);
   }
+}
+
+double MapLaw::loss_j(const Place& place) const noexcept {
+  const Mixture mixture = mixture_of(place);
+  double loss_j = 0.0;
+  for (std::size_t k = 0; k < kMixed; ++k) loss_j += mixture.weight[k] * laws_[mixture.law[k]].loss_j;
+  return loss_j;
 }
 
 MapLaw::Mixture MapLaw::mixture_of(const Place& place) const noexcept {

@@ -211,7 +211,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                       .law_energy = wanted.energy,
                                       .sample_moved = std::exchange(sample_moved_, false),
                                       .led = wanted.led,
-                                      .damping_n_s_per_m = wanted.led ? ScanGuide::kDampingNSPerM : 0.0});
+                                      .damping_n_s_per_m = wanted.damping_n_s_per_m});
   device_.write(output.command);
   if (output.dropped && model_ != nullptr) model_->wait_for_lift();
 
@@ -244,9 +244,11 @@ ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
   wanted = {.force_n = sample_.in_device(touch_.hand_force_n),
             .hand_height_m = model_->scaling().hand_height_m(touch_.z_m),
             .energy = model_->energy(touch_),
-            .led = pull.leads};
+            .led = pull.leads,
+            .damping_n_s_per_m = touch_.map.damping_n_s_per_m};
   if (!pull.leads) return wanted;
   wanted.force_n = pull.force_n;
+  wanted.damping_n_s_per_m = ScanGuide::kDampingNSPerM;
   wanted.energy = {.stored_j = pull.stored_j, .stiffness_n_per_m = pull.stiffness_n_per_m, .given_j = pull.given_j};
   return wanted;
 }

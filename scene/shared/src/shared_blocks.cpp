@@ -180,6 +180,8 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
     return model_refused(
         "its map of modulus and adhesion is felt with the laws dmt, jkr and hertz alone, without friction");
   }
+  if (material.viscous_map > material.law_map)
+    return model_refused("its viscosity needs a map of modulus and adhesion");
   const bool traced = material.height_field == kTopography && topography.columns > 0;
   if (material.height_field != kNoHeightField && material.height_field >= height_field_count && !traced) {
     return model_refused("its surface does not exist");

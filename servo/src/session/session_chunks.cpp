@@ -81,7 +81,7 @@ std::string bytes_of(const scene::SharedLawMap& map) {
 }
 
 std::uint32_t version_of(const RecordedSession& session) {
-  if (session.law_map) return kVersionWithLawMap;
+  if (session.law_map) return session.parameters.viscous_map != 0 ? kVersionWithViscousMap : kVersionWithLawMap;
   if (scene::taps(session.parameters)) return kVersionWithSwing;
   if (!session.particles) return kSessionVersion;
   if (has_level(*session.particles)) return kVersionWithLevel;

@@ -114,18 +114,20 @@ bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
   return version == kVersionWithHold || scene::has_rods(set) == (version == kVersionWithRods);
 }
 
+bool has_law_map(std::uint32_t version) { return version == kVersionWithLawMap || version == kVersionWithViscousMap; }
+
 // Size of a sample in a file of this version of chunks.
 std::size_t sample_bytes_in(std::uint32_t version) {
   if (version == kVersionWithLevel) return sizeof(TipSample);
-  if (version >= kVersionWithPlans && version != kVersionWithLawMap) return kSampleBytesWithoutLevel;
+  if (version >= kVersionWithPlans && !has_law_map(version)) return kSampleBytesWithoutLevel;
   if (version == kVersionWithSwing) return kSampleBytesWithoutPlan;
-  const bool without_push = version == kSessionVersion || version == kVersionWithLawMap;
+  const bool without_push = version == kSessionVersion || has_law_map(version);
   return without_push ? kSampleBytesWithoutPush : kSampleBytesWithoutSwing;
 }
 
-// Reads version 6 to 15; returns an error message, or nothing.
+// Reads version 6 to 18; returns an error message, or nothing.
 std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
-  const bool with_map = version == kVersionWithLawMap;
+  const bool with_map = has_law_map(version);
   const bool with_particles = version != kSessionVersion && version != kVersionWithSwing && !with_map;
   SessionDecoder decoder(file);
   nlohmann::json last_frame;
@@ -142,6 +144,8 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
       if (std::string wrong = read_header(payload, sample_bytes_in(version), session); !wrong.empty()) return wrong;
       if (scene::taps(session.parameters) != (version == kVersionWithSwing)) return "its lever is of another version";
       if ((session.parameters.law_map != 0) != with_map) return "its law is of another version";
+      if ((session.parameters.viscous_map != 0) != (version == kVersionWithViscousMap))
+        return "its map is of another version";
     } else if (decoder.name() == kSurfaceChunk) {
       if (payload.size() != sizeof(SharedHeightField) || !take(payload, session.surface.emplace())) {
         return "the size of its surface differs from this program's";
@@ -320,7 +324,7 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   if (!take(body, version)) return bad("it is truncated");
   constexpr std::array kVersions{kVersionOf010,       kSessionVersion,   kVersionWithParticles, kVersionWithRods,
                                  kVersionWithHold,    kVersionWithSwing, kVersionWithPlans,     kVersionWithLift,
-                                 kVersionWithIslands, kVersionWithLevel, kVersionWithLawMap};
+                                 kVersionWithIslands, kVersionWithLevel, kVersionWithLawMap,    kVersionWithViscousMap};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

@@ -72,6 +72,7 @@ nlohmann::json json_of(const scene::SharedContact& m) {
   }
   if (m.surface_release_m != 0.0) json["surface_release_m"] = m.surface_release_m;
   if (m.law_map != 0) json["law_map"] = true;
+  if (m.viscous_map != 0) json["viscous_map"] = true;
   if (m.dynamic != 0) json["dynamics"] = json_of(m.lever);
   if (scene::taps(m)) {
     json["tapping"] = json_of(m.lever);
@@ -108,6 +109,7 @@ scene::SharedContact parameters_of(const nlohmann::json& json, const std::string
   }
   m.surface_release_m = json.value("surface_release_m", 0.0);
   m.law_map = json.value("law_map", false) ? 1 : 0;
+  m.viscous_map = json.value("viscous_map", false) ? 1 : 0;
   if (const auto dynamics = json.find("dynamics"); dynamics != json.end()) {
     m.dynamic = 1;
     m.lever = lever_of(*dynamics);

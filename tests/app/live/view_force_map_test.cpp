@@ -35,6 +35,16 @@ class ViewForceMap : public ::testing::Test {
     ASSERT_EQ(done.exit_code, 0) << "xdotool " << what << ": " << done.err << " (package xdotool)";
   }
 
+  // Presses a key until the log says so: a busy machine may lose one.
+  void press(support::LiveProgram& view, const std::string& key, const char* words) const {
+    bool said = false;
+    for (int presses = 0; presses < 20 && !said; ++presses) {
+      xdotool("key " + key);
+      said = view.says(words, std::chrono::seconds(2));
+    }
+    ASSERT_TRUE(said) << view.said();
+  }
+
   // Moves the hand upwards by this, in steps of a pixel with pauses, or at once.
   void lift(double up_m, int steps = 1) const {
     std::string moves = "mousemove 320 240 mousedown 3";
@@ -125,13 +135,7 @@ TEST_F(ViewForceMap, ShowsTheModulusOfItsFitsAndTheOtherPictures) {
   xdotool("search --sync --name TouchAFM");
   for (const char* shown :
        {"the picture shows the adhesion", "the picture shows the height", "the picture shows the modulus, 6"}) {
-    // a busy machine may lose a key
-    bool said = false;
-    for (int presses = 0; presses < 20 && !said; ++presses) {
-      xdotool("key F4");
-      said = view.says(shown, std::chrono::seconds(2));
-    }
-    ASSERT_TRUE(said) << view.said();
+    press(view, "F4", shown);
   }
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
@@ -156,6 +160,9 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
                              "30nm",
                              "--felt",
                              "map",
+                             "--viscous-map",
+                             "--equal-force",
+                             "0.5nN",
                              "--size",
                              "640x480",
                              "--eye-width",
@@ -169,11 +176,14 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
                              "--validate"},
                             display_.name());
   ASSERT_TRUE(view.says("the whole map is felt: E ")) << view.said();
+  ASSERT_TRUE(view.says("the surface of 500 pN, which 12 of 12 curves reach")) << view.said();
   ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
   xdotool("search --sync --name TouchAFM");
   ASSERT_TRUE(touch(view)) << view.said();
   lift(0.130);
   ASSERT_NE(view.says_one_of({"jump off contact", "force off"}), "") << view.said();
+  press(view, "F3", "a slice shows the forces along the tip's line");
+  press(view, "F4", "the picture shows the adhesion");
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
   int touched = 0;
@@ -185,7 +195,7 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
     if (session->find(physics::EventKind::JumpToContact) != nullptr) ++touched;
     const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
     EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
-    EXPECT_THAT(replayed.out, HasSubstr("felt over a map of modulus and adhesion of 4 x 3 points"));
+    EXPECT_THAT(replayed.out, HasSubstr("felt over a viscous map of modulus and adhesion of 4 x 3 points"));
     EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
   }
   EXPECT_GE(touched, 1) << "no session of the map touches";
@@ -220,6 +230,12 @@ TEST(ViewForceMapFiles, AreRefusedWithTheReason) {
   const auto lawless = view("holed.jpk-force-map", "--felt map --fit cone --half-angle 20deg");
   EXPECT_EQ(lawless.exit_code, 2);
   EXPECT_THAT(lawless.err, HasSubstr("fit it with --fit dmt, jkr, paraboloid or sphere"));
+  const auto surfaceless = view("holed.jpk-force-map", "--equal-force 1nN");
+  EXPECT_EQ(surfaceless.exit_code, 2);
+  EXPECT_THAT(surfaceless.err, HasSubstr("--equal-force: the surface lies over a map that is felt whole"));
+  const auto solid = view("holed.jpk-force-map", "--viscous-map");
+  EXPECT_EQ(solid.exit_code, 2);
+  EXPECT_THAT(solid.err, HasSubstr("--viscous-map: only a map that is felt whole is viscous"));
   const auto shapeless = view("holed.jpk-force-map", "--radius 50nm");
   EXPECT_EQ(shapeless.exit_code, 2);
   EXPECT_THAT(shapeless.err, HasSubstr("add --fit SHAPE"));

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 
 namespace afm::curves {
 
+class ForceVolume;
 struct FitOptions;
 
 // A fitted force map as one sample that is felt whole: modulus and adhesion of the usable fits, those of all other
@@ -24,10 +26,11 @@ struct FeltMap {
   physics::Law law = physics::Law::Dmt;  // Hertz: the tip hardly sticks
   double poisson = 0.5;                  // Poisson's ratio of the fits
   scene::SharedLawMap laws;
-  scene::Topography heights;    // 0 at the middle
-  MapGrid grid;                 // grid of the pixels
-  std::vector<bool> is_filled;  // pixels without a usable fit, in the order of CurveMap::fits()
-  std::size_t filled = 0;       // number of such pixels
+  scene::Topography heights;                    // 0 at the middle
+  MapGrid grid;                                 // grid of the pixels
+  std::vector<bool> is_filled;                  // pixels without a usable fit, in the order of CurveMap::fits()
+  std::size_t filled = 0;                       // number of such pixels
+  std::shared_ptr<const ForceVolume> volume{};  // its curves, to be seen; null: not kept
 };
 
 inline constexpr std::size_t kLeastFits = 4;
@@ -37,9 +40,10 @@ inline constexpr double kLeastShare = 0.25;  // share of the pixels
 // or kLeastShare of the pixels have a usable one. `options` are those of the map's fits.
 core::Result<FeltMap> felt_map(const CurveMap& map, const FitOptions& options);
 
-// The sample of a whole map; lever and look are those of its pixel. Fails as haptics::LawFamily and haptics::Scaling,
-// with a line that names the file.
-core::Result<SampleModel> make_sample_model(const SampleModel& pixel, const FitOptions& options);
+// The sample of a whole map, with its curves; lever and look are those of its pixel. Fails as haptics::LawFamily and
+// haptics::Scaling, with a line that names the file.
+core::Result<SampleModel> make_sample_model(const SampleModel& pixel, const FitOptions& options,
+                                            std::shared_ptr<const ForceVolume> volume = nullptr);
 
 // Pixel of the map below a tip at this place of the sample, metres as felt; empty beside the map.
 std::optional<MapPlace> pixel_below(const SampleModel& model, const std::array<double, 2>& xy_m);

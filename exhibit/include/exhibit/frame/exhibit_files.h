@@ -61,6 +61,8 @@ struct ExhibitFiles {
   std::optional<std::array<std::size_t, 2>>
       pixel;                                // its column and row to feel first (curves::MapPlace); empty: the middle
   bool whole_map = false;                   // true: the whole fitted map is felt, not one pixel
+  bool viscous_map = false;                 // true: it also damps the hand
+  std::optional<double> equal_force_n{};    // force of the surface over it that is shown first; empty: none
   std::vector<std::string> shown;           // names; empty: all of the user's file, or the paper's three
   std::vector<scene::MaterialEntry> added;  // shown after the others
 };

@@ -94,6 +94,9 @@ inline constexpr double kShadeRadius = 0.085;  // soft shade at the contact
 inline constexpr double kScanLineRadius = 0.004;
 inline constexpr double kScanLineLift = 0.004;  // height above the surface
 inline constexpr double kReliefLift = 0.003;    // height of an image above the surface that it shows
+// the curves of a force map over the sample, and the colour scale of their forces
+inline constexpr double kVolumeHeight = 0.75 * kStrokeHeight, kLeastVolumeHeight = 0.3 * kStrokeHeight;
+inline constexpr double kForceBarWidth = 0.08;  // share of its height
 // smaller than the instrument's stroke, so that the hand stays below the banner
 inline constexpr double kAnalogyScale = 0.55;
 inline constexpr double kAnalogyLabelWidth = 0.40;

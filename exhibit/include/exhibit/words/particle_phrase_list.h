@@ -106,4 +106,5 @@
   PHRASE(MapFilled, "map-filled", "", kLine)                   \
   PHRASE(MapDoubtful, "map-doubtful", "", kLine)               \
   PHRASE(MapBeside, "map-beside", "", kLine)                   \
+  PHRASE(SliceHeight, "slice-height", "height", kLine)         \
   PHRASE(ContactDoubtful, "contact-doubtful", "", kLine)

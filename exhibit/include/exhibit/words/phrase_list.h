@@ -283,6 +283,7 @@
   PHRASE(KeyTruth, "key-truth", "", kLine)                   \
   PHRASE(KeyFalseColours, "key-false-colours", "", kLine)    \
   PHRASE(KeyMapPicture, "key-map-picture", "", kLine)        \
+  PHRASE(KeyMapVolume, "key-map-volume", "", kLine)          \
   PHRASE(KeyFriction, "key-friction", "", kLine)             \
   PHRASE(KeyStroboscope, "key-stroboscope", "", kLine)       \
   PHRASE(KeyScanHand, "key-scan-hand", "", kLine)            \

@@ -68,8 +68,8 @@ struct SharedContact {
   double drive_hz = 0;
   double viscosity_pa_s = 0;  // viscosity under the tip
   physics::FrictionParameters friction{};
-  std::uint32_t law_map = 0;  // 1: modulus and adhesion are those of the model's map at each place
-  std::uint32_t padding = 0;
+  std::uint32_t law_map = 0;      // 1: modulus and adhesion are those of the model's map at each place
+  std::uint32_t viscous_map = 0;  // 1: with law_map, a damping that grows with the energy that the law loses there
 };
 
 // True if the material is felt by a lever in tapping mode.

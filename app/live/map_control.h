@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "app/view/view_control.h"
+#include "exhibit/state/wall_state.h"
+
+namespace afm::curves {
+struct SampleModel;
+}
+namespace afm::exhibit {
+class VolumeView;
+}
+
+namespace afm::app {
+
+struct ViewParts;
+
+// A force map that is felt whole, on its sample: the quantity of its picture in false colours, a slice through its
+// curves, and the surface on which they have one force.
+class MapControl final : public ViewControl {
+ public:
+  // `equal_force_n` is that of the surface that is shown first; empty: none.
+  MapControl(ViewParts& parts, std::optional<double> equal_force_n);
+  ~MapControl() override;
+
+  // Shows the slice, the surface of equal force, both, or neither; without such a map, a line of the log says so.
+  void next_volume();
+
+  void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
+  void add_to_picture(render::FrameState& picture, const ViewFrame& frame) override;
+  void restart(Restart what) override;
+
+ private:
+  enum class Seen { Nothing, Slice, Surface, Both };
+  struct Laid;  // what was laid on the sample last
+
+  const curves::SampleModel* map() const;  // null: another sample, or none, is under the tip
+  void lay_colours(const curves::SampleModel& map, render::FrameState& picture);
+
+  ViewParts& parts_;
+  exhibit::WallState wall_;  // of this frame
+  bool retracting_ = false;
+  std::unique_ptr<const Laid> laid_;                   // null: nothing
+  Seen seen_ = Seen::Nothing, first_ = Seen::Nothing;  // now, and at the start
+  std::optional<double> equal_force_n_;
+  std::unique_ptr<exhibit::VolumeView> volume_;  // null until something was shown
+};
+
+}  // namespace afm::app

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "curves/force_volume.h"
+#include "exhibit/state/wall_state.h"
+#include "render/frame.h"
+#include "scene/graph/scene.h"
+#include "scene/shared/shared_blocks.h"
+
+namespace afm::curves {
+struct SampleModel;
+}
+
+namespace afm::exhibit {
+
+class WallScene;
+
+// The curves of a force map that is felt whole, as seen over its sample. Every curve begins on the drawn surface, which
+// is the deepest point that it reached; above it, heights have the scale of the ruler, or another one if the curves
+// would be higher than kVolumeHeight or lower than kLeastVolumeHeight. Keeps what it has drawn until something else is
+// to be seen. One thread.
+class VolumeView {
+ public:
+  // `wall_scene` must outlive the object, and have been loaded with UserModels::force_volume.
+  explicit VolumeView(const WallScene& wall_scene);
+
+  // Adds an upright slice along the scan line through the tip, in the colours of forces, with their scale at its right
+  // end. Nothing where no sample is shown. Call after WallScene::update(), with the same state.
+  void add_slice(const curves::SampleModel& model, const WallState& state, curves::ForceVolume::Way way,
+                 render::FrameState& frame);
+
+  // Adds the surface on which the curves have this force, translucent, with the force at its left end: a push on the
+  // approach, a pull, which is negative, on the retract. It is missing where no curve reaches the force.
+  void add_surface(const curves::SampleModel& model, const WallState& state, double force_n, render::FrameState& frame);
+
+ private:
+  // Scales of a sample and its volume on the wall; lengths in units of the layout.
+  struct Scales {
+    double release_z_m = -1;                                // as in WallState
+    double per_m = 0;                                       // for a metre of the sample's frame
+    double per_height_m = 0;                                // for a metre along the curves
+    double lateral = 1;                                     // metres of the sample's frame per metre as measured
+    double top = 0;                                         // height of the curves
+    glm::dvec2 size_m{0.0};                                 // between the middles of the outermost pixels, as measured
+    glm::dvec2 map_m{0.0};                                  // whole map
+    std::function<double(double x_m, double y_m)> drawn_m;  // the drawn surface, in metres of its own
+    scene::TopographyScale shown{};                         // metres of the sample's frame per such metre
+    double floor = 0, lid = 0;                              // of the surface, and of the highest curve over it
+  };
+  // What was drawn last.
+  struct Slice {
+    std::size_t row = 0;
+    curves::ForceVolume::Way way{};
+    std::vector<scene::Vertex> vertices;
+    double left = 0, right = 0;  // heights of the surface at its ends
+  };
+  struct Surface {
+    double force_n = 0;
+    std::vector<scene::Vertex> vertices;
+    double left = 0;  // its height at the left end of its front
+  };
+
+  const Scales& scales_of(const curves::SampleModel& model, const WallState& state);
+  double surface(const Scales& scales, double x_m, double y_m) const;
+  Slice cut(const curves::ForceVolume& volume, const Scales& scales, double y_m, curves::ForceVolume::Way way) const;
+  Surface raise(const curves::ForceVolume& volume, const Scales& scales, double force_n) const;
+  void add_bar(const curves::ForceVolume& volume, const Scales& scales, const glm::dvec3& foot,
+               render::FrameState& frame) const;
+  void write(const std::string& text, const glm::dvec3& place, render::FrameState& frame) const;
+
+  const WallScene& wall_scene_;
+  scene::NodeIndex slice_, bar_, equal_force_;
+  std::optional<Scales> scales_;
+  std::optional<Slice> cut_;
+  std::optional<Surface> raised_;
+};
+
+}  // namespace afm::exhibit
