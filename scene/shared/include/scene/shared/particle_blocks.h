@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "physics/manipulation/particle_law.h"
-#include "physics/manipulation/push_state.h"
+#include "physics/manipulation/particle_terms.h"
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/name.h"
 #include "scene/shared/soft_blocks.h"
