@@ -7,17 +7,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
 #include <string>
 #include <utility>
 
 #include "core/clock.h"
 #include "core/log.h"
+#include "haptics/felt_scratch.h"
 #include "haptics/law_family.h"
+#include "haptics/particle_scale.h"
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
 #include "physics/law.h"
-#include "physics/manipulation/scratching_tip.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::app {
@@ -199,35 +201,43 @@ core::Result<WorkFigure> measure_case(const WorkCase& work, const MeasuredSurfac
   return WorkFigure{work.name, core::percentiles(std::move(us)), work.p50_bar_us, work.p99_bar_us};
 }
 
-// A silicon tip that a hand drags over PMMA with about 100 nN, there and back beside its own grooves.
-WorkFigure measure_scratching(std::size_t ticks) {
-  using physics::Length, physics::LeverBase;
-  constexpr double kStepM = 0.3e-9, kBesideM = 3e-9, kHalfM = 150e-9, kPressedM = -106e-9;
+// A silicon tip that a hand drags over PMMA with about 100 nN, there and back beside its own grooves: what a tick of
+// the servo has to do for it, with the tile that is published.
+core::Result<WorkFigure> measure_scratching(std::size_t ticks) {
+  constexpr double kStepM = 0.3e-9, kBesideM = 3e-9, kHalfM = 150e-9, kPressedM = -106e-9, kOverM = 30e-9;
   constexpr double kHalfAngle = 0.35;  // radians
-  const physics::SoftSurface pmma{.hardness = physics::Pressure(0.3e9),
-                                  .reduced_modulus = physics::Pressure(3.4e9),
-                                  .work_of_adhesion = physics::SurfaceEnergy(0.08),
-                                  .pile_up_share = 0.7};
-  const physics::PushSprings springs{physics::Stiffness(10.0), physics::Stiffness(1.0), physics::Stiffness(100.0)};
+  const auto pmma = std::make_unique<scene::SharedParticles>();
+  pmma->pusher = {.tip_radius_m = 20e-9,
+                  .half_angle_rad = kHalfAngle,
+                  .lateral_spring_n_per_m = 10.0,
+                  .normal_spring_n_per_m = 1.0,
+                  .contact_stiffness_n_per_m = 100.0};
+  pmma->soft = {.name = scene::to_name("PMMA"),
+                .hardness_pa = 0.3e9,
+                .reduced_modulus_pa = 3.4e9,
+                .work_of_adhesion_j_per_m2 = 0.08,
+                .pile_up_share = 0.7};
+  const auto scale = haptics::particle_scale(*pmma, haptics::SimulatedDevice().spec());
+  if (!scale) return tl::unexpected(scale.error());
+  haptics::FeltScratch felt(*pmma, *scale, 1e-9 * static_cast<double>(kPeriodNs));
   double x_m = -kHalfM, y_m = -kHalfM, step_m = kStepM, beside_m = kBesideM;
-  physics::ScratchingTip tip({.radius = Length(20e-9), .half_angle_rad = kHalfAngle}, springs, pmma,
-                             {Length(-kHalfM), Length(-kHalfM)}, {Length(kHalfM), Length(kHalfM)},
-                             {{Length(x_m), Length(y_m)}, Length(kPressedM)});
+  for (double z_m = kOverM; z_m > kPressedM; z_m -= kStepM) felt.step({x_m, y_m}, z_m, 1e-3);
   const core::MonotonicClock clock;
   std::vector<double> us(ticks);
   for (double& each : us) {
     x_m += step_m;
+    y_m += beside_m * kStepM / (2.0 * kHalfM);
     if (std::abs(x_m) > kHalfM) {
       step_m = -step_m;
       x_m += 2.0 * step_m;
-      if (std::abs(y_m + beside_m) > kHalfM) beside_m = -beside_m;
-      y_m += beside_m;
+      if (std::abs(y_m) > kHalfM) beside_m = -beside_m;
     }
     const std::int64_t before_ns = clock.now_ns();
-    tip.move_to({{Length(x_m), Length(y_m)}, Length(kPressedM)});
+    felt.step({x_m, y_m}, kPressedM, 1e-3);
+    felt.next_tile();
     each = 1e-3 * static_cast<double>(clock.now_ns() - before_ns);
   }
-  return {"scratching PMMA", core::percentiles(std::move(us)), 0, kDearestBar_us};
+  return WorkFigure{"scratching PMMA", core::percentiles(std::move(us)), 0, kDearestBar_us};
 }
 
 }  // namespace
@@ -279,7 +289,9 @@ core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks, cons
     if (!figure) return tl::unexpected(figure.error());
     figures.push_back(std::move(*figure));
   }
-  figures.push_back(measure_scratching(ticks));
+  auto scratching = measure_scratching(ticks);
+  if (!scratching) return tl::unexpected(scratching.error());
+  figures.push_back(std::move(*scratching));
   return figures;
 }
 

@@ -19,10 +19,12 @@
 #include "core/whole_file.h"
 #include "core/written_by.h"
 #include "curves/image_output.h"
+#include "exhibit/report/ink_report.h"
 #include "exhibit/report/scratch_report.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/hand_script.h"
+#include "scene/samples/ink_run.h"
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/pattern_state.h"
@@ -248,18 +250,28 @@ core::Result<void> run_scratch(const scene::ParticleSet& set, const ParticlesOpt
   return certified(run.least_margin_j, run.moves.back().end.tick.given, path);
 }
 
+core::Result<void> run_ink(const scene::ParticleSet& set, const ParticlesOptions& options) {
+  const scene::InkRun run = scene::play_ink(set, options.script.rate);
+  auto written = write_stdout((options.json ? exhibit::ink_json : exhibit::ink_text)(set, run, options.script.rate));
+  if (!written || options.out.empty()) return written;
+  return core::write_file(options.out, curves::gwy_bytes(run.image));
+}
+
 core::Result<void> run_particles(const ParticlesOptions& options, const std::string& assets_dir) {
   const auto path = scene::particle_file(options.file, assets_dir);
   if (!path) return tl::unexpected(path.error());
   const auto set = scene::load_particle_set(*path);
   if (!set) return tl::unexpected(set.error());
-  if (!options.out.empty() && !(set->soft && options.out.ends_with(".gwy"))) {
-    return core::wrong_usage("--out: takes the image of a soft sample, in a file that ends in .gwy");
+  if (!options.out.empty() && !((set->soft || set->ink) && options.out.ends_with(".gwy"))) {
+    return core::wrong_usage("--out: takes the image of a soft sample or of ink, in a file that ends in .gwy");
   }
   const bool has_islands = std::any_of(set->setup.species.begin(), set->setup.species.end(), physics::is_island);
-  if (options.script.level > 0 && (set->soft || has_islands)) {
+  if (options.script.level > 0 && (set->soft || set->ink || has_islands)) {
     return core::wrong_usage(fmt::format("--level {}: only spheres and rods have a picture that grows old; {} has {}",
-                                         options.script.level, *path, set->soft ? "a soft sample" : "flat islands"));
+                                         options.script.level, *path,
+                                         set->soft  ? "a soft sample"
+                                         : set->ink ? "ink"
+                                                    : "flat islands"));
   }
   const double ticks = scene::all_ticks(*set, options.script.rate);
   if (ticks > kMostTicks) {
@@ -269,6 +281,7 @@ core::Result<void> run_particles(const ParticlesOptions& options, const std::str
                     *path, ticks / options.script.rate.si, ticks, options.script.rate.si, kMostTicks));
   }
   if (set->soft) return run_scratch(*set, options, *path);
+  if (set->ink) return run_ink(*set, options);
   const scene::ScriptedPush played = scene::play(*set, options.script);
   auto written = options.json ? write_stdout(particles_json(*set, options, played))
                               : write_report(particles_text(*set, options, played));
@@ -279,9 +292,10 @@ core::Result<void> run_particles(const ParticlesOptions& options, const std::str
 }  // namespace
 
 void add_particles_command(OptionList& program, const CommandContext& context) {
-  OptionList command = program.add_command(
-      "particles",
-      "push particles on a sample, or scratch it, with a scripted tip, without a window, and print forces and places");
+  OptionList command = program.add_command("particles",
+                                           "push particles on a sample, scratch it, or write on it with ink, with a "
+                                           "scripted tip, without a window, and print "
+                                           "forces and places");
   const auto options = std::make_shared<ParticlesOptions>();
   command
       .add_option(
@@ -315,12 +329,14 @@ void add_particles_command(OptionList& program, const CommandContext& context) {
       "with --level 1 or 2: the hand never looks again at what it has pushed");
   command.add_flag("--json", options->json,
                    "print figures, sources, states, events and final places as JSON, with the unit in each key");
-  command.add_option("--out", options->out, "write the scratched sample to FILE, an image of its heights (.gwy)")
+  command
+      .add_option("--out", options->out, "write the scratched or inked sample to FILE, an image of its heights (.gwy)")
       .writable_file()
       .type_name("FILE");
   command.footer(
       "example: touchafm particles gold-row\n"
       "         touchafm particles scratch-pmma --out scratch.gwy\n"
+      "         touchafm particles write-ink\n"
       "         touchafm particles my-set.toml --json --rate 4kHz --samples 1000\n"
       "The exit code is 1 if the hand gained energy, which would be a fault of the program.");
   command.when_chosen([options, &context] { return run_particles(*options, context.assets_dir); });

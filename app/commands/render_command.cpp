@@ -307,7 +307,8 @@ core::Result<void> run_render(const RenderOptions& options) {
                                         .push = replayed->push,
                                         .score = task ? task->score() : scene::TaskScore{},
                                         .plan = replayed->plan,
-                                        .picture = replayed->picture ? &*replayed->picture : nullptr};
+                                        .picture = replayed->picture ? &*replayed->picture : nullptr,
+                                        .tiles = replayed->tiles};
   const exhibit::ParticlesNow* shown = session->particles ? &particles : nullptr;
   if (!session->wall.empty()) return draw_frame(*stage, models, *session, shown, time_ns, options);
   return draw_replayed(*stage, models, *session, material, shown, time_ns, options);

@@ -14,6 +14,7 @@
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scenery/push_planner.h"
 #include "exhibit/state/moment.h"
+#include "exhibit/words/guidance.h"
 #include "servo/live_picture.h"
 #include "servo/servo_client.h"
 
@@ -39,8 +40,12 @@ void ParticlesControl::take_back() {
     return core::log_line(
         "take back: no push at level 2, where the sample has drifted since; R puts all particles back");
   }
-  if (parts_.servo.link().push().strokes == 0) return core::log_line("take back: no push has moved a particle");
-  core::log_line("take back: the last push");
+  const bool soft = now_.set->soft != nullptr;
+  if (parts_.servo.link().push().strokes == 0) {
+    return core::log_line(soft ? "take back: no scratch has marked the sample"
+                               : "take back: no push has moved a particle");
+  }
+  core::log_line(soft ? "take back: the last scratch" : "take back: the last push");
   give(Order::TakeBack);
 }
 
@@ -89,7 +94,7 @@ void ParticlesControl::restart(Restart what) {
   send_plan();
   if (what == Restart::Servo) return begin_task();
   if (!parts_.servo.running() || !parts_.servo.material()) return;
-  core::log_line("take back: all pushes");
+  core::log_line(now_.set->soft ? "take back: all scratches" : "take back: all pushes");
   give(Order::PutBack);
 }
 
@@ -110,6 +115,8 @@ void ParticlesControl::update(const ViewFrame& frame) {
   now_.pages = picture != nullptr ? picture->shown() : link.particle_pages();
   now_.picture = picture != nullptr ? &picture->now() : nullptr;
   now_.push = link.push();
+  now_.tiles = link.mark_tiles();
+  now_.marks = link.marks();
   if (!parts_.servo.running()) return;
   if (task_) follow_task();
   if (order_ != Order::None) carry_out(frame.now_ns);
@@ -138,6 +145,14 @@ void ParticlesControl::follow_task() {
   if (!ends) return;
   core::log_line("the pattern is done: " + scene::text_of(now_.score));
   parts_.sound.narrator().happened(exhibit::HeardEvent::PatternDone, parts_.servo.link().tip().material);
+}
+
+std::optional<std::string> ParticlesControl::guidance(const exhibit::Phrases& phrases) const {
+  const scene::TipState& tip = parts_.servo.link().tip();
+  const bool scratches = now_.set->soft && exhibit::pushes_particles(tip) &&
+                         tip.servo_state == scene::ServoState::Running && tip.phase != physics::Phase::WaitForLift;
+  if (!scratches) return std::nullopt;
+  return phrases[tip.phase == physics::Phase::Attached ? exhibit::Phrase::SoftDrag : exhibit::Phrase::SoftPress];
 }
 
 void ParticlesControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {

@@ -25,6 +25,8 @@ std::string log_text(const scene::TipEvent& event) {
   if (event.kind == physics::EventKind::PushTakenBack) return "the last push was taken back";
   if (event.kind == physics::EventKind::ParticlesPutBack) return "all pushes were taken back";
   if (event.kind == physics::EventKind::LookedAgain) return "looking again, as long as the tip stays lifted";
+  if (event.kind == physics::EventKind::SurfaceMarked)
+    return fmt::format("the tip marks the sample, load {:.4f} nN", event.force_after_n * 1e9);
   if (event.kind == physics::EventKind::JumpToRepulsion || event.kind == physics::EventKind::JumpToAttraction) {
     const bool in = event.kind == physics::EventKind::JumpToRepulsion;
     return fmt::format("jump to the {} state at Z = {:.3f} nm, mean force {:.4f} nN", in ? "repulsive" : "attractive",

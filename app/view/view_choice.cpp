@@ -77,7 +77,7 @@ void ViewChoice::enter() {
 
 // The new scale takes effect once the tip is off the sample, like another material.
 void ViewChoice::next_scale() {
-  const bool has_particles = parts_.servo.running() && parts_.servo.link().model().particles.count > 0;
+  const bool has_particles = parts_.servo.running() && scene::are_there(parts_.servo.link().model().particles);
   scale_ = scene::after(scale_, has_particles);
   const scene::ScaleModeText& text = scene::text_of(scale_);
   core::log_line(fmt::format("scale {}: {}", text.word, text.meaning));

@@ -235,7 +235,8 @@ TEST(ParticlesCommand, ScratchesASoftSample) {
   EXPECT_LT(*std::min_element(heights.begin(), heights.end()), -8e-9);
   expect_refusal(particles("gold-row --out " + file), 2, "image of a soft sample");
   expect_refusal(particles("scratch-pmma --out " + file + ".png"), 2, "ends in .gwy");
-  expect_refusal(support::run_program(support::touchafm() + " view --particles scratch-pmma"), 2, "soft sample");
+  expect_refusal(support::run_program(support::touchafm() + " view --particles scratch-pmma --level 1"), 2,
+                 "there are no particles");
 }
 
 TEST(ParticlesCommand, TurnsAnIslandAtAnyRate) {
@@ -324,11 +325,27 @@ TEST(ParticlesCommand, FailsOnAnOldPictureUnlessTheHandLooksAgain) {
   EXPECT_EQ(json_of("--level 2"), looks);
 }
 
+TEST(ParticlesCommand, WritesWithInk) {
+  const ProgramResult result = particles("write-ink --json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_NEAR(json["moves"][4]["width_m"].get<double>(), 216e-9, 11e-9);
+  EXPECT_EQ(json["sources"].size(), 3U);
+  EXPECT_THAT(particles("write-ink").out, HasSubstr("a line at 100 nm/s   216 nm wide"));
+  const support::ScratchFolder folder;
+  const std::string file = folder.file("ink.gwy");
+  EXPECT_EQ(particles("write-ink --out " + file).exit_code, 0);
+  const auto image = curves::load_image(file);
+  ASSERT_TRUE(image) << image.error().message;
+  expect_refusal(particles("write-ink --level 1"), 2, "ink");
+  expect_refusal(support::run_program(support::touchafm() + " view --particles write-ink"), 2, "a hand cannot do yet");
+}
+
 TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
   expect_refusal(particles(""), 2, "file");
   expect_refusal(particles("silver-row"), 2,
                  "unknown set of particles \"silver-row\"; choose gold-row, islands, latex-letter, pick-and-place, "
-                 "scratch-pmma, sticky-tip, sweep-gold, tube-and-electrodes, write-afm");
+                 "scratch-pmma, sticky-tip, sweep-gold, tube-and-electrodes, write-afm, write-ink");
   expect_refusal(particles("/no/such.toml"), 3, "/no/such.toml");
   expect_refusal(particles("gold-row --rate 4"), 2, "kHz");
   expect_refusal(particles("islands --level 1"), 2, "flat islands");

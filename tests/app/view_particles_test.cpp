@@ -235,5 +235,48 @@ TEST_F(ViewParticles, HaveNoOldPictureWhereTheTipHidesOrTurnsThem) {
   EXPECT_THAT(refused("--particles gold-row --seed 3"), HasSubstr("--level"));
 }
 
+// The last session of the folder, which has been scratched.
+TEST_F(ViewParticles, ASoftSampleIsScratchedAndTakenBackAndReplayedBitForBit) {
+  support::LiveProgram view(
+      {support::touchafm(), "view", "--particles", "scratch-pmma", "--size", "640x480", "--eye-width", "320",
+       "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
+      display_.name());
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  xdotool("key BackSpace");
+  ASSERT_TRUE(view.says("take back: no scratch has marked the sample")) << view.said();
+  xdotool("key 1");
+  ASSERT_TRUE(view.says("chosen: ")) << view.said();
+  bool marked = false;
+  for (int tries = 0; tries < 10 && !marked; ++tries) {
+    drag(0.0, 0.130);
+    bool on = false;
+    for (int presses = 0; presses < 20 && !on; ++presses) {
+      xdotool("key t");
+      on = view.says("force on", std::chrono::seconds(2));
+    }
+    ASSERT_TRUE(on) << view.said();
+    drag(0.0, -0.078, 20);
+    marked = view.says_one_of({"the tip marks the sample", "force off"}) == "the tip marks the sample";
+  }
+  ASSERT_TRUE(marked) << view.said();
+  drag(0.030, 0.0, 60);
+  drag(0.0, 0.130);
+  xdotool("key BackSpace");
+  ASSERT_TRUE(view.says("the last push was taken back")) << view.said();
+  xdotool("key Escape");
+  ASSERT_EQ(view.ends(), 0) << view.said();
+  std::size_t marks = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder_.file("kept"))) {
+    if (file.path().extension() != ".afms") continue;
+    const auto session = servo::load_session(file.path());
+    ASSERT_TRUE(session) << session.error().message;
+    marks += count(*session, physics::EventKind::SurfaceMarked);
+    const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+  }
+  EXPECT_GE(marks, 1U);
+}
+
 }  // namespace view_particles_test
 }  // namespace afm::app

@@ -8,6 +8,7 @@
 #include "exhibit/lesson/questionnaire.h"
 #include "exhibit/panels/parameter_panel.h"
 #include "exhibit/panels/particles_panel.h"
+#include "exhibit/panels/scratch_panel.h"
 #include "exhibit/panels/servo_rows.h"
 #include "exhibit/panels/swing_panel.h"
 #include "exhibit/scan/scan_subject.h"
@@ -137,6 +138,21 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
     set.targets.clear();
     panels.push_back(particles_panel({.set = &set, .push = {.strokes = scene::kMostStrokes}}, phrases));
     panels.push_back(particles_panel({.set = &set}, phrases));
+  }
+  const scene::ParticleSet soft = test::particle_set("scratch-pmma");
+  for (const physics::PushState state :
+       {physics::PushState::Free, physics::PushState::Holds, physics::PushState::Slides}) {
+    panels.push_back(scratch_panel({.set = &soft,
+                                    .push = {.apex_m = {0.0, 0.0, -12.34e-9},
+                                             .lateral_n = {123.4e-9, 0.0},
+                                             .lift_n = 123.4e-9,
+                                             .softened_sideways = 12.3,
+                                             .state = state,
+                                             .met = 1,
+                                             .strokes = scene::kMostStrokes,
+                                             .rise_m = 123.4e-9,
+                                             .fastest_hand_m_per_s = 0.1234}},
+                                   phrases));
   }
   return panels;
 }

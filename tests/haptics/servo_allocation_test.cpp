@@ -16,6 +16,7 @@
 #include "support/no_alloc.h"
 #include "support/no_lock.h"
 #include "support/particles/gold_particles.h"
+#include "support/particles/soft_sample.h"
 #include "support/rough_surface.h"
 
 namespace servo_allocation_test {
@@ -160,6 +161,38 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItPushesAParticle) {
   EXPECT_EQ(bench.state().fault, afm::scene::FaultCode::None);
   EXPECT_GT(held, 10);
   EXPECT_GT(slid, 100);
+}
+
+TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItScratchesASoftSample) {
+  ServoBench bench(afm::test::soft_model());
+  bench.arm(afm::test::kMica, afm::scene::ScaleMode::Particles);
+  const auto send = [&](double x_m, double height_m, double seconds) {
+    bench.renderer.store(
+        afm::scene::HandScript{.target_m = {x_m, height_m, 0.0}, .duration_s = seconds, .revision = ++bench.script});
+  };
+  send(-0.015, 0.030, 0.4);
+  bench.run(0.5);
+  send(-0.015, -0.010, 0.6);
+  bench.run(0.7);
+  send(0.040, -0.010, 0.6);  // some of it too fast
+  int marked = 0, raised = 0;
+  for (int tick = 0; tick < 2600; ++tick) {
+    if (tick == 650) send(-0.030, -0.010, 1.4);
+    if (tick == 2100) send(-0.030, 0.060, 0.4);
+    bench.renderer.store(afm::scene::RendererHeartbeat{});
+    bench.now_ns += bench.loop->period_ns();
+    {
+      const NoAllocation no_allocation;
+      const NoLock no_lock;
+      bench.loop->tick(bench.now_ns, 0);
+    }
+    const auto push = bench.renderer.tip_push();
+    if (push->state == afm::physics::PushState::Slides) ++marked;
+    if (push->rise_m > 0.0) ++raised;
+  }
+  EXPECT_EQ(bench.state().fault, afm::scene::FaultCode::None);
+  EXPECT_GT(marked, 100);
+  EXPECT_GT(raised, 10);
 }
 
 TEST_P(ServoTickOf, NeitherAllocatesNorLocksNorThrowsOverACycle) {

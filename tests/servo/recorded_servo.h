@@ -65,6 +65,7 @@ class Recording {
       : segment_(std::move(*scene::SharedSegment::create(model, 0))),
         renderer_(segment_.renderer_side()),
         pages_(scene::pages_of(model.particles.count)),
+        tiles_(model.particles.soft.hardness_pa > 0.0 ? scene::kMarkTiles : 0),
         loop_(std::move(*haptics::ServoLoop::create(segment_, device, {.rate_hz = 1000.0}))) {}
 
   void choose(int material, scene::ScaleMode mode = scene::ScaleMode::Fit) {
@@ -111,6 +112,9 @@ class Recording {
       for (std::uint32_t page = 0; page < pages_.size(); ++page) {
         if (const auto newer = renderer_.new_particle_page(page)) pages_[page] = *newer;
       }
+      for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile) {
+        if (const auto newer = renderer_.new_mark_tile(tile)) tiles_[tile] = *newer;
+      }
       std::vector<scene::TipEvent> came;
       while (const auto event = renderer_.pop_event()) came.push_back(*event);
       while (const auto sample = renderer_.pop_sample()) {
@@ -154,6 +158,7 @@ class Recording {
 
   scene::TipState state() { return *renderer_.tip_state(); }
   const std::vector<scene::ParticlePage>& pages() const { return pages_; }
+  const std::vector<scene::MarkTile>& tiles() const { return tiles_; }
 
   FaultyDevice device;
   std::vector<RecordedSession> sessions;
@@ -187,7 +192,9 @@ class Recording {
       if (session.parameters.law_map != 0) {
         session.law_map = std::make_shared<scene::SharedLawMap>(segment_.model().law_map);
       }
-      if (!pages_.empty()) session.particles = {.set = segment_.model().particles, .pages = pages_};
+      if (!pages_.empty() || !tiles_.empty()) {
+        session.particles = {.set = segment_.model().particles, .pages = pages_, .tiles = tiles_};
+      }
       if (picture) {
         session.particles->set.level.since_ns = sample.level.since_ns;
         session.particles->picture = picture->state();
@@ -200,6 +207,7 @@ class Recording {
   scene::SharedSegment segment_;
   scene::RendererSide renderer_;
   std::vector<scene::ParticlePage> pages_;  // newest
+  std::vector<scene::MarkTile> tiles_;
   std::unique_ptr<haptics::ServoLoop> loop_;
   std::uint32_t selection_ = 0;
   std::uint32_t script_ = 0;

@@ -100,9 +100,9 @@ core::Result<std::shared_ptr<const scene::ParticleSet>> load_particles(const Exh
   if (!path) return tl::unexpected(path.error());
   auto set = scene::load_particle_set(*path);
   if (!set) return tl::unexpected(set.error());
-  if (set->soft) {
+  if (set->ink) {
     return core::wrong_usage(
-        fmt::format("{} has a soft sample, which a hand cannot scratch yet: play it with touchafm particles", *path));
+        fmt::format("{} writes with ink, which a hand cannot do yet: play it with touchafm particles", *path));
   }
   return std::make_shared<const scene::ParticleSet>(std::move(*set));
 }

@@ -11,8 +11,10 @@
 
 #include "core/enumerators.h"
 #include "curves/plot_units.h"
+#include "exhibit/models/marks_relief.h"
 #include "exhibit/panels/data_panel.h"
 #include "exhibit/panels/particles_panel.h"
+#include "exhibit/panels/scratch_panel.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_relief.h"
 #include "exhibit/scan/scan_subject.h"
@@ -23,6 +25,7 @@
 #include "haptics/scaling.h"
 #include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
+#include "scene/samples/particle_set.h"
 
 namespace afm::exhibit {
 
@@ -187,6 +190,8 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
     wall_scene_->lay_on_sample(relief_of(*moment.scan), moment.wall, frame);
   } else if (moment.wall.false_colours && moment.wall.material) {
     wall_scene_->lay_on_sample(sample_in_colours(*moment.wall.material), moment.wall, frame);
+  } else if (moment.wall.particles != nullptr && !moment.wall.particles->tiles.empty()) {
+    wall_scene_->lay_marks(marks_of(*moment.wall.particles), moment.wall, frame);
   }
   if (moment.wall.centerpiece == Centerpiece::Plot) {
     frame.panels.data.content = results_panel(moment.results, *phrases_);
@@ -199,10 +204,18 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
         .rows = {}};
   }
   if (moment.wall.particles != nullptr) {
-    frame.panels.particles.content = particles_panel(*moment.wall.particles, *phrases_);
+    const ParticlesNow& now = *moment.wall.particles;
+    frame.panels.particles.content = (now.set->soft ? scratch_panel : particles_panel)(now, *phrases_);
   }
   frame.panels.banner.content = banner(moment);
   return frame;
+}
+
+const HeightRelief& FrameBuilder::marks_of(const ParticlesNow& now) const {
+  if (!marks_ || marks_->marks != now.marks) {
+    marks_ = {now.marks, marks_relief(now.tiles, now.set->setup.tip.radius.si)};
+  }
+  return marks_->relief;
 }
 
 // The heights are sampled anew only where another sample, or another size of it, is shown.

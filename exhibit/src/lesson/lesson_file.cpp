@@ -188,6 +188,7 @@ void read_particles(const TomlTable& top, const std::string& assets_dir, Lesson&
   auto set = scene::load_particle_set(*path);
   if (!set) top.refuse("particles", set.error().message);
   if (set->soft) top.refuse("particles", lesson.particles + " has a soft sample, and no particles to push");
+  if (set->ink) top.refuse("particles", lesson.particles + " has ink, and no particles to push");
   if (std::any_of(set->setup.species.begin(), set->setup.species.end(), physics::turns_flat)) {
     top.refuse("particles", lesson.particles + " has rods or islands; a lesson takes spheres alone");
   }

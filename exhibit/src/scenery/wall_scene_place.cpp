@@ -372,4 +372,16 @@ void WallScene::lay_on_sample(const HeightRelief& relief, const WallState& state
   if (!topography_mesh_) add_height_labels(places_, phrases_, relief.range_m, std::nullopt, frame);
 }
 
+void WallScene::lay_marks(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const {
+  lay_on_sample(relief, state, frame);
+  if (state.centerpiece != Centerpiece::Instrument || !state.material) return;
+  const dmat4& frame_of_sample = frame.room_from_node[sample_frame_];
+  const dmat4 down = frame_of_sample *
+                     glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -layout_per_m(state) * relief.range_m)) *
+                     glm::inverse(frame_of_sample);
+  for (scene::NodeIndex i = 0; i < scene_.nodes.size(); ++i) {
+    if (is_below(scene_, looks_[*state.material].sample, i)) frame.room_from_node[i] = down * frame.room_from_node[i];
+  }
+}
+
 }  // namespace afm::exhibit

@@ -16,7 +16,8 @@ using enum HeardEvent;
 // particles: a soft knock for a touch, two for a ride over, a click for a first slip, a long fall for a loss, which a
 // rise takes back; of a tapping lever a click with a glide down or up; a short rise for a pull that moves one, a pluck
 // for a contact that tears, a long rise for a particle that is lifted, a fall with a knock for one that is set down;
-// three notes up for a pattern.
+// three notes up for a pattern. On a soft sample a scrape for the first mark, two dull knocks where the tip stops, a
+// rough rise for a hand that is too fast.
 constexpr std::array kRows{
     HeardEventRow{
         SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},
@@ -132,6 +133,21 @@ constexpr std::array kRows{
                   Phrase::SayLookedAgain,
                   Spoken::AtOnce,
                   {{SignalNote{0, 0.060, 1175, 1175, 0.20, 0}, SignalNote{0.090, 0.060, 1568, 1568, 0.20, 0}}}},
+    HeardEventRow{SurfaceMarked,
+                  Phrase::HeardSurfaceMarked,
+                  Phrase::SaySurfaceMarked,
+                  Spoken::OnRequest,
+                  {{SignalNote{0, 0.090, 349, 294, 0.22, 1.0}}}},
+    HeardEventRow{TipStopped,
+                  Phrase::HeardTipStopped,
+                  Phrase::SayTipStopped,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.050, 262, 220, 0.28, 0.6}, SignalNote{0.080, 0.050, 262, 220, 0.28, 0.6}}}},
+    HeardEventRow{HandTooFast,
+                  Phrase::HeardHandTooFast,
+                  Phrase::SayHandTooFast,
+                  Spoken::OnRequest,
+                  {{SignalNote{0, 0.120, 392, 784, 0.22, 0.6}}}},
 };
 static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
 static_assert([] {

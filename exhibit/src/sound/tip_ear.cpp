@@ -35,6 +35,9 @@ constexpr auto kRows = std::to_array<EventRow>({
     {physics::EventKind::ParticleLifted, HeardEvent::ParticleLifted, ForceOf::Before},
     {physics::EventKind::ParticleSetDown, HeardEvent::ParticleSetDown, ForceOf::Nothing},
     {physics::EventKind::LookedAgain, HeardEvent::LookedAgain, ForceOf::Nothing},
+    {physics::EventKind::SurfaceMarked, HeardEvent::SurfaceMarked, ForceOf::After},
+    {physics::EventKind::TipStopped, HeardEvent::TipStopped, ForceOf::After},
+    {physics::EventKind::HandTooFast, HeardEvent::HandTooFast, ForceOf::Nothing},
 });
 static_assert(core::has_row_for_each(kRows, &EventRow::kind));
 

@@ -7,7 +7,8 @@
 
 namespace afm::physics {
 struct PushSetup;
-}
+struct PushSprings;
+}  // namespace afm::physics
 
 namespace afm::haptics {
 
@@ -19,14 +20,18 @@ namespace afm::haptics {
 // particle before it gives: a force F at the distance r pushes a tip aside like a spring of -F/r, and bent further,
 // lever and grip, each of some 200 N/m, let it slip round the particle. At a flat island it bends so little that the
 // tip climbs at most as much of the rim.
+//
+// On a soft sample the tip, twice its radius, takes the place of the median particle, and threshold_on_hand_n, or
+// kSoftShare of the strongest force, is the load that presses a groove as wide as the radius.
 struct ParticleScale {
   static constexpr double kMaxStiffnessNPerM = 200.0;
   static constexpr double kFieldShare = 0.6;
   static constexpr double kMostBend = 1.0 / 3.0;
+  static constexpr double kSoftShare = 0.5;
 
   double hand_m_per_m = 0;  // 0: there are no particles
   double hand_n_per_n = 0;  // force on the hand by that of a push
-  double clear_z_m = 0;     // a tip at this height or above touches no particle
+  double clear_z_m = 0;     // a tip at this height or above touches no particle; a ridge may be higher
   double softened_sideways = 1;
   double softened_upwards = 1;
 };
@@ -34,9 +39,15 @@ struct ParticleScale {
 // Stiffness of the lever in a hand at this device, at most; the sample's law has the rest of what it can render.
 double particle_stiffness_n_per_m(const DeviceSpec& device);
 
-// Scale for these particles, valid ones (scene::validate), on a device; without particles, the default. Fails if no
-// force moves the median particle, or if the force on the hand would be too faint.
+// Scale for these particles, valid ones (scene::validate), or for a soft sample, on a device; without, the default.
+// Fails if no force moves the median particle, or if the force on the hand would be too faint.
 core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particles, const DeviceSpec& device);
+
+// The same of a soft sample.
+core::Result<ParticleScale> soft_scale(const scene::SharedParticles& particles, const DeviceSpec& device);
+
+// Springs of the lever that are felt on that scale.
+physics::PushSprings felt_springs(const scene::SharedPusher& pusher, const ParticleScale& scale);
 
 // The physics of these particles with the springs that are felt on that scale.
 physics::PushSetup felt_setup(const scene::SharedParticles& particles, const ParticleScale& scale);

@@ -26,6 +26,7 @@ class MonotonicClock;
 namespace afm::haptics {
 
 class FeltParticles;
+class FeltScratch;
 struct RealtimeGrant;
 
 enum class ServoExit { RendererLeft, RendererDied, Stopped };
@@ -108,9 +109,12 @@ class ServoLoop {
   void select_material(std::size_t material, scene::ScaleMode mode) noexcept;
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
   void put_particles() noexcept;
+  void put_marks() noexcept;
   void publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
   void publish_events(std::int64_t now_ns) noexcept;
   void publish_particles() noexcept;
+  void publish_marks() noexcept;
+  scene::PushSample push_sample() const noexcept;
   bool finished() const noexcept;
 
   scene::ServoSide shared_;
@@ -120,6 +124,7 @@ class ServoLoop {
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
   std::unique_ptr<FeltParticles> particles_;  // null: none
+  std::unique_ptr<FeltScratch> soft_;         // the same for a soft sample
   ModelSwap exchange_;
   EditBuilder edits_;
   SafetyGovernor governor_;

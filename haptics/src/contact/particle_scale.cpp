@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
 #include "haptics/scaling.h"
 #include "physics/manipulation/particle_friction.h"
 #include "physics/manipulation/pushed_particles.h"
+#include "physics/manipulation/scratching_tip.h"
 #include "physics/manipulation/tip_contact.h"
 #include "physics/manipulation/tip_hold.h"
 
@@ -21,6 +23,7 @@ namespace {
 // Softest contact of tip and particle relative to the lever that is felt: stiffer ones indent by less than a
 // hundredth of what the lever bends, and only make the descent of several particles slower.
 constexpr double kContactOverLever = 100.0;
+constexpr double kSoftRadii = 12.0;   // side of the part of a soft sample that every hand reaches
 constexpr double kLeastSlope = 1e-3;  // least slope of a flank by which its climb is divided
 
 // Radius as seen from above.
@@ -63,7 +66,56 @@ double hand_m_per_m(const scene::SharedParticles& particles, double diameter_m, 
        field_m_per_m(back_m - front_m, device.workspace_min_m.z, device.workspace_max_m.z, device.contact_point_m.z)});
 }
 
+// Metres of hand per metre for a tip on a soft sample: so many of its radii fill their share of the workspace, though
+// the sample is larger, since a smaller scale would leave a hand too slow.
+double soft_m_per_m(const scene::SharedPusher& pusher, const DeviceSpec& device) {
+  const double side_m = kSoftRadii * pusher.tip_radius_m;
+  return std::min(
+      {pusher.diameter_in_hand_m / (2.0 * pusher.tip_radius_m),
+       field_m_per_m(side_m, device.workspace_min_m.x, device.workspace_max_m.x, device.contact_point_m.x),
+       field_m_per_m(side_m, device.workspace_min_m.z, device.workspace_max_m.z, device.contact_point_m.z)});
+}
+
 }  // namespace
+
+physics::PushSprings felt_springs(const scene::SharedPusher& pusher, const ParticleScale& scale) {
+  return {.lateral = physics::Stiffness(pusher.lateral_spring_n_per_m / scale.softened_sideways),
+          .normal = physics::Stiffness(pusher.normal_spring_n_per_m / scale.softened_upwards),
+          .contact = physics::Stiffness(pusher.contact_stiffness_n_per_m)};
+}
+
+core::Result<ParticleScale> soft_scale(const scene::SharedParticles& particles, const DeviceSpec& device) {
+  const scene::SharedPusher& pusher = particles.pusher;
+  const physics::SoftSurface surface = scene::soft_surface(particles.soft);
+  // the load of a groove as wide as the tip's radius: 2 F = pi H r^2
+  const double half_m = 0.5 * pusher.tip_radius_m;
+  const double load_n = 0.5 * std::numbers::pi * surface.hardness.si * half_m * half_m;
+  const double felt_n = std::min(pusher.threshold_on_hand_n, ParticleScale::kSoftShare * force_cap_n(device));
+  ParticleScale scale{.hand_m_per_m = soft_m_per_m(pusher, device),
+                      .hand_n_per_n = felt_n / load_n,
+                      .clear_z_m = pusher.tip_radius_m,
+                      .softened_sideways = 1,
+                      .softened_upwards = 1};
+  const double most_n_per_m = particle_stiffness_n_per_m(device) * scale.hand_m_per_m / scale.hand_n_per_n;
+  scale.softened_sideways = std::max(1.0, pusher.lateral_spring_n_per_m / most_n_per_m);
+  scale.softened_upwards = std::max(1.0, pusher.normal_spring_n_per_m / most_n_per_m);
+  const double faintest_n = std::min(felt_n, load_n * scale.hand_n_per_n);
+  if (!(faintest_n >= Scaling::kFaintestPullN)) {
+    return core::failure(
+        core::ErrorCategory::Failed,
+        fmt::format("cannot scratch \"{}\" with the {}: a groove would be felt with {:.2g} N, too little; choose "
+                    "another device",
+                    particles.soft.name.data(), device.name, faintest_n));
+  }
+  try {
+    physics::validate_lever(felt_springs(pusher, scale));
+  } catch (const std::invalid_argument& error) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("cannot scratch \"{}\" with a lever as soft as a hand can bear: {}",
+                                     particles.soft.name.data(), error.what()));
+  }
+  return scale;
+}
 
 double particle_stiffness_n_per_m(const DeviceSpec& device) {
   return std::min(ParticleScale::kMaxStiffnessNPerM, 0.5 * device.max_stiffness_n_per_m);
@@ -71,6 +123,7 @@ double particle_stiffness_n_per_m(const DeviceSpec& device) {
 
 core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particles, const DeviceSpec& device) {
   ParticleScale scale;
+  if (particles.soft.hardness_pa > 0.0) return soft_scale(particles, device);
   if (particles.count == 0) return scale;
   const physics::PushSetup setup = scene::push_setup(particles);
   const std::size_t median = median_species(particles);

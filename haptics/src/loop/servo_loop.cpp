@@ -13,6 +13,7 @@
 
 #include "core/clock.h"
 #include "haptics/felt_particles.h"
+#include "haptics/felt_scratch.h"
 #include "haptics/realtime.h"
 
 namespace afm::haptics {
@@ -143,6 +144,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
       particles_(particles_of(segment, model.particles, common.particles, spec_)),
+      soft_(felt_scratch_of(segment, model.particles, common.particles, period_ns_)),
       exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
              {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count},
@@ -155,6 +157,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
   for (std::uint32_t i = 0; particles_ && i < particles_->pages().size(); ++i) {
     shared_.store(particles_->pages()[i], i);
   }
+  for (std::uint32_t i = 0; soft_ && i < scene::kMarkTiles; ++i) shared_.store(soft_->tiles()[i], i);
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
   const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
   std::array<double, 16> room_from_sample{};
@@ -191,6 +194,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   if (particles_) particles_->drift_to(now_ns);
   const Wanted wanted = meet_sample(elapsed_ns);
   put_particles();
+  put_marks();
   bool pulled_off = false;
   for (std::uint32_t i = 0; i < touch_.response.event_count; ++i) {
     pulled_off = pulled_off || touch_.response.events[i].kind == physics::EventKind::JumpOffContact;
@@ -335,7 +339,8 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
   governor_.forget_motion();
   guide_.reset();
   if (particles_) particles_->drop();
-  model_->use(mode, particles_.get());
+  if (soft_) soft_->lift();
+  model_->use(mode, particles_.get(), soft_.get());
   const Scaling& scaling = model_->scaling();
   governor_.set_release_height(scaling.release_height_m());
   state_.material = static_cast<std::int32_t>(material);

@@ -29,6 +29,9 @@ enum class EventKind : std::uint32_t {
   ParticleLifted = 14,     // the tip lifted a particle off the sample, which now hangs on it
   ParticleSetDown = 15,    // a particle on the tip came to lie on the sample
   LookedAgain = 16,        // a person ordered another scan of the particles near the tip, which begins
+  SurfaceMarked = 17,      // a tip began to press a soft sample in
+  TipStopped = 18,         // a tip cannot sink deeper: the load is more than the model of a soft sample bears
+  HandTooFast = 19,        // the lever on a soft sample was raised, because the hand moves faster than it scratches
 };
 
 // Name in reports and replays.
@@ -66,13 +69,19 @@ constexpr const char* name_of(EventKind kind) {
       return "particle-set-down";
     case EventKind::LookedAgain:
       return "looked-again";
+    case EventKind::SurfaceMarked:
+      return "surface-marked";
+    case EventKind::TipStopped:
+      return "tip-stopped";
+    case EventKind::HandTooFast:
+      return "hand-too-fast";
   }
   return "unknown";
 }
 
 // True for a jump of the law, whose forces are normal. Those of other events are lateral, except: for a lifted particle
-// the pull-off from the sample, for particles that were put back or are looked at 0, for a tapping lever the mean over
-// a swing.
+// the pull-off from the sample, for particles that were put back or are looked at 0, for a soft sample the load, for a
+// tapping lever the mean over a swing.
 constexpr bool is_jump(EventKind kind) { return kind == EventKind::JumpToContact || kind == EventKind::JumpOffContact; }
 
 // Both ends of a cycle: a jump, or a change of the state of a tapping lever.

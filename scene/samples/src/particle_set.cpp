@@ -332,13 +332,15 @@ void read_particles(const TomlTable& top, ParticleSet& set) {
 
 ParticleSet read_set(const toml::table& root) {
   const TomlTable top(root);
-  top.allow_only(
-      {"title", "medium", "note", "tip", "lever", "sample", "species", "particle", "target", "pad", "start", "move"});
+  top.allow_only({"title", "medium", "note", "tip", "lever", "sample", "ink", "species", "particle", "target", "pad",
+                  "start", "move"});
   ParticleSet set;
   set.title = top.text("title");
   set.medium = top.text("medium");
   if (top.has("note")) set.note = top.text("note");
-  if (top.has("sample")) {
+  if (top.has("ink")) {
+    read_ink(top, set);
+  } else if (top.has("sample")) {
     read_soft_sample(top, set);
   } else {
     read_particles(top, set);

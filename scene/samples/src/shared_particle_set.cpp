@@ -7,6 +7,7 @@
 #include "particle_field.h"
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
+#include "scene/samples/scratch_run.h"
 
 // A set for a shared scene, and back.
 namespace afm::scene {
@@ -54,6 +55,14 @@ SharedParticles shared_particles(const ParticleSet& set) {
     shared.island_radius_m.at(shared.species_count) = species.island_radius.si;
     ++shared.species_count;
   }
+  if (set.soft) {
+    const physics::SoftSurface& surface = set.soft->surface;
+    shared.soft = {.name = to_name(set.soft->name),
+                   .hardness_pa = surface.hardness.si,
+                   .reduced_modulus_pa = surface.reduced_modulus.si,
+                   .work_of_adhesion_j_per_m2 = surface.work_of_adhesion.si,
+                   .pile_up_share = surface.pile_up_share};
+  }
   const physics::Sideways<Length> middle = field_of(set).middle();
   for (const physics::PlacedParticle& particle : set.particles) {
     shared.angle_rad.at(shared.count) = particle.angle_rad;
@@ -96,7 +105,7 @@ std::vector<physics::StickyPad> shared_sticky_pads(const ParticleSet& set) {
 }
 
 Length median_radius(const ParticleSet& set) {
-  AFM_CHECK(!set.particles.empty());
+  if (set.particles.empty()) return set.setup.tip.radius;
   std::vector<Length> radii;
   radii.reserve(set.particles.size());
   for (const physics::PlacedParticle& p : set.particles) {
@@ -118,6 +127,16 @@ ParticleSet recorded_set(const SharedParticles& recorded, const std::string& ass
   ParticleSet set;
   set.title = "Recorded particles";
   set.medium = "air";
+  if (recorded.soft.hardness_pa > 0.0) {
+    set.title = "Recorded soft sample";
+    set.setup.tip = {Length(recorded.pusher.tip_radius_m), recorded.pusher.half_angle_rad};
+    set.setup.springs = {.lateral = physics::Stiffness(recorded.pusher.lateral_spring_n_per_m),
+                         .normal = physics::Stiffness(recorded.pusher.normal_spring_n_per_m),
+                         .contact = physics::Stiffness(recorded.pusher.contact_stiffness_n_per_m)};
+    set.soft = std::make_shared<const SoftSample>(
+        SoftSample{.name = recorded.soft.name.data(), .surface = soft_surface(recorded.soft)});
+    return set;
+  }
   set.setup = push_setup(recorded);
   set.particles = start_places(recorded);
   for (std::uint32_t i = 0; i < recorded.species_count; ++i) {

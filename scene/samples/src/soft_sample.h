@@ -13,4 +13,7 @@ void read_soft_sample(const TomlTable& top, ParticleSet& set);
 // set.
 void check_soft_moves(const TomlTable& top, const ParticleSet& set);
 
+// The same for the table [ink], without tip and lever.
+void read_ink(const TomlTable& top, ParticleSet& set);
+
 }  // namespace afm::scene

@@ -13,6 +13,7 @@
 
 #include "core/enumerators.h"
 #include "physics/manipulation/pushed_particles.h"
+#include "physics/manipulation/scratching_tip.h"
 #include "physics/manipulation/tip_hold.h"
 #include "scene/shared/shared_segment.h"
 
@@ -59,6 +60,29 @@ std::uint64_t mixed(std::uint64_t word) {
 }
 
 auto particles_refused(std::string message) { return core::failure(core::ErrorCategory::Failed, std::move(message)); }
+
+bool can_be_felt(const SharedPusher& pusher) {
+  return pusher.diameter_in_hand_m >= kSmallestInHandM && pusher.diameter_in_hand_m <= kLargestInHandM &&
+         pusher.threshold_on_hand_n >= kFaintestOnHandN && pusher.threshold_on_hand_n <= kStrongestOnHandN;
+}
+
+core::Result<void> validate_soft(const SharedParticles& particles) {
+  if (particles.count != 0) return particles_refused("a soft sample in the shared scene has particles");
+  if (particles.soft.name.back() != '\0' || !can_be_felt(particles.pusher) || particles.level.level != 0) {
+    return particles_refused("the name, the size in a hand or the level of a soft sample is invalid");
+  }
+  const SharedPusher& pusher = particles.pusher;
+  try {
+    physics::validate(soft_surface(particles.soft));
+    physics::validate_marking_tip({physics::Length(pusher.tip_radius_m), pusher.half_angle_rad});
+    physics::validate_lever({.lateral = physics::Stiffness(pusher.lateral_spring_n_per_m),
+                             .normal = physics::Stiffness(pusher.normal_spring_n_per_m),
+                             .contact = physics::Stiffness(pusher.contact_stiffness_n_per_m)});
+  } catch (const std::invalid_argument& error) {
+    return particles_refused(fmt::format("the soft sample of the shared scene: {}", error.what()));
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -155,6 +179,7 @@ std::string why_no_level(const SharedParticles& particles) {
 }
 
 core::Result<void> validate(const SharedParticles& particles) {
+  if (particles.soft.hardness_pa != 0.0) return validate_soft(particles);
   if (particles.count == 0) return {};
   if (particles.count > kMaxParticles || particles.species_count == 0 || particles.species_count > kMaxSpecies) {
     return particles_refused(
@@ -168,9 +193,7 @@ core::Result<void> validate(const SharedParticles& particles) {
     }
     if (species.sticks > 1) return particles_refused(fmt::format("the adhesion of particle species {} is invalid", i));
   }
-  const SharedPusher& pusher = particles.pusher;
-  if (!(pusher.diameter_in_hand_m >= kSmallestInHandM && pusher.diameter_in_hand_m <= kLargestInHandM &&
-        pusher.threshold_on_hand_n >= kFaintestOnHandN && pusher.threshold_on_hand_n <= kStrongestOnHandN)) {
+  if (!can_be_felt(particles.pusher)) {
     return particles_refused("the size or the threshold of the particles in a hand is impossible");
   }
   const auto is_finite = [](const SharedParticle& p) {

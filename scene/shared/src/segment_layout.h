@@ -14,11 +14,12 @@ namespace afm::scene {
 inline constexpr std::uint64_t kSegmentMagic = 0x314D46414D464154;  // "TAFMAFM1" in memory
 
 // Sizes of the blocks in this build, in the order of SegmentLayout: two builds that differ reject each other.
-using BlockSizes = std::array<std::uint32_t, 15>;
+using BlockSizes = std::array<std::uint32_t, 16>;
 inline constexpr BlockSizes kBlockSizes{
-    sizeof(SharedModel),       sizeof(SceneTransforms), sizeof(Selection), sizeof(MaterialEdit), sizeof(HandScript),
-    sizeof(RendererHeartbeat), sizeof(TipState),        sizeof(TipSample), sizeof(TipEvent),     sizeof(ServoTiming),
-    sizeof(SharedDevice),      sizeof(ScanLead),        sizeof(TipPush),   sizeof(ParticlePage), sizeof(PlannedPush)};
+    sizeof(SharedModel), sizeof(SceneTransforms),   sizeof(Selection),    sizeof(MaterialEdit),
+    sizeof(HandScript),  sizeof(RendererHeartbeat), sizeof(TipState),     sizeof(TipSample),
+    sizeof(TipEvent),    sizeof(ServoTiming),       sizeof(SharedDevice), sizeof(ScanLead),
+    sizeof(TipPush),     sizeof(ParticlePage),      sizeof(PlannedPush),  sizeof(MarkTile)};
 
 struct SegmentHeader {
   std::uint64_t magic = kSegmentMagic;
@@ -49,6 +50,7 @@ struct SegmentLayout {
   core::LatestValue<SharedDevice> device;
   core::LatestValue<TipPush> tip_push;
   std::array<core::LatestValue<ParticlePage>, kParticlePages> particle_pages;
+  std::array<core::LatestValue<MarkTile>, kMarkTiles> mark_tiles;
   core::SpscRing<TipSample, kSampleRingCapacity> samples;
   core::SpscRing<TipEvent, kEventRingCapacity> events;
 };

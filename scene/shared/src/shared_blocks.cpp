@@ -264,7 +264,7 @@ core::Result<void> validate(const SharedModel& model) {
         !valid) {
       return model_refused(fmt::format("material {} of the shared scene: {}", i, valid.error().message));
     }
-    if (model.materials[i].law_map == 1 && (model.law_map.columns == 0 || model.particles.count > 0)) {
+    if (model.materials[i].law_map == 1 && (model.law_map.columns == 0 || are_there(model.particles))) {
       return model_refused(
           fmt::format("material {} of the shared scene needs a map of modulus and adhesion, and no particles", i));
     }
@@ -303,7 +303,7 @@ bool is_valid(const SceneTransforms& transforms, const SharedModel& model) {
 }
 
 bool is_valid(const Selection& selection, const SharedModel& model) {
-  const bool has_scale = selection.scale_mode != ScaleMode::Particles || model.particles.count > 0;
+  const bool has_scale = selection.scale_mode != ScaleMode::Particles || are_there(model.particles);
   return within(selection.material, model) && core::is_enumerator(selection.scale_mode) && has_scale &&
          selection.release <= 1;
 }

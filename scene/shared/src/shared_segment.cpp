@@ -204,6 +204,13 @@ std::optional<ParticlePage> RendererSide::new_particle_page(std::uint32_t page) 
   return poses;
 }
 
+std::optional<MarkTile> RendererSide::new_mark_tile(std::uint32_t tile) noexcept {
+  AFM_CHECK(tile < kMarkTiles);
+  auto squares = layout_->mark_tiles[tile].try_load_newer(seen_tiles_[tile]);
+  check(squares, refused_);
+  return squares;
+}
+
 std::optional<TipSample> RendererSide::pop_sample() noexcept {
   return next(layout_->samples, refused_, layout_->model);
 }
@@ -264,6 +271,17 @@ std::optional<ParticlePage> ServoSide::last_particle_page(std::uint32_t number) 
   AFM_CHECK(number < kParticlePages);
   auto page = layout_->particle_pages[number].try_load();
   return page && is_valid(*page) ? page : std::nullopt;
+}
+
+void ServoSide::store(const MarkTile& tile, std::uint32_t number) noexcept {
+  AFM_CHECK(number < kMarkTiles);
+  layout_->mark_tiles[number].store(tile);
+}
+
+std::optional<MarkTile> ServoSide::last_mark_tile(std::uint32_t number) const noexcept {
+  AFM_CHECK(number < kMarkTiles);
+  auto tile = layout_->mark_tiles[number].try_load();
+  return tile && is_valid(*tile) ? tile : std::nullopt;
 }
 
 void ServoSide::push(const TipSample& sample) noexcept { layout_->samples.push(sample); }

@@ -73,6 +73,10 @@ class ServoClient {
   const scene::TipPush& push() const { return push_; }
   std::span<const scene::ParticlePage> particle_pages() const { return pages_; }
   std::span<const std::uint32_t> changed_pages() const { return changed_pages_; }
+
+  // The same for the tiles of a soft sample, kMarkTiles of them or none; marks() counts the changes.
+  std::span<const scene::MarkTile> mark_tiles() const { return tiles_; }
+  std::uint64_t marks() const { return marks_; }
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
   const haptics::ServoSettings& settings() const { return settings_; }
   const scene::SharedDevice& device() const { return device_; }  // the servo's device, once poll() has run
@@ -147,6 +151,8 @@ class ServoClient {
   scene::TipPush push_;
   std::vector<scene::ParticlePage> pages_;
   std::vector<std::uint32_t> changed_pages_;
+  std::vector<scene::MarkTile> tiles_;
+  std::uint64_t marks_ = 0;
   std::optional<Heard> heard_;     // time at which its tick last changed
   std::uint32_t script_base_ = 0;  // newest script of the predecessor
   std::uint32_t leads_ = 0;

@@ -141,9 +141,17 @@ void ServoClient::take_state(std::int64_t now_ns) {
 
 void ServoClient::take_particles() {
   changed_pages_.clear();
-  pages_.resize(scene::pages_of(segment_.model().particles.count));
-  if (pages_.empty()) return;
+  const scene::SharedParticles& particles = segment_.model().particles;
+  if (!scene::are_there(particles)) return;
+  pages_.resize(scene::pages_of(particles.count));
   push_ = side_.tip_push().value_or(push_);
+  if (particles.soft.hardness_pa > 0.0) tiles_.resize(scene::kMarkTiles);
+  for (std::uint32_t i = 0; i < tiles_.size(); ++i) {
+    const auto tile = side_.new_mark_tile(i);
+    if (!tile) continue;
+    tiles_[i] = *tile;
+    ++marks_;
+  }
   for (std::uint32_t i = 0; i < pages_.size(); ++i) {
     const auto page = side_.new_particle_page(i);
     if (!page) continue;

@@ -144,6 +144,7 @@ class Player {
   // As of the newest tick.
   ReplayedParticles particles() {
     ReplayedParticles now{.pages = pages_,
+                          .tiles = tiles_,
                           .push = renderer_.tip_push().value_or(scene::TipPush{}),
                           .plan = sample_.plan,
                           .picture = std::nullopt};
@@ -164,7 +165,9 @@ class Player {
  private:
   Player(const RecordedSession& session, scene::SharedSegment segment)
       : session_(session), segment_(std::move(segment)), renderer_(segment_.renderer_side()), hand_(session) {
-    if (session.particles) pages_ = session.particles->pages;
+    if (!session.particles) return;
+    pages_ = session.particles->pages;
+    tiles_ = session.particles->tiles;
   }
 
   // Events since the tick before the newest.
@@ -200,6 +203,9 @@ class Player {
     digest_ = sample_.push.digest;
     for (std::uint32_t i = 0; i < pages_.size(); ++i) {
       if (const auto newer = renderer_.new_particle_page(i)) pages_[i] = *newer;
+    }
+    for (std::uint32_t i = 0; i < tiles_.size(); ++i) {
+      if (const auto newer = renderer_.new_mark_tile(i)) tiles_[i] = *newer;
     }
   }
 
@@ -243,6 +249,7 @@ class Player {
     if (!session_.particles) return;
     scene::ServoSide side = segment_.servo_side();
     for (std::uint32_t i = 0; i < session_.particles->pages.size(); ++i) side.store(session_.particles->pages[i], i);
+    for (std::uint32_t i = 0; i < session_.particles->tiles.size(); ++i) side.store(session_.particles->tiles[i], i);
   }
 
   void place(const std::array<double, 16>& room_from_sample) {
@@ -288,6 +295,7 @@ class Player {
   TipSample sample_;
   std::vector<TipEvent> events_;
   std::vector<scene::ParticlePage> pages_;
+  std::vector<scene::MarkTile> tiles_;
   std::uint64_t digest_ = 0;              // digest of pages_
   std::unique_ptr<LivePicture> picture_;  // null at level 0
 };

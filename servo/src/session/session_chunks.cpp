@@ -67,6 +67,26 @@ std::string level_of(const RecordedParticles& particles) {
   return bytes;
 }
 
+// A tile with marks, and its number.
+struct NumberedTile {
+  std::uint64_t number = 0;
+  scene::MarkTile tile;
+};
+
+std::string soft_of(const RecordedParticles& particles) {
+  std::string bytes;
+  put(bytes, particles.set.soft);
+  put(bytes, particles.set.pusher);
+  std::vector<NumberedTile> marked;
+  for (std::size_t i = 0; i < particles.tiles.size(); ++i) {
+    if (scene::tile_mark(i, particles.tiles[i]) != 0) marked.push_back({i, particles.tiles[i]});
+  }
+  put_all(bytes, std::span<const NumberedTile>(marked));
+  return bytes;
+}
+
+bool is_soft(const RecordedParticles& particles) { return particles.set.soft.hardness_pa > 0.0; }
+
 bool has_level(const RecordedParticles& particles) { return particles.set.level.level > 0; }
 
 std::string bytes_of(const scene::SharedLawMap& map) {
@@ -84,6 +104,7 @@ std::uint32_t version_of(const RecordedSession& session) {
   if (session.law_map) return session.parameters.viscous_map != 0 ? kVersionWithViscousMap : kVersionWithLawMap;
   if (scene::taps(session.parameters)) return kVersionWithSwing;
   if (!session.particles) return kSessionVersion;
+  if (is_soft(*session.particles)) return kVersionWithMarks;
   if (has_level(*session.particles)) return kVersionWithLevel;
   if (scene::has_islands(session.particles->set)) return kVersionWithIslands;
   if (lifts(session.particles->set)) return kVersionWithLift;
@@ -168,6 +189,20 @@ bool read_level(std::string_view payload, RecordedParticles& particles) {
          (picture.empty() || picture.seen_ns.size() == particles.set.count);
 }
 
+bool read_soft(std::string_view payload, RecordedParticles& particles) {
+  std::vector<NumberedTile> marked;
+  if (!take(payload, particles.set.soft) || !take(payload, particles.set.pusher) || !take_all(payload, marked) ||
+      !payload.empty() || !is_soft(particles)) {
+    return false;
+  }
+  particles.tiles.assign(scene::kMarkTiles, {});
+  for (const NumberedTile& tile : marked) {
+    if (tile.number >= particles.tiles.size() || !scene::is_valid(tile.tile)) return false;
+    particles.tiles[tile.number] = tile.tile;
+  }
+  return true;
+}
+
 bool lifts(const scene::SharedParticles& set) { return scene::has_pads(set) || scene::has_lift(set); }
 
 std::size_t sample_bytes_of(const RecordedSession& session) {
@@ -175,7 +210,7 @@ std::size_t sample_bytes_of(const RecordedSession& session) {
   if (!session.particles) return kSampleBytesWithoutPush;
   if (has_level(*session.particles)) return sizeof(scene::TipSample);
   const scene::SharedParticles& set = session.particles->set;
-  const bool whole = session.has_plans || lifts(set) || scene::has_islands(set);
+  const bool whole = session.has_plans || is_soft(*session.particles) || lifts(set) || scene::has_islands(set);
   return whole ? kSampleBytesWithoutLevel : kSampleBytesWithoutSwing;
 }
 
@@ -197,6 +232,7 @@ void SessionEncoder::head(const RecordedSession& session) {
     chunk(kTopographyChunk, topography);
   }
   if (session.law_map) chunk(kLawMapChunk, bytes_of(*session.law_map));
+  if (session.particles && is_soft(*session.particles)) return chunk(kSoftChunk, soft_of(*session.particles));
   if (session.particles) chunk(kParticlesChunk, bytes_of(*session.particles));
   if (session.particles && scene::has_rods(session.particles->set)) chunk(kRodsChunk, rods_of(session.particles->set));
   if (session.particles && scene::has_pads(session.particles->set)) chunk(kPadsChunk, pads_of(session.particles->set));

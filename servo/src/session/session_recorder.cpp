@@ -14,6 +14,7 @@ using scene::TipSample;
 
 // True if the poses that touchafm has are those of this sample, and a session can begin with them.
 bool has_poses_of(const TipSample& sample, const ServoClient& servo) {
+  if (servo.model().particles.soft.hardness_pa > 0.0) return scene::digest_of(servo.mark_tiles()) == sample.push.digest;
   const std::uint32_t count = servo.model().particles.count;
   return count == 0 || scene::digest_of(servo.particle_pages(), count) == sample.push.digest;
 }
@@ -62,7 +63,7 @@ bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo, con
   if (begins && picture != nullptr && picture->looks()) return false;
   if (begins) begin(sample, servo, picture);
   if (!begins && put) session_.events.push_back(*put);
-  places_.add(sample.push);
+  if (servo.model().particles.count > 0) places_.add(sample.push);
   if (!scale_known_) take_scale(sample, servo.tip());
   session_.samples.push_back(sample);
   ++ticks_;
@@ -114,10 +115,13 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo, c
     session_.surface = model.height_fields[std::exchange(session_.parameters.height_field, 0)];
   }
   if (session_.parameters.law_map != 0) session_.law_map = std::make_shared<scene::SharedLawMap>(model.law_map);
-  if (model.particles.count > 0) {
+  if (scene::are_there(model.particles)) {
     const auto pages = servo.particle_pages();
-    session_.particles =
-        RecordedParticles{.set = model.particles, .pages = {pages.begin(), pages.end()}, .picture = {}};
+    const auto tiles = servo.mark_tiles();
+    session_.particles = RecordedParticles{.set = model.particles,
+                                           .pages = {pages.begin(), pages.end()},
+                                           .tiles = {tiles.begin(), tiles.end()},
+                                           .picture = {}};
     session_.particles->set.level.since_ns = sample.level.since_ns;
     if (picture != nullptr) session_.particles->picture = picture->state();
     session_.has_plans = true;

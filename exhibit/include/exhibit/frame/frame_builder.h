@@ -39,7 +39,14 @@ class FrameBuilder {
     HeightRelief relief;
   };
 
+  // The same for the marks of a soft sample.
+  struct ShownMarks {
+    std::uint64_t marks = 0;  // as in ParticlesNow
+    HeightRelief relief;
+  };
+
   const HeightRelief& sample_in_colours(std::size_t material) const;
+  const HeightRelief& marks_of(const ParticlesNow& now) const;
   render::ForcePanel force_panel(const Moment& moment) const;
   render::Banner banner(const Moment& moment) const;
 
@@ -48,6 +55,7 @@ class FrameBuilder {
   const std::vector<curves::SampleModel>* materials_;
   std::array<scene::EyeView, 2> eyes_;
   mutable std::optional<ColouredSample> coloured_;
+  mutable std::optional<ShownMarks> marks_;
 };
 
 // Eyes of the wall's first viewer at the sweet spot, for the first screen.

@@ -102,6 +102,9 @@ class WallScene {
   // Lays an image on the sample in front, with its colour scale beside it. Call after update(), with the same state.
   void lay_on_sample(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const;
 
+  // The same for marks, below which the level sample is drawn deeper than any of them.
+  void lay_marks(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const;
+
   // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.
   void update(const WallState& state, render::FrameState& frame) const;
 

@@ -33,7 +33,10 @@ enum class HeardEvent {
   JumpToAttraction,  // it fell back into the attractive one
   ParticleLifted,
   ParticleSetDown,
-  LookedAgain,  // a scan of the particles near the tip begins
+  LookedAgain,    // a scan of the particles near the tip begins
+  SurfaceMarked,  // the tip begins to press a soft sample in
+  TipStopped,     // it cannot sink deeper
+  HandTooFast,    // the hand moves faster than the tip scratches
 };
 
 // One note of a signal: a sine that glides between two pitches, with a smooth envelope.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,8 +25,8 @@ struct PatternState;
 
 namespace afm::exhibit {
 
-// Particles on the stage, as the servo has moved them, or with a picture as that shows them. All that is referred to
-// must outlive the object.
+// Particles on the stage, or the marks of a soft sample, as the servo has moved them, or with a picture as that shows
+// them. All that is referred to must outlive the object.
 struct ParticlesNow {
   const scene::ParticleSet* set = nullptr;       // not null
   std::span<const scene::ParticlePage> pages{};  // poses; a particle beyond them is where it started
@@ -33,6 +34,8 @@ struct ParticlesNow {
   scene::TaskScore score{};  // only for a set with a pattern
   scene::PlannedPush plan{};
   const servo::PictureNow* picture = nullptr;  // at level 1 and 2
+  std::span<const scene::MarkTile> tiles{};    // of a soft sample
+  std::uint64_t marks = 0;                     // other tiles have another number
 };
 
 // Pose of a particle; nothing beyond the pages.

@@ -66,6 +66,25 @@
   PHRASE(LookMissed, "look-missed", "", kLine)                             \
   PHRASE(KeyLook, "key-look", "", kLine)
 
+// A soft sample that the tip scratches; states as those of physics::PushState up to Slides.
+#define AFM_FOR_EACH_SOFT_PHRASE(PHRASE)                 \
+  PHRASE(SoftTakeBack, "soft-take-back", "count", kLine) \
+  PHRASE(SoftPress, "soft-press", "", kLine)             \
+  PHRASE(SoftDrag, "soft-drag", "", kLine)               \
+  PHRASE(SoftFree, "soft-free", "", kLine)               \
+  PHRASE(SoftHolds, "soft-holds", "", kLine)             \
+  PHRASE(SoftMarks, "soft-marks", "", kLine)             \
+  PHRASE(SoftDepth, "soft-depth", "", kLine)             \
+  PHRASE(SoftDepthOf, "soft-depth-of", "", kLine)        \
+  PHRASE(SoftLoad, "soft-load", "", kLine)               \
+  PHRASE(SoftSideways, "soft-sideways", "load", kLine)   \
+  PHRASE(SoftGroove, "soft-groove", "", kLine)           \
+  PHRASE(SoftGrooveOf, "soft-groove-of", "depth", kLine) \
+  PHRASE(SoftSpeed, "soft-speed", "", kLine)             \
+  PHRASE(SoftSlow, "soft-slow", "", kLine)               \
+  PHRASE(SoftFast, "soft-fast", "rise", kLine)           \
+  PHRASE(SoftHardness, "soft-hardness", "", kLine)
+
 // A lever that taps: the plot of its amplitude, its dial, and images beside it.
 #define AFM_FOR_EACH_TAPPING_PHRASE(PHRASE)                           \
   PHRASE(PlotTitleTapping, "plot-title-tapping", "", kLine)           \

@@ -27,6 +27,9 @@
   PHRASE(HeardParticleLifted, "heard-particle-lifted", kEventPlaces, kLine)          \
   PHRASE(HeardParticleSetDown, "heard-particle-set-down", kEventPlaces, kLine)       \
   PHRASE(HeardLookedAgain, "heard-looked-again", kEventPlaces, kLine)                \
+  PHRASE(HeardSurfaceMarked, "heard-surface-marked", kEventPlaces, kLine)            \
+  PHRASE(HeardTipStopped, "heard-tip-stopped", kEventPlaces, kLine)                  \
+  PHRASE(HeardHandTooFast, "heard-hand-too-fast", kEventPlaces, kLine)               \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -51,6 +54,9 @@
   PHRASE(SayParticleLifted, "say-particle-lifted", kEventPlaces, kLine)              \
   PHRASE(SayParticleSetDown, "say-particle-set-down", kEventPlaces, kLine)           \
   PHRASE(SayLookedAgain, "say-looked-again", kEventPlaces, kLine)                    \
+  PHRASE(SaySurfaceMarked, "say-surface-marked", kEventPlaces, kLine)                \
+  PHRASE(SayTipStopped, "say-tip-stopped", kEventPlaces, kLine)                      \
+  PHRASE(SayHandTooFast, "say-hand-too-fast", kEventPlaces, kLine)                   \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \

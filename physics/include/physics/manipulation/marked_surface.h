@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "physics/friction/sideways.h"
@@ -49,6 +51,8 @@ class MarkedSurface {
   static constexpr int kMostSide = 512;  // squares along x and along y
   static constexpr int kReach = 16;      // squares
   static constexpr double kSquaresPerRadius = 8.0;
+  static constexpr std::size_t kTileSide = 16;  // squares along a side of a tile, in which the surface can be copied
+  static constexpr std::size_t kTileSquares = kTileSide * kTileSide;
 
   // For a tip over the rectangle from `least` to `most`. Throws std::invalid_argument if that needs more than
   // kMostSide squares, and as validate() and validate_marking_tip() do.
@@ -67,6 +71,9 @@ class MarkedSurface {
   // No point of the surface is higher.
   Length highest() const noexcept { return Length(highest_m_); }
 
+  // Lowers that bound to a height that no point exceeds, at least to 0.
+  void lower_highest(Length height) noexcept;
+
   Length spacing() const noexcept { return Length(spacing_m_); }
 
   // The height at which a lever of this spring, whose unbent apex would be at `base`, presses the tip at a place: the
@@ -83,6 +90,9 @@ class MarkedSurface {
   // and behind it, or around a tip that has not moved sideways, `along` of zero length. Only where the tip leaves room.
   void pile_up(const Sideways<Length>& place, Length apex, Length contact_radius,
                const Sideways<double>& along) noexcept;
+
+  // What has no room beside a tip that leaves is densified.
+  void densify_what_waits() noexcept { under_way_m3_ = 0.0; }
 
   // Height at a place when no tip is there, between the middles of the squares by their distances; 0 beyond them.
   Length height(const Sideways<Length>& place) const noexcept;
@@ -101,6 +111,24 @@ class MarkedSurface {
   std::size_t rows() const noexcept { return rows_; }
   Length square(std::size_t column, std::size_t row) const noexcept { return Length(square_m(column, row)); }
   Sideways<Length> middle_of_first() const noexcept { return {Length(left_m_), Length(bottom_m_)}; }
+
+  // The surface in tiles, row by row from the least x and y: for each square its height under load, and what it rises
+  // by without. Squares beyond the surface are 0, and ignored. put() forgets no volume: those of a surface that was put
+  // together from tiles count from then on.
+  std::size_t tiles_across() const noexcept { return (columns_ + kTileSide - 1) / kTileSide; }
+  std::size_t tiles() const noexcept { return tiles_across() * ((rows_ + kTileSide - 1) / kTileSide); }
+  void copy_tile(std::size_t tile, std::span<double, kTileSquares> pressed_m,
+                 std::span<double, kTileSquares> back_m) const noexcept;
+  void put_tile(std::size_t tile, std::span<const double, kTileSquares> pressed_m,
+                std::span<const double, kTileSquares> back_m) noexcept;
+
+  // True for a tile in which a square may have changed since it was kept() last.
+  bool changed(std::size_t tile) const noexcept { return changed_[tile] != 0; }
+  void kept(std::size_t tile) noexcept { changed_[tile] = 0; }
+
+  // Calls visit(tile) for each tile that a tip at this place can change.
+  template <class Visit>
+  void tiles_below(const Sideways<Length>& place, const Visit& visit) const noexcept;
 
  private:
   static constexpr int kSide = 2 * kReach + 1;
@@ -146,6 +174,7 @@ class MarkedSurface {
   template <class Visit>
   void beside(const Window& window, double radius_m, const Sideways<double>& along, const Visit& visit) const noexcept;
   double square_m(std::size_t column, std::size_t row) const noexcept;
+  void note_change(const Sideways<Length>& place) noexcept;
 
   double hardness_pa_, pile_up_share_;
   double spacing_m_, deepest_m_, highest_m_ = 0.0;
@@ -154,9 +183,24 @@ class MarkedSurface {
   double least_rise_per_m_ = 0.0;  // within reach, the tip is at least as much times r^2 above its apex
   double left_m_ = 0.0, bottom_m_ = 0.0;  // middle of the first square
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<double> pressed_m_;  // height under the tip that pressed last
-  std::vector<double> back_m_;     // by which it rises when the tip has left
+  std::vector<double> pressed_m_;      // height under the tip that pressed last
+  std::vector<double> back_m_;         // by which it rises when the tip has left
+  std::vector<std::uint8_t> changed_;  // one for each tile, 1: changed
   double pressed_m3_ = 0.0, for_good_m3_ = 0.0, ridges_m3_ = 0.0, under_way_m3_ = 0.0;
 };
+
+template <class Visit>
+void MarkedSurface::tiles_below(const Sideways<Length>& place, const Visit& visit) const noexcept {
+  const auto tiles_along = [this](double at_m, double first_m, std::size_t count) {
+    const double middle = (at_m - first_m) / spacing_m_, reach = kReach + 0.5, most = static_cast<double>(count - 1);
+    return Columns{static_cast<std::size_t>(std::clamp(middle - reach, 0.0, most)) / kTileSide,
+                   static_cast<std::size_t>(std::clamp(middle + reach, 0.0, most)) / kTileSide + 1};
+  };
+  const Columns along_x = tiles_along(place.x.si, left_m_, columns_),
+                along_y = tiles_along(place.y.si, bottom_m_, rows_);
+  for (std::size_t row = along_y.first; row < along_y.end; ++row) {
+    for (std::size_t column = along_x.first; column < along_x.end; ++column) visit(row * tiles_across() + column);
+  }
+}
 
 }  // namespace afm::physics

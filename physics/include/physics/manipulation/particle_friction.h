@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "physics/adhesive_contact.h"
-#include "physics/manipulation/particle_law.h"
+#include "physics/manipulation/particle_terms.h"
 #include "physics/rows_of_enum.h"
 #include "physics/units.h"
 

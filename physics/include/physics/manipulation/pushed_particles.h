@@ -10,8 +10,8 @@
 #include "physics/friction/sideways.h"
 #include "physics/manipulation/half_turn.h"
 #include "physics/manipulation/particle_friction.h"
+#include "physics/manipulation/particle_terms.h"
 #include "physics/manipulation/push_figures.h"
-#include "physics/manipulation/push_state.h"
 #include "physics/manipulation/tip_contact.h"
 #include "physics/units.h"
 

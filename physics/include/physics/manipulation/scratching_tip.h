@@ -65,8 +65,21 @@ class ScratchingTip {
   // Moves the base on a straight line. A base that is not finite, or outside the rectangle, is ignored.
   const ScratchTick& move_to(const LeverBase& base) noexcept;
 
+  // Takes the tip off the surface: what the lever stores and what piles up without room are given up, and the account
+  // begins again. From then on the ticks depend only on the surface and on the base. A base outside the rectangle is
+  // ignored.
+  void hold_over(const LeverBase& base) noexcept;
+
+  // Moves the base straight up or down in one step, down by at most half a square, with few looks: what a lever that is
+  // raised or lowered by something else than the hand needs between two ticks.
+  void lift_base(Length up) noexcept;
+
+  Stiffness normal_spring() const noexcept { return springs_.normal; }
   const ScratchTick& last() const noexcept { return tick_; }
   const MarkedSurface& surface() const noexcept { return surface_; }
+
+  // To put it back, or together from tiles; only while the tip is off it.
+  MarkedSurface& surface_below() noexcept { return surface_; }
 
  private:
   // A place of the tip, E + R of the step there, and how that rises on the way to the base.

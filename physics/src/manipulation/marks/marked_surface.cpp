@@ -99,6 +99,7 @@ MarkedSurface::MarkedSurface(const SphereCone& tip, const SoftSurface& surface, 
   rows_ = squares_over(height_m, spacing_m_);
   pressed_m_.resize(columns_ * rows_);
   back_m_.resize(columns_ * rows_);
+  changed_.resize(tiles());
   const TipOutline outline(tip);
   const double farthest = kReach + 1.0, place_m2 = spacing_m_ * spacing_m_ / kPlacesPerSquare;  // along x and y
   const auto places = static_cast<std::size_t>(2.0 * farthest * farthest * kPlacesPerSquare) + 2;
@@ -223,6 +224,7 @@ Volume MarkedSurface::press(const Sideways<Length>& place, Length apex, Length c
     back_m = std::min(rises_m, seen_m - under_tip_m);
     lowered_m += seen_m - (height_m + back_m);
   });
+  note_change(place);
   const double square_m2 = spacing_m_ * spacing_m_;
   pressed_m3_ += pressed_m * square_m2;
   for_good_m3_ += lowered_m * square_m2;
@@ -281,6 +283,7 @@ void MarkedSurface::pile_up(const Sideways<Length>& place, Length apex, Length c
     raised_m += by_m;
     if (by_m > 0.0) highest_m_ = std::max(highest_m_, height_m + back_m_[index]);
   });
+  note_change(place);
   ridges_m3_ += raised_m * square_m2;
   under_way_m3_ = fits ? 0.0 : std::max(0.0, under_way_m3_ - raised_m * square_m2);
 }

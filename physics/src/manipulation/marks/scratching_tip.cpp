@@ -15,6 +15,7 @@ namespace {
 constexpr int kSubStepsOfATick = 8;
 constexpr int kLooksOfATick = 16;
 constexpr int kLooksOnAWay = 5;
+constexpr int kLooksOfALift = 3;
 constexpr int kFineSubSteps = 4;
 constexpr double kLongestWay = 0.5;    // squares: of a step, and of the base in a sub-step
 constexpr double kFineWay = 0.25;      // squares: of the base in a sub-step, if so many fine sub-steps suffice
@@ -149,6 +150,26 @@ void ScratchingTip::move_base(const LeverBase& base) noexcept {
   tick_.stored = Energy(frozen_j);
   settle();
   tick_.work = tick_.work + 0.5 * (at_start + work_of());
+}
+
+void ScratchingTip::hold_over(const LeverBase& base) noexcept {
+  if (!std::isfinite(base.z.si) || !surface_.holds(base.position)) return;
+  const std::uint64_t exhausted = tick_.exhausted;
+  tick_ = {};
+  tick_.base = tick_.apex = {base.position, std::max(base.z, surface_.highest())};
+  tick_.exhausted = exhausted;
+  along_ = {0.0, 0.0};
+  last_way_m_ = surface_.spacing().si;
+  contact_radius_ = Length(0.0);
+  rested_ = true;
+  surface_.densify_what_waits();
+}
+
+void ScratchingTip::lift_base(Length up) noexcept {
+  looks_ = kLooksOfALift;
+  move_base({tick_.base.position, tick_.base.z + std::max(up, -kLongestWay * surface_.spacing())});
+  tick_.lateral = pull();
+  tick_.load = press();
 }
 
 const ScratchTick& ScratchingTip::move_to(const LeverBase& base) noexcept {

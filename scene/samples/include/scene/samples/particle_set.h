@@ -38,6 +38,7 @@ struct Pad {
 };
 
 struct SoftSample;  // scratch_run.h
+struct InkSample;   // ink_run.h
 
 // Particles on a sample, the tip that pushes them, and a hand that moves it.
 struct ParticleSet {
@@ -52,8 +53,10 @@ struct ParticleSet {
   physics::LeverBase start;
   std::vector<HandMove> moves;
   std::vector<SourcedValue> sources;  // sources of tip, lever, pads and soft sample
-  // With one there are no particles, and only `touchafm particles` plays the set.
+  // With one there are no particles. Under a hand the sample is a square around its origin, whatever the moves.
   std::shared_ptr<const SoftSample> soft;
+  // With it there is neither particle nor soft sample, and only `touchafm particles` plays the set.
+  std::shared_ptr<const InkSample> ink;
 };
 
 inline constexpr std::size_t kMostTargets = 32;
@@ -72,8 +75,8 @@ std::vector<physics::ParticlePlace> shared_targets(const ParticleSet& set);
 std::vector<Pad> shared_pads(const ParticleSet& set);
 std::vector<physics::StickyPad> shared_sticky_pads(const ParticleSet& set);
 
-// Median radius of the particles, as seen from above. A pattern is done when they are no farther from it
-// (physics::PatternMatch).
+// Median radius of the particles, as seen from above; without any, the radius of the tip. A pattern is done when they
+// are no farther from it (physics::PatternMatch).
 physics::Length median_radius(const ParticleSet& set);
 
 // The set of a recording, a valid one: that of the assets with the same particles, if there is one; otherwise without

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "physics/manipulation/particle_law.h"
-#include "physics/manipulation/push_state.h"
+#include "physics/manipulation/particle_terms.h"
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/name.h"
+#include "scene/shared/soft_blocks.h"
 
 // Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/manipulation.md). Places
 // are in the sample's frame, in metres of the nanoworld; the particles rest on its plane z = 0.
@@ -178,9 +178,15 @@ struct SharedParticles {
   std::array<SharedPad, physics::kMostStickyPads> pads{};
   std::array<double, kMaxSpecies> island_radius_m{};  // R of a species of flat islands; 0: none
   SharedLevel level{};
+  SharedSoft soft{};  // instead of particles, of which there are none then
 
   bool operator==(const SharedParticles&) const = default;
 };
+
+// True if there is something on the scale Particles: particles, or a soft sample.
+inline bool are_there(const SharedParticles& particles) {
+  return particles.count > 0 || particles.soft.hardness_pa > 0.0;
+}
 
 // True if a species is one of rods.
 bool has_rods(const SharedParticles& particles);
@@ -275,12 +281,14 @@ std::uint64_t digest_of(std::span<const ParticlePage> pages, std::size_t count) 
 
 inline constexpr std::uint32_t kMostStrokes = 64;  // number of strokes of the tip that can be taken back
 
-// Push in the newest tick. The certificate: given_j plus the energy stored at the start is at least lost_j + stored_j.
-// An account begins whenever the tip is taken off the particles (`accounts`), and only then.
+// Push in the newest tick. On a soft sample, where no particle is pushed, `lift_n` is the load on the lever, and
+// `state` Holds, or Slides where the tip presses the sample in. The certificate: given_j plus the energy stored at the
+// start is at least lost_j + stored_j. An account begins whenever the tip is taken off the particles (`accounts`), and
+// only then.
 struct TipPush {
   std::int64_t time_ns = 0;  // as in TipState
   std::uint64_t tick = 0;
-  std::uint64_t digest = 0;           // digest_of() all particles
+  std::uint64_t digest = 0;           // digest_of() all particles, or of a soft sample and tiles that wait
   std::array<double, 3> base_m{};     // apex on the unbent lever
   std::array<double, 3> apex_m{};     // apex on the bent lever
   std::array<double, 2> lateral_n{};  // force on the lever, along the sample's x and y
@@ -301,9 +309,11 @@ struct TipPush {
   std::uint64_t accounts = 0;
   std::int32_t particle = kNoParticle;  // the one with the largest normal force, or on the tip
   physics::PushState state = physics::PushState::Free;
-  std::uint16_t met = 0;      // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
-  std::uint16_t lagging = 0;  // 1: the hand was so fast that base_m is behind it
-  std::uint32_t strokes = 0;  // number of strokes that can be taken back
+  std::uint16_t met = 0;            // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
+  std::uint16_t lagging = 0;        // 1: the hand was so fast that base_m is behind it
+  std::uint32_t strokes = 0;        // number of strokes that can be taken back
+  double rise_m = 0;                // by which a lever on a soft sample is raised, because the hand is fast
+  double fastest_hand_m_per_s = 0;  // speed of the hand from which on it is; 0: no soft sample
 };
 
 template <class Visit, RecordOf<TipPush>... Record>
@@ -334,6 +344,8 @@ constexpr void for_each_field(Visit&& visit, Record&... push) {
   visit("met", push.met...);
   visit("lagging", push.lagging...);
   visit("strokes", push.strokes...);
+  visit("rise_m", push.rise_m...);
+  visit("fastest_hand_m_per_s", push.fastest_hand_m_per_s...);
 }
 static_assert(all_fields_described<TipPush>());
 
@@ -357,7 +369,7 @@ static_assert(all_fields_described<LevelSample>());
 
 // Part of a push that is recorded in every tick.
 struct PushSample {
-  std::uint64_t digest = 0;           // as in TipPush; 0: no particles
+  std::uint64_t digest = 0;           // as in TipPush; 0: no particles, and no soft sample
   std::array<double, 2> lateral_n{};  // as in TipPush, and below
   double lift_n = 0;
   double normal_n = 0;

@@ -22,7 +22,7 @@ struct DrivenLever;
 namespace afm::scene {
 
 // Increase whenever the meaning of a block changes; changes of a block's size are detected automatically.
-inline constexpr std::uint32_t kSegmentVersion = 16;
+inline constexpr std::uint32_t kSegmentVersion = 17;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;
@@ -100,6 +100,9 @@ class RendererSide {
   // Page of poses if it is newer than the one returned last by this side. `page` < kParticlePages.
   std::optional<ParticlePage> new_particle_page(std::uint32_t page) noexcept;
 
+  // The same for a tile of a soft sample. `tile` < kMarkTiles.
+  std::optional<MarkTile> new_mark_tile(std::uint32_t tile) noexcept;
+
   // Next one in order, or empty.
   std::optional<TipSample> pop_sample() noexcept;
   std::optional<TipEvent> pop_event() noexcept;
@@ -113,6 +116,7 @@ class RendererSide {
 
   SegmentLayout* layout_;
   std::array<std::uint64_t, kParticlePages> seen_pages_{};
+  std::array<std::uint64_t, kMarkTiles> seen_tiles_{};
   std::uint64_t refused_ = 0;
 };
 
@@ -132,12 +136,16 @@ class ServoSide {
   void store(const SharedDevice& device) noexcept;
   void store(const TipPush& push) noexcept;
   void store(const ParticlePage& page, std::uint32_t number) noexcept;  // number < kParticlePages
+  void store(const MarkTile& tile, std::uint32_t number) noexcept;      // number < kMarkTiles
   void push(const TipSample& sample) noexcept;  // counted as lost if the renderer is 16 s behind
   void push(const TipEvent& event) noexcept;
 
   // Page last stored by this side, for a servo that replaces one that ended and continues with its poses; empty if it
   // is not valid. `number` < kParticlePages.
   std::optional<ParticlePage> last_particle_page(std::uint32_t number) const noexcept;
+
+  // The same for a tile. `number` < kMarkTiles.
+  std::optional<MarkTile> last_mark_tile(std::uint32_t number) const noexcept;
 
   std::uint32_t refused_blocks() const noexcept { return refused_; }
 

@@ -8,7 +8,30 @@
 
 #include "physics/rows_of_enum.h"
 
+// Words for particles that a tip pushes: their laws of friction, and the states of a push.
 namespace afm::physics {
+
+inline constexpr std::size_t kMostParticles = 2048;
+inline constexpr std::size_t kMostStickyPads = 8;
+
+enum class PushState : std::uint32_t {
+  Free = 0,   // no sphere is touched
+  Holds = 1,  // a sphere is touched, and stays
+  Slides = 2,
+  Rolls = 3,
+  Several = 4,  // more than one sphere moves or could move
+  Carried = 5,  // a sphere hangs on the tip, off the sample
+};
+
+struct PushStateText {
+  PushState state;
+  std::string_view word;
+};
+inline constexpr std::array kPushStates{
+    PushStateText{PushState::Free, "free"},       PushStateText{PushState::Holds, "holds"},
+    PushStateText{PushState::Slides, "slides"},   PushStateText{PushState::Rolls, "rolls"},
+    PushStateText{PushState::Several, "several"}, PushStateText{PushState::Carried, "carried"}};
+static_assert(has_row_for_each(kPushStates, &PushStateText::state));
 
 // The laws disagree by a factor of 2 to 20 for particles below 100 nm, so every user chooses one by name.
 enum class ParticleLaw : std::uint32_t {

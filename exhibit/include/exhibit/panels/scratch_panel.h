@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "exhibit/state/particles_now.h"
+#include "exhibit/words/phrases.h"
+#include "render/frame.h"
+
+namespace afm::exhibit {
+
+// A soft sample that the tip scratches: state, load, depth and lateral force of the tip, the first groove at this load
+// by the formula (M52), the speed of the hand up to which the tip presses fully, and the numbers of the file with their
+// sources. The set of `now` has a soft sample.
+render::DataPanel scratch_panel(const ParticlesNow& now, const Phrases& phrases);
+
+}  // namespace afm::exhibit

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exhibit/panels/scratch_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/enumerators.h"
+#include "panels/panel_conventions.h"
+#include "physics/manipulation/marking.h"
+#include "physics/quantity_text.h"
+#include "scene/samples/particle_set.h"
+#include "scene/samples/scratch_run.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+using physics::Force;
+using physics::format_quantity;
+using physics::Length;
+using physics::PushState;
+
+static_assert(after(Phrase::SoftFree, core::index_of(PushState::Slides)) == Phrase::SoftMarks);
+
+constexpr double kFeltSofter = 1.05;  // beyond this the panel says that the lever is felt softer
+constexpr double kRaisedM = 1e-10;    // beyond this the panel says that the hand is too fast
+
+class ScratchRows {
+ public:
+  ScratchRows(const ParticlesNow& now, const Phrases& phrases) : now_(now), phrases_(phrases) {}
+
+  std::vector<render::DataRow> take() {
+    add_contact();
+    add_groove();
+    add_speed();
+    add_numbers();
+    return std::move(rows_);
+  }
+
+ private:
+  void add(Phrase name, std::string value, std::string source) {
+    rows_.push_back({phrases_[name], std::move(value), std::move(source)});
+  }
+
+  template <class Quantity, class Units>
+  std::string text(Quantity value, const Units& units) const {
+    return phrases_.number(format_quantity(value, units, kDigits));
+  }
+
+  std::string source(std::string_view key) const {
+    const scene::SourcedValue* sourced = scene::find_source(now_.set->sources, key);
+    if (sourced == nullptr) return "";
+    const std::array words{phrases_.word(sourced->source)};
+    return sourced->estimated ? phrases_.filled(Phrase::Estimated, words) : words.front();
+  }
+
+  Force load() const { return Force(std::max(0.0, now_.push.lift_n)); }
+
+  void add_contact() {
+    const scene::TipPush& push = now_.push;
+    const PushState state = std::min(push.state, PushState::Slides);
+    add(Phrase::PushStateName, phrases_[after(Phrase::SoftFree, core::index_of(state))], "");
+    add(Phrase::SoftLoad, text(load(), physics::kForceUnits), phrases_[Phrase::PushLateralOn]);
+    const bool on = state != PushState::Free;
+    add(Phrase::SoftDepth, text(Length(on ? std::max(0.0, -push.apex_m[2]) : 0.0), physics::kLengthUnits),
+        phrases_[Phrase::SoftDepthOf]);
+    const Force sideways(std::hypot(push.lateral_n[0], push.lateral_n[1]));
+    add(Phrase::PushLateral, text(sideways, physics::kForceUnits),
+        load().si > 0.0 ? phrases_.text<Phrase::SoftSideways>(phrases_.number(fmt::format("{:.2f}", sideways / load())))
+                        : phrases_[Phrase::PushLateralOn]);
+  }
+
+  void add_groove() {
+    if (!(load().si > 0.0)) return;
+    const physics::SoftSurface& surface = now_.set->soft->surface;
+    add(Phrase::SoftGroove, text(2.0 * physics::groove_radius(surface, load()), physics::kLengthUnits),
+        phrases_.text<Phrase::SoftGrooveOf>(
+            text(physics::groove_depth(now_.set->setup.tip, surface, load()), physics::kLengthUnits)));
+  }
+
+  void add_speed() {
+    const scene::TipPush& push = now_.push;
+    if (!(push.fastest_hand_m_per_s > 0.0)) return;  // before the servo has reported it
+    add(Phrase::SoftSpeed, text(physics::Velocity(push.fastest_hand_m_per_s), physics::kVelocityUnits),
+        push.rise_m > kRaisedM ? phrases_.text<Phrase::SoftFast>(text(Length(push.rise_m), physics::kLengthUnits))
+                               : phrases_[Phrase::SoftSlow]);
+  }
+
+  void add_numbers() {
+    add(Phrase::SoftHardness, text(now_.set->soft->surface.hardness, physics::kPressureUnits), source("hardness"));
+    add(Phrase::LeverSideways, text(now_.set->setup.springs.lateral, physics::kStiffnessUnits),
+        source("lateral_spring"));
+    const double softened = now_.push.softened_sideways;
+    if (!(softened > kFeltSofter)) return;
+    add(Phrase::LeverSoftened, phrases_.text<Phrase::TimesSofter>(phrases_.number(fmt::format("{:.2g}", softened))),
+        phrases_[Phrase::LeverSoftenedWhy]);
+  }
+
+  const ParticlesNow& now_;
+  const Phrases& phrases_;
+  std::vector<render::DataRow> rows_;
+};
+
+}  // namespace
+
+render::DataPanel scratch_panel(const ParticlesNow& now, const Phrases& phrases) {
+  return {.title = phrases.word(now.set->title),
+          .subtitle = phrases.text<Phrase::SoftTakeBack>(fmt::format("{}", now.push.strokes)),
+          .rows = ScratchRows(now, phrases).take()};
+}
+
+}  // namespace afm::exhibit

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "physics/friction/sideways.h"
+#include "physics/units.h"
+
+// A tip that writes with molecules: dip-pen lithography (docs/manipulation.md, "Ink").
+namespace afm::physics {
+
+// Molecules that flow from a tip while it touches, as many each second, and cover the sample in one layer.
+struct Ink {
+  double molecules_per_s = 0.0;  // J
+  Area footprint;                // a, of one molecule
+};
+
+// Throws UnphysicalValue with the field molecules_per_s or footprint.
+void validate(const Ink& ink);
+
+// Area covered in a time, J a t, and the radius of the dot of a tip at rest (M80).
+Area inked_area(const Ink& ink, Time time) noexcept;
+Length ink_dot_radius(const Ink& ink, Time time) noexcept;
+
+// Width of the line of a moving tip, J a/v (M81).
+Length ink_line_width(const Ink& ink, Velocity speed) noexcept;
+
+// Squares of a flat sample that ink covers. What flows from the tip covers the nearest bare square, so that a dot grows
+// at its rim, as by diffusion over what is covered already. The area is exact: a share of a square waits in the tip.
+//
+// The constructor allocates; nothing else does, nor locks, throws or waits. One thread. The result depends on places
+// and times of the tip, never on a clock.
+class InkedSurface {
+ public:
+  static constexpr std::size_t kMostSide = 1024;  // squares along x and along y
+  static constexpr int kReach = 256;              // squares from the tip to the farthest one that it covers
+
+  // For a tip over the rectangle from `least` to `most`, with a margin around it. Throws std::invalid_argument if that
+  // needs more than kMostSide squares, and as validate() does.
+  InkedSurface(const Ink& ink, const Sideways<Length>& least, const Sideways<Length>& most, Length margin,
+               Length spacing);
+
+  // The tip touches this place for a time.
+  void touch(const Sideways<Length>& place, Time time) noexcept;
+
+  Area covered() const noexcept;  // since the start
+  Area lost() const noexcept;     // flowed out where no bare square was within reach
+
+  // Mean width of what is covered across the middle half of a way.
+  Length width(const Sideways<Length>& from, const Sideways<Length>& to) const noexcept;
+
+  std::size_t columns() const noexcept { return columns_; }
+  std::size_t rows() const noexcept { return rows_; }
+  Length spacing() const noexcept { return Length(spacing_m_); }
+  bool is_covered(std::size_t column, std::size_t row) const noexcept { return covered_[row * columns_ + column] != 0; }
+  Sideways<Length> middle_of_first() const noexcept { return {Length(left_m_), Length(bottom_m_)}; }
+
+ private:
+  struct Offset {
+    std::int16_t column, row;
+  };
+
+  long column_of(Length x) const noexcept;
+  long row_of(Length y) const noexcept;
+  bool is_covered_at(const Sideways<Length>& place) const noexcept;
+
+  double squares_per_s_;
+  double spacing_m_, left_m_, bottom_m_;
+  std::size_t columns_, rows_;
+  std::vector<std::uint8_t> covered_;
+  std::vector<Offset> nearest_;  // offsets within reach, the nearest first
+  std::size_t next_ = 0;         // all offsets before it are covered, at the place of the last touch
+  long column_ = -1, row_ = -1;  // that place
+  double waiting_ = 0.0;         // squares that have flowed out and are not covered yet
+  double covered_squares_ = 0.0, lost_squares_ = 0.0;
+};
+
+}  // namespace afm::physics
