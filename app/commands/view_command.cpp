@@ -71,7 +71,7 @@ double expected_aspect(const DisplayOptions& display) {
 
 void add_picture_options(OptionList& command, ViewOptions& options) {
   add_stereo_options(command, options.display.picture, "the outputs of the wall file, otherwise mono");
-  command.add_flag("--fullscreen", options.display.window.full_screen, "fill one monitor; F11 toggles this at run time");
+  command.add_flag("--fullscreen", options.display.window.full_screen, "fill one monitor; F11 toggles this later");
   command
       .add_option("--monitor", options.display.window.monitor,
                   "open one window that fills this monitor, given by its name or number from touchafm devices")

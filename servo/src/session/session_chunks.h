@@ -18,8 +18,8 @@
 // adhesion, 17 for a soft sample that the tip scratches, 18 for a map that is viscous: "AFMS", the version, then
 // chunks. A chunk consists of a name of four letters and the size of its payload in 32 bits, the checksum of these, the
 // payload, and its checksum. A checksum is the 64-bit FNV-1a of all bytes from the beginning of the file up to it, so
-// that no chunk can be altered, left out or exchanged. A file that ends inside a chunk was cut; all chunks before it are
-// intact.
+// that no chunk can be altered, left out or exchanged. A file that ends inside a chunk was cut; all chunks before it
+// are intact.
 namespace afm::servo {
 
 inline constexpr std::string_view kSessionMagic = "AFMS";
