@@ -175,8 +175,8 @@ TEST(FeltTapping, GivesAHandThatLoopsByItsMeanForceNoMoreThanTheEnergyTankHolds)
   EXPECT_GT(free_j, EnergyTank::kFullJ + EnergyTank::kRefillW * kSeconds) << "without the tank it would";
 }
 
-// The program's gold under a lever in air: a contact that is stiff and adheres. Nearer than 4 nm the observer may remove
-// the force (docs/tapping.md).
+// The program's gold under a lever in air: a contact that is stiff and adheres. Nearer than 4 nm the observer may
+// remove the force (docs/tapping.md).
 TEST(FeltTapping, IsFeltOnGoldDownToTheSurface) {
   scene::SharedContact gold = tapped();
   gold.contact.tip_radius = physics::Length(50e-9);
