@@ -27,6 +27,7 @@
 #include "exhibit/frame/wall_pictures.h"
 #include "exhibit/models/model_view.h"
 #include "exhibit/panels/parameter_panel.h"
+#include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 #include "exhibit/state/particle_task.h"

@@ -16,6 +16,7 @@
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/recorded_wall.h"
 #include "exhibit/frame/wall_pictures.h"
+#include "exhibit/scan/live_scan.h"
 
 namespace afm::app {
 

@@ -24,6 +24,7 @@
 #include "exhibit/cluster/wall_history.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/recorded_wall.h"
+#include "exhibit/scan/live_scan.h"
 
 namespace afm::app {
 

@@ -11,6 +11,7 @@
 #include "core/clock.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/recorded_wall.h"
+#include "exhibit/scan/live_scan.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/frame/recorded_wall.h"
+#include "exhibit/scan/live_scan.h"
 
 #include <algorithm>
 #include <array>

@@ -12,7 +12,7 @@ namespace afm::physics {
 namespace {
 
 constexpr double kAtRest = 1e-6;       // change of the amplitude in 50 swings, as a share of the free one
-constexpr double kJumpError = 1e-3;    // of the height of a jump, as a share of the free amplitude
+constexpr double kJumpError = 1e-3;    // error of a jump's height, as a share of the free amplitude
 constexpr double kFaintChange = 0.01;  // share of the free amplitude by which the highest swing may differ from it
 constexpr double kMostReach = 10.0;    // highest base, in free amplitudes, for an attraction with a long range
 

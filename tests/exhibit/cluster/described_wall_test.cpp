@@ -21,6 +21,7 @@
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/recorded_wall.h"
+#include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_subject.h"
 #include "support/particles/particle_sets.h"
 #include "support/places.h"

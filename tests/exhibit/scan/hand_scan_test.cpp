@@ -12,6 +12,7 @@
 #include "curves/sample_model.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/recorded_wall.h"
+#include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_hand.h"
 #include "exhibit/scan/scan_panels.h"
 #include "haptics/device.h"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "exhibit/friction/friction_history.h"
-#include "exhibit/scan/live_scan.h"
 #include "exhibit/state/cycle_curve.h"
 #include "exhibit/state/moment.h"
 #include "scene/display/wall.h"
@@ -15,6 +14,8 @@
 #include "servo/session_file.h"
 
 namespace afm::exhibit {
+
+struct ScanProgress;
 
 // The live wall at one moment, for a session. `materials` are the names of those on the wall. The caller adds the
 // sample's place, the head and the modes.

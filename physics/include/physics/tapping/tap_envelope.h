@@ -85,7 +85,7 @@ class TapEnvelope {
   Place place_of(double amplitude_m, double gap_m) const noexcept;
   template <class Node>
   double between(const std::vector<Node>& nodes, const Place& place, float Node::* value) const noexcept;
-  double least_swing_m() const noexcept { return 1e-3 * least_amplitude_m_; }  // that has a phase
+  double least_swing_m() const noexcept { return 1e-3 * least_amplitude_m_; }  // least swing with a phase
   Swing contact() const noexcept;                                              // now
   void approach_rest(double gap_m, double angle) noexcept;
 
@@ -94,7 +94,7 @@ class TapEnvelope {
     double drive = 0, detuned = 0, damping = 0;  // a/2r, (r^2 - 1)/2r, 1/2Q
     double by_stored = 0, by_turn = 0;           // 1/kr, 1/(2 pi k r)
     double by_row = 0, by_nudge = 0;             // 1/m: of the rows' distance, and of a small part of it
-    double slowest = 0;                          // of the longest step
+    double slowest = 0;                          // inverse of the longest step
   };
 
   std::shared_ptr<const DrivenLever> lever_;
@@ -105,9 +105,9 @@ class TapEnvelope {
   std::shared_ptr<const Tables> tables_;    // null for a low quality factor
   std::shared_ptr<const TapTable> rests_;   // null for a high one
   bool repelled_ = false;                   // branch of rests_
-  double free_cosine_ = 0, free_sine_ = 1;  // of the free phase
+  double free_cosine_ = 0, free_sine_ = 1;  // cosine and sine of the free phase
   double u_ = 0, v_ = 0;
-  double gap_m_ = 0;  // of the newest swing
+  double gap_m_ = 0;  // gap of the newest swing
 };
 
 }  // namespace afm::physics

@@ -26,7 +26,7 @@ class TapTable {
     double u_m = 0, v_m = 0;
     double lost_j = 0;        // in the sample, per swing
     double peak_force_n = 0;  // largest force of the sample on the tip
-    double mean_force_n = 0;  // of the sample on the tip
+    double mean_force_n = 0;  // mean force of the sample on the tip
   };
 
   TapTable(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever);
