@@ -2,7 +2,7 @@
 // Code shared by the shaders of the room. Needs `shadow_map`, drawn by soft_shadow.frag, and `shadow_place`, texture
 // coordinates and depth in it.
 
-const float kLeastVariance = 2e-7;  // of depths in one plane, from rounding
+const float kLeastVariance = 2e-7;  // rounding of depths in one plane
 const float kLightLeak = 0.12;      // share of the light behind two casters at different depths
 
 // Share of the key light that arrives: at most the share of the depths around that are not nearer to the light, by

@@ -14,7 +14,7 @@ namespace {
 
 constexpr vk::Format kMomentsFormat = vk::Format::eR32G32Sfloat;
 constexpr std::int32_t kSide = AFM_SOFT_SHADOW_SIZE;
-constexpr std::int32_t kTexelsPerSide = AFM_SHADOW_MAP_SIZE / AFM_SOFT_SHADOW_SIZE;  // of the shadow map in one texel
+constexpr std::int32_t kTexelsPerSide = AFM_SHADOW_MAP_SIZE / AFM_SOFT_SHADOW_SIZE;  // the shadow map's in one texel
 constexpr vk::Extent2D kSoftSize{AFM_SOFT_SHADOW_SIZE, AFM_SOFT_SHADOW_SIZE};
 
 constexpr ImageUse kMomentsSampled{
