@@ -27,6 +27,7 @@
 #include "exhibit/frame/wall_pictures.h"
 #include "exhibit/models/model_view.h"
 #include "exhibit/panels/parameter_panel.h"
+#include "exhibit/panels/scratch_panel.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
@@ -213,6 +214,9 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
   const auto add_panels = [&](render::FrameState& frame) {
     panels.add_to(frame, {}, material, material ? stage.phrases().word(stage.materials.materials[*material].title) : "",
                   tip, HandSource::Mouse);
+    if (then.moment.wall.particles != nullptr && then.moment.wall.particles->set->soft) {
+      exhibit::leave_law_out(*then.moment.wall.particles, stage.phrases(), frame.panels.force.content);
+    }
   };
   return draw(stage, models, then.moment, picture, options.out, add_panels);
 }

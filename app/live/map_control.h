@@ -41,7 +41,7 @@ class MapControl final : public ViewControl {
   void lay_colours(const curves::SampleModel& map, render::FrameState& picture);
 
   ViewParts& parts_;
-  exhibit::WallState wall_;  // of this frame
+  exhibit::WallState wall_;  // the frame's
   bool retracting_ = false;
   std::unique_ptr<const Laid> laid_;                   // null: nothing
   Seen seen_ = Seen::Nothing, first_ = Seen::Nothing;  // now, and at the start

@@ -16,14 +16,17 @@
 #include "exhibit/friction/friction_panel.h"
 #include "exhibit/panels/panel_hit.h"
 #include "exhibit/panels/parameter_panel.h"
+#include "exhibit/panels/scratch_panel.h"
 #include "exhibit/panels/swing_panel.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/map_picture.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scenery/wall_scene.h"
 #include "exhibit/state/moment.h"
+#include "exhibit/state/particles_now.h"
 #include "exhibit/words/guidance.h"
 #include "render/control_layout.h"
+#include "scene/samples/particle_set.h"
 #include "scene/shared/field_copy.h"
 #include "servo/servo_client.h"
 
@@ -340,6 +343,9 @@ void add_panels(const exhibit::Stage& stage, ViewPanels& panels, const exhibit::
   panels.add_to(frame, panelled.pointed, material,
                 material ? stage.phrases().word(stage.materials.materials[*material].title) : "", panelled.tip,
                 panelled.hand, moment.letters);
+  if (moment.wall.particles != nullptr && moment.wall.particles->set->soft && exhibit::pushes_particles(panelled.tip)) {
+    exhibit::leave_law_out(*moment.wall.particles, stage.phrases(), frame.panels.force.content);
+  }
   panels.add_note(frame, moment.wall.centerpiece, caption);
 }
 

@@ -59,7 +59,7 @@ TEST(CurveProgram, RefusesUnphysicalValues) {
 }
 
 TEST(CurveProgram, RefusesASweepOfABillionPointsAtOnce) {
-  expect_refusal("curve --material mica --sweep tip-radius=1nm:100nm:1000000000", 2, "within 2 to 1000000");
+  expect_refusal("curve --material mica --sweep tip-radius=1nm:100nm:1000000000", 2, "from 2 to 1000000");
   expect_refusal("curve --material mica --sweep tip-radius=1nm:9nm:99999 --sweep hamaker=1zJ:9zJ:99999", 2, "at most");
 }
 

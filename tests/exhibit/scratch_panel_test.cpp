@@ -56,6 +56,24 @@ TEST_F(ScratchPanel, ShowsDepthLoadAndGroove) {
   EXPECT_EQ(row({}, Phrase::SoftGroove).value, "");
 }
 
+TEST_F(ScratchPanel, LeavesTheLawOutOfThePlotOfForce) {
+  render::ForcePanel plot;
+  plot.stage = "B -> A";
+  plot.markers.push_back({.value = 2.4, .label = "Z_jtc 2.40 nm"});
+  plot.curves.resize(2);
+  plot.curves[0].faded = true;
+  plot.curves[1].label = "Mica";
+  plot.curves[1].approach.push_back({.place_nm = -30.0, .force_nn = 12.0});
+  leave_law_out({.set = &set_, .push = push_}, test::english(), plot);
+  EXPECT_EQ(plot.stage, "");
+  EXPECT_TRUE(plot.markers.empty());
+  ASSERT_EQ(plot.curves.size(), 1U);
+  EXPECT_EQ(plot.curves.front().label, set_.title);
+  EXPECT_LT(plot.place_min_nm, -30.0);
+  EXPECT_GT(plot.force_max_nn, 12.0);
+  EXPECT_LT(plot.force_min_nn, 0.0);
+}
+
 TEST_F(ScratchPanel, SaysWhenTheHandIsTooFast) {
   EXPECT_THAT(row(push_, Phrase::SoftSpeed).source, HasSubstr("slow enough"));
   push_.rise_m = 20e-9;

@@ -35,6 +35,12 @@ class WallSceneTest : public test::PaperWall {
     return state;
   }
 
+  const scene::SharedHeightField& surface_of(std::size_t material) const {
+    scene::SharedContact parameters;
+    scene_.lay_surface_on(parameters, material);
+    return scene_.height_fields()[parameters.height_field];
+  }
+
   glm::dvec3 origin_of(const render::FrameState& state, std::string_view node) const {
     return glm::dvec3(state.room_from_node[scene_.scene().find_node(node).value()][3]);
   }
@@ -71,7 +77,7 @@ TEST_F(WallSceneTest, TheApexStandsAtItsHeightHoweverTheLeverBends) {
 TEST_F(WallSceneTest, TheApexStandsOverTheDrawnSurfaceWhereverTheTipIs) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
     const double scale = scene_.drawn_scale(material).sample_m_per_m;
-    const scene::SharedHeightField& field = scene_.height_fields()[scene_.height_field(material)];
+    const scene::SharedHeightField& field = surface_of(material);
     const auto surface = scene_.scene().find_node("sample-" + materials_.materials[material].name + "/surface").value();
     const auto& drawn = scene_.scene().meshes[*scene_.scene().nodes[surface].mesh].primitives.front().vertices;
     for (std::size_t vertex = 5; vertex < drawn.size(); vertex += 397) {
@@ -280,7 +286,7 @@ class SampleSize : public WallSceneTest {
     EXPECT_NEAR(ruler_m, bar.length_m / per_m, 0.05 * ruler_m) << what << ", " << bar.text;
     EXPECT_TRUE(std::any_of(now.labels.begin(), now.labels.end(), [&](const auto& l) { return l.text == bar.text; }));
 
-    const scene::SharedHeightField& field = scene_.height_fields()[scene_.height_field(material)];
+    const scene::SharedHeightField& field = surface_of(material);
     const auto felt = scene::FeltHeights(field).scaled(scene::surface_scale(model.parameters, release_m));
     const auto surface = scene_.scene().find_node(node).value();
     const auto& drawn = scene_.scene().meshes[*scene_.scene().nodes[surface].mesh].primitives.front().vertices;

@@ -29,8 +29,10 @@ using physics::PushState;
 
 static_assert(after(Phrase::SoftFree, core::index_of(PushState::Slides)) == Phrase::SoftMarks);
 
-constexpr double kFeltSofter = 1.05;  // beyond this the panel says that the lever is felt softer
-constexpr double kRaisedM = 1e-10;    // beyond this the panel says that the hand is too fast
+constexpr double kFeltSofter = 1.05;     // beyond this the panel says that the lever is felt softer
+constexpr double kRaisedM = 1e-10;       // beyond this the panel says that the hand is too fast
+constexpr double kAroundCurve = 1.1;     // axes by what they show
+constexpr double kLeastPlottedNn = 1.0;  // push at the top of the axis before the first scratch
 
 class ScratchRows {
  public:
@@ -114,6 +116,26 @@ render::DataPanel scratch_panel(const ParticlesNow& now, const Phrases& phrases)
   return {.title = phrases.word(now.set->title),
           .subtitle = phrases.text<Phrase::SoftTakeBack>(fmt::format("{}", now.push.strokes)),
           .rows = ScratchRows(now, phrases).take()};
+}
+
+void leave_law_out(const ParticlesNow& now, const Phrases& phrases, render::ForcePanel& plot) {
+  std::erase_if(plot.curves, [](const render::PlotCurve& curve) { return curve.faded; });
+  plot.markers.clear();
+  plot.stage.clear();
+  double deepest_nm = 0.0, most_nn = kLeastPlottedNn;
+  const auto include = [&](const render::PlotPoint& point) {
+    deepest_nm = std::min(deepest_nm, point.place_nm);
+    most_nn = std::max(most_nn, point.force_nn);
+  };
+  for (render::PlotCurve& curve : plot.curves) {
+    curve.label = phrases.word(now.set->title);
+    std::for_each(curve.approach.begin(), curve.approach.end(), include);
+    std::for_each(curve.retract.begin(), curve.retract.end(), include);
+  }
+  if (plot.cursor) include(*plot.cursor);
+  plot.place_min_nm = std::min(plot.place_min_nm, kAroundCurve * deepest_nm);
+  plot.force_min_nn = (1.0 - kAroundCurve) * most_nn;
+  plot.force_max_nn = kAroundCurve * most_nn;
 }
 
 }  // namespace afm::exhibit

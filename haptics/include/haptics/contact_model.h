@@ -59,7 +59,7 @@ struct MapTouch {
   double force_n = 0;            // along the normal
   glm::dvec2 sideways_n{0.0};    // along the sample's x and y, at a constant height above the surface
   double stored_j = 0;           // potential of the branch, zero at the least of the map
-  double damping_n_s_per_m = 0;  // of the hand in any direction, for the governor; 0 without a viscous map
+  double damping_n_s_per_m = 0;  // viscosity for the hand in any direction; 0 without a viscous map
   scene::LawHere here;           // the law below the tip
 };
 

@@ -99,8 +99,8 @@ class FeltScratch {
   ParticleScale scale_;
   physics::ScratchingTip tip_;
   std::vector<scene::MarkTile> tiles_;
-  std::vector<std::uint64_t> marks_;  // of tiles_
-  std::vector<double> highest_m_;     // of tiles_
+  std::vector<std::uint64_t> marks_;  // numbers of the tiles
+  std::vector<double> highest_m_;     // tops of the tiles
   std::unique_ptr<MarkHistory> strokes_;
   double stiffness_n_per_m_ = 0;
   double fastest_hand_m_per_s_ = 0;

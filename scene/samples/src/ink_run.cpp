@@ -23,7 +23,7 @@ using physics::Length;
 using physics::LeverBase;
 using physics::Time;
 
-constexpr double kSquaresAcross = 480.0;  // of the larger side, with both margins
+constexpr double kSquaresAcross = 480.0;  // squares along the larger side, with both margins
 constexpr double kFinestM = 1e-9;
 
 // Largest dot that a wait leaves, and the widest line.

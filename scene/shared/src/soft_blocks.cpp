@@ -10,7 +10,7 @@
 namespace afm::scene {
 namespace {
 
-constexpr std::uint64_t kTilePrime = 0x100000001b3;  // of the 64-bit FNV-1a, here by words
+constexpr std::uint64_t kTilePrime = 0x100000001b3;  // prime of the 64-bit FNV-1a, here by words
 constexpr std::uint64_t kTileBasis = 0xcbf29ce484222325;
 constexpr double kMostHeightM = 1e-6;
 constexpr double kSpareSquares = 0.5;  // less than a square, so that rounding adds none

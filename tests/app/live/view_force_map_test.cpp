@@ -176,8 +176,8 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
                              "--validate"},
                             display_.name());
   ASSERT_TRUE(view.says("the whole map is felt: E ")) << view.said();
-  ASSERT_TRUE(view.says("the surface of 500 pN, which 12 of 12 curves reach")) << view.said();
   ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  ASSERT_TRUE(view.says("the surface of 500 pN, which 12 of 12 curves reach")) << view.said();
   xdotool("search --sync --name TouchAFM");
   ASSERT_TRUE(touch(view)) << view.said();
   lift(0.130);

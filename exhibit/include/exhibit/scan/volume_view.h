@@ -45,15 +45,15 @@ class VolumeView {
   // Scales of a sample and its volume on the wall; lengths in units of the layout.
   struct Scales {
     double release_z_m = -1;                                // as in WallState
-    double per_m = 0;                                       // for a metre of the sample's frame
-    double per_height_m = 0;                                // for a metre along the curves
+    double per_m = 0;                                       // units of the drawing per metre of the sample's frame
+    double per_height_m = 0;                                // units of the drawing per metre along the curves
     double lateral = 1;                                     // metres of the sample's frame per metre as measured
     double top = 0;                                         // height of the curves
     glm::dvec2 size_m{0.0};                                 // between the middles of the outermost pixels, as measured
     glm::dvec2 map_m{0.0};                                  // whole map
     std::function<double(double x_m, double y_m)> drawn_m;  // the drawn surface, in metres of its own
     scene::TopographyScale shown{};                         // metres of the sample's frame per such metre
-    double floor = 0, lid = 0;                              // of the surface, and of the highest curve over it
+    double floor = 0, lid = 0;                              // surface; top of the highest curve over it
   };
   // What was drawn last.
   struct Slice {

@@ -25,7 +25,7 @@ class WallPlaces {
   double unit_m() const;  // size of one layout unit in metres
   double shelf_y() const { return shelf_y_; }
   double height_bar_x() const;
-  render::PanelPlacement height_bar_text(double share) const;  // of a number beside it, 0 at its foot, 1 at its head
+  render::PanelPlacement height_bar_text(double share) const;  // number beside it, 0 at its foot, 1 at its head
 
   // In the layout, of so many swatches.
   glm::dvec3 swatch(std::size_t i, std::size_t count) const;

@@ -57,9 +57,8 @@ class WallScene {
   // Swatches as targets of the wand, in the order of the materials.
   std::vector<input::Target> swatch_targets() const;
 
-  // The surfaces that are felt, as drawn, and the index of a material's surface, scene::kNoHeightField if it has none.
+  // The surfaces that are felt, as drawn.
   std::span<const scene::SharedHeightField> height_fields() const { return height_fields_; }
-  std::uint32_t height_field(std::size_t material) const { return looks_[material].height_field; }
 
   // A measured topography that replaces them, without columns if there is none; and its scale on a material.
   const scene::Topography& topography() const { return topography_; }

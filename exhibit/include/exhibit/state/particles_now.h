@@ -34,7 +34,7 @@ struct ParticlesNow {
   scene::TaskScore score{};  // only for a set with a pattern
   scene::PlannedPush plan{};
   const servo::PictureNow* picture = nullptr;  // at level 1 and 2
-  std::span<const scene::MarkTile> tiles{};    // of a soft sample
+  std::span<const scene::MarkTile> tiles{};    // marks of a soft sample
   std::uint64_t marks = 0;                     // other tiles have another number
 };
 

@@ -72,7 +72,7 @@ class InkedSurface {
   std::vector<std::uint8_t> covered_;
   std::vector<Offset> nearest_;  // offsets within reach, the nearest first
   std::size_t next_ = 0;         // all offsets before it are covered, at the place of the last touch
-  long column_ = -1, row_ = -1;  // that place
+  long column_ = -1, row_ = -1;  // square of the last touch
   double waiting_ = 0.0;         // squares that have flowed out and are not covered yet
   double covered_squares_ = 0.0, lost_squares_ = 0.0;
 };

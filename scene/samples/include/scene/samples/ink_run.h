@@ -15,9 +15,9 @@ namespace afm::scene {
 
 // A tip with ink, which it leaves while its apex is on the sample or pressed on it: z <= 0.
 struct InkSample {
-  std::string name;  // of the ink
+  std::string name;
   physics::Ink ink;
-  physics::Length thickness;  // of a layer, for the image
+  physics::Length thickness;  // height of a layer, for the image
 };
 
 // A move: what it has covered, and what the formulas say.
@@ -26,9 +26,9 @@ struct InkedMove {
   physics::Time touched{};   // time on the sample, with the wait
   physics::Area covered;     // by this move
   physics::Length way;       // along the sample, on it
-  physics::Length width;     // of the line, on the grid; 0: no line
+  physics::Length width;     // width of the line on the grid; 0: no line
   physics::Length by_speed;  // width by (M81), along a line
-  physics::Length radius;    // of a circle of the area that the tip leaves where the move ends, by (M80); 0: no wait
+  physics::Length radius;    // dot where the move ends, by (M80); 0: no wait
 };
 
 struct InkRun {
