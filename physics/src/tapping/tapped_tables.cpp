@@ -19,7 +19,6 @@ namespace {
 constexpr int kHeights = 400;               // heights in a walk
 constexpr std::size_t kNodes = 1200;        // nodes in a branch
 constexpr Length kClearOfSample{2e-9};      // distance from the free swing without a push
-constexpr std::size_t kJumpsOfALoop = 2;    // one down, one back above it
 constexpr double kFaintReduction = 0.02;    // share of the free amplitude
 constexpr double kMostReachOfSwing = 10.0;  // in free amplitudes, for an attraction with a long range
 
@@ -91,12 +90,6 @@ std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_pt
     tables.taps = std::make_shared<const TapTable>(surface, lever);
   const TappingCurve curve = tables.taps ? tables.taps->walk() : averaged_curve(surface, lever);
   const SlowWalk walk = slow_walk_of(curve, lever);
-  if (tables.taps && curve.jumps.size() > (walk.hysteretic() ? kJumpsOfALoop : 0)) {
-    // a step of the push at one height would give a hand, which feels it once a tick, energy without end
-    throw UnphysicalValue("quality_factor",
-                          "with it the swing over this sample changes in steps, which no hand can safely feel; give "
-                          "a higher one, 100 in doubt, or take a curve or an image instead");
-  }
   const Length a0 = lever.free_amplitude, floor = surface->contact_height(), from = walk.down.front().z;
   tables.law = law;
   tables.contact = surface->contact();

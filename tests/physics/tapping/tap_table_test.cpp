@@ -119,13 +119,6 @@ TEST(TapTable, LetsAHandFallIntoTheRepulsiveStateAndOutOfIt) {
   EXPECT_NEAR(nm_of(off[0].z), nm_of(figures.z_joc), 0.05);
 }
 
-// Steps without a loop: the tip sticks to the sample and comes free at one height.
-TEST(TapTable, IsRefusedForAHandWhereTheSwingSteps) {
-  const TappedSample sticky{.k = 2.0, .q = 5.0, .r_nm = 50.0, .e_gpa = 50.0};
-  EXPECT_FALSE(TapTable(sticky.surface(), sticky.lever()).walk().jumps.empty());
-  EXPECT_THROW((void)tables_of(sticky), UnphysicalValue);
-}
-
 TEST(TapTable, IsFollowedWithTheRelaxationOfTheLever) {
   const auto rests = std::make_shared<const TapTable>(kSoft.surface(), kSoft.lever());
   TapEnvelope envelope(rests);
