@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -70,7 +71,7 @@ TEST(Ink, WhatFindsNoBareSquareWithinReachIsLost) {
   for (int i = 0; i < 1000; ++i) surface.touch({Length(0.0), Length(0.0)}, Time(1e-3));
   EXPECT_GT(surface.lost().si, 1e-14);
   EXPECT_NEAR(surface.covered().si + surface.lost().si, inked_area(kThiol, Time(1.0)).si, 5e-18);
-  surface.touch({Length(NAN), Length(0.0)}, Time(1.0));
+  surface.touch({Length(std::numeric_limits<double>::quiet_NaN()), Length(0.0)}, Time(1.0));
   surface.touch({Length(0.0), Length(0.0)}, Time(-1.0));
   EXPECT_NEAR(surface.covered().si + surface.lost().si, inked_area(kThiol, Time(1.0)).si, 5e-18) << "ignored";
 }
