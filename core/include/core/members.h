@@ -10,7 +10,7 @@
 // can lack one.
 namespace afm::core {
 
-// Placeholder for a member of any type.
+// Converts to any type, so that an aggregate can be tried with a number of initializers.
 struct AnyMember {
   template <class Member>
   constexpr operator Member() const {  // NOLINT(google-explicit-constructor): an initializer is converted implicitly

@@ -80,7 +80,7 @@ TEST(TapTable, HasTheSwingsOfDirectIntegration) {
   }
 }
 
-// The free swing and a lever at rest come to states of the table at a height that has both.
+// At a height with two states, a free swing and a lever that starts at rest each end in one of the table's.
 TEST(TapTable, HasTheStatesInWhichALeverComesToRest) {
   const std::shared_ptr<const TapTable> rests = bistable()->taps;
   const CycleFigures& figures = bistable()->figures;
