@@ -134,7 +134,8 @@ std::vector<std::string> commands_of(const std::string& page) {
     text.clear();
   };
   bool in_block = false;
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line, rest; std::getline(lines, line);) {
+    while (line.ends_with('\\') && std::getline(lines, rest)) line.replace(line.size() - 1, 1, rest);
     const std::string content = trimmed(line);
     if (content.rfind("```", 0) == 0) {
       add_quotations();
@@ -168,7 +169,7 @@ std::vector<std::string> all_commands() {
 }
 
 // The reader's own files, under the names that the pages give them: the content decides what they are. A person closes
-// a window; here a signal does, once the window has asked for a sample.
+// a window; here a signal does, once the window draws.
 constexpr const char* kSetUp = R"(set -eu
 touchafm() {
   case "$1 $*" in
@@ -179,7 +180,7 @@ touchafm() {
   command touchafm "$@" &
   local pid=$! i
   for i in {1..600}; do
-    if grep -q 'Choose a sample\|lesson: ' "$output"; then break; fi
+    if grep -q 'touchafm: drawing \|lesson: ' "$output"; then break; fi
     kill -0 $pid || break
     sleep 0.1
   done

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "physics/law_tables.h"
+#include "support/deep.h"
 
 namespace afm::haptics {
 namespace map_law_test {
@@ -213,7 +214,7 @@ TEST(MapLaw, GivesNoEnergyOnAnyOfTenThousandClosedPaths) {
   for (const Paths& paths : {Paths{Law::Dmt, Phase::Free, 2000}, Paths{Law::Dmt, Phase::Attached, 4000},
                              Paths{Law::Jkr, Phase::Attached, 4000}}) {
     const MapLaw& law = map_of(paths.law);
-    EXPECT_LT(largest_gain_j(law, paths.phase, true, paths.count), 1e-6 * largest_j(law));
+    EXPECT_LT(largest_gain_j(law, paths.phase, true, support::draws(paths.count)), 1e-6 * largest_j(law));
   }
 }
 
@@ -228,7 +229,7 @@ TEST(MapLaw, GivesNoEnergyOnPathsWithJumps) {
   for (const Law name : {Law::Dmt, Law::Jkr}) {
     const MapLaw& law = map_of(name);
     const double most_j = largest_j(law);
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < support::draws(300); ++i) {
       const Terrain terrain(static_cast<unsigned>(i));
       const Hand hand(law, terrain, true, 1e-8 * most_j);
       const glm::dvec3 start{across(random), across(random), kTopM};
@@ -246,7 +247,7 @@ TEST(MapLaw, GivesNoEnergyOnPathsWithJumps) {
       EXPECT_LT(work_j, 1e-6 * most_j) << "path " << i;
     }
   }
-  EXPECT_GT(jumps, 600) << "the paths hardly ever touch";
+  EXPECT_GT(jumps, support::draws(600)) << "the paths hardly ever touch";
 }
 
 TEST(MapLaw, IsTheOutermostLawBeyondTheFamily) {

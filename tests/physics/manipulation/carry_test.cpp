@@ -379,7 +379,7 @@ void expect_certified(std::uint64_t seed, int spheres, Counted& counted) {
 }
 
 TEST(Certificate, HoldsWhereSpheresAreLiftedAndSetDown) {
-  const int paths = support::deep() ? 300 : 8;
+  const int paths = support::deep() ? 300 : 3;
   std::uint64_t seed = 1;
   for (const int spheres : {1, 9}) {
     Counted counted;

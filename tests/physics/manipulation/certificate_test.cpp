@@ -203,7 +203,7 @@ void expect_certified(const Crowd& crowd, std::uint64_t seed, int ticks, long& t
 }
 
 TEST(Certificate, HoldsOnRandomPathsAmongAnyNumberOfParticles) {
-  const int ticks = support::deep() ? 10'000'000 : 300'000, ticks_of_a_path = 10'000;
+  const int ticks = support::deep() ? 10'000'000 : 200'000, ticks_of_a_path = 10'000;
   std::uint64_t seed = 1;
   for (const Crowd& crowd : kCrowds) {
     const int paths = static_cast<int>(std::lround(crowd.share_of_ticks * ticks / ticks_of_a_path));
