@@ -42,6 +42,22 @@ py::list events_of(const RecordedSession& session) {
   return events;
 }
 
+// A number of each event.
+template <class Value>
+auto of_events(Value value) {
+  return [value](const RecordedSession& self) {
+    return computed(self.events, [&self, &value](const scene::TipEvent& event) { return value(self, event); });
+  };
+}
+
+py::object event_kinds(const RecordedSession& session) {
+  py::list kinds;
+  for (const scene::TipEvent& event : session.events) kinds.append(physics::name_of(event.kind));
+  py::object array = py::module_::import("numpy").attr("array")(kinds, "U");
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
 std::shared_ptr<RecordedSession> load(const std::filesystem::path& path) {
   return std::make_shared<RecordedSession>(
       value_of(long_work([path = path.string()](const std::stop_token&) { return servo::load_session(path); })));
@@ -86,6 +102,22 @@ void add_sessions(py::module_& module) {
           "True while the tip touches.")
       .def_property_readonly("events", &events_of,
                              "Events in their order: dicts of kind, time s, z m, force_before N and force_after N.")
+      .def_property_readonly("event_kind", &event_kinds, "Kind of each event, \"jump-to-contact\".")
+      .def_property_readonly("event_time", of_events([](const RecordedSession& self, const scene::TipEvent& event) {
+                               return self.seconds_since_start(event.time_ns);
+                             }),
+                             "Time of each event since the start, s.")
+      .def_property_readonly("event_z",
+                             of_events([](const RecordedSession&, const scene::TipEvent& event) { return event.z_m; }),
+                             "Height of the lever's base at each event, m.")
+      .def_property_readonly("event_force_before", of_events([](const RecordedSession&, const scene::TipEvent& event) {
+                               return event.force_before_n;
+                             }),
+                             "Force just before each event, N.")
+      .def_property_readonly("event_force_after", of_events([](const RecordedSession&, const scene::TipEvent& event) {
+                               return event.force_after_n;
+                             }),
+                             "Force just after each event, N.")
       .def("__len__", [](const RecordedSession& self) { return self.samples.size(); })
       .def("__repr__", [](const RecordedSession& self) {
         return fmt::format("<touchafm.Session on {}, {} samples>", self.material, self.samples.size());

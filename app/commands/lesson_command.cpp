@@ -97,6 +97,8 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   if (!library) return tl::unexpected(library.error());
   const auto samples = exhibit::lesson_samples(*lesson, *library);
   if (!samples) return tl::unexpected(of_lesson_file(options, samples.error()));
+  const auto described = exhibit::samples_json(*lesson, *library);
+  if (!described) return tl::unexpected(of_lesson_file(options, described.error()));
   const std::string code = participant->code();
   const std::uint64_t seed = seed_of(code, *lesson);
   auto data = exhibit::DataSet::create(*lesson, {.folder = options.out,
@@ -105,6 +107,7 @@ core::Result<void> run_simulated(const LessonOptions& options) {
                                                  .wall = "none",
                                                  .seed = seed,
                                                  .observer = participant->json(),
+                                                 .samples = *described,
                                                  .day = std::nullopt});
   if (!data) return tl::unexpected(data.error());
   exhibit::LessonRun run(
@@ -134,12 +137,8 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
   }
   const auto library = load_library(options.view.files);
   if (!library) return tl::unexpected(library.error());
-  const auto known = library->only(lesson->materials);
-  if (!known) return tl::unexpected(of_lesson_file(options, known.error()));
-  for (const scene::MaterialEntry& entry : known->materials) {
-    const auto setup = exhibit::lesson_setup(*lesson, entry);
-    if (!setup) return tl::unexpected(of_lesson_file(options, setup.error()));
-  }
+  const auto described = exhibit::samples_json(*lesson, *library);
+  if (!described) return tl::unexpected(of_lesson_file(options, described.error()));
   ViewOptions view = options.view;
   view.files.shown = lesson->materials;
   view.files.particles = lesson->particles;
@@ -159,6 +158,7 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
                                        .wall = view.files.wall.empty() ? "powerwall" : view.files.wall,
                                        .seed = seed_of(code, guided.lesson),
                                        .age_band = options.age_band,
+                                       .samples = *described,
                                        .order = *order,
                                        .day = days.count()};
   const std::string participant = options.out + "/sub-" + code;

@@ -2,6 +2,8 @@
 """Contacts, laws, cycles, sweeps and tapping: the numbers, refusals and JSON of the command."""
 
 import pickle
+import subprocess
+import sys
 import unittest
 
 import numpy as np
@@ -159,7 +161,22 @@ class Paper(unittest.TestCase):
         self.assertEqual(sorted(tables), ["table1", "table2"])
 
 
+OPEN = """
+import os
+def sockets():
+    links = (os.path.join("/proc/self/fd", fd) for fd in os.listdir("/proc/self/fd"))
+    return sorted(os.readlink(link) for link in links if os.path.islink(link) and os.readlink(link).startswith("socket:"))
+before = sockets()
+import touchafm, touchafm.maps, touchafm.serve, touchafm.compat.dtmicroscope
+assert sockets() == before, sockets()
+assert "DISPLAY" not in os.environ
+"""
+
+
 class Import(unittest.TestCase):
+    def test_opens_no_socket(self):
+        subprocess.run([sys.executable, "-c", OPEN], check=True)
+
     def test_loads_no_window_system(self):
         with open("/proc/self/maps", encoding="utf-8") as maps:
             loaded = maps.read()

@@ -181,6 +181,13 @@ class Sessions(Files):
         self.assertEqual(len(session.time), len(session))
         self.assertEqual(len(session.hand_force), len(session))
         self.assertTrue(np.isfinite(session.force).all())
+        session = touchafm.session(corpus.parent.parent.parent / "formats" / "0.2.0" / "session-mica.afms")
+        self.assertEqual(list(session.event_kind), ["jump-to-contact", "jump-off-contact"])
+        for name in ("kind", "time", "z", "force_before", "force_after"):  # the same events as arrays
+            column = getattr(session, f"event_{name}")
+            np.testing.assert_array_equal(column, [event[name] for event in session.events])
+            with self.assertRaises(ValueError):
+                column[0] = column[0]
         with self.assertRaises(touchafm.FileError):
             touchafm.session(corpus / "count-too-large.afms")
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/version.h"
 #include "core/whole_file.h"
 #include "haptics/device.h"
 #include "servo/session_writer.h"
@@ -19,6 +20,7 @@
 namespace afm::servo {
 namespace session_file_test {
 
+using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 
@@ -97,6 +99,14 @@ TEST(SessionFile, ComesBackAsItWasSaved) {
   ASSERT_NE(loaded->find(physics::EventKind::JumpOffContact), nullptr);
   EXPECT_EQ(loaded->find(physics::EventKind::JumpToContact), nullptr);
   EXPECT_NEAR(loaded->seconds_since_start(loaded->events[0].time_ns), 0.300000123, 1e-12);
+}
+
+TEST(SessionFile, NamesTheProgramThatRecordedIt) {
+  const support::ScratchFolder folder;
+  ASSERT_TRUE(save_session(example(), folder.file("a.afms")));
+  EXPECT_THAT(core::read_file(folder.file("a.afms")).value(),
+              AllOf(HasSubstr("\"software\":\"TouchAFM\""),
+                    HasSubstr(std::string("\"software_version\":\"") + core::kVersion + "\"")));
 }
 
 TEST(SessionFile, OfTheSameSessionHasTheSameBytes) {

@@ -13,6 +13,7 @@
 
 #include "bytes/text_table.h"
 #include "core/printable.h"
+#include "core/version.h"
 #include "curves/curve_error.h"
 #include "curves/plot_units.h"
 #include "formats/afmformats_metadata.h"
@@ -86,6 +87,7 @@ std::string own_lines(const RecordedCurve& curve) {
     if (std::count(value.begin(), value.end(), ',') >= 3) std::replace(value.begin(), value.end(), ',', ';');
     fmt::format_to(std::back_inserter(text), "{}{}:\t{}\r\n", start, key, value);
   };
+  add(kOwnLine, "version", core::kVersion);
   const nlohmann::ordered_json metadata = afmformats_metadata(curve);
   for (const auto& [key, value] : metadata.items()) {
     if (std::find(kElsewhere.begin(), kElsewhere.end(), key) != kElsewhere.end()) continue;

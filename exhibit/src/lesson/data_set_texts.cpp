@@ -98,14 +98,19 @@ void add_levels(ordered_json& json, const char* column, const Rows& rows) {
   for (const auto& row : rows) json[column]["Levels"][std::string(row.word)] = row.meaning;
 }
 
+// The program that showed the stimuli, by the names of BIDS.
+constexpr const char* kPresentation = "StimulusPresentation";
+ordered_json presentation() { return {{"SoftwareName", "TouchAFM"}, {"SoftwareVersion", core::kVersion}}; }
+
 constexpr const char* kReadme =
     R"(A study with TouchAFM, a haptic model of an atomic force microscope: people feel force-distance curves, identify
 samples by feeling alone, compare pull-off forces and answer questionnaires.
 
 The data set follows the Brain Imaging Data Structure (BIDS). participants.tsv has a row for each code. The folder
-sub-CODE/beh has a table of trials for each lesson; the JSON beside a table describes its columns and holds the lesson,
-the seed, the program, the device, the scale and the wall. There are no names and no clock times. Folders that end in
-_session hold recordings of the hand in TouchAFM's own format and are no part of BIDS.
+sub-CODE/beh has a table of trials for each lesson; the JSON beside a table describes its columns and holds the program,
+the lesson, the seed, the device, the scale, the wall and the samples with the sources of their numbers. There are no
+names and no clock times. Folders that end in _session hold recordings of the hand in TouchAFM's own format and are no
+part of BIDS.
 
 To pool the study: touchafm study FOLDER --out REPORT
 )";
@@ -130,6 +135,7 @@ std::string task_label(const std::string& lesson) {
 ordered_json participants_json() {
   ordered_json json = described(kParticipantTexts);
   add_levels(json, "age_band", study::kAgeBands);
+  json[kPresentation] = presentation();  // name of the newest program
   return json;
 }
 
@@ -139,7 +145,7 @@ bool describe_anew(const ordered_json& now, ordered_json& old) {
     const auto found = old.find(column);
     const bool fits =
         found != old.end() && found->is_object() && (!found->contains("Levels") || (*found)["Levels"].is_object());
-    if (fits) continue;
+    if (fits && (column != kPresentation || *found == description)) continue;
     old[column] = description;
     changed = true;
   }
@@ -162,6 +168,8 @@ std::string events_json(const Lesson& lesson, const DataSetEntry& entry, std::in
                     {"wall", entry.wall},
                     {"started_day", day}};
   if (!entry.observer.empty()) json["Lesson"]["observer"] = ordered_json::parse(entry.observer);
+  json[kPresentation] = presentation();
+  if (!entry.samples.empty()) json["Samples"] = ordered_json::parse(entry.samples);
   return json.dump(2) + "\n";
 }
 

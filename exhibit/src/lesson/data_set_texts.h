@@ -26,8 +26,8 @@ std::string task_label(const std::string& lesson);
 
 nlohmann::ordered_json participants_json();
 
-// Replaces in `old` the descriptions of an earlier version, whose levels had no meanings, and adds missing ones.
-// Returns whether anything has changed.
+// Replaces in `old` the descriptions of an earlier version, whose levels had no meanings, and the program's name, and
+// adds missing ones. Returns whether anything has changed.
 bool describe_anew(const nlohmann::ordered_json& now, nlohmann::ordered_json& old);
 
 std::string events_header();

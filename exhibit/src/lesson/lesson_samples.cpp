@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
 
+#include "curves/curve_output.h"
 #include "curves/tapping/driven_setup.h"
 
 namespace afm::exhibit {
@@ -65,6 +68,23 @@ core::Result<std::vector<curves::SampleModel>> lesson_samples(const Lesson& less
   }
   if (auto checked = check_samples(lesson, samples); !checked) return tl::unexpected(checked.error());
   return samples;
+}
+
+core::Result<std::string> samples_json(const Lesson& lesson, const scene::MaterialLibrary& library) {
+  nlohmann::ordered_json samples = nlohmann::ordered_json::object();
+  for (const std::string& name : lesson.materials) {
+    const auto entry = library.require(name);
+    if (!entry) return tl::unexpected(entry.error());
+    const auto setup = lesson_setup(lesson, **entry);
+    if (!setup) return tl::unexpected(setup.error());
+    nlohmann::ordered_json sample{{"parameters", curves::parameters_json(*setup)}};
+    curves::add_sources(sample, *setup);
+    // the data set names the program once
+    sample.erase("software");
+    sample.erase("software_version");
+    samples[name] = std::move(sample);
+  }
+  return samples.dump();
 }
 
 // F_ad is proportional to the surface energy. Multiplying stiffness and Hamaker constant by the same factor multiplies

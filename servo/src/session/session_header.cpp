@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "core/written_by.h"
 #include "scene/shared/shared_segment.h"
 #include "session_chunks.h"
 
@@ -198,6 +199,7 @@ nlohmann::json header_of(const RecordedSession& session) {
   }
   if (!session.shown.empty()) header["shown"] = session.shown;
   if (!session.earlier_curves.empty()) header["earlier_curves"] = json_of(session.earlier_curves);
+  core::name_software(header);
   return header;
 }
 

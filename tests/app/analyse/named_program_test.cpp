@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -99,6 +100,12 @@ TEST(NamedProgram, IsInEveryFile) {
   EXPECT_THAT(contents(kScan, folder.file("a.gwy")), HasSubstr(name));
   EXPECT_THAT(contents(kScan, folder.file("a.gsf")), HasSubstr("Software = " + name));
   EXPECT_THAT(contents("particles scratch-pmma", folder.file("b.gwy")), HasSubstr(name));
+  ASSERT_EQ(run_touchafm("convert " + data("bom.tab") + " " + folder.file("b.csv")).exit_code, 0);
+  EXPECT_THAT(core::read_file(folder.file("b.csv")).value(),
+              HasSubstr("TouchAFM version:\t" + std::string(core::kVersion)));
+  ASSERT_EQ(run_touchafm("convert " + data("bom.tab") + " " + folder.file("b.h5")).exit_code, 0);
+  EXPECT_THAT(core::read_file(folder.file("b.h5")).value(),
+              testing::AllOf(HasSubstr("software version"), HasSubstr(core::kVersion)));
   ASSERT_EQ(run_touchafm("paper --out " + folder.file("paper")).exit_code, 0);
   for (const char* file : {"paper.md", "table1.csv", "table2.csv", "fig2.svg", "fig5e.svg"}) {
     EXPECT_THAT(core::read_file(folder.file(std::string("paper/") + file)).value(), HasSubstr(name)) << file;
@@ -112,6 +119,29 @@ TEST(NamedProgram, IsInEveryFile) {
   EXPECT_THAT(table, HasSubstr("\tHertz 1881"));
   EXPECT_TRUE(table.ends_with("\t" + name + "\n")) << table;
   EXPECT_THAT(core::read_file(folder.file("fits/modulus.svg")).value(), HasSubstr(name));
+}
+
+// BIDS allows no header in a table: the JSON beside it has what others have there.
+TEST(NamedProgram, IsBesideTheTablesOfAStudyWithTheSamples) {
+  const support::ScratchFolder folder;
+  const std::string lesson = "lesson " + support::source("assets/lessons/three-materials.toml");
+  const auto taken = run_touchafm(lesson + " --participant sim:1 --out " + folder.file("study"));
+  ASSERT_EQ(taken.exit_code, 0) << taken.err;
+  std::size_t tables = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.file("study"))) {
+    std::filesystem::path beside = entry.path();
+    if (beside.extension() != ".tsv") continue;
+    ++tables;
+    const auto json = nlohmann::json::parse(core::read_file(beside.replace_extension(".json").string()).value());
+    EXPECT_EQ(json["StimulusPresentation"]["SoftwareVersion"], core::kVersion) << entry.path();
+    if (!json.contains("Lesson")) continue;
+    ASSERT_EQ(json["Samples"].size(), 3U);
+    for (const auto& [name, sample] : json["Samples"].items()) {
+      EXPECT_GT(sample["parameters"]["hamaker_J"].get<double>(), 0.0) << name;
+      EXPECT_FALSE(sample["sources"]["hamaker"]["source"].get<std::string>().empty()) << name;
+    }
+  }
+  EXPECT_EQ(tables, 2U);
 }
 
 // A text of a picture, as the file has it: key, end of the key, not compressed, no language, the text.

@@ -14,8 +14,11 @@
 #include <thread>
 
 #include "core/file_descriptor.h"
+#include "core/version.h"
 #include "core/whole_file.h"
+#include "exhibit/lesson/lesson_samples.h"
 #include "study/age_band.h"
+#include "support/places.h"
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {
@@ -81,6 +84,29 @@ TEST_F(DataSetTest, HasItsTablesAndTheirDescriptions) {
   for (const char* column : {"participant_id", "order", "age_band", "comfort"}) {
     EXPECT_TRUE(nlohmann::json::parse(text("participants.json")).contains(column)) << column;
   }
+}
+
+// Tables of BIDS have no header: the JSON beside each has what others have there.
+TEST_F(DataSetTest, NamesTheProgramAndTheSamplesBesideItsTables) {
+  const auto library = scene::load_materials(support::source("assets/materials.toml"));
+  lesson_.materials = {"mica", "gold"};
+  DataSetEntry described = entry("ABCDEF");
+  described.samples = samples_json(lesson_, *library).value();
+  ASSERT_TRUE(DataSet::create(lesson_, described));
+  const auto events = nlohmann::json::parse(text("sub-ABCDEF/beh/sub-ABCDEF_task-test_events.json"));
+  const auto people = nlohmann::json::parse(text("participants.json"));
+  for (const auto& json : {events, people}) {
+    EXPECT_EQ(json["StimulusPresentation"]["SoftwareName"], "TouchAFM");
+    EXPECT_EQ(json["StimulusPresentation"]["SoftwareVersion"], core::kVersion);
+  }
+  ASSERT_EQ(events["Samples"].size(), 2U);
+  EXPECT_EQ(events["Samples"]["gold"]["parameters"]["tip_radius_m"], 50e-9);
+  for (const auto& [key, source] : events["Samples"]["mica"]["sources"].items()) {
+    EXPECT_FALSE(source["source"].get<std::string>().empty()) << key;
+  }
+  EXPECT_TRUE(events["Samples"]["mica"]["sources"].contains("hamaker"));
+  lesson_.materials = {"cheese"};
+  EXPECT_FALSE(samples_json(lesson_, *library));
 }
 
 TEST_F(DataSetTest, RefusesALessonThatWasDoneAndKeepsItsTrials) {
@@ -235,7 +261,8 @@ TEST_F(DataSetTest, GoesOnWithADataSetOfBefore) {
   ASSERT_TRUE(core::write_file(study() + "/participants.tsv",
                                "participant_id\torder\tage_band\tcomfort\nsub-ABCDEF\t0\tn/a\tfinished\n"));
   ASSERT_TRUE(core::write_file(study() + "/participants.json",
-                               R"({"comfort": {"Levels": ["finished"]}, "Study": {"first_day": 20000}})"));
+                               R"({"comfort": {"Levels": ["finished"]}, "Study": {"first_day": 20000},
+                                   "StimulusPresentation": {"SoftwareName": "TouchAFM", "SoftwareVersion": "0.0.9"}})"));
   const auto again = DataSet::create(lesson_, entry("ABCDEF"));
   ASSERT_FALSE(again);
   EXPECT_THAT(again.error().message, HasSubstr("sub-ABCDEF/task-first-touch_events.tsv exists"));
@@ -244,6 +271,7 @@ TEST_F(DataSetTest, GoesOnWithADataSetOfBefore) {
   const auto json = nlohmann::json::parse(text("participants.json"));
   EXPECT_TRUE(json["comfort"]["Levels"].is_object());
   EXPECT_EQ(json["Study"]["first_day"], 20'000);
+  EXPECT_EQ(json["StimulusPresentation"]["SoftwareVersion"], core::kVersion) << "that of the newest lesson";
 }
 
 TEST_F(DataSetTest, ReadsAListThatASpreadsheetHasSaved) {

@@ -23,6 +23,7 @@ struct DataSetEntry {
   std::uint64_t seed = 0;
   std::string age_band{};              // one of kAgeBands; empty: not given
   std::string observer{};              // JSON object describing a simulated participant; empty for a person
+  std::string samples{};               // samples_json(); empty: not given
   std::optional<std::size_t> order{};  // row of the Williams design used for the lesson; empty: the next free one
   std::optional<std::int64_t>
       day{};  // date of a person's lesson, in days since 1970; stored only as the distance to the study's first day

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/result.h"
@@ -21,6 +22,9 @@ core::Result<curves::ContactSetup> lesson_setup(const Lesson& lesson, const scen
 // adapt to it, and the hand would feel no difference.
 core::Result<std::vector<curves::SampleModel>> lesson_samples(const Lesson& lesson,
                                                               const scene::MaterialLibrary& library);
+
+// Those samples for the JSON of a data set, as text: an object with parameters and sources of each material.
+core::Result<std::string> samples_json(const Lesson& lesson, const scene::MaterialLibrary& library);
 
 // The same checks for existing samples.
 core::Result<void> check_samples(const Lesson& lesson, std::span<const curves::SampleModel> samples);
