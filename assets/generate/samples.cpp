@@ -65,8 +65,8 @@ class MicaSteps {
       double upper;   // share of the upper terrace's hue
       double lit;
     };
-    constexpr Row kRows[] = {{-1.05, 0, 1},    {-0.85, 0, 0.55}, {-0.5, 0, 0.34}, {0.1, 0.4, 0.5},
-                             {0.6, 0.9, 0.85}, {0.72, 1, 1.2},   {0.95, 1, 1.1},  {1.05, 1, 1}};
+    constexpr Row kRows[] = {{-1.05, 0, 1},  {-0.92, 0, 0.66}, {-0.8, 0, 0.45}, {0.4, 0.5, 0.55},
+                             {0.5, 1, 1.25}, {0.8, 1, 1.12},   {1.05, 1, 1}};
     constexpr std::size_t kColumns = 121;
     constexpr double kLift = 0.05 * kNm, kStep = 0.05 * kNm;
     Surface surface;
