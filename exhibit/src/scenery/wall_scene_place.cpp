@@ -351,7 +351,7 @@ void WallScene::place_companion_label(const Journey::Companion& companion, rende
   const dmat4& room_from_journey = frame.room_from_node[journey_.frame()];
   const double unit_m = places_.unit_m();
   const auto axis = [&](const glm::dvec4& column) { return unit_m * glm::normalize(dvec3(column)); };
-  constexpr double kBesideRuler = kRulerFoot.x + kRulerTextGap + 0.5 * kCompanionLabelWidth;
+  constexpr double kBesideRuler = kRulerFoot.x + 3.0 * kRulerTextGap + 0.5 * kCompanionLabelWidth;
   const double across = companion.place.x > 0.0 ? std::max(companion.place.x, kBesideRuler) : companion.place.x;
   const dvec3 middle = dvec3(room_from_journey[3]) + across * axis(room_from_journey[0]) +
                        companion.place.y * axis(room_from_journey[1]) + companion.place.z * axis(room_from_journey[2]);

@@ -160,6 +160,8 @@ void paint_words(Canvas& canvas, std::string_view words, float top, float pitch)
 }
 
 constexpr float kLargestRow = 1.4F;  // text scale of a row that has only a name and a value
+constexpr float kLeastName = 0.75F;  // smallest size of its name, as a share of the value's
+constexpr float kNameGap = 20.0F;
 
 // Source shown below a row.
 std::string_view shown_source(const DataPanel& panel, const DataRow& row) {
@@ -181,10 +183,21 @@ float table_scale(const Canvas& canvas, const DataPanel& panel) {
   return std::min(1.0F, (canvas.size_mm().y - kBelowRows) / whole);
 }
 
+// Largest text scale of rows that have only a name and a value: all values have one size, and a long name may be
+// smaller.
+float largest_row(const Canvas& canvas, const DataPanel& panel) {
+  float largest = panel.details || tallest_block_mm(panel) > row_block_mm("") ? 1.0F : kLargestRow;
+  for (const DataRow& row : panel.rows) {
+    const float name = canvas.text_width_mm(TextStyle::Body, row.name);
+    const float value = canvas.text_width_mm(TextStyle::Strong, row.value);
+    const float room = canvas.size_mm().x - 2.0F * kMargin - kNameGap;
+    largest = std::min(largest, room / std::max(value + kLeastName * name, 1.0F));
+  }
+  return std::max(1.0F, largest);
+}
+
 // Draws name and value on one line and the source below; smaller if the rows are close together or the line is long.
-// Larger rows, of a panel that leaves its details out, keep the size of their values, and shrink long names instead.
 void paint_row(Canvas& canvas, const DataRow& row, std::string_view source, float top, float pitch, float largest) {
-  constexpr float kNameGap = 20.0F, kValueShare = 0.6F;  // widest value, as a share of the line
   const float right = canvas.size_mm().x - kMargin, room = right - kMargin;
   const float block = row_block_mm(source);
   const float name = canvas.text_width_mm(TextStyle::Body, row.name);
@@ -192,7 +205,7 @@ void paint_row(Canvas& canvas, const DataRow& row, std::string_view source, floa
   const float by_height = std::min(largest, pitch / block);
   float value_scale = std::min(by_height, room / (name + value + kNameGap)), name_scale = value_scale;
   if (largest > 1.0F) {
-    value_scale = std::min(by_height, kValueShare * room / std::max(value, 1.0F));
+    value_scale = by_height;
     name_scale = std::min(by_height, (room - value_scale * value - kNameGap) / std::max(name, 1.0F));
   }
   const float y = top + std::max(0.0F, 0.5F * (pitch - by_height * block));
@@ -223,7 +236,7 @@ void paint(Canvas& canvas, const DataPanel& panel) {
   const float room = canvas.size_mm().y - top - (text ? text_size : 1.0F) * kBelowRows;
   if (text) return paint_text(canvas, panel, top, room, text_size);
   const float pitch = std::min(kMostPitch, room / static_cast<float>(panel.rows.size()));
-  const float largest = !panel.details && tallest_block_mm(panel) == row_block_mm("") ? kLargestRow : 1.0F;
+  const float largest = largest_row(canvas, panel);
   for (std::size_t i = 0; i < panel.rows.size(); ++i) {
     const DataRow& row = panel.rows[i];
     const float at = top + pitch * static_cast<float>(i);
