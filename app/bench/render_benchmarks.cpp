@@ -44,6 +44,7 @@ struct RenderBenchOptions {
   RenderTimingPlan plan;
   std::vector<std::string> gltf;
   bool first_frame_alone = false;
+  bool files_alone = false;
   bool json = false;
 };
 
@@ -55,14 +56,24 @@ core::Result<exhibit::Stage> load_wall(const RenderBenchOptions& options) {
   return exhibit::load_exhibit(options.files);
 }
 
-// Time from before the device is opened to the end of the wall's first stereo frame.
-core::Result<double> first_frame_ms(const RenderBenchOptions& options) {
-  const core::MonotonicClock clock;
+glm::uvec2 eye_size(const RenderBenchOptions& options) {
+  return {options.eye_width, std::max(1U, options.eye_width * 9 / 16)};
+}
+
+core::Result<RenderSubject> first_subject(const RenderBenchOptions& options) {
+  if (!options.gltf.empty()) return gltf_subject(options.gltf.front(), eye_size(options));
   const auto stage = load_wall(options);
   if (!stage) return tl::unexpected(stage.error());
-  const auto subject = wall_subject(*stage, options.eye_width, WallMotion::None);
+  return wall_subject(*stage, options.eye_width, WallMotion::None);
+}
+
+// Time from before the device is opened, or a glTF file is read, to the end of the first stereo frame.
+core::Result<double> first_frame_ms(const RenderBenchOptions& options) {
+  const core::MonotonicClock clock;
+  std::int64_t start_ns = clock.now_ns();
+  const auto subject = first_subject(options);
   if (!subject) return tl::unexpected(subject.error());
-  const std::int64_t start_ns = clock.now_ns();
+  if (options.gltf.empty()) start_ns = clock.now_ns();
   auto context = render::Context::open({.gpu = options.plan.gpu});
   if (!context) return tl::unexpected(context.error());
   render::RendererOptions drawing = subject->drawing;
@@ -99,22 +110,30 @@ core::Result<FirstFrame> first_frames(const std::string& program, const RenderBe
   return FirstFrame{.cold_ms = *cold, .warm_ms = *warm};
 }
 
-core::Result<std::vector<RenderSubject>> subjects_of(const RenderBenchOptions& options) {
+// Adds the wall in each motion and the generated scenes.
+core::Result<void> add_own_subjects(const RenderBenchOptions& options, std::vector<RenderSubject>& subjects) {
   const auto stage = load_wall(options);
   if (!stage) return tl::unexpected(stage.error());
-  std::vector<RenderSubject> subjects;
   for (const WallMotion motion : {WallMotion::Tip, WallMotion::TipAndHead, WallMotion::None}) {
     auto wall = wall_subject(*stage, options.eye_width, motion);
     if (!wall) return tl::unexpected(wall.error());
     subjects.push_back(std::move(*wall));
   }
-  const glm::uvec2 eye_px(options.eye_width, std::max(1U, options.eye_width * 9 / 16));
+  const glm::uvec2 eye_px = eye_size(options);
   subjects.push_back(hills_subject(kHills, eye_px));
   subjects.push_back(boxes_subject(kBoxes, eye_px));
   for (const std::uint32_t nodes : kGrowingNodes) subjects.push_back(growing_subject(nodes, eye_px));
   subjects.push_back(copies_subject(kCopies, eye_px));
+  return {};
+}
+
+core::Result<std::vector<RenderSubject>> subjects_of(const RenderBenchOptions& options) {
+  std::vector<RenderSubject> subjects;
+  if (!options.files_alone) {
+    if (const auto added = add_own_subjects(options, subjects); !added) return tl::unexpected(added.error());
+  }
   for (const std::string& path : options.gltf) {
-    auto file = gltf_subject(path, eye_px);
+    auto file = gltf_subject(path, eye_size(options));
     if (!file) return tl::unexpected(file.error());
     subjects.push_back(std::move(*file));
   }
@@ -155,7 +174,8 @@ std::string growth_lines(const RenderFigures& result) {
   return text;
 }
 
-std::string table(const RenderFigures& result, const FirstFrame& first, const RenderBenchOptions& options) {
+// One line for each figure.
+std::string figure_lines(const RenderFigures& result, const RenderBenchOptions& options) {
   std::string text = fmt::format(
       "ms per frame, {} samples, {} rounds of {} frames on {}\n"
       "{:<34}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}   {:>8}{:>8}{:>8}{:>8}{:>8}\n",
@@ -172,6 +192,11 @@ std::string table(const RenderFigures& result, const FirstFrame& first, const Re
     }
     text += "\n";
   }
+  return text;
+}
+
+std::string table(const RenderFigures& result, const FirstFrame& first, const RenderBenchOptions& options) {
+  std::string text = figure_lines(result, options);
   const WallFigures wall = wall_figures(result);
   text += "\n" + rate_line("the wall", wall.frame_ms, kWallBar_ms);
   text += rate_line("the wall, head moving", wall.head_moving_ms, kHeadMovingBar_ms);
@@ -236,6 +261,13 @@ core::Result<void> run(const RenderBenchOptions& options, const std::string& pro
     if (!time_ms) return tl::unexpected(time_ms.error());
     return write_stdout(nlohmann::json{{"frame_ms", *time_ms}}.dump() + "\n");
   }
+  if (options.files_alone) {
+    const auto files = subjects_of(options);
+    if (!files) return tl::unexpected(files.error());
+    const auto timed = time_rendering(*files, options.plan, core::MonotonicClock());
+    if (!timed) return tl::unexpected(timed.error());
+    return write_stdout(figure_lines(*timed, options));
+  }
   const auto first = first_frames(program, options);
   if (!first) return tl::unexpected(first.error());
   const auto subjects = subjects_of(options);
@@ -263,15 +295,22 @@ void add_render_benchmarks(OptionList& bench, const CommandContext& context) {
       .type_name("PIXELS");
   add_gpu_option(command, options->plan.gpu);
   command.add_option("--samples", options->plan.samples, "samples per pixel").one_of({1, 4}).show_default();
-  command.add_option("--gltf", options->gltf, "glTF file to draw as well; repeatable").type_name("FILE");
+  const Option gltf =
+      command.add_option("--gltf", options->gltf, "glTF file to draw as well; repeatable").type_name("FILE");
   command
       .add_option("--peer", options->plan.peers,
                   "shell command to time in each round; it must print a JSON object with frame_ms; repeatable")
       .type_name("COMMAND");
   command.add_flag(
       "--first-frame-alone", options->first_frame_alone,
-      "print only a JSON object with frame_ms, the time to the first frame of the wall, as --peer expects");
-  command.add_flag("--json", options->json, "print JSON with times in seconds instead of a table");
+      "print only a JSON object with frame_ms, as --peer expects: the time to the first frame of the wall or, from "
+      "reading to the first frame, of the first --gltf");
+  const Option json = command.add_flag("--json", options->json, "print JSON with times in seconds instead of a table");
+  command
+      .add_flag("--files-alone", options->files_alone,
+                "measure only the files of --gltf and the peers, and print a line for each")
+      .needs(gltf)
+      .excludes(json);
   add_stage_options(command, options->files, context);
   command.footer("example: touchafm bench render --rounds 3 --gltf model.glb");
   command.when_chosen([options, &context] { return run(*options, context.program_path); });

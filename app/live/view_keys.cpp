@@ -41,6 +41,9 @@ constexpr std::array kRows{
     LiveKey{Key::F2, "F2", Phrase::KeyParameters,
             [](KeyOwners& owners, std::size_t) { owners.parts.panels.toggle_parameters(); }}
         .outside_lessons(),
+    LiveKey{Key::F3, "F3", Phrase::KeySources,
+            [](KeyOwners& owners, std::size_t) { owners.parts.panels.toggle_sources(); }}
+        .outside_lessons(),
     LiveKey{Key::I, "I", Phrase::KeyScan, [](KeyOwners& owners, std::size_t) { owners.scan->toggle(); }}
         .outside_lessons(),
     LiveKey{Key::U, "U", Phrase::KeyTruth, [](KeyOwners& owners, std::size_t) { owners.scan->toggle_truth(); }}
@@ -50,7 +53,7 @@ constexpr std::array kRows{
     LiveKey{Key::F4, "F4", Phrase::KeyMapPicture,
             [](KeyOwners& owners, std::size_t) { owners.parts.panels.next_map_picture(); }}
         .outside_lessons(),
-    LiveKey{Key::F3, "F3", Phrase::KeyMapVolume, [](KeyOwners& owners, std::size_t) { owners.map->next_volume(); }}
+    LiveKey{Key::F10, "F10", Phrase::KeyMapVolume, [](KeyOwners& owners, std::size_t) { owners.map->next_volume(); }}
         .outside_lessons(),
     LiveKey{Key::F, "F", Phrase::KeyFriction,
             [](KeyOwners& owners, std::size_t) { owners.parts.choice.toggle_friction_loop(); }}

@@ -129,7 +129,7 @@ std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::Exh
       command, "--equal-force", [&files](physics::Force force) { files.equal_force_n = force.si; },
       physics::kForceUnits,
       "with --felt map: show the surface on which the curves have this force, a push on the approach, or a negative "
-      "pull on the retract; F3 shows and hides it");
+      "pull on the retract; F10 shows and hides it");
   const auto reading = std::make_shared<curves::MapReading>();
   files.map_reading = reading;
   std::vector<NamedOption> own{add_sensitivity_option(command, reading->calibration)};

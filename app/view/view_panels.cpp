@@ -38,9 +38,10 @@ struct RightRow {
   RightPanel panel;
   std::string_view word;  // name in sessions
 };
-constexpr std::array<RightRow, 3> kRightPanels{{{RightPanel::Data, "samples"},
+constexpr std::array<RightRow, 4> kRightPanels{{{RightPanel::Data, "samples"},
                                                 {RightPanel::Parameters, "parameters"},
-                                                {RightPanel::FrictionLoop, "friction-loop"}}};
+                                                {RightPanel::FrictionLoop, "friction-loop"},
+                                                {RightPanel::Sources, "sources"}}};
 static_assert(core::has_row_for_each(kRightPanels, &RightRow::panel));
 static_assert(kRightPanels.size() <= cluster::ShownPanels::kMostRight);
 
@@ -213,6 +214,11 @@ void ViewPanels::next_map_picture() {
                              picture_.lowest, picture_.highest));
 }
 
+void ViewPanels::toggle_sources() {
+  core::log_line(toggle(RightPanel::Sources) ? "panels: the sources of the numbers are shown"
+                                             : "panels: the sources of the numbers are hidden");
+}
+
 void ViewPanels::mark_next(std::size_t material) {
   const std::size_t rows = control_panel(material, "", exhibit::ChangeState::AsLoaded).rows.size();
   right_ = RightPanel::Parameters;
@@ -281,6 +287,7 @@ void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, 
                            const std::string& material_title, const scene::TipState& tip) {
   switch (right_) {
     case RightPanel::Data:
+    case RightPanel::Sources:
       return;
     case RightPanel::Parameters:
       show_right(panels, panels.control, control_panel(material, material_title, edits_.shown_state(material, tip)));
@@ -321,6 +328,9 @@ void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::
                           (!edits_.of(*material).rows().empty() || edits_.of(*material).model().felt_map);
   if (changeable) add_parameters(frame, pointed, *material);
   render::FramePanels& panels = frame.panels;
+  if (right_ == RightPanel::Sources && use_ != WallUse::Lesson) {
+    panels.data.content.details = panels.particles.content.details = true;
+  }
   if (covered()) {
     const render::PanelPlacement banner = panels.banner.placement;
     hide(panels);

@@ -35,8 +35,8 @@ class WallScene;
 
 namespace afm::app {
 
-// Panel to the right of the sample.
-enum class RightPanel { Data, Parameters, FrictionLoop };
+// Panel to the right of the sample; Sources: the data with their sources and reasons.
+enum class RightPanel { Data, Parameters, FrictionLoop, Sources };
 
 // Visible panels of the live window, and the parameters edited in one of them. One thread.
 class ViewPanels {
@@ -54,6 +54,8 @@ class ViewPanels {
   void toggle_parameters() { toggle(RightPanel::Parameters); }
   // Returns whether the panel is now visible.
   bool toggle_friction_loop() { return toggle(RightPanel::FrictionLoop); }
+  // The sources of the numbers, and the reasons for them, below each; a line of the log says whether they are shown.
+  void toggle_sources();
   // Replaces the parameters by the settings of a scan; null: does not. The scan must outlive the object.
   void set_scan(exhibit::LiveScan* scan) { scan_ = scan; }
 
@@ -82,7 +84,7 @@ class ViewPanels {
   // Removes the staff keys from the list of keys.
   void show_visitors_keys_only() { unattended_ = true; }
 
-  // Name of the topmost panel: "keys", "none", "parameters", "friction-loop" or "samples".
+  // Name of the topmost panel: "keys", "none", "parameters", "friction-loop", "sources" or "samples".
   std::string shown() const;
   void show(std::string_view panels);
 

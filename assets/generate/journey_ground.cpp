@@ -16,7 +16,7 @@ constexpr double kInnermost = 0.4 * kNm;
 constexpr double kRingRatio = 1.07;  // cells about as long as wide before the tip
 constexpr int kHalvings = 6;         // 256 directions, of which half are used before the tip
 constexpr double kAtomsReach = 3.3 * kNm, kAtomsSink = 2.0 * kNm;  // from there outwards fewer and fewer are seen
-constexpr double kBelowAtoms = 0.36 * kNm;                         // depth of the ground below the atoms
+constexpr double kBelowAtoms = 0.2 * kNm;                          // depth of the ground below the atoms
 constexpr std::int64_t kAtomRows = 15, kAtomColumns = 21;          // enough for that reach
 
 // Visible features at a decade of scale.
@@ -43,17 +43,18 @@ struct Place {
 // The patterns of the scales that are near the place's distance from the contact, faded into each other.
 Place ground_at(const Look& look, double x, double y) {
   const double r = std::sqrt(x * x + y * y);
+  const double bare = smooth_step(0.8 * kAtomsReach, 2 * kAtomsReach, r);  // atoms lie on level ground
   double sum = 0, weights = 1e-12, height = 0;
   double scale = 1e-3;
   for (std::size_t i = 0; i < 2 * kDecades; ++i, scale *= 0.31622776601683794) {
     const Features& features = look.decades[i / 2];
     const double ratio = r / scale;
-    const double weight = smooth_step(0.35, 1.1, ratio) * (1 - smooth_step(2.5, 9, ratio));
+    const double weight = smooth_step(0.35, 1.1, ratio) * (1 - smooth_step(1.8, 4.5, ratio));
     if (weight <= 0) continue;
     const double turn = i % 2 == 0 ? 1.0 : -1.0;  // no two scales show the same
     const auto shift = static_cast<double>(i);
     const double n = features.pattern(turn * x / scale + 7.3 * shift, y / scale - 3.1 * shift);
-    height -= weight * features.amplitude * scale * (1 - n);
+    height -= weight * features.amplitude * scale * (1 - n) * bare;
     sum += weight * n;
     weights += weight;
   }
@@ -121,7 +122,7 @@ int halvings_at(double x, double y) {
 // has no edge.
 double sunk(double r, std::int64_t column, std::int64_t row) {
   const double until = mix(kAtomsSink, kAtomsReach, random_unit(column, row, 96));
-  return 1.2 * kBelowAtoms * smooth_step(-0.4 * kNm, 0.3 * kNm, r - until);
+  return 1.7 * kBelowAtoms * smooth_step(-0.4 * kNm, 0.3 * kNm, r - until);
 }
 
 Surface mica_atoms() {
@@ -205,7 +206,7 @@ double speckle(double x, double y) {
 
 // A few long grooves of a polish, in two directions.
 double scratches(double x, double y) {
-  constexpr double kHalfWidth = 0.13, kPitch = 0.8, kLength = 7;
+  constexpr double kHalfWidth = 0.28, kPitch = 1.3, kLength = 7;
   double depth = 0;
   for (int family = 0; family < 2; ++family) {
     const V2 along = family == 0 ? V2{0.96, 0.28} : V2{-0.6, 0.8};
@@ -217,7 +218,7 @@ double scratches(double x, double y) {
       if (random_unit(k, number, 72 + static_cast<std::uint32_t>(family)) < 0.45) continue;
       const double middle = (static_cast<double>(k) + 0.2 + 0.6 * random_unit(k, number, 74)) * kPitch;
       const double ends = smooth_step(0, 0.12, part - piece) * (1 - smooth_step(0.88, 1, part - piece));
-      depth = std::max(depth, ends * std::max(0.0, 1 - std::abs(v - middle) / kHalfWidth));
+      depth = std::max(depth, ends * (1 - smooth_step(0, kHalfWidth, std::abs(v - middle))));
     }
   }
   return 1 - 0.75 * depth - 0.12 * (1 - noise(0.4 * x, 0.4 * y, 75)) * 0.5;
@@ -249,7 +250,7 @@ std::vector<Model> grounds() {
                   {0.024, steps},
                   {0.020, terraces},
                   {0.014, steps},
-                  {0.004, terraces},
+                  {0.035, steps},
                   {0, terraces}},
       .tint = [](double n) { return mix(V3{0.42, 0.48, 0.54}, V3{1.0, 0.96, 0.92}, n); }};
   const Look gold{.name = "gold",
@@ -263,7 +264,7 @@ std::vector<Model> grounds() {
                               {0.05, hillocks},
                               {0.07, hillocks},
                               {0.13, grains},
-                              {0.006, steps},
+                              {0.04, hillocks},
                               {0, steps}},
                   .tint = [](double n) {
                     const double lit = mix(0.42, 1, n);
@@ -279,7 +280,7 @@ std::vector<Model> grounds() {
                                  {0.03, scratches},
                                  {0.05, hillocks},
                                  {0.05, speckle},
-                                 {0.008, speckle},
+                                 {0.05, speckle},
                                  {0, speckle}},
                      .tint = [](double n) {
                        const double lit = mix(0.5, 1, n);

@@ -36,21 +36,75 @@ Model sample(std::string name, NodeSpec node, const HeightField& field, double b
 }
 
 // Terraces that fall towards -y, the viewer; every step is one layer, 1.0 nm.
-Model mica() {
-  constexpr double kLayer = 1.0 * kNm, kRiser = 2.0 * kNm;
-  // nm along the direction of ascent; the steps upwards keep clear of a ball of 50 nm that stands in the middle
-  constexpr double kSteps[] = {-15.5, -7.5, 11.5, 16.5};
-  constexpr int kLayersBelowCenter = 2;
-  const auto layers = [&](double x, double y) {
+class MicaSteps {
+ public:
+  static constexpr std::uint32_t kCount = 4;
+  static constexpr double kLayer = 1.0 * kNm;
+  static constexpr double kHalfSide = 20 * kNm;
+
+  double height(double x, double y) const {
     double count = -kLayersBelowCenter;
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      const double along = 0.96 * y + 0.28 * x, across = 0.96 * x - 0.28 * y;
-      const double wander = 1.6 * noise(across / (11 * kNm), k, 11) + 0.5 * noise(across / (4.5 * kNm), k, 12);
-      count += smooth_step(-kRiser / 2, kRiser / 2, along - (kSteps[k] + wander) * kNm);
+    for (std::uint32_t k = 0; k < kCount; ++k) {
+      count += smooth_step(-kHalfRiser, kHalfRiser, 0.96 * y + 0.28 * x - line(0.96 * x - 0.28 * y, k));
     }
-    return count;
-  };
-  const HeightField field(90, 40 * kNm / 90, [&](double x, double y) { return layers(x, y) * kLayer; });
+    return count * kLayer;
+  }
+
+  // Terraces above a step are lighter, and their hues alternate as the interference colours of thin flakes do, which
+  // makes mica pearly.
+  static V3 hue(double height) {
+    const double layer = std::clamp(height / kLayer + kLayersBelowCenter, 0.0, double{kCount});
+    return kHues[static_cast<std::size_t>(layer + 0.5)];
+  }
+
+  // A step's face along its line, over the squares of the grid, which would fray it: the edge of the upper sheet
+  // catches the light, its foot is in its shade.
+  Surface face(std::uint32_t k) const {
+    struct Row {
+      double offset;  // from the line, in half widths of the riser
+      double upper;   // share of the upper terrace's hue
+      double lit;
+    };
+    constexpr Row kRows[] = {{-1.05, 0, 1},  {-0.92, 0, 0.66}, {-0.8, 0, 0.45}, {0.4, 0.5, 0.55},
+                             {0.5, 1, 1.25}, {0.8, 1, 1.12},   {1.05, 1, 1}};
+    constexpr std::size_t kColumns = 121;
+    constexpr double kLift = 0.05 * kNm, kStep = 0.05 * kNm;
+    Surface surface;
+    surface.add_grid(std::size(kRows), kColumns, [&](std::size_t row, std::size_t column) {
+      const double x = mix(-kHalfSide, kHalfSide, static_cast<double>(column) / (kColumns - 1));
+      double along = kSteps[k] * kNm, across = 0;
+      for (int i = 0; i < 20; ++i) {
+        across = (x - 0.28 * along) / 0.96;
+        along = line(across, k) + kRows[row].offset * kHalfRiser;
+      }
+      const double y = std::clamp(0.96 * along - 0.28 * across, -kHalfSide, kHalfSide);
+      const V3 slope{(height(x + kStep, y) - height(x - kStep, y)) / (2 * kStep),
+                     (height(x, y + kStep) - height(x, y - kStep)) / (2 * kStep), 0};
+      return SurfaceVertex{{x, y, height(x, y) + kLift},
+                           unit(V3{-slope.x, -slope.y, 1}),
+                           mix(kHues[k], kHues[k + 1], kRows[row].upper) * kRows[row].lit};
+    });
+    return surface;
+  }
+
+ private:
+  static constexpr double kHalfRiser = 1.0 * kNm;
+  // nm along the direction of ascent; the steps upwards keep clear of a ball of 50 nm that stands in the middle
+  static constexpr double kSteps[] = {-15.5, -7.5, 11.5, 16.5};
+  static constexpr int kLayersBelowCenter = 2;
+  static constexpr V3 kHues[] = {
+      {0.52, 0.62, 0.72}, {0.66, 0.72, 0.80}, {0.78, 0.80, 0.86}, {0.90, 0.89, 0.92}, {1.0, 0.99, 0.97}};
+
+  // Place of a step along the ascent, which wanders across it.
+  static double line(double across, std::uint32_t k) {
+    return (kSteps[k] + (1.6 * noise(across / (11 * kNm), k, 11) + 0.5 * noise(across / (4.5 * kNm), k, 12))) * kNm;
+  }
+};
+
+Model mica() {
+  constexpr double kLayer = MicaSteps::kLayer;
+  const MicaSteps steps;
+  const HeightField field(90, 40 * kNm / 90, [&](double x, double y) { return steps.height(x, y); });
 
   // the cut face of clear sheets: each as the one above, with a fine dark gap below it
   constexpr double kGap = 0.14;  // share of a layer
@@ -60,22 +114,17 @@ Model mica() {
     bands.push_back({layer * kLayer, (layer - 1 + kGap) * kLayer, sheet});
     bands.push_back({(layer - 1 + kGap) * kLayer, (layer - 1) * kLayer, gap});
   }
-  // higher terraces are lighter and risers dark, so that the steps are told apart from a distance; the terraces' hues
-  // alternate as the interference colours of thin flakes do, which makes mica pearly
-  const auto tint = [&](const V3& position) {
-    constexpr V3 kHues[] = {
-        {0.52, 0.62, 0.72}, {0.66, 0.72, 0.80}, {0.78, 0.80, 0.86}, {0.90, 0.89, 0.92}, {1.0, 0.99, 0.97}};
-    const double layer = std::clamp(position.z / kLayer + kLayersBelowCenter, 0.0, 4.0);
-    const auto below = static_cast<std::size_t>(std::min(layer, 3.0));
-    const double part = layer - static_cast<double>(below);
-    // the edge of the upper sheet catches the light, its foot is in its shade
-    const double edge = std::max(0.0, 1 - std::abs(part - 0.86) / 0.14),
-                 foot = std::max(0.0, 1 - std::abs(part - 0.3) / 0.3);
-    return mix(kHues[below], kHues[below + 1], part) * ((1 + 0.2 * edge) * (1 - 0.55 * foot));
-  };
   const MaterialSpec material{
       .name = "mica", .base_color = {0.60, 0.63, 0.66}, .roughness = 0.11, .vertex_colors = true};
-  NodeSpec node = surface_node(field, {{top_of(field, tint), material}, {walls_of(field, bands), material}});
+  MaterialSpec edge = material;
+  edge.name = "mica steps";
+  edge.roughness = 0.5;
+  Surface faces;
+  for (std::uint32_t k = 0; k < MicaSteps::kCount; ++k) add_placed(faces, steps.face(k), {});
+  NodeSpec node =
+      surface_node(field, {{top_of(field, [](const V3& place) { return MicaSteps::hue(place.z); }), material},
+                           {walls_of(field, bands), material},
+                           {std::move(faces), edge}});
   node.extras["step_m"] = kLayer;
   return sample("sample-mica", std::move(node), field, bands.back().bottom);
 }

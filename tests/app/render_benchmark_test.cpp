@@ -45,6 +45,18 @@ TEST(RenderBenchmark, PrintsEverySubjectAndItsPeer) {
   EXPECT_GT(all.at("first_frame_cold_s"), 0.0);
 }
 
+TEST(RenderBenchmark, TimesTheFirstFrameOfAFile) {
+  const std::string file = support::source("assets/models/analogy.glb");
+  const support::ProgramResult result =
+      support::run_program(support::touchafm() + " bench render --first-frame-alone --eye-width 64 --gltf " + file);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GT(nlohmann::json::parse(result.out).at("frame_ms"), 0.0);
+  const support::ProgramResult missing =
+      support::run_program(support::touchafm() + " bench render --first-frame-alone --gltf nowhere.glb");
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("nowhere.glb"));
+}
+
 TEST(RenderBenchmark, NamesAPeerThatPrintsNoTime) {
   const support::ProgramResult result = support::run_program(
       support::touchafm() + " bench render --rounds 1 --frames 1 --eye-width 64 --peer 'echo nothing'");

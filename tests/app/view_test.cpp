@@ -175,6 +175,10 @@ TEST_F(ViewTest, AHandGoesThroughTheWholeProcedureWithAMouse) {
   xdotool("key KP_Enter");
   ASSERT_TRUE(view.says("force off: Stop was pressed")) << view.said();
 
+  xdotool("key F3");
+  ASSERT_TRUE(view.says("panels: the sources of the numbers are shown")) << view.said();
+  EXPECT_GT(share_that_differs(cycle->whole, picture("sources")), 0.005);
+
   // a stiffer lever, by pointing at its + : felt once the force is gone
   xdotool("key F2");
   click(pixel_of(render::ControlTarget{render::ControlTarget::Kind::More, 1}));

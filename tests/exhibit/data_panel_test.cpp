@@ -52,6 +52,13 @@ TEST(DataPanel, GivesLennardJonesItsAtomicDistanceAndNoHamakerConstant) {
   EXPECT_THAT(row->source, ::testing::HasSubstr("estimated: "));
 }
 
+TEST(DataPanel, LeavesSourcesAndReasonsToTheDetails) {
+  const render::DataPanel panel = panel_of(Law::Paper);
+  EXPECT_FALSE(panel.details);
+  for (const render::DataRow& row : panel.rows) EXPECT_TRUE(row.detail) << row.name;
+  EXPECT_FALSE(panel.rows.front().source.empty());
+}
+
 TEST(DataPanel, SaysWhichWayTheLeverIsBent) {
   scene::Tip pulled{};
   pulled.deflection_m = 0.8e-9;

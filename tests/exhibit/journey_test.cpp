@@ -74,6 +74,14 @@ TEST_F(JourneyTest, NamesAKnownThingOfTheScaleBesideTheTip) {
     EXPECT_GT(place.z, high) << thing;
     EXPECT_LT(place.z - high, 0.5 * unit_m / std::pow(10.0, orders)) << thing;
     EXPECT_GT(std::abs(place.x), 0.25 * unit_m / std::pow(10.0, orders)) << thing;
+    for (const render::Label& other : state.labels) {
+      if (other.text == label->text) continue;
+      const glm::dvec3 apart = other.placement.lower_left_m - label->placement.lower_left_m;
+      const bool beside =
+          apart.x > glm::length(label->placement.right_m) || -apart.x > glm::length(other.placement.right_m);
+      const bool above = apart.y > glm::length(label->placement.up_m) || -apart.y > glm::length(other.placement.up_m);
+      EXPECT_TRUE(beside || above) << thing << ": " << other.text;
+    }
   }
   for (const double orders : {0.0, 2.0, 4.0, 5.6, 8.0}) EXPECT_EQ(frame(orders).labels.size(), 11U) << orders;
 }
@@ -165,7 +173,7 @@ TEST_F(JourneyTest, ShowsEachPartInItsTurn) {
   const std::map<std::string, std::pair<double, double>> seen{
       {"journey/bench", {0.0, 1.0}},     {"journey/instrument", {0.0, 2.0}}, {"journey/chip", {1.5, 4.0}},
       {"journey/lever", {3.0, 5.5}},     {"journey/tip", {4.0, 8.0}},        {"journey/apex", {6.0, 9.0}},
-      {"journey/tip-atoms", {7.5, 9.0}}, {"ground-mica/atoms", {7.5, 9.0}}};
+      {"journey/tip-atoms", {7.5, 9.0}}, {"ground-mica/atoms", {8.5, 9.0}}};
   for (const auto& [name, range] : seen) {
     for (double orders = range.first; orders <= range.second; orders += 0.25) {
       EXPECT_NE(frame(orders).visible[node(name)], 0) << name << " at " << orders;
@@ -173,6 +181,26 @@ TEST_F(JourneyTest, ShowsEachPartInItsTurn) {
   }
   EXPECT_EQ(frame(6.0).visible[node("journey/bench")], 0);
   EXPECT_EQ(frame(1.0).visible[node("ground-mica/atoms")], 0);
+}
+
+// While they are a patch of the view, they are below the ground; then all of them come out of it.
+TEST_F(JourneyTest, LetsTheAtomsOutOfTheGroundOnceTheyFillTheView) {
+  for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
+    const std::string name = "ground-" + materials_.materials[material].name;
+    const double top = heights(name + "/atoms").second;
+    double before_m = -1.0;
+    for (double orders = 7.5; orders <= kJourneyOrders; orders += 0.05) {
+      const render::FrameState state = frame(orders, material);
+      const glm::dmat4 room_from_frame = state.room_from_node[node("journey-frame")];
+      const glm::dvec3 moved(glm::inverse(room_from_frame) * state.room_from_node[node(name + "/atoms")][3]);
+      EXPECT_GE(moved.z, before_m - 1e-15) << name << " at " << orders;
+      before_m = moved.z;
+      if (orders < 8.3) {
+        EXPECT_LT(top + moved.z, -0.25e-9) << name << " at " << orders;
+      }
+    }
+    EXPECT_NEAR(before_m, 0.0, 1e-15) << name;
+  }
 }
 
 TEST_F(JourneyTest, ShowsTheGroundOfTheMaterialAlone) {

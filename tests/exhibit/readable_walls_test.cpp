@@ -77,6 +77,9 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   }
   expect_whole(frame.panels.force.content, frame.panels.force.placement, "the plot");
   expect_whole(frame.panels.data.content, frame.panels.data.placement, "the data");
+  render::DataPanel data = frame.panels.data.content;
+  data.details = true;
+  expect_whole(data, frame.panels.data.placement, "the data with its sources");
   for (const auto use : {app::WallUse::Free, app::WallUse::Particles, app::WallUse::Lesson}) {
     expect_whole(render::ListPanel{app::key_list(app::HandSource::Mouse, false, phrases, use)},
                  stage.wall_scene.places().keys(), "the list of keys");
@@ -86,7 +89,8 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
     expect_whole(full_friction_loop(law, phrases), stage.wall_scene.places().parameters(), "the friction loop");
   }
   expect_whole(full_dial(phrases), stage.wall_scene.places().parameters(), "the dial");
-  for (const render::DataPanel& particles : full_particles(phrases)) {
+  for (render::DataPanel particles : full_particles(phrases)) {
+    particles.details = true;
     expect_whole(particles, frame.panels.data.placement, "the particles");
   }
   for (const LessonPrompt& prompt : full_prompts(phrases)) {
@@ -177,6 +181,25 @@ TEST_P(ReadableWalls, HaveLargerLettersWhereTheyAreAskedFor) {
   EXPECT_GT(large.guidance_px, 1.3F * normal.guidance_px);
   EXPECT_GT(large.words_px, 1.2F * normal.words_px);
   EXPECT_GT(large.consent_px, 0.9F * normal.consent_px) << "it fills its panel already, and only the margins grow";
+}
+
+// Names and numbers that are read from the last row of a room: 10 minutes of arc from 10 m are 29 mm.
+TEST(DataPanel, HasLargerNumbersWithoutTheirSources) {
+  constexpr float kCapital = 0.727F, kLeastMm = 29.0F;
+  ExhibitFiles files;
+  files.assets_dir = support::source("assets");
+  files.aspect = 16.0 / 9.0;
+  const auto stage = load_exhibit(files).value();
+  Painter painter(2.0 * 1280 / stage.screen.width_m(), stage.wall_scene.panel_millimetre_m());
+  render::FrameState frame = app::wall_subject(stage, 64, app::WallMotion::Tip).value().frames.back();
+  render::DataPanel& data = frame.panels.data.content;
+  const Painted without = painter.paint(data, frame.panels.data.placement);
+  data.details = true;
+  const Painted with = painter.paint(data, frame.panels.data.placement);
+  EXPECT_GT(without.letter_px, 1.25F * with.letter_px);
+  data.subtitle.clear();
+  data.details = false;
+  EXPECT_GT(1e3F * kCapital * painter.paint(data, frame.panels.data.placement).least_em_m, kLeastMm);
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, ReadableWalls, ::testing::ValuesIn(kPresets));

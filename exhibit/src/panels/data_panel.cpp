@@ -132,6 +132,8 @@ render::DataPanel data_panel(const curves::SampleModel& material, const scene::T
   panel.rows.push_back({phrases[Phrase::ForceOnTip],
                         phrases.number(signed_text(tip.force_n * curves::kNnPerN, 3, "nN")),
                         bend_text(tip.deflection_m, phrases)});
+  for (render::DataRow& each : panel.rows) each.detail = true;
+  panel.details = false;
   return panel;
 }
 

@@ -93,6 +93,12 @@ class ParticleRows {
     rows_.push_back({phrases_[name], std::move(value), std::move(source)});
   }
 
+  // With the source of a number of the file.
+  void add_sourced(Phrase name, std::string value, std::string source) {
+    add(name, std::move(value), std::move(source));
+    rows_.back().detail = true;
+  }
+
   // The clock while the task runs, the whole score once it is done.
   void add_task() {
     const scene::TaskScore& score = now_.score;
@@ -189,8 +195,8 @@ class ParticleRows {
   template <class Quantity, class Units>
   void add_number(Phrase name, Quantity value, const Units& units, std::string_view key) {
     if (!(value.si > 0.0)) return;
-    add(name, quantity_text(value, units, phrases_),
-        source_text(now_.set->species[species_index()].sources, key, phrases_));
+    add_sourced(name, quantity_text(value, units, phrases_),
+                source_text(now_.set->species[species_index()].sources, key, phrases_));
   }
 
   // Work of adhesion of the sample, or of the pad below the touched sphere.
@@ -208,8 +214,8 @@ class ParticleRows {
       return;
     }
     const std::string key = fmt::format("pad_{}_work_of_adhesion", pad - pads.begin() + 1);
-    add(Phrase::WorkOfAdhesion, quantity_text(pad->work_of_adhesion, physics::kSurfaceEnergyUnits, phrases_),
-        source_text(now_.set->sources, key, phrases_));
+    add_sourced(Phrase::WorkOfAdhesion, quantity_text(pad->work_of_adhesion, physics::kSurfaceEnergyUnits, phrases_),
+                source_text(now_.set->sources, key, phrases_));
   }
 
   void add_numbers() {
@@ -218,8 +224,8 @@ class ParticleRows {
     add_adhesion();
     add_number(Phrase::ParticleShearStrength, kind.shear_strength, physics::kPressureUnits, "shear_strength");
     if (kind.coefficient > 0.0) {
-      add(Phrase::ParticleCoefficient, phrases_.number(fmt::format("{:.3g}", kind.coefficient)),
-          source_text(now_.set->species[species_index()].sources, "coefficient", phrases_));
+      add_sourced(Phrase::ParticleCoefficient, phrases_.number(fmt::format("{:.3g}", kind.coefficient)),
+                  source_text(now_.set->species[species_index()].sources, "coefficient", phrases_));
     }
     if (kind.sticks) {
       const std::string work = quantity_text(kind.tip_adhesion, physics::kSurfaceEnergyUnits, phrases_);
@@ -229,7 +235,7 @@ class ParticleRows {
     }
     const std::string lever =
         phrases_.number(format_quantity(now_.set->setup.springs.lateral, physics::kStiffnessUnits, kDigits));
-    add(Phrase::LeverSideways, lever, source_text(now_.set->sources, "lateral_spring", phrases_));
+    add_sourced(Phrase::LeverSideways, lever, source_text(now_.set->sources, "lateral_spring", phrases_));
     if (const double softened = now_.push.softened_sideways; softened > kSoftened) {
       add(Phrase::LeverSoftened, phrases_.text<Phrase::TimesSofter>(factor_text(softened)),
           phrases_[Phrase::LeverSoftenedWhy]);
@@ -272,7 +278,8 @@ std::string subtitle(const ParticlesNow& now, const Phrases& phrases) {
 render::DataPanel particles_panel(const ParticlesNow& now, const Phrases& phrases) {
   return {.title = phrases.word(now.set->title),
           .subtitle = subtitle(now, phrases),
-          .rows = ParticleRows(now, phrases).take()};
+          .rows = ParticleRows(now, phrases).take(),
+          .details = false};
 }
 
 }  // namespace afm::exhibit

@@ -51,6 +51,11 @@ class ScratchRows {
     rows_.push_back({phrases_[name], std::move(value), std::move(source)});
   }
 
+  void add_sourced(Phrase name, std::string value, std::string_view key) {
+    add(name, std::move(value), source(key));
+    rows_.back().detail = true;
+  }
+
   template <class Quantity, class Units>
   std::string text(Quantity value, const Units& units) const {
     return phrases_.number(format_quantity(value, units, kDigits));
@@ -96,9 +101,9 @@ class ScratchRows {
   }
 
   void add_numbers() {
-    add(Phrase::SoftHardness, text(now_.set->soft->surface.hardness, physics::kPressureUnits), source("hardness"));
-    add(Phrase::LeverSideways, text(now_.set->setup.springs.lateral, physics::kStiffnessUnits),
-        source("lateral_spring"));
+    add_sourced(Phrase::SoftHardness, text(now_.set->soft->surface.hardness, physics::kPressureUnits), "hardness");
+    add_sourced(Phrase::LeverSideways, text(now_.set->setup.springs.lateral, physics::kStiffnessUnits),
+                "lateral_spring");
     const double softened = now_.push.softened_sideways;
     if (!(softened > kFeltSofter)) return;
     add(Phrase::LeverSoftened, phrases_.text<Phrase::TimesSofter>(phrases_.number(fmt::format("{:.2g}", softened))),
@@ -115,7 +120,8 @@ class ScratchRows {
 render::DataPanel scratch_panel(const ParticlesNow& now, const Phrases& phrases) {
   return {.title = phrases.word(now.set->title),
           .subtitle = phrases.text<Phrase::SoftTakeBack>(fmt::format("{}", now.push.strokes)),
-          .rows = ScratchRows(now, phrases).take()};
+          .rows = ScratchRows(now, phrases).take(),
+          .details = false};
 }
 
 void leave_law_out(const ParticlesNow& now, const Phrases& phrases, render::ForcePanel& plot) {

@@ -18,15 +18,18 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-// Seen from above, like the sample on the wall; lower at scales at which the ball of the tip would hide the view or
-// enclose the viewer.
-constexpr double kLowTiltRad = 0.12, kLowFromOrders = 6.0, kLowAtOrders = 7.5;
+// Seen from above, like the sample on the wall; at scales at which the ball of the tip would hide the view or enclose
+// the viewer, from so little above the ground.
+constexpr double kLowViewRad = 0.13, kLeastTiltRad = -0.25, kLowFromOrders = 6.0, kLowAtOrders = 7.5;
 
 constexpr double kBeyondFog = 20.0;     // in layout units; beyond the fog
 constexpr double kBelowPixel = 0.0015;  // size in layout units
 
 // Scales between which the tip's soft shade replaces the shadows of the triangles.
 constexpr double kMapToOrders = 4.25, kConeFromOrders = 4.85;
+// Scales between which the sample's atoms come out of its ground, once they fill the view.
+constexpr double kAtomsFromOrders = 8.3, kAtomsAtOrders = 8.85, kAtomsHiddenM = 0.36e-9;
+
 // Among the atoms everything is in the tip's shade, which leaves them some light.
 constexpr double kLightFromOrders = 7.5, kShadeOfAtoms = 0.55;
 
@@ -91,7 +94,9 @@ void Journey::measure(const scene::Scene& scene, scene::NodeIndex first, std::op
       part.farthest_m = std::max(part.farthest_m, glm::length(place));
     });
     parts_.push_back(part);
-    if (scene.nodes[i].name.ends_with("atoms")) atoms_.push_back(i);
+    if (!scene.nodes[i].name.ends_with("atoms")) continue;
+    atoms_.push_back(i);
+    if (ground) ground_atoms_.push_back(i);
   }
 }
 
@@ -121,16 +126,23 @@ void Journey::measure_tip(const scene::Scene& scene, ModelBuilder& build) {
   tip_.slope = 0.5 * (edge + face) / tip_.height_m;
 }
 
-void Journey::place(double orders, std::vector<dmat4>& local) const {
+void Journey::place(double orders, double eye_above_rad, std::vector<dmat4>& local) const {
   const double low = eased((orders - kLowFromOrders) / (kLowAtOrders - kLowFromOrders));
-  const double tilt = kSampleTiltRad + (kLowTiltRad - kSampleTiltRad) * low;
+  const double low_tilt = std::clamp(kLowViewRad - eye_above_rad, kLeastTiltRad, kSampleTiltRad);
+  const double tilt = kSampleTiltRad + (low_tilt - kSampleTiltRad) * low;
   const double c = std::cos(tilt), s = std::sin(tilt);
   local[frame_] = glm::scale(frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)), dvec3(scale_of(orders)));
+  const double risen = eased((orders - kAtomsFromOrders) / (kAtomsAtOrders - kAtomsFromOrders));
+  for (const scene::NodeIndex atoms : ground_atoms_) {
+    local[atoms] = glm::translate(local[atoms], dvec3(0.0, 0.0, -kAtomsHiddenM * (1.0 - risen)));
+  }
 }
 
 bool Journey::shows(scene::NodeIndex node, double orders, std::size_t ground) const {
   const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.node == node; });
   if (part == parts_.end() || part->ground.value_or(ground) != ground) return false;
+  const bool of_ground = std::find(ground_atoms_.begin(), ground_atoms_.end(), node) != ground_atoms_.end();
+  if (of_ground && orders <= kAtomsFromOrders) return false;
   const double scale = scale_of(orders);
   return part->nearest_m * scale < kBeyondFog && part->farthest_m * scale > kBelowPixel;
 }

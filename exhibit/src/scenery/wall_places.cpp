@@ -74,6 +74,7 @@ WallPlaces::WallPlaces(const StagePlace& stage, std::size_t swatches) {
 void WallPlaces::lay_out_front(const StagePlace& stage) {
   const double unit = shape_.unit_m;
   const dvec3 eye(glm::inverse(room_from_layout_) * glm::dvec4(stage.viewer_m, 1.0));
+  eye_above_rad_ = std::atan2(eye.y, eye.z);
   const scene::ComfortZone zone =
       scene::comfort_zone(eye.z * unit, stage.ipd_m, kComfortMargin * scene::kComfortableDisparityRad);
   const double nearest = eye.z - zone.nearest_m / unit;

@@ -162,7 +162,9 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, std::vect
     marks_.place_scan_line(over(state.scan_line->front()), over(state.scan_line->back()), local);
   }
   if (state.centerpiece == Centerpiece::Analogy) analogy_.place(analogy_heights(state), local);
-  if (state.centerpiece == Centerpiece::Journey) journey_.place(state.journey_orders, local);
+  if (state.centerpiece == Centerpiece::Journey) {
+    journey_.place(state.journey_orders, places_.eye_above_rad(), local);
+  }
   return local;
 }
 
@@ -344,12 +346,14 @@ void WallScene::place_marks(const WallState& state, render::FrameState& frame) c
       cue_label(*state.cue, phrases_, places_.room_from_layout(), dvec3(frame.room_from_node[sample_frame_][3])));
 }
 
-// Above the companion, at its depth.
+// Above the companion, at its depth, and beside the ruler.
 void WallScene::place_companion_label(const Journey::Companion& companion, render::FrameState& frame) const {
   const dmat4& room_from_journey = frame.room_from_node[journey_.frame()];
   const double unit_m = places_.unit_m();
   const auto axis = [&](const glm::dvec4& column) { return unit_m * glm::normalize(dvec3(column)); };
-  const dvec3 middle = dvec3(room_from_journey[3]) + companion.place.x * axis(room_from_journey[0]) +
+  constexpr double kBesideRuler = kRulerFoot.x + 3.0 * kRulerTextGap + 0.5 * kCompanionLabelWidth;
+  const double across = companion.place.x > 0.0 ? std::max(companion.place.x, kBesideRuler) : companion.place.x;
+  const dvec3 middle = dvec3(room_from_journey[3]) + across * axis(room_from_journey[0]) +
                        companion.place.y * axis(room_from_journey[1]) + companion.place.z * axis(room_from_journey[2]);
   const dvec3 right(places_.room_from_layout() * glm::dvec4(kCompanionLabelWidth, 0.0, 0.0, 0.0));
   const dvec3 up(places_.room_from_layout() * glm::dvec4(0.0, kCompanionLabelHeight, 0.0, 0.0));

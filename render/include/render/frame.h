@@ -150,6 +150,7 @@ struct PlotWords {
 
 struct DataRow {
   std::string name, value, source;
+  bool detail = false;  // source shown only among the details of its panel
 
   bool operator==(const DataRow&) const = default;
 };
@@ -174,6 +175,7 @@ struct DataPanel {
   std::string title;
   std::string subtitle;
   std::vector<DataRow> rows;
+  bool details = true;  // all sources; false: without those marked as details, with larger rows where there is room
 
   bool operator==(const DataPanel&) const = default;
 };

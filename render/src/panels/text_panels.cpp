@@ -159,32 +159,62 @@ void paint_words(Canvas& canvas, std::string_view words, float top, float pitch)
               std::min(by_height, by_width));
 }
 
+constexpr float kLargestRow = 1.4F;  // text scale of a row that has only a name and a value
+constexpr float kLeastName = 0.75F;  // smallest size of its name, as a share of the value's
+constexpr float kNameGap = 20.0F;
+
+// Source shown below a row.
+std::string_view shown_source(const DataPanel& panel, const DataRow& row) {
+  return row.detail && !panel.details ? std::string_view() : std::string_view(row.source);
+}
+
 // Height of a row: name and value, and the source, if any, below them.
-float row_block_mm(const DataRow& row) { return row.source.empty() ? 46.0F : 78.0F; }
+float row_block_mm(std::string_view source) { return source.empty() ? 46.0F : 78.0F; }
+
+float tallest_block_mm(const DataPanel& panel) {
+  float tallest = 0.0F;
+  for (const DataRow& row : panel.rows) tallest = std::max(tallest, row_block_mm(shown_source(panel, row)));
+  return tallest;
+}
 
 // Text scale of a table. The header shrinks as much as the rows, if there are so many that they must shrink.
 float table_scale(const Canvas& canvas, const DataPanel& panel) {
-  float tallest = 0.0F;
-  for (const DataRow& row : panel.rows) tallest = std::max(tallest, row_block_mm(row));
-  const float whole = kHeader + tallest * static_cast<float>(panel.rows.size());
+  const float whole = kHeader + tallest_block_mm(panel) * static_cast<float>(panel.rows.size());
   return std::min(1.0F, (canvas.size_mm().y - kBelowRows) / whole);
 }
 
+// Largest text scale of rows that have only a name and a value: all values have one size, and a long name may be
+// smaller.
+float largest_row(const Canvas& canvas, const DataPanel& panel) {
+  float largest = panel.details || tallest_block_mm(panel) > row_block_mm("") ? 1.0F : kLargestRow;
+  for (const DataRow& row : panel.rows) {
+    const float name = canvas.text_width_mm(TextStyle::Body, row.name);
+    const float value = canvas.text_width_mm(TextStyle::Strong, row.value);
+    const float room = canvas.size_mm().x - 2.0F * kMargin - kNameGap;
+    largest = std::min(largest, room / std::max(value + kLeastName * name, 1.0F));
+  }
+  return std::max(1.0F, largest);
+}
+
 // Draws name and value on one line and the source below; smaller if the rows are close together or the line is long.
-void paint_row(Canvas& canvas, const DataRow& row, float top, float pitch) {
-  constexpr float kNameGap = 20.0F;
-  const float right = canvas.size_mm().x - kMargin;
-  const float block = row_block_mm(row);
-  const float width =
-      canvas.text_width_mm(TextStyle::Body, row.name) + canvas.text_width_mm(TextStyle::Strong, row.value) + kNameGap;
-  const float by_height = std::min(1.0F, pitch / block);
-  const float scale = std::min(by_height, (right - kMargin) / width);
-  const float y = top + std::max(0.0F, 0.5F * (pitch - block));
-  const float lift = 0.5F * (by_height - scale) * text_height_mm(TextStyle::Strong);
-  canvas.text({kMargin, y + lift + 2.0F}, TextStyle::Body, palette::kMuted, row.name, Align::Left, scale);
-  canvas.text({right, y + lift}, TextStyle::Strong, palette::kInk, row.value, Align::Right, scale);
-  shrunk_text(canvas, {kMargin, y + 46.0F * by_height}, {TextStyle::Small, Color{palette::kMuted.srgb, 0.85F}},
-              row.source, right - kMargin, by_height);
+void paint_row(Canvas& canvas, const DataRow& row, std::string_view source, float top, float pitch, float largest) {
+  const float right = canvas.size_mm().x - kMargin, room = right - kMargin;
+  const float block = row_block_mm(source);
+  const float name = canvas.text_width_mm(TextStyle::Body, row.name);
+  const float value = canvas.text_width_mm(TextStyle::Strong, row.value);
+  const float by_height = std::min(largest, pitch / block);
+  float value_scale = std::min(by_height, room / (name + value + kNameGap)), name_scale = value_scale;
+  if (largest > 1.0F) {
+    value_scale = by_height;
+    name_scale = std::min(by_height, (room - value_scale * value - kNameGap) / std::max(name, 1.0F));
+  }
+  const float y = top + std::max(0.0F, 0.5F * (pitch - by_height * block));
+  const auto lift = [&](float scale) { return 0.5F * (by_height - scale) * text_height_mm(TextStyle::Strong); };
+  canvas.text({kMargin, y + lift(name_scale) + 2.0F}, TextStyle::Body, palette::kMuted, row.name, Align::Left,
+              name_scale);
+  canvas.text({right, y + lift(value_scale)}, TextStyle::Strong, palette::kInk, row.value, Align::Right, value_scale);
+  shrunk_text(canvas, {kMargin, y + 46.0F * by_height}, {TextStyle::Small, Color{palette::kMuted.srgb, 0.85F}}, source,
+              room, by_height);
   canvas.line({kMargin, top + pitch}, {right, top + pitch}, 1.5F, palette::kGrid);
 }
 
@@ -206,10 +236,12 @@ void paint(Canvas& canvas, const DataPanel& panel) {
   const float room = canvas.size_mm().y - top - (text ? text_size : 1.0F) * kBelowRows;
   if (text) return paint_text(canvas, panel, top, room, text_size);
   const float pitch = std::min(kMostPitch, room / static_cast<float>(panel.rows.size()));
+  const float largest = largest_row(canvas, panel);
   for (std::size_t i = 0; i < panel.rows.size(); ++i) {
     const DataRow& row = panel.rows[i];
     const float at = top + pitch * static_cast<float>(i);
-    is_words(row) ? paint_words(canvas, row.name, at, pitch) : paint_row(canvas, row, at, pitch);
+    is_words(row) ? paint_words(canvas, row.name, at, pitch)
+                  : paint_row(canvas, row, shown_source(panel, row), at, pitch, largest);
   }
 }
 

@@ -114,7 +114,7 @@ struct WallFrame {
   double ipd_m = 0;
   std::string stereo{};  // stereo mode: "anaglyph-red-cyan"
   bool eyes_swapped = false;
-  std::string panels{};  // "samples", "parameters", "friction-loop", "keys" or "none"
+  std::string panels{};  // "samples", "parameters", "friction-loop", "sources", "keys" or "none"
   std::string guidance{};
   bool retracting = false;
   double release_z_m = 0;                               // as in ActiveContact

@@ -182,7 +182,7 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
   ASSERT_TRUE(touch(view)) << view.said();
   lift(0.130);
   ASSERT_NE(view.says_one_of({"jump off contact", "force off"}), "") << view.said();
-  press(view, "F3", "a slice shows the forces along the tip's line");
+  press(view, "F10", "a slice shows the forces along the tip's line");
   press(view, "F4", "the picture shows the adhesion");
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();

@@ -62,9 +62,9 @@ TEST(LiveKeys, FillTheListOnTheWall) {
   std::string list;
   for (const render::DataRow& row : key_list(HandSource::Mouse, false, test::english()).rows)
     list += row.name + ": " + row.value + "\n";
-  for (const char* line :
-       {"Choose a sample: 1 to 9, left click\n", "Turn-On: T, middle click\n", "Parameters: F2\n",
-        "Stereo mode: next, previous: V, C\n", "Eyes 1 mm closer, farther: F7, F8\n", "Quit: Esc\n"}) {
+  for (const char* line : {"Choose a sample: 1 to 9, left click\n", "Turn-On: T, middle click\n", "Parameters: F2\n",
+                           "Sources of the numbers: F3\n", "Stereo mode: next, previous: V, C\n",
+                           "Eyes 1 mm closer, farther: F7, F8\n", "Quit: Esc\n"}) {
     EXPECT_THAT(list, testing::HasSubstr(line));
   }
   for (const render::DataRow& row : key_list(HandSource::Device, false, test::english()).rows)

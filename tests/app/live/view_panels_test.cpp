@@ -103,7 +103,7 @@ TEST_F(PanelsOfTheView, ShowTheDataInThePlaceOfAnUnknownPanel) {
 }
 
 TEST_F(PanelsOfTheView, ComeBackByTheWordOfASession) {
-  for (const char* const word : {"samples", "parameters", "friction-loop", "keys", "none"}) {
+  for (const char* const word : {"samples", "parameters", "friction-loop", "sources", "keys", "none"}) {
     panels_->show(word);
     EXPECT_EQ(panels_->shown(), word);
   }
@@ -147,6 +147,28 @@ TEST_F(PanelsOfTheView, ShowThePushInThePlaceOfTheData) {
     EXPECT_EQ(shown.panels.data.placement, render::kNoPlacement);
     EXPECT_EQ(shown.panels.particles.content.title, "Five gold spheres on mica");
   }
+}
+
+// Sources of the sample's data, and of the particles, on request; a lesson, which could be about them, never shows
+// them.
+TEST_F(PanelsOfTheView, ShowTheSourcesOnRequest) {
+  const auto shown = [&] {
+    const render::FramePanels panels = frame("").panels;
+    EXPECT_NE(panels.data.placement, render::kNoPlacement);
+    EXPECT_EQ(panels.data.content.details, panels.particles.content.details);
+    return panels.data.content.details;
+  };
+  EXPECT_FALSE(frame("").panels.data.content.details);
+  panels_->toggle_sources();
+  EXPECT_TRUE(shown());
+  panels_->use_for(WallUse::Lesson);
+  EXPECT_FALSE(frame("").panels.data.content.details);
+  panels_->use_for(WallUse::Free);
+  panels_->toggle_parameters();
+  panels_->toggle_sources();
+  EXPECT_TRUE(shown());
+  panels_->toggle_sources();
+  EXPECT_FALSE(frame("").panels.data.content.details);
 }
 
 TEST_F(PanelsOfTheView, MakeRoomForTheListOfKeys) {

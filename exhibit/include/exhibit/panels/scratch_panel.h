@@ -8,8 +8,8 @@
 namespace afm::exhibit {
 
 // A soft sample that the tip scratches: state, load, depth and lateral force of the tip, the first groove at this load
-// by the formula (M52), the speed of the hand up to which the tip presses fully, and the numbers of the file with their
-// sources. The set of `now` has a soft sample.
+// by the formula (M52), the speed of the hand up to which the tip presses fully, and the numbers of the file, whose
+// sources are details and left out. The set of `now` has a soft sample.
 render::DataPanel scratch_panel(const ParticlesNow& now, const Phrases& phrases);
 
 // Removes what the chosen material's law says from the plot of force, since no law acts on a soft sample: predicted

@@ -32,10 +32,13 @@ class Journey {
   // Loads the sample's ground "ground-LOOK.glb", once per look, and returns its number.
   std::size_t add_ground(ModelBuilder& build, scene::Scene& scene, const std::string& look);
 
-  // Places all parts. Clamps `orders` to 0 to kJourneyOrders.
-  void place(double orders, std::vector<glm::dmat4>& local) const;
+  // Places all parts, the samples' atoms below their ground until they fill the view. Clamps `orders` to 0 to
+  // kJourneyOrders. `eye_above_rad` is the angle of the viewer above the layout's level, as seen from the contact
+  // point: under the tip, the ground is turned so that the eyes are below the ball of the tip.
+  void place(double orders, double eye_above_rad, std::vector<glm::dmat4>& local) const;
 
-  // Returns whether a node below the journey's frame needs drawing: not in the fog, and at least a pixel large.
+  // Returns whether a node below the journey's frame needs drawing: not in the fog, not below the ground, and at least
+  // a pixel large.
   bool shows(scene::NodeIndex node, double orders, std::size_t ground) const;
 
   // Sets the shadows: those of the triangles down to the lever, from there on the tip's soft one on the ground, whose
@@ -76,7 +79,7 @@ class Journey {
   scene::NodeIndex frame_ = 0;
   Tip tip_;
   std::vector<Part> parts_;
-  std::vector<scene::NodeIndex> atoms_;
+  std::vector<scene::NodeIndex> atoms_, ground_atoms_;  // all, and those of the samples
   std::vector<std::string> grounds_;
 };
 

@@ -22,6 +22,8 @@ class WallPlaces {
 
   // Origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre.
   const glm::dmat4& room_from_layout() const { return room_from_layout_; }
+  // Angle of the viewer above the layout's level, as seen from the contact point.
+  double eye_above_rad() const { return eye_above_rad_; }
   double unit_m() const;  // size of one layout unit in metres
   double shelf_y() const { return shelf_y_; }
   double height_bar_x() const;
@@ -58,6 +60,7 @@ class WallPlaces {
   render::PanelPlacement right_of_data(double inset) const;
 
   glm::dmat4 room_from_layout_{1.0};
+  double eye_above_rad_ = 0;
   glm::dmat4 room_from_wall_{1.0};  // the same with y along the main screen; differs if that lies flat
   WallShape shape_;
   double half_width_ = 0;  // half width of the composition in layout units

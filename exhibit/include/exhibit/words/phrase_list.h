@@ -279,6 +279,7 @@
   PHRASE(KeyTurnOn, "key-turn-on", "", kLine)                \
   PHRASE(KeyStop, "key-stop", "", kLine)                     \
   PHRASE(KeyParameters, "key-parameters", "", kLine)         \
+  PHRASE(KeySources, "key-sources", "", kLine)               \
   PHRASE(KeyScan, "key-scan", "", kLine)                     \
   PHRASE(KeyTruth, "key-truth", "", kLine)                   \
   PHRASE(KeyFalseColours, "key-false-colours", "", kLine)    \
