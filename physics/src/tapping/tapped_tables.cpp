@@ -22,6 +22,7 @@ constexpr std::size_t kNodes = 1200;        // nodes in a branch
 constexpr Length kClearOfSample{2e-9};      // distance from the free swing without a push
 constexpr double kSteepestFall = 4.0;       // of the amplitude over Z, as a hand feels it
 constexpr double kFaintReduction = 0.02;    // share of the free amplitude
+constexpr double kStopped = 0.01;           // share of the free amplitude, the least in the table of TapEnvelope
 constexpr double kMostReachOfSwing = 10.0;  // in free amplitudes, for an attraction with a long range
 
 // By the averaged flow, from rest to rest.
@@ -37,7 +38,8 @@ TappingCurve curve_of(AveragedFlow& flow, Length from, Length to) {
   return curve;
 }
 
-// From above the attraction, also where its range is long.
+// From above the attraction, also where its range is long, down to contact, or to where the sample stops the swing: a
+// smaller one may jump to states that the envelope of a hand does not reach.
 TappingCurve averaged_curve(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever) {
   AveragedFlow flow(surface, lever);
   const Length a0 = lever.free_amplitude, floor = surface->contact_height();
@@ -47,7 +49,10 @@ TappingCurve averaged_curve(const std::shared_ptr<const TapSurface>& surface, co
     if (std::abs(amplitude / a0 - 1.0) < 0.5 * kFaintReduction) break;
     from = from + 0.5 * a0;
   }
-  return curve_of(flow, from, floor);
+  TappingCurve curve = curve_of(flow, from, floor);
+  const auto stopped = std::find_if(curve.points.begin(), curve.points.end(),
+                                    [&](const TapPoint& point) { return point.state.amplitude < kStopped * a0; });
+  return stopped == curve.points.end() ? curve : curve_of(flow, from, stopped->z);
 }
 
 // P over falling Z, between the points of a walk.
