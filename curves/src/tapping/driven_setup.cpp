@@ -9,7 +9,6 @@
 #include "curves/tapping/tapping_run.h"
 #include "physics/law.h"
 #include "physics/quantity_text.h"
-#include "physics/tapping/averaged_flow.h"
 #include "physics/tapping/tapping_model.h"
 
 namespace afm::curves {
@@ -87,13 +86,6 @@ core::Result<ContactSetup> tapped_setup(const scene::MaterialEntry& entry, const
     const auto value = parse_parameter(parameter, text);
     if (!value) return tl::unexpected(value.error());
     override_parameter(setup, parameter, *value, text, fmt::format("--{} on the command line", option));
-  }
-  const double q = setup.material.lever.quality_factor;
-  if (!(q >= physics::AveragedFlow::kLeastQuality)) {
-    return wrong_usage(fmt::format(
-        "--quality-factor: a hand can safely feel the average over many swings alone, for a quality factor of at "
-        "least {:g}, not {:g}; give a higher one, or take a curve or an image by touchafm curve or scan",
-        physics::AveragedFlow::kLeastQuality, q));
   }
   const auto driven = driven_sample(setup, hand.choice.numbers);
   if (!driven) return tl::unexpected(driven.error());

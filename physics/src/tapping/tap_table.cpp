@@ -11,10 +11,11 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kAtRest = 1e-6;       // change of the amplitude in 50 swings, as a share of the free one
-constexpr double kJumpError = 1e-3;    // error of a jump's height, as a share of the free amplitude
-constexpr double kFaintChange = 0.01;  // share of the free amplitude by which the highest swing may differ from it
-constexpr double kMostReach = 10.0;    // highest base, in free amplitudes, for an attraction with a long range
+constexpr double kAtRest = 1e-6;           // change of the amplitude in 50 swings, as a share of the free one
+constexpr double kJumpError = 1e-3;        // error of a jump's height, as a share of the free amplitude
+constexpr double kFaintChange = 0.01;      // share of the free amplitude by which the highest swing may differ from it
+constexpr double kMostReach = 10.0;        // highest base, in free amplitudes, for an attraction with a long range
+constexpr double kClearlyRepelled = 0.02;  // sine of the phase below that of the free lever
 
 // Heights of the base in free amplitudes above contact, the highest first: dense where the tip begins to touch.
 struct Zone {
@@ -30,6 +31,24 @@ std::vector<Length> heights_from(Length highest, Length contact, Length free_amp
     for (int i = 1; i <= zone.steps; ++i) heights.push_back(from + (to - from) * (i / static_cast<double>(zone.steps)));
   }
   return heights;
+}
+
+// Without a loop a tip changes branch, and nothing else, where its phase has clearly passed that of the free lever; at
+// the lowest height if it never does.
+Length repelled_from(const std::vector<TapPoint>& down, const DrivenLever& lever) {
+  const auto repelled = std::find_if(down.begin(), down.end(), [&](const TapPoint& point) {
+    return std::sin(point.state.phase - lever.free_phase) < -kClearlyRepelled;
+  });
+  return repelled == down.end() ? down.back().z : repelled->z;
+}
+
+// The first jump down from attraction to repulsion.
+std::optional<TapJump> first_fall(const TappingCurve& curve, const DrivenLever& lever) {
+  const auto in = std::find_if(curve.jumps.begin(), curve.jumps.end(), [&](const TapJump& jump) {
+    return jump.branch == Branch::Approach && jump.after.phase < jump.before.phase &&
+           jump.after.phase < lever.free_phase;
+  });
+  return in == curve.jumps.end() ? std::nullopt : std::optional(*in);
 }
 
 // The lowest height at which the free swing is hardly touched.
@@ -103,11 +122,16 @@ TapTable::TapTable(const std::shared_ptr<const TapSurface>& surface, const Drive
     : lever_(lever), walk_(walk_down_and_up(surface, lever)) {
   const SlowWalk slow = slow_walk_of(walk_, lever);
   lowest_ = slow.down.back().z;
+  falls_m_ = leaves_m_ = repelled_from(slow.down, lever).si;
+  const auto in = first_fall(walk_, lever);
+  // a swing that was repelled before may jump to and fro near contact, which is no loop between the states
+  if (in && slow.off && in->z.si >= falls_m_ && slow.off->z > in->z) {
+    loop_ = TapLoop{*in, *slow.off};
+    falls_m_ = in->z.si;
+    leaves_m_ = slow.off->z.si;
+  }
   attracted_ = branch_of(slow.down);
-  repelled_ = branch_of(slow.hysteretic() ? slow.up : slow.down);
-  // without a loop a tip changes branch, and nothing else, where its phase passes that of the free lever
-  falls_m_ = slow.hysteretic() ? slow.in->z.si : meeting_of(slow, lever).si;
-  leaves_m_ = slow.hysteretic() ? slow.off->z.si : falls_m_;
+  repelled_ = branch_of(loop_ ? slow.up : slow.down);
 }
 
 std::vector<TapTable::Node> TapTable::branch_of(const std::vector<TapPoint>& points) {

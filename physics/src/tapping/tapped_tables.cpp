@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -19,7 +20,9 @@ namespace {
 constexpr int kHeights = 400;               // heights in a walk
 constexpr std::size_t kNodes = 1200;        // nodes in a branch
 constexpr Length kClearOfSample{2e-9};      // distance from the free swing without a push
+constexpr double kSteepestFall = 4.0;       // of the amplitude over Z, as a hand feels it
 constexpr double kFaintReduction = 0.02;    // share of the free amplitude
+constexpr double kStopped = 0.01;           // share of the free amplitude, the least in the table of TapEnvelope
 constexpr double kMostReachOfSwing = 10.0;  // in free amplitudes, for an attraction with a long range
 
 // By the averaged flow, from rest to rest.
@@ -35,7 +38,8 @@ TappingCurve curve_of(AveragedFlow& flow, Length from, Length to) {
   return curve;
 }
 
-// From above the attraction, also where its range is long.
+// From above the attraction, also where its range is long, down to contact, or to where the sample stops the swing: a
+// smaller one may jump to states that the envelope of a hand does not reach.
 TappingCurve averaged_curve(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever) {
   AveragedFlow flow(surface, lever);
   const Length a0 = lever.free_amplitude, floor = surface->contact_height();
@@ -45,7 +49,10 @@ TappingCurve averaged_curve(const std::shared_ptr<const TapSurface>& surface, co
     if (std::abs(amplitude / a0 - 1.0) < 0.5 * kFaintReduction) break;
     from = from + 0.5 * a0;
   }
-  return curve_of(flow, from, floor);
+  TappingCurve curve = curve_of(flow, from, floor);
+  const auto stopped = std::find_if(curve.points.begin(), curve.points.end(),
+                                    [&](const TapPoint& point) { return point.state.amplitude < kStopped * a0; });
+  return stopped == curve.points.end() ? curve : curve_of(flow, from, stopped->z);
 }
 
 // P over falling Z, between the points of a walk.
@@ -58,22 +65,84 @@ double push_at(const std::vector<TapPoint>& points, const DrivenLever& lever, do
   return tap_push(lever, b.state.amplitude + share * (a.state.amplitude - b.state.amplitude)).si;
 }
 
-// Table of P from its end outwards over `length`.
-BranchTable table_of(const std::vector<TapPoint>& points, const DrivenLever& lever, Length end, BranchTable::Side side,
-                     Length length) {
-  const double spacing = length.si / static_cast<double>(kNodes - 1);
-  const double sign = side == BranchTable::Side::Above ? 1.0 : -1.0;
-  std::vector<BranchTable::Node> nodes(kNodes);
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    nodes[i].force_n = push_at(points, lever, end.si + sign * spacing * static_cast<double>(i));
-  }
-  for (std::size_t i = 1; i + 1 < kNodes; ++i) {
+// P of one branch from its end outwards, at equal distances.
+struct PushNodes {
+  Length end;
+  BranchTable::Side side;
+  double spacing;
+  std::vector<double> push_n;
+
+  double sign() const { return side == BranchTable::Side::Above ? 1.0 : -1.0; }
+  double z(std::size_t node) const { return end.si + sign() * spacing * static_cast<double>(node); }
+};
+
+PushNodes push_nodes(const std::function<double(double z)>& push_n, Length end, BranchTable::Side side, Length length) {
+  PushNodes nodes{end, side, length.si / static_cast<double>(kNodes - 1), std::vector<double>(kNodes)};
+  for (std::size_t i = 0; i < kNodes; ++i) nodes.push_n[i] = push_n(nodes.z(i));
+  return nodes;
+}
+
+BranchTable table_of(const PushNodes& push) {
+  std::vector<BranchTable::Node> nodes(push.push_n.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].force_n = push.push_n[i];
+  for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
     // no overshoot beside a fold
     const double before = nodes[i].force_n - nodes[i - 1].force_n, after = nodes[i + 1].force_n - nodes[i].force_n;
-    if (before * after > 0.0) nodes[i].slope = 2.0 * before * after / (before + after) / spacing;
+    if (before * after > 0.0) nodes[i].slope = 2.0 * before * after / (before + after) / push.spacing;
   }
-  nodes.front().slope = (nodes[1].force_n - nodes[0].force_n) / spacing;
-  return {end, side, Length(spacing), std::move(nodes)};
+  nodes.front().slope = (nodes[1].force_n - nodes[0].force_n) / push.spacing;
+  return {push.end, push.side, Length(push.spacing), std::move(nodes)};
+}
+
+// Lowers P where it rises too steeply on the way down.
+void limit_rise(PushNodes& nodes, double most_n_per_m) {
+  const double most_n = most_n_per_m * nodes.spacing;
+  std::vector<double>& push_n = nodes.push_n;
+  if (nodes.side == BranchTable::Side::Above) {
+    for (std::size_t i = push_n.size() - 1; i-- > 0;) push_n[i] = std::min(push_n[i], push_n[i + 1] + most_n);
+  } else {
+    for (std::size_t i = 1; i < push_n.size(); ++i) push_n[i] = std::min(push_n[i], push_n[i - 1] + most_n);
+  }
+}
+
+// What a loop down the free branch and up the attached one, between their ends, would give.
+double given_by_loop(const BranchTable& free, const BranchTable& attached) {
+  constexpr int kSteps = 1000;
+  const double from = free.end().si, step = (attached.end().si - from) / kSteps;
+  double sum_n = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const Length z(from + (i + 0.5) * step);
+    sum_n += (attached.force(z) - free.force(z)).si;
+  }
+  return sum_n * step;
+}
+
+// Both branches of P by direct integration, safe for a hand that feels them once a tick. A swing that changes in a
+// step, as where the tip sticks, has its push spread over some Z. A repelled branch that pushes more than the
+// attracted one would give a hand energy with each loop; its push is then no larger than that of the attracted one.
+void put_felt_branches(const TapTable& rests, Length floor, Length highest, LawTables& tables) {
+  const DrivenLever& lever = rests.lever();
+  const double most_n_per_m = kSteepestFall * tap_push(lever, Length()).si / lever.free_amplitude.si;
+  const auto push_of = [&](bool repelled) {
+    return [&rests, &lever, floor, repelled](double z) {
+      const TapTable::Rest rest = rests.at(repelled, std::max(z, floor.si));
+      return tap_push(lever, Length(std::hypot(rest.u_m, rest.v_m))).si;
+    };
+  };
+  const Length in = tables.figures.z_jtc, off = tables.figures.z_joc;
+  PushNodes free = push_nodes(push_of(false), in, BranchTable::Side::Above, highest - in);
+  limit_rise(free, most_n_per_m);
+  tables.free = table_of(free);
+  const Length pressed = std::max(off - floor, Length(1e-3 * lever.free_amplitude.si));
+  PushNodes attached = push_nodes(push_of(true), off, BranchTable::Side::Below, pressed);
+  limit_rise(attached, most_n_per_m);
+  tables.attached = table_of(attached);
+  if (given_by_loop(tables.free, tables.attached) <= 0.0) return;
+  for (std::size_t i = 0; i < attached.push_n.size() && attached.z(i) > in.si; ++i) {
+    attached.push_n[i] = std::min(attached.push_n[i], tables.free.force(Length(attached.z(i))).si);
+  }
+  limit_rise(attached, most_n_per_m);
+  tables.attached = table_of(attached);
 }
 
 }  // namespace
@@ -89,7 +158,12 @@ std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_pt
   if (lever.quality_factor < AveragedFlow::kLeastQuality)
     tables.taps = std::make_shared<const TapTable>(surface, lever);
   const TappingCurve curve = tables.taps ? tables.taps->walk() : averaged_curve(surface, lever);
-  const SlowWalk walk = slow_walk_of(curve, lever);
+  SlowWalk walk = slow_walk_of(curve, lever);
+  if (tables.taps) {
+    const auto& loop = tables.taps->loop();
+    walk.in = loop ? std::optional(loop->in) : std::nullopt;
+    walk.off = loop ? std::optional(loop->off) : std::nullopt;
+  }
   const Length a0 = lever.free_amplitude, floor = surface->contact_height(), from = walk.down.front().z;
   tables.law = law;
   tables.contact = surface->contact();
@@ -105,7 +179,7 @@ std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_pt
     figures.force_before_joc = tap_push(lever, walk.off->before.amplitude);
     figures.force_after_joc = tap_push(lever, walk.off->after.amplitude);
   } else {
-    figures.z_jtc = figures.z_joc = meeting_of(walk, lever);
+    figures.z_jtc = figures.z_joc = tables.taps ? tables.taps->falls_at() : meeting_of(walk, lever);
     figures.force_before_jtc = figures.force_after_jtc = Force(push_at(walk.down, lever, figures.z_jtc.si));
     figures.force_before_joc = figures.force_after_joc = figures.force_before_jtc;
   }
@@ -113,10 +187,18 @@ std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_pt
   figures.tip_height_before_joc = figures.tip_height_after_joc = figures.z_joc;
   figures.critical_stiffness = Stiffness(HUGE_VAL);
 
-  tables.free = table_of(walk.down, lever, figures.z_jtc, BranchTable::Side::Above, from - figures.z_jtc);
-  const Length pressed = std::max(figures.z_joc - floor, Length(1e-3 * a0.si));
-  tables.attached =
-      table_of(figures.hysteretic ? walk.up : walk.down, lever, figures.z_joc, BranchTable::Side::Below, pressed);
+  if (tables.taps) {
+    put_felt_branches(*tables.taps, floor, from, tables);
+  } else {
+    const auto push_over = [&lever](const std::vector<TapPoint>& points) {
+      return [&lever, &points](double z) { return push_at(points, lever, z); };
+    };
+    tables.free =
+        table_of(push_nodes(push_over(walk.down), figures.z_jtc, BranchTable::Side::Above, from - figures.z_jtc));
+    const Length pressed = std::max(figures.z_joc - floor, Length(1e-3 * a0.si));
+    tables.attached = table_of(push_nodes(push_over(figures.hysteretic ? walk.up : walk.down), figures.z_joc,
+                                          BranchTable::Side::Below, pressed));
+  }
   double loop = 0.0;
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     const TapPoint &a = curve.points[i - 1], &b = curve.points[i];

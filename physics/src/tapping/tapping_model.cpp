@@ -45,8 +45,18 @@ TappingModel& TappingModel::operator=(TappingModel&& other) noexcept = default;
 Length TappingModel::amplitude() const noexcept { return Length(envelope_->amplitude_m()); }
 double TappingModel::phase_lag() const noexcept { return envelope_->phase_rad(); }
 
-void TappingModel::watch(Length before, Length after, double fraction, TipResponse& response) noexcept {
-  if (envelope_->amplitude_m() < kLeastSwing * envelope_->lever().free_amplitude.si) return;
+// The branch of a table ends where the walk has left it, whatever the phase does on the way there.
+bool TappingModel::passes_end(double fraction) noexcept {
+  const bool repelled = phase_ == Phase::Attached;
+  if (envelope_->repelled() == repelled) return false;
+  crossed_z_ = repelled ? tables_->figures.z_joc : tables_->figures.z_jtc;
+  crossed_fraction_ = fraction;
+  return true;
+}
+
+// The averaged swing changes its state where its phase passes that of the free lever.
+bool TappingModel::passes_free_phase(Length before, Length after, double fraction) noexcept {
+  if (envelope_->amplitude_m() < kLeastSwing * envelope_->lever().free_amplitude.si) return false;
   const double attraction = envelope_->attraction();
   if ((attraction > 0.0) != (previous_attraction_ > 0.0)) {
     const double share = previous_attraction_ / (previous_attraction_ - attraction);
@@ -54,10 +64,14 @@ void TappingModel::watch(Length before, Length after, double fraction, TipRespon
     crossed_fraction_ = fraction;
   }
   previous_attraction_ = attraction;
-  const bool repelled = phase_ == Phase::Attached;
-  const bool away = after >= tables_->figures.z_joc && attraction > -kClearState;
-  const bool changes = repelled ? attraction > kClearState || away : attraction < -kClearState;
+  if (phase_ != Phase::Attached) return attraction < -kClearState;
+  return attraction > kClearState || (after >= tables_->figures.z_joc && attraction > -kClearState);
+}
+
+void TappingModel::watch(Length before, Length after, double fraction, TipResponse& response) noexcept {
+  const bool changes = envelope_->at_rest_only() ? passes_end(fraction) : passes_free_phase(before, after, fraction);
   if (!changes) return;
+  const bool repelled = phase_ == Phase::Attached;
   phase_ = repelled ? Phase::Free : Phase::Attached;
   if (!tables_->figures.hysteretic || response.event_count == response.events.size()) return;
   response.add({.kind = repelled ? EventKind::JumpToAttraction : EventKind::JumpToRepulsion,
@@ -65,6 +79,10 @@ void TappingModel::watch(Length before, Length after, double fraction, TipRespon
                 .force_before = older_mean_,
                 .force_after = Force(envelope_->mean_force_n()),
                 .fraction = crossed_fraction_});
+}
+
+Force TappingModel::felt_at_rest(Length z) const noexcept {
+  return (phase_ == Phase::Attached ? tables_->attached : tables_->free).force(z);
 }
 
 TipResponse TappingModel::step(Length z) noexcept {
@@ -99,7 +117,7 @@ TipResponse TappingModel::step(Length z) noexcept {
     return response;
   }
   older_mean_ = std::exchange(previous_mean_, mean);
-  push_ = tap_push(lever, amplitude());
+  push_ = tables_->taps ? felt_at_rest(z) : tap_push(lever, amplitude());
   response.phase = phase_;
   response.force = mean;
   response.cantilever_deflection = -mean / lever.spring_constant;

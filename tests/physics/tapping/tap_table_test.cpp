@@ -119,6 +119,37 @@ TEST(TapTable, LetsAHandFallIntoTheRepulsiveStateAndOutOfIt) {
   EXPECT_NEAR(nm_of(off[0].z), nm_of(figures.z_joc), 0.05);
 }
 
+// Mica in water under a soft lever: below contact the pressed swing jumps to and fro, and its push steps.
+TEST(TapTable, IsOneBranchWhereThereIsNoLoopBetweenTheStates) {
+  const TappedSample pressed{.k = 2.0, .q = 5.0, .r_nm = 50.0, .h_zj = 24.5, .e_gpa = 51.5};
+  Felt felt(pressed, tables_of(pressed));
+  const LawTables& tables = *felt.tables;
+  EXPECT_FALSE(tables.taps->walk().jumps.empty());
+  EXPECT_FALSE(tables.figures.hysteretic);
+  EXPECT_NEAR(nm_of(tables.figures.z_jtc), 20.1, 0.3) << "where the tip begins to touch";
+  EXPECT_EQ(tables.figures.z_joc, tables.figures.z_jtc);
+  (void)felt.model.step(Length(30e-9));
+  EXPECT_TRUE(felt.move(30.0, 0.1).empty());
+  EXPECT_EQ(felt.model.phase(), Phase::Attached);
+  EXPECT_EQ(felt.model.push(), tables.attached.force(Length(0.1e-9)));
+  EXPECT_TRUE(felt.move(0.1, 30.0).empty());
+  EXPECT_EQ(felt.model.phase(), Phase::Free);
+}
+
+// The push of a hand rises by at most four times that of a swing that loses as much as its base moves.
+TEST(TapTable, SpreadsAStepOfThePush) {
+  const TappedSample sticky{.k = 2.0, .q = 5.0, .r_nm = 50.0, .e_gpa = 50.0};
+  const auto tables = tables_of(sticky);
+  const double steepest = 4.0 * tables->tapped_full.si / sticky.lever().free_amplitude.si;
+  constexpr double kStepM = 0.01e-9;
+  for (double z = 0.0; z < 25e-9; z += kStepM) {
+    for (const BranchTable* branch : {&tables->free, &tables->attached}) {
+      const double rise = (branch->force(Length(z)) - branch->force(Length(z + kStepM))).si / kStepM;
+      ASSERT_LT(rise, 1.6 * steepest) << z;
+    }
+  }
+}
+
 TEST(TapTable, IsFollowedWithTheRelaxationOfTheLever) {
   const auto rests = std::make_shared<const TapTable>(kSoft.surface(), kSoft.lever());
   TapEnvelope envelope(rests);

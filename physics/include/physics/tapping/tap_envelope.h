@@ -58,6 +58,7 @@ class TapEnvelope {
 
   const DrivenLever& lever() const noexcept { return *lever_; }
   bool at_rest_only() const noexcept { return rests_ != nullptr; }  // from a TapTable
+  bool repelled() const noexcept { return repelled_; }              // branch of that table
 
  private:
   // Averages of one swing.

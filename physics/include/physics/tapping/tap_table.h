@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "physics/tapping/driven_lever.h"
@@ -12,10 +13,16 @@ namespace afm::physics {
 
 class TapSurface;
 
+// The jump down into the repulsive state, and the one back.
+struct TapLoop {
+  TapJump in, off;
+};
+
 // The swings at rest over the height of the base, both branches, as a slow walk down and up meets them by direct
 // integration (physics/tapping/tapping_oscillator.h): for a quality factor below AveragedFlow::kLeastQuality, where the
 // averaged flow misses the higher harmonics. Each jump is halved to a thousandth of the free amplitude. States that the
-// walk does not meet are missing. Without a jump down and one back above it, both branches are the way down.
+// walk does not meet are missing. Without a jump from attraction into repulsion and one back above it, both
+// branches are the way down.
 //
 // Constant after construction; any thread. The constructor takes up to some seconds, about as long as Q is high, and
 // allocates.
@@ -37,6 +44,11 @@ class TapTable {
   // The stable swings that the walk meets at this height, the smallest amplitude first.
   std::vector<TapState> states_at(Length z) const;
 
+  // Both jumps of the loop between the attractive and the repulsive state; empty: there is one branch.
+  const std::optional<TapLoop>& loop() const noexcept { return loop_; }
+  // Z below which a swing is on the repelled branch for the first time.
+  Length falls_at() const noexcept { return Length(falls_m_); }
+
   // Whether a tip on its way through `z` is on the repelled branch, after it was there (`repelled`) or not.
   bool repelled_at(bool repelled, double z_m) const noexcept { return repelled ? z_m <= leaves_m_ : z_m < falls_m_; }
 
@@ -56,7 +68,8 @@ class TapTable {
   DrivenLever lever_;
   TappingCurve walk_;
   std::vector<Node> attracted_, repelled_;  // from the lowest Z up
-  double falls_m_ = 0, leaves_m_ = 0;       // below: a swing falls into the repelled branch; above: it leaves it
+  std::optional<TapLoop> loop_;
+  double falls_m_ = 0, leaves_m_ = 0;  // below: a swing falls into the repelled branch; above: it leaves it
   Length lowest_;
 };
 

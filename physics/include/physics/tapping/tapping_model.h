@@ -72,6 +72,9 @@ class TappingModel {
 
  private:
   void watch(Length before, Length after, double fraction, TipResponse& response) noexcept;
+  bool passes_end(double fraction) noexcept;
+  bool passes_free_phase(Length before, Length after, double fraction) noexcept;
+  Force felt_at_rest(Length z) const noexcept;
 
   std::shared_ptr<const LawTables> tables_;
   std::unique_ptr<TapEnvelope> envelope_;
