@@ -11,6 +11,7 @@
 #include "physics/law_tables.h"
 #include "physics/lever_dynamics.h"
 #include "scene/shared/fault_codes.h"
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/name.h"
 #include "scene/shared/particle_blocks.h"
 #include "scene/shared/scale_modes.h"
@@ -70,6 +71,8 @@ struct SharedContact {
   physics::FrictionParameters friction{};
   std::uint32_t law_map = 0;      // 1: modulus and adhesion are those of the model's map at each place
   std::uint32_t viscous_map = 0;  // 1: with law_map, a damping that grows with the energy that the law loses there
+  MapVibration map_vibration = MapVibration::None;  // with law_map only
+  std::uint32_t padding = 0;
 };
 
 // True if the material is felt by a lever in tapping mode.
@@ -234,6 +237,7 @@ struct SharedDevice {
   double max_stiffness_n_per_m = 0;
   double max_slew_n_per_s = 0;     // infinite: no limit
   double max_speed_m_per_s = 0;    // infinite: no limit
+  double max_vibration_n = 0;      // 0: none
   std::uint32_t has_own_hand = 0;  // 1: a person's or a recorded hand, which ignores HandScript
   std::uint32_t padding = 0;
   std::array<double, 3> workspace_min_m{};
