@@ -14,7 +14,8 @@
 
 #include "core/clock.h"
 #include "core/log.h"
-#include "haptics/felt_scratch.h"
+#include "haptics/contact/felt_ink.h"
+#include "haptics/contact/felt_scratch.h"
 #include "haptics/law_family.h"
 #include "haptics/particle_scale.h"
 #include "haptics/servo_loop.h"
@@ -240,6 +241,36 @@ core::Result<WorkFigure> measure_scratching(std::size_t ticks) {
   return WorkFigure{"scratching PMMA", core::percentiles(std::move(us)), 0, kDearestBar_us};
 }
 
+// A tip that writes over what it has written, in circles about the middle of a dot of some 20 s.
+core::Result<WorkFigure> measure_writing(std::size_t ticks) {
+  constexpr double kOverM = 500e-9, kPressedM = -20e-9, kCircleM = 100e-9, kTurn = 0.005;  // radians a tick
+  constexpr int kSoaked = 20'000;                                                          // ticks
+  const auto thiol = std::make_unique<scene::SharedParticles>();
+  thiol->pusher = {.tip_radius_m = 20e-9, .half_angle_rad = 0.35, .normal_spring_n_per_m = 0.1};
+  thiol->ink = {.name = scene::to_name("a thiol on gold"),
+                .molecules_per_s = 1e5,
+                .footprint_m2 = 0.216e-18,
+                .thickness_m = 2e-9,
+                .surface_tension_n_per_m = 0.0728};
+  const auto scale = haptics::particle_scale(*thiol, haptics::SimulatedDevice().spec());
+  if (!scale) return tl::unexpected(scale.error());
+  haptics::FeltInk felt(*thiol, *scale);
+  felt.step({kCircleM, 0.0}, kOverM, 1e-3);
+  const core::MonotonicClock clock;
+  double angle = 0.0;
+  const auto step = [&] {
+    angle += kTurn;
+    const std::int64_t before_ns = clock.now_ns();
+    felt.step({kCircleM * std::cos(angle), kCircleM * std::sin(angle)}, kPressedM, 1e-3);
+    felt.next_tile();
+    return 1e-3 * static_cast<double>(clock.now_ns() - before_ns);
+  };
+  for (int i = 0; i < kSoaked; ++i) step();
+  std::vector<double> us(ticks);
+  for (double& each : us) each = step();
+  return WorkFigure{"writing with ink", core::percentiles(std::move(us)), 0, kDearestBar_us};
+}
+
 }  // namespace
 
 scene::SharedModel mica_alone() {
@@ -289,9 +320,11 @@ core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks, cons
     if (!figure) return tl::unexpected(figure.error());
     figures.push_back(std::move(*figure));
   }
-  auto scratching = measure_scratching(ticks);
-  if (!scratching) return tl::unexpected(scratching.error());
-  figures.push_back(std::move(*scratching));
+  for (const auto& measure : {measure_scratching, measure_writing}) {
+    auto figure = measure(ticks);
+    if (!figure) return tl::unexpected(figure.error());
+    figures.push_back(std::move(*figure));
+  }
   return figures;
 }
 

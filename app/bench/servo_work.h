@@ -38,7 +38,7 @@ MeasuredSurface largest_measured_surface();
 // Ticks a servo loop with the simulated hand at full speed, in simulated time, through repeated cycles with the force
 // on, and times every tick. Measures each law in turn, the paper's also over a plane and over the measured surface, and
 // a map of modulus and adhesion, and a lever that taps; then the work of a tick in which the tip scratches a soft
-// sample.
+// sample, or writes with ink.
 core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks, const MeasuredSurface& measured);
 
 }  // namespace afm::app

@@ -214,7 +214,7 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
   const auto add_panels = [&](render::FrameState& frame) {
     panels.add_to(frame, {}, material, material ? stage.phrases().word(stage.materials.materials[*material].title) : "",
                   tip, HandSource::Mouse);
-    if (then.moment.wall.particles != nullptr && then.moment.wall.particles->set->soft) {
+    if (then.moment.wall.particles != nullptr && scene::leaves_marks(*then.moment.wall.particles->set)) {
       exhibit::leave_law_out(*then.moment.wall.particles, stage.phrases(), frame.panels.force.content);
     }
   };

@@ -15,10 +15,32 @@
 #include "exhibit/scenery/push_planner.h"
 #include "exhibit/state/moment.h"
 #include "exhibit/words/guidance.h"
+#include "scene/samples/particle_set.h"
 #include "servo/live_picture.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
+
+namespace {
+
+// Lines of the log about what can be taken back.
+struct StrokeWords {
+  const char *none, *last, *all;
+};
+
+constexpr StrokeWords kPushes{"take back: no push has moved a particle", "take back: the last push",
+                              "take back: all pushes"};
+constexpr StrokeWords kScratches{"take back: no scratch has marked the sample", "take back: the last scratch",
+                                 "take back: all scratches"};
+constexpr StrokeWords kStrokes{"take back: no ink is on the sample", "take back: the last stroke",
+                               "take back: all strokes"};
+
+const StrokeWords& words_of(const scene::ParticleSet& set) {
+  if (set.ink) return kStrokes;
+  return set.soft ? kScratches : kPushes;
+}
+
+}  // namespace
 
 ParticlesControl::ParticlesControl(ViewParts& parts, const scene::ParticleSet& set)
     : parts_(parts),
@@ -40,12 +62,9 @@ void ParticlesControl::take_back() {
     return core::log_line(
         "take back: no push at level 2, where the sample has drifted since; R puts all particles back");
   }
-  const bool soft = now_.set->soft != nullptr;
-  if (parts_.servo.link().push().strokes == 0) {
-    return core::log_line(soft ? "take back: no scratch has marked the sample"
-                               : "take back: no push has moved a particle");
-  }
-  core::log_line(soft ? "take back: the last scratch" : "take back: the last push");
+  const StrokeWords& words = words_of(*now_.set);
+  if (parts_.servo.link().push().strokes == 0) return core::log_line(words.none);
+  core::log_line(words.last);
   give(Order::TakeBack);
 }
 
@@ -75,9 +94,15 @@ void ParticlesControl::look_again() {
 }
 
 bool ParticlesControl::point(const input::Ray& ray) {
+  const auto unplanned = [this] { return planner_->plan().particle == scene::kNoParticle; };
+  const bool begins = unplanned();
   const auto on_sample = exhibit::ray_on_sample(parts_.stage.wall_scene, *shown_, ray);
   const auto planned = on_sample ? planner_->point(*on_sample, now_) : std::nullopt;
   if (!planned) return false;
+  if (begins && unplanned() && parts_.servo.picture() != nullptr) {  // at the bare sample
+    look_again();
+    return true;
+  }
   core::log_line(*planned);
   send_plan();
   return true;
@@ -94,7 +119,7 @@ void ParticlesControl::restart(Restart what) {
   send_plan();
   if (what == Restart::Servo) return begin_task();
   if (!parts_.servo.running() || !parts_.servo.material()) return;
-  core::log_line(now_.set->soft ? "take back: all scratches" : "take back: all pushes");
+  core::log_line(words_of(*now_.set).all);
   give(Order::PutBack);
 }
 
@@ -149,10 +174,12 @@ void ParticlesControl::follow_task() {
 
 std::optional<std::string> ParticlesControl::guidance(const exhibit::Phrases& phrases) const {
   const scene::TipState& tip = parts_.servo.link().tip();
-  const bool scratches = now_.set->soft && exhibit::pushes_particles(tip) &&
-                         tip.servo_state == scene::ServoState::Running && tip.phase != physics::Phase::WaitForLift;
-  if (!scratches) return std::nullopt;
-  return phrases[tip.phase == physics::Phase::Attached ? exhibit::Phrase::SoftDrag : exhibit::Phrase::SoftPress];
+  const bool marks = scene::leaves_marks(*now_.set) && exhibit::pushes_particles(tip) &&
+                     tip.servo_state == scene::ServoState::Running && tip.phase != physics::Phase::WaitForLift;
+  if (!marks) return std::nullopt;
+  const bool on = tip.phase == physics::Phase::Attached;
+  if (now_.set->ink) return phrases[on ? exhibit::Phrase::InkMove : exhibit::Phrase::InkTouch];
+  return phrases[on ? exhibit::Phrase::SoftDrag : exhibit::Phrase::SoftPress];
 }
 
 void ParticlesControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {

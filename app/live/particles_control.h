@@ -44,7 +44,7 @@ class ParticlesControl final : public ViewControl {
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
   void restart(Restart what) override;
 
-  // On a soft sample while the force is on.
+  // Where the tip leaves marks, while the force is on.
   std::optional<std::string> guidance(const exhibit::Phrases& phrases) const override;
 
  private:

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <utility>
 
 #include "core/check.h"
@@ -20,10 +21,23 @@ namespace {
 constexpr std::int64_t kMinuteNs = 60'000'000'000;
 constexpr std::size_t kMostRestarts = 3;  // per minute
 
+// What a person does to these between two lifts of the tip.
+std::string_view stroke_name(const scene::SharedParticles& particles, bool several) {
+  if (particles.soft.hardness_pa > 0.0) return several ? "scratches" : "scratch";
+  if (particles.ink.molecules_per_s > 0.0) return several ? "strokes" : "stroke";
+  return several ? "pushes" : "push";
+}
+
 // Empty for events that occur many times a second: they are not logged.
-std::string log_text(const scene::TipEvent& event) {
-  if (event.kind == physics::EventKind::PushTakenBack) return "the last push was taken back";
-  if (event.kind == physics::EventKind::ParticlesPutBack) return "all pushes were taken back";
+std::string log_text(const scene::TipEvent& event, const scene::SharedParticles& particles) {
+  if (event.kind == physics::EventKind::PushTakenBack)
+    return fmt::format("the last {} was taken back", stroke_name(particles, false));
+  if (event.kind == physics::EventKind::ParticlesPutBack)
+    return fmt::format("all {} were taken back", stroke_name(particles, true));
+  if (event.kind == physics::EventKind::InkFlows) return "the tip touches: ink flows";
+  if (event.kind == physics::EventKind::LiquidTorn)
+    return fmt::format("the liquid tears at Z = {:.1f} nm, pull {:.4f} nN", event.z_m * 1e9,
+                       event.force_before_n * 1e9);
   if (event.kind == physics::EventKind::LookedAgain) return "looking again, as long as the tip stays lifted";
   if (event.kind == physics::EventKind::SurfaceMarked)
     return fmt::format("the tip marks the sample, load {:.4f} nN", event.force_after_n * 1e9);
@@ -113,7 +127,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         audience_.heard(event);
         cues_.add(event);
         if (picture_) picture_->add(event);
-        if (const std::string text = log_text(event); !text.empty()) core::log_line(text);
+        if (const std::string text = log_text(event, link_->model().particles); !text.empty()) core::log_line(text);
         for (const auto& hears : hears_events_) hears(event);
       });
   keep_part(now_ns);

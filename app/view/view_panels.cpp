@@ -353,7 +353,8 @@ void add_panels(const exhibit::Stage& stage, ViewPanels& panels, const exhibit::
   panels.add_to(frame, panelled.pointed, material,
                 material ? stage.phrases().word(stage.materials.materials[*material].title) : "", panelled.tip,
                 panelled.hand, moment.letters);
-  if (moment.wall.particles != nullptr && moment.wall.particles->set->soft && exhibit::pushes_particles(panelled.tip)) {
+  if (moment.wall.particles != nullptr && scene::leaves_marks(*moment.wall.particles->set) &&
+      exhibit::pushes_particles(panelled.tip)) {
     exhibit::leave_law_out(*moment.wall.particles, stage.phrases(), frame.panels.force.content);
   }
   panels.add_note(frame, moment.wall.centerpiece, caption);

@@ -22,8 +22,8 @@ const std::string kProgram = support::built("bin/touchafm");
 TEST(ServoBenchmarks, TimeATickOfEachLawWithTheForceOn) {
   const auto figures = measure_servo_work(2000, largest_measured_surface());
   ASSERT_TRUE(figures) << figures.error().message;
-  // each computed law, the paper's three times, a dynamic one, a map of laws, a lever that taps, and a scratch
-  EXPECT_EQ(figures->size(), physics::laws_with(&physics::LawTraits::computed).size() + 6);
+  // each computed law, the paper's three times, a dynamic one, a map of laws, a lever that taps, a scratch, and ink
+  EXPECT_EQ(figures->size(), physics::laws_with(&physics::LawTraits::computed).size() + 7);
   EXPECT_EQ(figures->at(2).name, "measured 1024 x 1024");
   EXPECT_EQ(figures->at(2).p99_bar_us, 20.0);
   for (const WorkFigure& figure : *figures) {

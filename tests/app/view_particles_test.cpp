@@ -199,6 +199,10 @@ TEST_F(ViewParticles, AreShownAsAPictureThatAKeyMeasuresAgain) {
   ASSERT_TRUE(push(view, 0.018)) << view.said();
   ASSERT_TRUE(press("F5", "looking again, as long as the tip stays lifted")) << view.said();
   ASSERT_TRUE(view.says("looked again: particle 1 lies ")) << view.said();
+  // without a plan, a press on the bare sample does the same, so that a wand needs no key
+  xdotool("mousemove 320 285 click 1");
+  ASSERT_TRUE(view.says("looking again, as long as the tip stays lifted")) << view.said();
+  ASSERT_TRUE(view.says("looked again: particle 1 lies ")) << view.said();
   ASSERT_TRUE(press("BackSpace", "take back: no push at level 2")) << view.said();
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
@@ -217,7 +221,7 @@ TEST_F(ViewParticles, AreShownAsAPictureThatAKeyMeasuresAgain) {
                                             " --at 1 --out " + folder_.file("then.png"));
     EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
   }
-  EXPECT_EQ(looks, 1U);
+  EXPECT_EQ(looks, 2U);
 }
 
 TEST_F(ViewParticles, HaveNoOldPictureWhereTheTipHidesOrTurnsThem) {
@@ -263,7 +267,7 @@ TEST_F(ViewParticles, ASoftSampleIsScratchedAndTakenBackAndReplayedBitForBit) {
   drag(0.030, 0.0, 60);
   drag(0.0, 0.130);
   xdotool("key BackSpace");
-  ASSERT_TRUE(view.says("the last push was taken back")) << view.said();
+  ASSERT_TRUE(view.says("the last scratch was taken back")) << view.said();
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
   std::size_t marks = 0;
@@ -276,6 +280,49 @@ TEST_F(ViewParticles, ASoftSampleIsScratchedAndTakenBackAndReplayedBitForBit) {
     EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
   }
   EXPECT_GE(marks, 1U);
+}
+
+TEST_F(ViewParticles, AHandWritesWithInkAndTakesItBackAndIsReplayedBitForBit) {
+  support::LiveProgram view(
+      {support::touchafm(), "view", "--particles", "write-ink", "--size", "640x480", "--eye-width", "320",
+       "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
+      display_.name());
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  xdotool("key BackSpace");
+  ASSERT_TRUE(view.says("take back: no ink is on the sample")) << view.said();
+  xdotool("key 1");
+  ASSERT_TRUE(view.says("chosen: ")) << view.said();
+  bool wrote = false;
+  for (int tries = 0; tries < 10 && !wrote; ++tries) {
+    drag(0.0, 0.130);
+    bool on = false;
+    for (int presses = 0; presses < 20 && !on; ++presses) {
+      xdotool("key t");
+      on = view.says("force on", std::chrono::seconds(2));
+    }
+    ASSERT_TRUE(on) << view.said();
+    drag(0.0, -0.078, 20);
+    wrote = view.says_one_of({"the tip touches: ink flows", "force off"}) == "the tip touches: ink flows";
+  }
+  ASSERT_TRUE(wrote) << view.said();
+  drag(0.030, 0.0, 60);
+  drag(0.0, 0.130);
+  ASSERT_TRUE(view.says("the liquid tears")) << view.said();
+  xdotool("key BackSpace");
+  ASSERT_TRUE(view.says("the last stroke was taken back")) << view.said();
+  xdotool("key Escape");
+  ASSERT_EQ(view.ends(), 0) << view.said();
+  std::size_t touches = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder_.file("kept"))) {
+    if (file.path().extension() != ".afms") continue;
+    const auto session = servo::load_session(file.path());
+    ASSERT_TRUE(session) << session.error().message;
+    touches += count(*session, physics::EventKind::InkFlows);
+    const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
+    EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
+  }
+  EXPECT_GE(touches, 1U);
 }
 
 }  // namespace view_particles_test

@@ -6,6 +6,7 @@
 #include "core/enumerators.h"
 #include "exhibit/friction/friction_panel.h"
 #include "exhibit/lesson/questionnaire.h"
+#include "exhibit/panels/ink_panel.h"
 #include "exhibit/panels/parameter_panel.h"
 #include "exhibit/panels/particles_panel.h"
 #include "exhibit/panels/scratch_panel.h"
@@ -153,6 +154,19 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
                                              .rise_m = 123.4e-9,
                                              .fastest_hand_m_per_s = 0.1234}},
                                    phrases));
+  }
+  const scene::ParticleSet ink = test::particle_set("write-ink");
+  for (const physics::PushState state : {physics::PushState::Free, physics::PushState::Slides}) {
+    panels.push_back(ink_panel({.set = &ink,
+                                .push = {.lift_n = -18.34e-9,
+                                         .softened_upwards = 12.3,
+                                         .state = state,
+                                         .met = 1,
+                                         .strokes = scene::kMostStrokes,
+                                         .covered_m2 = 2.744e-12,
+                                         .flowed_s = 123.4,
+                                         .speed_m_per_s = 1.234e-7}},
+                               phrases));
   }
   return panels;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A soft sample on the wall: its panel, and the relief of its marks.
+// Soft samples and ink on the wall: their panels, and the reliefs of their marks.
 #include "exhibit/panels/scratch_panel.h"
 
 #include <gmock/gmock.h>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "exhibit/models/marks_relief.h"
+#include "exhibit/panels/ink_panel.h"
 #include "support/particles/particle_sets.h"
 #include "support/phrases.h"
 
@@ -81,16 +82,59 @@ TEST_F(ScratchPanel, SaysWhenTheHandIsTooFast) {
   EXPECT_EQ(row({}, Phrase::SoftSpeed).value, "");
 }
 
+class InkPanel : public ::testing::Test {
+ protected:
+  render::DataRow row(const scene::TipPush& push, Phrase name) const {
+    const render::DataPanel panel = ink_panel({.set = &set_, .push = push}, test::english());
+    const auto found = std::find_if(panel.rows.begin(), panel.rows.end(), [&](const render::DataRow& candidate) {
+      return candidate.name == test::english()[name];
+    });
+    return found == panel.rows.end() ? render::DataRow{} : *found;
+  }
+
+  scene::ParticleSet set_ = test::particle_set("write-ink");
+  scene::TipPush push_{.lift_n = -12e-9,
+                       .softened_upwards = 2.0,
+                       .state = physics::PushState::Slides,
+                       .met = 1,
+                       .strokes = 3,
+                       .covered_m2 = 2.16e-14,
+                       .flowed_s = 1.0,
+                       .speed_m_per_s = 100e-9};
+};
+
+// N67
+TEST_F(InkPanel, ShowsForceLineDotAndArea) {
+  EXPECT_EQ(row(push_, Phrase::PushStateName).value, "writes");
+  EXPECT_EQ(row(push_, Phrase::InkForce).value, "-12 nN");
+  EXPECT_EQ(row(push_, Phrase::InkForce).source, "the liquid tears at a pull of 18.3 nN");
+  EXPECT_EQ(row(push_, Phrase::InkLine), (render::DataRow{"Line, by formula", "216 nm", "wide at 0.1 um/s"}));
+  EXPECT_EQ(row(push_, Phrase::InkDot).value, "166 nm");
+  EXPECT_EQ(row(push_, Phrase::InkCovered).value, "21600 nm\u00b2");
+  EXPECT_EQ(row(push_, Phrase::LeverSoftened).value, "2 times softer");
+  EXPECT_EQ(ink_panel({.set = &set_, .push = push_}, test::english()).subtitle, "Strokes to take back: 3");
+}
+
+TEST_F(InkPanel, OfATipThatRestsOrIsFree) {
+  push_.speed_m_per_s = 0.0;
+  push_.covered_m2 = 0.3e-12;
+  EXPECT_EQ(row(push_, Phrase::InkLine).value, "-");
+  EXPECT_EQ(row(push_, Phrase::InkCovered).value, "0.30 \u00b5m\u00b2");
+  EXPECT_EQ(row({}, Phrase::PushStateName).value, "free");
+  EXPECT_EQ(row({}, Phrase::InkLine).name, "");
+  EXPECT_EQ(row({}, Phrase::InkTension).value, "72.8 mN/m");
+}
+
 TEST(MarksRelief, LiesAsTheServoHasTheMarks) {
   std::vector<scene::MarkTile> tiles(scene::kMarkTiles);
-  const double side_m = marks_side_m(20e-9);
-  EXPECT_NEAR(side_m, 640e-9, 1e-15);
-  const HeightRelief level = marks_relief(tiles, 20e-9);
+  const MarksScale scale = marks_scale(test::particle_set("scratch-pmma"));
+  EXPECT_NEAR(scale.side_m, 640e-9, 1e-15);
+  const HeightRelief level = marks_relief(tiles, scale);
   EXPECT_NEAR(level.range_m, 5e-9, 1e-18);
   // a dent in the tile with the largest x and the least y
   tiles[15].pressed_m.fill(-9e-9);
   tiles[15].back_m.fill(1e-9);
-  const HeightRelief dented = marks_relief(tiles, 20e-9);
+  const HeightRelief dented = marks_relief(tiles, scale);
   EXPECT_NEAR(dented.range_m, 16e-9, 1e-18) << "the colours reach the deepest mark";
   const auto height_m = [&](const HeightRelief& relief, std::size_t column, std::size_t row) {
     const auto share = static_cast<double>(relief.vertices[row * kReliefSide + column].position.z);
@@ -103,6 +147,17 @@ TEST(MarksRelief, LiesAsTheServoHasTheMarks) {
   }
   EXPECT_NEAR(height_m(dented, 0, 0), 0.0, 1e-13);
   EXPECT_NEAR(height_m(dented, 127, 0), 0.0, 1e-13);
+}
+
+TEST(MarksRelief, ShowsALayerOfInkInTheBrightestColour) {
+  const scene::ParticleSet set = test::particle_set("write-ink");
+  std::vector<scene::MarkTile> tiles(scene::kMarkTiles);
+  EXPECT_NEAR(marks_relief(tiles, marks_scale(set)).range_m, 2e-9, 1e-18) << "the colours of a bare sample";
+  tiles[0].pressed_m.fill(2e-9);
+  const HeightRelief inked = marks_relief(tiles, marks_scale(set));
+  EXPECT_NEAR(inked.side_m, 1.658e-6, 0.001e-6);
+  EXPECT_NEAR(inked.range_m, 2e-9, 1e-18);
+  EXPECT_NEAR(inked.lid_m - inked.floor_m, 2e-9, 1e-15);
 }
 
 }  // namespace scratch_panel_test

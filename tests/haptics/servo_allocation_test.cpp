@@ -16,6 +16,7 @@
 #include "support/no_alloc.h"
 #include "support/no_lock.h"
 #include "support/particles/gold_particles.h"
+#include "support/particles/ink_sample.h"
 #include "support/particles/soft_sample.h"
 #include "support/rough_surface.h"
 
@@ -193,6 +194,35 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItScratchesASoftSample) {
   EXPECT_EQ(bench.state().fault, afm::scene::FaultCode::None);
   EXPECT_GT(marked, 100);
   EXPECT_GT(raised, 10);
+}
+
+TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItWritesWithInk) {
+  ServoBench bench(afm::test::ink_model());
+  bench.arm(afm::test::kMica, afm::scene::ScaleMode::Particles);
+  const auto send = [&](double x_m, double height_m, double seconds) {
+    bench.renderer.store(
+        afm::scene::HandScript{.target_m = {x_m, height_m, 0.0}, .duration_s = seconds, .revision = ++bench.script});
+  };
+  send(-0.015, 0.030, 0.4);
+  bench.run(0.5);
+  send(-0.015, -0.004, 0.6);
+  bench.run(0.7);
+  send(0.020, -0.004, 1.0);
+  int wrote = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    if (tick == 1200) send(0.020, 0.060, 0.4);  // until the liquid tears
+    bench.renderer.store(afm::scene::RendererHeartbeat{});
+    bench.now_ns += bench.loop->period_ns();
+    {
+      const NoAllocation no_allocation;
+      const NoLock no_lock;
+      bench.loop->tick(bench.now_ns, 0);
+    }
+    if (bench.renderer.tip_push()->state == afm::physics::PushState::Slides) ++wrote;
+  }
+  EXPECT_EQ(bench.state().fault, afm::scene::FaultCode::None);
+  EXPECT_GT(wrote, 1000);
+  EXPECT_EQ(bench.renderer.tip_push()->state, afm::physics::PushState::Free);
 }
 
 TEST_P(ServoTickOf, NeitherAllocatesNorLocksNorThrowsOverACycle) {

@@ -65,7 +65,7 @@ class Recording {
       : segment_(std::move(*scene::SharedSegment::create(model, 0))),
         renderer_(segment_.renderer_side()),
         pages_(scene::pages_of(model.particles.count)),
-        tiles_(model.particles.soft.hardness_pa > 0.0 ? scene::kMarkTiles : 0),
+        tiles_(scene::has_marks(model.particles) ? scene::kMarkTiles : 0),
         loop_(std::move(*haptics::ServoLoop::create(segment_, device, {.rate_hz = 1000.0}))) {}
 
   void choose(int material, scene::ScaleMode mode = scene::ScaleMode::Fit) {

@@ -24,6 +24,7 @@
 #include "physics/quantity_text.h"
 #include "render/renderer.h"
 #include "scene/display/wall_doubts.h"
+#include "scene/samples/ink_run.h"
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
 
@@ -100,9 +101,11 @@ core::Result<std::shared_ptr<const scene::ParticleSet>> load_particles(const Exh
   if (!path) return tl::unexpected(path.error());
   auto set = scene::load_particle_set(*path);
   if (!set) return tl::unexpected(set.error());
-  if (set->ink) {
+  if (set->ink && !(set->ink->surface_tension.si > 0.0)) {
     return core::wrong_usage(
-        fmt::format("{} writes with ink, which a hand cannot do yet: play it with touchafm particles", *path));
+        fmt::format("{}: a hand cannot write with this ink: add [tip], [lever] and a surface_tension, or play it with "
+                    "touchafm particles",
+                    *path));
   }
   return std::make_shared<const scene::ParticleSet>(std::move(*set));
 }

@@ -13,6 +13,7 @@
 #include "curves/plot_units.h"
 #include "exhibit/models/marks_relief.h"
 #include "exhibit/panels/data_panel.h"
+#include "exhibit/panels/ink_panel.h"
 #include "exhibit/panels/particles_panel.h"
 #include "exhibit/panels/scratch_panel.h"
 #include "exhibit/scan/scan_panels.h"
@@ -205,7 +206,8 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
   }
   if (moment.wall.particles != nullptr) {
     const ParticlesNow& now = *moment.wall.particles;
-    frame.panels.particles.content = (now.set->soft ? scratch_panel : particles_panel)(now, *phrases_);
+    const auto panel = now.set->soft ? scratch_panel : now.set->ink ? ink_panel : particles_panel;
+    frame.panels.particles.content = panel(now, *phrases_);
   }
   frame.panels.banner.content = banner(moment);
   return frame;
@@ -213,7 +215,7 @@ render::FrameState FrameBuilder::build(const Moment& moment) const {
 
 const HeightRelief& FrameBuilder::marks_of(const ParticlesNow& now) const {
   if (!marks_ || marks_->marks != now.marks) {
-    marks_ = {now.marks, marks_relief(now.tiles, now.set->setup.tip.radius.si)};
+    marks_ = {now.marks, marks_relief(now.tiles, marks_scale(*now.set))};
   }
   return marks_->relief;
 }

@@ -7,6 +7,9 @@
 
 #include "core/check.h"
 #include "physics/manipulation/marked_surface.h"
+#include "scene/samples/ink_run.h"
+#include "scene/samples/particle_set.h"
+#include "scene/shared/ink_blocks.h"
 
 namespace afm::exhibit {
 
@@ -26,11 +29,17 @@ double square_height_m(std::span<const scene::MarkTile> tiles, std::size_t colum
 
 }  // namespace
 
-double marks_side_m(double tip_radius_m) {
-  return scene::kSoftSide * tip_radius_m / physics::MarkedSurface::kSquaresPerRadius;
+MarksScale marks_scale(const scene::ParticleSet& set) {
+  AFM_CHECK(set.soft || set.ink);
+  if (set.ink) {
+    return {.side_m = scene::ink_side_m(set.ink->ink), .colours_m = set.ink->thickness.si, .only_up = true};
+  }
+  const double radius_m = set.setup.tip.radius.si;
+  return {.side_m = scene::kSoftSide * radius_m / physics::MarkedSurface::kSquaresPerRadius,
+          .colours_m = kColoursOfRadius * radius_m};
 }
 
-HeightRelief marks_relief(std::span<const scene::MarkTile> tiles, double tip_radius_m) {
+HeightRelief marks_relief(std::span<const scene::MarkTile> tiles, const MarksScale& scale) {
   AFM_CHECK(tiles.size() == scene::kMarkTiles);
   std::vector<double> heights_m;
   heights_m.reserve(kReliefSide * kReliefSide);
@@ -45,8 +54,8 @@ HeightRelief marks_relief(std::span<const scene::MarkTile> tiles, double tip_rad
     }
   }
   const auto [low, high] = std::minmax_element(heights_m.begin(), heights_m.end());
-  const double most_m = std::max({kColoursOfRadius * tip_radius_m, -*low, *high});
-  return relief_of(heights_m, marks_side_m(tip_radius_m), {.low_m = -most_m, .high_m = most_m});
+  const double most_m = std::max({scale.colours_m, -*low, *high});
+  return relief_of(heights_m, scale.side_m, {.low_m = scale.only_up ? 0.0 : -most_m, .high_m = most_m});
 }
 
 }  // namespace afm::exhibit

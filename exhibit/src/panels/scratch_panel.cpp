@@ -13,6 +13,7 @@
 
 #include "core/enumerators.h"
 #include "panels/panel_conventions.h"
+#include "panels/sourced_rows.h"
 #include "physics/manipulation/marking.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
@@ -23,20 +24,18 @@ namespace afm::exhibit {
 namespace {
 
 using physics::Force;
-using physics::format_quantity;
 using physics::Length;
 using physics::PushState;
 
 static_assert(after(Phrase::SoftFree, core::index_of(PushState::Slides)) == Phrase::SoftMarks);
 
-constexpr double kFeltSofter = 1.05;     // beyond this the panel says that the lever is felt softer
 constexpr double kRaisedM = 1e-10;       // beyond this the panel says that the hand is too fast
 constexpr double kAroundCurve = 1.1;     // axes by what they show
 constexpr double kLeastPlottedNn = 1.0;  // push at the top of the axis before the first scratch
 
-class ScratchRows {
+class ScratchRows : private SourcedRows {
  public:
-  ScratchRows(const ParticlesNow& now, const Phrases& phrases) : now_(now), phrases_(phrases) {}
+  using SourcedRows::SourcedRows;
 
   std::vector<render::DataRow> take() {
     add_contact();
@@ -47,27 +46,6 @@ class ScratchRows {
   }
 
  private:
-  void add(Phrase name, std::string value, std::string source) {
-    rows_.push_back({phrases_[name], std::move(value), std::move(source)});
-  }
-
-  void add_sourced(Phrase name, std::string value, std::string_view key) {
-    add(name, std::move(value), source(key));
-    rows_.back().detail = true;
-  }
-
-  template <class Quantity, class Units>
-  std::string text(Quantity value, const Units& units) const {
-    return phrases_.number(format_quantity(value, units, kDigits));
-  }
-
-  std::string source(std::string_view key) const {
-    const scene::SourcedValue* sourced = scene::find_source(now_.set->sources, key);
-    if (sourced == nullptr) return "";
-    const std::array words{phrases_.word(sourced->source)};
-    return sourced->estimated ? phrases_.filled(Phrase::Estimated, words) : words.front();
-  }
-
   Force load() const { return Force(std::max(0.0, now_.push.lift_n)); }
 
   void add_contact() {
@@ -104,15 +82,8 @@ class ScratchRows {
     add_sourced(Phrase::SoftHardness, text(now_.set->soft->surface.hardness, physics::kPressureUnits), "hardness");
     add_sourced(Phrase::LeverSideways, text(now_.set->setup.springs.lateral, physics::kStiffnessUnits),
                 "lateral_spring");
-    const double softened = now_.push.softened_sideways;
-    if (!(softened > kFeltSofter)) return;
-    add(Phrase::LeverSoftened, phrases_.text<Phrase::TimesSofter>(phrases_.number(fmt::format("{:.2g}", softened))),
-        phrases_[Phrase::LeverSoftenedWhy]);
+    add_softened(now_.push.softened_sideways);
   }
-
-  const ParticlesNow& now_;
-  const Phrases& phrases_;
-  std::vector<render::DataRow> rows_;
 };
 
 }  // namespace
@@ -128,10 +99,12 @@ void leave_law_out(const ParticlesNow& now, const Phrases& phrases, render::Forc
   std::erase_if(plot.curves, [](const render::PlotCurve& curve) { return curve.faded; });
   plot.markers.clear();
   plot.stage.clear();
-  double deepest_nm = 0.0, most_nn = kLeastPlottedNn;
+  double deepest_nm = 0.0, highest_nm = 0.0, least_nn = 0.0, most_nn = kLeastPlottedNn;
   const auto include = [&](const render::PlotPoint& point) {
     deepest_nm = std::min(deepest_nm, point.place_nm);
+    least_nn = std::min(least_nn, point.force_nn);
     most_nn = std::max(most_nn, point.force_nn);
+    if (point.force_nn != 0.0) highest_nm = std::max(highest_nm, point.place_nm);  // where liquid holds the tip
   };
   for (render::PlotCurve& curve : plot.curves) {
     curve.label = phrases.word(now.set->title);
@@ -140,7 +113,8 @@ void leave_law_out(const ParticlesNow& now, const Phrases& phrases, render::Forc
   }
   if (plot.cursor) include(*plot.cursor);
   plot.place_min_nm = std::min(plot.place_min_nm, kAroundCurve * deepest_nm);
-  plot.force_min_nn = (1.0 - kAroundCurve) * most_nn;
+  plot.place_max_nm = std::max(plot.place_max_nm, kAroundCurve * highest_nm);
+  plot.force_min_nn = std::min(kAroundCurve * least_nn, (1.0 - kAroundCurve) * most_nn);
   plot.force_max_nn = kAroundCurve * most_nn;
 }
 

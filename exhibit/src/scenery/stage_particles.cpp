@@ -111,7 +111,7 @@ double StageParticles::stroke_m(const scene::ParticleSet& set) {
   };
   for (const scene::Pad& pad : scene::shared_pads(set)) reach(pad);
   for (const physics::StickyPad& pad : scene::shared_sticky_pads(set)) reach(pad);
-  if (set.soft) reach_m = 0.5 * marks_side_m(set.setup.tip.radius.si);
+  if (set.soft || set.ink) reach_m = 0.5 * marks_scale(set).side_m;
   const double layout_per_m = std::min(kDrawnReach / reach_m, kDrawnDiameter / (2.0 * scene::median_radius(set).si));
   return kStrokeHeight / layout_per_m;
 }
@@ -159,7 +159,7 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   doubts_ = build.node("doubts/dot");
   ring_ = build.node("touched-particle/ring");
   tip_ = build.node("true-tip/tip");
-  const auto count = std::max(1U, static_cast<std::uint32_t>(particles_.size()));  // none on a soft sample
+  const auto count = std::max(1U, static_cast<std::uint32_t>(particles_.size()));  // none where the tip leaves marks
   most_dots_ = std::clamp(kMostDotsInAll / count, 1U, kMostDots);
   if (build.error()) return;
   scene.nodes[spheres_].most_copies = scene.nodes[footprints_].most_copies = count;

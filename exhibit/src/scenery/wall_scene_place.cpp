@@ -54,6 +54,8 @@ void place_light(const WallPlaces& places, render::FrameState& frame) {
   frame.key_light.shadow_radius_m = static_cast<float>(1.7 * places.unit_m());
 }
 
+constexpr double kLeastBelow = 0.01;  // least depth of the level sample below marks, in sides of their square
+
 // After a pull-off. Particles have no such height.
 bool shows_ghost(const WallState& state, bool with_particles) {
   return state.centerpiece == Centerpiece::Instrument && state.material && !with_particles && state.cue &&
@@ -380,9 +382,11 @@ void WallScene::lay_marks(const HeightRelief& relief, const WallState& state, re
   lay_on_sample(relief, state, frame);
   if (state.centerpiece != Centerpiece::Instrument || !state.material) return;
   const dmat4& frame_of_sample = frame.room_from_node[sample_frame_];
-  const dmat4 down = frame_of_sample *
-                     glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -layout_per_m(state) * relief.range_m)) *
-                     glm::inverse(frame_of_sample);
+  const dmat4 down =
+      frame_of_sample *
+      glm::translate(dmat4(1.0),
+                     dvec3(0.0, 0.0, -layout_per_m(state) * std::max(relief.range_m, kLeastBelow * relief.side_m))) *
+      glm::inverse(frame_of_sample);
   for (scene::NodeIndex i = 0; i < scene_.nodes.size(); ++i) {
     if (is_below(scene_, looks_[*state.material].sample, i)) frame.room_from_node[i] = down * frame.room_from_node[i];
   }

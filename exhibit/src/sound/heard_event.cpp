@@ -17,7 +17,7 @@ using enum HeardEvent;
 // rise takes back; of a tapping lever a click with a glide down or up; a short rise for a pull that moves one, a pluck
 // for a contact that tears, a long rise for a particle that is lifted, a fall with a knock for one that is set down;
 // three notes up for a pattern. On a soft sample a scrape for the first mark, two dull knocks where the tip stops, a
-// rough rise for a hand that is too fast.
+// rough rise for a hand that is too fast. With ink a drop, and a short rise where the liquid tears.
 constexpr std::array kRows{
     HeardEventRow{
         SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},
@@ -148,6 +148,16 @@ constexpr std::array kRows{
                   Phrase::SayHandTooFast,
                   Spoken::OnRequest,
                   {{SignalNote{0, 0.120, 392, 784, 0.22, 0.6}}}},
+    HeardEventRow{InkFlows,
+                  Phrase::HeardInkFlows,
+                  Phrase::SayInkFlows,
+                  Spoken::OnRequest,
+                  {{SignalNote{0, 0.070, 523, 698, 0.20, 0.1}}}},
+    HeardEventRow{LiquidTorn,
+                  Phrase::HeardLiquidTorn,
+                  Phrase::SayLiquidTorn,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.100, 587, 1175, 0.24, 0.3}}}},
 };
 static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
 static_assert([] {

@@ -38,6 +38,8 @@ constexpr auto kRows = std::to_array<EventRow>({
     {physics::EventKind::SurfaceMarked, HeardEvent::SurfaceMarked, ForceOf::After},
     {physics::EventKind::TipStopped, HeardEvent::TipStopped, ForceOf::After},
     {physics::EventKind::HandTooFast, HeardEvent::HandTooFast, ForceOf::Nothing},
+    {physics::EventKind::InkFlows, HeardEvent::InkFlows, ForceOf::Nothing},
+    {physics::EventKind::LiquidTorn, HeardEvent::LiquidTorn, ForceOf::Before},
 });
 static_assert(core::has_row_for_each(kRows, &EventRow::kind));
 

@@ -30,8 +30,8 @@
 
 namespace afm::haptics {
 
+class FeltMarks;
 class FeltParticles;
-class FeltScratch;
 class MapContact;
 
 // Largest curvature that a surface of this material may have on this device, as limited by create(): where a surface
@@ -92,7 +92,7 @@ struct Touch {
 // added only where one is touched; without force, under a scan's feedback, and until the tip has been lifted, there is
 // none. The groove of a plan (haptics/felt_groove.h) is also felt only on that scale.
 //
-// A soft sample (haptics/felt_scratch.h) is felt only on that scale, too, and there instead of everything else: the
+// A sample with marks (haptics/felt_marks.h) is felt only on that scale, too, and there instead of everything else: the
 // law, friction, the surface and a scan's feedback are silent.
 //
 // Under a scan's feedback (ScanFeedback) the sample feels level: the loop, z' = gain (h - z), removes the heights
@@ -138,12 +138,12 @@ class ContactModel {
   double slow_motion() const noexcept { return slow_motion_; }  // as in scene::ActiveContact
 
   // Call only without force: the hand would feel the step. Fit before the first call. `particles` are those on the
-  // sample, null for none, or else it is `soft`; they must outlive the use. Particles needs the scale that create() was
-  // given.
-  void use(scene::ScaleMode mode, FeltParticles* particles = nullptr, FeltScratch* soft = nullptr) noexcept {
+  // sample, null for none, or else they are `marks`; they must outlive the use. Particles needs the scale that create()
+  // was given.
+  void use(scene::ScaleMode mode, FeltParticles* particles = nullptr, FeltMarks* marks = nullptr) noexcept {
     mode_ = mode;
     particles_ = mode == scene::ScaleMode::Particles ? particles : nullptr;
-    soft_ = mode == scene::ScaleMode::Particles ? soft : nullptr;
+    marks_ = mode == scene::ScaleMode::Particles ? marks : nullptr;
   }
   const Scaling& scaling() const noexcept { return scalings_[static_cast<std::size_t>(mode_)]; }
   const SampleSurface& surface() const noexcept { return surface_; }
@@ -165,8 +165,8 @@ class ContactModel {
                std::optional<FeltFriction> friction, const Scalings& scalings, StoredEnergies stored_energies,
                std::shared_ptr<const physics::LawTables> tables, double force_cap_n, std::uint32_t edit_revision);
 
-  Touch step_soft(const glm::dvec3& hand_m, const ScanFeedback& feedback) noexcept;
-  PassivityObserver::Law soft_energy(const Touch& touch) const noexcept;
+  Touch step_marks(const glm::dvec3& hand_m, const ScanFeedback& feedback) noexcept;
+  PassivityObserver::Law marks_energy(const Touch& touch) const noexcept;
   physics::TipResponse step_law(physics::Length z) noexcept;
   double felt_force_n(Touch& touch) const noexcept;
   bool may_change_level(double hand_z_m, double height_m, const ScanFeedback& feedback) const noexcept;
@@ -192,7 +192,7 @@ class ContactModel {
   double residual_m_ = 0;               // felt part of the remaining height
   EnergyTank tank_;                     // pays for the feedback's motion
   FeltParticles* particles_ = nullptr;  // those that the tip pushes, null: none
-  FeltScratch* soft_ = nullptr;         // the soft sample below the tip instead, null: none
+  FeltMarks* marks_ = nullptr;          // the sample with marks below the tip instead, null: none
   std::uint32_t edit_revision_;
 };
 

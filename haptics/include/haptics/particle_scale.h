@@ -23,6 +23,8 @@ namespace afm::haptics {
 //
 // On a soft sample the tip, twice its radius, takes the place of the median particle, and threshold_on_hand_n, or
 // kSoftShare of the strongest force, is the load that presses a groove as wide as the radius.
+//
+// With ink the dot of a second takes that place, and that force is the pull at which the liquid tears.
 struct ParticleScale {
   static constexpr double kMaxStiffnessNPerM = 200.0;
   static constexpr double kFieldShare = 0.6;
@@ -31,7 +33,7 @@ struct ParticleScale {
 
   double hand_m_per_m = 0;  // 0: there are no particles
   double hand_n_per_n = 0;  // force on the hand by that of a push
-  double clear_z_m = 0;     // a tip at this height or above touches no particle; a ridge may be higher
+  double clear_z_m = 0;     // a tip at this height or above touches nothing; a ridge may be higher
   double softened_sideways = 1;
   double softened_upwards = 1;
 };
@@ -39,12 +41,15 @@ struct ParticleScale {
 // Stiffness of the lever in a hand at this device, at most; the sample's law has the rest of what it can render.
 double particle_stiffness_n_per_m(const DeviceSpec& device);
 
-// Scale for these particles, valid ones (scene::validate), or for a soft sample, on a device; without, the default.
+// Scale for these particles, valid ones (scene::validate), for a soft sample or ink, on a device; without, the default.
 // Fails if no force moves the median particle, or if the force on the hand would be too faint.
 core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particles, const DeviceSpec& device);
 
 // The same of a soft sample.
 core::Result<ParticleScale> soft_scale(const scene::SharedParticles& particles, const DeviceSpec& device);
+
+// The same of ink.
+core::Result<ParticleScale> ink_scale(const scene::SharedParticles& particles, const DeviceSpec& device);
 
 // Springs of the lever that are felt on that scale.
 physics::PushSprings felt_springs(const scene::SharedPusher& pusher, const ParticleScale& scale);

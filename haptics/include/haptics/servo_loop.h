@@ -25,8 +25,8 @@ class MonotonicClock;
 
 namespace afm::haptics {
 
+class FeltMarks;
 class FeltParticles;
-class FeltScratch;
 struct RealtimeGrant;
 
 enum class ServoExit { RendererLeft, RendererDied, Stopped };
@@ -124,7 +124,7 @@ class ServoLoop {
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
   std::unique_ptr<FeltParticles> particles_;  // null: none
-  std::unique_ptr<FeltScratch> soft_;         // the same for a soft sample
+  std::unique_ptr<FeltMarks> marks_;          // the same for a sample on which the tip leaves marks
   ModelSwap exchange_;
   EditBuilder edits_;
   SafetyGovernor governor_;

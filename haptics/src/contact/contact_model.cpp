@@ -15,8 +15,8 @@
 
 #include "contact/felt_vibration.h"
 #include "core/enumerators.h"
+#include "haptics/felt_marks.h"
 #include "haptics/felt_particles.h"
-#include "haptics/felt_scratch.h"
 #include "haptics/map_contact.h"
 #include "physics/tapping/driven_lever.h"
 #include "physics/tapping/tap_surface.h"
@@ -201,7 +201,7 @@ ContactModel::ContactModel(Model model, std::unique_ptr<MapContact> map, SampleS
 ContactModel::~ContactModel() = default;
 
 Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback) noexcept {
-  if (soft_ != nullptr) return step_soft(hand_m, feedback);
+  if (marks_ != nullptr) return step_marks(hand_m, feedback);
   const Scaling& scale = scaling();
   Touch touch;
   touch.tip_xy_m = glm::dvec2(hand_m) / scale.lateral_m_per_m();
@@ -319,17 +319,17 @@ void ContactModel::wait_for_lift() noexcept {
   if (map_) map_->wait_for_lift();
   if (friction_) friction_->lift();
   if (particles_ != nullptr) particles_->drop();
-  if (soft_ != nullptr) soft_->lift();
+  if (marks_ != nullptr) marks_->lift();
 }
 
 physics::Phase ContactModel::phase() const noexcept {
-  if (soft_ != nullptr) return soft_->phase();
+  if (marks_ != nullptr) return marks_->phase();
   if (map_) return map_->phase();
   return std::visit([](const auto& model) { return model.phase(); }, model_);
 }
 
 PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
-  if (soft_ != nullptr) return soft_energy(touch);
+  if (marks_ != nullptr) return marks_energy(touch);
   const bool attached = touch.response.phase == physics::Phase::Attached;
   PassivityObserver::Law law{.stiffness_n_per_m = stiffness_n_per_m(),
                              .is_dynamic = std::holds_alternative<physics::DynamicModel>(model_)};

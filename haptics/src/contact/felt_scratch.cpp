@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "haptics/felt_scratch.h"
+#include "haptics/contact/felt_scratch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "mark_history.h"
-#include "scene/shared/shared_segment.h"
+#include "published_tiles.h"
 
 namespace afm::haptics {
 
@@ -34,13 +34,12 @@ FeltScratch::FeltScratch(const scene::SharedParticles& particles, const Particle
                          double held_j)
     : scale_(scale),
       tip_(scratching_tip_of(particles, scale)),
-      tiles_(scene::kMarkTiles),
-      marks_(scene::kMarkTiles),
+      tiles_(std::make_unique<PublishedTiles>()),
       highest_m_(scene::kMarkTiles),
       strokes_(std::make_unique<MarkHistory>()),
       start_held_j_(held_j),
       held_j_(held_j) {
-  if (tip_.surface().tiles() != tiles_.size()) throw std::logic_error("a soft sample has another number of tiles");
+  if (tip_.surface().tiles() != scene::kMarkTiles) throw std::logic_error("a soft sample has another number of tiles");
   const physics::PushSprings springs = felt_springs(particles.pusher, scale);
   stiffness_n_per_m_ = std::max(springs.lateral, springs.normal).si * scale.hand_n_per_n / scale.hand_m_per_m;
   fastest_hand_m_per_s_ = kFullWay * tip_.surface().spacing().si * scale.hand_m_per_m / period_s;
@@ -49,9 +48,9 @@ FeltScratch::FeltScratch(const scene::SharedParticles& particles, const Particle
 FeltScratch::~FeltScratch() = default;
 
 void FeltScratch::resume(std::span<const scene::MarkTile> tiles) {
-  if (tiles.size() != tiles_.size()) throw std::invalid_argument("the tiles are those of another sample");
+  if (tiles.size() != scene::kMarkTiles) throw std::invalid_argument("the tiles are those of another sample");
   physics::MarkedSurface& surface = tip_.surface_below();
-  for (std::uint32_t i = 0; i < tiles_.size(); ++i) {
+  for (std::uint32_t i = 0; i < tiles.size(); ++i) {
     surface.put_tile(i, tiles[i].pressed_m, tiles[i].back_m);
     publish(i);
   }
@@ -60,7 +59,7 @@ void FeltScratch::resume(std::span<const scene::MarkTile> tiles) {
 }
 
 void FeltScratch::publish(std::uint32_t tile) noexcept {
-  scene::MarkTile& squares = tiles_[tile];
+  scene::MarkTile& squares = tiles_->next(tile);
   physics::MarkedSurface& surface = tip_.surface_below();
   surface.copy_tile(tile, squares.pressed_m, squares.back_m);
   surface.kept(tile);
@@ -69,29 +68,16 @@ void FeltScratch::publish(std::uint32_t tile) noexcept {
     highest_m = std::max(highest_m, squares.pressed_m[i] + squares.back_m[i]);
   }
   highest_m_[tile] = highest_m;
-  const std::uint64_t mark = scene::tile_mark(tile, squares);
-  digest_ += mark - marks_[tile];
-  marks_[tile] = mark;
+  tiles_->publish(tile);
 }
 
 std::optional<std::uint32_t> FeltScratch::next_tile() noexcept {
-  for (std::uint32_t i = 0; i < tiles_.size(); ++i) {
-    const auto tile = static_cast<std::uint32_t>((next_ + i) % tiles_.size());
-    if (!tip_.surface().changed(tile)) continue;
-    publish(tile);
-    next_ = tile + 1;
-    return tile;
-  }
-  next_ = 0;  // so that a session can begin here
-  return std::nullopt;
+  const auto tile = tiles_->changed(tip_.surface());
+  if (tile) publish(*tile);
+  return tile;
 }
 
-bool FeltScratch::waits_for_tiles() const noexcept {
-  for (std::size_t i = 0; i < tiles_.size(); ++i) {
-    if (tip_.surface().changed(i)) return true;
-  }
-  return false;
-}
+std::span<const scene::MarkTile> FeltScratch::tiles() const noexcept { return tiles_->all(); }
 
 void FeltScratch::lift() noexcept {
   if (tip_is_ == Tip::On && !marked_) strokes_->forget_this();
@@ -114,8 +100,8 @@ bool FeltScratch::put_back() noexcept {
   lift();
   const scene::MarkTile level;
   bool moved = false;
-  for (std::uint32_t i = 0; i < tiles_.size(); ++i) {
-    if (marks_[i] == 0 && !tip_.surface().changed(i)) continue;
+  for (std::uint32_t i = 0; i < scene::kMarkTiles; ++i) {
+    if (tiles_->is_bare(i) && !tip_.surface().changed(i)) continue;
     tip_.surface_below().put_tile(i, level.pressed_m, level.back_m);
     moved = true;
   }
@@ -214,7 +200,7 @@ ParticlePush FeltScratch::step(const glm::dvec2& tip_xy_m, double z_m, double el
 // Over the sample a tip no longer waits, once every mark has been published.
 void FeltScratch::hold_over(const glm::dvec3& at_m) noexcept {
   if (tip_is_ == Tip::On) lift();
-  if (tip_is_ == Tip::Waits && waits_for_tiles()) return;
+  if (tip_is_ == Tip::Waits && tiles_->wait(tip_.surface())) return;
   if (tip_is_ == Tip::Waits) {
     tip_.surface_below().lower_highest(Length(*std::max_element(highest_m_.begin(), highest_m_.end())));
   }
@@ -247,21 +233,18 @@ physics::Phase FeltScratch::phase() const noexcept {
 
 scene::TipPush FeltScratch::push() const noexcept {
   const physics::ScratchTick& tick = tip_.last();
-  scene::TipPush push{.digest = sample().digest,
-                      .given_j = tick.given.si,
-                      .work_j = tick.work.si,
-                      .lost_j = tick.lost.si,
-                      .stored_j = tick.stored.si,
-                      .hand_m_per_m = scale_.hand_m_per_m,
-                      .hand_n_per_n = scale_.hand_n_per_n,
-                      .softened_sideways = scale_.softened_sideways,
-                      .softened_upwards = scale_.softened_upwards,
-                      .exhausted = tick.exhausted,
-                      .accounts = accounts_,
-                      .met = static_cast<std::uint16_t>(tip_is_ == Tip::Waits ? 0 : 1),
-                      .strokes = static_cast<std::uint32_t>(strokes_->size()),
-                      .rise_m = rise_m_,
-                      .fastest_hand_m_per_s = fastest_hand_m_per_s_};
+  scene::TipPush push = push_on(scale_);
+  push.digest = sample().digest;
+  push.given_j = tick.given.si;
+  push.work_j = tick.work.si;
+  push.lost_j = tick.lost.si;
+  push.stored_j = tick.stored.si;
+  push.exhausted = tick.exhausted;
+  push.accounts = accounts_;
+  push.met = tip_is_ == Tip::Waits ? 0 : 1;
+  push.strokes = static_cast<std::uint32_t>(strokes_->size());
+  push.rise_m = rise_m_;
+  push.fastest_hand_m_per_s = fastest_hand_m_per_s_;
   if (tip_is_ == Tip::Over) push.base_m = push.apex_m = {hand_m_.x, hand_m_.y, hand_m_.z};
   if (tip_is_ != Tip::On) return push;
   push.base_m = {tick.base.position.x.si, tick.base.position.y.si, tick.base.z.si};
@@ -274,8 +257,7 @@ scene::TipPush FeltScratch::push() const noexcept {
 }
 
 scene::PushSample FeltScratch::sample() const noexcept {
-  scene::PushSample sample{.digest = digest_};
-  for (std::size_t i = 0; i < tiles_.size(); ++i) sample.digest += tip_.surface().changed(i) ? 1U : 0U;
+  scene::PushSample sample{.digest = tiles_->digest(tip_.surface())};
   if (tip_is_ != Tip::On) return sample;
   sample.lateral_n = {push_n_.x, push_n_.y};
   sample.lift_n = push_n_.z;
@@ -283,22 +265,6 @@ scene::PushSample FeltScratch::sample() const noexcept {
   if (state == physics::ScratchState::Holds) sample.state = physics::PushState::Holds;
   if (state == physics::ScratchState::Marks) sample.state = physics::PushState::Slides;
   return sample;
-}
-
-std::unique_ptr<FeltScratch> felt_scratch_of(scene::SharedSegment& segment, const scene::SharedParticles& particles,
-                                             const ParticleScale& scale, std::int64_t period_ns) {
-  if (particles.soft.hardness_pa == 0.0) return nullptr;
-  auto felt = std::make_unique<FeltScratch>(particles, scale, 1e-9 * static_cast<double>(period_ns));
-  const scene::ServoSide side = segment.servo_side();
-  std::vector<scene::MarkTile> tiles;
-  tiles.reserve(scene::kMarkTiles);
-  while (tiles.size() < scene::kMarkTiles) {
-    const auto tile = side.last_mark_tile(static_cast<std::uint32_t>(tiles.size()));
-    if (!tile) return felt;
-    tiles.push_back(*tile);
-  }
-  felt->resume(tiles);
-  return felt;
 }
 
 }  // namespace afm::haptics

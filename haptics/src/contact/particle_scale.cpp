@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "haptics/scaling.h"
+#include "physics/manipulation/ink.h"
 #include "physics/manipulation/particle_friction.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/manipulation/scratching_tip.h"
@@ -24,6 +25,7 @@ namespace {
 // hundredth of what the lever bends, and only make the descent of several particles slower.
 constexpr double kContactOverLever = 100.0;
 constexpr double kSoftRadii = 12.0;   // side of the part of a soft sample that every hand reaches
+constexpr double kInkDots = 6.0;      // the same for ink, in dots of a second
 constexpr double kLeastSlope = 1e-3;  // least slope of a flank by which its climb is divided
 
 // Radius as seen from above.
@@ -66,12 +68,11 @@ double hand_m_per_m(const scene::SharedParticles& particles, double diameter_m, 
        field_m_per_m(back_m - front_m, device.workspace_min_m.z, device.workspace_max_m.z, device.contact_point_m.z)});
 }
 
-// Metres of hand per metre for a tip on a soft sample: so many of its radii fill their share of the workspace, though
-// the sample is larger, since a smaller scale would leave a hand too slow.
-double soft_m_per_m(const scene::SharedPusher& pusher, const DeviceSpec& device) {
-  const double side_m = kSoftRadii * pusher.tip_radius_m;
+// Metres of hand per metre where something of this diameter has the size of a hand, and a square of this side fills its
+// share of the workspace. The sample may be larger, since a smaller scale would leave a hand too slow.
+double marks_m_per_m(const scene::SharedPusher& pusher, double diameter_m, double side_m, const DeviceSpec& device) {
   return std::min(
-      {pusher.diameter_in_hand_m / (2.0 * pusher.tip_radius_m),
+      {pusher.diameter_in_hand_m / diameter_m,
        field_m_per_m(side_m, device.workspace_min_m.x, device.workspace_max_m.x, device.contact_point_m.x),
        field_m_per_m(side_m, device.workspace_min_m.z, device.workspace_max_m.z, device.contact_point_m.z)});
 }
@@ -91,11 +92,12 @@ core::Result<ParticleScale> soft_scale(const scene::SharedParticles& particles, 
   const double half_m = 0.5 * pusher.tip_radius_m;
   const double load_n = 0.5 * std::numbers::pi * surface.hardness.si * half_m * half_m;
   const double felt_n = std::min(pusher.threshold_on_hand_n, ParticleScale::kSoftShare * force_cap_n(device));
-  ParticleScale scale{.hand_m_per_m = soft_m_per_m(pusher, device),
-                      .hand_n_per_n = felt_n / load_n,
-                      .clear_z_m = pusher.tip_radius_m,
-                      .softened_sideways = 1,
-                      .softened_upwards = 1};
+  ParticleScale scale{
+      .hand_m_per_m = marks_m_per_m(pusher, 2.0 * pusher.tip_radius_m, kSoftRadii * pusher.tip_radius_m, device),
+      .hand_n_per_n = felt_n / load_n,
+      .clear_z_m = pusher.tip_radius_m,
+      .softened_sideways = 1,
+      .softened_upwards = 1};
   const double most_n_per_m = particle_stiffness_n_per_m(device) * scale.hand_m_per_m / scale.hand_n_per_n;
   scale.softened_sideways = std::max(1.0, pusher.lateral_spring_n_per_m / most_n_per_m);
   scale.softened_upwards = std::max(1.0, pusher.normal_spring_n_per_m / most_n_per_m);
@@ -117,6 +119,28 @@ core::Result<ParticleScale> soft_scale(const scene::SharedParticles& particles, 
   return scale;
 }
 
+core::Result<ParticleScale> ink_scale(const scene::SharedParticles& particles, const DeviceSpec& device) {
+  const scene::SharedPusher& pusher = particles.pusher;
+  const double dot_m = scene::ink_dot_m(scene::ink_of(particles.ink));
+  const double pull_n = scene::meniscus_pull_n(pusher.tip_radius_m, particles.ink.surface_tension_n_per_m);
+  const double felt_n = std::min(pusher.threshold_on_hand_n, ParticleScale::kSoftShare * force_cap_n(device));
+  if (!(felt_n >= Scaling::kFaintestPullN)) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("cannot write with \"{}\" and the {}: the liquid would pull with {:.2g} N, too "
+                                     "little to feel; choose another device",
+                                     particles.ink.name.data(), device.name, felt_n));
+  }
+  ParticleScale scale{.hand_m_per_m = marks_m_per_m(pusher, dot_m, kInkDots * dot_m, device),
+                      .hand_n_per_n = felt_n / pull_n,
+                      .clear_z_m = 0,
+                      .softened_sideways = 1,
+                      .softened_upwards = 1};
+  const double most_n_per_m = particle_stiffness_n_per_m(device) * scale.hand_m_per_m / scale.hand_n_per_n;
+  scale.softened_upwards = std::max(1.0, pusher.normal_spring_n_per_m / most_n_per_m);
+  scale.clear_z_m = pull_n * scale.softened_upwards / pusher.normal_spring_n_per_m;
+  return scale;
+}
+
 double particle_stiffness_n_per_m(const DeviceSpec& device) {
   return std::min(ParticleScale::kMaxStiffnessNPerM, 0.5 * device.max_stiffness_n_per_m);
 }
@@ -124,6 +148,7 @@ double particle_stiffness_n_per_m(const DeviceSpec& device) {
 core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particles, const DeviceSpec& device) {
   ParticleScale scale;
   if (particles.soft.hardness_pa > 0.0) return soft_scale(particles, device);
+  if (particles.ink.molecules_per_s > 0.0) return ink_scale(particles, device);
   if (particles.count == 0) return scale;
   const physics::PushSetup setup = scene::push_setup(particles);
   const std::size_t median = median_species(particles);

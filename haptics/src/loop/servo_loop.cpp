@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "core/clock.h"
+#include "haptics/felt_marks.h"
 #include "haptics/felt_particles.h"
-#include "haptics/felt_scratch.h"
 #include "haptics/realtime.h"
 
 namespace afm::haptics {
@@ -144,7 +144,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
       particles_(particles_of(segment, model.particles, common.particles, spec_)),
-      soft_(felt_scratch_of(segment, model.particles, common.particles, period_ns_)),
+      marks_(felt_marks_of(segment, model.particles, common.particles, period_ns_)),
       exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
              {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count},
@@ -157,7 +157,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
   for (std::uint32_t i = 0; particles_ && i < particles_->pages().size(); ++i) {
     shared_.store(particles_->pages()[i], i);
   }
-  for (std::uint32_t i = 0; soft_ && i < scene::kMarkTiles; ++i) shared_.store(soft_->tiles()[i], i);
+  for (std::uint32_t i = 0; marks_ && i < scene::kMarkTiles; ++i) shared_.store(marks_->tiles()[i], i);
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
   const glm::dmat4 rest = scene::rest_room_from_node(model, sample_node_);
   std::array<double, 16> room_from_sample{};
@@ -339,8 +339,8 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
   governor_.forget_motion();
   guide_.reset();
   if (particles_) particles_->drop();
-  if (soft_) soft_->lift();
-  model_->use(mode, particles_.get(), soft_.get());
+  if (marks_) marks_->lift();
+  model_->use(mode, particles_.get(), marks_.get());
   const Scaling& scaling = model_->scaling();
   governor_.set_release_height(scaling.release_height_m());
   state_.material = static_cast<std::int32_t>(material);

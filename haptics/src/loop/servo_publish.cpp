@@ -2,8 +2,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "haptics/felt_marks.h"
 #include "haptics/felt_particles.h"
-#include "haptics/felt_scratch.h"
 #include "haptics/servo_loop.h"
 
 namespace afm::haptics {
@@ -86,7 +86,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   state_.garbage_blocks = shared_.refused_blocks() + refused_transforms_;
   shared_.store(state_);
   if (particles_) publish_particles();
-  if (soft_) publish_marks();
+  if (marks_) publish_marks();
 
   // without a material there is no curve to draw
   if (model_ == nullptr) return;
@@ -123,23 +123,23 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
 
 // Marks are put elsewhere without force alone, as particles are.
 void ServoLoop::put_marks() noexcept {
-  if (!soft_ || model_ == nullptr || !governor_.released()) return;
-  if (heard_.put_back && soft_->put_back()) {
+  if (!marks_ || model_ == nullptr || !governor_.released()) return;
+  if (heard_.put_back && marks_->put_back()) {
     touch_.push.add({.kind = physics::EventKind::ParticlesPutBack});
-  } else if (heard_.take_back && soft_->take_back()) {
+  } else if (heard_.take_back && marks_->take_back()) {
     touch_.push.add({.kind = physics::EventKind::PushTakenBack});
   }
 }
 
 scene::PushSample ServoLoop::push_sample() const noexcept {
-  if (soft_) return soft_->sample();
+  if (marks_) return marks_->sample();
   return particles_ ? particles_->sample() : scene::PushSample{};
 }
 
 // One tile in each tick: a copy takes a microsecond.
 void ServoLoop::publish_marks() noexcept {
-  if (const auto tile = soft_->next_tile()) shared_.store(soft_->tiles()[*tile], *tile);
-  scene::TipPush push = soft_->push();
+  if (const auto tile = marks_->next_tile()) shared_.store(marks_->tiles()[*tile], *tile);
+  scene::TipPush push = marks_->push();
   push.time_ns = state_.time_ns;
   push.tick = state_.tick;
   shared_.store(push);

@@ -32,6 +32,8 @@ enum class EventKind : std::uint32_t {
   SurfaceMarked = 17,      // a tip began to press a soft sample in
   TipStopped = 18,         // a tip cannot sink deeper: the load is more than the model of a soft sample bears
   HandTooFast = 19,        // the lever on a soft sample was raised, because the hand moves faster than it scratches
+  InkFlows = 20,           // a tip with ink touched the sample
+  LiquidTorn = 21,         // it came off, and the liquid between tip and sample tore
 };
 
 // Name in reports and replays.
@@ -75,13 +77,17 @@ constexpr const char* name_of(EventKind kind) {
       return "tip-stopped";
     case EventKind::HandTooFast:
       return "hand-too-fast";
+    case EventKind::InkFlows:
+      return "ink-flows";
+    case EventKind::LiquidTorn:
+      return "liquid-torn";
   }
   return "unknown";
 }
 
 // True for a jump of the law, whose forces are normal. Those of other events are lateral, except: for a lifted particle
-// the pull-off from the sample, for particles that were put back or are looked at 0, for a soft sample the load, for a
-// tapping lever the mean over a swing.
+// the pull-off from the sample, for particles that were put back or are looked at 0, for a soft sample or ink the load,
+// for a liquid that tore its pull, for a tapping lever the mean over a swing.
 constexpr bool is_jump(EventKind kind) { return kind == EventKind::JumpToContact || kind == EventKind::JumpOffContact; }
 
 // Both ends of a cycle: a jump, or a change of the state of a tapping lever.

@@ -74,4 +74,9 @@ FirstSlip first_slip(Force static_threshold, Force kinetic_threshold, Stiffness 
           0.5 * (static_threshold * static_threshold - kinetic_threshold * kinetic_threshold) / sideways};
 }
 
+PressedPush pressed_push(const PushBalance& push, Force preload, double sample_friction) noexcept {
+  const Force load{std::max(0.0, (preload - push.lift).si)};
+  return {load, push.lateral + sample_friction * load};
+}
+
 }  // namespace afm::physics

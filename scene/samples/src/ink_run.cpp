@@ -2,13 +2,14 @@
 #include "scene/samples/ink_run.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "core/check.h"
-#include "core/version.h"
+#include "grid_image.h"
 #include "physics/contact_parameters.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/hand_script.h"
@@ -25,6 +26,7 @@ using physics::Time;
 
 constexpr double kSquaresAcross = 480.0;  // squares along the larger side, with both margins
 constexpr double kFinestM = 1e-9;
+constexpr double kStrongestTension = 1.0;  // N/m, twice that of mercury
 
 // Largest dot that a wait leaves, and the widest line.
 Length widest(const ParticleSet& set) {
@@ -39,50 +41,45 @@ Length widest(const ParticleSet& set) {
 }
 
 physics::ScanImage ink_image_of(const physics::InkedSurface& surface, const ParticleSet& set) {
-  physics::ScanImage image;
-  image.columns = surface.columns();
-  image.rows = surface.rows();
-  const double spacing_m = surface.spacing().si;
-  image.width_m = spacing_m * static_cast<double>(image.columns);
-  image.height_m = spacing_m * static_cast<double>(image.rows);
-  image.x_offset_m = surface.middle_of_first().x.si - 0.5 * spacing_m;
-  image.y_offset_m = surface.middle_of_first().y.si - 0.5 * spacing_m;
-  physics::ImageChannel heights{.name = "Height", .unit = "m", .values = {}};
-  heights.values.reserve(image.columns * image.rows);
-  for (std::size_t row = image.rows; row-- > 0;) {
-    for (std::size_t column = 0; column < image.columns; ++column) {
-      heights.values.push_back(surface.is_covered(column, row) ? set.ink->thickness.si : 0.0);
-    }
-  }
-  image.channels.push_back(std::move(heights));
-  image.metadata = {{"Title", set.title},
-                    {"Sample", set.ink->name},
-                    {"Source", "calculated by touchafm particles"},
-                    {"Software", std::string("TouchAFM ") + core::kVersion}};
-  return image;
+  return grid_image(surface, set.title, set.ink->name, [&](std::size_t column, std::size_t row) {
+    return surface.is_covered(column, row) ? set.ink->thickness.si : 0.0;
+  });
 }
 
 }  // namespace
 
 void read_ink(const TomlTable& top, ParticleSet& set) {
-  for (const std::string_view key : {"species", "particle", "target", "pad", "sample", "tip", "lever"}) {
+  for (const std::string_view key : {"species", "particle", "target", "pad", "sample"}) {
     if (top.has(key)) top.refuse(key, "a tip with ink writes on a bare sample: leave this or [ink] out");
   }
   const TomlTable table = top.table("ink", "[ink]");
-  table.allow_only({"name", "molecules_per_s", "footprint_nm2", "thickness"});
+  table.allow_only({"name", "molecules_per_s", "footprint_nm2", "thickness", "surface_tension"});
   constexpr double kM2PerNm2 = 1e-18;
   InkSample sample{.name = table.text("name"), .ink = {}, .thickness = {}};
+  if (top.has("tip") || top.has("lever") || table.has("surface_tension")) {
+    constexpr std::array<std::string_view, 1> kSprings{"normal_spring"};
+    read_marking_tip(top.table("tip", "[tip]"), set);
+    read_marking_lever(top.table("lever", "[lever]"), kSprings, set);
+  }
   SourcedValues values(table);
   sample.ink.molecules_per_s = values.number("molecules_per_s");
   sample.ink.footprint = physics::Area(values.number("footprint_nm2") * kM2PerNm2);
   sample.thickness = values.quantity("thickness", physics::kLengthUnits);
-  if (!(sample.thickness.si > 0.0)) table.refuse("thickness", "it must be positive");
+  if (!(sample.thickness.si > 0.0 && sample.thickness.si <= kThickestLayerM)) {
+    table.refuse("thickness", "it must be positive, and at most 1 um");
+  }
+  if (set.setup.tip.radius.si > 0.0) {
+    sample.surface_tension = values.quantity("surface_tension", physics::kSurfaceEnergyUnits);
+    if (!(sample.surface_tension.si > 0.0 && sample.surface_tension.si <= kStrongestTension)) {
+      table.refuse("surface_tension", "it must be positive, and at most 1 N/m");
+    }
+  }
   try {
     physics::validate(sample.ink);
   } catch (const physics::UnphysicalValue& error) {
     table.refuse(error.field() == "footprint" ? "footprint_nm2" : "molecules_per_s", error.what());
   }
-  set.sources = values.take_sources();
+  add_sources(set, "", values);
   set.ink = std::make_shared<const InkSample>(std::move(sample));
 }
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/check.h"
-#include "core/written_by.h"
+#include "grid_image.h"
 #include "scene/samples/hand_script.h"
 
 namespace afm::scene {
@@ -31,28 +31,8 @@ struct Sums {
 };
 
 physics::ScanImage image_of(const physics::MarkedSurface& surface, const ParticleSet& set) {
-  physics::ScanImage image;
-  image.columns = surface.columns();
-  image.rows = surface.rows();
-  const double spacing_m = surface.spacing().si;
-  image.width_m = spacing_m * static_cast<double>(image.columns);
-  image.height_m = spacing_m * static_cast<double>(image.rows);
-  const physics::Sideways<Length> first = surface.middle_of_first();
-  image.x_offset_m = first.x.si - 0.5 * spacing_m;
-  image.y_offset_m = first.y.si - 0.5 * spacing_m;
-  physics::ImageChannel heights{.name = "Height", .unit = "m", .values = {}};
-  heights.values.reserve(image.columns * image.rows);
-  for (std::size_t row = image.rows; row-- > 0;) {
-    for (std::size_t column = 0; column < image.columns; ++column) {
-      heights.values.push_back(surface.square(column, row).si);
-    }
-  }
-  image.channels.push_back(std::move(heights));
-  image.metadata = {{"Title", set.title},
-                    {"Sample", set.soft->name},
-                    {"Source", "calculated by touchafm particles"},
-                    {"Software", core::written_by()}};
-  return image;
+  return grid_image(surface, set.title, set.soft->name,
+                    [&](std::size_t column, std::size_t row) { return surface.square(column, row).si; });
 }
 
 }  // namespace

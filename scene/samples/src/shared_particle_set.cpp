@@ -5,6 +5,7 @@
 
 #include "core/check.h"
 #include "particle_field.h"
+#include "scene/samples/ink_run.h"
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/scratch_run.h"
@@ -62,6 +63,13 @@ SharedParticles shared_particles(const ParticleSet& set) {
                    .reduced_modulus_pa = surface.reduced_modulus.si,
                    .work_of_adhesion_j_per_m2 = surface.work_of_adhesion.si,
                    .pile_up_share = surface.pile_up_share};
+  }
+  if (set.ink) {
+    shared.ink = {.name = to_name(set.ink->name),
+                  .molecules_per_s = set.ink->ink.molecules_per_s,
+                  .footprint_m2 = set.ink->ink.footprint.si,
+                  .thickness_m = set.ink->thickness.si,
+                  .surface_tension_n_per_m = set.ink->surface_tension.si};
   }
   const physics::Sideways<Length> middle = field_of(set).middle();
   for (const physics::PlacedParticle& particle : set.particles) {
@@ -127,14 +135,23 @@ ParticleSet recorded_set(const SharedParticles& recorded, const std::string& ass
   ParticleSet set;
   set.title = "Recorded particles";
   set.medium = "air";
-  if (recorded.soft.hardness_pa > 0.0) {
-    set.title = "Recorded soft sample";
+  if (has_marks(recorded)) {
     set.setup.tip = {Length(recorded.pusher.tip_radius_m), recorded.pusher.half_angle_rad};
     set.setup.springs = {.lateral = physics::Stiffness(recorded.pusher.lateral_spring_n_per_m),
                          .normal = physics::Stiffness(recorded.pusher.normal_spring_n_per_m),
                          .contact = physics::Stiffness(recorded.pusher.contact_stiffness_n_per_m)};
-    set.soft = std::make_shared<const SoftSample>(
-        SoftSample{.name = recorded.soft.name.data(), .surface = soft_surface(recorded.soft)});
+    if (recorded.soft.hardness_pa > 0.0) {
+      set.title = "Recorded soft sample";
+      set.soft = std::make_shared<const SoftSample>(
+          SoftSample{.name = recorded.soft.name.data(), .surface = soft_surface(recorded.soft)});
+    } else {
+      set.title = "Recorded ink";
+      set.ink = std::make_shared<const InkSample>(
+          InkSample{.name = recorded.ink.name.data(),
+                    .ink = ink_of(recorded.ink),
+                    .thickness = Length(recorded.ink.thickness_m),
+                    .surface_tension = physics::SurfaceEnergy(recorded.ink.surface_tension_n_per_m)});
+    }
     return set;
   }
   set.setup = push_setup(recorded);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -21,6 +22,8 @@ namespace {
 
 using physics::Force;
 using physics::Length;
+
+}  // namespace
 
 void add_sources(ParticleSet& set, std::string_view prefix, SourcedValues& values) {
   for (SourcedValue& source : values.take_sources()) {
@@ -42,27 +45,27 @@ void read_marking_tip(const TomlTable& table, ParticleSet& set) {
   add_sources(set, "tip_", values);
 }
 
-void read_marking_lever(const TomlTable& table, ParticleSet& set) {
-  table.allow_only({"lateral_spring", "normal_spring"});
+void read_marking_lever(const TomlTable& table, std::span<const std::string_view> springs, ParticleSet& set) {
+  table.allow_only(springs);
   SourcedValues values(table);
-  set.setup.springs.lateral = values.quantity("lateral_spring", physics::kStiffnessUnits);
-  set.setup.springs.normal = values.quantity("normal_spring", physics::kStiffnessUnits);
+  const auto spring = [&](std::string_view key) { return values.quantity(key, physics::kStiffnessUnits); };
+  set.setup.springs.lateral = spring(springs.front());
+  set.setup.springs.normal = springs.size() > 1 ? spring(springs.back()) : set.setup.springs.lateral;
   try {
     physics::validate_lever(set.setup.springs);
   } catch (const physics::UnphysicalValue& error) {
-    table.refuse(error.field(), error.what());
+    table.refuse(springs.size() > 1 ? std::string(error.field()) : std::string(springs.front()), error.what());
   }
   add_sources(set, "", values);
 }
-
-}  // namespace
 
 void read_soft_sample(const TomlTable& top, ParticleSet& set) {
   for (const std::string_view key : {"species", "particle", "target", "pad"}) {
     if (top.has(key)) top.refuse(key, "a soft sample is scratched, and has no particles: leave this or [sample] out");
   }
   read_marking_tip(top.table("tip", "[tip]"), set);
-  read_marking_lever(top.table("lever", "[lever]"), set);
+  constexpr std::array<std::string_view, 2> kSprings{"lateral_spring", "normal_spring"};
+  read_marking_lever(top.table("lever", "[lever]"), kSprings, set);
   const TomlTable table = top.table("sample", "[sample]");
   table.allow_only({"name", "hardness", "sample_modulus", "sample_poisson_ratio", "tip_modulus", "tip_poisson_ratio",
                     "work_of_adhesion", "pile_up_share"});

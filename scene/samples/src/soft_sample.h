@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "scene/config/toml_table.h"
 #include "scene/samples/particle_set.h"
 
 namespace afm::scene {
+
+class SourcedValues;
 
 // Reads the table [sample] of a particle file, with tip and lever, into a set that has title and medium alone.
 void read_soft_sample(const TomlTable& top, ParticleSet& set);
@@ -13,7 +18,14 @@ void read_soft_sample(const TomlTable& top, ParticleSet& set);
 // set.
 void check_soft_moves(const TomlTable& top, const ParticleSet& set);
 
-// The same for the table [ink], without tip and lever.
+// The same for the table [ink]; tip and lever only for a hand.
 void read_ink(const TomlTable& top, ParticleSet& set);
+
+// Reads the table [tip], and the lever's springs of these names. The contact's is not used.
+void read_marking_tip(const TomlTable& table, ParticleSet& set);
+void read_marking_lever(const TomlTable& table, std::span<const std::string_view> springs, ParticleSet& set);
+
+// Adds the sources of these values to those of the set, with a prefix before each key.
+void add_sources(ParticleSet& set, std::string_view prefix, SourcedValues& values);
 
 }  // namespace afm::scene

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/enumerators.h"
+#include "physics/manipulation/ink.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/manipulation/scratching_tip.h"
 #include "physics/manipulation/tip_hold.h"
@@ -24,6 +25,7 @@ namespace {
 // Largest and smallest size of a particle and of its threshold in a hand.
 constexpr double kSmallestInHandM = 1e-4, kLargestInHandM = 1.0;
 constexpr double kFaintestOnHandN = 0.01, kStrongestOnHandN = 10.0;
+constexpr double kSmallestDotM = 1e-9, kLargestDotM = 1e-3;  // of a second, with ink
 
 physics::ParticleSpecies species_of(const SharedSpecies& shared) {
   return {.contact = {.tip_radius = physics::Length(shared.radius_m),
@@ -80,6 +82,35 @@ core::Result<void> validate_soft(const SharedParticles& particles) {
                              .contact = physics::Stiffness(pusher.contact_stiffness_n_per_m)});
   } catch (const std::invalid_argument& error) {
     return particles_refused(fmt::format("the soft sample of the shared scene: {}", error.what()));
+  }
+  return {};
+}
+
+core::Result<void> validate_ink(const SharedParticles& particles) {
+  const SharedInk& ink = particles.ink;
+  const SharedPusher& pusher = particles.pusher;
+  if (particles.count != 0) return particles_refused("ink in the shared scene has particles");
+  if (ink.name.back() != '\0' || !can_be_felt(pusher) || particles.level.level != 0) {
+    return particles_refused("the name, the size in a hand or the level of ink is invalid");
+  }
+  if (!(ink.thickness_m > 0.0 && ink.thickness_m <= kThickestLayerM) || !(ink.surface_tension_n_per_m > 0.0) ||
+      !std::isfinite(ink.surface_tension_n_per_m)) {
+    return particles_refused("the thickness or the surface tension of ink in the shared scene is impossible");
+  }
+  try {
+    physics::validate(ink_of(ink));
+    const double dot_m = ink_dot_m(ink_of(ink));
+    if (!(dot_m >= kSmallestDotM && dot_m <= kLargestDotM)) {
+      return particles_refused(
+          fmt::format("ink of the shared scene makes dots of {:.2g} m in a second, and a hand writes with "
+                      "dots of 1 nm to 1 mm",
+                      dot_m));
+    }
+    physics::validate_marking_tip({physics::Length(pusher.tip_radius_m), pusher.half_angle_rad});
+    const physics::Stiffness normal(pusher.normal_spring_n_per_m);
+    physics::validate_lever({.lateral = normal, .normal = normal, .contact = {}});
+  } catch (const std::invalid_argument& error) {
+    return particles_refused(fmt::format("the ink of the shared scene: {}", error.what()));
   }
   return {};
 }
@@ -180,6 +211,7 @@ std::string why_no_level(const SharedParticles& particles) {
 
 core::Result<void> validate(const SharedParticles& particles) {
   if (particles.soft.hardness_pa != 0.0) return validate_soft(particles);
+  if (particles.ink.molecules_per_s != 0.0) return validate_ink(particles);
   if (particles.count == 0) return {};
   if (particles.count > kMaxParticles || particles.species_count == 0 || particles.species_count > kMaxSpecies) {
     return particles_refused(

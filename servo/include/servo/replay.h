@@ -65,7 +65,7 @@ core::Result<Replay> replay(const RecordedSession& session, const ReplayRange& r
 // Particles after a tick. A session has their poses only at its start: all others follow from its hand.
 struct ReplayedParticles {
   std::vector<scene::ParticlePage> pages;
-  std::vector<scene::MarkTile> tiles{};  // marks of a soft sample
+  std::vector<scene::MarkTile> tiles{};  // marks of a soft sample or of ink
   scene::TipPush push;
   scene::PlannedPush plan;
   std::optional<PictureNow> picture{};  // at level 1 and 2: pages are those that it shows

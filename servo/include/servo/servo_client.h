@@ -74,7 +74,7 @@ class ServoClient {
   std::span<const scene::ParticlePage> particle_pages() const { return pages_; }
   std::span<const std::uint32_t> changed_pages() const { return changed_pages_; }
 
-  // The same for the tiles of a soft sample, kMarkTiles of them or none; marks() counts the changes.
+  // The same for the tiles of a soft sample or of ink, kMarkTiles of them or none; marks() counts the changes.
   std::span<const scene::MarkTile> mark_tiles() const { return tiles_; }
   std::uint64_t marks() const { return marks_; }
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }

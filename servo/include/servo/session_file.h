@@ -23,11 +23,12 @@ struct PictureState {
   bool empty() const { return seen_ns.empty(); }
 };
 
-// Particles on a sample, and their poses when the session began, or a soft sample with its marks. The tip was off them.
+// Particles on a sample, and their poses when the session began, or a soft sample or ink with its marks. The tip was
+// off them.
 struct RecordedParticles {
   scene::SharedParticles set;
   std::vector<scene::ParticlePage> pages;  // pages_of(set.count)
-  std::vector<scene::MarkTile> tiles{};    // kMarkTiles of a soft sample
+  std::vector<scene::MarkTile> tiles{};    // kMarkTiles of a soft sample or of ink
   PictureState picture{};                  // at level 1 and 2; empty: all measured at the first tick
 };
 

@@ -145,7 +145,7 @@ void ServoClient::take_particles() {
   if (!scene::are_there(particles)) return;
   pages_.resize(scene::pages_of(particles.count));
   push_ = side_.tip_push().value_or(push_);
-  if (particles.soft.hardness_pa > 0.0) tiles_.resize(scene::kMarkTiles);
+  if (scene::has_marks(particles)) tiles_.resize(scene::kMarkTiles);
   for (std::uint32_t i = 0; i < tiles_.size(); ++i) {
     const auto tile = side_.new_mark_tile(i);
     if (!tile) continue;

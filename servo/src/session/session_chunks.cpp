@@ -73,9 +73,11 @@ struct NumberedTile {
   scene::MarkTile tile;
 };
 
-std::string soft_of(const RecordedParticles& particles) {
+// `sample` is the soft one, or the ink.
+template <class Sample>
+std::string marks_of(const Sample& sample, const RecordedParticles& particles) {
   std::string bytes;
-  put(bytes, particles.set.soft);
+  put(bytes, sample);
   put(bytes, particles.set.pusher);
   std::vector<NumberedTile> marked;
   for (std::size_t i = 0; i < particles.tiles.size(); ++i) {
@@ -86,6 +88,22 @@ std::string soft_of(const RecordedParticles& particles) {
 }
 
 bool is_soft(const RecordedParticles& particles) { return particles.set.soft.hardness_pa > 0.0; }
+bool is_ink(const RecordedParticles& particles) { return particles.set.ink.molecules_per_s > 0.0; }
+
+template <class Sample>
+bool read_marks(std::string_view payload, Sample& sample, RecordedParticles& particles) {
+  std::vector<NumberedTile> marked;
+  if (!take(payload, sample) || !take(payload, particles.set.pusher) || !take_all(payload, marked) ||
+      !payload.empty()) {
+    return false;
+  }
+  particles.tiles.assign(scene::kMarkTiles, {});
+  for (const NumberedTile& tile : marked) {
+    if (tile.number >= particles.tiles.size() || !scene::is_valid(tile.tile)) return false;
+    particles.tiles[tile.number] = tile.tile;
+  }
+  return true;
+}
 
 bool has_level(const RecordedParticles& particles) { return particles.set.level.level > 0; }
 
@@ -108,6 +126,7 @@ std::uint32_t version_of(const RecordedSession& session) {
   if (scene::taps(session.parameters)) return kVersionWithSwing;
   if (!session.particles) return kSessionVersion;
   if (is_soft(*session.particles)) return kVersionWithMarks;
+  if (is_ink(*session.particles)) return kVersionWithInk;
   if (has_level(*session.particles)) return kVersionWithLevel;
   if (scene::has_islands(session.particles->set)) return kVersionWithIslands;
   if (lifts(session.particles->set)) return kVersionWithLift;
@@ -193,17 +212,11 @@ bool read_level(std::string_view payload, RecordedParticles& particles) {
 }
 
 bool read_soft(std::string_view payload, RecordedParticles& particles) {
-  std::vector<NumberedTile> marked;
-  if (!take(payload, particles.set.soft) || !take(payload, particles.set.pusher) || !take_all(payload, marked) ||
-      !payload.empty() || !is_soft(particles)) {
-    return false;
-  }
-  particles.tiles.assign(scene::kMarkTiles, {});
-  for (const NumberedTile& tile : marked) {
-    if (tile.number >= particles.tiles.size() || !scene::is_valid(tile.tile)) return false;
-    particles.tiles[tile.number] = tile.tile;
-  }
-  return true;
+  return read_marks(payload, particles.set.soft, particles) && is_soft(particles);
+}
+
+bool read_ink(std::string_view payload, RecordedParticles& particles) {
+  return read_marks(payload, particles.set.ink, particles) && is_ink(particles);
 }
 
 bool lifts(const scene::SharedParticles& set) { return scene::has_pads(set) || scene::has_lift(set); }
@@ -213,7 +226,7 @@ std::size_t sample_bytes_of(const RecordedSession& session) {
   if (!session.particles) return kSampleBytesWithoutPush;
   if (has_level(*session.particles)) return sizeof(scene::TipSample);
   const scene::SharedParticles& set = session.particles->set;
-  const bool whole = session.has_plans || is_soft(*session.particles) || lifts(set) || scene::has_islands(set);
+  const bool whole = session.has_plans || scene::has_marks(set) || lifts(set) || scene::has_islands(set);
   return whole ? kSampleBytesWithoutLevel : kSampleBytesWithoutSwing;
 }
 
@@ -235,7 +248,12 @@ void SessionEncoder::head(const RecordedSession& session) {
     chunk(kTopographyChunk, topography);
   }
   if (session.law_map) chunk(kLawMapChunk, bytes_of(*session.law_map));
-  if (session.particles && is_soft(*session.particles)) return chunk(kSoftChunk, soft_of(*session.particles));
+  if (session.particles && is_soft(*session.particles)) {
+    return chunk(kSoftChunk, marks_of(session.particles->set.soft, *session.particles));
+  }
+  if (session.particles && is_ink(*session.particles)) {
+    return chunk(kInkChunk, marks_of(session.particles->set.ink, *session.particles));
+  }
   if (session.particles) chunk(kParticlesChunk, bytes_of(*session.particles));
   if (session.particles && scene::has_rods(session.particles->set)) chunk(kRodsChunk, rods_of(session.particles->set));
   if (session.particles && scene::has_pads(session.particles->set)) chunk(kPadsChunk, pads_of(session.particles->set));

@@ -15,11 +15,11 @@
 // forces an older program does not know, and with rods or without, 10 for a lever that taps, or 11 for particles of any
 // kind and the plans of their pushes, as touchafm records them today, 12 for those with pads or with spheres that the
 // tip lifts, 13 for flat islands, 14 for particles at level 1 or 2, whose sample may drift, 15 for a map of modulus and
-// adhesion, 17 for a soft sample that the tip scratches, 18 for a map that is viscous, 20 for one that vibrates:
-// "AFMS", the version, then chunks. A chunk consists of a name of four letters and the size of its payload in 32 bits,
-// the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a of all bytes from the beginning
-// of the file up to it, so that no chunk can be altered, left out or exchanged. A file that ends inside a chunk was
-// cut; all chunks before it are intact.
+// adhesion, 17 for a soft sample that the tip scratches, 18 for a map that is viscous, 19 for ink, 20 for a map that
+// vibrates: "AFMS", the version, then chunks. A chunk consists of a name of four letters and the size of its payload in
+// 32 bits, the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a of all bytes from the
+// beginning of the file up to it, so that no chunk can be altered, left out or exchanged. A file that ends inside a
+// chunk was cut; all chunks before it are intact.
 namespace afm::servo {
 
 inline constexpr std::string_view kSessionMagic = "AFMS";
@@ -37,6 +37,7 @@ inline constexpr std::uint32_t kVersionWithViscousMap = 18;    // as 15; the map
 inline constexpr std::uint32_t kVersionWithMapVibration = 20;  // as 15 or 18; the map vibrates, too
 
 inline constexpr std::uint32_t kVersionWithMarks = 17;  // as 11; a chunk has a soft sample in place of particles
+inline constexpr std::uint32_t kVersionWithInk = 19;    // the same, with ink
 
 inline constexpr std::string_view kHeadChunk = "HEAD";        // header_of() as JSON
 inline constexpr std::string_view kSurfaceChunk = "SURF";     // one SharedHeightField, if the sample has one
@@ -48,6 +49,7 @@ inline constexpr std::string_view kPadsChunk = "PADS";        // pads, after the
 inline constexpr std::string_view kIslandsChunk = "ISLE";     // radii of the species of islands, after the particles
 inline constexpr std::string_view kLevelChunk = "LEVL";       // level and PictureState, after the particles
 inline constexpr std::string_view kSoftChunk = "SOFT";        // soft sample, its tip, and the tiles with marks
+inline constexpr std::string_view kInkChunk = "INKS";         // ink, the tip, and the inked tiles
 inline constexpr std::string_view kPartChunk = "PART";  // samples and events up to one moment, and frames of the wall
 inline constexpr std::string_view kEndChunk = "DONE";   // end of the file, without a payload
 
@@ -95,6 +97,9 @@ bool read_level(std::string_view payload, RecordedParticles& particles);
 
 // Reads a kSoftChunk; false if it is damaged.
 bool read_soft(std::string_view payload, RecordedParticles& particles);
+
+// The same for a kInkChunk.
+bool read_ink(std::string_view payload, RecordedParticles& particles);
 
 // True if the tip lifts some of them, or a pad holds them, which needs version kVersionWithLift.
 bool lifts(const scene::SharedParticles& set);

@@ -107,6 +107,7 @@ std::string read_part(std::string_view payload, RecordedSession& session, nlohma
 // True if a file of this version has such particles.
 bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
   if ((set.soft.hardness_pa > 0.0) != (version == kVersionWithMarks)) return false;
+  if ((set.ink.molecules_per_s > 0.0) != (version == kVersionWithInk)) return false;
   if ((set.level.level > 0) != (version == kVersionWithLevel)) return false;
   if (scene::has_islands(set) != (version == kVersionWithIslands)) return false;
   if (lifts(set) != (version == kVersionWithLift)) return false;
@@ -166,6 +167,9 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
       if (!session.law_map) return "its map of modulus and adhesion is damaged";
     } else if (version == kVersionWithMarks && decoder.name() == kSoftChunk) {
       if (!read_soft(payload, session.particles.emplace())) return "its soft sample is damaged";
+      session.has_plans = true;
+    } else if (version == kVersionWithInk && decoder.name() == kInkChunk) {
+      if (!read_ink(payload, session.particles.emplace())) return "its ink is damaged";
       session.has_plans = true;
     } else if (with_particles && decoder.name() == kParticlesChunk) {
       if (!read_particles(payload, session.particles.emplace())) return "its particles are damaged";
@@ -334,10 +338,10 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  constexpr std::array kVersions{
-      kVersionOf010,      kSessionVersion,   kVersionWithParticles,  kVersionWithRods,        kVersionWithHold,
-      kVersionWithSwing,  kVersionWithPlans, kVersionWithLift,       kVersionWithIslands,     kVersionWithLevel,
-      kVersionWithLawMap, kVersionWithMarks, kVersionWithViscousMap, kVersionWithMapVibration};
+  constexpr std::array kVersions{kVersionOf010,          kSessionVersion,   kVersionWithParticles,   kVersionWithRods,
+                                 kVersionWithHold,       kVersionWithSwing, kVersionWithPlans,       kVersionWithLift,
+                                 kVersionWithIslands,    kVersionWithLevel, kVersionWithLawMap,      kVersionWithMarks,
+                                 kVersionWithViscousMap, kVersionWithInk,   kVersionWithMapVibration};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

@@ -14,7 +14,7 @@ using scene::TipSample;
 
 // True if the poses that touchafm has are those of this sample, and a session can begin with them.
 bool has_poses_of(const TipSample& sample, const ServoClient& servo) {
-  if (servo.model().particles.soft.hardness_pa > 0.0) return scene::digest_of(servo.mark_tiles()) == sample.push.digest;
+  if (scene::has_marks(servo.model().particles)) return scene::digest_of(servo.mark_tiles()) == sample.push.digest;
   const std::uint32_t count = servo.model().particles.count;
   return count == 0 || scene::digest_of(servo.particle_pages(), count) == sample.push.digest;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A soft sample under the hand: its force, its marks, and what a fast hand gets of it.
 // Invariant: no contact with a soft sample gives a hand more energy than it took, however fast the hand moves
-#include "haptics/felt_scratch.h"
+#include "haptics/contact/felt_scratch.h"
 
 #include <gtest/gtest.h>
 

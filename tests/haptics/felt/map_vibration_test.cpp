@@ -19,6 +19,7 @@
 #include "haptics/contact_model.h"
 #include "haptics/map_contact.h"
 #include "servo_bench.h"
+#include "support/deep.h"
 
 namespace afm::haptics {
 namespace map_vibration_test {
@@ -93,7 +94,7 @@ TEST_P(EveryVibration, TakesEnergyOnEachOfTenThousandClosedPaths) {
   std::uniform_real_distribution<double> across(-0.035, 0.035), near(-0.004, 0.004), height(-0.02, 0.02),
       speed(0.02, 0.25);
   double most_j = -HUGE_VAL, sum_j = 0.0;
-  for (int path = 0; path < 10'000; ++path) {
+  for (int path = 0; path < support::draws(10'000); ++path) {
     const glm::dvec3 middle{across(random), across(random), height(random)};
     const auto corner = [&] { return middle + glm::dvec3{near(random), near(random), near(random)}; };
     const glm::dvec3 a = corner(), b = corner(), c = corner();

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -74,6 +77,47 @@ TEST(Ink, WhatFindsNoBareSquareWithinReachIsLost) {
   surface.touch({Length(std::numeric_limits<double>::quiet_NaN()), Length(0.0)}, Time(1.0));
   surface.touch({Length(0.0), Length(0.0)}, Time(-1.0));
   EXPECT_NEAR(surface.covered().si + surface.lost().si, inked_area(kThiol, Time(1.0)).si, 5e-18) << "ignored";
+}
+
+// Fewer looks only delay what flows; tiles carry all that is covered.
+TEST(Ink, WithFewLooksALittleLater) {
+  InkedSurface surface = gold(), slow = gold();
+  const auto go = [](InkedSurface& inked, std::size_t most_looks) {
+    for (int i = 0; i < 3000; ++i) {
+      const double angle = 1e-3 * i;
+      inked.touch({Length(60e-9 * std::cos(angle)), Length(60e-9 * std::sin(angle))}, Time(1e-3), most_looks);
+    }
+  };
+  go(surface, std::numeric_limits<std::size_t>::max());
+  go(slow, 64);
+  const Area square = surface.spacing() * surface.spacing();
+  EXPECT_NEAR(surface.covered().si, inked_area(kThiol, Time(3.0)).si, 1.01 * square.si);
+  EXPECT_NEAR(slow.covered().si, surface.covered().si, 0.02 * surface.covered().si);
+}
+
+TEST(Ink, TilesCarryAllThatIsCovered) {
+  InkedSurface surface = gold(), copy = gold();
+  for (int i = 0; i < 2000; ++i) surface.touch({Length(1e-10 * i), Length(3e-11 * i)}, Time(1e-3));
+  surface.lift();
+  std::size_t changed = 0;
+  for (std::size_t tile = 0; tile < surface.tiles(); ++tile) {
+    std::array<std::uint8_t, InkedSurface::kTileSquares> covered{};
+    surface.copy_tile(tile, covered);
+    EXPECT_EQ(surface.changed(tile), std::count(covered.begin(), covered.end(), 1) > 0) << tile;
+    changed += surface.changed(tile) ? 1U : 0U;
+    surface.kept(tile);
+    copy.put_tile(tile, covered);
+  }
+  EXPECT_GT(changed, 3U);
+  EXPECT_EQ(copy.covered().si, surface.covered().si);
+  for (InkedSurface* each : {&surface, &copy}) {
+    for (int i = 0; i < 500; ++i) each->touch({Length(150e-9), Length(0.0)}, Time(1e-3));
+  }
+  for (std::size_t row = 0; row < surface.rows(); ++row) {
+    for (std::size_t column = 0; column < surface.columns(); ++column) {
+      ASSERT_EQ(surface.is_covered(column, row), copy.is_covered(column, row));
+    }
+  }
 }
 
 TEST(Ink, RefusesWhatCannotBe) {

@@ -139,6 +139,20 @@ TEST(PushCases, N16AndN17SlideWithoutFrictionAtTheTip) {
   expect_relative(by_area.lift.si, 8.823023185e-10, kClosed);
 }
 
+// The flank lifts a tip that is pressed on the sample beside the gold of N16.
+TEST(PushCases, N76APressedTipRubsTheSampleLess) {
+  ParticleSpecies amontons = gold();
+  amontons.law = ParticleLaw::Amontons;
+  amontons.coefficient = 0.3;
+  amontons.rolling_distance = Length(0.0);
+  const PushBalance push = push_balance(amontons, {}, std::sin(pi / 12.0), std::cos(pi / 12.0));
+  const PressedPush pressed = pressed_push(push, Force(5e-9), 0.2);
+  expect_relative(pressed.lateral.si, 4.637270739e-09, kClosed);
+  expect_relative(pressed.load.si, 3.970209961e-09, kClosed);
+  EXPECT_EQ(pressed_push(push, Force(1e-9), 0.2).load.si, 0.0) << "lifted off";
+  EXPECT_EQ(pressed_push(push, Force(1e-9), 0.2).lateral, push.lateral);
+}
+
 TEST(PushCases, N19TheLargestFrictionThatLetsASphereRoll) {
   const double expected[] = {1.0, 0.8390996312, 0.767326988, 0.6370702608};
   const double angles[] = {0.0, 10.0, 15.0, 25.0};

@@ -6,14 +6,23 @@
 #include "exhibit/models/relief.h"
 #include "scene/shared/soft_blocks.h"
 
+namespace afm::scene {
+struct ParticleSet;
+}
+
 namespace afm::exhibit {
 
-// Side of the square of a soft sample for a tip of this radius.
-double marks_side_m(double tip_radius_m);
+// Square on which the tip of a set leaves marks, and the heights of its colours.
+struct MarksScale {
+  double side_m = 0;
+  double colours_m = 0;  // heights from it below the level sample to as much above it, or more if the marks need it
+  bool only_up = false;  // from the level sample on
+};
 
-// Marks in a soft sample, kMarkTiles of them, without load: in true proportions, each vertex the mean of 2 x 2 squares.
-// Colours are those from an eighth of the tip's radius below the level sample to as much above it, or more if the marks
-// need it.
-HeightRelief marks_relief(std::span<const scene::MarkTile> tiles, double tip_radius_m);
+// For a soft sample an eighth of the tip's radius, for ink the thickness of its layer. `set` has one of them.
+MarksScale marks_scale(const scene::ParticleSet& set);
+
+// Marks, kMarkTiles of them, without load: in true proportions, each vertex the mean of 2 x 2 squares.
+HeightRelief marks_relief(std::span<const scene::MarkTile> tiles, const MarksScale& scale);
 
 }  // namespace afm::exhibit

@@ -37,6 +37,8 @@ enum class HeardEvent {
   SurfaceMarked,  // the tip begins to press a soft sample in
   TipStopped,     // it cannot sink deeper
   HandTooFast,    // the hand moves faster than the tip scratches
+  InkFlows,       // a tip with ink touches the sample
+  LiquidTorn,     // it comes off
 };
 
 // One note of a signal: a sine that glides between two pitches, with a smooth envelope.

@@ -85,6 +85,26 @@
   PHRASE(SoftFast, "soft-fast", "rise", kLine)           \
   PHRASE(SoftHardness, "soft-hardness", "", kLine)
 
+// Ink with which the tip writes.
+#define AFM_FOR_EACH_INK_PHRASE(PHRASE)                  \
+  PHRASE(InkTakeBack, "ink-take-back", "count", kLine)   \
+  PHRASE(InkTouch, "ink-touch", "", kLine)               \
+  PHRASE(InkMove, "ink-move", "", kLine)                 \
+  PHRASE(InkFree, "ink-free", "", kLine)                 \
+  PHRASE(InkWrites, "ink-writes", "", kLine)             \
+  PHRASE(InkForce, "ink-force", "", kLine)               \
+  PHRASE(InkTears, "ink-tears", "force", kLine)          \
+  PHRASE(InkLine, "ink-line", "", kLine)                 \
+  PHRASE(InkLineOf, "ink-line-of", "speed", kLine)       \
+  PHRASE(InkDot, "ink-dot", "", kLine)                   \
+  PHRASE(InkDotOf, "ink-dot-of", "time", kLine)          \
+  PHRASE(InkCovered, "ink-covered", "", kLine)           \
+  PHRASE(InkCoveredOf, "ink-covered-of", "", kLine)      \
+  PHRASE(InkFlow, "ink-flow", "", kLine)                 \
+  PHRASE(InkMolecules, "ink-molecules", "number", kLine) \
+  PHRASE(InkTension, "ink-tension", "", kLine)           \
+  PHRASE(InkLever, "ink-lever", "", kLine)
+
 // A lever that taps: the plot of its amplitude, its dial, and images beside it.
 #define AFM_FOR_EACH_TAPPING_PHRASE(PHRASE)                           \
   PHRASE(PlotTitleTapping, "plot-title-tapping", "", kLine)           \

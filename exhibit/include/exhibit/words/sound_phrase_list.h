@@ -30,6 +30,8 @@
   PHRASE(HeardSurfaceMarked, "heard-surface-marked", kEventPlaces, kLine)            \
   PHRASE(HeardTipStopped, "heard-tip-stopped", kEventPlaces, kLine)                  \
   PHRASE(HeardHandTooFast, "heard-hand-too-fast", kEventPlaces, kLine)               \
+  PHRASE(HeardInkFlows, "heard-ink-flows", kEventPlaces, kLine)                      \
+  PHRASE(HeardLiquidTorn, "heard-liquid-torn", kEventPlaces, kLine)                  \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -57,6 +59,8 @@
   PHRASE(SaySurfaceMarked, "say-surface-marked", kEventPlaces, kLine)                \
   PHRASE(SayTipStopped, "say-tip-stopped", kEventPlaces, kLine)                      \
   PHRASE(SayHandTooFast, "say-hand-too-fast", kEventPlaces, kLine)                   \
+  PHRASE(SayInkFlows, "say-ink-flows", kEventPlaces, kLine)                          \
+  PHRASE(SayLiquidTorn, "say-liquid-torn", kEventPlaces, kLine)                      \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "physics/friction/sideways.h"
@@ -36,14 +38,20 @@ class InkedSurface {
  public:
   static constexpr std::size_t kMostSide = 1024;  // squares along x and along y
   static constexpr int kReach = 256;              // squares from the tip to the farthest one that it covers
+  static constexpr std::size_t kTileSide = 16;    // squares along a side of a tile, in which the surface can be copied
+  static constexpr std::size_t kTileSquares = kTileSide * kTileSide;
 
   // For a tip over the rectangle from `least` to `most`, with a margin around it. Throws std::invalid_argument if that
   // needs more than kMostSide squares, and as validate() does.
   InkedSurface(const Ink& ink, const Sideways<Length>& least, const Sideways<Length>& most, Length margin,
                Length spacing);
 
-  // The tip touches this place for a time.
-  void touch(const Sideways<Length>& place, Time time) noexcept;
+  // The tip touches this place for a time. Ink for which no bare square is found among so many waits in the tip.
+  void touch(const Sideways<Length>& place, Time time,
+             std::size_t most_looks = std::numeric_limits<std::size_t>::max()) noexcept;
+
+  // Takes the tip off: what waits in it is given up, so that what it covers next depends only on the surface.
+  void lift() noexcept;
 
   Area covered() const noexcept;  // since the start
   Area lost() const noexcept;     // flowed out where no bare square was within reach
@@ -57,6 +65,17 @@ class InkedSurface {
   bool is_covered(std::size_t column, std::size_t row) const noexcept { return covered_[row * columns_ + column] != 0; }
   Sideways<Length> middle_of_first() const noexcept { return {Length(left_m_), Length(bottom_m_)}; }
 
+  // The surface in tiles, row by row from the least x and y: 1 for each covered square, 0 for a bare one or one beyond
+  // the surface, which put_tile() ignores. A tip that touches has to be lifted before a tile is put.
+  std::size_t tiles_across() const noexcept { return (columns_ + kTileSide - 1) / kTileSide; }
+  std::size_t tiles() const noexcept { return tiles_across() * ((rows_ + kTileSide - 1) / kTileSide); }
+  void copy_tile(std::size_t tile, std::span<std::uint8_t, kTileSquares> covered) const noexcept;
+  void put_tile(std::size_t tile, std::span<const std::uint8_t, kTileSquares> covered) noexcept;
+
+  // True for a tile in which a square may have changed since it was kept() last.
+  bool changed(std::size_t tile) const noexcept { return changed_[tile] != 0; }
+  void kept(std::size_t tile) noexcept { changed_[tile] = 0; }
+
  private:
   struct Offset {
     std::int16_t column, row;
@@ -65,15 +84,17 @@ class InkedSurface {
   long column_of(Length x) const noexcept;
   long row_of(Length y) const noexcept;
   bool is_covered_at(const Sideways<Length>& place) const noexcept;
+  void move_to(long column, long row) noexcept;
 
   double squares_per_s_;
   double spacing_m_, left_m_, bottom_m_;
   std::size_t columns_, rows_;
   std::vector<std::uint8_t> covered_;
-  std::vector<Offset> nearest_;  // offsets within reach, the nearest first
-  std::size_t next_ = 0;         // all offsets before it are covered, at the place of the last touch
-  long column_ = -1, row_ = -1;  // square of the last touch
-  double waiting_ = 0.0;         // squares that have flowed out and are not covered yet
+  std::vector<std::uint8_t> changed_;  // one for each tile, 1: changed
+  std::vector<Offset> nearest_;        // offsets within reach, the nearest first
+  std::size_t next_ = 0;               // all offsets before it are covered, at the place of the last touch
+  long column_ = -1, row_ = -1;        // square of the last touch
+  double waiting_ = 0.0;               // squares that have flowed out and are not covered yet
   double covered_squares_ = 0.0, lost_squares_ = 0.0;
 };
 

@@ -55,4 +55,13 @@ struct FirstSlip {
 };
 FirstSlip first_slip(Force static_threshold, Force kinetic_threshold, Stiffness sideways) noexcept;
 
+// A tip that a lever presses on the sample while it pushes a sphere: what is left of the load F_0, F_0 - N sin and at
+// least 0, since the flank lifts the tip, and the lateral force on the lever, N cos and the friction of the tip under
+// that load (M83).
+struct PressedPush {
+  Force load;
+  Force lateral;
+};
+PressedPush pressed_push(const PushBalance& push, Force preload, double sample_friction) noexcept;
+
 }  // namespace afm::physics

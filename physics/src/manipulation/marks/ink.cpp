@@ -8,6 +8,7 @@
 
 #include "physics/contact_parameters.h"
 #include "physics/quantity_text.h"
+#include "tile_squares.h"
 
 namespace afm::physics {
 namespace {
@@ -15,6 +16,9 @@ namespace {
 constexpr double kMostMoleculesPerS = 1e12;
 constexpr double kLeastFootprintM2 = 1e-21, kMostFootprintM2 = 1e-16;
 constexpr int kPlacesAlong = 64, kPlacesAcross = 2048;  // at which a width is taken
+constexpr double kSpareDistance = 1e-6;                 // squares
+
+double distance2(int columns, int rows) { return 1.0 * columns * columns + 1.0 * rows * rows; }
 
 }  // namespace
 
@@ -57,6 +61,7 @@ InkedSurface::InkedSurface(const Ink& ink, const Sideways<Length>& least, const 
   columns_ = squares(least.x, most.x);
   rows_ = squares(least.y, most.y);
   covered_.resize(columns_ * rows_);
+  changed_.resize(tiles());
   nearest_.reserve(static_cast<std::size_t>(2 * kReach + 1) * (2 * kReach + 1));
   for (int row = -kReach; row <= kReach; ++row) {
     for (int column = -kReach; column <= kReach; ++column) {
@@ -64,34 +69,83 @@ InkedSurface::InkedSurface(const Ink& ink, const Sideways<Length>& least, const 
       nearest_.push_back({static_cast<std::int16_t>(column), static_cast<std::int16_t>(row)});
     }
   }
-  const auto distance = [](const Offset& at) { return int{at.column} * at.column + int{at.row} * at.row; };
-  std::stable_sort(nearest_.begin(), nearest_.end(),
-                   [&](const Offset& a, const Offset& b) { return distance(a) < distance(b); });
+  std::stable_sort(nearest_.begin(), nearest_.end(), [](const Offset& a, const Offset& b) {
+    return distance2(a.column, a.row) < distance2(b.column, b.row);
+  });
 }
 
 long InkedSurface::column_of(Length x) const noexcept { return std::lround((x.si - left_m_) / spacing_m_); }
 long InkedSurface::row_of(Length y) const noexcept { return std::lround((y.si - bottom_m_) / spacing_m_); }
 
-void InkedSurface::touch(const Sideways<Length>& place, Time time) noexcept {
-  if (!(time.si > 0.0) || !std::isfinite(place.x.si) || !std::isfinite(place.y.si)) return;
-  const long column = column_of(place.x), row = row_of(place.y);
-  if (column != column_ || row != row_) next_ = 0;
+// What is nearer than the next offset is covered, or beyond the surface; after a step that holds for a smaller circle.
+void InkedSurface::move_to(long column, long row) noexcept {
+  if (column == column_ && row == row_) return;
+  double known = 0.0;
+  if (column_ >= 0) {
+    const Offset& next = nearest_[std::min(next_, nearest_.size() - 1)];
+    known = std::sqrt(distance2(next.column, next.row)) -
+            std::hypot(static_cast<double>(column - column_), static_cast<double>(row - row_)) - kSpareDistance;
+  }
+  next_ = 0;
+  if (known > 1.0) {
+    const auto first = std::lower_bound(nearest_.begin(), nearest_.end(), known * known,
+                                        [](const Offset& at, double d) { return distance2(at.column, at.row) < d; });
+    next_ = static_cast<std::size_t>(first - nearest_.begin());
+  }
   column_ = column;
   row_ = row;
-  waiting_ += squares_per_s_ * time.si;
+}
+
+void InkedSurface::touch(const Sideways<Length>& place, Time time, std::size_t most_looks) noexcept {
+  if (!(time.si > 0.0) || !std::isfinite(place.x.si) || !std::isfinite(place.y.si)) return;
   const auto wide = static_cast<long>(columns_), high = static_cast<long>(rows_);
-  for (; waiting_ >= 1.0 && next_ < nearest_.size(); ++next_) {
+  const long column = column_of(place.x), row = row_of(place.y);
+  move_to(column, row);
+  waiting_ += squares_per_s_ * time.si;
+  std::size_t looks = 0;
+  for (; waiting_ >= 1.0 && next_ < nearest_.size() && looks < most_looks; ++next_, ++looks) {
     const long at_column = column + nearest_[next_].column, at_row = row + nearest_[next_].row;
     if (at_column < 0 || at_row < 0 || at_column >= wide || at_row >= high) continue;
     std::uint8_t& square = covered_[static_cast<std::size_t>(at_row * wide + at_column)];
     if (square != 0) continue;
     square = 1;
+    const auto tile =
+        static_cast<std::size_t>(at_row) / kTileSide * tiles_across() + static_cast<std::size_t>(at_column) / kTileSide;
+    changed_[tile] = 1;
     waiting_ -= 1.0;
     covered_squares_ += 1.0;
   }
   if (next_ < nearest_.size()) return;
   lost_squares_ += std::floor(waiting_);
   waiting_ -= std::floor(waiting_);
+}
+
+void InkedSurface::lift() noexcept {
+  column_ = row_ = -1;
+  next_ = 0;
+  waiting_ = 0.0;
+}
+
+void InkedSurface::copy_tile(std::size_t tile, std::span<std::uint8_t, kTileSquares> covered) const noexcept {
+  const TileSquares squares = squares_of_tile(tile, *this, kTileSide);
+  std::fill(covered.begin(), covered.end(), std::uint8_t{0});
+  for (std::size_t r = 0; r < squares.up; ++r) {
+    const std::size_t from = (squares.row + r) * columns_ + squares.column;
+    std::copy_n(covered_.data() + from, squares.across, covered.data() + r * kTileSide);
+  }
+}
+
+void InkedSurface::put_tile(std::size_t tile, std::span<const std::uint8_t, kTileSquares> covered) noexcept {
+  const TileSquares squares = squares_of_tile(tile, *this, kTileSide);
+  for (std::size_t r = 0; r < squares.up; ++r) {
+    const std::size_t to = (squares.row + r) * columns_ + squares.column;
+    for (std::size_t c = 0; c < squares.across; ++c) {
+      const std::uint8_t now = covered[r * kTileSide + c] != 0 ? 1 : 0;
+      covered_squares_ += 1.0 * now - 1.0 * covered_[to + c];
+      covered_[to + c] = now;
+    }
+  }
+  changed_[tile] = 1;
 }
 
 Area InkedSurface::covered() const noexcept { return Area(covered_squares_ * spacing_m_ * spacing_m_); }

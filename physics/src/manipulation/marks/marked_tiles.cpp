@@ -2,27 +2,14 @@
 #include <algorithm>
 
 #include "physics/manipulation/marked_surface.h"
+#include "tile_squares.h"
 
 // The tiles of a marked surface.
 namespace afm::physics {
-namespace {
-
-// Squares of a tile that lie on a surface: the first one, and how many along x and y.
-struct TileSquares {
-  std::size_t column, row, across, up;
-};
-
-TileSquares squares_of_tile(std::size_t tile, const MarkedSurface& surface) noexcept {
-  constexpr std::size_t kSide = MarkedSurface::kTileSide;
-  const std::size_t column = tile % surface.tiles_across() * kSide, row = tile / surface.tiles_across() * kSide;
-  return {column, row, std::min(kSide, surface.columns() - column), std::min(kSide, surface.rows() - row)};
-}
-
-}  // namespace
 
 void MarkedSurface::copy_tile(std::size_t tile, std::span<double, kTileSquares> pressed_m,
                               std::span<double, kTileSquares> back_m) const noexcept {
-  const TileSquares squares = squares_of_tile(tile, *this);
+  const TileSquares squares = squares_of_tile(tile, *this, kTileSide);
   std::fill(pressed_m.begin(), pressed_m.end(), 0.0);
   std::fill(back_m.begin(), back_m.end(), 0.0);
   for (std::size_t r = 0; r < squares.up; ++r) {
@@ -34,7 +21,7 @@ void MarkedSurface::copy_tile(std::size_t tile, std::span<double, kTileSquares> 
 
 void MarkedSurface::put_tile(std::size_t tile, std::span<const double, kTileSquares> pressed_m,
                              std::span<const double, kTileSquares> back_m) noexcept {
-  const TileSquares squares = squares_of_tile(tile, *this);
+  const TileSquares squares = squares_of_tile(tile, *this, kTileSide);
   for (std::size_t r = 0; r < squares.up; ++r) {
     const std::size_t to = (squares.row + r) * columns_ + squares.column;
     std::copy_n(pressed_m.data() + r * kTileSide, squares.across, pressed_m_.data() + to);

@@ -13,11 +13,13 @@
 // The scripted hand of a file with ink, played.
 namespace afm::scene {
 
-// A tip with ink, which it leaves while its apex is on the sample or pressed on it: z <= 0.
+// A tip with ink, which it leaves while its apex is on the sample or pressed on it: z <= 0. A hand can write with
+// one whose set has a tip and a lever.
 struct InkSample {
   std::string name;
   physics::Ink ink;
-  physics::Length thickness;  // height of a layer, for the image
+  physics::Length thickness;                 // height of a layer
+  physics::SurfaceEnergy surface_tension{};  // of the liquid that holds the tip; 0: no hand can write with it
 };
 
 // A move: what it has covered, and what the formulas say.

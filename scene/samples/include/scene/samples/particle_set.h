@@ -55,9 +55,13 @@ struct ParticleSet {
   std::vector<SourcedValue> sources;  // sources of tip, lever, pads and soft sample
   // With one there are no particles. Under a hand the sample is a square around its origin, whatever the moves.
   std::shared_ptr<const SoftSample> soft;
-  // With it there is neither particle nor soft sample, and only `touchafm particles` plays the set.
+  // With it there is neither particle nor soft sample, and the same holds. Without a surface tension there are neither
+  // tip nor lever, and only `touchafm particles` plays the set.
   std::shared_ptr<const InkSample> ink;
 };
+
+// True if the tip leaves marks instead of pushing particles.
+inline bool leaves_marks(const ParticleSet& set) { return set.soft != nullptr || set.ink != nullptr; }
 
 inline constexpr std::size_t kMostTargets = 32;
 inline constexpr std::size_t kMostPads = 8;

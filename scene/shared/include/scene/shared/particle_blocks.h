@@ -10,7 +10,9 @@
 
 #include "physics/manipulation/particle_terms.h"
 #include "scene/shared/field_visitor.h"
+#include "scene/shared/ink_blocks.h"
 #include "scene/shared/name.h"
+#include "scene/shared/particle_level.h"
 #include "scene/shared/soft_blocks.h"
 
 // Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/manipulation.md). Places
@@ -144,27 +146,6 @@ constexpr void for_each_field(Visit&& visit, Record&... pad) {
 }
 static_assert(all_fields_described<SharedPad>());
 
-inline constexpr std::uint32_t kHighestLevel = 2;
-inline constexpr std::uint32_t kLargestSeed = 65535;
-
-// How far the picture of the particles is from them: level and seed of scene::PushScript.
-struct SharedLevel {
-  std::uint32_t level =
-      0;                   // 0: the particles themselves are shown; 1: the computed picture is right; 2: drift, scatter
-  std::uint32_t seed = 1;  // seed of drift and scatter, 1 to 65535
-  std::int64_t since_ns = 0;  // start of the drift, a time as in TipState; 0: first tick of the servo
-
-  bool operator==(const SharedLevel&) const = default;
-};
-
-template <class Visit, RecordOf<SharedLevel>... Record>
-constexpr void for_each_field(Visit&& visit, Record&... level) {
-  visit("level", level.level...);
-  visit("seed", level.seed...);
-  visit("since_ns", level.since_ns...);
-}
-static_assert(all_fields_described<SharedLevel>());
-
 struct SharedParticles {
   std::uint32_t count = 0;  // 0: there are none, and all else is ignored
   std::uint32_t species_count = 0;
@@ -179,14 +160,18 @@ struct SharedParticles {
   std::array<double, kMaxSpecies> island_radius_m{};  // R of a species of flat islands; 0: none
   SharedLevel level{};
   SharedSoft soft{};  // instead of particles, of which there are none then
+  SharedInk ink{};    // the same
 
   bool operator==(const SharedParticles&) const = default;
 };
 
-// True if there is something on the scale Particles: particles, or a soft sample.
-inline bool are_there(const SharedParticles& particles) {
-  return particles.count > 0 || particles.soft.hardness_pa > 0.0;
+// True if the tip leaves marks instead of pushing particles: grooves in a soft sample, or ink.
+inline bool has_marks(const SharedParticles& particles) {
+  return particles.soft.hardness_pa > 0.0 || particles.ink.molecules_per_s > 0.0;
 }
+
+// True if there is something on the scale Particles.
+inline bool are_there(const SharedParticles& particles) { return particles.count > 0 || has_marks(particles); }
 
 // True if a species is one of rods.
 bool has_rods(const SharedParticles& particles);
@@ -282,13 +267,14 @@ std::uint64_t digest_of(std::span<const ParticlePage> pages, std::size_t count) 
 inline constexpr std::uint32_t kMostStrokes = 64;  // number of strokes of the tip that can be taken back
 
 // Push in the newest tick. On a soft sample, where no particle is pushed, `lift_n` is the load on the lever, and
-// `state` Holds, or Slides where the tip presses the sample in. The certificate: given_j plus the energy stored at the
+// `state` Holds, or Slides where the tip presses the sample in. With ink it is the load, too, negative for a pull, and
+// `state` is Slides while ink flows. The certificate: given_j plus the energy stored at the
 // start is at least lost_j + stored_j. An account begins whenever the tip is taken off the particles (`accounts`), and
 // only then.
 struct TipPush {
   std::int64_t time_ns = 0;  // as in TipState
   std::uint64_t tick = 0;
-  std::uint64_t digest = 0;           // digest_of() all particles, or of a soft sample and tiles that wait
+  std::uint64_t digest = 0;           // digest_of() all particles, or of marks and tiles that wait
   std::array<double, 3> base_m{};     // apex on the unbent lever
   std::array<double, 3> apex_m{};     // apex on the bent lever
   std::array<double, 2> lateral_n{};  // force on the lever, along the sample's x and y
@@ -314,6 +300,9 @@ struct TipPush {
   std::uint32_t strokes = 0;        // number of strokes that can be taken back
   double rise_m = 0;                // by which a lever on a soft sample is raised, because the hand is fast
   double fastest_hand_m_per_s = 0;  // speed of the hand from which on it is; 0: no soft sample
+  double covered_m2 = 0;            // by ink
+  double flowed_s = 0;              // time for which the tip with ink has touched; of the newest touch
+  double speed_m_per_s = 0;         // of a tip with ink along the sample, mean of a tenth of a second
 };
 
 template <class Visit, RecordOf<TipPush>... Record>
@@ -346,6 +335,9 @@ constexpr void for_each_field(Visit&& visit, Record&... push) {
   visit("strokes", push.strokes...);
   visit("rise_m", push.rise_m...);
   visit("fastest_hand_m_per_s", push.fastest_hand_m_per_s...);
+  visit("covered_m2", push.covered_m2...);
+  visit("flowed_s", push.flowed_s...);
+  visit("speed_m_per_s", push.speed_m_per_s...);
 }
 static_assert(all_fields_described<TipPush>());
 
@@ -354,22 +346,9 @@ constexpr physics::ParticleLaw other_law(physics::ParticleLaw law) {
   return law == physics::ParticleLaw::ContactArea ? physics::ParticleLaw::Amontons : physics::ParticleLaw::ContactArea;
 }
 
-// State of the sample below the tip from which a picture of some level is computed, recorded in every tick.
-struct LevelSample {
-  std::int64_t since_ns = 0;  // start of the drift; 0: none
-  std::uint64_t met = 0;      // as in TipPush, but 0 at level 0
-};
-
-template <class Visit, RecordOf<LevelSample>... Record>
-constexpr void for_each_field(Visit&& visit, Record&... level) {
-  visit("drift_since_ns", level.since_ns...);
-  visit("met", level.met...);
-}
-static_assert(all_fields_described<LevelSample>());
-
 // Part of a push that is recorded in every tick.
 struct PushSample {
-  std::uint64_t digest = 0;           // as in TipPush; 0: no particles, and no soft sample
+  std::uint64_t digest = 0;           // as in TipPush; 0: neither particles nor marks
   std::array<double, 2> lateral_n{};  // as in TipPush, and below
   double lift_n = 0;
   double normal_n = 0;

@@ -53,8 +53,8 @@ double soft_reach_m(double tip_radius_m) noexcept;
 inline constexpr std::uint32_t kTileSide = 16;  // squares
 inline constexpr std::uint32_t kMarkTiles = (kSoftSide / kTileSide) * (kSoftSide / kTileSide);
 
-// Squares of a soft sample, as physics::MarkedSurface has them. The servo stores all of them when it starts, and one
-// that has changed in each tick.
+// Squares of a soft sample, as physics::MarkedSurface has them, or of ink (SharedInk). The servo stores all of them
+// when it starts, and one that has changed in each tick.
 struct MarkTile {
   std::array<double, std::size_t{kTileSide} * kTileSide> pressed_m{};  // heights under the tip that pressed last
   std::array<double, std::size_t{kTileSide} * kTileSide> back_m{};     // by which they rise when it has left
@@ -62,8 +62,8 @@ struct MarkTile {
   bool operator==(const MarkTile&) const = default;
 };
 
-// Mark of a tile, 0 if nothing has ever touched it; the digest of a soft sample is the sum of kSoftDigest and the marks
-// of all tiles, modulo 2^64. Bit for bit.
+// Mark of a tile, 0 if nothing has ever touched it; the digest of a soft sample, or of ink, is the sum of kSoftDigest
+// and the marks of all tiles, modulo 2^64. Bit for bit.
 inline constexpr std::uint64_t kSoftDigest = 1;
 std::uint64_t tile_mark(std::size_t number, const MarkTile& tile) noexcept;
 std::uint64_t digest_of(std::span<const MarkTile> tiles) noexcept;

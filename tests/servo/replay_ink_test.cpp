@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sessions with ink: recorded, stored, and replayed bit for bit.
+// Invariant: a replay writes every stroke of its session again, bit for bit
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "servo/recorded_servo.h"
+#include "servo/replay.h"
+#include "servo/session_file.h"
+#include "support/particles/ink_sample.h"
+#include "support/scratch_folder.h"
+
+namespace afm::servo {
+namespace replay_ink_test {
+
+using physics::EventKind;
+using scene::ScaleMode;
+using testing::HasSubstr;
+
+// Touches, writes a line with a dot at its end, and tears off.
+void write(Recording& recording, double y_m) {
+  recording.arm();
+  recording.go({-0.015, y_m}, 0.03, 0.3);
+  recording.run(500);
+  recording.go({-0.015, y_m}, -0.003, 0.5);
+  recording.run(700);
+  recording.go({0.015, y_m}, -0.002, 1.5);
+  recording.run(2200);
+  recording.go({0.015, y_m}, 0.06, 0.5);
+  recording.run(900);
+}
+
+std::size_t count(const RecordedSession& session, EventKind kind) {
+  return static_cast<std::size_t>(std::count_if(session.events.begin(), session.events.end(),
+                                                [&](const scene::TipEvent& event) { return event.kind == kind; }));
+}
+
+TEST(ReplayOfInk, GivesEveryBitAgainOnBareAndOnInkedSamples) {
+  Recording recording(test::ink_model());
+  recording.choose(test::kMica, ScaleMode::Particles);
+  write(recording, 0.0);
+  recording.choose(test::kGold, ScaleMode::Particles);  // another session, on the same ink
+  write(recording, 0.001);
+  ASSERT_EQ(recording.sessions.size(), 2U);
+  const support::ScratchFolder folder;
+  for (const RecordedSession& session : recording.sessions) {
+    EXPECT_EQ(count(session, EventKind::InkFlows), 1U);
+    EXPECT_EQ(count(session, EventKind::LiquidTorn), 1U);
+    EXPECT_EQ(scene::digest_of(session.particles->tiles), session.samples.front().push.digest);
+    EXPECT_GT(strongest_n(session), 0.1);
+    expect_same(session);
+    RecordedSession stored = session;
+    stored.hand_m_per_m = stored.hand_n_per_n = 1.0;
+    ASSERT_TRUE(save_session(stored, folder.file("ink.afms")));
+    const auto loaded = load_session(folder.file("ink.afms"));
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->particles->tiles, session.particles->tiles);
+    EXPECT_EQ(loaded->particles->set.ink, session.particles->set.ink);
+    expect_same(*loaded);
+    const auto then = replay_particles(*loaded, loaded->samples.back().time_ns);
+    ASSERT_TRUE(then) << then.error().message;
+    EXPECT_EQ(scene::digest_of(then->tiles), session.samples.back().push.digest);
+  }
+  EXPECT_NE(recording.sessions[0].samples.front().push.digest, recording.sessions[1].samples.front().push.digest);
+}
+
+TEST(ReplayOfInk, FindsWhatWasTakenBack) {
+  Recording recording(test::ink_model());
+  recording.choose(test::kMica, ScaleMode::Particles);
+  write(recording, 0.0);
+  recording.release(test::kMica, ScaleMode::Particles);
+  recording.run(300);
+  ++recording.taken_back;
+  recording.run(300);
+  write(recording, 0.003);
+  recording.release(test::kMica, ScaleMode::Particles);
+  recording.run(300);
+  ++recording.put_back;
+  recording.run(300);
+  const RecordedSession& session = recording.sessions.front();
+  EXPECT_EQ(count(session, EventKind::PushTakenBack), 1U);
+  EXPECT_EQ(count(session, EventKind::ParticlesPutBack), 1U);
+  EXPECT_EQ(session.samples.back().push.digest, scene::kSoftDigest);
+  expect_same(session);
+}
+
+TEST(ReplayOfInk, RefusesInkThatCannotBe) {
+  Recording recording(test::ink_model());
+  recording.choose(test::kMica, ScaleMode::Particles);
+  write(recording, 0.0);
+  RecordedSession session = recording.sessions.front();
+  session.hand_m_per_m = session.hand_n_per_n = 1.0;
+  session.particles->set.ink.footprint_m2 = 7.0;
+  const support::ScratchFolder folder;
+  ASSERT_TRUE(save_session(session, folder.file("bad.afms")));
+  const auto loaded = load_session(folder.file("bad.afms"));
+  ASSERT_FALSE(loaded);
+  EXPECT_THAT(loaded.error().message, HasSubstr("ink"));
+}
+
+}  // namespace replay_ink_test
+}  // namespace afm::servo
