@@ -67,9 +67,9 @@ class InkRows : private SourcedRows {
   }
 
   void add_numbers() {
-    add(Phrase::InkFlow,
-        phrases_.text<Phrase::InkMolecules>(phrases_.number(fmt::format("{:.3g}", ink().ink.molecules_per_s))),
-        source("molecules_per_s"));
+    add_sourced(Phrase::InkFlow,
+                phrases_.text<Phrase::InkMolecules>(phrases_.number(fmt::format("{:.3g}", ink().ink.molecules_per_s))),
+                "molecules_per_s");
     add_sourced(Phrase::InkTension, text(physics::Stiffness(ink().surface_tension.si), physics::kStiffnessUnits),
                 "surface_tension");
     add_sourced(Phrase::InkLever, text(now_.set->setup.springs.normal, physics::kStiffnessUnits), "normal_spring");
