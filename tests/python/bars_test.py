@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A thousand curves and a thousand images through the socket, twice with the same bytes, and what they cost beside the library and
-numpy. Prints times and ratios, medians of five; judges bytes only."""
+"""A thousand curves and a thousand images through the socket, twice with the same bytes, and what a curve costs next to the library and
+a law next to numpy. Prints times, and ratios of processor time, medians of five; judges bytes only."""
 
 import hashlib
+import json
+import os
 import statistics
 import time
 import unittest
@@ -16,18 +18,31 @@ CURVES = IMAGES = 1000
 POINTS = 500  # of each branch
 
 
-def seconds(work, count=1):
-    begin = time.perf_counter()
+def running_ns(task):
+    with open(f"{task}/schedstat", encoding="ascii") as text:
+        return int(text.read().split()[0])
+
+
+def processor_s(server=None):
+    """Processor time of this process and of a server."""
+    if server is None:
+        return time.process_time()
+    tasks = f"/proc/{server}/task"
+    return time.process_time() + sum(running_ns(f"{tasks}/{each}") for each in os.listdir(tasks)) * 1e-9
+
+
+def seconds(work, count, server=None):
+    begin = processor_s(server)
     for _ in range(count):
         work()
-    return (time.perf_counter() - begin) / count
+    return (processor_s(server) - begin) / count
 
 
-def ratio(work, anchor, count):
+def ratio(work, anchor, count, server=None):
     """Time of work over that of its anchor, taken by turns, and the time of the anchor."""
     work()
     anchor()
-    pairs = [(seconds(work, count), seconds(anchor, count)) for _ in range(5)]
+    pairs = [(seconds(work, count, server), seconds(anchor, count)) for _ in range(5)]
     return statistics.median(each / beside for each, beside in pairs), statistics.median(beside for _, beside in pairs)
 
 
@@ -51,9 +66,11 @@ class Served(unittest.TestCase):
             with serve.start(seed=7) as afm:
                 afm.set(force_noise_N=2e-11, noise_m=1e-11)
                 afm.approach()
+                begin = processor_s(afm._server.pid)
                 digest, taken = answers(afm, request, count)
                 digests.append(digest)
-            print(f"{count} {what}: {taken:.1f} s")
+                worked = processor_s(afm._server.pid) - begin
+            print(f"{count} {what}: {taken:.1f} s, of which {worked:.1f} s of processor time")
         self.assertEqual(*digests)
 
     def test_curves_are_the_same_bytes_twice(self):
@@ -68,14 +85,20 @@ class Served(unittest.TestCase):
         with serve.start(seed=7) as afm:
             request = b'{"do": "curve", "z_from_m": 2e-8, "z_to_m": -5e-9, "points": %d}\n' % POINTS
 
-            def plain():
+            def packed():
+                return afm.curve(z_from=2e-8, z_to=-5e-9, points=POINTS)
+
+            def text():
                 afm._socket.sendall(request)
                 return afm._answers.readline()
 
-            for name, served in (("arrays packed, as touchafm.serve asks for them", lambda: afm.curve(z_from=2e-8, z_to=-5e-9, points=POINTS)),
-                                 ("numbers as text", plain)):
-                times, library = ratio(served, lambda: touchafm.cycle(mica, z_from=20e-9, z_to=-5e-9, step=step), 100)
-                print(f"a curve, {name}: {times:.2f} times the library's {1e3 * library:.2f} ms")
+            def numbers():
+                answer = json.loads(text())
+                return np.array(answer["z_m"]), np.array(answer["force_N"])
+
+            for served in (packed, text, numbers):
+                times, library = ratio(served, lambda: touchafm.cycle(mica, z_from=20e-9, z_to=-5e-9, step=step), 100, afm._server.pid)
+                print(f"a curve, {served.__name__}: {times:.2f} times the library's {1e3 * library:.2f} ms")
 
 
 class Law(unittest.TestCase):
