@@ -57,6 +57,16 @@ TEST(RenderBenchmark, TimesTheFirstFrameOfAFile) {
   EXPECT_THAT(missing.err, HasSubstr("nowhere.glb"));
 }
 
+TEST(RenderBenchmark, MeasuresFilesAndPeersAlone) {
+  const support::ProgramResult result = support::run_program(
+      support::touchafm() + " bench render --files-alone --rounds 1 --frames 1 --eye-width 64 --gltf " +
+      support::source("assets/models/analogy.glb") + " --peer 'echo \"{\\\"frame_ms\\\": 2.5}\"'");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("analogy.glb, two passes"));
+  EXPECT_THAT(result.out, HasSubstr("peer, echo"));
+  EXPECT_THAT(result.out, testing::Not(HasSubstr("the wall")));
+}
+
 TEST(RenderBenchmark, NamesAPeerThatPrintsNoTime) {
   const support::ProgramResult result = support::run_program(
       support::touchafm() + " bench render --rounds 1 --frames 1 --eye-width 64 --peer 'echo nothing'");

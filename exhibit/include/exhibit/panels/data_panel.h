@@ -13,8 +13,7 @@ namespace afm::exhibit {
 struct CycleResult;
 
 // Data of the material under the tip: values with their sources, its force law and the reason for it, the resulting
-// jumps and energy, and the two moving values. Changed values are marked. Sources and reasons are details, which are left
-// out.
+// jumps and energy, and the two moving values. Changed values are marked. Sources and reasons are left out as details.
 render::DataPanel data_panel(const curves::SampleModel& material, const scene::Tip& tip, const Phrases& phrases);
 
 // The jumps of each material's cycle, once all are done.
