@@ -119,6 +119,7 @@ TEST_F(InkPanel, OfATipThatRestsOrIsFree) {
   push_.speed_m_per_s = 0.0;
   push_.covered_m2 = 0.3e-12;
   EXPECT_EQ(row(push_, Phrase::InkLine).value, "-");
+  EXPECT_EQ(row(push_, Phrase::InkLine).source, "the tip rests");
   EXPECT_EQ(row(push_, Phrase::InkCovered).value, "0.30 \u00b5m\u00b2");
   EXPECT_EQ(row({}, Phrase::PushStateName).value, "free");
   EXPECT_EQ(row({}, Phrase::InkLine).name, "");

@@ -12,7 +12,7 @@
 #include "physics/quantity_text.h"
 #include "scene/samples/ink_run.h"
 #include "scene/samples/particle_set.h"
-#include "scene/shared/ink_blocks.h"
+#include "scene/shared/soft_blocks.h"
 
 namespace afm::exhibit {
 
@@ -58,7 +58,7 @@ class InkRows : private SourcedRows {
       const Velocity speed(now_.push.speed_m_per_s);
       const bool moves = speed.si > kRestsMPerS;
       add(Phrase::InkLine, moves ? text(physics::ink_line_width(ink().ink, speed), physics::kLengthUnits) : "-",
-          phrases_.text<Phrase::InkLineOf>(text(speed, physics::kVelocityUnits)));
+          moves ? phrases_.text<Phrase::InkLineOf>(text(speed, physics::kVelocityUnits)) : phrases_[Phrase::InkRests]);
       const physics::Time time(now_.push.flowed_s);
       add(Phrase::InkDot, text(2.0 * physics::ink_dot_radius(ink().ink, time), physics::kLengthUnits),
           phrases_.text<Phrase::InkDotOf>(text(time, physics::kTimeUnits)));

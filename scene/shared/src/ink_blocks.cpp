@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/shared/ink_blocks.h"
+#include "scene/shared/soft_blocks.h"
 
 #include "physics/law.h"
 #include "physics/manipulation/ink.h"
