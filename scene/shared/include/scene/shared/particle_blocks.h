@@ -314,9 +314,7 @@ struct TipPush {
   std::uint32_t strokes = 0;        // number of strokes that can be taken back
   double rise_m = 0;                // by which a lever on a soft sample is raised, because the hand is fast
   double fastest_hand_m_per_s = 0;  // speed of the hand from which on it is; 0: no soft sample
-  double covered_m2 = 0;            // by ink
-  double flowed_s = 0;              // time for which the tip with ink has touched; of the newest touch
-  double speed_m_per_s = 0;         // of a tip with ink along the sample, mean of a tenth of a second
+  InkPush ink{};
 };
 
 template <class Visit, RecordOf<TipPush>... Record>
@@ -349,9 +347,7 @@ constexpr void for_each_field(Visit&& visit, Record&... push) {
   visit("strokes", push.strokes...);
   visit("rise_m", push.rise_m...);
   visit("fastest_hand_m_per_s", push.fastest_hand_m_per_s...);
-  visit("covered_m2", push.covered_m2...);
-  visit("flowed_s", push.flowed_s...);
-  visit("speed_m_per_s", push.speed_m_per_s...);
+  visit("ink", push.ink...);
 }
 static_assert(all_fields_described<TipPush>());
 

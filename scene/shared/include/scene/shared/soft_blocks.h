@@ -57,8 +57,8 @@ struct SharedInk {
   Name name{};
   double molecules_per_s = 0;  // 0: there is no ink, and all else is ignored
   double footprint_m2 = 0;
-  double thickness_m = 0;              // of the layer, kThickestLayerM at most
-  double surface_tension_n_per_m = 0;  // of the liquid between tip and sample
+  double thickness_m = 0;              // height of the layer, kThickestLayerM at most
+  double surface_tension_n_per_m = 0;  // liquid between tip and sample
 
   bool operator==(const SharedInk&) const = default;
 };
@@ -88,6 +88,23 @@ double ink_reach_m(const physics::Ink& ink) noexcept;
 double meniscus_pull_n(double tip_radius_m, double surface_tension_n_per_m) noexcept;
 
 // ---- written by touchafm-servo ----
+
+// What a tip with ink has done; part of TipPush.
+struct InkPush {
+  double covered_m2 = 0;     // area of all strokes
+  double flowed_s = 0;       // duration of the newest touch
+  double speed_m_per_s = 0;  // speed along the sample, mean of a tenth of a second
+
+  bool operator==(const InkPush&) const = default;
+};
+
+template <class Visit, RecordOf<InkPush>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... ink) {
+  visit("covered_m2", ink.covered_m2...);
+  visit("flowed_s", ink.flowed_s...);
+  visit("speed_m_per_s", ink.speed_m_per_s...);
+}
+static_assert(all_fields_described<InkPush>());
 
 inline constexpr std::uint32_t kTileSide = 16;  // squares
 inline constexpr std::uint32_t kMarkTiles = (kSoftSide / kTileSide) * (kSoftSide / kTileSide);
