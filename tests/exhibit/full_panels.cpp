@@ -157,16 +157,15 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
   }
   const scene::ParticleSet ink = test::particle_set("write-ink");
   for (const physics::PushState state : {physics::PushState::Free, physics::PushState::Slides}) {
-    panels.push_back(ink_panel({.set = &ink,
-                                .push = {.lift_n = -18.34e-9,
-                                         .softened_upwards = 12.3,
-                                         .state = state,
-                                         .met = 1,
-                                         .strokes = scene::kMostStrokes,
-                                         .covered_m2 = 2.744e-12,
-                                         .flowed_s = 123.4,
-                                         .speed_m_per_s = 1.234e-7}},
-                               phrases));
+    panels.push_back(
+        ink_panel({.set = &ink,
+                   .push = {.lift_n = -18.34e-9,
+                            .softened_upwards = 12.3,
+                            .state = state,
+                            .met = 1,
+                            .strokes = scene::kMostStrokes,
+                            .ink = {.covered_m2 = 2.744e-12, .flowed_s = 123.4, .speed_m_per_s = 1.234e-7}}},
+                  phrases));
   }
   return panels;
 }

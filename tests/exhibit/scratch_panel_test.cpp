@@ -98,9 +98,7 @@ class InkPanel : public ::testing::Test {
                        .state = physics::PushState::Slides,
                        .met = 1,
                        .strokes = 3,
-                       .covered_m2 = 2.16e-14,
-                       .flowed_s = 1.0,
-                       .speed_m_per_s = 100e-9};
+                       .ink = {.covered_m2 = 2.16e-14, .flowed_s = 1.0, .speed_m_per_s = 100e-9}};
 };
 
 // N67
@@ -116,9 +114,10 @@ TEST_F(InkPanel, ShowsForceLineDotAndArea) {
 }
 
 TEST_F(InkPanel, OfATipThatRestsOrIsFree) {
-  push_.speed_m_per_s = 0.0;
-  push_.covered_m2 = 0.3e-12;
+  push_.ink.speed_m_per_s = 0.0;
+  push_.ink.covered_m2 = 0.3e-12;
   EXPECT_EQ(row(push_, Phrase::InkLine).value, "-");
+  EXPECT_EQ(row(push_, Phrase::InkLine).source, "the tip rests");
   EXPECT_EQ(row(push_, Phrase::InkCovered).value, "0.30 \u00b5m\u00b2");
   EXPECT_EQ(row({}, Phrase::PushStateName).value, "free");
   EXPECT_EQ(row({}, Phrase::InkLine).name, "");
@@ -157,7 +156,6 @@ TEST(MarksRelief, ShowsALayerOfInkInTheBrightestColour) {
   const HeightRelief inked = marks_relief(tiles, marks_scale(set));
   EXPECT_NEAR(inked.side_m, 1.658e-6, 0.001e-6);
   EXPECT_NEAR(inked.range_m, 2e-9, 1e-18);
-  EXPECT_NEAR(inked.lid_m - inked.floor_m, 2e-9, 1e-15);
 }
 
 }  // namespace scratch_panel_test

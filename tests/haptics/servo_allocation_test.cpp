@@ -210,7 +210,7 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItWritesWithInk) {
   send(0.020, -0.004, 1.0);
   int wrote = 0;
   for (int tick = 0; tick < 2000; ++tick) {
-    if (tick == 1200) send(0.020, 0.060, 0.4);  // until the liquid tears
+    if (tick == 1200) send(0.020, 0.060, 0.4);
     bench.renderer.store(afm::scene::RendererHeartbeat{});
     bench.now_ns += bench.loop->period_ns();
     {

@@ -9,7 +9,7 @@
 #include "physics/manipulation/marked_surface.h"
 #include "scene/samples/ink_run.h"
 #include "scene/samples/particle_set.h"
-#include "scene/shared/ink_blocks.h"
+#include "scene/shared/soft_blocks.h"
 
 namespace afm::exhibit {
 

@@ -12,7 +12,7 @@
 #include "physics/quantity_text.h"
 #include "scene/samples/ink_run.h"
 #include "scene/samples/particle_set.h"
-#include "scene/shared/ink_blocks.h"
+#include "scene/shared/soft_blocks.h"
 
 namespace afm::exhibit {
 
@@ -55,15 +55,15 @@ class InkRows : private SourcedRows {
 
   void add_writing() {
     if (writes()) {
-      const Velocity speed(now_.push.speed_m_per_s);
+      const Velocity speed(now_.push.ink.speed_m_per_s);
       const bool moves = speed.si > kRestsMPerS;
       add(Phrase::InkLine, moves ? text(physics::ink_line_width(ink().ink, speed), physics::kLengthUnits) : "-",
-          phrases_.text<Phrase::InkLineOf>(text(speed, physics::kVelocityUnits)));
-      const physics::Time time(now_.push.flowed_s);
+          moves ? phrases_.text<Phrase::InkLineOf>(text(speed, physics::kVelocityUnits)) : phrases_[Phrase::InkRests]);
+      const physics::Time time(now_.push.ink.flowed_s);
       add(Phrase::InkDot, text(2.0 * physics::ink_dot_radius(ink().ink, time), physics::kLengthUnits),
           phrases_.text<Phrase::InkDotOf>(text(time, physics::kTimeUnits)));
     }
-    add(Phrase::InkCovered, area(now_.push.covered_m2), phrases_[Phrase::InkCoveredOf]);
+    add(Phrase::InkCovered, area(now_.push.ink.covered_m2), phrases_[Phrase::InkCoveredOf]);
   }
 
   void add_numbers() {

@@ -104,7 +104,8 @@ void leave_law_out(const ParticlesNow& now, const Phrases& phrases, render::Forc
     deepest_nm = std::min(deepest_nm, point.place_nm);
     least_nn = std::min(least_nn, point.force_nn);
     most_nn = std::max(most_nn, point.force_nn);
-    if (point.force_nn != 0.0) highest_nm = std::max(highest_nm, point.place_nm);  // where liquid holds the tip
+    if (point.force_nn != 0.0)
+      highest_nm = std::max(highest_nm, point.place_nm);  // highest place at which liquid holds the tip
   };
   for (render::PlotCurve& curve : plot.curves) {
     curve.label = phrases.word(now.set->title);

@@ -54,7 +54,7 @@ class FeltMarks {
   virtual const ParticleScale& scale() const noexcept = 0;
   virtual double stored_j() const noexcept = 0;           // on the hand
   virtual double stiffness_n_per_m() const noexcept = 0;  // on the hand
-  virtual double apex_z_m() const noexcept = 0;           // of a tip on the sample
+  virtual double apex_z_m() const noexcept = 0;           // height of a tip on the sample
   virtual physics::Phase phase() const noexcept = 0;
 
   // State after the newest step, without time and tick.

@@ -175,9 +175,7 @@ scene::TipPush FeltInk::push() const noexcept {
   push.accounts = accounts_;
   push.met = tip_is_ == Tip::Waits ? 0 : 1;
   push.strokes = static_cast<std::uint32_t>(strokes_->size());
-  push.covered_m2 = surface_.covered().si;
-  push.flowed_s = flowed_s_;
-  push.speed_m_per_s = speed_m_per_s_;
+  push.ink = {.covered_m2 = surface_.covered().si, .flowed_s = flowed_s_, .speed_m_per_s = speed_m_per_s_};
   if (tip_is_ != Tip::Waits) push.base_m = push.apex_m = {hand_m_.x, hand_m_.y, hand_m_.z};
   if (tip_is_ != Tip::On) return push;
   push.apex_m[2] = 0.0;

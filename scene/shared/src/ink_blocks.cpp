@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/shared/ink_blocks.h"
+#include "scene/shared/soft_blocks.h"
 
 #include "physics/law.h"
 #include "physics/manipulation/ink.h"
@@ -9,7 +9,7 @@ namespace afm::scene {
 namespace {
 
 constexpr double kDotsAcross = 10.0;  // dots of a second along the inked square
-constexpr double kSpareSquare = 1.5;  // of the grid, so that rounding adds none
+constexpr double kSpareSquare = 1.5;  // part of the grid that is left, so that rounding adds none
 
 static_assert(physics::InkedSurface::kTileSide == kTileSide && physics::InkedSurface::kMostSide >= kSoftSide);
 

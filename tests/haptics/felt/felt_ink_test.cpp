@@ -67,7 +67,7 @@ class WritingHand {
   }
 
   double tears_nm() const { return scale_.clear_z_m / kNm; }
-  double covered_m2() const { return felt_.push().covered_m2; }
+  double covered_m2() const { return felt_.push().ink.covered_m2; }
   FeltInk& felt() { return felt_; }
   const ParticleScale& scale() const { return scale_; }
 
@@ -128,7 +128,7 @@ TEST(FeltInk, DrawsALineOfTheFormulasWidth) {
   hand.lift();
   hand.go(-400.0, 0.0, 0.0, 20.0);
   hand.go(400.0, 0.0, 0.0, 0.2);  // 200 nm/s
-  EXPECT_NEAR(hand.felt().push().speed_m_per_s, 200e-9, 2e-9);
+  EXPECT_NEAR(hand.felt().push().ink.speed_m_per_s, 200e-9, 2e-9);
   const double width_m =
       hand.felt()
           .surface()

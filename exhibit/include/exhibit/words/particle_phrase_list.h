@@ -96,6 +96,7 @@
   PHRASE(InkTears, "ink-tears", "force", kLine)          \
   PHRASE(InkLine, "ink-line", "", kLine)                 \
   PHRASE(InkLineOf, "ink-line-of", "speed", kLine)       \
+  PHRASE(InkRests, "ink-rests", "", kLine)               \
   PHRASE(InkDot, "ink-dot", "", kLine)                   \
   PHRASE(InkDotOf, "ink-dot-of", "time", kLine)          \
   PHRASE(InkCovered, "ink-covered", "", kLine)           \

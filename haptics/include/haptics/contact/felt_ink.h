@@ -31,7 +31,7 @@ class PublishedTiles;
 class FeltInk final : public FeltMarks {
  public:
   static constexpr std::size_t kMostLooks = 2048;
-  static constexpr double kMeanS = 0.1;  // of the speed that is published
+  static constexpr double kMeanS = 0.1;  // time over which the published speed is a mean
 
   // `particles` is valid (scene::validate) and has ink, `scale` is its particle_scale().
   FeltInk(const scene::SharedParticles& particles, const ParticleScale& scale);
@@ -69,7 +69,7 @@ class FeltInk final : public FeltMarks {
   ParticleScale scale_;
   double thickness_m_, reach_m_;
   double spring_n_per_m_;  // as felt
-  double pull_n_;          // of the liquid, at which the tip comes off
+  double pull_n_;          // pull of the liquid at which the tip comes off
   physics::InkedSurface surface_;
   std::unique_ptr<PublishedTiles> tiles_;
   std::unique_ptr<MarkHistory> strokes_;

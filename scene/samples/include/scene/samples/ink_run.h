@@ -19,7 +19,7 @@ struct InkSample {
   std::string name;
   physics::Ink ink;
   physics::Length thickness;                 // height of a layer
-  physics::SurfaceEnergy surface_tension{};  // of the liquid that holds the tip; 0: no hand can write with it
+  physics::SurfaceEnergy surface_tension{};  // liquid that holds the tip; 0: no hand can write with it
 };
 
 // A move: what it has covered, and what the formulas say.

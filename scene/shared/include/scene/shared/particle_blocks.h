@@ -10,9 +10,7 @@
 
 #include "physics/manipulation/particle_terms.h"
 #include "scene/shared/field_visitor.h"
-#include "scene/shared/ink_blocks.h"
 #include "scene/shared/name.h"
-#include "scene/shared/particle_level.h"
 #include "scene/shared/soft_blocks.h"
 
 // Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/manipulation.md). Places
@@ -146,6 +144,26 @@ constexpr void for_each_field(Visit&& visit, Record&... pad) {
 }
 static_assert(all_fields_described<SharedPad>());
 
+inline constexpr std::uint32_t kHighestLevel = 2;
+inline constexpr std::uint32_t kLargestSeed = 65535;
+
+// How far the picture of the particles is from them: level and seed of scene::PushScript.
+struct SharedLevel {
+  std::uint32_t level = 0;    // 0: the particles are shown; 1: the computed picture is right; 2: drift and scatter
+  std::uint32_t seed = 1;     // seed of drift and scatter, 1 to 65535
+  std::int64_t since_ns = 0;  // start of the drift, a time as in TipState; 0: first tick of the servo
+
+  bool operator==(const SharedLevel&) const = default;
+};
+
+template <class Visit, RecordOf<SharedLevel>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... level) {
+  visit("level", level.level...);
+  visit("seed", level.seed...);
+  visit("since_ns", level.since_ns...);
+}
+static_assert(all_fields_described<SharedLevel>());
+
 struct SharedParticles {
   std::uint32_t count = 0;  // 0: there are none, and all else is ignored
   std::uint32_t species_count = 0;
@@ -173,16 +191,12 @@ inline bool has_marks(const SharedParticles& particles) {
 // True if there is something on the scale Particles.
 inline bool are_there(const SharedParticles& particles) { return particles.count > 0 || has_marks(particles); }
 
-// True if a species is one of rods.
+// True if a species is one of rods, or of flat islands, which all others are then, too.
 bool has_rods(const SharedParticles& particles);
-
-// True if a species is one of flat islands; all others are, too.
 bool has_islands(const SharedParticles& particles);
 
-// True if spheres of a species stick to the tip.
+// True if spheres of a species stick to the tip, or if there is a pad.
 bool has_hold(const SharedParticles& particles);
-
-// True if there is a pad.
 bool has_pads(const SharedParticles& particles);
 
 // True if the tip lifts spheres of a valid set off the sample or off a pad.
@@ -300,9 +314,7 @@ struct TipPush {
   std::uint32_t strokes = 0;        // number of strokes that can be taken back
   double rise_m = 0;                // by which a lever on a soft sample is raised, because the hand is fast
   double fastest_hand_m_per_s = 0;  // speed of the hand from which on it is; 0: no soft sample
-  double covered_m2 = 0;            // by ink
-  double flowed_s = 0;              // time for which the tip with ink has touched; of the newest touch
-  double speed_m_per_s = 0;         // of a tip with ink along the sample, mean of a tenth of a second
+  InkPush ink{};
 };
 
 template <class Visit, RecordOf<TipPush>... Record>
@@ -335,9 +347,7 @@ constexpr void for_each_field(Visit&& visit, Record&... push) {
   visit("strokes", push.strokes...);
   visit("rise_m", push.rise_m...);
   visit("fastest_hand_m_per_s", push.fastest_hand_m_per_s...);
-  visit("covered_m2", push.covered_m2...);
-  visit("flowed_s", push.flowed_s...);
-  visit("speed_m_per_s", push.speed_m_per_s...);
+  visit("ink", push.ink...);
 }
 static_assert(all_fields_described<TipPush>());
 
@@ -345,6 +355,19 @@ static_assert(all_fields_described<TipPush>());
 constexpr physics::ParticleLaw other_law(physics::ParticleLaw law) {
   return law == physics::ParticleLaw::ContactArea ? physics::ParticleLaw::Amontons : physics::ParticleLaw::ContactArea;
 }
+
+// State of the sample below the tip from which a picture of some level is computed, recorded in every tick.
+struct LevelSample {
+  std::int64_t since_ns = 0;  // start of the drift; 0: none
+  std::uint64_t met = 0;      // as in TipPush, but 0 at level 0
+};
+
+template <class Visit, RecordOf<LevelSample>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... level) {
+  visit("drift_since_ns", level.since_ns...);
+  visit("met", level.met...);
+}
+static_assert(all_fields_described<LevelSample>());
 
 // Part of a push that is recorded in every tick.
 struct PushSample {

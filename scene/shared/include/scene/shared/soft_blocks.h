@@ -9,10 +9,12 @@
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/name.h"
 
-// Blocks of a soft sample that a tip scratches (docs/manipulation.md, "Scratches").
+// Blocks of samples on which a tip leaves marks: of a soft one that it scratches, and of one on which it writes with
+// ink (docs/manipulation.md, "Scratches" and "Ink").
 namespace afm::physics {
+struct Ink;
 struct SoftSurface;
-}
+}  // namespace afm::physics
 
 namespace afm::scene {
 
@@ -48,7 +50,61 @@ inline constexpr std::uint32_t kSoftSide = 256;
 // Half the side of the square in which a tip of this radius may be.
 double soft_reach_m(double tip_radius_m) noexcept;
 
+// physics::Ink in plain numbers, SI, and what a hand feels of it. Radius of the tip and normal spring of the lever are
+// those of SharedPusher. The field of the tip is a square around the origin of the sample, published as MarkTiles:
+// `pressed_m` is the thickness of the layer where ink covers a square, and 0 elsewhere.
+struct SharedInk {
+  Name name{};
+  double molecules_per_s = 0;  // 0: there is no ink, and all else is ignored
+  double footprint_m2 = 0;
+  double thickness_m = 0;              // height of the layer, kThickestLayerM at most
+  double surface_tension_n_per_m = 0;  // liquid between tip and sample
+
+  bool operator==(const SharedInk&) const = default;
+};
+
+template <class Visit, RecordOf<SharedInk>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... ink) {
+  visit("name", ink.name...);
+  visit("molecules_per_s", ink.molecules_per_s...);
+  visit("footprint_m2", ink.footprint_m2...);
+  visit("thickness_m", ink.thickness_m...);
+  visit("surface_tension_N_per_m", ink.surface_tension_n_per_m...);
+}
+static_assert(all_fields_described<SharedInk>());
+
+inline constexpr double kThickestLayerM = 1e-6;
+
+physics::Ink ink_of(const SharedInk& ink) noexcept;
+
+// Diameter of the dot of a second, which is to have the size of a hand.
+double ink_dot_m(const physics::Ink& ink) noexcept;
+
+// Side of the inked square, kSoftSide of its grid's squares, and half the side of the square in which the tip may be.
+double ink_side_m(const physics::Ink& ink) noexcept;
+double ink_reach_m(const physics::Ink& ink) noexcept;
+
+// Force that tears the tip off the liquid: 4 pi R gamma.
+double meniscus_pull_n(double tip_radius_m, double surface_tension_n_per_m) noexcept;
+
 // ---- written by touchafm-servo ----
+
+// What a tip with ink has done; part of TipPush.
+struct InkPush {
+  double covered_m2 = 0;     // area of all strokes
+  double flowed_s = 0;       // duration of the newest touch
+  double speed_m_per_s = 0;  // speed along the sample, mean of a tenth of a second
+
+  bool operator==(const InkPush&) const = default;
+};
+
+template <class Visit, RecordOf<InkPush>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... ink) {
+  visit("covered_m2", ink.covered_m2...);
+  visit("flowed_s", ink.flowed_s...);
+  visit("speed_m_per_s", ink.speed_m_per_s...);
+}
+static_assert(all_fields_described<InkPush>());
 
 inline constexpr std::uint32_t kTileSide = 16;  // squares
 inline constexpr std::uint32_t kMarkTiles = (kSoftSide / kTileSide) * (kSoftSide / kTileSide);
