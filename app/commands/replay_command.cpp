@@ -18,6 +18,7 @@
 #include "exhibit/sound/session_sound.h"
 #include "exhibit/state/particle_task.h"
 #include "scene/samples/particle_set.h"
+#include "scene/shared/map_vibration.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
 
@@ -114,6 +115,8 @@ std::string plain(const servo::RecordedSession& session, const servo::Replay& re
     text += fmt::format("felt over a {}map of modulus and adhesion of {} x {} points\n",
                         session.parameters.viscous_map != 0 ? "viscous " : "", session.law_map->columns,
                         session.law_map->rows);
+    if (session.parameters.map_vibration != scene::MapVibration::None)
+      text += fmt::format("{} is felt as a vibration\n", scene::text_of(session.parameters.map_vibration).name);
   }
   if (range.from_s > 0 || range.to_s < seconds(session)) {
     text += fmt::format("compared from {:.3f} s to {:.3f} s: {} ticks\n", range.from_s,

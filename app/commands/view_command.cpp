@@ -243,7 +243,6 @@ void set_start(const ViewOptions& options, const exhibit::Stage& stage, ViewSett
   if (pixel != materials.end()) settings.first_material = static_cast<std::size_t>(pixel - materials.begin());
 }
 
-// Null without --headset.
 core::Result<std::unique_ptr<render::HeadsetRuntime>> headset_of(const ViewOptions& options) {
   if (!options.headset) return nullptr;
   return connect_headset();
@@ -256,8 +255,9 @@ bool taps_alone(const ViewOptions& options) {
 }
 
 // With a force map, --spring-constant is that of the lever that recorded it.
-core::Result<void> take_spring_constant(const ViewOptions& options, curves::TappedHand& tapping,
-                                        exhibit::ExhibitFiles& files) {
+core::Result<void> take_map_options(const ViewOptions& options, curves::TappedHand& tapping,
+                                    exhibit::ExhibitFiles& files) {
+  if (auto checked = check_vibration(options); !checked) return checked;
   if (files.force_map.empty() || tapping.choice.mode != "contact") return {};
   const std::string text = std::exchange(tapping.values["spring-constant"], {});
   if (text.empty()) return {};
@@ -287,7 +287,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   const core::MonotonicClock clock;
   curves::TappedHand tapping = options.tapping;
   exhibit::ExhibitFiles files = options.files;
-  if (auto taken = take_spring_constant(options, tapping, files); !taken) return taken;
+  if (auto taken = take_map_options(options, tapping, files); !taken) return taken;
   if (auto checked = check_tapped_view(tapping, taps_alone(options)); !checked) return checked;
   // before the rest, so that nothing else is loaded if there is no headset
   const auto runtime = headset_of(options);

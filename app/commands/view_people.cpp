@@ -12,6 +12,7 @@
 
 #include "app/view/speech_choice.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "scene/shared/map_vibration.h"
 #include "servo/haptic_choice.h"
 #include "servo/keep_running.h"
 #include "servo/session_file.h"
@@ -62,6 +63,21 @@ core::Result<void> set_speech(bool wanted, const exhibit::Stage& stage, ViewSett
 }
 
 }  // namespace
+
+core::Result<void> check_vibration(const ViewOptions& options) {
+  if (options.files.map_vibration == scene::MapVibration::None) return {};
+  const auto choice = servo::parse_haptic_choice(options.servo.haptic_device);
+  if (!choice) return tl::unexpected(choice.error());
+  const bool recorded = !choice->replay_file.empty();
+  if (!recorded && (choice->device == nullptr || choice->device->vibrates)) return {};
+  std::string others;
+  for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
+    if (kind.vibrates) others += fmt::format("{}{}", others.empty() ? "" : ", ", kind.word);
+  }
+  return core::wrong_usage(fmt::format(
+      "--map-vibration: the profile of --haptics {} has no vibration; use one of {}, or leave --map-vibration out",
+      options.servo.haptic_device, others));
+}
 
 core::Result<void> set_people(const ViewOptions& options, const exhibit::Stage& stage, ViewSettings& settings) {
   if (auto set = set_hand(stage, options.servo.haptic_device, settings); !set) return set;

@@ -5,11 +5,13 @@
 
 #include <cmath>
 
+#include "app/view/servo_supervisor.h"
 #include "app/view/view_choice.h"
 #include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
 #include "core/enumerators.h"
 #include "core/log.h"
+#include "core/printable.h"
 #include "curves/curve_map.h"
 #include "curves/fitting/felt_map.h"
 #include "curves/force_volume.h"
@@ -20,6 +22,8 @@
 #include "exhibit/scan/volume_view.h"
 #include "exhibit/state/moment.h"
 #include "physics/quantity_text.h"
+#include "scene/shared/map_vibration.h"
+#include "servo/servo_client.h"
 
 namespace afm::app {
 
@@ -91,6 +95,19 @@ const curves::SampleModel* MapControl::map() const {
 void MapControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
   wall_ = now.wall;
   retracting_ = now.retracting;
+  check_vibration();
+}
+
+void MapControl::check_vibration() {
+  const curves::SampleModel* sample = checked_ ? nullptr : map();
+  if (sample == nullptr || sample->parameters.map_vibration == scene::MapVibration::None || !parts_.servo.running())
+    return;
+  const scene::SharedDevice& device = parts_.servo.link().device();
+  if (device.max_force_n == 0.0) return;  // not known yet
+  checked_ = true;
+  if (device.max_vibration_n > 0.0) return;
+  core::log_line(fmt::format("force map: the profile of the {} has no vibration; the map is felt without it",
+                             core::printable_line(device.name.data())));
 }
 
 void MapControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
@@ -106,6 +123,7 @@ void MapControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*
 }
 
 void MapControl::restart(Restart what) {
+  checked_ = false;
   if (what != Restart::Servo) seen_ = first_;
 }
 

@@ -39,10 +39,12 @@ class MapControl final : public ViewControl {
 
   const curves::SampleModel* map() const;  // null: another sample, or none, is under the tip
   void lay_colours(const curves::SampleModel& map, render::FrameState& picture);
+  void check_vibration();  // reports a device that leaves it out
 
   ViewParts& parts_;
   exhibit::WallState wall_;  // the frame's
   bool retracting_ = false;
+  bool checked_ = false;                               // the vibration, once the device was known
   std::unique_ptr<const Laid> laid_;                   // null: nothing
   Seen seen_ = Seen::Nothing, first_ = Seen::Nothing;  // now, and at the start
   std::optional<double> equal_force_n_;

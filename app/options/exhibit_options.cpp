@@ -17,6 +17,7 @@
 #include "curves/curve_map.h"
 #include "curves/fitting/map_fit.h"
 #include "curves/image_file.h"
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/particle_blocks.h"
 
 namespace afm::app {
@@ -125,6 +126,12 @@ std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::Exh
   const Option viscous = command.add_flag(
       "--viscous-map", files.viscous_map,
       "with --felt map: damp the hand near the sample, the more the more energy a cycle loses at the place");
+  const Option vibration =
+      enum_option(command, "--map-vibration", files.map_vibration, "a quantity that vibrates", scene::kMapVibrations,
+                  &scene::MapVibrationText::word, &scene::MapVibrationText::quantity,
+                  "with --felt map: a quantity of the map that a moving hand feels as a vibration of at most 0.1 N "
+                  "near the sample: "
+                  "modulus, adhesion, loss (the energy that a cycle loses), or collision (each touch); default: none");
   const Option equal_force = quantity_option(
       command, "--equal-force", [&files](physics::Force force) { files.equal_force_n = force.si; },
       physics::kForceUnits,
@@ -137,13 +144,10 @@ std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::Exh
       command, reading->fit,
       "fit every curve of the force map, and show the modulus on the panel; F4 shows the heights and the adhesion:");
   own.insert(own.end(), of_fit.begin(), of_fit.end());
+  const std::array whole{NamedOption{felt, "--felt"}, NamedOption{equal_force, "--equal-force"},
+                         NamedOption{viscous, "--viscous-map"}, NamedOption{vibration, "--map-vibration"}};
+  own.insert(own.end(), whole.begin(), whole.end());
   for (NamedOption& each : own) each.option.needs(map);
-  own.push_back({felt, "--felt"});
-  own.back().option.needs(map);
-  own.push_back({equal_force, "--equal-force"});
-  own.back().option.needs(map);
-  own.push_back({viscous, "--viscous-map"});
-  own.back().option.needs(map);
   return own;
 }
 

@@ -185,4 +185,21 @@ TEST_F(DeviceRegistry, KnowsWhichHandNobodyHolds) {
   EXPECT_TRUE(open_word("hdapi", mock, clock)->device->spec().has_own_hand);
 }
 
+// The rows of the table and the profiles agree.
+TEST_F(DeviceRegistry, KnowsWhichHandsFeelAVibration) {
+  EXPECT_TRUE(find_device_kind("sim")->vibrates);
+  EXPECT_EQ(open_word("sim", nowhere, clock)->device->spec().max_vibration_n, kMostVibrationN);
+  EXPECT_TRUE(find_device_kind("hdapi")->vibrates);
+  EXPECT_EQ(open_word("hdapi", mock, clock)->device->spec().max_vibration_n, kMostVibrationN);
+  const Environment dhd = [](const std::string& variable) {
+    return variable == "TOUCHAFM_FD_LIBRARY" ? afm::support::mock_dhd() : std::string();
+  };
+  mock_dhd_reset();
+  mock_dhd_use_clock();
+  EXPECT_TRUE(find_device_kind("forcedimension")->vibrates);
+  EXPECT_EQ(open_word("forcedimension", dhd, clock)->device->spec().max_vibration_n, kMostVibrationN);
+  EXPECT_FALSE(find_device_kind("gamepad")->vibrates);
+  EXPECT_EQ(omni_like("gamepad").max_vibration_n, 0.0) << "the profile of gamepads and recordings";
+}
+
 }  // namespace device_registry_test

@@ -224,6 +224,11 @@ TEST(SharedBlocks, SayYesOrNoByOneOrZeroAlone) {
     device.has_own_hand = answer;
     EXPECT_EQ(is_valid(device), good) << answer;
   }
+  for (const double most_n : {0.0, 0.1, -0.1, std::nan(""), HUGE_VAL}) {
+    device.has_own_hand = 1;
+    device.max_vibration_n = most_n;
+    EXPECT_EQ(is_valid(device), most_n == 0.0 || most_n == 0.1) << most_n;
+  }
   EXPECT_TRUE(is_valid(TipPush{.strokes = kMostStrokes}, model));
   EXPECT_FALSE(is_valid(TipPush{.strokes = kMostStrokes + 1}, model));
 }

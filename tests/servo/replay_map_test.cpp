@@ -9,6 +9,7 @@
 
 #include "core/whole_file.h"
 #include "haptics/law_family.h"
+#include "scene/shared/map_vibration.h"
 #include "servo/recorded_servo.h"
 #include "servo/session_file.h"
 #include "support/paper_model.h"
@@ -41,9 +42,10 @@ scene::SharedModel model_with_map() {
 }
 
 // Presses the tip on it and slides to the right.
-RecordedSession slid(bool viscous = false) {
+RecordedSession slid(bool viscous = false, scene::MapVibration vibration = scene::MapVibration::None) {
   scene::SharedModel model = model_with_map();
   model.materials[test::kMica].viscous_map = viscous ? 1 : 0;
+  model.materials[test::kMica].map_vibration = vibration;
   Recording recording(model);
   recording.choose(test::kMica);
   recording.arm();
@@ -85,6 +87,27 @@ TEST(ReplayOfAMap, GivesTheDampingOfAViscousOneAgain) {
   const auto undamped = replay(session);
   ASSERT_TRUE(undamped) << undamped.error().message;
   EXPECT_FALSE(undamped->identical()) << "the damping is not felt";
+}
+
+TEST(ReplayOfAMap, GivesEveryVibrationAgain) {
+  using scene::MapVibration;
+  const support::ScratchFolder folder;
+  for (const MapVibration quantity :
+       {MapVibration::Modulus, MapVibration::Adhesion, MapVibration::Loss, MapVibration::Collision}) {
+    RecordedSession session = slid(quantity == MapVibration::Loss, quantity);
+    ASSERT_TRUE(save_session(session, folder.file("vibrating.afms")));
+    EXPECT_EQ(core::read_file(folder.file("vibrating.afms"))->at(4), 20) << "the version";
+    const auto loaded = load_session(folder.file("vibrating.afms"));
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->parameters.map_vibration, quantity);
+    EXPECT_EQ(loaded->parameters.viscous_map, quantity == MapVibration::Loss ? 1U : 0U);
+    EXPECT_EQ(loaded->device.max_vibration_n, 0.1);
+    expect_same(*loaded);
+    session.device.max_vibration_n = 0.0;
+    const auto still = replay(session);
+    ASSERT_TRUE(still) << still.error().message;
+    EXPECT_FALSE(still->identical()) << "the vibration is not felt: " << scene::text_of(quantity).word;
+  }
 }
 
 TEST(ReplayOfAMap, NoticesAnotherMap) {

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -15,6 +18,7 @@
 #include "curves/fitting/map_fit.h"
 #include "curves/force_volume.h"
 #include "curves/measured_material.h"
+#include "scene/shared/map_vibration.h"
 
 namespace afm::exhibit {
 
@@ -40,10 +44,42 @@ core::Result<void> check_options(const ExhibitFiles& files) {
     return core::wrong_usage("--felt map: the map is felt by its fits: add --fit SHAPE");
   if (!files.whole_map && files.viscous_map)
     return core::wrong_usage("--viscous-map: only a map that is felt whole is viscous: add --felt map");
+  if (!files.whole_map && files.map_vibration != scene::MapVibration::None)
+    return core::wrong_usage("--map-vibration: only a map that is felt whole vibrates: add --felt map");
   if (!files.whole_map && files.equal_force_n)
     return core::wrong_usage("--equal-force: the surface lies over a map that is felt whole: add --felt map");
   if (files.equal_force_n == 0.0)
     return core::wrong_usage("--equal-force: a surface of no force is everywhere: give a push, such as 1nN, or a pull");
+  return {};
+}
+
+// True if the values differ anywhere.
+bool differ(const scene::SharedLawMap& map, std::span<const float> values) {
+  const auto [least, most] = std::ranges::minmax(values.first(std::size_t{map.columns} * map.rows));
+  return least < most;
+}
+
+// Empty if such a vibration would be felt somewhere on the map.
+std::string why_nothing_vibrates(const curves::SampleModel& whole, scene::MapVibration quantity) {
+  const scene::SharedLawMap& map = whole.felt_map->laws;
+  switch (quantity) {
+    case scene::MapVibration::None:
+    case scene::MapVibration::Collision:
+      break;
+    case scene::MapVibration::Modulus:
+      if (!differ(map, map.ln_modulus))
+        return "the modulus of this map is the same everywhere; choose another, or leave it out";
+      break;
+    case scene::MapVibration::Adhesion:
+      if (whole.felt_map->law == physics::Law::Hertz)
+        return "the tip hardly sticks to this map; choose another, or leave it out";
+      if (!differ(map, map.adhesion_j_per_m2))
+        return "the adhesion of this map is the same everywhere; choose another, or leave it out";
+      break;
+    case scene::MapVibration::Loss:
+      if (!whole.figures().hysteretic) return "a cycle on this map loses no energy; choose another, or leave it out";
+      break;
+  }
   return {};
 }
 
@@ -59,6 +95,13 @@ core::Result<std::shared_ptr<const curves::SampleModel>> felt_whole(const curves
         "--viscous-map: a cycle on this map loses no energy that could damp the hand; leave it out");
   }
   whole->parameters.viscous_map = files.viscous_map ? 1 : 0;
+  if (const std::string flat = why_nothing_vibrates(*whole, files.map_vibration); !flat.empty())
+    return core::wrong_usage(fmt::format("--map-vibration {}: {}", scene::text_of(files.map_vibration).word, flat));
+  whole->parameters.map_vibration = files.map_vibration;
+  if (files.map_vibration != scene::MapVibration::None) {
+    core::log_line(fmt::format("force map {}: a hand that moves near the sample feels {} as a vibration",
+                               files.force_map, scene::text_of(files.map_vibration).name));
+  }
   core::log_line(
       fmt::format("force map {}: the whole map is felt: {}", files.force_map, curves::felt_text(*whole->felt_map)));
   return std::make_shared<const curves::SampleModel>(std::move(*whole));

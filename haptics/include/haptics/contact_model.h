@@ -60,6 +60,7 @@ struct MapTouch {
   glm::dvec2 sideways_n{0.0};    // along the sample's x and y, at a constant height above the surface
   double stored_j = 0;           // potential of the branch, zero at the least of the map
   double damping_n_s_per_m = 0;  // viscosity for the hand in any direction; 0 without a viscous map
+  glm::dvec3 vibration_n{0.0};   // in the sample's frame; zero without a map that vibrates
   scene::LawHere here;           // the law below the tip
 };
 
@@ -102,7 +103,8 @@ struct Touch {
 // without force.
 //
 // Over a map of modulus and adhesion (scene::SharedLawMap) the potential also depends on the place, and its slope is
-// one more force sideways (haptics/map_contact.h); all of the map is felt on the same scales.
+// one more force sideways (haptics/map_contact.h); all of the map is felt on the same scales. A vibration takes the
+// room that the other forces leave below the force cap.
 //
 // A lever that taps is felt by its push, not by its mean force, which would give energy to the hand. The energy that
 // the push gives because it follows the hand late is excess energy for the passivity observer.

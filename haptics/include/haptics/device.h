@@ -12,6 +12,9 @@
 // its axes are parallel to the room's.
 namespace afm::haptics {
 
+// Largest amplitude of any vibration on a hand.
+inline constexpr double kMostVibrationN = 0.1;
+
 struct DeviceSpec {
   std::string name;
   double max_force_n = 0;                                              // nominal peak
@@ -20,8 +23,9 @@ struct DeviceSpec {
   double max_slew_n_per_s = std::numeric_limits<double>::infinity();   // above this, the driver cuts the force
   double max_speed_m_per_s = std::numeric_limits<double>::infinity();  // above this, the driver cuts the force
   double force_lasts_s = std::numeric_limits<double>::infinity();      // the driver drops an older force
-  bool measures = false;     // sensors measure the position: it flickers, and can be wrong
-  bool has_own_hand = true;  // false: moved by follow()
+  double max_vibration_n = 0;  // amplitude of a vibration that a hand may feel on it; 0: none
+  bool measures = false;       // sensors measure the position: it flickers, and can be wrong
+  bool has_own_hand = true;    // false: moved by follow()
   glm::dvec3 workspace_min_m{0.0};
   glm::dvec3 workspace_max_m{0.0};
   glm::dvec3 contact_point_m{0.0};  // position of the hand when the tip touches the undeformed sample (Z = 0)

@@ -70,6 +70,7 @@ struct DeviceKind {
   std::string_view subject;  // subject of its ProbeLine; begins with the word
   std::string_view meaning;  // text in the help: "an Inverse3 through its maker's service"
   bool renders_force;        // the hand itself feels the force
+  bool vibrates;             // its devices have a DeviceSpec::max_vibration_n, unless their model is unknown
   HandControls controls;     // names of its controls on the wall
   std::string_view remedy;   // advice for a silent device with an installed driver; empty: a probe cannot detect that
   std::string_view proof;    // what its driver was tested with, for a device that no hardware has proved; or empty

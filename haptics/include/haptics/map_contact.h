@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/result.h"
@@ -15,10 +17,13 @@
 #include "haptics/sample_surface.h"
 #include "haptics/scaling.h"
 #include "physics/force_model.h"
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/scale_modes.h"
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::haptics {
+
+class FeltVibration;
 
 // A tip on a sample whose modulus and adhesion change from place to place: the latch of physics/force_model.h over
 // haptics/map_law.h, for every scale.
@@ -40,6 +45,11 @@ namespace afm::haptics {
 // energy: it acts on a velocity behind a low-pass (haptics/hand_motion.h) with the time constant T, which holds back
 // the energy b T v^2 / 2, and grows by no more than a factor of e in T, though such a low-pass would bear two.
 //
+// A map that vibrates (scene::MapVibration) also has a FeltVibration, as strong as its quantity is large: from none at
+// the least modulus or adhesion of the map, or where a cycle loses nothing, to all of it at the largest;
+// kVibratesAboveM above the height at which the tip lets go there is none. The modulus counts by its logarithm. A touch
+// vibrates most when it begins, and fades with kCollisionS.
+//
 // Building takes tenths of a second and allocates; step() may be called in a tick of the servo.
 class MapContact {
  public:
@@ -50,8 +60,16 @@ class MapContact {
   static constexpr double kMostDampingNSPerM = 2.0;
   static constexpr double kLeastOfDamping = 0.1;
   static constexpr double kDampsAboveM = 0.020;
+  static constexpr double kVibratesAboveM = 0.005;  // below the height at which the force is switched on
+  static constexpr double kCollisionS = 0.1;
 
   using Scalings = ContactModel::Scalings;
+
+  // What a hand feels besides the law.
+  struct Channels {
+    bool damps = false;
+    scene::MapVibration vibration = scene::MapVibration::None;
+  };
 
   // The device for which all scalings of a map are made.
   static DeviceSpec along_normal(const DeviceSpec& device) {
@@ -62,14 +80,19 @@ class MapContact {
   // felt. All scalings are those of the family on along_normal() of the device.
   MapContact(std::shared_ptr<const LawFamily> family, std::shared_ptr<const physics::LawTables> nominal,
              const scene::SharedLawMap& map, double spacing_m, const Scalings& scalings, const DeviceSpec& device,
-             bool viscous);
+             const Channels& channels);
+  ~MapContact();
 
   // At a place in the sample's frame and a height above its surface; `scale` is that of the mode.
   // `elapsed_s` is the time since the previous step.
   MapTouch step(scene::ScaleMode mode, const Scaling& scale, const glm::dvec2& xy_m, double z_m,
                 double elapsed_s) noexcept;
 
-  void wait_for_lift() noexcept { phase_ = physics::Phase::WaitForLift; }
+  // Force of the vibration after that step, no longer than `room_n`, on a hand at this position.
+  glm::dvec3 vibrate(const glm::dvec3& hand_m, double room_n, double elapsed_s) noexcept;
+  const FeltVibration& vibration() const noexcept { return *vibration_; }
+
+  void wait_for_lift() noexcept;
   physics::Phase phase() const noexcept { return phase_; }
 
   // Potential on the attached branch, as in MapTouch::stored_j.
@@ -87,11 +110,20 @@ class MapContact {
     double bend_per_m2 = 0;     // upper limit of its bend there
   };
 
+  // Values of the map.
+  struct Spread {
+    double least = 0, most = 0;
+    double share_of(double value) const noexcept;  // 0 at the least, 1 at the largest; 0 without a difference
+  };
+  static Spread spread_of(const scene::SharedLawMap& map, std::span<const float> values);
+  double most_loss_j(const MapLaw& law, const scene::SharedLawMap& map) const;
+
   // The family and the map on one scale.
   struct OnScale {
     std::shared_ptr<const MapLaw> law;
     MapLaw::Steepness steepness;
     double least_j = 0;
+    double most_loss_j = 0;  // largest loss of a cycle at any point of the map
     double stiffness_n_per_m = 0;
     Laid columns, rows;
   };
@@ -99,6 +131,8 @@ class MapContact {
   static MapLaw::Place place_at(const OnScale& scale, const glm::dvec2& xy_m, double lateral_m_per_m) noexcept;
   physics::Force tip_force(physics::Phase phase, const MapLaw::Mixture& mixture, double z_m) const noexcept;
   double damp(const MapLaw& law, const MapLaw::Place& place, double hand_m, double elapsed_s) noexcept;
+  double strength_of_vibration(const OnScale& scale, const MapLaw::Place& place, double hand_m, physics::Phase before,
+                               double elapsed_s) noexcept;
   void note_jump(const MapLaw& law, const Scaling& scale, const MapLaw::Place& place, double hand_m,
                  physics::Phase before, MapTouch& touch) const noexcept;
 
@@ -109,6 +143,11 @@ class MapContact {
   double above_in_m_ = 0, above_off_m_ = 0;  // previous height of the hand above those of the jumps
   double most_damping_n_s_per_m_ = 0;        // 0: not viscous
   double damping_n_s_per_m_ = 0;
+  scene::MapVibration vibrates_by_;
+  Spread ln_modulus_, adhesion_j_per_m2_;
+  std::unique_ptr<FeltVibration> vibration_;
+  double vibrates_ = 0;     // strength of the vibration, 0 to 1
+  double touched_s_ = 1e3;  // time since the tip touched, or longer than it is felt
 };
 
 }  // namespace afm::haptics

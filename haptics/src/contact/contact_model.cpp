@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "contact/felt_vibration.h"
 #include "core/enumerators.h"
 #include "haptics/felt_particles.h"
 #include "haptics/felt_scratch.h"
@@ -164,9 +165,9 @@ core::Result<std::unique_ptr<ContactModel>> ContactModel::create(
     SampleSurface surface(drawn.scaled(size), material.contact.tip_radius.si, largest_curvature_per_m(fit, device));
     std::unique_ptr<MapContact> felt_map;
     if (*family) {
-      felt_map =
-          std::make_unique<MapContact>(*family, tables, *map, size * material.topography.lateral * map->spacing_m,
-                                       scalings, device, material.viscous_map != 0);
+      felt_map = std::make_unique<MapContact>(*family, tables, *map,
+                                              size * material.topography.lateral * map->spacing_m, scalings, device,
+                                              MapContact::Channels{material.viscous_map != 0, material.map_vibration});
     }
     std::optional<FeltFriction> friction;
     if (material.friction.law != physics::FrictionLaw::None) friction.emplace(material, tables, device);
@@ -217,7 +218,12 @@ Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback)
   touch.normal = glm::normalize(glm::dvec3(-below.slope, 1.0));
   const glm::dvec3 gradient(-below.slope * scale.flattening(), 1.0);
   touch.hand_force_n = felt_force_n(touch) * gradient;
-  if (map_) touch.hand_force_n += glm::dvec3(touch.map.sideways_n, 0.0);
+  if (map_) {
+    touch.hand_force_n += glm::dvec3(touch.map.sideways_n, 0.0);
+    const double room_n = force_cap_n_ - glm::length(touch.hand_force_n);
+    touch.map.vibration_n = map_->vibrate(hand_m, room_n, feedback.elapsed_s);
+    touch.hand_force_n += touch.map.vibration_n;
+  }
   if (friction_) {
     // the loop keeps the load constant
     const double load_z_m = level_ ? scale.z_m(hand_m.z) : touch.z_m;
@@ -290,7 +296,8 @@ double ContactModel::stiffness_n_per_m() const noexcept {
   const double law_n_per_m = map_ ? map_->stiffness_n_per_m(mode_) : stored_energy().stiffness_n_per_m();
   return turning * law_n_per_m * (1.0 + steepest_slope_ * steepest_slope_) +
          force_cap_n_ * largest_curvature_per_m_ / scaling().hand_m_per_m() +
-         (friction_ ? friction_->stiffness_n_per_m(scaling()) : 0.0);
+         (friction_ ? friction_->stiffness_n_per_m(scaling()) : 0.0) +
+         (map_ ? map_->vibration().stiffness_n_per_m() : 0.0);
 }
 
 physics::TipResponse ContactModel::step_law(physics::Length z) noexcept {
@@ -328,7 +335,7 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
                              .is_dynamic = std::holds_alternative<physics::DynamicModel>(model_)};
   if (touch.response.phase == physics::Phase::WaitForLift) return law;
   if (map_) {
-    law.stored_j = touch.map.stored_j;
+    law.stored_j = touch.map.stored_j + map_->vibration().stored_j();
   } else if (attached) {
     law.stored_j = attached_j(touch, touch.z_m);
   } else {

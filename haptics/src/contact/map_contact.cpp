@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "contact/felt_vibration.h"
 #include "core/enumerators.h"
 #include "haptics/hand_motion.h"
 
@@ -26,17 +27,21 @@ constexpr double kMostOfStiffness = 1.001;  // share of the device's stiffness, 
 constexpr double kLongestFloorM = 1.0;      // longer than any reach: no floor
 constexpr double kDampedMPerS = 1.0;        // speed at which the damping is no stronger than the device
 constexpr double kFirstShare = 1e-6;        // share of the damping that begins at once
+constexpr double kFeltCollisions = 5.0;     // time for which a touch vibrates, in its time constants
 
 // Heights of the hand in the workspace, for a level sample.
 PotentialEnergy::Range within(const DeviceSpec& device) {
   return {device.workspace_min_m.y - device.contact_point_m.y, device.workspace_max_m.y - device.contact_point_m.y};
 }
 
-// Share of the floor in the force at a height of the hand, from the height where it begins.
-double floor_share(double height_m, double begins_m, double floor_m) {
-  const double t = std::clamp((begins_m - height_m) / floor_m, 0.0, 1.0);
+// From 0 at 0 to 1 at 1, level at both ends and beyond.
+double eased(double share) {
+  const double t = std::clamp(share, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
+
+// Share of the floor in the force at a height of the hand, from the height where it begins.
+double floor_share(double height_m, double begins_m, double floor_m) { return eased((begins_m - height_m) / floor_m); }
 
 // The family on the hand, at every height that the hand can reach, for any orientation of the sample.
 std::shared_ptr<const MapLaw> on_hand(const LawFamily& family, const Scaling& scaling, const DeviceSpec& device,
@@ -108,10 +113,14 @@ struct Sheet {
 
 MapContact::MapContact(std::shared_ptr<const LawFamily> family, std::shared_ptr<const physics::LawTables> nominal,
                        const scene::SharedLawMap& map, double spacing_m, const Scalings& scalings,
-                       const DeviceSpec& device, bool viscous)
+                       const DeviceSpec& device, const Channels& channels)
     : family_(std::move(family)),
       nominal_(std::move(nominal)),
-      most_damping_n_s_per_m_(viscous ? std::min(kMostDampingNSPerM, force_cap_n(device) / kDampedMPerS) : 0.0) {
+      most_damping_n_s_per_m_(channels.damps ? std::min(kMostDampingNSPerM, force_cap_n(device) / kDampedMPerS) : 0.0),
+      vibrates_by_(channels.vibration),
+      ln_modulus_(spread_of(map, map.ln_modulus)),
+      adhesion_j_per_m2_(spread_of(map, map.adhesion_j_per_m2)),
+      vibration_(std::make_unique<FeltVibration>(device)) {
   const double stands_n_per_m = std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
   for (const scene::ScaleModeText& row : scene::kScalesOfSamples) {
     const Scaling& scaling = scalings[core::index_of(row.mode)];
@@ -127,6 +136,7 @@ MapContact::MapContact(std::shared_ptr<const LawFamily> family, std::shared_ptr<
         floor_m *= 2.0;
       } while (scale.steepness.stiffness_n_per_m > kMostOfStiffness * stands_n_per_m && floor_m < kLongestFloorM);
       scale.least_j = scale.law->least_j(within(device));
+      scale.most_loss_j = most_loss_j(*scale.law, map);
     }
     const Sheet sheet{map, spacing_m, scaling.lateral_m_per_m(), device};
     const MapLaw::Steepness& most = scale.steepness;
@@ -146,6 +156,32 @@ MapContact::MapContact(std::shared_ptr<const LawFamily> family, std::shared_ptr<
   }
   // without particles there is no other scale for them
   scales_[core::index_of(ScaleMode::Particles)] = on(ScaleMode::Fit);
+}
+
+// Largest loss of a cycle at any point of the map.
+double MapContact::most_loss_j(const MapLaw& law, const scene::SharedLawMap& map) const {
+  double most_j = 0.0;
+  for (std::size_t cell = 0; cell < std::size_t{map.columns} * map.rows; ++cell) {
+    const double modulus_pa = std::exp(static_cast<double>(map.ln_modulus[cell]));
+    const double row = family_->row_of(static_cast<double>(map.adhesion_j_per_m2[cell]));
+    most_j = std::max(most_j, law.loss_j({.at = {family_->column_of(modulus_pa), row}}));
+  }
+  return most_j;
+}
+
+MapContact::~MapContact() = default;
+
+glm::dvec3 MapContact::vibrate(const glm::dvec3& hand_m, double room_n, double elapsed_s) noexcept {
+  return vibration_->step(hand_m, vibrates_, room_n, elapsed_s);
+}
+
+MapContact::Spread MapContact::spread_of(const scene::SharedLawMap& map, std::span<const float> values) {
+  const auto [least, most] = std::ranges::minmax(values.first(std::size_t{map.columns} * map.rows));
+  return {least, most};
+}
+
+double MapContact::Spread::share_of(double value) const noexcept {
+  return most > least ? std::clamp((value - least) / (most - least), 0.0, 1.0) : 0.0;
 }
 
 MapLaw::Place MapContact::place_at(const OnScale& scale, const glm::dvec2& xy_m, double lateral_m_per_m) noexcept {
@@ -186,19 +222,50 @@ void MapContact::note_jump(const MapLaw& law, const Scaling& scale, const MapLaw
 double MapContact::damp(const MapLaw& law, const MapLaw::Place& place, double hand_m, double elapsed_s) noexcept {
   if (most_damping_n_s_per_m_ == 0.0 || phase_ == Phase::WaitForLift) return damping_n_s_per_m_ = 0.0;
   const double share = law.most_loss_j() > 0.0 ? law.loss_j(place) / law.most_loss_j() : 0.0;
-  const double above = std::clamp((hand_m - law.jump_off_m(place)) / kDampsAboveM, 0.0, 1.0);
-  const double near = 1.0 - above * above * (3.0 - 2.0 * above);
+  const double near = 1.0 - eased((hand_m - law.jump_off_m(place)) / kDampsAboveM);
   const double wanted = most_damping_n_s_per_m_ * near * (kLeastOfDamping + (1.0 - kLeastOfDamping) * share);
   const double grown = std::max(damping_n_s_per_m_, kFirstShare * most_damping_n_s_per_m_) *
                        std::exp(2.0 * std::numbers::pi * HandMotion::kCutoffHz * elapsed_s);
   return damping_n_s_per_m_ = std::min(wanted, grown);
 }
 
+// From 0 to 1. None while the tip waits for a lift.
+double MapContact::strength_of_vibration(const OnScale& scale, const MapLaw::Place& place, double hand_m, Phase before,
+                                         double elapsed_s) noexcept {
+  const MapLaw& law = *scale.law;
+  const double most_loss_j = scale.most_loss_j;
+  using scene::MapVibration;
+  const bool touches = before == Phase::Free && phase_ == Phase::Attached;
+  touched_s_ = touches ? 0.0 : touched_s_ + elapsed_s;
+  if (vibrates_by_ == MapVibration::None || phase_ == Phase::WaitForLift) return 0.0;
+  const double near = 1.0 - eased((hand_m - law.jump_off_m(place)) / kVibratesAboveM);
+  switch (vibrates_by_) {
+    case MapVibration::None:
+      break;
+    case MapVibration::Modulus:
+      return near * ln_modulus_.share_of(std::log(family_->modulus_pa(place.at.x)));
+    case MapVibration::Adhesion:
+      return near * adhesion_j_per_m2_.share_of(family_->adhesion_j_per_m2(place.at.y));
+    case MapVibration::Loss:
+      return most_loss_j > 0.0 ? near * std::min(1.0, law.loss_j(place) / most_loss_j) : 0.0;
+    case MapVibration::Collision:
+      return touched_s_ < kFeltCollisions * kCollisionS ? std::exp(-touched_s_ / kCollisionS) : 0.0;
+  }
+  return 0.0;
+}
+
+void MapContact::wait_for_lift() noexcept {
+  phase_ = Phase::WaitForLift;
+  vibrates_ = 0.0;
+  touched_s_ = kFeltCollisions * kCollisionS;
+  vibration_->rest();
+}
+
 MapTouch MapContact::step(ScaleMode mode, const Scaling& scale, const glm::dvec2& xy_m, double z_m,
                           double elapsed_s) noexcept {
   MapTouch touch;
   if (!std::isfinite(z_m) || !std::isfinite(xy_m.x) || !std::isfinite(xy_m.y)) {
-    phase_ = Phase::WaitForLift;
+    wait_for_lift();
     return touch;
   }
   const OnScale& on_scale = on(mode);
@@ -217,6 +284,7 @@ MapTouch MapContact::step(ScaleMode mode, const Scaling& scale, const glm::dvec2
   touch.sideways_n = felt.sideways_n;
   if (phase_ != Phase::WaitForLift) touch.stored_j = felt.energy_j - on_scale.least_j;
   touch.damping_n_s_per_m = damp(law, place, hand_m, elapsed_s);
+  vibrates_ = strength_of_vibration(on_scale, place, hand_m, before, elapsed_s);
   touch.here = {.reduced_modulus_pa = family_->modulus_pa(place.at.x),
                 .adhesion_j_per_m2 = family_->adhesion_j_per_m2(place.at.y)};
   return touch;

@@ -39,6 +39,7 @@ scene::SharedDevice shared(const DeviceSpec& spec) {
           .max_stiffness_n_per_m = here.max_stiffness_n_per_m,
           .max_slew_n_per_s = here.max_slew_n_per_s,
           .max_speed_m_per_s = here.max_speed_m_per_s,
+          .max_vibration_n = here.max_vibration_n,
           .has_own_hand = here.has_own_hand ? 1U : 0U,
           .workspace_min_m = {here.workspace_min_m.x, here.workspace_min_m.y, here.workspace_min_m.z},
           .workspace_max_m = {here.workspace_max_m.x, here.workspace_max_m.y, here.workspace_max_m.z}};
@@ -53,6 +54,7 @@ DeviceSpec spec_of(const scene::SharedDevice& device) {
           .max_stiffness_n_per_m = device.max_stiffness_n_per_m,
           .max_slew_n_per_s = device.max_slew_n_per_s,
           .max_speed_m_per_s = device.max_speed_m_per_s,
+          .max_vibration_n = device.max_vibration_n,
           .has_own_hand = device.has_own_hand != 0,
           .workspace_min_m = glm::dvec3(min_x, min_y, min_z),
           .workspace_max_m = glm::dvec3(max_x, max_y, max_z),

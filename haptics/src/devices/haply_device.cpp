@@ -50,6 +50,7 @@ DeviceSpec arm_spec(const HaplyName& arm) {
           .max_continuous_force_n = 0.9 * share,
           .max_stiffness_n_per_m = 400.0,
           .force_lasts_s = core::seconds(CommandFade::kStaleNs),
+          .max_vibration_n = found == std::end(kTypes) ? 0.0 : kMostVibrationN * share,
           .measures = true,
           .workspace_min_m = {-0.08, 0.08, 0.04},
           .workspace_max_m = {0.08, 0.20, 0.20},

@@ -147,6 +147,7 @@ core::Result<DeviceSpec> query_spec(const HdapiFunctions& hd) {
       .max_stiffness_n_per_m = stiffness > 0 ? std::min(stiffness, kStableStiffnessNPerM) : kStableStiffnessNPerM,
       .max_slew_n_per_s = 1e3 * *impulse,
       .max_speed_m_per_s = kMillimetre * *velocity,
+      .max_vibration_n = kMostVibrationN,
       .measures = true,
       .workspace_min_m = smallest,
       .workspace_max_m = largest,

@@ -26,6 +26,7 @@ SimulatedDevice::SimulatedDevice(const glm::dvec3& start_m, const HandImpedance&
       aim_m_(start_m),
       position_m_(start_m) {
   spec_.has_own_hand = false;
+  spec_.max_vibration_n = kMostVibrationN;
   AFM_CHECK(hand.mass_kg > 0 && hand.damping_n_s_per_m >= 0 &&
             hand.damping_n_s_per_m * hand.damping_n_s_per_m < 4.0 * hand.mass_kg * hand.grip_stiffness_n_per_m);
   AFM_CHECK(flaws.quantum_m >= 0 && flaws.friction_n >= 0 && flaws.delay_ns >= 0 && flaws.delay_ns <= 16'000'000);

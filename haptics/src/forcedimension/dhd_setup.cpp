@@ -126,6 +126,7 @@ DeviceSpec model_spec(int type, const std::string& name) {
           .max_continuous_force_n = kContinuousForceN,
           .max_stiffness_n_per_m = kStiffnessNPerM,
           .force_lasts_s = core::seconds(CommandFade::kStaleNs),
+          .max_vibration_n = found == std::end(kModels) ? 0.0 : kMostVibrationN,
           .measures = true,
           .workspace_min_m = glm::dvec3(-r),
           .workspace_max_m = glm::dvec3(r),

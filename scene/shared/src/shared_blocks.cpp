@@ -14,6 +14,7 @@
 #include "core/check.h"
 #include "core/enumerators.h"
 #include "physics/tapping/driven_lever.h"
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::scene {
@@ -182,6 +183,9 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
   }
   if (material.viscous_map > material.law_map)
     return model_refused("its viscosity needs a map of modulus and adhesion");
+  if (!core::is_enumerator(material.map_vibration)) return model_refused("its vibration is unknown");
+  if (material.map_vibration != MapVibration::None && material.law_map == 0)
+    return model_refused("its vibration needs a map of modulus and adhesion");
   const bool traced = material.height_field == kTopography && topography.columns > 0;
   if (material.height_field != kNoHeightField && material.height_field >= height_field_count && !traced) {
     return model_refused("its surface does not exist");
@@ -325,7 +329,8 @@ bool is_valid(const SharedDevice& device) {
   // limits may be infinite
   return terminated(device.name) && device.max_force_n > 0 && device.max_continuous_force_n > 0 &&
          device.max_stiffness_n_per_m > 0 && device.max_slew_n_per_s > 0 && device.max_speed_m_per_s > 0 &&
-         device.has_own_hand <= 1 && all_sane(device.workspace_min_m) && all_sane(device.workspace_max_m);
+         device.max_vibration_n >= 0 && std::isfinite(device.max_vibration_n) && device.has_own_hand <= 1 &&
+         all_sane(device.workspace_min_m) && all_sane(device.workspace_max_m);
 }
 
 bool is_valid(const TipState& state, const SharedModel& model) {

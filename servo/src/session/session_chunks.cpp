@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/shared_segment.h"
 #include "session_header.h"
 #include "session_records.h"
@@ -101,7 +102,10 @@ std::string bytes_of(const scene::SharedLawMap& map) {
 }
 
 std::uint32_t version_of(const RecordedSession& session) {
-  if (session.law_map) return session.parameters.viscous_map != 0 ? kVersionWithViscousMap : kVersionWithLawMap;
+  if (session.law_map) {
+    if (session.parameters.map_vibration != scene::MapVibration::None) return kVersionWithMapVibration;
+    return session.parameters.viscous_map != 0 ? kVersionWithViscousMap : kVersionWithLawMap;
+  }
   if (scene::taps(session.parameters)) return kVersionWithSwing;
   if (!session.particles) return kSessionVersion;
   if (is_soft(*session.particles)) return kVersionWithMarks;

@@ -15,11 +15,11 @@
 // forces an older program does not know, and with rods or without, 10 for a lever that taps, or 11 for particles of any
 // kind and the plans of their pushes, as touchafm records them today, 12 for those with pads or with spheres that the
 // tip lifts, 13 for flat islands, 14 for particles at level 1 or 2, whose sample may drift, 15 for a map of modulus and
-// adhesion, 17 for a soft sample that the tip scratches, 18 for a map that is viscous: "AFMS", the version, then
-// chunks. A chunk consists of a name of four letters and the size of its payload in 32 bits, the checksum of these, the
-// payload, and its checksum. A checksum is the 64-bit FNV-1a of all bytes from the beginning of the file up to it, so
-// that no chunk can be altered, left out or exchanged. A file that ends inside a chunk was cut; all chunks before it
-// are intact.
+// adhesion, 17 for a soft sample that the tip scratches, 18 for a map that is viscous, 20 for one that vibrates:
+// "AFMS", the version, then chunks. A chunk consists of a name of four letters and the size of its payload in 32 bits,
+// the checksum of these, the payload, and its checksum. A checksum is the 64-bit FNV-1a of all bytes from the beginning
+// of the file up to it, so that no chunk can be altered, left out or exchanged. A file that ends inside a chunk was
+// cut; all chunks before it are intact.
 namespace afm::servo {
 
 inline constexpr std::string_view kSessionMagic = "AFMS";
@@ -33,7 +33,8 @@ inline constexpr std::uint32_t kVersionWithLift = 12;   // as 11; the tip lifts 
 inline constexpr std::uint32_t kVersionWithIslands = 13;  // as 11; a chunk has the islands
 inline constexpr std::uint32_t kVersionWithLevel = 14;   // as 11; samples end with LevelSample, a chunk has the picture
 inline constexpr std::uint32_t kVersionWithLawMap = 15;  // as 6; a chunk has a map of modulus and adhesion
-inline constexpr std::uint32_t kVersionWithViscousMap = 18;  // as 15; the map damps the hand, too
+inline constexpr std::uint32_t kVersionWithViscousMap = 18;    // as 15; the map damps the hand, too
+inline constexpr std::uint32_t kVersionWithMapVibration = 20;  // as 15 or 18; the map vibrates, too
 
 inline constexpr std::uint32_t kVersionWithMarks = 17;  // as 11; a chunk has a soft sample in place of particles
 

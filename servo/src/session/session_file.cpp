@@ -17,6 +17,7 @@
 #include "core/fnv1a.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/shared_segment.h"
 #include "session_chunks.h"
 #include "session_header.h"
@@ -115,7 +116,16 @@ bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
   return version == kVersionWithHold || scene::has_rods(set) == (version == kVersionWithRods);
 }
 
-bool has_law_map(std::uint32_t version) { return version == kVersionWithLawMap || version == kVersionWithViscousMap; }
+bool has_law_map(std::uint32_t version) {
+  return version == kVersionWithLawMap || version == kVersionWithViscousMap || version == kVersionWithMapVibration;
+}
+
+// True if a map of these parameters belongs into a file of this version.
+bool is_of(std::uint32_t version, const scene::SharedContact& parameters) {
+  if (version == kVersionWithMapVibration) return parameters.map_vibration != scene::MapVibration::None;
+  return parameters.map_vibration == scene::MapVibration::None &&
+         (parameters.viscous_map != 0) == (version == kVersionWithViscousMap);
+}
 
 // Size of a sample in a file of this version of chunks.
 std::size_t sample_bytes_in(std::uint32_t version) {
@@ -126,7 +136,7 @@ std::size_t sample_bytes_in(std::uint32_t version) {
   return without_push ? kSampleBytesWithoutPush : kSampleBytesWithoutSwing;
 }
 
-// Reads version 6 to 18; returns an error message, or nothing.
+// Reads version 6 to 20; returns an error message, or nothing.
 std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
   const bool with_map = has_law_map(version);
   const bool with_particles = version != kSessionVersion && version != kVersionWithSwing && !with_map;
@@ -145,8 +155,7 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
       if (std::string wrong = read_header(payload, sample_bytes_in(version), session); !wrong.empty()) return wrong;
       if (scene::taps(session.parameters) != (version == kVersionWithSwing)) return "its lever is of another version";
       if ((session.parameters.law_map != 0) != with_map) return "its law is of another version";
-      if ((session.parameters.viscous_map != 0) != (version == kVersionWithViscousMap))
-        return "its map is of another version";
+      if (!is_of(version, session.parameters)) return "its map is of another version";
     } else if (decoder.name() == kSurfaceChunk) {
       if (payload.size() != sizeof(SharedHeightField) || !take(payload, session.surface.emplace())) {
         return "the size of its surface differs from this program's";
@@ -326,10 +335,10 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  constexpr std::array kVersions{kVersionOf010,         kSessionVersion,   kVersionWithParticles, kVersionWithRods,
-                                 kVersionWithHold,      kVersionWithSwing, kVersionWithPlans,     kVersionWithLift,
-                                 kVersionWithIslands,   kVersionWithLevel, kVersionWithLawMap,    kVersionWithMarks,
-                                 kVersionWithViscousMap};
+  constexpr std::array kVersions{
+      kVersionOf010,      kSessionVersion,   kVersionWithParticles,  kVersionWithRods,        kVersionWithHold,
+      kVersionWithSwing,  kVersionWithPlans, kVersionWithLift,       kVersionWithIslands,     kVersionWithLevel,
+      kVersionWithLawMap, kVersionWithMarks, kVersionWithViscousMap, kVersionWithMapVibration};
   if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
     return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
   }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/shared_segment.h"
 #include "session_chunks.h"
 
@@ -73,6 +74,9 @@ nlohmann::json json_of(const scene::SharedContact& m) {
   if (m.surface_release_m != 0.0) json["surface_release_m"] = m.surface_release_m;
   if (m.law_map != 0) json["law_map"] = true;
   if (m.viscous_map != 0) json["viscous_map"] = true;
+  if (m.map_vibration != scene::MapVibration::None) {
+    json["map_vibration"] = static_cast<std::uint32_t>(m.map_vibration);
+  }
   if (m.dynamic != 0) json["dynamics"] = json_of(m.lever);
   if (scene::taps(m)) {
     json["tapping"] = json_of(m.lever);
@@ -110,6 +114,7 @@ scene::SharedContact parameters_of(const nlohmann::json& json, const std::string
   m.surface_release_m = json.value("surface_release_m", 0.0);
   m.law_map = json.value("law_map", false) ? 1 : 0;
   m.viscous_map = json.value("viscous_map", false) ? 1 : 0;
+  m.map_vibration = static_cast<scene::MapVibration>(json.value("map_vibration", std::uint32_t{0}));
   if (const auto dynamics = json.find("dynamics"); dynamics != json.end()) {
     m.dynamic = 1;
     m.lever = lever_of(*dynamics);
@@ -159,6 +164,7 @@ scene::SharedDevice device_of(const nlohmann::json& json) {
                              .max_stiffness_n_per_m = json.at("max_stiffness_N_per_m").get<double>(),
                              .max_slew_n_per_s = json.value("max_slew_N_per_s", HUGE_VAL),
                              .max_speed_m_per_s = json.value("max_speed_m_per_s", HUGE_VAL),
+                             .max_vibration_n = json.value("max_vibration_N", 0.0),
                              .workspace_min_m = json.at("workspace_min_m").get<std::array<double, 3>>(),
                              .workspace_max_m = json.at("workspace_max_m").get<std::array<double, 3>>()};
   const auto name = json.at("name").get<std::string>();
@@ -195,6 +201,9 @@ nlohmann::json header_of(const RecordedSession& session) {
                           {"retract", json_of(std::span(curve->retract).first(curve->retract_count))},
                           {"jumps", {curve->jumps.approach, curve->jumps.retract}}};
     if (curve->column >= 0) header["measured"]["pixel"] = {curve->column, curve->row};
+  }
+  if (session.parameters.map_vibration != scene::MapVibration::None) {
+    header["device"]["max_vibration_N"] = session.device.max_vibration_n;
   }
   if (!session.shown.empty()) header["shown"] = session.shown;
   if (!session.earlier_curves.empty()) header["earlier_curves"] = json_of(session.earlier_curves);

@@ -161,6 +161,8 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
                              "--felt",
                              "map",
                              "--viscous-map",
+                             "--map-vibration",
+                             "adhesion",
                              "--equal-force",
                              "0.5nN",
                              "--size",
@@ -175,6 +177,7 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
                              folder_.file("whole"),
                              "--validate"},
                             display_.name());
+  ASSERT_TRUE(view.says("a hand that moves near the sample feels the adhesion as a vibration")) << view.said();
   ASSERT_TRUE(view.says("the whole map is felt: E ")) << view.said();
   ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
   ASSERT_TRUE(view.says("the surface of 500 pN, which 12 of 12 curves reach")) << view.said();
@@ -196,6 +199,7 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
     const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
     EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
     EXPECT_THAT(replayed.out, HasSubstr("felt over a viscous map of modulus and adhesion of 4 x 3 points"));
+    EXPECT_THAT(replayed.out, HasSubstr("the adhesion is felt as a vibration"));
     EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
   }
   EXPECT_GE(touched, 1) << "no session of the map touches";
@@ -236,6 +240,12 @@ TEST(ViewForceMapFiles, AreRefusedWithTheReason) {
   const auto solid = view("holed.jpk-force-map", "--viscous-map");
   EXPECT_EQ(solid.exit_code, 2);
   EXPECT_THAT(solid.err, HasSubstr("--viscous-map: only a map that is felt whole is viscous"));
+  const auto still = view("holed.jpk-force-map", "--map-vibration modulus");
+  EXPECT_EQ(still.exit_code, 2);
+  EXPECT_THAT(still.err, HasSubstr("--map-vibration: only a map that is felt whole vibrates"));
+  const auto pad = view("holed.jpk-force-map", "--map-vibration modulus --haptics gamepad");
+  EXPECT_EQ(pad.exit_code, 2);
+  EXPECT_THAT(pad.err, HasSubstr("the profile of --haptics gamepad has no vibration; use one of hdapi, "));
   const auto shapeless = view("holed.jpk-force-map", "--radius 50nm");
   EXPECT_EQ(shapeless.exit_code, 2);
   EXPECT_THAT(shapeless.err, HasSubstr("add --fit SHAPE"));

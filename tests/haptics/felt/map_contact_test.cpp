@@ -18,6 +18,7 @@
 #include "felt/map_bench.h"
 #include "haptics/contact_model.h"
 #include "haptics/passivity_observer.h"
+#include "scene/shared/map_vibration.h"
 #include "servo_bench.h"
 
 namespace afm::haptics {
@@ -28,7 +29,11 @@ using physics::Phase;
 using scene::ScaleMode;
 using testing::HasSubstr;
 
-const DeviceSpec kOmni = omni_like("hand");
+const DeviceSpec kOmni = [] {
+  DeviceSpec device = omni_like("hand");
+  device.max_vibration_n = kMostVibrationN;
+  return device;
+}();
 
 core::Result<std::unique_ptr<ContactModel>> model_on(const scene::SharedContact& material,
                                                      const scene::SharedLawMap& map) {
@@ -92,7 +97,7 @@ Ridden ride(ContactModel& model, ScaleMode mode, const Loop& loop, double rate_h
   PassivityObserver::Law law;
   for (int i = 0; i <= std::lround(rate_hz * loop.seconds()); ++i) {
     const glm::dvec3 here_m = loop.at(i / rate_hz);
-    const Touch touch = model.step(here_m);
+    const Touch touch = model.step(here_m, {.elapsed_s = 1.0 / rate_hz});
     const PassivityObserver::Law now = model.energy(touch);
     glm::dvec3 here_n = touch.hand_force_n;
     if (!sideways) here_n -= glm::dvec3(touch.map.sideways_n, 0.0);
@@ -131,6 +136,19 @@ TEST(MapContact, GivesNoEnergyOnClosedWaysAtAnyRateOnAnyScale) {
     }
   }
   EXPECT_GT(jumps, 200) << "the ways hardly ever touch";
+}
+
+TEST(MapContact, GivesNoEnergyOnClosedWaysWithEachVibration) {
+  for (const scene::MapVibrationText& row : scene::kMapVibrations) {
+    scene::SharedContact rubber = test::rubber(Law::Jkr);
+    rubber.map_vibration = row.quantity;
+    const auto model = test::required(model_on(rubber, *test::hilly_map(rubber)));
+    for (unsigned seed = 0; seed < 8; ++seed) {
+      const Ridden ridden = ride(*model, ScaleMode::Fit, Loop(seed), 1000.0);
+      EXPECT_LT(ridden.work_j, 1e-4 * ridden.most_j) << row.word << ", way " << seed;
+      EXPECT_LT(ridden.excess_j, PassivityObserver::kToleranceJ) << row.word << ", way " << seed;
+    }
+  }
 }
 
 TEST(MapContact, WouldGiveEnergyWithoutItsSidewaysForce) {

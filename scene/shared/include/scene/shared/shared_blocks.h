@@ -19,6 +19,8 @@
 // process named in its comment. Readers check everything: indices against counts, numbers against ranges.
 namespace afm::scene {
 
+enum class MapVibration : std::uint32_t;  // scene/shared/map_vibration.h
+
 inline constexpr std::uint32_t kMaxNodes = 160;
 inline constexpr std::uint32_t kMaxMaterials = 32;
 inline constexpr std::uint32_t kMaxMeasuredCurves = 4;
@@ -70,6 +72,8 @@ struct SharedContact {
   physics::FrictionParameters friction{};
   std::uint32_t law_map = 0;      // 1: modulus and adhesion are those of the model's map at each place
   std::uint32_t viscous_map = 0;  // 1: with law_map, a damping that grows with the energy that the law loses there
+  MapVibration map_vibration{};   // with law_map only; zero: none
+  std::uint32_t padding = 0;
 };
 
 // True if the material is felt by a lever in tapping mode.
@@ -234,6 +238,7 @@ struct SharedDevice {
   double max_stiffness_n_per_m = 0;
   double max_slew_n_per_s = 0;     // infinite: no limit
   double max_speed_m_per_s = 0;    // infinite: no limit
+  double max_vibration_n = 0;      // 0: none
   std::uint32_t has_own_hand = 0;  // 1: a person's or a recorded hand, which ignores HandScript
   std::uint32_t padding = 0;
   std::array<double, 3> workspace_min_m{};
