@@ -123,7 +123,7 @@ class MapContact {
     std::shared_ptr<const MapLaw> law;
     MapLaw::Steepness steepness;
     double least_j = 0;
-    double most_loss_j = 0;  // of a cycle at any point of the map
+    double most_loss_j = 0;  // largest loss of a cycle at any point of the map
     double stiffness_n_per_m = 0;
     Laid columns, rows;
   };
