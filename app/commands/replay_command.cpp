@@ -18,6 +18,7 @@
 #include "exhibit/sound/session_sound.h"
 #include "exhibit/state/particle_task.h"
 #include "scene/samples/particle_set.h"
+#include "scene/shared/map_vibration.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
 

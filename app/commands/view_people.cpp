@@ -12,6 +12,7 @@
 
 #include "app/view/speech_choice.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "scene/shared/map_vibration.h"
 #include "servo/haptic_choice.h"
 #include "servo/keep_running.h"
 #include "servo/session_file.h"

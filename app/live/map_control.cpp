@@ -22,6 +22,7 @@
 #include "exhibit/scan/volume_view.h"
 #include "exhibit/state/moment.h"
 #include "physics/quantity_text.h"
+#include "scene/shared/map_vibration.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {

@@ -17,6 +17,7 @@
 #include "curves/curve_map.h"
 #include "curves/fitting/map_fit.h"
 #include "curves/image_file.h"
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/particle_blocks.h"
 
 namespace afm::app {

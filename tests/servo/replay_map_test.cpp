@@ -9,6 +9,7 @@
 
 #include "core/whole_file.h"
 #include "haptics/law_family.h"
+#include "scene/shared/map_vibration.h"
 #include "servo/recorded_servo.h"
 #include "servo/session_file.h"
 #include "support/paper_model.h"

@@ -18,6 +18,7 @@
 #include "curves/fitting/map_fit.h"
 #include "curves/force_volume.h"
 #include "curves/measured_material.h"
+#include "scene/shared/map_vibration.h"
 
 namespace afm::exhibit {
 

@@ -14,6 +14,7 @@
 #include "core/check.h"
 #include "core/enumerators.h"
 #include "physics/tapping/driven_lever.h"
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::scene {

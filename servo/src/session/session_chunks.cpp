@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/shared_segment.h"
 #include "session_header.h"
 #include "session_records.h"

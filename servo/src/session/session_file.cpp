@@ -17,6 +17,7 @@
 #include "core/fnv1a.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/shared_segment.h"
 #include "session_chunks.h"
 #include "session_header.h"

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/written_by.h"
+#include "scene/shared/map_vibration.h"
 #include "scene/shared/shared_segment.h"
 #include "session_chunks.h"
 

@@ -18,6 +18,7 @@
 #include "felt/map_bench.h"
 #include "haptics/contact_model.h"
 #include "haptics/map_contact.h"
+#include "scene/shared/map_vibration.h"
 #include "servo_bench.h"
 #include "support/deep.h"
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,15 +13,15 @@
 
 #include "physics/imaging/levelling.h"
 #include "scene/samples/material_library.h"
-#include "scene/shared/map_vibration.h"
 
 namespace afm::curves {
 struct MapReading;
 }
 
 namespace afm::scene {
+enum class MapVibration : std::uint32_t;
 struct ParticleSet;
-}
+}  // namespace afm::scene
 
 namespace afm::exhibit {
 
@@ -60,10 +61,10 @@ struct ExhibitFiles {
   // shared, so that this header need not know its type; null: the file's calibration, without a fit
   std::shared_ptr<const curves::MapReading> map_reading;
   std::optional<std::array<std::size_t, 2>>
-      pixel;                 // its column and row to feel first (curves::MapPlace); empty: the middle
-  bool whole_map = false;    // true: the whole fitted map is felt, not one pixel
-  bool viscous_map = false;  // true: it also damps the hand
-  scene::MapVibration map_vibration = scene::MapVibration::None;  // quantity that it is felt by, besides its law
+      pixel;                                // its column and row to feel first (curves::MapPlace); empty: the middle
+  bool whole_map = false;                   // true: the whole fitted map is felt, not one pixel
+  bool viscous_map = false;                 // true: it also damps the hand
+  scene::MapVibration map_vibration{};      // quantity that it is felt by, besides its law
   std::optional<double> equal_force_n{};    // force of the surface over it that is shown first; empty: none
   std::vector<std::string> shown;           // names; empty: all of the user's file, or the paper's three
   std::vector<scene::MaterialEntry> added;  // shown after the others

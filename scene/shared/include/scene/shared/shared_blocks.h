@@ -11,7 +11,6 @@
 #include "physics/law_tables.h"
 #include "physics/lever_dynamics.h"
 #include "scene/shared/fault_codes.h"
-#include "scene/shared/map_vibration.h"
 #include "scene/shared/name.h"
 #include "scene/shared/particle_blocks.h"
 #include "scene/shared/scale_modes.h"
@@ -19,6 +18,8 @@
 // Blocks of the shared scene: trivially copyable, without pointers, in SI units, each with exactly one writer, the
 // process named in its comment. Readers check everything: indices against counts, numbers against ranges.
 namespace afm::scene {
+
+enum class MapVibration : std::uint32_t;  // scene/shared/map_vibration.h
 
 inline constexpr std::uint32_t kMaxNodes = 160;
 inline constexpr std::uint32_t kMaxMaterials = 32;
@@ -71,7 +72,7 @@ struct SharedContact {
   physics::FrictionParameters friction{};
   std::uint32_t law_map = 0;      // 1: modulus and adhesion are those of the model's map at each place
   std::uint32_t viscous_map = 0;  // 1: with law_map, a damping that grows with the energy that the law loses there
-  MapVibration map_vibration = MapVibration::None;  // with law_map only
+  MapVibration map_vibration{};   // with law_map only; zero: none
   std::uint32_t padding = 0;
 };
 
