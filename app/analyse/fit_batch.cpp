@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "app/analyse/fit_maps.h"
+#include "app/analyse/fit_page.h"
 #include "app/analyse/fit_pool.h"
 #include "app/options/standard_output.h"
 #include "core/file_descriptor.h"
@@ -36,6 +37,7 @@ namespace {
 
 constexpr const char* kTable = "fits.tsv";
 constexpr const char* kHistograms = "modulus.svg";
+constexpr const char* kPage = "report.html";
 constexpr const char* kColumns =
     "file\ttrust\treason\tmodulus_Pa\tmodulus_low_Pa\tmodulus_high_Pa\treduced_modulus_Pa\tcontact_m\tlevel_N\ttilt_N_"
     "per_m\t"
@@ -46,6 +48,7 @@ constexpr const char* kColumns =
     "law\tW_J_per_m2\tW_low_J_per_m2\tW_high_J_per_m2\tpull_off_N\ttabor\tmodulus_systematic_Pa\tW_systematic_J_per_"
     "m2\t"
     "curve\tx_m\ty_m\tcolumn\trow\tadhesion_N\tsnap_in_N\tcontact_slope_N_per_m\tloop_energy_J\tadhesion_energy_J\t"
+    "modulus_bootstrap_low_Pa\tmodulus_bootstrap_high_Pa\tW_bootstrap_low_J_per_m2\tW_bootstrap_high_J_per_m2\t"
     "source\tsoftware\n";
 
 std::string reasons(const fits::ElasticFit& fit) {
@@ -117,6 +120,14 @@ std::string adhesion_cells(const fits::ElasticFit& fit) {
                      given(adheres && erred, shares.work * adhesion.work_j_per_m2));
 }
 
+// Ends of the intervals by a bootstrap; cells are empty where the fit has none.
+std::string bootstrap_cells(const fits::ElasticFit& fit) {
+  if (!fit.bootstrap) return "\t\t\t";
+  const fits::Interval &modulus_pa = fit.bootstrap->modulus_pa, &work = fit.bootstrap->work_j_per_m2;
+  const std::string moduli = fmt::format("{}\t{}\t", modulus_pa.low, modulus_pa.high);
+  return moduli + (fit.adhesion ? fmt::format("{}\t{}", work.low, work.high) : "\t");
+}
+
 // Publication of the law, and the program.
 std::string origin(fits::Shape shape) { return fmt::format("{}\t{}", fits::row_of(shape).meaning, core::written_by()); }
 
@@ -125,27 +136,28 @@ std::string row_of(const std::string& file, std::size_t index, const curves::Fit
   const std::string name = core::printable_line(file);
   if (!fitted.fit) {
     constexpr std::size_t kNumbers = 16, kAdhesionCells = 8;
-    return fmt::format("{}\tnone\t{}{}\t{}{}\t{}\t{}\n", name, core::printable_line(fitted.why),
+    return fmt::format("{}\tnone\t{}{}\t{}{}\t{}\t\t\t\t\t{}\n", name, core::printable_line(fitted.why),
                        std::string(kNumbers, '\t'), sizes(options), std::string(kAdhesionCells, '\t'),
                        features(index, fitted), origin(*options.shape));
   }
   const fits::ElasticFit& fit = *fitted.fit;
   const auto finite = [](double value) { return cell(std::isfinite(value) ? std::optional(value) : std::nullopt); };
   const std::string order = fit.noise_order ? fmt::format("{}", *fit.noise_order) : "";
-  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n",
+  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n",
                      name, fits::name_of(fit.trust), reasons(fit), fit.modulus_pa, fit.modulus_interval_pa.low,
                      finite(fit.modulus_interval_pa.high), fit.reduced_modulus_pa, fit.contact_z_m, fit.level_n,
                      cell(options.tilt ? std::optional(fit.tilt_n_per_m) : std::nullopt), fit.depth_m, fit.noise_n,
                      fit.rms_n, fit.points, fit.in_contact, order, fit.runs_p, cell(fit.half_depth_modulus_pa),
                      fitted.spring_n_per_m, sizes(options), adhesion_cells(fit), features(index, fitted),
-                     origin(fit.shape));
+                     bootstrap_cells(fit), origin(fit.shape));
 }
 
 core::Result<core::FileDescriptor> new_table(const std::string& folder, const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (std::filesystem::exists(std::filesystem::path(folder) / kHistograms, error)) {
-    return core::wrong_usage(fmt::format("--out {}: it has a {} already; name another folder", folder, kHistograms));
+  for (const char* name : {kHistograms, kPage}) {
+    if (!std::filesystem::exists(std::filesystem::path(folder) / name, error)) continue;
+    return core::wrong_usage(fmt::format("--out {}: it has a {} already; name another folder", folder, name));
   }
   core::FileDescriptor table(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   if (table.is_open()) return table;
@@ -169,17 +181,18 @@ class Summary {
   std::size_t done() const { return done_; }
   bool has_fits() const { return unread_ < done_; }
 
-  std::string text(const std::string& path) const {
-    std::string text = fmt::format("{}: {} curves; {} trusted, {} doubtful, {} not trusted, {} without a fit\n", path,
-                                   done_, trusts_[0], trusts_[1], trusts_[2], unread_);
-    if (moduli_pa_.empty()) return text;
+  std::vector<std::string> lines() const {
+    std::vector<std::string> lines{fmt::format("{} curves; {} trusted, {} doubtful, {} not trusted, {} without a fit",
+                                               done_, trusts_[0], trusts_[1], trusts_[2], unread_)};
+    if (moduli_pa_.empty()) return lines;
     const curves::ModulusFigures figures = curves::modulus_figures(moduli_pa_);
     const auto pressure = [](double pa) {
       return physics::format_quantity(physics::Pressure(pa), physics::kPressureUnits, 4);
     };
-    return text + fmt::format("modulus of the trusted and the doubtful: median {}, deviation {}, geometric mean {}\n",
-                              pressure(figures.median_pa), pressure(figures.deviation_pa),
-                              pressure(figures.geometric_mean_pa));
+    lines.push_back(fmt::format("modulus of the trusted and the doubtful: median {}, deviation {}, geometric mean {}",
+                                pressure(figures.median_pa), pressure(figures.deviation_pa),
+                                pressure(figures.geometric_mean_pa)));
+    return lines;
   }
 
   // Histograms of the trusted and the doubtful; empty without any.
@@ -190,6 +203,17 @@ class Summary {
   std::array<std::size_t, 3> trusts_{};  // in the order of Trust
   std::vector<double> moduli_pa_;
 };
+
+// Histograms and page, beside the table.
+core::Result<void> write_page(const AnalyseOptions& options, const Summary& summary,
+                              const std::vector<std::string>& results, const FitPage& page) {
+  const std::filesystem::path folder(options.out);
+  const std::string histograms = summary.histograms();
+  if (!histograms.empty()) {
+    if (auto written = core::write_file((folder / kHistograms).string(), histograms); !written) return written;
+  }
+  return core::write_file((folder / kPage).string(), page.html(results, map_texts(options.fit), histograms));
+}
 
 // Logs the progress once a second.
 class Progress {
@@ -227,6 +251,7 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
   if (const auto written = write(kColumns); !written) return written;
   const core::OrderlyEnd by_itself;
   Summary summary;
+  FitPage page;
   std::size_t whole_files = 0;
   core::Result<void> drawn;  // the first failure of a picture, which costs no fit
   {
@@ -237,26 +262,28 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
       const auto count = pool.count(whole_files);
       if (!count) break;
       FitMaps maps(*count);
+      page.begin(file);
       std::size_t index = 0;
       for (; index < *count; ++index) {
         const auto fitted = pool.take(whole_files, index);
         if (!fitted) break;
         if (const auto written = write(row_of(file, index, *fitted, options.fit)); !written) return written;
         summary.add(*fitted);
+        page.add(*fitted);
         maps.add(*fitted);
         progress.tell(whole_files, files.size(), index + 1, *count);
       }
       if (index < *count) break;
       pool.forget(whole_files);
-      if (auto written = maps.write(options.out, file, map_texts(options.fit)); !written && drawn)
-        drawn = std::move(written);
+      auto pictured = maps.write(options.out, file, map_texts(options.fit));
+      if (pictured && !pictured->empty()) page.add_map(std::move(*pictured));
+      if (!pictured && drawn) drawn = tl::unexpected(pictured.error());
     }
   }
-  if (const std::string histograms = summary.histograms(); !histograms.empty()) {
-    const std::string picture = (std::filesystem::path(options.out) / kHistograms).string();
-    if (auto written = core::write_file(picture, histograms); !written && drawn) drawn = std::move(written);
-  }
-  if (const auto printed = write_report(summary.text(path)); !printed) return printed;
+  const std::vector<std::string> results = summary.lines();
+  if (auto written = write_page(options, summary, results, page); !written && drawn) drawn = std::move(written);
+  if (const auto printed = write_report(fmt::format("{}: {}\n", path, fmt::join(results, "\n"))); !printed)
+    return printed;
   if (whole_files < files.size()) {
     return core::failure(core::ErrorCategory::Failed,
                          fmt::format("interrupted: {} has {} curves, and {} of {} files whole", path, summary.done(),

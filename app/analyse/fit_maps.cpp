@@ -101,7 +101,8 @@ void FitMaps::add(const curves::FittedCurve& curve) {
 
 bool FitMaps::is_drawn() const { return curves_ > 1 && curves::is_map_of(curves_, *grid_); }
 
-core::Result<void> FitMaps::write(const std::string& folder, const std::string& file, const Texts& fitted_with) const {
+core::Result<std::string> FitMaps::write(const std::string& folder, const std::string& file,
+                                         const Texts& fitted_with) const {
   if (!grid_ || curves_ == 1) return {};
   if (!is_drawn()) {
     core::log_line(fmt::format("{}: no map is drawn of {} curves on a grid of {} x {} pixels", file, curves_,
@@ -147,14 +148,17 @@ core::Result<void> FitMaps::write(const std::string& folder, const std::string& 
   }
   if (shown.empty()) return {};
   const std::string name = free_name(folder, std::filesystem::path(file).stem().string());
-  if (const auto written = core::write_file(name + ".gwy", curves::gwy_bytes(image)); !written) return written;
+  if (const auto written = core::write_file(name + ".gwy", curves::gwy_bytes(image)); !written)
+    return tl::unexpected(written.error());
+  std::string modulus;
   for (std::size_t map = 0; map < shown.size(); ++map) {
     const auto picture = exhibit::picture_of(image, map, shown[map]->striped ? style : exhibit::PictureStyle{});
-    const auto written = render::write_png(picture, fmt::format("{}-{}.png", name, shown[map]->word),
-                                           exhibit::picture_texts(image, map));
-    if (!written) return written;
+    const std::string path = fmt::format("{}-{}.png", name, shown[map]->word);
+    const auto written = render::write_png(picture, path, exhibit::picture_texts(image, map));
+    if (!written) return tl::unexpected(written.error());
+    if (shown[map] == &kMaps.front()) modulus = core::read_file(path).value_or("");
   }
-  return {};
+  return modulus;
 }
 
 }  // namespace afm::app

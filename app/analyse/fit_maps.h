@@ -36,8 +36,8 @@ class FitMaps {
   // the file's without its ending. Colours go from the 1st to the 99th percentile; in maps of the fit, pixels that are
   // not trusted are striped. Nothing without a pixel, of a
   // single curve, or, with a line of the log, of a grid far larger than the number of curves. A name that exists gets a
-  // number. Failed names the path and the reason.
-  core::Result<void> write(const std::string& folder, const std::string& file, const Texts& fitted_with) const;
+  // number. Returns the PNG bytes of the modulus; empty if none is drawn. Failed names the path and the reason.
+  core::Result<std::string> write(const std::string& folder, const std::string& file, const Texts& fitted_with) const;
 
  private:
   bool is_drawn() const;

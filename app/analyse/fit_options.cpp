@@ -24,6 +24,10 @@ std::vector<NamedOption> add_fit_options(OptionList& command, curves::FitOptions
   add("--white-noise", command.add_flag("--white-noise", options.white,
                                         "with --fit: assume white noise, as nanite and AtomicJ do; for other "
                                         "noise the interval is then too narrow"));
+  add("--bootstrap",
+      command.add_flag("--bootstrap", options.bootstrap,
+                       "with --fit: also give intervals by a moving-block bootstrap, 200 more fits of each "
+                       "curve to resampled residuals"));
   return added;
 }
 

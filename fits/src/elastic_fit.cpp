@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "adhesive_branch.h"
+#include "bootstrap.h"
 #include "correlated_noise.h"
 #include "curve_problem.h"
 #include "doubts.h"
@@ -267,6 +268,7 @@ std::optional<ElasticFit> fit(std::span<const Sample> samples, const FitSetup& s
   if (!why.empty()) return std::nullopt;
   auto found = setup.indenter.shape == Shape::Auto ? fit_by_tabor(samples, setup, why) : fit_shape(samples, setup, why);
   if (found) found->systematic = systematic_of(samples, setup, *found);
+  if (found && setup.bootstraps > 0) found->bootstrap = bootstrap_of(samples, setup, *found);
   return found;
 }
 

@@ -158,6 +158,58 @@ TEST(CoverageOfAFit, IsNinetyFivePercentWhateverTheNoise) {
   }
 }
 
+// Blocks of residuals keep the noise's memory: the interval is as wide as that of the likelihood.
+TEST(BootstrapOfAFit, IsAsWideAsTheProfileWhateverTheNoise) {
+  const Indenter tip = indenter(Shape::Paraboloid);
+  FitSetup setup = setup_of(tip);
+  setup.bootstraps = 200;
+  for (const Noise noise : {Noise::White, Noise::LowPass}) {
+    Curves source(7);
+    double ratio = 0.0;
+    constexpr int kCurves = 8;
+    for (int i = 0; i < kCurves; ++i) {
+      const std::vector<Sample> samples = source.approach(tip, 4e3, noise);
+      const ElasticFit fit = fitted(samples, setup);
+      ASSERT_TRUE(fit.bootstrap);
+      const Bootstrap& found = *fit.bootstrap;
+      EXPECT_EQ(found.fits, 200U);
+      EXPECT_GT(fit.modulus_pa, found.modulus_pa.low);
+      EXPECT_LT(fit.modulus_pa, found.modulus_pa.high);
+      ratio += std::log(found.modulus_pa.high / found.modulus_pa.low) /
+               std::log(fit.modulus_interval_pa.high / fit.modulus_interval_pa.low) / kCurves;
+      const ElasticFit again = fitted(samples, setup);
+      EXPECT_EQ(again.bootstrap->modulus_pa.low, found.modulus_pa.low) << "the same bytes";
+      if (noise == Noise::LowPass) {
+        EXPECT_GT(found.block, 30U) << "longer than the noise remembers";
+      }
+    }
+    EXPECT_GT(ratio, 0.8) << static_cast<int>(noise);
+    EXPECT_LT(ratio, 1.2) << static_cast<int>(noise);
+  }
+  EXPECT_FALSE(fitted(Curves(7).approach(tip, 4e3, Noise::White), setup_of(tip)).bootstrap) << "only when asked for";
+}
+
+// Less than that of the profile: residuals are smaller than the noise, and a curve has few blocks.
+TEST(CoverageOfABootstrap, IsThatOfTheManual) {
+  const Indenter tip = indenter(Shape::Paraboloid);
+  FitSetup setup = setup_of(tip);
+  setup.bootstraps = 200;
+  const int curves = support::draws(300);
+  for (const Noise noise : {Noise::White, Noise::LowPass}) {
+    Curves source(11);
+    int held = 0;
+    for (int i = 0; i < curves; ++i) {
+      const ElasticFit fit = fitted(source.approach(tip, 4e3, noise), setup);
+      const double truth_pa = 0.75 * 4e3;
+      if (fit.bootstrap->modulus_pa.low <= truth_pa && truth_pa <= fit.bootstrap->modulus_pa.high) ++held;
+    }
+    const double share = static_cast<double>(held) / curves;
+    const double known = noise == Noise::White ? 0.923 : 0.857;  // share of 300 curves
+    EXPECT_NEAR(share, known, 3.0 * std::sqrt(known * (1.0 - known) / curves))
+        << static_cast<int>(noise) << ": " << share;
+  }
+}
+
 TEST(ElasticFit, IsTrustedWhereTheCurveIsTheShapes) {
   const Indenter tip = indenter(Shape::Sphere);
   const ElasticFit fit = fitted(Curves(3).approach(tip, 4e3, Noise::White), setup_of(tip));

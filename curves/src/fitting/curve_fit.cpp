@@ -109,8 +109,8 @@ core::Result<void> prepare(FitOptions& options) {
   const bool radius = options.radius_m > 0.0, angle = options.half_angle_rad > 0.0, layer = options.layer_m > 0.0;
   if (!options.shape) {
     if (radius || angle || layer || options.poisson != FitOptions{}.poisson || options.tilt || options.white ||
-        std::isfinite(options.most_force_n) || std::isfinite(options.most_depth_m) || options.atomic_distance_m ||
-        !options.uncertainty_texts.empty() || options.base != FitOptions{}.base ||
+        options.bootstrap || std::isfinite(options.most_force_n) || std::isfinite(options.most_depth_m) ||
+        options.atomic_distance_m || !options.uncertainty_texts.empty() || options.base != FitOptions{}.base ||
         options.against != FitOptions{}.against) {
       return core::wrong_usage("an option of a fit is given without --fit; add --fit SHAPE, such as --fit sphere");
     }
@@ -132,6 +132,9 @@ core::Result<void> prepare(FitOptions& options) {
   }
   if (shape.is_adhesive && options.against != fits::Against::Z) {
     return core::wrong_usage(fmt::format("--fit {} is against z; leave --against out", shape.name));
+  }
+  if (options.bootstrap && options.against != fits::Against::Z) {
+    return core::wrong_usage("--bootstrap draws forces at known heights, and is against z; leave --against out");
   }
   if (!shape.is_adhesive && options.atomic_distance_m) {
     return core::wrong_usage(fmt::format("--fit {} has no use for --atomic-distance; leave it out", shape.name));
@@ -161,7 +164,8 @@ core::Result<fits::ElasticFit> fit_of(const AnalysedCurve& curve, const FitOptio
       .tilt = options.tilt,
       .white = options.white,
       .starts = {},
-      .uncertainties = options.uncertainties};
+      .uncertainties = options.uncertainties,
+      .bootstraps = options.bootstrap ? kBootstraps : 0};
   for (const auto& estimate : curve.features.contact_estimates) {
     if (estimate) setup.starts.push_back(estimate->si);
   }

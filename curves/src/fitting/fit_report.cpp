@@ -53,11 +53,18 @@ std::string work_text(double j_per_m2) {
   return format_quantity(physics::SurfaceEnergy(j_per_m2), physics::kSurfaceEnergyUnits, kDigits);
 }
 
+// Two lines below the interval of a quantity.
+void bootstrap_lines(const fits::Interval& interval, std::string (*text)(double si), const Line& line) {
+  line("  bootstrap from", text(interval.low));
+  line("  to", text(interval.high));
+}
+
 void adhesion_lines(const fits::ElasticFit& fit, const Line& line) {
   const fits::Adhesion& adhesion = *fit.adhesion;
   line("work of adhesion", work_text(adhesion.work_j_per_m2));
   line("  95 % from", adhesion.work_interval.low > 0.0 ? work_text(adhesion.work_interval.low) : "not found");
   line("  to", std::isfinite(adhesion.work_interval.high) ? work_text(adhesion.work_interval.high) : "not found");
+  if (fit.bootstrap) bootstrap_lines(fit.bootstrap->work_j_per_m2, work_text, line);
   line("pull-off", force_text(adhesion.pull_off_n));
   line("  at", length_text(adhesion.pull_off_z_m));
   line("Tabor parameter", fmt::format("{:.{}g}", adhesion.tabor, kDigits));
@@ -88,6 +95,16 @@ void systematic_lines(const fits::ElasticFit& fit, const Line& line) {
 }
 
 FitJson finite_json(double value) { return std::isfinite(value) ? FitJson(value) : FitJson(); }
+
+FitJson bootstrap_json(const fits::ElasticFit& fit) {
+  if (!fit.bootstrap) return {};
+  const fits::Bootstrap& found = *fit.bootstrap;
+  const fits::Interval& work = found.work_j_per_m2;
+  return {{"modulus_95_percent_Pa", {found.modulus_pa.low, found.modulus_pa.high}},
+          {"work_95_percent_J_per_m2", fit.adhesion ? FitJson({work.low, work.high}) : FitJson()},
+          {"fits", found.fits},
+          {"block_points", found.block}};
+}
 
 FitJson adhesion_json(const fits::ElasticFit& fit) {
   if (!fit.adhesion) return {};
@@ -137,6 +154,8 @@ std::string fit_text(const fits::ElasticFit& fit, const FitOptions& options) {
   line("modulus E", pressure_text(fit.modulus_pa));
   line("  95 % from", fit.modulus_interval_pa.low > 0.0 ? pressure_text(fit.modulus_interval_pa.low) : "not found");
   line("  to", std::isfinite(fit.modulus_interval_pa.high) ? pressure_text(fit.modulus_interval_pa.high) : "not found");
+  if (fit.bootstrap) bootstrap_lines(fit.bootstrap->modulus_pa, pressure_text, line);
+  if (options.bootstrap && !fit.bootstrap) line("  bootstrap", "not found");
   line("reduced modulus", pressure_text(fit.reduced_modulus_pa));
   if (fit.adhesion) adhesion_lines(fit, line);
   if (!fit.systematic.empty()) systematic_lines(fit, line);
@@ -183,6 +202,7 @@ FitJson fit_json(const fits::ElasticFit& fit, const FitOptions& options) {
                  {"reduced_modulus_Pa", fit.reduced_modulus_pa},
                  {"atomic_distance_m", shape.is_adhesive ? FitJson(atomic_distance_of(options)) : FitJson()},
                  {"adhesion", adhesion_json(fit)},
+                 {"bootstrap", bootstrap_json(fit)},
                  {"systematic", systematic_json(fit, fits::sum_of_shares(fit.systematic))},
                  {"contact_m", fit.contact_z_m},
                  {"level_N", fit.level_n},

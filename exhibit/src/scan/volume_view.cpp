@@ -220,6 +220,7 @@ void VolumeView::add_slice(const curves::SampleModel& model, const WallState& st
                                             dvec3(width, 1.0, scales.lid - scales.floor));
   frame.shapes.push_back({.node = slice_, .vertices = cut_->vertices});
   add_bar(volume, scales, {0.5 * width, y, cut_->right + kReliefLift}, frame);
+  wall_scene_.clear_right_of_ruler(state, frame);
   const std::string height = curves::typographic(
       physics::format_quantity(physics::Length(scales.top / scales.per_height_m), physics::kLengthUnits, kForceDigits));
   write(wall_scene_.phrases().text<Phrase::SliceHeight>(wall_scene_.phrases().number(height)),

@@ -68,6 +68,7 @@ WallPlaces::WallPlaces(const StagePlace& stage, std::size_t swatches) {
   wall_bottom_ = -contact_height / unit;
   lay_out_front(stage);
   lay_out_panels(stage);
+  lay_out_height_bar(stage, swatches);
 }
 
 // Places shelf and wand in front of the wall, no nearer than the eyes can look without strain.
@@ -168,15 +169,32 @@ glm::dvec3 WallPlaces::swatch(std::size_t i, std::size_t count) const {
   return {across(i - front, count - front, kBackSpacing), shelf_y_ + kBackRise, back_z_};
 }
 
-// As far to the right as a narrow wall with panels below leaves room for the numbers.
-double WallPlaces::height_bar_x() const {
-  return std::max(kHeightBarX, kPanelMargin + kHeightBarTextWidth + kHeightBarTextGap - half_width_);
+// Left of all swatches that seem to be at its height, as far as the wall leaves room for the numbers.
+void WallPlaces::lay_out_height_bar(const StagePlace& stage, std::size_t swatches) {
+  const dvec3 eye(glm::inverse(room_from_layout_) * glm::dvec4(stage.viewer_m, 1.0));
+  const double lowest = kHeightBarBottom - 0.5 * kHeightBarTextHeight,
+               highest = kHeightBarBottom + kHeightBarHeight + 0.5 * kHeightBarTextHeight;
+  double right = kHeightBarX + kHeightBarWidth;
+  for (std::size_t i = 0; i < swatches; ++i) {
+    const dvec3 middle = swatch(i, swatches) + kSwatchCenter;
+    const double nearer = eye.z / (eye.z - middle.z);  // enlargement on the wall
+    const double y = eye.y + nearer * (middle.y - eye.y), radius = nearer * kSwatchRadius;
+    if (y + radius < lowest || y - radius > highest) continue;
+    right = std::min(right, eye.x + nearer * (middle.x - eye.x) - radius - kHeightBarTextGap);
+  }
+  height_bar_x_ =
+      std::max(right - kHeightBarWidth, kPanelMargin + kHeightBarTextWidth + kHeightBarTextGap - half_width_);
 }
 
 render::PanelPlacement WallPlaces::height_bar_text(double share) const {
   return in_wall(height_bar_x() - kHeightBarTextGap - kHeightBarTextWidth,
                  kHeightBarBottom + share * kHeightBarHeight - 0.5 * kHeightBarTextHeight, kHeightBarTextWidth,
                  kHeightBarTextHeight);
+}
+
+render::PanelPlacement WallPlaces::ruler_text(double length, RulerSide side) const {
+  const double beside = side == RulerSide::Left ? -kRulerTextGap - kRulerTextWidth : kRulerTextGap;
+  return in_wall(kRulerFoot.x + beside, 0.5 * (length - kRulerTextHeight), kRulerTextWidth, kRulerTextHeight);
 }
 
 double WallPlaces::unit_m() const { return glm::length(dvec3(room_from_layout_[0])); }

@@ -98,6 +98,22 @@ void add_journey_labels(const Journey& journey, const WallPlaces& places, const 
   }
 }
 
+// Above the companion, at its depth, and beside the ruler.
+void add_companion_label(const Journey::Companion& companion, const dmat4& room_from_journey, const WallPlaces& places,
+                         const Phrases& phrases, render::FrameState& frame) {
+  const double unit_m = places.unit_m();
+  const auto axis = [&](const glm::dvec4& column) { return unit_m * glm::normalize(dvec3(column)); };
+  constexpr double kBesideRuler = kRulerFoot.x + 3.0 * kRulerTextGap + 0.5 * kCompanionLabelWidth;
+  const double across = companion.place.x > 0.0 ? std::max(companion.place.x, kBesideRuler) : companion.place.x;
+  const dvec3 middle = dvec3(room_from_journey[3]) + across * axis(room_from_journey[0]) +
+                       companion.place.y * axis(room_from_journey[1]) + companion.place.z * axis(room_from_journey[2]);
+  const dvec3 right(places.room_from_layout() * glm::dvec4(kCompanionLabelWidth, 0.0, 0.0, 0.0));
+  const dvec3 up(places.room_from_layout() * glm::dvec4(0.0, kCompanionLabelHeight, 0.0, 0.0));
+  frame.labels.push_back({.text = phrases[companion.name],
+                          .highlighted = false,
+                          .placement = {.lower_left_m = middle - 0.5 * right, .right_m = right, .up_m = up}});
+}
+
 // The numbers at the ends of the colour scale, in metres as measured, and a measured sample's exaggeration.
 void add_height_labels(const WallPlaces& places, const Phrases& phrases, double range_m,
                        std::optional<double> exaggeration, render::FrameState& frame) {
@@ -324,14 +340,11 @@ void WallScene::place_marks(const WallState& state, render::FrameState& frame) c
   const bool travels = state.centerpiece == Centerpiece::Journey;
   const auto companion = travels ? journey_.companion(state.journey_orders) : std::nullopt;
   // a companion at the right has its name there
-  const double text_x =
-      kRulerFoot.x + (companion && companion->place.x > 0.0 ? -kRulerTextGap - kRulerTextWidth : kRulerTextGap);
-  frame.labels.push_back(
-      {.text = bar.text,
-       .highlighted = false,
-       .placement = places_.in_wall(text_x, 0.5 * (bar.drawn - kRulerTextHeight), kRulerTextWidth, kRulerTextHeight)});
+  using enum WallPlaces::RulerSide;
+  const auto side = companion && companion->place.x > 0.0 ? Left : Right;
+  frame.labels.push_back({.text = bar.text, .highlighted = false, .placement = places_.ruler_text(bar.drawn, side)});
   if (travels) {
-    if (companion) place_companion_label(*companion, frame);
+    if (companion) add_companion_label(*companion, frame.room_from_node[journey_.frame()], places_, phrases_, frame);
     return add_journey_labels(journey_, places_, phrases_, state.journey_orders, frame);
   }
 
@@ -348,22 +361,6 @@ void WallScene::place_marks(const WallState& state, render::FrameState& frame) c
       cue_label(*state.cue, phrases_, places_.room_from_layout(), dvec3(frame.room_from_node[sample_frame_][3])));
 }
 
-// Above the companion, at its depth, and beside the ruler.
-void WallScene::place_companion_label(const Journey::Companion& companion, render::FrameState& frame) const {
-  const dmat4& room_from_journey = frame.room_from_node[journey_.frame()];
-  const double unit_m = places_.unit_m();
-  const auto axis = [&](const glm::dvec4& column) { return unit_m * glm::normalize(dvec3(column)); };
-  constexpr double kBesideRuler = kRulerFoot.x + 3.0 * kRulerTextGap + 0.5 * kCompanionLabelWidth;
-  const double across = companion.place.x > 0.0 ? std::max(companion.place.x, kBesideRuler) : companion.place.x;
-  const dvec3 middle = dvec3(room_from_journey[3]) + across * axis(room_from_journey[0]) +
-                       companion.place.y * axis(room_from_journey[1]) + companion.place.z * axis(room_from_journey[2]);
-  const dvec3 right(places_.room_from_layout() * glm::dvec4(kCompanionLabelWidth, 0.0, 0.0, 0.0));
-  const dvec3 up(places_.room_from_layout() * glm::dvec4(0.0, kCompanionLabelHeight, 0.0, 0.0));
-  frame.labels.push_back({.text = phrases_[companion.name],
-                          .highlighted = false,
-                          .placement = {.lower_left_m = middle - 0.5 * right, .right_m = right, .up_m = up}});
-}
-
 void WallScene::lay_on_sample(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const {
   if (state.centerpiece != Centerpiece::Instrument || !state.material) return;
   const double per_m = layout_per_m(state);
@@ -376,6 +373,16 @@ void WallScene::lay_on_sample(const HeightRelief& relief, const WallState& state
     if (is_below(scene_, height_bar_, i)) frame.visible[i] = 1;
   }
   if (!topography_mesh_) add_height_labels(places_, phrases_, relief.range_m, std::nullopt, frame);
+}
+
+void WallScene::clear_right_of_ruler(const WallState& state, render::FrameState& frame) const {
+  const double m_per_unit = ruler_m_per_unit(state);
+  if (m_per_unit == 0.0) return;
+  const double length = scale_bar(m_per_unit, kRulerLongest).drawn;
+  const render::PanelPlacement right = places_.ruler_text(length, WallPlaces::RulerSide::Right);
+  for (render::Label& label : frame.labels) {
+    if (label.placement == right) label.placement = places_.ruler_text(length, WallPlaces::RulerSide::Left);
+  }
 }
 
 void WallScene::lay_marks(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const {

@@ -48,6 +48,7 @@ struct FitSetup {
   bool white = false;          // takes the noise as white: ordinary least squares, as in nanite and AtomicJ
   std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts
   std::vector<Uncertainty> uncertainties{};  // errors of the inputs
+  std::size_t bootstraps = 0;                // fits to resampled residuals; 0: none
 };
 
 // Reasons not to trust a modulus, in the order of kDoubts.
@@ -107,6 +108,14 @@ struct Adhesion {
   std::size_t rounds = 0;    // fits of Shape::Auto until the law stayed; 0: the law was given
 };
 
+// Intervals by a bootstrap of moving blocks of residuals.
+struct Bootstrap {
+  Interval modulus_pa{};     // Young's modulus
+  Interval work_j_per_m2{};  // work of adhesion, with such a law
+  std::size_t fits = 0;      // fits that had an end
+  std::size_t block = 0;     // samples in a block
+};
+
 struct ElasticFit {
   Shape shape = Shape::Paraboloid;  // the setup's; with Auto the law that was chosen
   double modulus_pa = 0;            // Young's, for the setup's Poisson ratio
@@ -128,6 +137,7 @@ struct ElasticFit {
   std::vector<Found> doubts;
   std::optional<Adhesion> adhesion;
   std::vector<Systematic> systematic;  // one for each of the setup's uncertainties; not a number where no fit was found
+  std::optional<Bootstrap> bootstrap;  // none: not asked for, or too few of its fits had an end
   std::vector<double> model_n;         // force of the model at each sample, baseline included
 };
 

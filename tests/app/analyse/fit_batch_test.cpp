@@ -93,6 +93,40 @@ TEST(FitBatch, HasARowAFileWhateverIsInIt) {
   EXPECT_THAT(rows[4][2], HasSubstr("there is no such file"));
 }
 
+TEST(FitBatch, EndsWithAPageOfResultsSettingsAndReasons) {
+  const support::ScratchFolder folder;
+  const auto files = files_in(folder);
+  ASSERT_TRUE(fit_files(files, paraboloid(folder.file("out")), 2));
+  const std::string page = core::read_file(folder.file("out/report.html")).value();
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(page.ends_with("</body></html>\n"));
+  EXPECT_THAT(page, HasSubstr("<h1>Fits of 5 curves</h1>"));
+  EXPECT_THAT(page, HasSubstr("modulus of the trusted and the doubtful: median 3"));
+  EXPECT_THAT(page, HasSubstr("<svg")) << "the histograms";
+  for (const std::string& file : files) EXPECT_THAT(page, HasSubstr(file)) << file;
+  EXPECT_THAT(page, HasSubstr("there is no such file"));
+  EXPECT_THAT(page, HasSubstr("<td>radius_m</td>")) << "the settings";
+  EXPECT_THAT(page, HasSubstr("paraboloid"));
+  const auto again = fit_files(files, paraboloid(folder.file("out")), 1);
+  ASSERT_FALSE(again);
+  EXPECT_THAT(again.error().message, HasSubstr("already; name another folder"));
+}
+
+TEST(FitBatch, HasTheIntervalsOfABootstrapIfAskedTo) {
+  const support::ScratchFolder folder;
+  auto options = paraboloid(folder.file("out"));
+  options.fit.bootstrap = true;
+  ASSERT_TRUE(fit_files(files_in(folder), options, 1));
+  const auto rows = rows_of(folder.file("out/fits.tsv"));
+  const auto column =
+      static_cast<std::size_t>(std::find(rows[0].begin(), rows[0].end(), "modulus_bootstrap_low_Pa") - rows[0].begin());
+  ASSERT_LT(column + 1, rows[0].size());
+  EXPECT_LE(std::stod(rows[1][column]), std::stod(rows[1][3]) * (1.0 + 1e-9));
+  EXPECT_GE(std::stod(rows[1][column + 1]), std::stod(rows[1][3]) * (1.0 - 1e-9));
+  EXPECT_EQ(rows[2][column], "") << "no fit";
+  EXPECT_EQ(rows[2].size(), rows[0].size());
+}
+
 TEST(FitBatch, HasTheSameBytesWithOneThreadAndWithEight) {
   const support::ScratchFolder folder;
   const std::vector<std::string> five = files_in(folder);
@@ -102,6 +136,8 @@ TEST(FitBatch, HasTheSameBytesWithOneThreadAndWithEight) {
   ASSERT_TRUE(fit_files(files, paraboloid(folder.file("eight")), 8));
   EXPECT_EQ(core::read_file(folder.file("one/fits.tsv")).value(),
             core::read_file(folder.file("eight/fits.tsv")).value());
+  EXPECT_EQ(core::read_file(folder.file("one/report.html")).value(),
+            core::read_file(folder.file("eight/report.html")).value());
 }
 
 TEST(FitBatch, ReplacesNoTable) {

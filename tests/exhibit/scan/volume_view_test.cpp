@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,6 +19,7 @@
 #include "exhibit/models/topography_model.h"
 #include "exhibit/models/user_models.h"
 #include "exhibit/models/volume_shapes.h"
+#include "exhibit/scenery/wall_layout.h"
 #include "exhibit/scenery/wall_scene.h"
 #include "support/phrases.h"
 #include "support/places.h"
@@ -62,6 +66,7 @@ struct Shown {
     const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
     const auto materials = library.only(std::vector<std::string>{"gold"}).value();
     const auto wall = scene::load_wall(support::source("assets/walls/powerwall.toml")).value();
+    viewer_m = stage_place(wall).viewer_m;
     scene.emplace(
         WallScene::load(support::source("assets"), materials, stage_place(wall), test::english(), own).value());
     made = curves::make_sample_model(curves::ContactSetup{materials.materials.front(), {}, {}}).value();
@@ -86,6 +91,7 @@ struct Shown {
   std::optional<curves::SampleModel> made;
   WallState state;
   double per_measured = 1;
+  glm::dvec3 viewer_m{0.0};
 };
 
 const render::MeshShape& shape(const render::FrameState& frame, const WallScene& scene, const char* name) {
@@ -144,6 +150,64 @@ TEST(VolumeView, WritesItsForcesAndItsHeight) {
   render::FrameState journey = shown.frame();
   view.add_slice(shown.model(), shown.state, Way::Approach, journey);
   EXPECT_TRUE(journey.shapes.empty()) << "no sample there";
+}
+
+// Part of the wall's plane that a rectangle seems to cover, for an eye; layout units.
+struct Seen {
+  glm::dvec2 low{1e9}, high{-1e9};
+  bool overlaps(const Seen& other) const {
+    return glm::all(glm::lessThan(low, other.high)) && glm::all(glm::lessThan(other.low, high));
+  }
+};
+Seen seen(const glm::dvec3& corner_m, const glm::dvec3& right_m, const glm::dvec3& up_m, const glm::dvec3& eye_m,
+          const WallScene& scene) {
+  const glm::dmat4 layout_from_room = glm::inverse(scene.places().room_from_layout());
+  const glm::dvec3 eye(layout_from_room * glm::dvec4(eye_m, 1.0));
+  Seen seen;
+  for (const double x : {0.0, 1.0}) {
+    for (const double y : {0.0, 1.0}) {
+      const glm::dvec3 point(layout_from_room * glm::dvec4(corner_m + x * right_m + y * up_m, 1.0));
+      const glm::dvec2 there(eye + eye.z / (eye.z - point.z) * (point - eye));
+      seen.low = glm::min(seen.low, there);
+      seen.high = glm::max(seen.high, there);
+    }
+  }
+  return seen;
+}
+
+TEST(VolumeView, LeavesTheRulersNumberReadable) {
+  Shown shown;
+  VolumeView view(*shown.scene);
+  const auto bar = shown.scene->scene().find_node("force-bar/bar").value();
+  int would_be = 0;
+  for (const double y : {-0.49, -0.25, 0.0, 0.25, 0.49}) {
+    shown.state.surface.xy_m = {0.0, shown.per_measured * y * kGrid.height_m};
+    render::FrameState frame = shown.frame();
+    const auto number = std::find_if(frame.labels.begin(), frame.labels.end(),
+                                     [](const render::Label& label) { return label.text.ends_with(" nm"); });
+    ASSERT_NE(number, frame.labels.end());
+    const auto place = number - frame.labels.begin();
+    const render::PanelPlacement usual = number->placement;
+    view.add_slice(shown.model(), shown.state, Way::Approach, frame);
+    const render::PanelPlacement& text = frame.labels[static_cast<std::size_t>(place)].placement;
+    const glm::dmat4& strip = frame.room_from_node[bar];
+    for (const double eye_x : {-0.0315, 0.0315}) {
+      const glm::dvec3 eye_m = shown.viewer_m + glm::dvec3(eye_x, 0.0, 0.0);
+      const Seen covered =
+          seen(glm::dvec3(strip[3]), kForceBarWidth * glm::dvec3(strip[0]), glm::dvec3(strip[2]), eye_m, *shown.scene);
+      if (covered.overlaps(seen(usual.lower_left_m, usual.right_m, usual.up_m, eye_m, *shown.scene))) ++would_be;
+      EXPECT_FALSE(covered.overlaps(seen(text.lower_left_m, text.right_m, text.up_m, eye_m, *shown.scene)))
+          << "the scale of forces, with the tip at " << y;
+      for (std::size_t i = 0; i < frame.labels.size(); ++i) {
+        if (i == static_cast<std::size_t>(place)) continue;
+        const render::PanelPlacement& other = frame.labels[i].placement;
+        EXPECT_FALSE(seen(other.lower_left_m, other.right_m, other.up_m, eye_m, *shown.scene)
+                         .overlaps(seen(text.lower_left_m, text.right_m, text.up_m, eye_m, *shown.scene)))
+            << frame.labels[i].text << ", with the tip at " << y;
+      }
+    }
+  }
+  EXPECT_GT(would_be, 0) << "the usual place is free: then the number need not move";
 }
 
 TEST(VolumeView, RaisesTheSurfaceOfAForceHigherWhereTheSampleIsStiffer) {

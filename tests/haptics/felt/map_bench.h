@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "haptics/contact_model.h"
+#include "haptics/law_family.h"
 #include "scene/shared/shared_blocks.h"
 
 namespace afm::test {

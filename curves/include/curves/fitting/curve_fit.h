@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -17,6 +18,8 @@
 
 namespace afm::curves {
 
+inline constexpr std::size_t kBootstraps = 200;
+
 // Options of a fit; sizes of zero: not given.
 struct FitOptions {
   std::optional<fits::Shape> shape;  // empty: no fit is wanted
@@ -31,6 +34,7 @@ struct FitOptions {
   double most_depth_m = std::numeric_limits<double>::infinity();
   bool tilt = false;
   bool white = false;
+  bool bootstrap = false;                           // also an interval by kBootstraps fits to resampled residuals
   std::vector<std::string> uncertainty_texts;       // "radius=5%"
   std::vector<fits::Uncertainty> uncertainties{};   // set by prepare() from the texts
   std::shared_ptr<const fits::LayerTable> table{};  // set by prepare() for an exact layer

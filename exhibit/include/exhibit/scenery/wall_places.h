@@ -26,7 +26,7 @@ class WallPlaces {
   double eye_above_rad() const { return eye_above_rad_; }
   double unit_m() const;  // size of one layout unit in metres
   double shelf_y() const { return shelf_y_; }
-  double height_bar_x() const;
+  double height_bar_x() const { return height_bar_x_; }
   render::PanelPlacement height_bar_text(double share) const;  // number beside it, 0 at its foot, 1 at its head
 
   // In the layout, of so many swatches.
@@ -44,6 +44,11 @@ class WallPlaces {
   // Placement of a short note below the left panel.
   render::PanelPlacement note() const;
 
+  // Placement of the ruler's number, beside a ruler of this length: at its right, or at its left where something else
+  // is at the right.
+  enum class RulerSide { Left, Right };
+  render::PanelPlacement ruler_text(double length, RulerSide side) const;
+
   // Placement of a rung of the journey's ladder, numbered from the lowest.
   render::PanelPlacement rung(std::size_t i) const;
 
@@ -56,6 +61,7 @@ class WallPlaces {
  private:
   void lay_out_front(const StagePlace& stage);
   void lay_out_panels(const StagePlace& stage);
+  void lay_out_height_bar(const StagePlace& stage, std::size_t swatches);
   render::PanelPlacement finale() const;  // the large plot
   render::PanelPlacement right_of_data(double inset) const;
 
@@ -66,6 +72,7 @@ class WallPlaces {
   double half_width_ = 0;  // half width of the composition in layout units
   double wall_bottom_ = 0, wall_top_ = 0;
   double shelf_y_ = 0, shelf_z_ = 0, back_z_ = 0;
+  double height_bar_x_ = 0;
   glm::dvec3 wand_grip_{0.0};
   render::PanelPlacement force_placement_, data_placement_;
 };

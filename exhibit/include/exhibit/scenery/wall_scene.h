@@ -104,6 +104,9 @@ class WallScene {
   // The same for marks, below which the level sample is drawn deeper than any of them.
   void lay_marks(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const;
 
+  // Moves the ruler's number to the left of the ruler, for something that covers its right. Call as lay_on_sample().
+  void clear_right_of_ruler(const WallState& state, render::FrameState& frame) const;
+
   // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.
   void update(const WallState& state, render::FrameState& frame) const;
 
@@ -137,7 +140,6 @@ class WallScene {
   void place_swatch_labels(const WallState& state, render::FrameState& frame) const;
   void place_analogy_labels(const WallState& state, render::FrameState& frame) const;
   void place_marks(const WallState& state, render::FrameState& frame) const;
-  void place_companion_label(const Journey::Companion& companion, render::FrameState& frame) const;
   std::vector<glm::dmat4> local_transforms(const WallState& state, std::vector<render::BeamBend>& bends) const;
 
   scene::Scene scene_;
