@@ -43,7 +43,7 @@ struct Place {
 // The patterns of the scales that are near the place's distance from the contact, faded into each other.
 Place ground_at(const Look& look, double x, double y) {
   const double r = std::sqrt(x * x + y * y);
-  const double bare = smooth_step(0.8 * kAtomsReach, 2 * kAtomsReach, r);  // atoms lie on level ground
+  const double bare = smooth_step(0.8 * kAtomsReach, 2 * kAtomsReach, r);  // level ground below the atoms
   double sum = 0, weights = 1e-12, height = 0;
   double scale = 1e-3;
   for (std::size_t i = 0; i < 2 * kDecades; ++i, scale *= 0.31622776601683794) {

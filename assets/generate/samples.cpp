@@ -61,7 +61,7 @@ class MicaSteps {
   // catches the light, its foot is in its shade.
   Surface face(std::uint32_t k) const {
     struct Row {
-      double offset;  // from the line, in half widths of the riser
+      double offset;  // distance from the line, in half widths of the riser
       double upper;   // share of the upper terrace's hue
       double lit;
     };
