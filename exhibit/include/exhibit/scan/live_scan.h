@@ -32,6 +32,7 @@ struct TappedSubject {
   std::shared_ptr<const physics::TapSurface> surface;
   physics::DrivenLever lever;
   std::shared_ptr<const physics::TapTable> rests;  // null for a high quality factor
+  bool drive_is_fixed = false;                     // where other machines of the wall do not hear of another drive
 };
 
 // The sample for a scan, in the metres of a microscope. A measured sample is shown and felt at another scale, that of
@@ -142,6 +143,9 @@ class LiveScan {
   // Handles a tick of the servo; call in order. No effect unless a hand paints.
   void follow_hand(const scene::TipSample& sample);
 
+  // Rows of the settings that this scan has: those of the drive only with a lever that taps by averages.
+  std::span<const ScanRow> rows() const;
+
   // Changes a row of the settings by `steps`, effective from the next pixel on. Returns false at the end of its series.
   bool step(ScanRow row, int steps);
 
@@ -151,7 +155,7 @@ class LiveScan {
   // Changes all settings, effective from the next pixel on. `choice` must be valid. No effect if it is for the other
   // mode, contact or tapping.
   void choose(const ScanChoice& choice) {
-    if (in_tapping(choice) == in_tapping(usual_)) change_to(choice);
+    if (in_tapping(choice) == in_tapping(usual_)) change_to(completed(choice));
   }
 
   void show_truth(bool shown);
@@ -179,6 +183,8 @@ class LiveScan {
  private:
   void prepare_detector();
   bool hold(const ScanChoice& choice);
+  bool changes_drive() const;
+  ScanChoice completed(ScanChoice choice) const;
   void begin_frame();
   void end_frame();
   void take_until(std::uint32_t pixel);
