@@ -29,6 +29,14 @@ bool precedes(const ScanChange& change, std::uint32_t frame, std::uint32_t pixel
   return change.frame < frame || (change.frame == frame && change.pixel <= pixel);
 }
 
+// Settings without a drive, of an older recording or of another machine, have that of `usual`.
+ScanChoice completed(ScanChoice choice, const ScanChoice& usual) {
+  if (!in_tapping(choice)) return choice;
+  if (choice.free_amplitude_m == 0.0) choice.free_amplitude_m = usual.free_amplitude_m;
+  if (choice.drive_hz == 0.0) choice.drive_hz = usual.drive_hz;
+  return choice;
+}
+
 }  // namespace
 
 LiveScan::LiveScan(ScanSubject subject, const std::optional<HandPart>& hand) : subject_(std::move(subject)) {
@@ -43,7 +51,7 @@ LiveScan::LiveScan(ScanSubject subject, const ScanProgress& progress, std::span<
     : subject_(std::move(subject)) {
   progress_ = progress;
   prepare_detector();
-  for (ScanChange& change : progress_.changes) change.choice = completed(change.choice);
+  for (ScanChange& change : progress_.changes) change.choice = completed(change.choice, usual_);
   if (progress.hand) subject_.side_m = progress.hand->side_m;
   progress_.pixel = 0;
   if (is_painted()) {
@@ -345,15 +353,8 @@ bool LiveScan::step(ScanRow row, int steps) {
   return true;
 }
 
-// Settings without a drive, of an older recording or of another machine, are those of the lever itself.
-ScanChoice LiveScan::completed(ScanChoice choice) const {
-  if (!in_tapping(choice)) return choice;
-  if (choice.free_amplitude_m == 0.0) choice.free_amplitude_m = usual_.free_amplitude_m;
-  if (choice.drive_hz == 0.0) choice.drive_hz = usual_.drive_hz;
-  return choice;
-}
-
-void LiveScan::change_to(const ScanChoice& choice) {
+void LiveScan::change_to(const ScanChoice& wanted) {
+  const ScanChoice choice = completed(wanted, usual_);
   ScanChange& newest = progress_.changes.back();
   if (newest.frame == progress_.frame && newest.pixel == progress_.pixel) {
     newest.choice = choice;

@@ -45,8 +45,8 @@ struct RecordedScanChange {
   double noise_m = 0;
   double drift_m_per_s = 0;
   double apex_distance_m = 0;
-  std::optional<double> free_amplitude_m{};  // of a lever that taps; absent from older files
-  std::optional<double> drive_hz{};          // of a lever that taps; absent from older files
+  std::optional<double> free_amplitude_m{};  // tapping lever alone; absent from older files
+  std::optional<double> drive_hz{};          // tapping lever alone; absent from older files
 
   bool operator==(const RecordedScanChange&) const = default;
 };

@@ -32,7 +32,7 @@ struct TappedSubject {
   std::shared_ptr<const physics::TapSurface> surface;
   physics::DrivenLever lever;
   std::shared_ptr<const physics::TapTable> rests;  // null for a high quality factor
-  bool drive_is_fixed = false;                     // where other machines of the wall do not hear of another drive
+  bool drive_is_fixed = false;                     // as other machines of the wall do not hear of a change
 };
 
 // The sample for a scan, in the metres of a microscope. A measured sample is shown and felt at another scale, that of
@@ -155,7 +155,7 @@ class LiveScan {
   // Changes all settings, effective from the next pixel on. `choice` must be valid. No effect if it is for the other
   // mode, contact or tapping.
   void choose(const ScanChoice& choice) {
-    if (in_tapping(choice) == in_tapping(usual_)) change_to(completed(choice));
+    if (in_tapping(choice) == in_tapping(usual_)) change_to(choice);
   }
 
   void show_truth(bool shown);
@@ -184,12 +184,11 @@ class LiveScan {
   void prepare_detector();
   bool hold(const ScanChoice& choice);
   bool changes_drive() const;
-  ScanChoice completed(ScanChoice choice) const;
   void begin_frame();
   void end_frame();
   void take_until(std::uint32_t pixel);
   void apply(const ScanChoice& choice);
-  void change_to(const ScanChoice& choice);
+  void change_to(const ScanChoice& wanted);
   bool next_pixel();
   void find_truth();
   void paint(const scene::TipSample& sample);

@@ -24,8 +24,8 @@ struct ScanChoice {
   double noise_m = 20e-12;      // rms, see physics::ScanSettings
   double drift_m_per_s = 0;     // equal speeds to the right and upwards
   double apex_distance_m = 0;   // distance of a second apex; 0: there is none
-  double free_amplitude_m = 0;  // A0 of a lever that taps; 0: as at the start of the scan
-  double drive_hz = 0;          // of its drive; 0: as at the start of the scan
+  double free_amplitude_m = 0;  // free amplitude of a lever that taps; 0: as at the start of the scan
+  double drive_hz = 0;          // frequency of the drive; 0: as at the start of the scan
 
   bool operator==(const ScanChoice&) const = default;
 };
