@@ -17,7 +17,8 @@ struct ViewParts;
 // Controls the scan of the sample under the tip in the live window.
 class ScanControl final : public ViewControl {
  public:
-  explicit ScanControl(ViewParts& parts);
+  // `alone`: no other machine of the wall shows the scan.
+  ScanControl(ViewParts& parts, bool alone);
 
   void toggle();
   void toggle_truth();
@@ -41,6 +42,7 @@ class ScanControl final : public ViewControl {
   void give_hand_back();
 
   ViewParts& parts_;
+  bool alone_;
   std::optional<exhibit::LiveScan> scan_;
   std::size_t material_ = 0;     // index of the scanned material
   std::uint64_t begun_ = 0;      // number of scans started

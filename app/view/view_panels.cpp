@@ -78,7 +78,7 @@ void log_change(const curves::LiveParameters& parameters) {
 
 void log_scan(const exhibit::LiveScan& scan) {
   std::string line = "scan:";
-  for (const exhibit::ScanRow row : core::kEnumerators<exhibit::ScanRow>) {
+  for (const exhibit::ScanRow row : scan.rows()) {
     const std::string value = exhibit::value_text(scan.choice(), row);
     line += fmt::format("{} {}", row == exhibit::ScanRow::Setpoint ? "" : ",", value.empty() ? "one apex" : value);
   }

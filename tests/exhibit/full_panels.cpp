@@ -65,6 +65,14 @@ LiveScan full_scan(const Stage& stage) {
   return scan;
 }
 
+LiveScan full_tapped_scan(const Stage& stage) {
+  LiveScan scan(scan_subject(stage.wall_scene, 1, test::tapped_sample()));
+  scan.step(ScanRow::FreeAmplitude, -1);
+  scan.step(ScanRow::DriveFrequency, 1);
+  while (scan.row() < LiveScan::kPixels / 32) scan.advance(LiveScan::kMostCatchUpS);
+  return scan;
+}
+
 render::ForcePanel full_friction_loop(physics::FrictionLaw law, const Phrases& phrases) {
   FrictionHistory history;
   scene::TipSample sample;

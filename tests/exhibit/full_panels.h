@@ -17,6 +17,7 @@ render::Banner full_banner(const Phrases& phrases, render::Banner banner);
 render::ControlPanel full_parameters(const Stage& stage);
 // With every colour, the truth, and a wide range of numbers.
 LiveScan full_scan(const Stage& stage);
+LiveScan full_tapped_scan(const Stage& stage);
 // Three loops there and back, the last one open, with the longest numbers.
 render::ForcePanel full_friction_loop(physics::FrictionLaw law, const Phrases& phrases);
 // The dial of a lever that taps, with both states.

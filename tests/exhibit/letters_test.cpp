@@ -54,6 +54,9 @@ TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWal
   expect_large(full_parameters(*stage), right, "the parameters");
   const LiveScan scan = full_scan(*stage);
   expect_large(scan_panel(scan, phrases.word("Silicon nitride"), phrases), right, "the settings of a scan");
+  const LiveScan tapped = full_tapped_scan(*stage);
+  expect_large(scan_panel(tapped, phrases.word("Silicon nitride"), phrases), right,
+               "the settings of a lever that taps");
   expect_large(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.panels.force.placement, "the images");
   expect_large(full_friction_loop(physics::FrictionLaw::Lattice, phrases), right, "the friction loop");
   expect_large(full_dial(phrases), right, "the dial");

@@ -106,6 +106,11 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   expect_whole(image_panel(scan, phrases.word("Silicon nitride"), phrases), frame.panels.force.placement, "the images");
   expect_whole(scan_panel(scan, phrases.word("Silicon nitride"), phrases), stage.wall_scene.places().parameters(),
                "the settings of a scan");
+  const LiveScan tapped = full_tapped_scan(stage);
+  expect_whole(image_panel(tapped, phrases.word("Silicon nitride"), phrases), frame.panels.force.placement,
+               "the images of a lever that taps");
+  expect_whole(scan_panel(tapped, phrases.word("Silicon nitride"), phrases), stage.wall_scene.places().parameters(),
+               "the settings of a lever that taps");
   const DepthReport depth = report_depth({.nearest_m = 1.0, .farthest_m = 10.0}, 2.5, 0.063, Relief::BringToWall);
   std::vector<render::Label> labels = frame.labels;
   labels.push_back(depth_label(depth, stage.screen, phrases));

@@ -65,10 +65,19 @@ void copy_moment(const Copy& copy, Moment& moment, Frame& frame) {
   copy(moment.retracting, frame.retracting);
 }
 
-// Copies the values of a scan's change to or from servo::RecordedScanChange, in their order.
-template <class Change>
-auto numbers_of(Change& change) {
-  return std::tuple_cat(std::tie(change.frame, change.pixel), core::members_of(change.choice));
+servo::RecordedScanChange recorded_change(const ScanChange& change) {
+  servo::RecordedScanChange to;
+  core::members_of(to) = std::tuple_cat(std::tie(change.frame, change.pixel), core::members_of(change.choice));
+  if (change.choice.free_amplitude_m == 0.0) to.free_amplitude_m.reset();
+  if (change.choice.drive_hz == 0.0) to.drive_hz.reset();
+  return to;
+}
+
+ScanChange restored_change(const servo::RecordedScanChange& from) {
+  const auto& [frame, pixel, setpoint, gain, rate, radius, noise, drift, apex, free_amplitude, drive] = from;
+  return {frame,
+          pixel,
+          {setpoint, gain, rate, radius, noise, drift, apex, free_amplitude.value_or(0.0), drive.value_or(0.0)}};
 }
 
 // Curves as in the live window: the running cycle at `end_ns`, or the last complete one.
@@ -132,7 +141,7 @@ servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::
     frame.scan = {.frame = scan.frame, .pixel = scan.pixel, .truth = scan.truth};
     if (scan.hand) core::members_of(frame.scan_hand.emplace()) = core::members_of(*scan.hand);
     for (const ScanChange& change : scan.changes) {
-      core::members_of(frame.scan_changes.emplace_back()) = numbers_of(change);
+      frame.scan_changes.push_back(recorded_change(change));
     }
   }
   for (const render::DataRow& row : moment.servo) frame.servo_row.push_back({row.name, row.value, row.source});
@@ -144,7 +153,7 @@ ScanProgress scan_progress_of(const servo::WallFrame& frame) {
       .frame = frame.scan->frame, .pixel = frame.scan->pixel, .truth = frame.scan->truth, .changes = {}, .hand = {}};
   if (frame.scan_hand) core::members_of(progress.hand.emplace()) = core::members_of(*frame.scan_hand);
   for (const servo::RecordedScanChange& change : frame.scan_changes) {
-    numbers_of(progress.changes.emplace_back()) = core::members_of(change);
+    progress.changes.push_back(restored_change(change));
   }
   return progress;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/enumerators.h"
 #include "physics/contact_parameters.h"
 
 namespace afm::exhibit {
@@ -28,6 +29,14 @@ bool precedes(const ScanChange& change, std::uint32_t frame, std::uint32_t pixel
   return change.frame < frame || (change.frame == frame && change.pixel <= pixel);
 }
 
+// Settings without a drive, of an older recording or of another machine, have that of `usual`.
+ScanChoice completed(ScanChoice choice, const ScanChoice& usual) {
+  if (!in_tapping(choice)) return choice;
+  if (choice.free_amplitude_m == 0.0) choice.free_amplitude_m = usual.free_amplitude_m;
+  if (choice.drive_hz == 0.0) choice.drive_hz = usual.drive_hz;
+  return choice;
+}
+
 }  // namespace
 
 LiveScan::LiveScan(ScanSubject subject, const std::optional<HandPart>& hand) : subject_(std::move(subject)) {
@@ -42,6 +51,7 @@ LiveScan::LiveScan(ScanSubject subject, const ScanProgress& progress, std::span<
     : subject_(std::move(subject)) {
   progress_ = progress;
   prepare_detector();
+  for (ScanChange& change : progress_.changes) change.choice = completed(change.choice, usual_);
   if (progress.hand) subject_.side_m = progress.hand->side_m;
   progress_.pixel = 0;
   if (is_painted()) {
@@ -66,26 +76,38 @@ LiveScan::LiveScan(ScanSubject subject, const ScanProgress& progress, std::span<
 void LiveScan::prepare_detector() {
   usual_ = usual_choice(subject_.tip_radius_m, subject_.side_m, subject_.slope, subject_.adhesion_n);
   if (!subject_.tapped || progress_.hand) return;
-  const auto& [surface, lever, rests] = *subject_.tapped;
-  const ScanChoice tapping = usual_tapping_choice(subject_.tip_radius_m, subject_.side_m, subject_.slope, lever);
+  const TappedSubject& tapped = *subject_.tapped;
+  const ScanChoice tapping = usual_tapping_choice(subject_.tip_radius_m, subject_.side_m, subject_.slope, tapped.lever);
   try {
-    detector_.emplace(surface, lever, tapping.setpoint_n * lever.free_amplitude, rests);
+    detector_.emplace(tapped.surface, tapped.lever, tapping.setpoint_n * tapped.lever.free_amplitude, tapped.rests);
     usual_ = tapping;
   } catch (const physics::UnphysicalValue&) {
     detector_.reset();
   }
 }
 
-// Returns false, and changes nothing, if the swing never has this amplitude over the sample.
+// Returns false, and changes nothing, if the swing never has this amplitude over the sample, or the drive is out of
+// reach.
 bool LiveScan::hold(const ScanChoice& choice) {
-  const physics::Length amplitude = choice.setpoint_n * subject_.tapped->lever.free_amplitude;
-  if (amplitude.si == detector_->setpoint_m()) return true;
   try {
-    detector_->hold(amplitude);
+    const physics::DrivenLever lever = driven_by(choice, subject_.tapped->lever);
+    const physics::Length amplitude = choice.setpoint_n * lever.free_amplitude;
+    const bool same = lever == detector_->lever() && amplitude.si == detector_->setpoint_m();
+    if (!same) detector_->drive(lever, amplitude);
     return true;
   } catch (const physics::UnphysicalValue&) {
     return false;
   }
+}
+
+bool LiveScan::changes_drive() const {
+  return is_tapped() && !detector_->is_direct() && !subject_.tapped->drive_is_fixed;
+}
+
+std::span<const ScanRow> LiveScan::rows() const {
+  constexpr std::size_t kRowsOfDrive = 2;
+  static constexpr auto kRows = core::kEnumerators<ScanRow>;
+  return std::span(kRows).first(kRows.size() - (changes_drive() ? 0 : kRowsOfDrive));
 }
 
 bool LiveScan::valid(const ScanProgress& progress) {
@@ -138,7 +160,7 @@ void LiveScan::apply(const ScanChoice& choice) {
   }
   applied_ = choice;
   if (is_tapped() && in_tapping(choice) && hold(choice)) {
-    scanner_->hold_amplitude(physics::Length(detector_->setpoint_m()));
+    scanner_->drive(detector_->lever(), physics::Length(detector_->setpoint_m()));
   }
   scanner_->change(settings_of(choice, subject_.adhesion_n));
   if (loop_) loop_->change(scanner_->settings(), physics::Time(kLoopTickS));
@@ -317,8 +339,12 @@ void LiveScan::find_truth() {
 
 bool LiveScan::step(ScanRow row, int steps) {
   ScanChoice choice = this->choice();
-  if (!exhibit::step(choice, row, steps, subject_.side_m)) return false;
-  if (row == ScanRow::Setpoint && detector_ && in_tapping(choice)) {
+  const bool drives = row == ScanRow::FreeAmplitude || row == ScanRow::DriveFrequency;
+  if (drives && !changes_drive()) return false;
+  const bool stepped = drives ? step_drive(choice, row, steps, subject_.tapped->lever)
+                              : exhibit::step(choice, row, steps, subject_.side_m);
+  if (!stepped) return false;
+  if ((drives || row == ScanRow::Setpoint) && detector_ && in_tapping(choice)) {
     physics::TappingDetector now = *detector_;
     if (!hold(choice)) return false;
     detector_ = std::move(now);  // the change takes effect with the next pixel
@@ -327,7 +353,8 @@ bool LiveScan::step(ScanRow row, int steps) {
   return true;
 }
 
-void LiveScan::change_to(const ScanChoice& choice) {
+void LiveScan::change_to(const ScanChoice& wanted) {
+  const ScanChoice choice = completed(wanted, usual_);
   ScanChange& newest = progress_.changes.back();
   if (newest.frame == progress_.frame && newest.pixel == progress_.pixel) {
     newest.choice = choice;

@@ -33,7 +33,7 @@ struct Series {
   Below below;
 };
 
-// In the order of ScanRow. The second apex has two values.
+// In the order of ScanRow. The second apex has two values, and the rows of the drive depend on the lever.
 constexpr std::array kSeries{
     Series{&ScanChoice::setpoint_n, 0.1e-9, 50e-9, Below::Negative},  // below zero only adhesion holds the tip
     Series{&ScanChoice::gain_per_s, 20.0, 20e3, Below::Nothing},
@@ -41,7 +41,7 @@ constexpr std::array kSeries{
     Series{&ScanChoice::tip_radius_m, 1e-9, 200e-9, Below::Nothing},
     Series{&ScanChoice::noise_m, 10e-12, 2e-9, Below::Zero},
     Series{&ScanChoice::drift_m_per_s, 0.1e-9, 50e-9, Below::Zero}};
-static_assert(kSeries.size() + 1 == core::kEnumerators<ScanRow>.size());
+static_assert(kSeries.size() + 3 == core::kEnumerators<ScanRow>.size());
 
 constexpr double kSame = 1e-6;  // largest relative difference of equal values
 
@@ -51,6 +51,16 @@ constexpr double kMostLag = 0.5;         // share of the bend that adhesion can 
 // The setpoint in tapping mode, in steps of a twentieth of the free amplitude.
 constexpr double kStepsOfShare = 20.0, kLeastShare = 0.3, kMostShare = 0.95, kUsualShare = 0.8;
 constexpr double kUsualTappingHz = 2.0;
+
+// The drive of a lever that taps: the free amplitude in shares of its own, within what its table of swings covers; the
+// frequency in shares of the half width of its resonance.
+constexpr double kStepsOfAmplitude = 20.0, kLeastAmplitude = 0.3, kMostAmplitude = 1.2;
+constexpr double kStepsOfWidth = 5.0, kMostWidths = 1.0;
+constexpr double kSlack = 1e-9;  // relative, for rounding
+constexpr int kDigitsOfDrive = 6;
+
+double half_width_hz(const physics::DrivenLever& lever) { return 0.5 * lever.resonance.si / lever.quality_factor; }
+double drive_hz(const physics::DrivenLever& lever) { return lever.ratio * lever.resonance.si; }
 
 double stepped_share(double share, int steps) {
   const double next = (std::round(share * kStepsOfShare) + steps) / kStepsOfShare;
@@ -87,6 +97,8 @@ bool in_tapping(const ScanChoice& choice) { return choice.setpoint_n >= 0.5 * kL
 bool is_valid(const ScanChoice& choice) {
   constexpr double kSharpest = 1e-10, kBluntest = 1e-4;  // limits for tips defined by users
   if (!(choice.apex_distance_m >= 0.0 && choice.apex_distance_m <= kFarthestApexM)) return false;
+  if (!(choice.free_amplitude_m >= 0.0 && std::isfinite(choice.free_amplitude_m))) return false;
+  if (!(choice.drive_hz >= 0.0 && std::isfinite(choice.drive_hz))) return false;
   return std::all_of(kSeries.begin(), kSeries.end(), [&](const Series& series) {
     if (series.value == &ScanChoice::setpoint_n && in_tapping(choice)) {
       return choice.setpoint_n >= kLeastShare && choice.setpoint_n <= kMostShare;
@@ -101,6 +113,7 @@ bool is_valid(const ScanChoice& choice) {
 }
 
 bool step(ScanChoice& choice, ScanRow row, int steps, double side_m) {
+  if (row == ScanRow::FreeAmplitude || row == ScanRow::DriveFrequency) return false;
   const ScanChoice before = choice;
   if (row == ScanRow::SecondApex) {
     choice.apex_distance_m = steps > 0 ? std::min(kApexShare * side_m, kFarthestApexM) : 0.0;
@@ -113,6 +126,33 @@ bool step(ScanChoice& choice, ScanRow row, int steps, double side_m) {
   const Series& series = kSeries[core::index_of(row)];
   for (int i = 0; i < std::abs(steps); ++i) choice.*series.value = stepped(series, choice.*series.value, steps);
   return choice != before;
+}
+
+bool step_drive(ScanChoice& choice, ScanRow row, int steps, const physics::DrivenLever& own) {
+  const ScanChoice before = choice;
+  if (row == ScanRow::FreeAmplitude) {
+    const double a0 = own.free_amplitude.si,
+                 share = std::round(choice.free_amplitude_m / a0 * kStepsOfAmplitude) + steps;
+    choice.free_amplitude_m = a0 * std::clamp(share / kStepsOfAmplitude, kLeastAmplitude, kMostAmplitude);
+  } else if (row == ScanRow::DriveFrequency) {
+    const double own_hz = drive_hz(own), step_hz = half_width_hz(own) / kStepsOfWidth;
+    const double away = std::round((choice.drive_hz - own_hz) / step_hz) + steps;
+    choice.drive_hz = own_hz + step_hz * std::clamp(away, -kMostWidths * kStepsOfWidth, kMostWidths * kStepsOfWidth);
+  }
+  return choice != before;
+}
+
+physics::DrivenLever driven_by(const ScanChoice& choice, const physics::DrivenLever& own) {
+  const double a0 = own.free_amplitude.si, own_hz = drive_hz(own);
+  const double amplitude_m = choice.free_amplitude_m > 0.0 ? choice.free_amplitude_m : a0;
+  const double hz = choice.drive_hz > 0.0 ? choice.drive_hz : own_hz;
+  if (amplitude_m == a0 && hz == own_hz) return own;
+  const double widths = std::abs(hz - own_hz) / half_width_hz(own), share = amplitude_m / a0;
+  if (!(share >= kLeastAmplitude - kSlack && share <= kMostAmplitude + kSlack))
+    throw physics::UnphysicalValue("free_amplitude", "outside what the table of swings covers");
+  if (!(widths <= kMostWidths + kSlack)) throw physics::UnphysicalValue("drive", "too far from the resonance");
+  return physics::driven_lever(own.spring_constant, {own.resonance, own.quality_factor, physics::Temperature()},
+                               {physics::Length(amplitude_m), physics::Frequency(hz)});
 }
 
 ScanChoice usual_choice(double tip_radius_m, double side_m, double slope, double adhesion_n) {
@@ -130,7 +170,11 @@ ScanChoice usual_choice(double tip_radius_m, double side_m, double slope, double
 }
 
 ScanChoice usual_tapping_choice(double tip_radius_m, double side_m, double slope, const physics::DrivenLever& lever) {
-  ScanChoice choice{.setpoint_n = kUsualShare, .line_rate_hz = kUsualTappingHz, .tip_radius_m = tip_radius_m};
+  ScanChoice choice{.setpoint_n = kUsualShare,
+                    .line_rate_hz = kUsualTappingHz,
+                    .tip_radius_m = tip_radius_m,
+                    .free_amplitude_m = lever.free_amplitude.si,
+                    .drive_hz = drive_hz(lever)};
   const double most_per_s = 0.25 / lever.relaxation().si;
   while (choice.gain_per_s > most_per_s && step(choice, ScanRow::Gain, -1, side_m)) {
   }
@@ -159,6 +203,10 @@ std::string value_text(const ScanChoice& choice, ScanRow row) {
       return text(choice.noise_m, physics::kLengthUnits);
     case ScanRow::Drift:
       return fmt::format("{:.3g} nm/s", choice.drift_m_per_s * 1e9);
+    case ScanRow::FreeAmplitude:
+      return text(choice.free_amplitude_m, physics::kLengthUnits);
+    case ScanRow::DriveFrequency:
+      return curves::typographic(physics::format_si(choice.drive_hz, physics::kFrequencyUnits.units, kDigitsOfDrive));
     case ScanRow::SecondApex:
       break;
   }

@@ -170,9 +170,10 @@ void show_maps_of_swing(const ScanMaps& maps, const Phrases& phrases, render::Im
 }
 
 // In the order of ScanRow.
-constexpr std::array<Phrase, 7> kRowNames{Phrase::ScanSetpoint,  Phrase::ScanGain,  Phrase::ScanRate,
-                                          Phrase::TipRadius,     Phrase::ScanNoise, Phrase::ScanDrift,
-                                          Phrase::ScanSecondApex};
+constexpr std::array<Phrase, 9> kRowNames{
+    Phrase::ScanSetpoint,   Phrase::ScanGain,          Phrase::ScanRate,
+    Phrase::TipRadius,      Phrase::ScanNoise,         Phrase::ScanDrift,
+    Phrase::ScanSecondApex, Phrase::ScanFreeAmplitude, Phrase::ScanDriveFrequency};
 static_assert(kRowNames.size() == core::kEnumerators<ScanRow>.size());
 
 bool hand_uses_tip(physics::Phase phase, scene::ServoState state) {
@@ -194,7 +195,7 @@ render::ImagePanel image_panel(const LiveScan& scan, const std::string& sample, 
       phrases.text<Phrase::ScanSubtitle>(side_text(scan.subject().side_m), value_text(scan.choice(), ScanRow::Rate),
                                          fmt::format("{}", scan.row() + 1), fmt::format("{}", LiveScan::kPixels));
   if (scan.is_tapped()) {
-    const physics::Length a0 = scan.subject().tapped->lever.free_amplitude;
+    const physics::Length a0(scan.choice().free_amplitude_m);
     panel.subtitle +=
         ", " + phrases.text<Phrase::ScanInTapping>(physics::format_quantity(a0, physics::kLengthUnits, 3));
   } else if (scan.subject().tapped) {
@@ -219,7 +220,7 @@ render::ControlPanel scan_panel(const LiveScan& scan, const std::string& title, 
   render::ControlPanel panel;
   panel.title = phrases.text<Phrase::ScanTitle>(title);
   panel.status = scan_guidance(scan, phrases);
-  for (const ScanRow row : core::kEnumerators<ScanRow>) {
+  for (const ScanRow row : scan.rows()) {
     const std::string value = value_text(scan.choice(), row), usual = value_text(scan.usual(), row);
     const bool amplitude = row == ScanRow::Setpoint && scan.is_tapped();
     panel.rows.push_back({.name = phrases[amplitude ? Phrase::ScanAmplitude : kRowNames[core::index_of(row)]],

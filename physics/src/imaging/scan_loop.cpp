@@ -45,8 +45,8 @@ void ScanLoop::change(const ScanSettings& settings, Time tick) {
   find_limit();
 }
 
-void ScanLoop::hold_amplitude(Length setpoint) {
-  tapping_->hold(setpoint);
+void ScanLoop::drive(const DrivenLever& lever, Length setpoint) {
+  tapping_->drive(lever, setpoint);
   setpoint_m_ = tapping_->free_amplitude_m() - tapping_->setpoint_m();
   held_gap_m_ = tapping_->engaged_gap_m();
 }

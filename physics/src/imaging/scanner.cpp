@@ -80,8 +80,8 @@ void Scanner::change(const ScanSettings& settings) {
   look_for_swings();
 }
 
-void Scanner::hold_amplitude(Length setpoint) {
-  loop_.hold_amplitude(setpoint);
+void Scanner::drive(const DrivenLever& lever, Length setpoint) {
+  loop_.drive(lever, setpoint);
   look_for_swings();
 }
 

@@ -98,6 +98,19 @@ void TappingDetector::hold(Length setpoint) {
   setpoint_m_ = setpoint.si;
 }
 
+void TappingDetector::drive(const DrivenLever& lever, Length setpoint) {
+  if (lever == lever_) return hold(setpoint);
+  if (rests_) throw UnphysicalValue("drive", "the table of a low quality factor is for one drive");
+  const DrivenLever before = std::exchange(lever_, lever);
+  try {
+    hold(setpoint);
+  } catch (...) {
+    lever_ = before;
+    throw;
+  }
+  envelope_->drive(lever_);
+}
+
 void TappingDetector::engage() noexcept { envelope_->place(engaged_.u_m, engaged_.v_m, engaged_.gap_m); }
 void TappingDetector::advance(double gap_m, double angle) noexcept { envelope_->advance(gap_m, gap_m, angle); }
 

@@ -63,15 +63,7 @@ TapEnvelope::TapEnvelope(AveragedFlow& flow, Length contact_height)
   const double a0 = lever_->free_amplitude.si;
   least_amplitude_m_ = kFirstShare * a0;
   amplitude_step_m_ = (kLastShare - kFirstShare) * a0 / static_cast<double>(kAmplitudes - 1);
-  const double r = lever_->ratio, k = lever_->spring_constant.si;
-  pace_ = {.drive = lever_->base_amplitude.si / (2.0 * r),
-           .detuned = (r * r - 1.0) / (2.0 * r),
-           .damping = 0.5 / lever_->quality_factor,
-           .by_stored = 1.0 / (k * r),
-           .by_turn = 1.0 / (2.0 * std::numbers::pi * k * r),
-           .by_row = 1.0 / amplitude_step_m_,
-           .by_nudge = 1.0 / (amplitude_step_m_ * kNudge),
-           .slowest = 1.0 / longest_step(*lever_)};
+  set_pace();
   least_x_ = std::floor(column_of(-2.0 * a0));
   columns_ = static_cast<std::size_t>(std::ceil(column_of(kFarthestGap)) - least_x_) + 1;
   Tables tables{std::vector<Moving>(kAmplitudes * columns_), std::vector<Forces>(kAmplitudes * columns_)};
@@ -90,6 +82,25 @@ TapEnvelope::TapEnvelope(AveragedFlow& flow, Length contact_height)
   tables_ = std::make_shared<const Tables>(std::move(tables));
   u_ = a0 * free_cosine_;
   v_ = a0 * free_sine_;
+}
+
+void TapEnvelope::set_pace() noexcept {
+  const double r = lever_->ratio, k = lever_->spring_constant.si;
+  pace_ = {.drive = lever_->base_amplitude.si / (2.0 * r),
+           .detuned = (r * r - 1.0) / (2.0 * r),
+           .damping = 0.5 / lever_->quality_factor,
+           .by_stored = 1.0 / (k * r),
+           .by_turn = 1.0 / (2.0 * std::numbers::pi * k * r),
+           .by_row = 1.0 / amplitude_step_m_,
+           .by_nudge = 1.0 / (amplitude_step_m_ * kNudge),
+           .slowest = 1.0 / longest_step(*lever_)};
+}
+
+void TapEnvelope::drive(const DrivenLever& lever) {
+  lever_ = std::make_shared<const DrivenLever>(lever);
+  free_cosine_ = std::cos(lever.free_phase);
+  free_sine_ = std::sin(lever.free_phase);
+  set_pace();
 }
 
 TapEnvelope::Place TapEnvelope::place_of(double amplitude_m, double gap_m) const noexcept {

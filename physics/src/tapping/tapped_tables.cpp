@@ -20,7 +20,7 @@ namespace {
 constexpr int kHeights = 400;               // heights in a walk
 constexpr std::size_t kNodes = 1200;        // nodes in a branch
 constexpr Length kClearOfSample{2e-9};      // distance from the free swing without a push
-constexpr double kSteepestFall = 4.0;       // of the amplitude over Z, as a hand feels it
+constexpr double kSteepestFall = 4.0;       // change of the amplitude with Z, as a hand feels it
 constexpr double kFaintReduction = 0.02;    // share of the free amplitude
 constexpr double kStopped = 0.01;           // share of the free amplitude, the least in the table of TapEnvelope
 constexpr double kMostReachOfSwing = 10.0;  // in free amplitudes, for an attraction with a long range

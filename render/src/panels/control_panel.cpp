@@ -20,6 +20,9 @@ constexpr double kGap = 10.0;
 constexpr double kNoteHeight = 41.0;
 constexpr double kBelowNotes = 16.0;  // distance from the notes to the rounded edge
 constexpr float kValueScale = 0.8F;
+constexpr double kTwoLines = 80.0;  // lowest row with its value below its name
+constexpr float kShareOfName = 0.55F;
+constexpr float kNextToName = 12.0F;
 constexpr double kBesidePicture = 190.0;  // room for the bar with its values
 constexpr double kBarWidth = 30.0;
 constexpr double kSmallestPicture = 1.0;
@@ -67,11 +70,22 @@ void paint_row(Canvas& canvas, const ControlPanel& panel, std::size_t row, doubl
     canvas.rectangle(corner, corner + extent, Color{palette::kYellow.srgb, 0.10F}, 12.0F);
     canvas.outline(corner, corner + extent, 3.0F, palette::kYellow, 12.0F);
   }
-  canvas.shrunk_text({kControlMargin, y}, TextStyle::Body, palette::kMuted, content.name, room);
+  const bool beside = pitch < kTwoLines;
+  const float for_name = beside ? kShareOfName * room : room, for_value = beside ? room - for_name : room;
   const float scale =
-      std::min(kValueScale, room / std::max(canvas.text_width_mm(TextStyle::Title, content.value), 1.0F));
-  canvas.text({kControlMargin, y + 36.0F}, TextStyle::Title, content.changed ? palette::kOrange : palette::kInk,
-              content.value, Align::Left, scale);
+      std::min(kValueScale, for_value / std::max(canvas.text_width_mm(TextStyle::Title, content.value), 1.0F));
+  const Color color = content.changed ? palette::kOrange : palette::kInk;
+  const auto middle = static_cast<float>(top + 0.5 * pitch);
+  const auto left = static_cast<float>(kControlMargin);
+  if (beside) {
+    const float name_top = middle - 0.5F * text_height_mm(TextStyle::Body);
+    canvas.shrunk_text({left, name_top}, TextStyle::Body, palette::kMuted, content.name, for_name - kNextToName);
+    const float value_top = middle - 0.5F * scale * text_height_mm(TextStyle::Title);
+    canvas.text({left + room, value_top}, TextStyle::Title, color, content.value, Align::Right, scale);
+  } else {
+    canvas.shrunk_text({left, y}, TextStyle::Body, palette::kMuted, content.name, room);
+    canvas.text({left, y + 36.0F}, TextStyle::Title, color, content.value, Align::Left, scale);
+  }
   for (const auto kind : {ControlTarget::Kind::Less, ControlTarget::Kind::More}) {
     const ControlTarget target{kind, row};
     paint_target(canvas, control_box(panel, size, target), kind == ControlTarget::Kind::Less ? "\u2212" : "+",

@@ -45,6 +45,8 @@ struct RecordedScanChange {
   double noise_m = 0;
   double drift_m_per_s = 0;
   double apex_distance_m = 0;
+  std::optional<double> free_amplitude_m{};  // tapping lever alone; absent from older files
+  std::optional<double> drive_hz{};          // tapping lever alone; absent from older files
 
   bool operator==(const RecordedScanChange&) const = default;
 };
@@ -60,6 +62,8 @@ constexpr void for_each_field(Visit&& visit, Record&... change) {
   visit("noise_m", change.noise_m...);
   visit("drift_m_per_s", change.drift_m_per_s...);
   visit("apex_distance_m", change.apex_distance_m...);
+  visit("free_amplitude_m", change.free_amplitude_m...);
+  visit("drive_Hz", change.drive_hz...);
 }
 static_assert(scene::all_fields_described<RecordedScanChange>());
 

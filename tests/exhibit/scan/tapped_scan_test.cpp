@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/enumerators.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_cause.h"
 #include "exhibit/scan/scan_panels.h"
@@ -95,6 +96,53 @@ TEST(TappedScan, KeepsAnotherAmplitudeFromTheNextPixelOnAndReplaysIt) {
     EXPECT_TRUE(same(scan.maps().energy_j[pass], again.maps().energy_j[pass]));
   }
   EXPECT_FALSE(scan.step(ScanRow::Setpoint, 1000) && scan.step(ScanRow::Setpoint, 1)) << "0.95 is the last";
+}
+
+// A drive that changes while the lever taps, from the next pixel on.
+TEST(TappedScan, ChangesFreeAmplitudeAndDriveWhileItScansAndReplaysThem) {
+  LiveScan scan = tapped_scan();
+  ASSERT_EQ(scan.rows().size(), exhibit::scan_of(kMica).rows().size() + 2) << "contact mode has no drive";
+  const Phrases& phrases = stage().phrases();
+  const auto shown = [&](ScanRow row) { return scan_panel(scan, "Mica", phrases).rows.at(core::index_of(row)).value; };
+  EXPECT_EQ(shown(ScanRow::FreeAmplitude), "20 nm");
+  EXPECT_EQ(shown(ScanRow::DriveFrequency), "300 kHz");
+  scan_lines(scan, 2.3);
+  EXPECT_TRUE(scan.step(ScanRow::FreeAmplitude, -5));
+  scan_lines(scan, 3.1);
+  EXPECT_EQ(shown(ScanRow::FreeAmplitude), "15 nm");
+  EXPECT_THAT(image_panel(scan, "Mica", phrases).subtitle, ::testing::HasSubstr("tapping, A0 15 nm"));
+  EXPECT_NEAR(scan.scanner().loop().tapping()->setpoint_m(), 0.8 * 15e-9, 1e-15);
+  EXPECT_NEAR(scan.scanner().loop().tapping()->amplitude_m(), 0.8 * 15e-9, 0.5e-9);
+  // a fifth of the half width of 375 Hz a step
+  EXPECT_TRUE(scan.step(ScanRow::DriveFrequency, -2));
+  scan_lines(scan, 3.0);
+  EXPECT_EQ(shown(ScanRow::DriveFrequency), "299.85 kHz");
+  EXPECT_NEAR(scan.scanner().loop().tapping()->lever().ratio, 299.85 / 300.0, 1e-9);
+  EXPECT_TRUE(LiveScan::valid(scan.progress()));
+  const LiveScan again(scan.subject(), scan.progress());
+  EXPECT_TRUE(same(scan.maps().height_m[0], again.maps().height_m[0]));
+  EXPECT_TRUE(same(scan.maps().phase_deg[1], again.maps().phase_deg[1]));
+  scan.step(ScanRow::DriveFrequency, 1000);
+  EXPECT_EQ(shown(ScanRow::DriveFrequency), "300.375 kHz");
+  EXPECT_FALSE(scan.step(ScanRow::DriveFrequency, 1)) << "a half width";
+  scan.step(ScanRow::FreeAmplitude, 1000);
+  EXPECT_EQ(shown(ScanRow::FreeAmplitude), "24 nm");
+  scan.reset();
+  EXPECT_EQ(scan.choice(), scan.usual());
+}
+
+// A recording from before there were such rows, and a wall of several machines, have the lever's own drive.
+TEST(TappedScan, KeepsItsDriveWithoutOne) {
+  LiveScan scan = tapped_scan();
+  ScanProgress older = scan.progress();
+  older.changes.front().choice.free_amplitude_m = older.changes.front().choice.drive_hz = 0.0;
+  ASSERT_TRUE(LiveScan::valid(older));
+  EXPECT_EQ(LiveScan(scan.subject(), older).choice(), scan.usual());
+  ScanSubject shared = scan.subject();
+  shared.tapped->drive_is_fixed = true;
+  LiveScan beside(shared);
+  EXPECT_EQ(beside.rows().size(), exhibit::scan_of(kMica).rows().size());
+  EXPECT_FALSE(beside.step(ScanRow::FreeAmplitude, -1));
 }
 
 void expect_named(LiveScan scan, const std::vector<Artefact>& artefacts) {

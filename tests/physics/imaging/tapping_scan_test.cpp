@@ -146,6 +146,27 @@ TEST(TappingDetector, RestsWhereTheAveragedFlowDoes) {
   }
 }
 
+// The tables of one drive serve another of the same lever.
+TEST(TappingDetector, RestsWhereTheAveragedFlowDoesWithAnotherDrive) {
+  for (const TappedSample& changed : {TappedSample{.a0_nm = 24.0}, TappedSample{.a0_nm = 10.0},
+                                      TappedSample{.ratio = 1.00125, .a0_nm = 16.0}, TappedSample{.ratio = 0.99875}}) {
+    AveragedFlow flow(changed.surface(), changed.lever());
+    TappingDetector detector = detector_at(15.0);
+    detector.drive(changed.lever(), Length(0.8e-9 * changed.a0_nm));
+    EXPECT_DOUBLE_EQ(detector.free_amplitude_m(), 1e-9 * changed.a0_nm);
+    const double z_m = 0.7e-9 * changed.a0_nm;
+    for (int i = 0; i < 20000; ++i) detector.advance(z_m, 20.0);
+    double least = 1.0;
+    for (const RestingTap& tap : flow.resting_at(Length(z_m))) {
+      if (tap.stable) least = std::min(least, std::abs(detector.amplitude_m() / tap.state.amplitude.si - 1.0));
+    }
+    EXPECT_LT(least, 0.003) << changed.a0_nm << " nm, ratio " << changed.ratio;
+  }
+  TappingDetector detector = detector_at(15.0);
+  EXPECT_THROW(detector.drive(TappedSample{.a0_nm = 10.0}.lever(), Length(15e-9)), std::invalid_argument);
+  EXPECT_DOUBLE_EQ(detector.free_amplitude_m(), 20e-9) << "nothing has changed";
+}
+
 // Height of the base for the same swing if the lever were deflected by its mean force alone.
 double without_harmonics_nm(const HeldState& state, double setpoint_nm) {
   const TappedSample sample;

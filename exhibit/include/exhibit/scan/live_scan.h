@@ -32,6 +32,7 @@ struct TappedSubject {
   std::shared_ptr<const physics::TapSurface> surface;
   physics::DrivenLever lever;
   std::shared_ptr<const physics::TapTable> rests;  // null for a high quality factor
+  bool drive_is_fixed = false;                     // as other machines of the wall do not hear of a change
 };
 
 // The sample for a scan, in the metres of a microscope. A measured sample is shown and felt at another scale, that of
@@ -142,6 +143,9 @@ class LiveScan {
   // Handles a tick of the servo; call in order. No effect unless a hand paints.
   void follow_hand(const scene::TipSample& sample);
 
+  // Rows of the settings that this scan has: those of the drive only with a lever that taps by averages.
+  std::span<const ScanRow> rows() const;
+
   // Changes a row of the settings by `steps`, effective from the next pixel on. Returns false at the end of its series.
   bool step(ScanRow row, int steps);
 
@@ -179,11 +183,12 @@ class LiveScan {
  private:
   void prepare_detector();
   bool hold(const ScanChoice& choice);
+  bool changes_drive() const;
   void begin_frame();
   void end_frame();
   void take_until(std::uint32_t pixel);
   void apply(const ScanChoice& choice);
-  void change_to(const ScanChoice& choice);
+  void change_to(const ScanChoice& wanted);
   bool next_pixel();
   void find_truth();
   void paint(const scene::TipSample& sample);

@@ -12,8 +12,8 @@ struct DrivenLever;
 
 namespace afm::exhibit {
 
-// Rows of the scan's settings on the wall's panel.
-enum class ScanRow { Setpoint, Gain, Rate, TipRadius, Noise, Drift, SecondApex };
+// Rows of the scan's settings on the wall's panel; the last two only for a lever that taps.
+enum class ScanRow { Setpoint, Gain, Rate, TipRadius, Noise, Drift, SecondApex, FreeAmplitude, DriveFrequency };
 
 // Values of the settings. The tip's radius determines the traced surface; all others are the microscope's.
 struct ScanChoice {
@@ -21,9 +21,11 @@ struct ScanChoice {
   double gain_per_s = 2000;  // gain of the integral controller
   double line_rate_hz = 10;
   double tip_radius_m = 10e-9;
-  double noise_m = 20e-12;     // rms, see physics::ScanSettings
-  double drift_m_per_s = 0;    // equal speeds to the right and upwards
-  double apex_distance_m = 0;  // distance of a second apex; 0: there is none
+  double noise_m = 20e-12;      // rms, see physics::ScanSettings
+  double drift_m_per_s = 0;     // equal speeds to the right and upwards
+  double apex_distance_m = 0;   // distance of a second apex; 0: there is none
+  double free_amplitude_m = 0;  // free amplitude of a lever that taps; 0: as at the start of the scan
+  double drive_hz = 0;          // frequency of the drive; 0: as at the start of the scan
 
   bool operator==(const ScanChoice&) const = default;
 };
@@ -36,7 +38,16 @@ bool is_valid(const ScanChoice& choice);
 
 // Changes the row's value by `steps` along its series 1, 2, 5, 10 and so on, up to the series' ends. `side_m` is the
 // side of the scanned square, which determines the distance of a second apex. Returns whether anything changed.
+// No effect on the rows of a lever that taps: see step_drive().
 bool step(ScanChoice& choice, ScanRow row, int steps, double side_m);
+
+// Changes the free amplitude in steps of a twentieth of that of `own`, from 0.3 to 1.2 of it, or the drive in steps of
+// a fifth of the half width f0/2Q of the resonance, up to one half width beside the drive of `own`. Returns whether
+// anything changed.
+bool step_drive(ScanChoice& choice, ScanRow row, int steps, const physics::DrivenLever& own);
+
+// The lever with the drive of these settings. Throws UnphysicalValue unless both are within the reach of step_drive().
+physics::DrivenLever driven_by(const ScanChoice& choice, const physics::DrivenLever& own);
 
 // Initial settings for a square of `side_m`: slow and firm enough that the loop, whose lag is the heights' rate of
 // change divided by its gain, keeps the tip on slopes up to `slope`.
@@ -45,7 +56,7 @@ ScanChoice usual_choice(double tip_radius_m, double side_m, double slope, double
 // The same for a lever that taps: at the gain at which its envelope does not overshoot.
 ScanChoice usual_tapping_choice(double tip_radius_m, double side_m, double slope, const physics::DrivenLever& lever);
 
-// "1 nN", "500 pm", "0.80 A0"; with a decimal point.
+// "1 nN", "500 pm", "0.80 A0", "300.075 kHz"; with a decimal point.
 std::string value_text(const ScanChoice& choice, ScanRow row);
 
 // Settings of lever and microscope, in tapping mode without its setpoint. `adhesion_n` is the sample's pull-off force,

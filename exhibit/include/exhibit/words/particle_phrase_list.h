@@ -127,6 +127,8 @@
   PHRASE(ScanAmplitudeError, "scan-amplitude-error", "length", kLine) \
   PHRASE(ScanEnergy, "scan-energy", "energy", kLine)                  \
   PHRASE(ScanAmplitude, "scan-amplitude", "", kLine)                  \
+  PHRASE(ScanFreeAmplitude, "scan-free-amplitude", "", kLine)         \
+  PHRASE(ScanDriveFrequency, "scan-drive", "", kLine)                 \
   PHRASE(CauseLostSwing, "scan-cause-lost-swing", "", kLine)          \
   PHRASE(CauseSwingInFlight, "scan-cause-swing-in-flight", "", kLine)
 

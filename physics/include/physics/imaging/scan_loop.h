@@ -43,8 +43,9 @@ class ScanLoop {
   // Takes effect from the next tick on; the motion continues. Throws as the constructor does, without any change.
   void change(const ScanSettings& settings, Time tick);
 
-  // In tapping mode: keeps another amplitude from the next tick on. Throws as TappingDetector::hold().
-  void hold_amplitude(Length setpoint);
+  // In tapping mode: another drive of the same lever, and another amplitude to keep, from the next tick on. Throws as
+  // TappingDetector::drive().
+  void drive(const DrivenLever& lever, Length setpoint);
 
   // Puts the tip on the surface with the force of the setpoint, at rest.
   void engage(double height_m) noexcept;

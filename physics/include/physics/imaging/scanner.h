@@ -80,8 +80,9 @@ class Scanner {
 
   // Throws UnphysicalValue as validate() does, without any change.
   void change(const ScanSettings& settings);
-  // In tapping mode: keeps another amplitude. Throws as TappingDetector::hold().
-  void hold_amplitude(Length setpoint);
+  // In tapping mode: another drive of the same lever, and another amplitude to keep. Throws as
+  // TappingDetector::drive().
+  void drive(const DrivenLever& lever, Length setpoint);
   void change_surface(Surface surface);  // another sample, or another tip
   const ScanSettings& settings() const noexcept { return settings_; }
   const ScanArea& area() const noexcept { return area_; }

@@ -37,6 +37,10 @@ class TappingDetector {
   // constructor does, without any change.
   void hold(Length setpoint);
 
+  // The same for another drive of this lever, by averages alone: its free amplitude at most 1.2 times that of the
+  // constructor. Throws UnphysicalValue below the least quality factor of the averages, too.
+  void drive(const DrivenLever& lever, Length setpoint);
+
   // Lets the swing follow for `angle`, in w0 t, with the base `gap_m` above the surface.
   void advance(double gap_m, double angle) noexcept;
 

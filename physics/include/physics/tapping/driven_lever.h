@@ -30,6 +30,8 @@ struct DrivenLever {
   double angular_resonance() const noexcept;  // w0, rad/s
   double angular_drive() const noexcept;      // r w0, rad/s
   Time relaxation() const noexcept;           // 2Q/w0, of any small change of a swing under a conservative force
+
+  bool operator==(const DrivenLever&) const = default;
 };
 
 // Throws UnphysicalValue unless the lever is valid, Q is within 0.5 to 1e5, A0 within 10 pm to 10 um, and f_d within

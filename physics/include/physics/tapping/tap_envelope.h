@@ -43,6 +43,11 @@ class TapEnvelope {
   void place(double u_m, double v_m, double gap_m) noexcept;
   void place(const TapState& state, double gap_m) noexcept;
 
+  // Another drive of the same lever from now on; the swing goes on. Allocates. Not for a lever with a low quality
+  // factor. The tables reach to 1.25 times the free amplitude of the constructor; larger swings have the averages of
+  // that one.
+  void drive(const DrivenLever& lever);
+
   // Lets the swing follow for `angle`, in w0 t, while the base moves evenly from one height above the surface to
   // another, in at most so many steps: a contact so stiff that it needs more is in slow motion.
   void advance(double from_gap_m, double to_gap_m, double angle, int most_steps = kUsualSteps) noexcept;
@@ -89,6 +94,7 @@ class TapEnvelope {
   double least_swing_m() const noexcept { return 1e-3 * least_amplitude_m_; }  // least swing with a phase
   Swing contact() const noexcept;                                              // now
   void approach_rest(double gap_m, double angle) noexcept;
+  void set_pace() noexcept;
 
   // Numbers of a step that no swing changes.
   struct Pace {
