@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Places of all nodes in a given state.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -14,7 +12,7 @@
 #include "exhibit/models/relief.h"
 #include "exhibit/scenery/wall_layout.h"
 #include "exhibit/scenery/wall_scene.h"
-#include "physics/quantity_text.h"
+#include "scenery/wall_labels.h"
 
 namespace afm::exhibit {
 
@@ -66,68 +64,6 @@ bool shows_ghost(const WallState& state, bool with_particles) {
 bool shows_swing(const WallState& state, double layout_per_m) {
   return state.centerpiece == Centerpiece::Instrument && state.material &&
          state.swing.amplitude_m * layout_per_m > kSmallestSwing;
-}
-
-// Beside the place where the tip touches, in the wall's plane; moves with the sample, not with the tip.
-render::Label cue_label(const JumpCue& cue, const Phrases& phrases, const dmat4& room_from_layout,
-                        const dvec3& touched_m) {
-  const auto vector = [&](double x, double y) { return dvec3(room_from_layout * glm::dvec4(x, y, 0.0, 0.0)); };
-  return {.text = cue_text(cue, phrases),
-          .highlighted = false,
-          .placement = {.lower_left_m = touched_m + vector(kCuePlace.x, kCuePlace.y),
-                        .right_m = vector(kCueWidth, 0.0),
-                        .up_m = vector(0.0, kCueHeight)}};
-}
-
-// The ladder of ten powers with the rung where one is, and the gap below the last atom.
-void add_journey_labels(const Journey& journey, const WallPlaces& places, const Phrases& phrases, double orders,
-                        render::FrameState& frame) {
-  if (orders >= kGapFromOrders) {
-    const double middle = 0.5 * journey.gap_m() * std::pow(10.0, orders);
-    frame.labels.push_back(
-        {.text = phrases.text<Phrase::JourneyGap>(fmt::format("{:.1f} nm", journey.gap_m() * 1e9)),
-         .highlighted = false,
-         .placement = places.in_scene(kGapLabelRight - kGapLabelWidth, middle - 0.5 * kGapLabelHeight, kGapLabelWidth,
-                                      kGapLabelHeight)});
-  }
-  const auto here = static_cast<std::size_t>(std::lround(orders));
-  constexpr auto kRungs = static_cast<std::size_t>(kJourneyOrders) + 1;
-  for (std::size_t i = 0; i < kRungs; ++i) {
-    const std::string length = scale_bar(std::pow(10.0, -static_cast<double>(i)), 1.0 + 1e-9).text;
-    frame.labels.push_back({.text = length, .highlighted = i == here, .placement = places.rung(kRungs - 1 - i)});
-  }
-}
-
-// Above the companion, at its depth, and beside the ruler.
-void add_companion_label(const Journey::Companion& companion, const dmat4& room_from_journey, const WallPlaces& places,
-                         const Phrases& phrases, render::FrameState& frame) {
-  const double unit_m = places.unit_m();
-  const auto axis = [&](const glm::dvec4& column) { return unit_m * glm::normalize(dvec3(column)); };
-  constexpr double kBesideRuler = kRulerFoot.x + 3.0 * kRulerTextGap + 0.5 * kCompanionLabelWidth;
-  const double across = companion.place.x > 0.0 ? std::max(companion.place.x, kBesideRuler) : companion.place.x;
-  const dvec3 middle = dvec3(room_from_journey[3]) + across * axis(room_from_journey[0]) +
-                       companion.place.y * axis(room_from_journey[1]) + companion.place.z * axis(room_from_journey[2]);
-  const dvec3 right(places.room_from_layout() * glm::dvec4(kCompanionLabelWidth, 0.0, 0.0, 0.0));
-  const dvec3 up(places.room_from_layout() * glm::dvec4(0.0, kCompanionLabelHeight, 0.0, 0.0));
-  frame.labels.push_back({.text = phrases[companion.name],
-                          .highlighted = false,
-                          .placement = {.lower_left_m = middle - 0.5 * right, .right_m = right, .up_m = up}});
-}
-
-// The numbers at the ends of the colour scale, in metres as measured, and a measured sample's exaggeration.
-void add_height_labels(const WallPlaces& places, const Phrases& phrases, double range_m,
-                       std::optional<double> exaggeration, render::FrameState& frame) {
-  const auto length = [](double length_m) {
-    std::string text = physics::format_quantity(physics::Length(length_m), physics::kLengthUnits, 3);
-    if (const auto micro = text.find("um"); micro != std::string::npos) text.replace(micro, 1, "\u00b5");
-    return text;
-  };
-  frame.labels.push_back({length(range_m), false, places.height_bar_text(1.0)});
-  if (exaggeration) {
-    frame.labels.push_back(
-        {phrases.text<Phrase::HeightsTimes>(fmt::format("{:g}", *exaggeration)), false, places.height_bar_text(0.5)});
-  }
-  frame.labels.push_back({"0", false, places.height_bar_text(0.0)});
 }
 
 }  // namespace
