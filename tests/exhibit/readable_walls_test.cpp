@@ -91,7 +91,7 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   expect_whole(full_dial(phrases), stage.wall_scene.places().parameters(), "the dial");
   for (render::DataPanel particles : full_particles(phrases)) {
     particles.details = true;
-    expect_whole(particles, frame.panels.data.placement, "the particles");
+    expect_whole(particles, frame.panels.data.placement, ("the particles of " + particles.title).c_str());
   }
   for (const LessonPrompt& prompt : full_prompts(phrases)) {
     const auto targets = lesson_targets(prompt, std::nullopt, phrases);

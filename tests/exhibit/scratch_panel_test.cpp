@@ -105,7 +105,7 @@ class InkPanel : public ::testing::Test {
 TEST_F(InkPanel, ShowsForceLineDotAndArea) {
   EXPECT_EQ(row(push_, Phrase::PushStateName).value, "writes");
   EXPECT_EQ(row(push_, Phrase::InkForce).value, "-12 nN");
-  EXPECT_EQ(row(push_, Phrase::InkForce).source, "the liquid tears at a pull of 18.3 nN");
+  EXPECT_EQ(row(push_, Phrase::InkForce).source, "the liquid tears at 18.3 nN");
   EXPECT_EQ(row(push_, Phrase::InkLine), (render::DataRow{"Line, by formula", "216 nm", "wide at 0.1 um/s"}));
   EXPECT_EQ(row(push_, Phrase::InkDot).value, "166 nm");
   EXPECT_EQ(row(push_, Phrase::InkCovered).value, "21600 nm\u00b2");

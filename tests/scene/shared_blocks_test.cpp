@@ -200,7 +200,7 @@ TEST(SharedBlocks, AreRefusedForAnyNumberThatIsNotFinite) {
   const SharedModel model = paper_model();
   EXPECT_EQ(expect_every_number_is_checked<TipState>(model), 5 + 3 + 3 + 6 + 4 + 6 + 2 + 2);
   EXPECT_EQ(expect_every_number_is_checked<TipSample>(model), 5 + 3 + 2 + 9 + 1 + 2 + 4 + 4 + 2 + 4 + 2);
-  EXPECT_EQ(expect_every_number_is_checked<TipPush>(model), 3 + 3 + 2 + 4 + 4 + 4 + 2);
+  EXPECT_EQ(expect_every_number_is_checked<TipPush>(model), 3 + 3 + 2 + 4 + 4 + 4 + 3 + 2);
   EXPECT_EQ(expect_every_number_is_checked<TipEvent>(model), 3);
 }
 
