@@ -82,7 +82,8 @@ class InkRows : private SourcedRows {
 render::DataPanel ink_panel(const ParticlesNow& now, const Phrases& phrases) {
   return {.title = phrases.word(now.set->title),
           .subtitle = phrases.text<Phrase::InkTakeBack>(fmt::format("{}", now.push.strokes)),
-          .rows = InkRows(now, phrases).take()};
+          .rows = InkRows(now, phrases).take(),
+          .details = false};
 }
 
 }  // namespace afm::exhibit

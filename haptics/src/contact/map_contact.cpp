@@ -177,7 +177,7 @@ glm::dvec3 MapContact::vibrate(const glm::dvec3& hand_m, double room_n, double e
 
 MapContact::Spread MapContact::spread_of(const scene::SharedLawMap& map, std::span<const float> values) {
   const auto [least, most] = std::ranges::minmax(values.first(std::size_t{map.columns} * map.rows));
-  return {least, most};
+  return {static_cast<double>(least), static_cast<double>(most)};
 }
 
 double MapContact::Spread::share_of(double value) const noexcept {
