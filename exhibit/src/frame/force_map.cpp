@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -53,11 +54,13 @@ core::Result<void> check_options(const ExhibitFiles& files) {
   return {};
 }
 
-// True if the values differ anywhere.
-bool differ(const scene::SharedLawMap& map, std::span<const float> values) {
-  const auto [least, most] = std::ranges::minmax(values.first(std::size_t{map.columns} * map.rows));
-  return least < most;
+// The least and the largest of the map's values.
+std::ranges::minmax_result<float> ends_of(const scene::SharedLawMap& map, std::span<const float> values) {
+  return std::ranges::minmax(values.first(std::size_t{map.columns} * map.rows));
 }
+
+// A map whose values differ by less has one value and noise, which would be felt from nothing to the strongest.
+constexpr float kLeastRatio = 1.05F;
 
 // Empty if such a vibration would be felt somewhere on the map.
 std::string why_nothing_vibrates(const curves::SampleModel& whole, scene::MapVibration quantity) {
@@ -67,14 +70,14 @@ std::string why_nothing_vibrates(const curves::SampleModel& whole, scene::MapVib
     case scene::MapVibration::Collision:
       break;
     case scene::MapVibration::Modulus:
-      if (!differ(map, map.ln_modulus))
-        return "the modulus of this map is the same everywhere; choose another, or leave it out";
+      if (const auto ends = ends_of(map, map.ln_modulus); ends.max - ends.min < std::log(kLeastRatio))
+        return "the modulus of this map differs by less than 5 %; choose another, or leave it out";
       break;
     case scene::MapVibration::Adhesion:
       if (whole.felt_map->law == physics::Law::Hertz)
         return "the tip hardly sticks to this map; choose another, or leave it out";
-      if (!differ(map, map.adhesion_j_per_m2))
-        return "the adhesion of this map is the same everywhere; choose another, or leave it out";
+      if (const auto ends = ends_of(map, map.adhesion_j_per_m2); ends.max < kLeastRatio * ends.min)
+        return "the adhesion of this map differs by less than 5 %; choose another, or leave it out";
       break;
     case scene::MapVibration::Loss:
       if (!whole.figures().hysteretic) return "a cycle on this map loses no energy; choose another, or leave it out";

@@ -246,6 +246,16 @@ TEST(ViewForceMapFiles, AreRefusedWithTheReason) {
   const auto pad = view("holed.jpk-force-map", "--map-vibration modulus --haptics gamepad");
   EXPECT_EQ(pad.exit_code, 2);
   EXPECT_THAT(pad.err, HasSubstr("the profile of --haptics gamepad has no vibration; use one of hdapi, "));
+  const auto made = support::run_program(
+      support::touchafm() + " generate map --law jkr --pixels 3x3 --size 1um --modulus 5MPa --radius 30nm" +
+      " --work-of-adhesion 30mJ/m2 --spring-constant 0.2N/m --most-force 3nN --noise 5pN --out " +
+      folder.file("even.h5"));
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  for (const char* const quantity : {"modulus", "adhesion"}) {
+    const auto even = view("even.h5", std::string("--felt map --fit jkr --radius 30nm --map-vibration ") + quantity);
+    EXPECT_EQ(even.exit_code, 2);
+    EXPECT_THAT(even.err, HasSubstr(std::string("the ") + quantity + " of this map differs by less than 5 %"));
+  }
   const auto shapeless = view("holed.jpk-force-map", "--radius 50nm");
   EXPECT_EQ(shapeless.exit_code, 2);
   EXPECT_THAT(shapeless.err, HasSubstr("add --fit SHAPE"));
