@@ -27,6 +27,29 @@ ParticleField field_of(const ParticleSet& set) {
   return field;
 }
 
+namespace {
+
+// The soft sample or the ink of the set.
+void share_marks(const ParticleSet& set, SharedParticles& shared) {
+  if (set.soft) {
+    const physics::SoftSurface& surface = set.soft->surface;
+    shared.soft = {.name = to_name(set.soft->name),
+                   .hardness_pa = surface.hardness.si,
+                   .reduced_modulus_pa = surface.reduced_modulus.si,
+                   .work_of_adhesion_j_per_m2 = surface.work_of_adhesion.si,
+                   .pile_up_share = surface.pile_up_share};
+  }
+  if (set.ink) {
+    shared.ink = {.name = to_name(set.ink->name),
+                  .molecules_per_s = set.ink->ink.molecules_per_s,
+                  .footprint_m2 = set.ink->ink.footprint.si,
+                  .thickness_m = set.ink->thickness.si,
+                  .surface_tension_n_per_m = set.ink->surface_tension.si};
+  }
+}
+
+}  // namespace
+
 SharedParticles shared_particles(const ParticleSet& set) {
   AFM_CHECK(set.species.size() <= kMaxSpecies && set.setup.species.size() == set.species.size() &&
             set.particles.size() <= kMaxParticles);
@@ -56,21 +79,7 @@ SharedParticles shared_particles(const ParticleSet& set) {
     shared.island_radius_m.at(shared.species_count) = species.island_radius.si;
     ++shared.species_count;
   }
-  if (set.soft) {
-    const physics::SoftSurface& surface = set.soft->surface;
-    shared.soft = {.name = to_name(set.soft->name),
-                   .hardness_pa = surface.hardness.si,
-                   .reduced_modulus_pa = surface.reduced_modulus.si,
-                   .work_of_adhesion_j_per_m2 = surface.work_of_adhesion.si,
-                   .pile_up_share = surface.pile_up_share};
-  }
-  if (set.ink) {
-    shared.ink = {.name = to_name(set.ink->name),
-                  .molecules_per_s = set.ink->ink.molecules_per_s,
-                  .footprint_m2 = set.ink->ink.footprint.si,
-                  .thickness_m = set.ink->thickness.si,
-                  .surface_tension_n_per_m = set.ink->surface_tension.si};
-  }
+  share_marks(set, shared);
   const physics::Sideways<Length> middle = field_of(set).middle();
   for (const physics::PlacedParticle& particle : set.particles) {
     shared.angle_rad.at(shared.count) = particle.angle_rad;

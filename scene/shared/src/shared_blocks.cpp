@@ -153,6 +153,26 @@ std::string why_no_friction(physics::FrictionLaw friction, physics::Law law, phy
   return physics::isfinite(reduced_modulus) ? "" : "a rigid contact has no contact area; choose --friction amontons";
 }
 
+namespace {
+
+// Empty if the map of modulus and adhesion, and what it needs, is a valid one.
+std::string why_no_map(const SharedContact& material) {
+  const bool has_map_laws =
+      material.law == physics::Law::Dmt || material.law == physics::Law::Jkr || material.law == physics::Law::Hertz;
+  if (material.law_map > 1 || (material.law_map == 1 && (!has_map_laws || material.dynamic != 0 || taps(material) ||
+                                                         material.friction.law != physics::FrictionLaw::None))) {
+    return "its map of modulus and adhesion is felt with the laws dmt, jkr and hertz alone, without friction";
+  }
+  if (material.viscous_map > material.law_map) return "its viscosity needs a map of modulus and adhesion";
+  if (!core::is_enumerator(material.map_vibration)) return "its vibration is unknown";
+  if (material.map_vibration != MapVibration::None && material.law_map == 0) {
+    return "its vibration needs a map of modulus and adhesion";
+  }
+  return {};
+}
+
+}  // namespace
+
 core::Result<void> validate(const SharedContact& material, std::uint32_t curve_count, std::uint32_t height_field_count,
                             const SharedTopography& topography) {
   if (!terminated(material.name)) return model_refused("its name is not terminated");
@@ -174,18 +194,7 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
                          !physics::has_dynamics(material.law))) {
     return model_refused(fmt::format("the law {} cannot be tapped on", physics::name_of(material.law)));
   }
-  const bool has_map_laws =
-      material.law == physics::Law::Dmt || material.law == physics::Law::Jkr || material.law == physics::Law::Hertz;
-  if (material.law_map > 1 || (material.law_map == 1 && (!has_map_laws || material.dynamic != 0 || taps(material) ||
-                                                         material.friction.law != physics::FrictionLaw::None))) {
-    return model_refused(
-        "its map of modulus and adhesion is felt with the laws dmt, jkr and hertz alone, without friction");
-  }
-  if (material.viscous_map > material.law_map)
-    return model_refused("its viscosity needs a map of modulus and adhesion");
-  if (!core::is_enumerator(material.map_vibration)) return model_refused("its vibration is unknown");
-  if (material.map_vibration != MapVibration::None && material.law_map == 0)
-    return model_refused("its vibration needs a map of modulus and adhesion");
+  if (const std::string why = why_no_map(material); !why.empty()) return model_refused(why);
   const bool traced = material.height_field == kTopography && topography.columns > 0;
   if (material.height_field != kNoHeightField && material.height_field >= height_field_count && !traced) {
     return model_refused("its surface does not exist");
