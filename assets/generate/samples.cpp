@@ -54,7 +54,7 @@ class MicaSteps {
   // makes mica pearly.
   static V3 hue(double height) {
     const double layer = std::clamp(height / kLayer + kLayersBelowCenter, 0.0, double{kCount});
-    return kHues[static_cast<std::size_t>(layer + 0.5)];
+    return kHues[static_cast<std::size_t>(std::lround(layer))];
   }
 
   // A step's face along its line, over the squares of the grid, which would fray it: the edge of the upper sheet
