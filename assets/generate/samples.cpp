@@ -89,7 +89,7 @@ class MicaSteps {
 
  private:
   static constexpr double kHalfRiser = 1.0 * kNm;
-  // nm along the direction of ascent; the steps upwards keep clear of a ball of 50 nm that stands in the middle
+  // places along the ascent in nm; the upper two are clear of a ball of 50 nm on the middle
   static constexpr double kSteps[] = {-15.5, -7.5, 11.5, 16.5};
   static constexpr int kLayersBelowCenter = 2;
   static constexpr V3 kHues[] = {

@@ -52,8 +52,8 @@ constexpr double kMostLag = 0.5;         // share of the bend that adhesion can 
 constexpr double kStepsOfShare = 20.0, kLeastShare = 0.3, kMostShare = 0.95, kUsualShare = 0.8;
 constexpr double kUsualTappingHz = 2.0;
 
-// The drive of a lever that taps: the free amplitude in shares of its own, within what its table of swings covers; the
-// frequency in shares of the half width of its resonance.
+// Drive of a tapping lever: free amplitudes as shares of the one at the start, within the range of its table of swings;
+// frequencies as shares of the half width of its resonance.
 constexpr double kStepsOfAmplitude = 20.0, kLeastAmplitude = 0.3, kMostAmplitude = 1.2;
 constexpr double kStepsOfWidth = 5.0, kMostWidths = 1.0;
 constexpr double kSlack = 1e-9;  // relative, for rounding

@@ -64,7 +64,7 @@ struct ExhibitFiles {
       pixel;                                // its column and row to feel first (curves::MapPlace); empty: the middle
   bool whole_map = false;                   // true: the whole fitted map is felt, not one pixel
   bool viscous_map = false;                 // true: it also damps the hand
-  scene::MapVibration map_vibration{};      // quantity that it is felt by, besides its law
+  scene::MapVibration map_vibration{};      // quantity felt as a vibration
   std::optional<double> equal_force_n{};    // force of the surface over it that is shown first; empty: none
   std::vector<std::string> shown;           // names; empty: all of the user's file, or the paper's three
   std::vector<scene::MaterialEntry> added;  // shown after the others
