@@ -81,8 +81,8 @@ void add_particles_option(OptionList& command, exhibit::ExhibitFiles& files) {
   command
       .add_option(
           "--particles", files.particles,
-          "particles on a level sample, to push with the tip: a particle file (TOML), or the name of a built-in "
-          "set, such as gold-row; the scale is then particles unless --scale chooses another")
+          "particles to push with the tip, or a sample to scratch or to write on with ink: a particle file (TOML), or "
+          "the name of a built-in set, such as gold-row; the scale is then particles unless --scale chooses another")
       .type_name("FILE");
 }
 
