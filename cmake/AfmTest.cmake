@@ -24,8 +24,8 @@ set(AFM_WITH_PRETENDED_DEVICES ${CMAKE_SOURCE_DIR}/tests/input/with_pseudo_termi
 # One program, test_folder_subject, of sources that are compiled together: the names in them must differ. It is one case of CTest,
 # folder.subject. With CASES every TEST in it is one, folder.Suite.Case, and with SUITES every suite, folder.Suite. Three cases run side by
 # side, two in deep checks and under AddressSanitizer; nothing runs beside one that is SERIAL, as everything of label realtime is. Those of label hand wait more than they compute:
-# scripts/run-tests runs them after all others, three at a time; one that DRAWS takes the place of two, and one that measures a speed
-# is SERIAL.
+# scripts/run-tests runs them after all others, three at a time; one that DRAWS takes the place of two and begins before those that do
+# not, and one that measures a speed is SERIAL.
 # The tests that `filter` names draw more in a second case, NAME.deep of label deep (tests/support/deep.h). Those that ONLY_DEEP names,
 # a filter too but a suite with SUITES, are left out of the usual run and have the label deep beside their own. NEEDS names the programs that the test starts. PRETENDED_DEVICES runs it
 # under umockdev.
@@ -91,9 +91,10 @@ function(afm_test)
     add_test(NAME ${T_NAME}.deep COMMAND ${wrapper} $<TARGET_FILE:${target}> --gtest_filter=${deep})
     set_tests_properties(${T_NAME}.deep PROPERTIES LABELS deep TIMEOUT 900 RUN_SERIAL ${deep_serial} ENVIRONMENT AFM_DEEP=1)
   endif()
-  set(properties LABELS "${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${serial})
+  string(REPLACE ";" "\\;" labels "${T_LABELS}")  # one value of the list of properties
+  set(properties LABELS "${labels}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${serial})
   if(T_DRAWS)
-    list(APPEND properties PROCESSORS 2)
+    list(APPEND properties PROCESSORS 2 COST 10)
   endif()
   if(T_CASES)
     set(discovery NO_PRETTY_VALUES TEST_PREFIX "${folder}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)

@@ -88,7 +88,9 @@ TEST_F(InstalledProgram, NamesTheAssetsThatItLacks) {
   EXPECT_THAT(result.err, HasSubstr(broken.file("share/touchafm/materials.toml")));
 }
 
-TEST_F(InstalledProgram, RunsTheDemonstration) {
+class InstalledDemonstration : public InstalledProgram {};
+
+TEST_F(InstalledDemonstration, EndsWell) {
   const std::string command = "demo --out out --material mica --hand-speed 200mm/s --eye-width 160";
   ProgramResult demo = touchafm(command);
   // a stalled virtual machine makes the servo release the hand repeatedly: tries again, as a person would

@@ -59,6 +59,15 @@ class ViewParticles : public ::testing::Test {
     xdotool(moves + " mouseup 3");
   }
 
+  // Switches the force on. False if it never is.
+  bool switches_on(support::LiveProgram& view) const {
+    for (int presses = 0; presses < 20; ++presses) {
+      xdotool("key t");
+      if (view.says("force on", std::chrono::seconds(2))) return true;
+    }
+    return false;
+  }
+
   // Lifts, switches the force on, puts the tip down left of the row, and pushes the first particle by most of its
   // width. Repeats what a busy machine has stopped. False if there is no force.
   bool push(support::LiveProgram& view, double way_m) const {
@@ -66,12 +75,7 @@ class ViewParticles : public ::testing::Test {
       drag(0.0, 0.130);
       drag(-0.150, 0.0);
       drag(0.040, 0.0);  // 30 mm left of the middle
-      bool on = false;
-      for (int presses = 0; presses < 20 && !on; ++presses) {
-        xdotool("key t");
-        on = view.says("force on", std::chrono::seconds(2));
-      }
-      if (!on) return false;
+      if (!switches_on(view)) return false;
       drag(0.0, -0.072, 10);
       if (view.says_one_of({"jump to contact", "force off"}) != "jump to contact") continue;
       drag(way_m, 0.0, 30);
@@ -239,35 +243,45 @@ TEST_F(ViewParticles, HaveNoOldPictureWhereTheTipHidesOrTurnsThem) {
   EXPECT_THAT(refused("--particles gold-row --seed 3"), HasSubstr("--level"));
 }
 
-// The last session of the folder, which has been scratched.
-TEST_F(ViewParticles, ASoftSampleIsScratchedAndTakenBackAndReplayedBitForBit) {
+// A set whose sample keeps marks, and what the window says of them.
+struct Marked {
+  const char* set;
+  const char* nothing_yet;  // to take back
+  const char* begins;
+  const char* ends;  // none if empty
+  const char* taken_back;
+  physics::EventKind mark;
+};
+
+void PrintTo(const Marked& marked, std::ostream* out) { *out << marked.set; }
+
+class ViewMarks : public ViewParticles, public testing::WithParamInterface<Marked> {};
+
+TEST_P(ViewMarks, AreMadeByAHandAndTakenBackAndReplayedBitForBit) {
+  const Marked& marked = GetParam();
   support::LiveProgram view(
-      {support::touchafm(), "view", "--particles", "scratch-pmma", "--size", "640x480", "--eye-width", "320",
+      {support::touchafm(), "view", "--particles", marked.set, "--size", "640x480", "--eye-width", "320",
        "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
       display_.name());
   ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
   xdotool("search --sync --name TouchAFM");
   xdotool("key BackSpace");
-  ASSERT_TRUE(view.says("take back: no scratch has marked the sample")) << view.said();
+  ASSERT_TRUE(view.says(marked.nothing_yet)) << view.said();
   xdotool("key 1");
   ASSERT_TRUE(view.says("chosen: ")) << view.said();
-  bool marked = false;
-  for (int tries = 0; tries < 10 && !marked; ++tries) {
+  bool begun = false;
+  for (int tries = 0; tries < 10 && !begun; ++tries) {
     drag(0.0, 0.130);
-    bool on = false;
-    for (int presses = 0; presses < 20 && !on; ++presses) {
-      xdotool("key t");
-      on = view.says("force on", std::chrono::seconds(2));
-    }
-    ASSERT_TRUE(on) << view.said();
+    ASSERT_TRUE(switches_on(view)) << view.said();
     drag(0.0, -0.078, 20);
-    marked = view.says_one_of({"the tip marks the sample", "force off"}) == "the tip marks the sample";
+    begun = view.says_one_of({marked.begins, "force off"}) == marked.begins;
   }
-  ASSERT_TRUE(marked) << view.said();
+  ASSERT_TRUE(begun) << view.said();
   drag(0.030, 0.0, 60);
   drag(0.0, 0.130);
+  ASSERT_TRUE(view.says(marked.ends)) << view.said();
   xdotool("key BackSpace");
-  ASSERT_TRUE(view.says("the last scratch was taken back")) << view.said();
+  ASSERT_TRUE(view.says(marked.taken_back)) << view.said();
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
   std::size_t marks = 0;
@@ -275,55 +289,19 @@ TEST_F(ViewParticles, ASoftSampleIsScratchedAndTakenBackAndReplayedBitForBit) {
     if (file.path().extension() != ".afms") continue;
     const auto session = servo::load_session(file.path());
     ASSERT_TRUE(session) << session.error().message;
-    marks += count(*session, physics::EventKind::SurfaceMarked);
+    marks += count(*session, marked.mark);
     const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
     EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
   }
   EXPECT_GE(marks, 1U);
 }
 
-TEST_F(ViewParticles, AHandWritesWithInkAndTakesItBackAndIsReplayedBitForBit) {
-  support::LiveProgram view(
-      {support::touchafm(), "view", "--particles", "write-ink", "--size", "640x480", "--eye-width", "320",
-       "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
-      display_.name());
-  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
-  xdotool("search --sync --name TouchAFM");
-  xdotool("key BackSpace");
-  ASSERT_TRUE(view.says("take back: no ink is on the sample")) << view.said();
-  xdotool("key 1");
-  ASSERT_TRUE(view.says("chosen: ")) << view.said();
-  bool wrote = false;
-  for (int tries = 0; tries < 10 && !wrote; ++tries) {
-    drag(0.0, 0.130);
-    bool on = false;
-    for (int presses = 0; presses < 20 && !on; ++presses) {
-      xdotool("key t");
-      on = view.says("force on", std::chrono::seconds(2));
-    }
-    ASSERT_TRUE(on) << view.said();
-    drag(0.0, -0.078, 20);
-    wrote = view.says_one_of({"the tip touches: ink flows", "force off"}) == "the tip touches: ink flows";
-  }
-  ASSERT_TRUE(wrote) << view.said();
-  drag(0.030, 0.0, 60);
-  drag(0.0, 0.130);
-  ASSERT_TRUE(view.says("the liquid tears")) << view.said();
-  xdotool("key BackSpace");
-  ASSERT_TRUE(view.says("the last stroke was taken back")) << view.said();
-  xdotool("key Escape");
-  ASSERT_EQ(view.ends(), 0) << view.said();
-  std::size_t touches = 0;
-  for (const auto& file : std::filesystem::directory_iterator(folder_.file("kept"))) {
-    if (file.path().extension() != ".afms") continue;
-    const auto session = servo::load_session(file.path());
-    ASSERT_TRUE(session) << session.error().message;
-    touches += count(*session, physics::EventKind::InkFlows);
-    const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
-    EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
-  }
-  EXPECT_GE(touches, 1U);
-}
+INSTANTIATE_TEST_SUITE_P(
+    Of, ViewMarks,
+    testing::Values(Marked{"scratch-pmma", "take back: no scratch has marked the sample", "the tip marks the sample",
+                           "", "the last scratch was taken back", physics::EventKind::SurfaceMarked},
+                    Marked{"write-ink", "take back: no ink is on the sample", "the tip touches: ink flows",
+                           "the liquid tears", "the last stroke was taken back", physics::EventKind::InkFlows}));
 
 }  // namespace view_particles_test
 }  // namespace afm::app

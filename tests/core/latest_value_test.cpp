@@ -13,6 +13,8 @@
 #include <new>
 #include <thread>
 
+#include "support/deep.h"
+
 namespace latest_value_test {
 
 using afm::core::LatestValue;
@@ -102,9 +104,9 @@ class SharedChannel {
 };
 
 TEST(LatestValue, OutlivesAWriterKilledAtAnyMoment) {
-  constexpr int kKills = 200;
+  const int kills = afm::support::draws(200);
   int left_in_the_middle = 0;
-  for (int kill_number = 0; kill_number < kKills; ++kill_number) {
+  for (int kill_number = 0; kill_number < kills; ++kill_number) {
     SharedChannel channel;
     const pid_t writer = ::fork();
     ASSERT_GE(writer, 0);
@@ -130,7 +132,7 @@ TEST(LatestValue, OutlivesAWriterKilledAtAnyMoment) {
     ASSERT_TRUE(healed);
     EXPECT_EQ(*healed, filled(42));
   }
-  std::printf("the writer died in the middle of a store in %d of %d kills\n", left_in_the_middle, kKills);
+  std::printf("the writer died in the middle of a store in %d of %d kills\n", left_in_the_middle, kills);
 }
 
 }  // namespace latest_value_test

@@ -10,13 +10,13 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <memory>
 #include <numbers>
 #include <random>
 #include <span>
 #include <stdexcept>
 #include <vector>
 
+#include "felt/marking_hand.h"
 #include "haptics/device.h"
 #include "support/particles/ink_sample.h"
 
@@ -25,58 +25,27 @@ namespace felt_ink_test {
 
 using physics::EventKind;
 
-constexpr double kTickS = 1e-3;
-constexpr double kNm = 1e-9;
+constexpr double kNm = test::MarkingHand::kNm;
 constexpr double kPullN = 4.0 * std::numbers::pi * 20e-9 * 0.0728;  // 4 pi R gamma: 18.3 nN
 
-class WritingHand {
+class WritingHand final : public test::MarkingHand {
  public:
-  ParticlePush at(double x_nm, double y_nm, double z_nm) {
-    const ParticlePush push = felt_.step({x_nm * kNm, y_nm * kNm}, z_nm * kNm, kTickS);
-    felt_.next_tile();
-    at_nm_ = {x_nm, y_nm, z_nm};
-    for (const ParticlePush::Event& event : push.happened()) events_.push_back(event);
-    return push;
-  }
-
-  // On a straight line; the newest tick.
-  ParticlePush go(double x_nm, double y_nm, double z_nm, double nm_per_tick) {
-    const glm::dvec3 from = at_nm_, way = glm::dvec3(x_nm, y_nm, z_nm) - from;
-    const int ticks = std::max(1, static_cast<int>(std::ceil(glm::length(way) / nm_per_tick)));
-    ParticlePush push;
-    for (int i = 1; i <= ticks; ++i) {
-      const glm::dvec3 to = from + way * (static_cast<double>(i) / ticks);
-      push = at(to.x, to.y, to.z);
-    }
-    return push;
-  }
-
-  void wait(int ticks) {
-    for (int i = 0; i < ticks; ++i) at(at_nm_.x, at_nm_.y, at_nm_.z);
-  }
+  WritingHand() : MarkingHand(test::thiol_ink(), 300.0) {}
 
   // Over the sample until all of it is published, and ready.
   void lift() {
-    go(at_nm_.x, at_nm_.y, tears_nm() + 20.0, 20.0);
+    go(place_nm().x, place_nm().y, tears_nm() + 20.0, 20.0);
     wait(300);
   }
 
-  std::size_t count(EventKind kind) const {
-    return static_cast<std::size_t>(
-        std::count_if(events_.begin(), events_.end(), [&](const auto& event) { return event.kind == kind; }));
-  }
-
-  double tears_nm() const { return scale_.clear_z_m / kNm; }
+  double tears_nm() const { return scale().clear_z_m / kNm; }
   double covered_m2() const { return felt_.push().ink.covered_m2; }
   FeltInk& felt() { return felt_; }
-  const ParticleScale& scale() const { return scale_; }
 
  private:
-  std::unique_ptr<scene::SharedParticles> particles_ = std::make_unique<scene::SharedParticles>(test::thiol_ink());
-  ParticleScale scale_ = *particle_scale(*particles_, omni_like("hand"));
-  FeltInk felt_{*particles_, scale_};
-  glm::dvec3 at_nm_{0.0, 0.0, 300.0};
-  std::vector<ParticlePush::Event> events_;
+  FeltMarks& marks() override { return felt_; }
+
+  FeltInk felt_{particles(), scale()};
 };
 
 TEST(FeltInk, ShowsDotsAndPullInTheSizeOfAHand) {

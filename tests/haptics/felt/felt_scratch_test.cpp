@@ -9,12 +9,12 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <memory>
 #include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "felt/marking_hand.h"
 #include "haptics/device.h"
 #include "haptics/safety.h"
 #include "physics/manipulation/marking.h"
@@ -26,58 +26,31 @@ namespace felt_scratch_test {
 
 using physics::EventKind;
 
-constexpr double kTickS = 1e-3;
-constexpr double kNm = 1e-9;
+constexpr double kTickS = test::MarkingHand::kTickS;
+constexpr double kNm = test::MarkingHand::kNm;
 
-// A hand on the sample, without and with the governor behind it.
-class ScratchingHand {
+class ScratchingHand final : public test::MarkingHand {
  public:
   explicit ScratchingHand(double held_j = 0.0)
-      : scale_(*particle_scale(*particles_, omni_like("hand"))), felt_(*particles_, scale_, kTickS, held_j) {}
-
-  ParticlePush at(double x_nm, double y_nm, double z_nm) {
-    const ParticlePush push = felt_.step({x_nm * kNm, y_nm * kNm}, z_nm * kNm, kTickS);
-    felt_.next_tile();
-    at_nm_ = {x_nm, y_nm, z_nm};
-    for (const ParticlePush::Event& event : push.happened()) events_.push_back(event);
-    return push;
-  }
-
-  // On a straight line; the newest tick.
-  ParticlePush go(double x_nm, double y_nm, double z_nm, double nm_per_tick) {
-    const glm::dvec3 from = at_nm_, way = glm::dvec3(x_nm, y_nm, z_nm) - from;
-    const int ticks = std::max(1, static_cast<int>(std::ceil(glm::length(way) / nm_per_tick)));
-    ParticlePush push;
-    for (int i = 1; i <= ticks; ++i) {
-      const glm::dvec3 to = from + way * (static_cast<double>(i) / ticks);
-      push = at(to.x, to.y, to.z);
-      const physics::ScratchTick& tick = felt_.last();
-      EXPECT_GE((tick.given - tick.lost - tick.stored).si, -1e-12 * std::abs(tick.given.si) - 1e-30);
-      EXPECT_FALSE(tick.lagging && felt_.push().rise_m == 0.0);
-    }
-    return push;
-  }
+      : MarkingHand(test::soft_pmma(), 40.0), felt_(particles(), scale(), kTickS, held_j) {}
 
   // Over the sample until all marks are published, and ready.
   void lift() {
-    for (int i = 0; i < 300; ++i) at(at_nm_.x, at_nm_.y, 40.0);
-  }
-
-  std::size_t count(EventKind kind) const {
-    return static_cast<std::size_t>(
-        std::count_if(events_.begin(), events_.end(), [&](const auto& event) { return event.kind == kind; }));
+    for (int i = 0; i < 300; ++i) at(place_nm().x, place_nm().y, 40.0);
   }
 
   FeltScratch& felt() { return felt_; }
-  const ParticleScale& scale() const { return scale_; }
-  const glm::dvec3& place_nm() const { return at_nm_; }
 
  private:
-  std::unique_ptr<scene::SharedParticles> particles_ = std::make_unique<scene::SharedParticles>(test::soft_pmma());
-  ParticleScale scale_;
+  FeltMarks& marks() override { return felt_; }
+
+  void check() override {
+    const physics::ScratchTick& tick = felt_.last();
+    EXPECT_GE((tick.given - tick.lost - tick.stored).si, -1e-12 * std::abs(tick.given.si) - 1e-30);
+    EXPECT_FALSE(tick.lagging && felt_.push().rise_m == 0.0);
+  }
+
   FeltScratch felt_;
-  glm::dvec3 at_nm_{0.0, 0.0, 40.0};
-  std::vector<ParticlePush::Event> events_;
 };
 
 TEST(FeltScratch, ShowsATipAndItsForceInTheSizeOfAHand) {

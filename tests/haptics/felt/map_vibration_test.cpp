@@ -10,9 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
-#include <random>
 #include <string>
-#include <vector>
 
 #include "contact/felt_vibration.h"
 #include "felt/map_bench.h"
@@ -20,7 +18,6 @@
 #include "haptics/map_contact.h"
 #include "scene/shared/map_vibration.h"
 #include "servo_bench.h"
-#include "support/deep.h"
 
 namespace afm::haptics {
 namespace map_vibration_test {
@@ -28,8 +25,9 @@ namespace map_vibration_test {
 using physics::Law;
 using physics::Phase;
 using scene::MapVibration;
+using test::lift;
 
-constexpr double kTickS = 1e-3;
+constexpr double kTickS = test::kMapTickS;
 
 DeviceSpec vibrating(double most_n = kMostVibrationN) {
   DeviceSpec device = omni_like("hand");
@@ -40,71 +38,34 @@ DeviceSpec vibrating(double most_n = kMostVibrationN) {
 std::unique_ptr<ContactModel> model_of(MapVibration quantity, const DeviceSpec& device = vibrating()) {
   scene::SharedContact rubber = test::rubber(Law::Jkr);
   rubber.map_vibration = quantity;
-  const auto map = test::hilly_map(rubber);
-  const auto tables = test::required(build_tables(rubber, {}));
-  const auto common = test::required(Scaling::common_scale(std::vector{tables}, device));
-  auto model = test::required(ContactModel::create(rubber, 0, tables, {}, common, device, 1'000'000, map.get()));
-  model->use(scene::ScaleMode::Fit);
-  return model;
+  return test::hilly_model(rubber, device);
 }
 
-// Lifts the tip so that it is free.
-void lift(ContactModel& model) {
-  model.wait_for_lift();
-  model.step({0.0, 0.0, 0.07}, {.elapsed_s = kTickS});
-}
-
-// Work of the vibration on a hand that rests, and then goes straight from corner to corner of a triangle, at rest at
-// each of them. Each force is held during the next tick, as by the servo.
+// Work of the vibration on a hand that rests, and then goes round a triangle. Each force is held during the next tick,
+// as by the servo.
 double work_j(ContactModel& model, const std::array<glm::dvec3, 3>& corners, double mean_m_per_s) {
   constexpr int kRestTicks = 20;  // two periods
   for (int tick = 0; tick < kRestTicks; ++tick) model.step(corners[0], {.elapsed_s = kTickS});
   double work = 0.0;
   glm::dvec3 force_n(0.0), before_m = corners[0];
-  for (std::size_t leg = 0; leg < corners.size(); ++leg) {
-    const glm::dvec3 &from = corners[leg], &to = corners[(leg + 1) % corners.size()];
-    const double ticks = std::ceil(glm::distance(from, to) / mean_m_per_s / kTickS);
-    for (double tick = 1.0; tick <= ticks; tick += 1.0) {
-      const double t = tick / ticks;
-      const glm::dvec3 here_m = from + t * t * (3.0 - 2.0 * t) * (to - from);
-      work += glm::dot(force_n, here_m - before_m);
-      force_n = model.step(here_m, {.elapsed_s = kTickS}).map.vibration_n;
-      before_m = here_m;
-    }
-  }
+  test::go_round(corners, mean_m_per_s, [&](const glm::dvec3& here_m) {
+    work += glm::dot(force_n, here_m - before_m);
+    force_n = model.step(here_m, {.elapsed_s = kTickS}).map.vibration_n;
+    before_m = here_m;
+  });
   return work;
-}
-
-// Largest energy that the law stores on the way down in the middle of the map.
-double largest_j(ContactModel& model) {
-  lift(model);
-  double largest = 0.0;
-  for (double height_m = 0.07; height_m > -0.02; height_m -= 1e-3) {
-    largest = std::max(largest, model.energy(model.step({0.0, 0.0, height_m}, {.elapsed_s = kTickS})).stored_j);
-  }
-  return largest;
 }
 
 class EveryVibration : public ::testing::TestWithParam<MapVibration> {};
 
 TEST_P(EveryVibration, TakesEnergyOnEachOfTenThousandClosedPaths) {
   const auto model = model_of(GetParam());
-  const double limit_j = 1e-6 * largest_j(*model);
+  const double limit_j = 1e-6 * test::largest_j(*model);
   lift(*model);
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> across(-0.035, 0.035), near(-0.004, 0.004), height(-0.02, 0.02),
-      speed(0.02, 0.25);
-  double most_j = -HUGE_VAL, sum_j = 0.0;
-  for (int path = 0; path < support::draws(10'000); ++path) {
-    const glm::dvec3 middle{across(random), across(random), height(random)};
-    const auto corner = [&] { return middle + glm::dvec3{near(random), near(random), near(random)}; };
-    const glm::dvec3 a = corner(), b = corner(), c = corner();
-    const double taken_j = work_j(*model, {a, b, c}, speed(random));
-    most_j = std::max(most_j, taken_j);
-    sum_j += taken_j;
-  }
-  EXPECT_LE(most_j, limit_j);
-  EXPECT_LT(sum_j, -0.01) << "so weak that nobody feels it";
+  const auto taken = test::ten_thousand_paths(
+      0.02, [&](const auto& corners, double mean_m_per_s) { return work_j(*model, corners, mean_m_per_s); });
+  EXPECT_LE(taken.most_j, limit_j);
+  EXPECT_LT(taken.sum_j, -0.01) << "so weak that nobody feels it";
 }
 
 // A hand that draws circles as fast as the vibration could follow it, and faster.

@@ -10,8 +10,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
-#include <random>
-#include <vector>
 
 #include "felt/map_bench.h"
 #include "haptics/contact_model.h"
@@ -24,29 +22,17 @@ namespace afm::haptics {
 namespace viscous_map_test {
 
 using physics::Law;
-using physics::Phase;
+using test::lift;
 
-constexpr double kTickS = 1e-3;
+constexpr double kTickS = test::kMapTickS;
 
 std::unique_ptr<ContactModel> model_of(bool viscous, const DeviceSpec& device = omni_like("hand")) {
   scene::SharedContact rubber = test::rubber(Law::Jkr);
   rubber.viscous_map = viscous ? 1 : 0;
-  const auto map = test::hilly_map(rubber);
-  const auto tables = test::required(build_tables(rubber, {}));
-  const auto common = test::required(Scaling::common_scale(std::vector{tables}, device));
-  auto model = test::required(ContactModel::create(rubber, 0, tables, {}, common, device, 1'000'000, map.get()));
-  model->use(scene::ScaleMode::Fit);
-  return model;
+  return test::hilly_model(rubber, device);
 }
 
-// Lifts the tip so that it is free.
-void lift(ContactModel& model) {
-  model.wait_for_lift();
-  model.step({0.0, 0.0, 0.07}, {.elapsed_s = kTickS});
-}
-
-// Work of the damping on a hand that goes straight from corner to corner of a triangle, at rest at each of them. Each
-// force is held during the next tick, as by the servo.
+// Work of the damping on a hand that goes round a triangle. Each force is held during the next tick, as by the servo.
 double work_j(ContactModel& model, const std::array<glm::dvec3, 3>& corners, double mean_m_per_s) {
   HandMotion motion(10.0);
   double work = 0.0;
@@ -58,45 +44,18 @@ double work_j(ContactModel& model, const std::array<glm::dvec3, 3>& corners, dou
     force_n = -touch.map.damping_n_s_per_m * motion.velocity_m_per_s();
   };
   go_to(corners[0]);
-  for (std::size_t leg = 0; leg < corners.size(); ++leg) {
-    const glm::dvec3 &from = corners[leg], &to = corners[(leg + 1) % corners.size()];
-    const double ticks = std::ceil(glm::distance(from, to) / mean_m_per_s / kTickS);
-    for (double tick = 1.0; tick <= ticks; tick += 1.0) {
-      const double t = tick / ticks;
-      go_to(from + t * t * (3.0 - 2.0 * t) * (to - from));
-    }
-  }
+  test::go_round(corners, mean_m_per_s, go_to);
   return work;
-}
-
-// Largest energy that the law stores on the way down in the middle of the map.
-double largest_j(ContactModel& model) {
-  lift(model);
-  double largest = 0.0;
-  for (double height_m = 0.07; height_m > -0.02; height_m -= 1e-3) {
-    largest = std::max(largest, model.energy(model.step({0.0, 0.0, height_m}, {.elapsed_s = kTickS})).stored_j);
-  }
-  return largest;
 }
 
 TEST(ViscousMap, TakesEnergyOnEachOfTenThousandClosedPaths) {
   const auto model = model_of(true);
   lift(*model);
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> across(-0.035, 0.035), near(-0.004, 0.004), height(-0.02, 0.05),
-      speed(0.02, 0.25);
-  double most_j = -HUGE_VAL, sum_j = 0.0;
-  for (int path = 0; path < support::draws(10'000); ++path) {
-    const glm::dvec3 middle{across(random), across(random), height(random)};
-    const auto corner = [&] { return middle + glm::dvec3{near(random), near(random), near(random)}; };
-    const glm::dvec3 a = corner(), b = corner(), c = corner();
-    const double taken_j = work_j(*model, {a, b, c}, speed(random));
-    most_j = std::max(most_j, taken_j);
-    sum_j += taken_j;
-  }
+  const auto taken = test::ten_thousand_paths(
+      0.05, [&](const auto& corners, double mean_m_per_s) { return work_j(*model, corners, mean_m_per_s); });
   // that with which the damping begins, on a path that hardly enters it
-  EXPECT_LE(most_j, 1e-6 * largest_j(*model));
-  EXPECT_LT(sum_j, -1e-5 * support::draws(10'000)) << "so weak that nobody feels it";
+  EXPECT_LE(taken.most_j, 1e-6 * test::largest_j(*model));
+  EXPECT_LT(taken.sum_j, -1e-5 * support::draws(10'000)) << "so weak that nobody feels it";
 }
 
 // Hovers long enough for the damping to grow.

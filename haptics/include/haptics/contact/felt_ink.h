@@ -21,9 +21,8 @@ class PublishedTiles;
 
 // Ink that the hand writes with a tip.
 //
-// - The hand feels the lever that presses on a hard, flat sample or is held by the liquid between tip and sample, as
-// soft
-//   as a hand can bear: -k z, from the touch at z = 0 up to the height where the lever pulls as much as the liquid,
+// - The hand feels the lever, as soft as a hand can bear, which presses on a hard, flat sample or is held by the liquid
+//   between tip and sample: -k z, from the touch at z = 0 up to the height where the lever pulls as much as the liquid,
 //   4 pi R gamma. There the tip comes off, and what the lever stored is lost. Nothing acts sideways. So no contact
 //   gives the hand more than it gave.
 // - Ink flows as long as the tip touches, however hard. In a tick the tip looks at kMostLooks squares at most; ink for
