@@ -49,6 +49,10 @@ class FeltParticles {
   // those of so many particles, and finite.
   void resume(std::span<const scene::ParticlePage> pages);
 
+  // Continues for an object of the same particles with another tool, whose strokes can still be taken back; both wait
+  // for a lift. Call only without force.
+  void take_over(FeltParticles& before) noexcept;
+
   // Lets the sample drift up to this time; call once a tick, before step().
   void drift_to(std::int64_t now_ns) noexcept { drift_.follow(now_ns); }
 
@@ -103,6 +107,7 @@ class FeltParticles {
   void put(std::uint32_t particle, const scene::ParticlePose& there) noexcept;
   void change(std::uint32_t particle, const scene::ParticlePose& now) noexcept;
   void account(const physics::PushTick& tick) noexcept;
+  double borne_n(const physics::PushTick& tick) const noexcept;
   void note_events(const physics::PushTick& tick, const Counts& before, ParticlePush& step) noexcept;
   bool turns_flat(std::size_t particle) const noexcept;
   bool carries() const noexcept;
@@ -130,6 +135,8 @@ class FeltParticles {
   double sample_j_ = 0;     // energy of the lever on the bare sample, and of particles that press each other
   double stored_j_ = 0;
   std::uint64_t accounts_ = 0;
+  std::uint64_t yields_before_ = 0;  // counts of the tools used before, modulo 2^64
+  std::uint64_t exhausted_before_ = 0;
 };
 
 }  // namespace afm::haptics

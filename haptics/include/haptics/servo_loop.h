@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "haptics/contact/felt_tools.h"
 #include "haptics/device.h"
 #include "haptics/edit_builder.h"
 #include "haptics/model_swap.h"
@@ -26,7 +27,6 @@ class MonotonicClock;
 namespace afm::haptics {
 
 class FeltMarks;
-class FeltParticles;
 struct RealtimeGrant;
 
 enum class ServoExit { RendererLeft, RendererDied, Stopped };
@@ -123,8 +123,8 @@ class ServoLoop {
   ServoSettings settings_;
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
-  std::unique_ptr<FeltParticles> particles_;  // null: none
-  std::unique_ptr<FeltMarks> marks_;          // the same for a sample on which the tip leaves marks
+  FeltTools particles_;               // empty: none
+  std::unique_ptr<FeltMarks> marks_;  // the same for a sample on which the tip leaves marks
   ModelSwap exchange_;
   EditBuilder edits_;
   SafetyGovernor governor_;

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "physics/manipulation/particle_friction.h"
+#include "physics/manipulation/tip_contact.h"
 #include "physics/manipulation/tip_hold.h"
 
 namespace afm::haptics {
@@ -97,6 +99,23 @@ void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
   digest_ = scene::digest_of(pages_, particles_.size());
   strokes_ = StrokeHistory(particles_.size());
   lift();
+}
+
+void FeltParticles::take_over(FeltParticles& before) noexcept {
+  before.drop();
+  lift();
+  std::swap(pages_, before.pages_);
+  std::swap(changed_, before.changed_);
+  std::swap(strokes_, before.strokes_);
+  drift_ = before.drift_;
+  groove_.drop();
+  groove_.follow(before.groove_.plan());
+  digest_ = before.digest_;
+  accounts_ = before.accounts_;
+  const physics::PushTick &was = before.particles_.last(), &is = particles_.last();
+  yields_before_ = before.yields_before_ + was.yields - is.yields;
+  exhausted_before_ = before.exhausted_before_ + was.exhausted - is.exhausted;
+  for (std::size_t i = 0; i < particles_.size(); ++i) particles_.put(i, place_of(pose(i)));
 }
 
 bool FeltParticles::turns_flat(std::size_t particle) const noexcept {
@@ -207,6 +226,7 @@ ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double 
   note_events(tick, before, step);
   step.touches = tick.particle != physics::kNoParticle;
   step.push_n = push_n_;
+  if (step.touches) step.bears_n = borne_n(tick);
   return step;
 }
 
@@ -227,6 +247,12 @@ void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
     }
     change(i, moved);
   }
+}
+
+// Upward part of the strongest contact, by the flank or the cap that touches.
+double FeltParticles::borne_n(const physics::PushTick& tick) const noexcept {
+  const Length radius = setup_.species[particles_.species(tick.particle)].contact.tip_radius;
+  return std::max(0.0, (tick.normal * physics::side_contact(setup_.tip, radius, tick.apex.z).sine).si);
 }
 
 // Force and energy of the particles alone: without what a lever that presses on the bare sample would have.
@@ -270,11 +296,11 @@ scene::TipPush FeltParticles::push() const noexcept {
                       .hand_n_per_n = scale_.hand_n_per_n,
                       .softened_sideways = scale_.softened_sideways,
                       .softened_upwards = scale_.softened_upwards,
-                      .yields = tick.yields,
-                      .exhausted = tick.exhausted,
+                      .yields = yields_before_ + tick.yields,
+                      .exhausted = exhausted_before_ + tick.exhausted,
                       .accounts = accounts_,
                       .met = static_cast<std::uint16_t>(tip_ == Tip::Waits ? 0 : 1),
-                      .strokes = static_cast<std::uint32_t>(strokes_.size())};
+                      .strokes = static_cast<std::uint16_t>(strokes_.size())};
   if (!among) return push;
   const glm::dvec2& way_m = drift_.way_m();
   push.base_m = {tick.base.position.x.si + way_m.x, tick.base.position.y.si + way_m.y, tick.base.z.si};

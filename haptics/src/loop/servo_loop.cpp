@@ -48,22 +48,6 @@ core::Result<CommonScale> scales_of(const scene::SharedModel& model,
   return common;
 }
 
-// The particles of a scene, where a predecessor left them; null: none.
-std::unique_ptr<FeltParticles> particles_of(scene::SharedSegment& segment, const scene::SharedParticles& particles,
-                                            const ParticleScale& scale, const DeviceSpec& device) {
-  if (particles.count == 0) return nullptr;
-  auto felt = std::make_unique<FeltParticles>(particles, scale, groove_limits(device));
-  const scene::ServoSide side = segment.servo_side();
-  std::vector<scene::ParticlePage> pages;
-  while (pages.size() < felt->pages().size()) {
-    const auto page = side.last_particle_page(static_cast<std::uint32_t>(pages.size()));
-    if (!page) return felt;
-    pages.push_back(*page);
-  }
-  felt->resume(pages);
-  return felt;
-}
-
 // Null without a map.
 std::unique_ptr<const scene::SharedLawMap> map_of(const scene::SharedModel& model) {
   return model.law_map.columns > 0 ? std::make_unique<const scene::SharedLawMap>(model.law_map) : nullptr;
@@ -143,7 +127,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       settings_(settings),
       period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
-      particles_(particles_of(segment, model.particles, common.particles, spec_)),
+      particles_(FeltTools::create(segment, model.particles, common.particles, spec_)),
       marks_(felt_marks_of(segment, model.particles, common.particles, period_ns_)),
       exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
@@ -307,15 +291,17 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
 }
 
 // Follows the paper's procedure: choose, lift, press Turn-On. A selection, or an edit of the material under the tip,
-// waits until the tip is off the sample; then the force is removed, and only without force do law and scale change.
-// Edits of other materials are not felt. A release removes the force at once.
+// waits until the tip is off the sample; then the force is removed, and only without force do law, scale and tool
+// change. Edits of other materials are not felt. A release removes the force at once.
 void ServoLoop::change_model() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.adopt(i);
   }
   const bool valid = chosen_.material >= 0 && static_cast<std::size_t>(chosen_.material) < exchange_.size();
   const bool newer = valid && chosen_.revision != state_.acknowledged.selection;
-  const bool other = newer && (chosen_.material != state_.material || chosen_.scale_mode != state_.active.scale_mode);
+  const bool tool = newer && particles_.changes(chosen_.tool);
+  const bool other =
+      tool || (newer && (chosen_.material != state_.material || chosen_.scale_mode != state_.active.scale_mode));
   const bool edited = model_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
   changing_ = false;
   if (const bool release = newer && chosen_.release != 0; other || edited || release) {
@@ -324,6 +310,7 @@ void ServoLoop::change_model() noexcept {
     changing_ = !governor_.released();
     if (changing_) return;
     if (edited) exchange_.adopt(static_cast<std::size_t>(state_.material));
+    if (tool) particles_.change();
     if (other) {
       select_material(static_cast<std::size_t>(chosen_.material), chosen_.scale_mode);
     } else if (edited) {

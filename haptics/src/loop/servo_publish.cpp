@@ -21,7 +21,7 @@ scene::Tip tip_of(const Touch& touch) {
 }
 
 // Force of the groove after the tick, which is none once the force has been dropped.
-std::array<double, 2> guide_n(const std::unique_ptr<FeltParticles>& particles) {
+std::array<double, 2> guide_n(const FeltTools& particles) {
   if (!particles) return {};
   const glm::dvec2& force_n = particles->groove().force_n();
   return {force_n.x, force_n.y};
@@ -118,7 +118,8 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                 .swing = state_.swing,
                                 .plan = particles_ ? particles_->groove().plan() : scene::PlannedPush{},
                                 .guide_n = guide_n(particles_),
-                                .level = particles_ ? particles_->level() : scene::LevelSample{}});
+                                .level = particles_ ? particles_->level() : scene::LevelSample{},
+                                .tool = particles_.tool()});
 }
 
 // Marks are put elsewhere without force alone, as particles are.
@@ -148,6 +149,7 @@ void ServoLoop::publish_marks() noexcept {
 // Only pages that changed.
 void ServoLoop::publish_particles() noexcept {
   scene::TipPush push = particles_->push();
+  push.tool = particles_.tool();
   push.time_ns = state_.time_ns;
   push.tick = state_.tick;
   shared_.store(push);

@@ -11,6 +11,7 @@
 #include "physics/manipulation/particle_terms.h"
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/name.h"
+#include "scene/shared/push_tools.h"
 #include "scene/shared/soft_blocks.h"
 
 // Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/manipulation.md). Places
@@ -311,7 +312,8 @@ struct TipPush {
   physics::PushState state = physics::PushState::Free;
   std::uint16_t met = 0;            // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
   std::uint16_t lagging = 0;        // 1: the hand was so fast that base_m is behind it
-  std::uint32_t strokes = 0;        // number of strokes that can be taken back
+  std::uint16_t strokes = 0;        // number of strokes that can be taken back
+  PushTool tool = PushTool::OfSet;  // tool in use: Push or Grip; OfSet: no particles
   double rise_m = 0;                // by which a lever on a soft sample is raised, because the hand is fast
   double fastest_hand_m_per_s = 0;  // speed of the hand from which on it is; 0: no soft sample
   InkPush ink{};
@@ -345,6 +347,7 @@ constexpr void for_each_field(Visit&& visit, Record&... push) {
   visit("met", push.met...);
   visit("lagging", push.lagging...);
   visit("strokes", push.strokes...);
+  visit("tool", push.tool...);
   visit("rise_m", push.rise_m...);
   visit("fastest_hand_m_per_s", push.fastest_hand_m_per_s...);
   visit("ink", push.ink...);
