@@ -107,6 +107,7 @@ class FeltParticles {
   void put(std::uint32_t particle, const scene::ParticlePose& there) noexcept;
   void change(std::uint32_t particle, const scene::ParticlePose& now) noexcept;
   void account(const physics::PushTick& tick) noexcept;
+  void spin(const physics::PushTick& tick, std::uint32_t particle, scene::ParticlePose& pose) noexcept;
   double borne_n(const physics::PushTick& tick) const noexcept;
   void note_events(const physics::PushTick& tick, const Counts& before, ParticlePush& step) noexcept;
   bool turns_flat(std::size_t particle) const noexcept;
@@ -132,7 +133,9 @@ class FeltParticles {
   Tip tip_ = Tip::Waits;
   glm::dvec3 over_m_{0.0};  // place over the particles where the tip was last
   glm::dvec3 push_n_{0.0};  // newest ParticlePush::push_n
-  double sample_j_ = 0;     // energy of the lever on the bare sample, and of particles that press each other
+  glm::dvec2 away_m_{0.0};  // way from the tip to the sphere that it pushed last
+  std::int32_t spun_ = scene::kNoParticle;
+  double sample_j_ = 0;  // energy of the lever on the bare sample, and of particles that press each other
   double stored_j_ = 0;
   std::uint64_t accounts_ = 0;
   std::uint64_t yields_before_ = 0;  // counts of the tools used before, modulo 2^64

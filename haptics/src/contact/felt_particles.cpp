@@ -38,6 +38,17 @@ std::array<double, 4> rolled(const std::array<double, 4>& orientation, const glm
   return {w1 / length, x1 / length, y1 / length, z1 / length};
 }
 
+// Orientation after a turn about the vertical, by a factor of the small angle between two ways from the tip.
+std::array<double, 4> spun(const std::array<double, 4>& orientation, const glm::dvec2& from, const glm::dvec2& to,
+                           double factor) {
+  const double lengths = glm::length(from) * glm::length(to);
+  const double quarter = (from.x * to.y - from.y * to.x) / (lengths + glm::dot(from, to));  // tangent of half the angle
+  const double half = factor * quarter * (1.0 - quarter * quarter / 3.0), z = half * (1.0 + half * half / 3.0);
+  const auto& [w0, x0, y0, z0] = orientation;
+  const double length = std::sqrt(1.0 + z * z);
+  return {(w0 - z * z0) / length, (x0 - z * y0) / length, (y0 + z * x0) / length, (z0 + z * w0) / length};
+}
+
 }  // namespace
 
 FeltParticles::FeltParticles(const scene::SharedParticles& particles, const ParticleScale& scale,
@@ -149,6 +160,7 @@ void FeltParticles::lay_down(std::size_t particle) noexcept {
 void FeltParticles::lift() noexcept {
   if (carries()) put_carried_back();
   tip_ = Tip::Waits;
+  spun_ = scene::kNoParticle;
   push_n_ = glm::dvec3(0.0);
   stored_j_ = 0.0;
 }
@@ -245,6 +257,7 @@ void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
       const double radius_m = setup_.species[particles_.species(i)].contact.tip_radius.si;
       moved.orientation = rolled(moved.orientation, way_m, radius_m);
     }
+    if (moved.moved == physics::PushState::Slides && tick.normal.si > 0.0) spin(tick, i, moved);
     change(i, moved);
   }
 }
@@ -253,6 +266,16 @@ void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
 double FeltParticles::borne_n(const physics::PushTick& tick) const noexcept {
   const Length radius = setup_.species[particles_.species(tick.particle)].contact.tip_radius;
   return std::max(0.0, (tick.normal * physics::side_contact(setup_.tip, radius, tick.apex.z).sine).si);
+}
+
+// A sphere that slides beside the path of the tip, whose contact holds, turns under it.
+void FeltParticles::spin(const physics::PushTick& tick, std::uint32_t particle, scene::ParticlePose& pose) noexcept {
+  const glm::dvec2 before_m = std::exchange(away_m_, glm::dvec2(pose.x_m, pose.y_m) - flat(tick.base.position));
+  const bool goes_on = std::exchange(spun_, static_cast<std::int32_t>(particle)) == static_cast<std::int32_t>(particle);
+  if (!goes_on || turns_flat(particle) || !(glm::dot(before_m, away_m_) > 0.0)) return;
+  const Length radius = setup_.species[particles_.species(particle)].contact.tip_radius;
+  const double cosine = physics::side_contact(setup_.tip, radius, tick.apex.z).cosine;
+  pose.orientation = spun(pose.orientation, before_m, away_m_, glm::length(away_m_) / (radius.si * cosine));
 }
 
 // Force and energy of the particles alone: without what a lever that presses on the bare sample would have.
