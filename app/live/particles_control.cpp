@@ -18,9 +18,10 @@
 #include "exhibit/scenery/push_planner.h"
 #include "exhibit/state/moment.h"
 #include "exhibit/words/guidance.h"
-#include "haptics/contact/felt_tools.h"
 #include "haptics/device.h"
+#include "haptics/felt_particles.h"
 #include "scene/samples/particle_set.h"
+#include "scene/shared/push_tools.h"
 #include "servo/live_picture.h"
 #include "servo/servo_client.h"
 

@@ -12,8 +12,11 @@
 #include "app/view/view_parts.h"
 #include "curves/sample_model.h"
 #include "input/wand.h"
-#include "scene/shared/push_tools.h"
 #include "scene/shared/scale_modes.h"
+
+namespace afm::scene {
+enum class PushTool : std::uint16_t;
+}
 
 namespace afm::app {
 
@@ -77,7 +80,7 @@ class ViewChoice {
   ViewParts& parts_;
   std::vector<curves::SampleModel> felt_;
   scene::ScaleMode scale_;
-  scene::PushTool tool_ = scene::PushTool::OfSet;
+  scene::PushTool tool_{};  // OfSet
   std::optional<std::size_t> first_material_;
   ViewGuide* guide_ = nullptr;
   PressOnSample press_on_sample_;    // unset: none

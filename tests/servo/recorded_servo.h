@@ -17,6 +17,7 @@
 
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
+#include "scene/shared/push_tools.h"
 #include "scene/shared/shared_segment.h"
 #include "servo/live_picture.h"
 #include "servo/replay.h"

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,10 @@
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/manipulation/tip_meeting.h"
 #include "scene/shared/particle_blocks.h"
+
+namespace afm::scene {
+class SharedSegment;
+}
 
 namespace afm::haptics {
 
@@ -140,6 +145,40 @@ class FeltParticles {
   std::uint64_t accounts_ = 0;
   std::uint64_t yields_before_ = 0;  // counts of the tools used before, modulo 2^64
   std::uint64_t exhausted_before_ = 0;
+};
+
+// Scale of particles, valid ones, with a tool that they allow (scene::tool_refusal). Fails where particle_scale() does,
+// and where the tip would be free only above the device.
+core::Result<ParticleScale> tool_scale(const scene::SharedParticles& particles, scene::PushTool tool,
+                                       const DeviceSpec& device);
+
+// The particles on the sample with the tool in use, and the same with the other tool, built in advance if set, lever
+// and device allow it. Empty without particles.
+//
+// create() allocates; everything else may be called in a tick of the servo, by its thread.
+class FeltTools {
+ public:
+  // Continues where a predecessor in this segment left the particles, which are valid; `scale` is their
+  // particle_scale().
+  static std::unique_ptr<FeltTools> create(scene::SharedSegment& segment, const scene::SharedParticles& particles,
+                                           const ParticleScale& scale, const DeviceSpec& device);
+
+  FeltParticles* used() const noexcept { return used_.get(); }  // null: none
+
+  // In use: Push or Grip; OfSet without particles.
+  scene::PushTool tool() const noexcept { return tool_; }
+
+  // True if this one can be used, and is not.
+  bool changes(scene::PushTool wanted) const noexcept;
+
+  // Uses the other tool: all particles stay where they are, and their strokes can still be taken back. Only without
+  // force, and if changes() says so.
+  void change() noexcept;
+
+ private:
+  std::unique_ptr<FeltParticles> used_, spare_;  // null: none
+  scene::PushTool own_ = scene::PushTool::OfSet;
+  scene::PushTool tool_ = scene::PushTool::OfSet;
 };
 
 }  // namespace afm::haptics

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/result.h"
-#include "haptics/contact/felt_tools.h"
 #include "haptics/device.h"
 #include "haptics/edit_builder.h"
 #include "haptics/model_swap.h"
@@ -27,6 +26,8 @@ class MonotonicClock;
 namespace afm::haptics {
 
 class FeltMarks;
+class FeltParticles;
+class FeltTools;
 struct RealtimeGrant;
 
 enum class ServoExit { RendererLeft, RendererDied, Stopped };
@@ -108,6 +109,7 @@ class ServoLoop {
   void change_model() noexcept;
   void select_material(std::size_t material, scene::ScaleMode mode) noexcept;
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
+  FeltParticles* particles() const noexcept;  // null: none
   void put_particles() noexcept;
   void put_marks() noexcept;
   void publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
@@ -123,7 +125,7 @@ class ServoLoop {
   ServoSettings settings_;
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
-  FeltTools particles_;               // empty: none
+  std::unique_ptr<FeltTools> tools_;  // not null, empty without particles
   std::unique_ptr<FeltMarks> marks_;  // the same for a sample on which the tip leaves marks
   ModelSwap exchange_;
   EditBuilder edits_;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "haptics/contact/felt_tools.h"
+#include "haptics/felt_particles.h"
 
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "haptics/felt_groove.h"
-#include "haptics/felt_particles.h"
 #include "haptics/scaling.h"
+#include "scene/shared/push_tools.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::haptics {
@@ -46,23 +47,18 @@ core::Result<ParticleScale> tool_scale(const scene::SharedParticles& particles, 
   return scale;
 }
 
-FeltTools::FeltTools() = default;
-FeltTools::FeltTools(FeltTools&& other) noexcept = default;
-FeltTools& FeltTools::operator=(FeltTools&& other) noexcept = default;
-FeltTools::~FeltTools() = default;
-
-FeltTools FeltTools::create(scene::SharedSegment& segment, const scene::SharedParticles& particles,
-                            const ParticleScale& scale, const DeviceSpec& device) {
-  FeltTools tools;
+std::unique_ptr<FeltTools> FeltTools::create(scene::SharedSegment& segment, const scene::SharedParticles& particles,
+                                             const ParticleScale& scale, const DeviceSpec& device) {
+  auto tools = std::make_unique<FeltTools>();
   if (particles.count == 0) return tools;
-  tools.used_ = std::make_unique<FeltParticles>(particles, scale, groove_limits(device));
-  resume(*tools.used_, segment);
-  tools.own_ = tools.tool_ = scene::own_tool(scene::push_setup(particles));
-  const PushTool other = other_tool(tools.own_);
+  tools->used_ = std::make_unique<FeltParticles>(particles, scale, groove_limits(device));
+  resume(*tools->used_, segment);
+  tools->own_ = tools->tool_ = scene::own_tool(scene::push_setup(particles));
+  const PushTool other = other_tool(tools->own_);
   if (scene::tool_refusal(particles, other)) return tools;
   const auto other_scale = tool_scale(particles, other, device);
   if (!other_scale) return tools;
-  tools.spare_ = std::make_unique<FeltParticles>(*with_tool(particles, other), *other_scale, groove_limits(device));
+  tools->spare_ = std::make_unique<FeltParticles>(*with_tool(particles, other), *other_scale, groove_limits(device));
   return tools;
 }
 

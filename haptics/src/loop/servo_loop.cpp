@@ -118,6 +118,8 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
 
 ServoLoop::~ServoLoop() = default;
 
+FeltParticles* ServoLoop::particles() const noexcept { return tools_->used(); }
+
 ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, scene::Topography topography,
                      HapticDevice& device, const ServoSettings& settings,
                      std::vector<std::unique_ptr<ContactModel>> models, const CommonScale& common)
@@ -127,7 +129,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       settings_(settings),
       period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
-      particles_(FeltTools::create(segment, model.particles, common.particles, spec_)),
+      tools_(FeltTools::create(segment, model.particles, common.particles, spec_)),
       marks_(felt_marks_of(segment, model.particles, common.particles, period_ns_)),
       exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
@@ -138,8 +140,8 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       position_check_(spec_.measures),
       hand_{.position_m = spec_.contact_point_m} {
   shared_.store(shared(spec_));
-  for (std::uint32_t i = 0; particles_ && i < particles_->pages().size(); ++i) {
-    shared_.store(particles_->pages()[i], i);
+  for (std::uint32_t i = 0; particles() != nullptr && i < particles()->pages().size(); ++i) {
+    shared_.store(particles()->pages()[i], i);
   }
   for (std::uint32_t i = 0; marks_ && i < scene::kMarkTiles; ++i) shared_.store(marks_->tiles()[i], i);
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
@@ -175,7 +177,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   if (hand.turn_on && !hand_.turn_on) ++state_.presses;
   hand_.turn_on = hand.turn_on;
 
-  if (particles_) particles_->drift_to(now_ns);
+  if (particles() != nullptr) particles()->drift_to(now_ns);
   const Wanted wanted = meet_sample(elapsed_ns);
   put_particles();
   put_marks();
@@ -244,12 +246,12 @@ ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
 // Particles are put elsewhere without force alone, so that none jumps at a tip that is felt; an order that comes too
 // early is dropped. A look moves nothing, and needs only a tip that is off them.
 void ServoLoop::put_particles() noexcept {
-  if (!particles_ || model_ == nullptr) return;
-  if (heard_.look && particles_->may_look()) touch_.push.add({.kind = physics::EventKind::LookedAgain});
+  if (particles() == nullptr || model_ == nullptr) return;
+  if (heard_.look && particles()->may_look()) touch_.push.add({.kind = physics::EventKind::LookedAgain});
   if (!governor_.released()) return;
-  if (heard_.put_back && particles_->put_back()) {
+  if (heard_.put_back && particles()->put_back()) {
     touch_.push.add({.kind = physics::EventKind::ParticlesPutBack});
-  } else if (heard_.take_back && particles_->take_back()) {
+  } else if (heard_.take_back && particles()->take_back()) {
     touch_.push.add({.kind = physics::EventKind::PushTakenBack});
   }
 }
@@ -284,7 +286,7 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
   if (const auto selection = shared_.new_selection()) chosen_ = *selection;
   if (const auto script = shared_.new_hand_script()) device_.follow(*script);
   if (const auto scan = shared_.new_scan_lead()) newest_scan_ = *scan;
-  if (const auto plan = shared_.new_plan(); plan && particles_) particles_->groove().follow(*plan);
+  if (const auto plan = shared_.new_plan(); plan && particles() != nullptr) particles()->groove().follow(*plan);
   const std::int64_t age_ns = now_ns - newest_scan_.time_ns;
   const bool fresh = age_ns >= 0 && age_ns <= scene::kScanLeadLastsNs;
   scan_ = fresh && newest_scan_.hand != scene::ScanHand::Apart ? newest_scan_ : scene::ScanLead{};
@@ -299,7 +301,7 @@ void ServoLoop::change_model() noexcept {
   }
   const bool valid = chosen_.material >= 0 && static_cast<std::size_t>(chosen_.material) < exchange_.size();
   const bool newer = valid && chosen_.revision != state_.acknowledged.selection;
-  const bool tool = newer && particles_.changes(chosen_.tool);
+  const bool tool = newer && tools_->changes(chosen_.tool);
   const bool other =
       tool || (newer && (chosen_.material != state_.material || chosen_.scale_mode != state_.active.scale_mode));
   const bool edited = model_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
@@ -310,7 +312,7 @@ void ServoLoop::change_model() noexcept {
     changing_ = !governor_.released();
     if (changing_) return;
     if (edited) exchange_.adopt(static_cast<std::size_t>(state_.material));
-    if (tool) particles_.change();
+    if (tool) tools_->change();
     if (other) {
       select_material(static_cast<std::size_t>(chosen_.material), chosen_.scale_mode);
     } else if (edited) {
@@ -325,9 +327,9 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
   model_->wait_for_lift();
   governor_.forget_motion();
   guide_.reset();
-  if (particles_) particles_->drop();
+  if (particles() != nullptr) particles()->drop();
   if (marks_) marks_->lift();
-  model_->use(mode, particles_.get(), marks_.get());
+  model_->use(mode, particles(), marks_.get());
   const Scaling& scaling = model_->scaling();
   governor_.set_release_height(scaling.release_height_m());
   state_.material = static_cast<std::int32_t>(material);

@@ -11,7 +11,6 @@
 #include "physics/manipulation/particle_terms.h"
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/name.h"
-#include "scene/shared/push_tools.h"
 #include "scene/shared/soft_blocks.h"
 
 // Blocks of the spheres, rods and flat islands that a tip pushes over the sample (docs/manipulation.md). Places
@@ -23,6 +22,8 @@ struct PushSetup;
 }  // namespace afm::physics
 
 namespace afm::scene {
+
+enum class PushTool : std::uint16_t { OfSet = 0, Push = 1, Grip = 2 };  // scene/shared/push_tools.h
 
 inline constexpr std::uint32_t kMaxParticles = 2048;
 inline constexpr std::uint32_t kMaxSpecies = 8;

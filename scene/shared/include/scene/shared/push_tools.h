@@ -3,24 +3,16 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "core/enumerators.h"
-
-namespace afm::physics {
-struct PushSetup;
-}
+#include "scene/shared/particle_blocks.h"
 
 namespace afm::scene {
 
-struct SharedParticles;
-
-// Use of the tip among particles. Push: it lets go of what it touched. Grip: it holds spheres of every species with a
-// tip_adhesion, or those that the set names. OfSet: the one of the two that the set is made for.
-enum class PushTool : std::uint16_t { OfSet = 0, Push = 1, Grip = 2 };
-
+// PushTool is the use of the tip among particles. Push: it lets go of what it touched. Grip: it holds spheres of every
+// species with a tip_adhesion, or those that the set names. OfSet: the one of the two that the set is made for.
 struct PushToolText {
   PushTool tool;
   const char* word;     // name in the log

@@ -13,7 +13,6 @@
 #include "scene/shared/fault_codes.h"
 #include "scene/shared/name.h"
 #include "scene/shared/particle_blocks.h"
-#include "scene/shared/push_tools.h"
 #include "scene/shared/scale_modes.h"
 
 // Blocks of the shared scene: trivially copyable, without pointers, in SI units, each with exactly one writer, the
