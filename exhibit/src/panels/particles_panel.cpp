@@ -172,11 +172,10 @@ class ParticleRows {
     add(Phrase::PushLateral, force_text(Force(lateral_n), phrases_), phrases_[Phrase::PushLateralOn]);
   }
 
-  // Of spheres that a tip can hold.
+  // Of spheres that a tip can hold, and lets go; if it holds them, the row of the pull at which it tears says so.
   void add_tool() {
-    if (physics::turns_flat(species()) || !(species().tip_adhesion.si > 0.0)) return;
-    add(Phrase::ToolName, phrases_[sticks() ? Phrase::ToolGrip : Phrase::ToolPush],
-        phrases_[sticks() ? Phrase::ToolGripOf : Phrase::ToolPushOf]);
+    if (sticks() || physics::turns_flat(species()) || !(species().tip_adhesion.si > 0.0)) return;
+    add(Phrase::ToolName, phrases_[Phrase::ToolPush], phrases_[Phrase::ToolPushOf]);
   }
 
   // A tip that pulls by adhesion holds a particle back or drags it.

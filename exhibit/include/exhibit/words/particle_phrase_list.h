@@ -68,9 +68,7 @@
   PHRASE(KeyTool, "key-tool", "", kLine)                                   \
   PHRASE(ToolName, "tool", "", kLine)                                      \
   PHRASE(ToolPush, "tool-push", "", kLine)                                 \
-  PHRASE(ToolGrip, "tool-grip", "", kLine)                                 \
   PHRASE(ToolPushOf, "tool-push-of", "", kLine)                            \
-  PHRASE(ToolGripOf, "tool-grip-of", "", kLine)                            \
   PHRASE(ToolNowPush, "tool-now-push", "", kLine)                          \
   PHRASE(ToolNowGrip, "tool-now-grip", "", kLine)                          \
   PHRASE(ToolOfMarks, "tool-of-marks", "", kLine)                          \
