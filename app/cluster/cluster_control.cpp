@@ -54,11 +54,12 @@ void ClusterControl::add_to_moment(exhibit::Moment& now, ViewFrame& frame) {
   share_scan();
   if (now.wall.particles != nullptr) {
     master_.follow_particles(*now.wall.particles, parts_.stage.particles->particles.size());
+    particles_ = master_.as_recorded(*now.wall.particles);
   }
   master_.send(message_, parts_.panels.edits(), parts_.servo.cycles(), parts_.servo.friction());
   exhibit::Moment shared = exhibit::moment_of(message_);
   shared.curves = now.curves;
-  shared.wall.particles = now.wall.particles;
+  if (now.wall.particles != nullptr) shared.wall.particles = &particles_;
   if (parts_.turn.scan.scan != nullptr) exhibit::show_scan(*parts_.turn.scan.scan, shared);
   now = std::move(shared);
   frame.caption = exhibit::caption_of(message_);

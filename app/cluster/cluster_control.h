@@ -3,6 +3,7 @@
 
 #include "app/view/view_control.h"
 #include "cluster/frame_message.h"
+#include "exhibit/state/particles_now.h"
 
 namespace afm::app {
 
@@ -29,6 +30,7 @@ class ClusterControl final : public ViewControl {
   ViewParts& parts_;
   ClusterMaster& master_;
   cluster::FrameMessage message_{};  // inputs of the current frame
+  exhibit::ParticlesNow particles_;  // as all machines show them
 };
 
 }  // namespace afm::app

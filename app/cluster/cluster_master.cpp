@@ -15,6 +15,7 @@
 #include "exhibit/state/cycle_history.h"
 #include "exhibit/state/particles_now.h"
 #include "exhibit/words/phrases.h"
+#include "scene/samples/particle_set.h"
 
 namespace afm::app {
 
@@ -22,6 +23,7 @@ namespace {
 
 constexpr std::int64_t kHistoryPauseNs = 500'000'000;  // shortest time between two histories sent to nodes
 constexpr int kBeatMs = 2;                             // time between two heartbeats while the barrier waits
+constexpr std::size_t kMostRowsOfFrame = 128;          // rows of marks: 53 kB
 
 std::vector<std::string> names_of(const std::vector<scene::WallNode>& nodes) {
   std::vector<std::string> names;
@@ -113,6 +115,27 @@ void ClusterMaster::follow_particles(const exhibit::ParticlesNow& now, std::size
   link_->record(cluster::JournalRecord(push_));
   if (std::exchange(score_, now.score) != now.score) link_->record(cluster::JournalRecord(score_));
   if (std::exchange(plan_, now.plan) != now.plan) link_->record(cluster::JournalRecord(plan_));
+  follow_marks(now);
+}
+
+// What does not fit into a frame follows in the next ones.
+void ClusterMaster::follow_marks(const exhibit::ParticlesNow& now) {
+  if (!scene::leaves_marks(*now.set)) return;
+  tiles_.resize(scene::kMarkTiles);
+  if (now.tiles.empty() || (std::exchange(marks_heard_, now.marks) == now.marks && !more_marks_)) return;
+  const std::vector<cluster::MarkRecord> rows = exhibit::changed_rows(tiles_, now.tiles, kMostRowsOfFrame);
+  more_marks_ = rows.size() == kMostRowsOfFrame;
+  for (const cluster::MarkRecord& row : rows) {
+    exhibit::put_row(row, tiles_);
+    link_->record(cluster::JournalRecord(row));
+  }
+  marks_ += rows.size();
+}
+
+exhibit::ParticlesNow ClusterMaster::as_recorded(exhibit::ParticlesNow now) const {
+  now.tiles = tiles_;
+  now.marks = marks_;
+  return now;
 }
 
 void ClusterMaster::send(cluster::FrameMessage& frame, ParameterEdits& edits, const exhibit::CycleHistory& cycles,
@@ -128,7 +151,7 @@ void ClusterMaster::send(cluster::FrameMessage& frame, ParameterEdits& edits, co
       if (edit) newest.push_back(*edit);
     }
     const auto history =
-        exhibit::save_history(link_->recorded(), cycles, friction, newest, scan_, pages_, push_, score_, plan_);
+        exhibit::save_history(link_->recorded(), cycles, friction, newest, scan_, pages_, push_, score_, plan_, tiles_);
     if (history.size() <= cluster::kMostDocumentBytes) link_->send_history(history);
   }
   link_->send(++number_, frame);

@@ -49,9 +49,12 @@ class ClusterMaster {
   // hand's motion, and again before the frame is sent.
   void follow_scan(const exhibit::LiveScan* scan, std::size_t material, std::uint64_t begun);
 
-  // Sends the poses that have changed, the push, and a score that has changed. Call before the frame that shows them is
-  // sent; `count` particles.
+  // Sends the poses that have changed, the push, a score that has changed, and rows of marks that have changed, as many
+  // as fit. Call before the frame that shows them is sent; `count` particles.
   void follow_particles(const exhibit::ParticlesNow& now, std::size_t count);
+
+  // The same particles with the marks that have been sent; valid until the next follow_particles().
+  exhibit::ParticlesNow as_recorded(exhibit::ParticlesNow now) const;
 
   // Sends the next frame, and the history to a node that asks for it.
   void send(cluster::FrameMessage& frame, ParameterEdits& edits, const exhibit::CycleHistory& cycles,
@@ -82,6 +85,7 @@ class ClusterMaster {
 
  private:
   void record_edits(ParameterEdits& edits);
+  void follow_marks(const exhibit::ParticlesNow& now);
   void take_answers();
 
   // State of a node, from its answers.
@@ -103,6 +107,10 @@ class ClusterMaster {
   scene::TipPush push_;
   scene::TaskScore score_;
   scene::PlannedPush plan_;
+  std::vector<scene::MarkTile> tiles_;  // as recorded; empty: the tip leaves no marks
+  std::uint64_t marks_ = 0;             // number of recorded rows
+  std::uint64_t marks_heard_ = 0;       // ParticlesNow::marks of the newest frame
+  bool more_marks_ = false;             // true: rows of it are still to be sent
   std::uint64_t number_ = 0;
   std::uint64_t waited_frames_ = 0;
   std::int64_t longest_wait_ns_ = 0;

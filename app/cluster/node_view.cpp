@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "app/cluster/cluster_master.h"
@@ -22,6 +23,7 @@
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
+#include "scene/samples/particle_set.h"
 
 namespace afm::app {
 
@@ -75,6 +77,8 @@ void NodeView::forget() {
 void NodeView::restore(std::span<const std::byte> document) {
   auto history = exhibit::load_history(document, felt_.size());
   if (!history) return core::log_line("the master sent a history that is not valid; asking again");
+  // another number than before, since the marks may be others
+  history->marks += history_->marks + 1;
   *history_ = std::move(*history);
   knows_history_ = true;
   scan_.reset();
@@ -206,11 +210,16 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   panels_->edits().take_felt(tip, felt_);
   exhibit::Moment now = exhibit::moment_of(message);
   now.curves = history_->cycles.curves();
-  const exhibit::ParticlesNow particles{.set = stage_.particles.get(),
-                                        .pages = history_->pages,
-                                        .push = history_->push,
-                                        .score = history_->score,
-                                        .plan = history_->plan};
+  const bool marks = stage_.particles && scene::leaves_marks(*stage_.particles);
+  if (marks) history_->tiles.resize(scene::kMarkTiles);
+  const exhibit::ParticlesNow particles{
+      .set = stage_.particles.get(),
+      .pages = history_->pages,
+      .push = history_->push,
+      .score = history_->score,
+      .plan = history_->plan,
+      .tiles = marks ? std::span<const scene::MarkTile>(history_->tiles) : std::span<const scene::MarkTile>(),
+      .marks = history_->marks};
   if (stage_.particles) now.wall.particles = &particles;
   follow_scan(message.moment);
   if (scan_) exhibit::show_scan(*scan_, now);

@@ -269,9 +269,6 @@ core::Result<void> take_map_options(const ViewOptions& options, curves::TappedHa
 core::Result<void> lay_particles(const ViewOptions& options, const exhibit::Stage& stage, scene::SharedModel& model) {
   if (options.level.level > 0 && options.cluster.wanted)
     return core::wrong_usage("--level of particles does not reach the machines of --cluster; remove one");
-  if (stage.particles && scene::leaves_marks(*stage.particles) && options.cluster.wanted)
-    return core::wrong_usage(
-        "marks of a soft sample or of ink do not reach the machines of --cluster; remove it, or --particles");
   if (stage.particles) model.particles = scene::shared_particles(*stage.particles);
   return scene::set_level(options.level, model.particles);
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live/particles_control.h"
 
+#include <fmt/format.h>
+
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -15,7 +18,10 @@
 #include "exhibit/scenery/push_planner.h"
 #include "exhibit/state/moment.h"
 #include "exhibit/words/guidance.h"
+#include "haptics/device.h"
+#include "haptics/felt_particles.h"
 #include "scene/samples/particle_set.h"
+#include "scene/shared/push_tools.h"
 #include "servo/live_picture.h"
 #include "servo/servo_client.h"
 
@@ -38,6 +44,32 @@ constexpr StrokeWords kStrokes{"take back: no ink is on the sample", "take back:
 const StrokeWords& words_of(const scene::ParticleSet& set) {
   if (set.ink) return kStrokes;
   return set.soft ? kScratches : kPushes;
+}
+
+using scene::PushTool;
+
+// Nothing if the tool can be used with this device.
+std::optional<scene::ToolRefusal> refusal(const scene::SharedParticles& particles, PushTool tool,
+                                          const scene::SharedDevice& device) {
+  if (auto refused = scene::tool_refusal(particles, tool)) return refused;
+  const auto scale = haptics::tool_scale(particles, tool, haptics::spec_of(device));
+  if (scale) return std::nullopt;
+  return scene::ToolRefusal{scene::ToolRefusal::Why::Lever, scale.error().message};
+}
+
+exhibit::Phrase phrase_of(scene::ToolRefusal::Why why) {
+  using Why = scene::ToolRefusal::Why;
+  switch (why) {
+    case Why::Marks:
+      return exhibit::Phrase::ToolOfMarks;
+    case Why::NoAdhesion:
+      return exhibit::Phrase::ToolNeedsAdhesion;
+    case Why::Picture:
+      return exhibit::Phrase::ToolOfPicture;
+    case Why::Lever:
+      break;
+  }
+  return exhibit::Phrase::ToolTooMuch;
 }
 
 }  // namespace
@@ -93,6 +125,30 @@ void ParticlesControl::look_again() {
   order_ = Order::Look;
 }
 
+void ParticlesControl::next_tool() {
+  if (!parts_.servo.running()) return;
+  const scene::SharedParticles& particles = parts_.servo.link().model().particles;
+  const PushTool own = scene::own_tool(now_.set->setup);
+  const PushTool chosen = parts_.choice.tool() == PushTool::OfSet ? own : parts_.choice.tool();
+  const PushTool next = chosen == PushTool::Grip ? PushTool::Push : PushTool::Grip;
+  const char* const word = scene::text_of(next).word;
+  if (const auto refused = refusal(particles, next, parts_.servo.link().device())) {
+    core::log_line(fmt::format("tool {}: not here; {}", word, refused->text));
+    return parts_.sound.narrator().note(parts_.stage.phrases()[phrase_of(refused->why)]);
+  }
+  core::log_line(fmt::format("tool {}: as soon as the tip is off the sample, without force", word));
+  parts_.choice.choose_tool(next);
+}
+
+void ParticlesControl::follow_tool() {
+  const PushTool now = now_.push.tool;
+  const PushTool before = std::exchange(tool_, now);
+  if (now == before || now == PushTool::OfSet || before == PushTool::OfSet) return;
+  core::log_line(fmt::format("tool {}: {}", scene::text_of(now).word, scene::text_of(now).meaning));
+  parts_.sound.narrator().note(
+      parts_.stage.phrases()[now == PushTool::Grip ? exhibit::Phrase::ToolNowGrip : exhibit::Phrase::ToolNowPush]);
+}
+
 bool ParticlesControl::point(const input::Ray& ray) {
   const auto unplanned = [this] { return planner_->plan().particle == scene::kNoParticle; };
   const bool begins = unplanned();
@@ -114,6 +170,7 @@ void ParticlesControl::send_plan() {
 }
 
 void ParticlesControl::restart(Restart what) {
+  if (what == Restart::Visitor) parts_.choice.choose_tool(PushTool::OfSet);
   order_ = Order::None;
   planner_->clear();
   send_plan();
@@ -143,6 +200,7 @@ void ParticlesControl::update(const ViewFrame& frame) {
   now_.tiles = link.mark_tiles();
   now_.marks = link.marks();
   if (!parts_.servo.running()) return;
+  follow_tool();
   if (task_) follow_task();
   if (order_ != Order::None) carry_out(frame.now_ns);
 }

@@ -40,6 +40,9 @@ class ParticlesControl final : public ViewControl {
   // Measures the particles near the tip again, at level 1 and 2, as soon as the tip is lifted.
   void look_again();
 
+  // Chooses the other tool, push or grip, or says why there is none.
+  void next_tool();
+
   void update(const ViewFrame& frame) override;
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
   void restart(Restart what) override;
@@ -61,6 +64,9 @@ class ParticlesControl final : public ViewControl {
   // Announces that the pattern is done.
   void follow_task();
 
+  // Announces the tool that the servo uses, once it is another one.
+  void follow_tool();
+
   bool point(const input::Ray& ray);
   void send_plan();
 
@@ -69,7 +75,8 @@ class ParticlesControl final : public ViewControl {
   std::unique_ptr<exhibit::PushPlanner> planner_;
   std::unique_ptr<exhibit::WallState> shown_;  // state of the wall in the newest frame
   Order order_ = Order::None;
-  std::optional<exhibit::ParticleTask> task_;  // only for a set with a pattern
+  scene::PushTool tool_ = scene::PushTool::OfSet;  // tool in use, as far as announced
+  std::optional<exhibit::ParticleTask> task_;      // only for a set with a pattern
 };
 
 }  // namespace afm::app

@@ -44,7 +44,7 @@ std::string ViewChoice::spoken(const std::string& line) const {
 
 void ViewChoice::choose(std::size_t material) {
   if (!parts_.servo.running() || material >= felt_.size()) return;
-  parts_.servo.link().choose(static_cast<std::int32_t>(material), scale_);
+  parts_.servo.link().choose(static_cast<std::int32_t>(material), scale_, tool_);
   if (parts_.hand.source() == HandSource::Simulated) parts_.hand.begin_person(material, parts_.clock.now_ns());
   core::log_line("chosen: " + parts_.stage.materials.materials[material].title);
 }
@@ -81,8 +81,18 @@ void ViewChoice::next_scale() {
   scale_ = scene::after(scale_, has_particles);
   const scene::ScaleModeText& text = scene::text_of(scale_);
   core::log_line(fmt::format("scale {}: {}", text.word, text.meaning));
+  choose_again();
+}
+
+void ViewChoice::choose_tool(scene::PushTool tool) {
+  tool_ = tool;
+  choose_again();
+}
+
+// The sample may still be on its way.
+void ViewChoice::choose_again() {
   if (!parts_.servo.running() || parts_.servo.link().chosen() < 0) return;
-  parts_.servo.link().choose(parts_.servo.link().chosen(), scale_);  // the sample may still be on its way
+  parts_.servo.link().choose(parts_.servo.link().chosen(), scale_, tool_);
 }
 
 void ViewChoice::mark_next_setting() {

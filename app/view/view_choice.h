@@ -14,6 +14,10 @@
 #include "input/wand.h"
 #include "scene/shared/scale_modes.h"
 
+namespace afm::scene {
+enum class PushTool : std::uint16_t;
+}
+
 namespace afm::app {
 
 class ViewGuide;
@@ -52,6 +56,11 @@ class ViewChoice {
   void set_press_on_sample(PressOnSample press) { press_on_sample_ = std::move(press); }
 
   void next_scale();
+
+  // Tool among particles for every servo from now on; it takes effect like another sample.
+  void choose_tool(scene::PushTool tool);
+  scene::PushTool tool() const { return tool_; }
+
   void mark_next_setting();
   void step_setting(int steps);
   void toggle_friction_loop();
@@ -66,9 +75,12 @@ class ViewChoice {
   void keep_force_away(std::int64_t now_ns);
 
  private:
+  void choose_again();
+
   ViewParts& parts_;
   std::vector<curves::SampleModel> felt_;
   scene::ScaleMode scale_;
+  scene::PushTool tool_{};  // OfSet
   std::optional<std::size_t> first_material_;
   ViewGuide* guide_ = nullptr;
   PressOnSample press_on_sample_;    // unset: none

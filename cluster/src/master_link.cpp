@@ -22,7 +22,7 @@ namespace {
 constexpr std::uint64_t kFramesOfCount = 16;
 constexpr int kIdleMs = 100;                 // interval at which the thread checks for its end
 constexpr std::size_t kRecordsRing = 16384;  // 16 s of the servo
-constexpr std::size_t kPiecesRing = 1024;    // pieces of a history
+constexpr std::size_t kPiecesRing = 2048;    // pieces of a history
 constexpr std::size_t kPiecesAtOnce = 32;    // limit before other messages get their turn
 constexpr std::size_t kBatchesAtOnce = 64;
 

@@ -81,6 +81,13 @@ bool is_valid(const PoseRecord& record) {
   return sound(record) && record.particle < scene::kMaxParticles && std::abs(square - 1.0) < kUnitTolerance;
 }
 
+bool is_valid(const MarkRecord& record) {
+  const auto near = [](double height_m) { return std::abs(height_m) <= scene::kMostMarkM; };  // NaN is not
+  return record.tile < scene::kMarkTiles && record.row < scene::kTileSide &&
+         std::all_of(record.pressed_m.begin(), record.pressed_m.end(), near) &&
+         std::all_of(record.back_m.begin(), record.back_m.end(), near);
+}
+
 bool is_valid(const ReadyMessage& ready) {
   return sound(ready) && ready.wants_history <= 1 && ready.unseen <= 1 && ready.header.node < scene::kMostNodes;
 }
@@ -153,6 +160,8 @@ bool JournalRecord::valid() const {
       return sound(score());
     case JournalKind::Plan:
       return scene::is_valid(plan(), most_materials());
+    case JournalKind::Mark:
+      return is_valid(mark());
     case JournalKind::Forget:
     case JournalKind::ScanEnd:
       break;

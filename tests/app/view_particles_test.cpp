@@ -122,10 +122,13 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(press("BackSpace", one_back)) << view.said();
   ASSERT_TRUE(push(view, 0.018)) << view.said();
   ASSERT_TRUE(press("r", all_back)) << view.said();
+  // with the other tool: another session, whose spheres stick
+  ASSERT_TRUE(press("0", "tool grip: the tip holds what it touched")) << view.said();
+  ASSERT_TRUE(push(view, 0.018)) << view.said();
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
 
-  std::size_t pushed = 0, taken_back = 0, put_back = 0;
+  std::size_t pushed = 0, taken_back = 0, put_back = 0, gripped = 0;
   std::string events;
   for (const auto& file : std::filesystem::directory_iterator(folder_.file("kept"))) {
     if (file.path().extension() != ".afms") continue;
@@ -136,6 +139,7 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
     pushed += count(*session, physics::EventKind::ParticleTouched);
     taken_back += count(*session, physics::EventKind::PushTakenBack);
     put_back += count(*session, physics::EventKind::ParticlesPutBack);
+    if (scene::has_hold(session->particles->set)) gripped += count(*session, physics::EventKind::ParticleTouched);
     const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
     EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
     EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
@@ -143,6 +147,7 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
   EXPECT_GE(pushed, 4U) << events;
   EXPECT_GE(taken_back, 3U) << "the fourth began a session" << events;
   EXPECT_EQ(put_back, 2U) << events;
+  EXPECT_GE(gripped, 1U) << events;
 }
 
 TEST_F(ViewParticles, ArePlannedByKeysAndMouseAndPushedAlongAGroove) {
@@ -208,6 +213,8 @@ TEST_F(ViewParticles, AreShownAsAPictureThatAKeyMeasuresAgain) {
   ASSERT_TRUE(view.says("looking again, as long as the tip stays lifted")) << view.said();
   ASSERT_TRUE(view.says("looked again: particle 1 lies ")) << view.said();
   ASSERT_TRUE(press("BackSpace", "take back: no push at level 2")) << view.said();
+  ASSERT_TRUE(press("0", "tool grip: not here; at level 2 the picture is computed for the tool of the set"))
+      << view.said();
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
 

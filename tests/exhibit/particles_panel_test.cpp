@@ -77,6 +77,25 @@ TEST_F(ParticlesPanel, SaysThatATipWhichSticksHoldsOrDrags) {
   EXPECT_EQ(row(panel(push), Phrase::PushStateName).value, "holds the tip");
 }
 
+TEST_F(ParticlesPanel, NamesTheToolInUse) {
+  scene::TipPush push = test::push_of(set_, 0, PushState::Slides);
+  const render::DataRow pushes{"Tool", "push", "the tip lets go of spheres"};
+  EXPECT_EQ(row(panel(push), Phrase::ToolName), pushes);
+  push.tool = scene::PushTool::Push;
+  EXPECT_EQ(row(panel(push), Phrase::ToolName), pushes);
+  EXPECT_EQ(row(panel(push), Phrase::ParticleTearsAt), render::DataRow{});
+  push.tool = scene::PushTool::Grip;
+  EXPECT_EQ(row(panel(push), Phrase::ToolName), render::DataRow{});
+  EXPECT_EQ(row(panel(push), Phrase::ParticleTearsAt).name, "Grip, tears away at");
+  EXPECT_EQ(row(panel(push), Phrase::ParticleTearsAt).value, "1.49 nN");
+  set_ = test::particle_set("sticky-tip");
+  pages_ = test::start_pages(set_);
+  push = test::push_of(set_, 0, PushState::Holds);
+  EXPECT_FALSE(row(panel(push), Phrase::ParticleTearsAt).value.empty()) << "the tool of the set";
+  push.tool = scene::PushTool::Push;
+  EXPECT_EQ(row(panel(push), Phrase::ToolName).value, "push");
+}
+
 TEST_F(ParticlesPanel, HasTheAdhesionOfThePadBelowTheTouchedSphere) {
   set_ = test::particle_set("pick-and-place");
   pages_ = test::start_pages(set_);

@@ -32,7 +32,7 @@ bool take(std::span<const std::byte> datagram) {
       if (is_applicable(message->records[i])) history.apply(message->records[i]);
     }
     const auto document = save_history(history.journal, history.cycles, history.friction, history.edits, history.scan,
-                                       history.pages, history.push, history.score, history.plan);
+                                       history.pages, history.push, history.score, history.plan, history.tiles);
     if (!load_history(document, 3)) std::abort();
   }
   if constexpr (std::is_same_v<Message, DocumentPiece>) {

@@ -270,6 +270,24 @@ TEST_P(AtRate, N55AndN56DragOrTear) {
   }
 }
 
+TEST_P(AtRate, N79ASphereThatIsLostHasSpunAboutTheVertical) {
+  SharedParticles particles = particles_at({{0.0, 0.0}}, test::constant_species(0.2e-9, 1.0));
+  particles.pusher.lateral_spring_n_per_m = particles.pusher.normal_spring_n_per_m = 1000.0;
+  particles.pusher.contact_stiffness_n_per_m = 1e5;
+  const double rho = touch_m(particles), beside = 0.05 * rho;
+  particles.particles[0] = {.x_m = rho * std::sqrt(1.0 - 0.05 * 0.05), .y_m = beside};
+  FeltParticles felt(particles, {.hand_m_per_m = 2e5, .hand_n_per_n = 4e9, .clear_z_m = 60e-9});
+  put_down(felt);
+  drag(felt, {3.68 * rho, 1e-6});
+  const scene::ParticlePose& pose = felt.pages()[0].poses[0];
+  EXPECT_EQ(pose.moved, PushState::Slides);
+  const glm::dvec2 away(pose.x_m - at_m_, pose.y_m);
+  const double turned = 2.0 * std::atan2(pose.orientation[3], pose.orientation[0]) * 180.0 / std::numbers::pi;
+  // all of the row's turn but the first tick and the rest of the way to 90 degrees
+  const double rest = std::acos(away.y / glm::length(away)) * rho / (25e-9 * std::cos(std::numbers::pi / 12.0));
+  EXPECT_NEAR(turned + rest * 180.0 / std::numbers::pi, 145.2485993, 0.3);
+}
+
 TEST_P(AtRate, N79ARollingSphereTurnsByItsTravel) {
   scene::SharedSpecies species = test::gold_species();
   species.radius_m = 250e-9;

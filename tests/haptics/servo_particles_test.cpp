@@ -8,80 +8,14 @@
 #include <vector>
 
 #include "physics/manipulation/half_turn.h"
-#include "servo_bench.h"
-#include "support/particles/gold_particles.h"
+#include "pushing_bench.h"
 
 namespace afm {
 namespace servo_particles_test {
 
 using physics::EventKind;
 using scene::ScaleMode;
-using test::ServoBench;
-
-// One particle on the way of the hand, another beside it.
-scene::SharedModel two_particles() {
-  scene::SharedModel model = test::paper_model();
-  model.particles = test::particles_at({{-80e-9, 0.0}, {80e-9, 100e-9}});
-  return model;
-}
-
-class PushingBench : public ServoBench {
- public:
-  explicit PushingBench(double rate_hz = 1000.0, const scene::SharedModel& model = two_particles())
-      : ServoBench(model, rate_hz) {}
-
-  // To a place on the sample, at a height above the contact point.
-  void send(double x_m, double y_m, double height_m, double seconds) {
-    renderer.store(scene::HandScript{.target_m = {x_m, height_m, -y_m}, .duration_s = seconds, .revision = ++script});
-  }
-  void go(double x_m, double y_m, double height_m, double seconds) {
-    send(x_m, y_m, height_m, seconds);
-    while (state().acknowledged.hand_script != script) tick();
-  }
-
-  // Lifts, goes before the row, puts the tip down.
-  void put_down() {
-    arm(test::kMica, ScaleMode::Particles);
-    go(-0.030, 0.0, 0.030, 0.4);
-    go(-0.030, 0.0, 0.001, 0.4);
-  }
-
-  scene::ParticlePose pose(std::uint32_t particle) {
-    if (const auto newer = renderer.new_particle_page(0)) page = *newer;
-    return page.poses[particle];
-  }
-
-  double sideways_n() {
-    const auto force = state().hand.force_n;
-    return std::hypot(force[0], force[2]);
-  }
-
-  std::size_t count(EventKind kind) const {
-    return static_cast<std::size_t>(
-        std::count_if(events.begin(), events.end(), [&](const scene::TipEvent& e) { return e.kind == kind; }));
-  }
-
-  // Takes the force away and lifts; the sample stays.
-  void release() {
-    renderer.store(scene::Selection{
-        .material = test::kMica, .revision = ++selection, .scale_mode = ScaleMode::Particles, .release = 1});
-    run(0.3);
-  }
-
-  // One push to a place on the row, and the hand lifted.
-  void push_to(double x_m) {
-    put_down();
-    go(x_m, 0.0, 0.001, 1.0);
-    go(x_m, 0.0, 0.050, 0.5);
-  }
-
-  void order(std::uint32_t& orders) {
-    ++orders;
-    tick();
-  }
-
-  scene::ParticlePage page;
-};
+using test::PushingBench;
 
 TEST(ServoAmongParticles, PublishesWhatTheHandFeels) {
   for (const double rate_hz : {500.0, 1000.0, 4000.0}) {

@@ -17,6 +17,7 @@
 
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
+#include "scene/shared/push_tools.h"
 #include "scene/shared/shared_segment.h"
 #include "servo/live_picture.h"
 #include "servo/replay.h"
@@ -68,8 +69,9 @@ class Recording {
         tiles_(scene::has_marks(model.particles) ? scene::kMarkTiles : 0),
         loop_(std::move(*haptics::ServoLoop::create(segment_, device, {.rate_hz = 1000.0}))) {}
 
-  void choose(int material, scene::ScaleMode mode = scene::ScaleMode::Fit) {
-    renderer_.store(scene::Selection{.material = material, .revision = ++selection_, .scale_mode = mode});
+  void choose(int material, scene::ScaleMode mode = scene::ScaleMode::Fit,
+              scene::PushTool tool = scene::PushTool::OfSet) {
+    renderer_.store(scene::Selection{.material = material, .revision = ++selection_, .scale_mode = mode, .tool = tool});
   }
 
   // The scripted hand goes to a place on the sample, at a height above the contact point.
@@ -182,7 +184,10 @@ class Recording {
   }
 
   void record(const scene::TipSample& sample) {
-    if (sessions.empty() || sessions.back().samples.back().material != sample.material) {
+    const auto begins = [&](const scene::TipSample& before) {
+      return before.material != sample.material || before.tool != sample.tool;
+    };
+    if (sessions.empty() || begins(sessions.back().samples.back())) {
       RecordedSession& session = sessions.emplace_back();
       session.parameters = segment_.model().materials[static_cast<std::size_t>(sample.material)];
       session.material = session.parameters.name.data();
@@ -194,6 +199,7 @@ class Recording {
       }
       if (!pages_.empty() || !tiles_.empty()) {
         session.particles = {.set = segment_.model().particles, .pages = pages_, .tiles = tiles_};
+        scene::hold(sample.tool, session.particles->set);
       }
       if (picture) {
         session.particles->set.level.since_ns = sample.level.since_ns;

@@ -103,6 +103,36 @@ TEST(ReplayOfParticles, GivesEveryBitAgainOfSpheresThatStick) {
   EXPECT_TRUE(load_session(path));
 }
 
+// Push, grip, push: a session each, stored with particles that stick or do not.
+TEST(ReplayOfParticles, GivesEveryBitAgainWithBothTools) {
+  Recording recording(test::model_with_particles());
+  recording.choose(test::kMica, ScaleMode::Particles);
+  push_through(recording);
+  recording.choose(test::kMica, ScaleMode::Particles, scene::PushTool::Grip);
+  push_through(recording, 0.001);
+  recording.go({-0.045, 0.001}, 0.001, 1.0);
+  recording.run(1200);
+  recording.go({-0.045, 0.001}, 0.05, 0.5);
+  recording.run(800);
+  recording.choose(test::kMica, ScaleMode::Particles);
+  push_through(recording);
+  ASSERT_EQ(recording.sessions.size(), 3U);
+  const support::ScratchFolder folder;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const RecordedSession& session = recording.sessions[i];
+    EXPECT_EQ(scene::has_hold(session.particles->set), i == 1) << i;
+    EXPECT_GE(count(session, EventKind::ParticleTouched), 1U);
+    expect_same(session);
+    const std::string path = folder.file("tool.afms");
+    ASSERT_TRUE(save_session(session, path));
+    const auto loaded = load_session(path);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    expect_same(*loaded);
+  }
+  EXPECT_EQ(recording.sessions[0].samples.back().push.digest, recording.sessions[1].samples.front().push.digest);
+  EXPECT_EQ(recording.sessions[1].samples.back().push.digest, recording.sessions[2].samples.front().push.digest);
+}
+
 // A sphere that is picked up, carried and set down on a pad, and one that hangs when the force is taken away.
 TEST(ReplayOfParticles, GivesEveryBitAgainOfASphereOnTheTip) {
   scene::SharedModel model = test::model_with_particles();

@@ -113,7 +113,7 @@ struct ShownMoment {
   static constexpr double kLongestCueS = 1.5;
   static constexpr std::uint32_t kRetracting = 1, kWand = 2, kWandOriented = 4, kWandPlaced = 8, kWandConnected = 16,
                                  kCue = 32, kBlank = 64, kScan = 128, kTruth = 256, kStopped = 512, kByWand = 1024,
-                                 kFalseColours = 2048, kStroboscope = 4096, kAllFlags = 8191;
+                                 kFalseColours = 2048, kStroboscope = 4096, kParticlesScale = 8192, kAllFlags = 16383;
 
   std::array<double, 16> navigation{};  // room from room, column by column
   scene::Pose wand{};

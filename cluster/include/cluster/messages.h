@@ -23,7 +23,7 @@ namespace afm::cluster {
 inline constexpr std::size_t kMostDatagramBytes = 1300;
 
 // Increase whenever the meaning of a message changes.
-inline constexpr std::uint32_t kClusterVersion = 9;
+inline constexpr std::uint32_t kClusterVersion = 10;
 
 // Header of every message. Each master draws a random `session` when it starts.
 struct ClusterHeader {
@@ -161,8 +161,28 @@ constexpr void for_each_field(Visit&& visit, Record&... record) {
 }
 static_assert(scene::all_fields_described<PoseRecord>());
 
+// Row of a MarkTile that has changed.
+struct MarkRecord {
+  std::uint32_t tile = 0;
+  std::uint32_t row = 0;
+  std::array<double, scene::kTileSide> pressed_m{};
+  std::array<double, scene::kTileSide> back_m{};
+
+  bool operator==(const MarkRecord&) const = default;
+};
+
+template <class Visit, scene::RecordOf<MarkRecord>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... record) {
+  visit("tile", record.tile...);
+  visit("row", record.row...);
+  visit("pressed_m", record.pressed_m...);
+  visit("back_m", record.back_m...);
+}
+static_assert(scene::all_fields_described<MarkRecord>());
+
 // Records that every node must receive completely and in order: each sample and jump of the tip, each edit, each change
-// of a scan, each particle that has moved, the push of a frame, the score of a task, and the plan of a push.
+// of a scan, each particle that has moved, the push of a frame, the score of a task, the plan of a push, and each row
+// of marks that has changed.
 enum class JournalKind : std::uint32_t {
   Sample = 0,
   Event = 1,
@@ -174,7 +194,8 @@ enum class JournalKind : std::uint32_t {
   Pose = 7,
   Push = 8,
   Score = 9,
-  Plan = 10
+  Plan = 10,
+  Mark = 11
 };
 
 class JournalRecord {
@@ -188,6 +209,7 @@ class JournalRecord {
   explicit JournalRecord(const scene::TipPush& push) : kind_(JournalKind::Push) { set(push); }
   explicit JournalRecord(const scene::TaskScore& score) : kind_(JournalKind::Score) { set(score); }
   explicit JournalRecord(const scene::PlannedPush& plan) : kind_(JournalKind::Plan) { set(plan); }
+  explicit JournalRecord(const MarkRecord& mark) : kind_(JournalKind::Mark) { set(mark); }
 
   JournalKind kind() const { return kind_; }
   // Valid only for records of that kind.
@@ -199,6 +221,7 @@ class JournalRecord {
   scene::TipPush push() const { return get<scene::TipPush>(); }
   scene::TaskScore score() const { return get<scene::TaskScore>(); }
   scene::PlannedPush plan() const { return get<scene::PlannedPush>(); }
+  MarkRecord mark() const { return get<MarkRecord>(); }
 
   // True if enumerators are known, numbers finite, materials below scene::kMaxMaterials, and particles below
   // scene::kMaxParticles.

@@ -95,6 +95,7 @@ void set_moment(const Moment& moment, const scene::TipState& tip, const std::str
   copy_moment(scene::CopyOut(), moment, shown);
   shown.fade = std::clamp(shown.fade, 0.0, 1.0);
   if (blank) shown.flags |= M::kBlank;
+  if (tip.active.scale_mode == scene::ScaleMode::Particles) shown.flags |= M::kParticlesScale;
   if (moment.scan != nullptr) {
     const ScanProgress& scan = moment.scan->progress();
     shown.flags |= M::kScan | (scan.truth ? M::kTruth : 0U);
@@ -109,6 +110,9 @@ void set_moment(const Moment& moment, const scene::TipState& tip, const std::str
 scene::TipState tip_of(const cluster::FrameMessage& message) {
   scene::TipState tip;
   copy_tip(scene::CopyBack(), tip, message.tip);
+  // the other scales look the same
+  const bool particles = (message.moment.flags & cluster::ShownMoment::kParticlesScale) != 0;
+  if (particles) tip.active.scale_mode = scene::ScaleMode::Particles;
   return tip;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <type_traits>
 #include <utility>
@@ -62,7 +63,8 @@ class HistoryReader {
     values.resize(count);
     read(std::as_writable_bytes(std::span(values)));
     if constexpr (sizeof(Value) % sizeof(double) == 0 && !std::is_same_v<Value, cluster::EditRecord> &&
-                  !std::is_same_v<Value, cluster::ScanRecord> && !std::is_same_v<Value, scene::ParticlePage>)
+                  !std::is_same_v<Value, cluster::ScanRecord> && !std::is_same_v<Value, scene::ParticlePage> &&
+                  !std::is_same_v<Value, cluster::MarkRecord>)
       check_doubles(values);
   }
 
@@ -90,6 +92,16 @@ class HistoryReader {
   std::span<const std::byte> left_;
   bool valid_ = true;
 };
+
+constexpr std::size_t kMostRows = std::size_t{scene::kMarkTiles} * scene::kTileSide;
+
+cluster::MarkRecord row_of(const scene::MarkTile& tile, std::uint32_t number, std::uint32_t row) {
+  cluster::MarkRecord record{.tile = number, .row = row};
+  const auto first = static_cast<std::ptrdiff_t>(row * scene::kTileSide);
+  std::copy_n(tile.pressed_m.begin() + first, scene::kTileSide, record.pressed_m.begin());
+  std::copy_n(tile.back_m.begin() + first, scene::kTileSide, record.back_m.begin());
+  return record;
+}
 
 }  // namespace
 
@@ -139,11 +151,40 @@ void WallHistory::apply(const cluster::JournalRecord& record) {
     case cluster::JournalKind::Plan:
       plan = record.plan();
       return;
+    case cluster::JournalKind::Mark:
+      put_row(record.mark(), tiles);
+      ++marks;
+      return;
     case cluster::JournalKind::Forget:
       cycles = CycleHistory(cycles.curves().size());
       friction = {};
       return;
   }
+}
+
+std::vector<cluster::MarkRecord> changed_rows(std::span<const scene::MarkTile> before,
+                                              std::span<const scene::MarkTile> now, std::size_t most) {
+  static const scene::MarkTile kBare;
+  std::vector<cluster::MarkRecord> rows;
+  for (std::uint32_t tile = 0; tile < now.size(); ++tile) {
+    const scene::MarkTile& was = before.empty() ? kBare : before[tile];
+    if (was == now[tile]) continue;
+    for (std::uint32_t row = 0; row < scene::kTileSide; ++row) {
+      const cluster::MarkRecord old = row_of(was, tile, row), newer = row_of(now[tile], tile, row);
+      if (old == newer) continue;
+      if (rows.size() == most) return rows;
+      rows.push_back(newer);
+    }
+  }
+  return rows;
+}
+
+void put_row(const cluster::MarkRecord& row, std::vector<scene::MarkTile>& tiles) {
+  if (tiles.empty()) tiles.resize(scene::kMarkTiles);
+  scene::MarkTile& tile = tiles[row.tile];
+  const std::size_t first = std::size_t{row.row} * scene::kTileSide;
+  std::copy(row.pressed_m.begin(), row.pressed_m.end(), tile.pressed_m.begin() + static_cast<std::ptrdiff_t>(first));
+  std::copy(row.back_m.begin(), row.back_m.end(), tile.back_m.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
 cluster::ScanRecord record_of(const ScanChange& change, std::size_t material, const std::optional<HandPart>& hand) {
@@ -195,7 +236,8 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
                                     std::span<const cluster::EditRecord> edits,
                                     std::span<const cluster::ScanRecord> scan,
                                     std::span<const scene::ParticlePage> pages, const scene::TipPush& push,
-                                    const scene::TaskScore& score, const scene::PlannedPush& plan) {
+                                    const scene::TaskScore& score, const scene::PlannedPush& plan,
+                                    std::span<const scene::MarkTile> tiles) {
   HistoryWriter writer;
   writer(journal);
   writer(static_cast<std::uint64_t>(cycles.curves().size()));
@@ -207,6 +249,7 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
   writer(push);
   writer(score);
   writer(plan);
+  writer(changed_rows({}, tiles, kMostRows));
   return writer.take();
 }
 
@@ -225,6 +268,8 @@ std::optional<WallHistory> load_history(std::span<const std::byte> document, std
   reader(history.push);
   reader(history.score);
   reader(history.plan);
+  std::vector<cluster::MarkRecord> rows;
+  reader(rows);
   const auto is_edit = [&](const cluster::EditRecord& edit) {
     return edit.material < materials && cluster::JournalRecord(edit).valid();
   };
@@ -239,8 +284,13 @@ std::optional<WallHistory> load_history(std::span<const std::byte> document, std
                      std::all_of(history.pages.begin(), history.pages.end(),
                                  [](const scene::ParticlePage& page) { return scene::is_valid(page); }) &&
                      cluster::JournalRecord(history.push).valid() && cluster::JournalRecord(history.score).valid() &&
-                     cluster::JournalRecord(history.plan).valid();
-  return valid ? std::optional(std::move(history)) : std::nullopt;
+                     cluster::JournalRecord(history.plan).valid() &&
+                     std::all_of(rows.begin(), rows.end(),
+                                 [](const cluster::MarkRecord& row) { return cluster::JournalRecord(row).valid(); });
+  if (!valid) return std::nullopt;
+  for (const cluster::MarkRecord& row : rows) put_row(row, history.tiles);
+  history.marks = rows.size();
+  return history;
 }
 
 }  // namespace afm::exhibit

@@ -23,6 +23,7 @@
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/pattern_state.h"
+#include "scene/shared/push_tools.h"
 #include "servo/live_picture.h"
 
 namespace afm::exhibit {
@@ -88,6 +89,7 @@ class ParticleRows {
  private:
   std::size_t species_index() const { return now_.set->particles[touched_.value_or(0)].species; }
   const ParticleSpecies& species() const { return now_.set->setup.species[species_index()]; }
+  bool sticks() const { return scene::sticks_with(now_.push.tool, now_.set->setup, species_index()); }
 
   void add(Phrase name, std::string value, std::string source) {
     rows_.push_back({phrases_[name], std::move(value), std::move(source)});
@@ -163,10 +165,17 @@ class ParticleRows {
                                                          fmt::format("{}", now_.set->particles.size()),
                                                          phrases_.word(now_.set->species[species_index()].name))
                  : phrases_[Phrase::PushedNone]);
+    add_tool();
     add(Phrase::PushNormal, force_text(Force(touched_ ? push.normal_n : 0.0), phrases_),
         phrases_[Phrase::PushNormalOn]);
     const double lateral_n = touched_ ? std::hypot(push.lateral_n[0], push.lateral_n[1]) : 0.0;
     add(Phrase::PushLateral, force_text(Force(lateral_n), phrases_), phrases_[Phrase::PushLateralOn]);
+  }
+
+  // Of spheres that a tip can hold, and lets go; if it holds them, the row of the pull at which it tears says so.
+  void add_tool() {
+    if (sticks() || physics::turns_flat(species()) || !(species().tip_adhesion.si > 0.0)) return;
+    add(Phrase::ToolName, phrases_[Phrase::ToolPush], phrases_[Phrase::ToolPushOf]);
   }
 
   // A tip that pulls by adhesion holds a particle back or drags it.
@@ -227,7 +236,7 @@ class ParticleRows {
       add_sourced(Phrase::ParticleCoefficient, phrases_.number(fmt::format("{:.3g}", kind.coefficient)),
                   source_text(now_.set->species[species_index()].sources, "coefficient", phrases_));
     }
-    if (kind.sticks) {
+    if (sticks()) {
       const std::string work = quantity_text(kind.tip_adhesion, physics::kSurfaceEnergyUnits, phrases_);
       const std::string source = source_text(now_.set->species[species_index()].sources, "tip_adhesion", phrases_);
       add(Phrase::ParticleTearsAt, force_text(physics::tip_pull_off(now_.set->setup.tip, kind, true), phrases_),

@@ -23,6 +23,9 @@ namespace afm::haptics {
 // - Forces and slips on the tip are those of physics/friction/lateral_contact.h on every scale. On the hand they have
 //   the gain of the law's force, or less, so that the lateral spring is at most kShareOfStiffness of the largest
 //   renderable stiffness (Scaling::kMaxStiffnessNPerM), which a 1 kHz loop keeps stable.
+// - A particle beside the tip bears a part of the load by the flank, and the sample rubs that much less (M83 of
+//   docs/manipulation.md). A lattice, whose stored energy follows the load, does not notice, so that no path gains
+//   energy.
 // - A lattice whose depth follows the load also pushes along the normal, by the energy that a rising load adds. The
 //   force is thus the gradient of the stored energy, and no path gains energy.
 // - Off the sample there is no force and no memory.
@@ -45,9 +48,15 @@ class FeltFriction {
     physics::LateralContact::Step events;
   };
 
-  // Moves the tip to `xy_m`, `z_m` above the surface `below` it, in the phase and after the jumps of `response`.
-  Step step(const glm::dvec2& xy_m, double z_m, const SampleSurface::Place& below, const physics::TipResponse& response,
-            const Scaling& scaling) noexcept;
+  // Height above the surface, which gives the load, and what a particle at the tip's flank bears of it.
+  struct Pressed {
+    double z_m = 0;
+    double borne_n = 0;
+  };
+
+  // Moves the tip to `xy_m` above the surface `below` it, in the phase and after the jumps of `response`.
+  Step step(const glm::dvec2& xy_m, const Pressed& pressed, const SampleSurface::Place& below,
+            const physics::TipResponse& response, const Scaling& scaling) noexcept;
   void lift() noexcept { contact_.lift(); }
 
   double stored_j(const Scaling& scaling) const noexcept;  // on the hand
@@ -62,6 +71,7 @@ class FeltFriction {
   physics::Force adhesion_;
   physics::LateralContact contact_;
   double largest_stiffness_n_per_m_;
+  bool is_lattice_;
   glm::dvec2 before_m_{0.0};
 };
 

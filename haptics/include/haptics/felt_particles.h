@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,10 @@
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/manipulation/tip_meeting.h"
 #include "scene/shared/particle_blocks.h"
+
+namespace afm::scene {
+class SharedSegment;
+}
 
 namespace afm::haptics {
 
@@ -48,6 +53,10 @@ class FeltParticles {
   // the tip is set down below it, or where there is room next to it. Throws std::invalid_argument unless the pages are
   // those of so many particles, and finite.
   void resume(std::span<const scene::ParticlePage> pages);
+
+  // Continues for an object of the same particles with another tool, whose strokes can still be taken back; both wait
+  // for a lift. Call only without force.
+  void take_over(FeltParticles& before) noexcept;
 
   // Lets the sample drift up to this time; call once a tick, before step().
   void drift_to(std::int64_t now_ns) noexcept { drift_.follow(now_ns); }
@@ -103,6 +112,8 @@ class FeltParticles {
   void put(std::uint32_t particle, const scene::ParticlePose& there) noexcept;
   void change(std::uint32_t particle, const scene::ParticlePose& now) noexcept;
   void account(const physics::PushTick& tick) noexcept;
+  void spin(const physics::PushTick& tick, std::uint32_t particle, scene::ParticlePose& pose) noexcept;
+  double borne_n(const physics::PushTick& tick) const noexcept;
   void note_events(const physics::PushTick& tick, const Counts& before, ParticlePush& step) noexcept;
   bool turns_flat(std::size_t particle) const noexcept;
   bool carries() const noexcept;
@@ -127,9 +138,47 @@ class FeltParticles {
   Tip tip_ = Tip::Waits;
   glm::dvec3 over_m_{0.0};  // place over the particles where the tip was last
   glm::dvec3 push_n_{0.0};  // newest ParticlePush::push_n
-  double sample_j_ = 0;     // energy of the lever on the bare sample, and of particles that press each other
+  glm::dvec2 away_m_{0.0};  // way from the tip to the sphere that it pushed last
+  std::int32_t spun_ = scene::kNoParticle;
+  double sample_j_ = 0;  // energy of the lever on the bare sample, and of particles that press each other
   double stored_j_ = 0;
   std::uint64_t accounts_ = 0;
+  std::uint64_t yields_before_ = 0;  // counts of the tools used before, modulo 2^64
+  std::uint64_t exhausted_before_ = 0;
+};
+
+// Scale of particles, valid ones, with a tool that they allow (scene::tool_refusal). Fails where particle_scale() does,
+// and where the tip would be free only above the device.
+core::Result<ParticleScale> tool_scale(const scene::SharedParticles& particles, scene::PushTool tool,
+                                       const DeviceSpec& device);
+
+// The particles on the sample with the tool in use, and the same with the other tool, built in advance if set, lever
+// and device allow it. Empty without particles.
+//
+// create() allocates; everything else may be called in a tick of the servo, by its thread.
+class FeltTools {
+ public:
+  // Continues where a predecessor in this segment left the particles, which are valid; `scale` is their
+  // particle_scale().
+  static std::unique_ptr<FeltTools> create(scene::SharedSegment& segment, const scene::SharedParticles& particles,
+                                           const ParticleScale& scale, const DeviceSpec& device);
+
+  FeltParticles* used() const noexcept { return used_.get(); }  // null: none
+
+  // In use: Push or Grip; OfSet without particles.
+  scene::PushTool tool() const noexcept { return tool_; }
+
+  // True if this one can be used, and is not.
+  bool changes(scene::PushTool wanted) const noexcept;
+
+  // Uses the other tool: all particles stay where they are, and their strokes can still be taken back. Only without
+  // force, and if changes() says so.
+  void change() noexcept;
+
+ private:
+  std::unique_ptr<FeltParticles> used_, spare_;  // null: none
+  scene::PushTool own_ = scene::PushTool::OfSet;
+  scene::PushTool tool_ = scene::PushTool::OfSet;
 };
 
 }  // namespace afm::haptics

@@ -22,6 +22,7 @@ struct ParticlePush {
   bool near = false;     // a particle is within reach
   bool touches = false;  // a particle is touched; otherwise the forces are zero
   glm::dvec3 push_n{0.0};
+  double bears_n = 0;  // upward part of the force of its strongest contact, which the sample need not bear
   double given_j = 0;  // energy from the drift of the sample, which pushes a tip that rests; on the hand
   std::array<Event, 6> events{};
   std::size_t event_count = 0;

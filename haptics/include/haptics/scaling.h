@@ -87,6 +87,9 @@ class Scaling {
   static core::Result<Scaling> particles(const physics::LawTables& tables, const DeviceSpec& device,
                                          const ParticleScale& scale);
 
+  // An error if the tip would be free of such particles only above the device.
+  static core::Result<void> check_clear(const ParticleScale& scale, const DeviceSpec& device);
+
   // Common scale of all these materials; at least one. Takes a millisecond for each.
   static core::Result<CommonScale> common_scale(std::span<const std::shared_ptr<const physics::LawTables>> materials,
                                                 const DeviceSpec& device);
@@ -108,6 +111,9 @@ class Scaling {
   double release_height_m() const noexcept { return release_m_; }
   double release_z_m() const noexcept { return z_m(release_m_); }
 
+  // Particles only: the tip is free where it clears them, too, with another tool than that of `scale`.
+  void clear_particles(double clear_z_m) noexcept;
+
   // Force on the hand along the sample's normal for a force on the tip; both positive away from the sample.
   double hand_force_n(double tip_force_n) const noexcept;
 
@@ -120,6 +126,7 @@ class Scaling {
   double hand_n_per_n_ = 0;
   double zero_m_ = 0;
   double release_m_ = kStrokeM;
+  double reach_m_ = 0;  // Particles: height above which the law is silent
   double cap_n_ = 0;
   double bend_n_ = 0;       // F0, on the tip; 0: no compression
   double bend_gain_n_ = 0;  // on the hand

@@ -27,6 +27,7 @@ namespace afm::haptics {
 
 class FeltMarks;
 class FeltParticles;
+class FeltTools;
 struct RealtimeGrant;
 
 enum class ServoExit { RendererLeft, RendererDied, Stopped };
@@ -108,6 +109,7 @@ class ServoLoop {
   void change_model() noexcept;
   void select_material(std::size_t material, scene::ScaleMode mode) noexcept;
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
+  FeltParticles* particles() const noexcept;  // null: none
   void put_particles() noexcept;
   void put_marks() noexcept;
   void publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
@@ -123,8 +125,8 @@ class ServoLoop {
   ServoSettings settings_;
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
-  std::unique_ptr<FeltParticles> particles_;  // null: none
-  std::unique_ptr<FeltMarks> marks_;          // the same for a sample on which the tip leaves marks
+  std::unique_ptr<FeltTools> tools_;  // not null, empty without particles
+  std::unique_ptr<FeltMarks> marks_;  // the same for a sample on which the tip leaves marks
   ModelSwap exchange_;
   EditBuilder edits_;
   SafetyGovernor governor_;

@@ -200,6 +200,14 @@ ContactModel::ContactModel(Model model, std::unique_ptr<MapContact> map, SampleS
 
 ContactModel::~ContactModel() = default;
 
+void ContactModel::use(scene::ScaleMode mode, FeltParticles* particles, FeltMarks* marks) noexcept {
+  mode_ = mode;
+  particles_ = mode == scene::ScaleMode::Particles ? particles : nullptr;
+  marks_ = mode == scene::ScaleMode::Particles ? marks : nullptr;
+  if (particles_ == nullptr) return;
+  scalings_[static_cast<std::size_t>(mode)].clear_particles(particles_->scale().clear_z_m);
+}
+
 Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback) noexcept {
   if (marks_ != nullptr) return step_marks(hand_m, feedback);
   const Scaling& scale = scaling();
@@ -224,13 +232,13 @@ Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback)
     touch.map.vibration_n = map_->vibrate(hand_m, room_n, feedback.elapsed_s);
     touch.hand_force_n += touch.map.vibration_n;
   }
+  if (particles_ != nullptr) meet_particles(below.slope, feedback, touch);
   if (friction_) {
     // the loop keeps the load constant
     const double load_z_m = level_ ? scale.z_m(hand_m.z) : touch.z_m;
-    touch.friction = friction_->step(touch.tip_xy_m, load_z_m, below, touch.response, scale);
+    touch.friction = friction_->step(touch.tip_xy_m, {load_z_m, touch.push.bears_n}, below, touch.response, scale);
     touch.hand_force_n += touch.friction.hand_force_n;
   }
-  if (particles_ != nullptr) meet_particles(below.slope, feedback, touch);
   return touch;
 }
 

@@ -174,7 +174,7 @@ scene::TipPush FeltInk::push() const noexcept {
   push.stored_j = bent_j_;
   push.accounts = accounts_;
   push.met = tip_is_ == Tip::Waits ? 0 : 1;
-  push.strokes = static_cast<std::uint32_t>(strokes_->size());
+  push.strokes = static_cast<std::uint16_t>(strokes_->size());
   push.ink = {.covered_m2 = surface_.covered().si, .flowed_s = flowed_s_, .speed_m_per_s = speed_m_per_s_};
   if (tip_is_ != Tip::Waits) push.base_m = push.apex_m = {hand_m_.x, hand_m_.y, hand_m_.z};
   if (tip_is_ != Tip::On) return push;

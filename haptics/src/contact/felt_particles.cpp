@@ -5,8 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "physics/manipulation/particle_friction.h"
+#include "physics/manipulation/tip_contact.h"
 #include "physics/manipulation/tip_hold.h"
 
 namespace afm::haptics {
@@ -34,6 +36,17 @@ std::array<double, 4> rolled(const std::array<double, 4>& orientation, const glm
                z1 = z0 + x * y0 - y * x0;
   const double length = std::sqrt(w1 * w1 + x1 * x1 + y1 * y1 + z1 * z1);
   return {w1 / length, x1 / length, y1 / length, z1 / length};
+}
+
+// Orientation after a turn about the vertical, by a factor of the small angle between two ways from the tip.
+std::array<double, 4> spun(const std::array<double, 4>& orientation, const glm::dvec2& from, const glm::dvec2& to,
+                           double factor) {
+  const double lengths = glm::length(from) * glm::length(to);
+  const double quarter = (from.x * to.y - from.y * to.x) / (lengths + glm::dot(from, to));  // tangent of half the angle
+  const double half = factor * quarter * (1.0 - quarter * quarter / 3.0), z = half * (1.0 + half * half / 3.0);
+  const auto& [w0, x0, y0, z0] = orientation;
+  const double length = std::sqrt(1.0 + z * z);
+  return {(w0 - z * z0) / length, (x0 - z * y0) / length, (y0 + z * x0) / length, (z0 + z * w0) / length};
 }
 
 }  // namespace
@@ -99,6 +112,23 @@ void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
   lift();
 }
 
+void FeltParticles::take_over(FeltParticles& before) noexcept {
+  before.drop();
+  lift();
+  std::swap(pages_, before.pages_);
+  std::swap(changed_, before.changed_);
+  std::swap(strokes_, before.strokes_);
+  drift_ = before.drift_;
+  groove_.drop();
+  groove_.follow(before.groove_.plan());
+  digest_ = before.digest_;
+  accounts_ = before.accounts_;
+  const physics::PushTick &was = before.particles_.last(), &is = particles_.last();
+  yields_before_ = before.yields_before_ + was.yields - is.yields;
+  exhausted_before_ = before.exhausted_before_ + was.exhausted - is.exhausted;
+  for (std::size_t i = 0; i < particles_.size(); ++i) particles_.put(i, place_of(pose(i)));
+}
+
 bool FeltParticles::turns_flat(std::size_t particle) const noexcept {
   return physics::turns_flat(setup_.species[particles_.species(particle)]);
 }
@@ -130,6 +160,7 @@ void FeltParticles::lay_down(std::size_t particle) noexcept {
 void FeltParticles::lift() noexcept {
   if (carries()) put_carried_back();
   tip_ = Tip::Waits;
+  spun_ = scene::kNoParticle;
   push_n_ = glm::dvec3(0.0);
   stored_j_ = 0.0;
 }
@@ -207,6 +238,7 @@ ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double 
   note_events(tick, before, step);
   step.touches = tick.particle != physics::kNoParticle;
   step.push_n = push_n_;
+  if (step.touches) step.bears_n = borne_n(tick);
   return step;
 }
 
@@ -225,8 +257,25 @@ void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
       const double radius_m = setup_.species[particles_.species(i)].contact.tip_radius.si;
       moved.orientation = rolled(moved.orientation, way_m, radius_m);
     }
+    if (moved.moved == physics::PushState::Slides && tick.normal.si > 0.0) spin(tick, i, moved);
     change(i, moved);
   }
+}
+
+// Upward part of the strongest contact, by the flank or the cap that touches.
+double FeltParticles::borne_n(const physics::PushTick& tick) const noexcept {
+  const Length radius = setup_.species[particles_.species(tick.particle)].contact.tip_radius;
+  return std::max(0.0, (tick.normal * physics::side_contact(setup_.tip, radius, tick.apex.z).sine).si);
+}
+
+// A sphere that slides beside the path of the tip, whose contact holds, turns under it.
+void FeltParticles::spin(const physics::PushTick& tick, std::uint32_t particle, scene::ParticlePose& pose) noexcept {
+  const glm::dvec2 before_m = std::exchange(away_m_, glm::dvec2(pose.x_m, pose.y_m) - flat(tick.base.position));
+  const bool goes_on = std::exchange(spun_, static_cast<std::int32_t>(particle)) == static_cast<std::int32_t>(particle);
+  if (!goes_on || turns_flat(particle) || !(glm::dot(before_m, away_m_) > 0.0)) return;
+  const Length radius = setup_.species[particles_.species(particle)].contact.tip_radius;
+  const double cosine = physics::side_contact(setup_.tip, radius, tick.apex.z).cosine;
+  pose.orientation = spun(pose.orientation, before_m, away_m_, glm::length(away_m_) / (radius.si * cosine));
 }
 
 // Force and energy of the particles alone: without what a lever that presses on the bare sample would have.
@@ -270,11 +319,11 @@ scene::TipPush FeltParticles::push() const noexcept {
                       .hand_n_per_n = scale_.hand_n_per_n,
                       .softened_sideways = scale_.softened_sideways,
                       .softened_upwards = scale_.softened_upwards,
-                      .yields = tick.yields,
-                      .exhausted = tick.exhausted,
+                      .yields = yields_before_ + tick.yields,
+                      .exhausted = exhausted_before_ + tick.exhausted,
                       .accounts = accounts_,
                       .met = static_cast<std::uint16_t>(tip_ == Tip::Waits ? 0 : 1),
-                      .strokes = static_cast<std::uint32_t>(strokes_.size())};
+                      .strokes = static_cast<std::uint16_t>(strokes_.size())};
   if (!among) return push;
   const glm::dvec2& way_m = drift_.way_m();
   push.base_m = {tick.base.position.x.si + way_m.x, tick.base.position.y.si + way_m.y, tick.base.z.si};

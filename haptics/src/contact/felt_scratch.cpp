@@ -242,7 +242,7 @@ scene::TipPush FeltScratch::push() const noexcept {
   push.exhausted = tick.exhausted;
   push.accounts = accounts_;
   push.met = tip_is_ == Tip::Waits ? 0 : 1;
-  push.strokes = static_cast<std::uint32_t>(strokes_->size());
+  push.strokes = static_cast<std::uint16_t>(strokes_->size());
   push.rise_m = rise_m_;
   push.fastest_hand_m_per_s = fastest_hand_m_per_s_;
   if (tip_is_ == Tip::Over) push.base_m = push.apex_m = {hand_m_.x, hand_m_.y, hand_m_.z};

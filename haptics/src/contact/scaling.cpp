@@ -168,6 +168,15 @@ core::Result<void> check_extent(const Extent& extent) {
                              1e9 * extent.reach_m));
 }
 
+core::Result<void> check_release(double release_m, const DeviceSpec& device) {
+  const double highest_m = device.workspace_max_m.y - device.contact_point_m.y - Scaling::kRecoilM;
+  if (release_m <= highest_m) return {};
+  return refusal(
+      fmt::format("on the scale of the particles the tip is free {:.0f} mm above the sample, and the {} reaches {:.0f} "
+                  "mm; use a stiffer lever, or larger particles",
+                  1e3 * release_m, device.name, 1e3 * highest_m));
+}
+
 double common_stroke_m(const DeviceSpec& device) {
   return device.workspace_max_m.y - device.contact_point_m.y - Scaling::kRecoilM - Scaling::common_zero_m(device);
 }
@@ -305,14 +314,9 @@ core::Result<Scaling> Scaling::particles(const physics::LawTables& tables, const
   scaling.cap_n_ = force_cap_n(device);
   scaling.hand_m_per_m_ = scaling.lateral_m_per_m_ = scale.hand_m_per_m;
   scaling.hand_n_per_n_ = scaling.cap_n_ / extent.strong_n;
-  scaling.release_m_ = scaling.hand_height_m(std::max(extent.reach_m, scale.clear_z_m)) + kOverParticlesM;
-  const double highest_m = device.workspace_max_m.y - device.contact_point_m.y - kRecoilM;
-  if (!(scaling.release_m_ <= highest_m)) {
-    return refusal(fmt::format(
-        "on the scale of the particles the tip is free {:.0f} mm above the sample, and the {} reaches {:.0f} "
-        "mm; use a stiffer lever, or larger particles",
-        1e3 * scaling.release_m_, device.name, 1e3 * highest_m));
-  }
+  scaling.reach_m_ = extent.reach_m;
+  scaling.clear_particles(scale.clear_z_m);
+  if (auto free = check_release(scaling.release_m_, device); !free) return tl::unexpected(free.error());
   const double most_n_per_m = std::min(kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
   const double law_share = 1.0 - particle_stiffness_n_per_m(device) / most_n_per_m;
   for (double excess = excess_of_stiffness(scaling, tables, device) / law_share; excess > 1.0 + kRounding;
@@ -320,6 +324,14 @@ core::Result<Scaling> Scaling::particles(const physics::LawTables& tables, const
     scaling.hand_n_per_n_ *= std::min(0.95, 1.0 / excess);
   }
   return scaling;
+}
+
+void Scaling::clear_particles(double clear_z_m) noexcept {
+  release_m_ = hand_height_m(std::max(reach_m_, clear_z_m)) + kOverParticlesM;
+}
+
+core::Result<void> Scaling::check_clear(const ParticleScale& scale, const DeviceSpec& device) {
+  return check_release(scale.clear_z_m * scale.hand_m_per_m + kOverParticlesM, device);
 }
 
 core::Result<CommonScale> Scaling::common_scale(std::span<const std::shared_ptr<const physics::LawTables>> materials,

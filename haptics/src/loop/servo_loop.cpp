@@ -48,22 +48,6 @@ core::Result<CommonScale> scales_of(const scene::SharedModel& model,
   return common;
 }
 
-// The particles of a scene, where a predecessor left them; null: none.
-std::unique_ptr<FeltParticles> particles_of(scene::SharedSegment& segment, const scene::SharedParticles& particles,
-                                            const ParticleScale& scale, const DeviceSpec& device) {
-  if (particles.count == 0) return nullptr;
-  auto felt = std::make_unique<FeltParticles>(particles, scale, groove_limits(device));
-  const scene::ServoSide side = segment.servo_side();
-  std::vector<scene::ParticlePage> pages;
-  while (pages.size() < felt->pages().size()) {
-    const auto page = side.last_particle_page(static_cast<std::uint32_t>(pages.size()));
-    if (!page) return felt;
-    pages.push_back(*page);
-  }
-  felt->resume(pages);
-  return felt;
-}
-
 // Null without a map.
 std::unique_ptr<const scene::SharedLawMap> map_of(const scene::SharedModel& model) {
   return model.law_map.columns > 0 ? std::make_unique<const scene::SharedLawMap>(model.law_map) : nullptr;
@@ -134,6 +118,8 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
 
 ServoLoop::~ServoLoop() = default;
 
+FeltParticles* ServoLoop::particles() const noexcept { return tools_->used(); }
+
 ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, scene::Topography topography,
                      HapticDevice& device, const ServoSettings& settings,
                      std::vector<std::unique_ptr<ContactModel>> models, const CommonScale& common)
@@ -143,7 +129,7 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       settings_(settings),
       period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
-      particles_(particles_of(segment, model.particles, common.particles, spec_)),
+      tools_(FeltTools::create(segment, model.particles, common.particles, spec_)),
       marks_(felt_marks_of(segment, model.particles, common.particles, period_ns_)),
       exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
@@ -154,8 +140,8 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       position_check_(spec_.measures),
       hand_{.position_m = spec_.contact_point_m} {
   shared_.store(shared(spec_));
-  for (std::uint32_t i = 0; particles_ && i < particles_->pages().size(); ++i) {
-    shared_.store(particles_->pages()[i], i);
+  for (std::uint32_t i = 0; particles() != nullptr && i < particles()->pages().size(); ++i) {
+    shared_.store(particles()->pages()[i], i);
   }
   for (std::uint32_t i = 0; marks_ && i < scene::kMarkTiles; ++i) shared_.store(marks_->tiles()[i], i);
   timing_.rate_hz = 1e9 / static_cast<double>(period_ns_);
@@ -191,7 +177,7 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   if (hand.turn_on && !hand_.turn_on) ++state_.presses;
   hand_.turn_on = hand.turn_on;
 
-  if (particles_) particles_->drift_to(now_ns);
+  if (particles() != nullptr) particles()->drift_to(now_ns);
   const Wanted wanted = meet_sample(elapsed_ns);
   put_particles();
   put_marks();
@@ -260,12 +246,12 @@ ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
 // Particles are put elsewhere without force alone, so that none jumps at a tip that is felt; an order that comes too
 // early is dropped. A look moves nothing, and needs only a tip that is off them.
 void ServoLoop::put_particles() noexcept {
-  if (!particles_ || model_ == nullptr) return;
-  if (heard_.look && particles_->may_look()) touch_.push.add({.kind = physics::EventKind::LookedAgain});
+  if (particles() == nullptr || model_ == nullptr) return;
+  if (heard_.look && particles()->may_look()) touch_.push.add({.kind = physics::EventKind::LookedAgain});
   if (!governor_.released()) return;
-  if (heard_.put_back && particles_->put_back()) {
+  if (heard_.put_back && particles()->put_back()) {
     touch_.push.add({.kind = physics::EventKind::ParticlesPutBack});
-  } else if (heard_.take_back && particles_->take_back()) {
+  } else if (heard_.take_back && particles()->take_back()) {
     touch_.push.add({.kind = physics::EventKind::PushTakenBack});
   }
 }
@@ -300,22 +286,24 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
   if (const auto selection = shared_.new_selection()) chosen_ = *selection;
   if (const auto script = shared_.new_hand_script()) device_.follow(*script);
   if (const auto scan = shared_.new_scan_lead()) newest_scan_ = *scan;
-  if (const auto plan = shared_.new_plan(); plan && particles_) particles_->groove().follow(*plan);
+  if (const auto plan = shared_.new_plan(); plan && particles() != nullptr) particles()->groove().follow(*plan);
   const std::int64_t age_ns = now_ns - newest_scan_.time_ns;
   const bool fresh = age_ns >= 0 && age_ns <= scene::kScanLeadLastsNs;
   scan_ = fresh && newest_scan_.hand != scene::ScanHand::Apart ? newest_scan_ : scene::ScanLead{};
 }
 
 // Follows the paper's procedure: choose, lift, press Turn-On. A selection, or an edit of the material under the tip,
-// waits until the tip is off the sample; then the force is removed, and only without force do law and scale change.
-// Edits of other materials are not felt. A release removes the force at once.
+// waits until the tip is off the sample; then the force is removed, and only without force do law, scale and tool
+// change. Edits of other materials are not felt. A release removes the force at once.
 void ServoLoop::change_model() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.adopt(i);
   }
   const bool valid = chosen_.material >= 0 && static_cast<std::size_t>(chosen_.material) < exchange_.size();
   const bool newer = valid && chosen_.revision != state_.acknowledged.selection;
-  const bool other = newer && (chosen_.material != state_.material || chosen_.scale_mode != state_.active.scale_mode);
+  const bool tool = newer && tools_->changes(chosen_.tool);
+  const bool other =
+      tool || (newer && (chosen_.material != state_.material || chosen_.scale_mode != state_.active.scale_mode));
   const bool edited = model_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
   changing_ = false;
   if (const bool release = newer && chosen_.release != 0; other || edited || release) {
@@ -324,6 +312,7 @@ void ServoLoop::change_model() noexcept {
     changing_ = !governor_.released();
     if (changing_) return;
     if (edited) exchange_.adopt(static_cast<std::size_t>(state_.material));
+    if (tool) tools_->change();
     if (other) {
       select_material(static_cast<std::size_t>(chosen_.material), chosen_.scale_mode);
     } else if (edited) {
@@ -338,9 +327,9 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
   model_->wait_for_lift();
   governor_.forget_motion();
   guide_.reset();
-  if (particles_) particles_->drop();
+  if (particles() != nullptr) particles()->drop();
   if (marks_) marks_->lift();
-  model_->use(mode, particles_.get(), marks_.get());
+  model_->use(mode, particles(), marks_.get());
   const Scaling& scaling = model_->scaling();
   governor_.set_release_height(scaling.release_height_m());
   state_.material = static_cast<std::int32_t>(material);

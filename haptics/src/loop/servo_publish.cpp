@@ -21,8 +21,8 @@ scene::Tip tip_of(const Touch& touch) {
 }
 
 // Force of the groove after the tick, which is none once the force has been dropped.
-std::array<double, 2> guide_n(const std::unique_ptr<FeltParticles>& particles) {
-  if (!particles) return {};
+std::array<double, 2> guide_n(FeltParticles* particles) {
+  if (particles == nullptr) return {};
   const glm::dvec2& force_n = particles->groove().force_n();
   return {force_n.x, force_n.y};
 }
@@ -85,7 +85,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   state_.acknowledged.refused_edit = edits_.refused();
   state_.garbage_blocks = shared_.refused_blocks() + refused_transforms_;
   shared_.store(state_);
-  if (particles_) publish_particles();
+  if (particles() != nullptr) publish_particles();
   if (marks_) publish_marks();
 
   // without a material there is no curve to draw
@@ -116,9 +116,10 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                 .scan = scan_,
                                 .push = push_sample(),
                                 .swing = state_.swing,
-                                .plan = particles_ ? particles_->groove().plan() : scene::PlannedPush{},
-                                .guide_n = guide_n(particles_),
-                                .level = particles_ ? particles_->level() : scene::LevelSample{}});
+                                .plan = particles() != nullptr ? particles()->groove().plan() : scene::PlannedPush{},
+                                .guide_n = guide_n(particles()),
+                                .level = particles() != nullptr ? particles()->level() : scene::LevelSample{},
+                                .tool = tools_->tool()});
 }
 
 // Marks are put elsewhere without force alone, as particles are.
@@ -133,7 +134,7 @@ void ServoLoop::put_marks() noexcept {
 
 scene::PushSample ServoLoop::push_sample() const noexcept {
   if (marks_) return marks_->sample();
-  return particles_ ? particles_->sample() : scene::PushSample{};
+  return particles() != nullptr ? particles()->sample() : scene::PushSample{};
 }
 
 // One tile in each tick: a copy takes a microsecond.
@@ -147,12 +148,13 @@ void ServoLoop::publish_marks() noexcept {
 
 // Only pages that changed.
 void ServoLoop::publish_particles() noexcept {
-  scene::TipPush push = particles_->push();
+  scene::TipPush push = particles()->push();
+  push.tool = tools_->tool();
   push.time_ns = state_.time_ns;
   push.tick = state_.tick;
   shared_.store(push);
-  for (const std::uint32_t page : particles_->changed_pages()) shared_.store(particles_->pages()[page], page);
-  particles_->published();
+  for (const std::uint32_t page : particles()->changed_pages()) shared_.store(particles()->pages()[page], page);
+  particles()->published();
 }
 
 }  // namespace afm::haptics

@@ -9,6 +9,7 @@
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/scratch_run.h"
+#include "scene/shared/push_tools.h"
 
 // A set for a shared scene, and back.
 namespace afm::scene {
@@ -139,7 +140,14 @@ ParticleSet recorded_set(const SharedParticles& recorded, const std::string& ass
   for (const std::string& name : particle_sets(assets_dir)) {
     const auto path = particle_file(name, assets_dir);
     auto set = path ? load_particle_set(*path) : tl::unexpected(path.error());
-    if (set && *std::make_unique<const SharedParticles>(shared_particles(*set)) == *plain) return std::move(*set);
+    if (!set) continue;
+    for (const PushToolText& row : kPushTools) {
+      const auto shared = std::make_unique<SharedParticles>(shared_particles(*set));
+      hold(row.tool, *shared);
+      if (*shared != *plain) continue;
+      hold(row.tool, set->setup);
+      return std::move(*set);
+    }
   }
   ParticleSet set;
   set.title = "Recorded particles";

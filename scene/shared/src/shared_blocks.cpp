@@ -318,7 +318,7 @@ bool is_valid(const SceneTransforms& transforms, const SharedModel& model) {
 bool is_valid(const Selection& selection, const SharedModel& model) {
   const bool has_scale = selection.scale_mode != ScaleMode::Particles || are_there(model.particles);
   return within(selection.material, model) && core::is_enumerator(selection.scale_mode) && has_scale &&
-         selection.release <= 1;
+         core::is_enumerator(selection.tool) && selection.release <= 1;
 }
 
 bool is_valid(const HandScript& script) {

@@ -228,9 +228,10 @@ void ServoClient::go_on() {
   }
 }
 
-void ServoClient::choose(std::int32_t material, scene::ScaleMode mode) {
+void ServoClient::choose(std::int32_t material, scene::ScaleMode mode, scene::PushTool tool) {
   selection_.material = material;
   selection_.scale_mode = mode;
+  selection_.tool = tool;
   // a release that the servo has not seen yet must not be overwritten
   if (tip_.acknowledged.selection == selection_.revision) selection_.release = 0;
   ++selection_.revision;

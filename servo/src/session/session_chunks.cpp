@@ -225,7 +225,7 @@ bool lifts(const scene::SharedParticles& set) { return scene::has_pads(set) || s
 std::size_t sample_bytes_of(const RecordedSession& session) {
   if (scene::taps(session.parameters)) return kSampleBytesWithoutPlan;
   if (!session.particles) return kSampleBytesWithoutPush;
-  if (has_level(*session.particles)) return sizeof(scene::TipSample);
+  if (has_level(*session.particles)) return kMostSampleBytes;
   const scene::SharedParticles& set = session.particles->set;
   const bool whole = session.has_plans || scene::has_marks(set) || lifts(set) || scene::has_islands(set);
   return whole ? kSampleBytesWithoutLevel : kSampleBytesWithoutSwing;

@@ -130,7 +130,7 @@ bool is_of(std::uint32_t version, const scene::SharedContact& parameters) {
 
 // Size of a sample in a file of this version of chunks.
 std::size_t sample_bytes_in(std::uint32_t version) {
-  if (version == kVersionWithLevel) return sizeof(TipSample);
+  if (version == kVersionWithLevel) return kMostSampleBytes;
   if (version >= kVersionWithPlans && !has_law_map(version)) return kSampleBytesWithoutLevel;
   if (version == kVersionWithSwing) return kSampleBytesWithoutPlan;
   const bool without_push = version == kSessionVersion || has_law_map(version);

@@ -26,7 +26,9 @@ inline constexpr std::size_t kSampleBytesWithoutPush = 288;
 inline constexpr std::size_t kSampleBytesWithoutSwing = 336;
 inline constexpr std::size_t kSampleBytesWithoutPlan = 352;
 inline constexpr std::size_t kSampleBytesWithoutLevel = 408;
-static_assert(sizeof(scene::TipSample) == 424 && offsetof(scene::TipSample, level) == kSampleBytesWithoutLevel &&
+inline constexpr std::size_t kMostSampleBytes = 424;  // size without the tool, which is in no file
+static_assert(offsetof(scene::TipSample, tool) == kMostSampleBytes &&
+              offsetof(scene::TipSample, level) == kSampleBytesWithoutLevel &&
               offsetof(scene::TipSample, plan) == kSampleBytesWithoutPlan &&
               offsetof(scene::TipSample, swing) == kSampleBytesWithoutSwing &&
               offsetof(scene::TipSample, push) == kSampleBytesWithoutPush && offsetof(scene::TipSample, scan) == 232 &&

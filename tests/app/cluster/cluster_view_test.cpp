@@ -167,6 +167,30 @@ TEST_F(ClusterViewTest, ShowsALeverThatTapsWithItsDialAndItsChanges) {
   EXPECT_THAT(hand->said(), Not(HasSubstr("otherwise: ")));
 }
 
+// Marks on the sample, which grow while the simulated hand touches it, and a node that comes when they are there.
+TEST_F(ClusterViewTest, ShowsTheMarksOfATipWithInk) {
+  const auto left = node("left");
+  auto right = node("right");
+  std::vector<std::string> command = master_command();
+  command.insert(command.end(), {"--particles", "write-ink", "--haptics", "sim"});
+  const auto hand = start(command);
+  expect_both_shown(*hand);
+  press_at_master("1");
+  ASSERT_TRUE(hand->says("the tip touches: ink flows")) << hand->said();
+  ASSERT_TRUE(hand->says("the liquid tears")) << hand->said();
+  right->signal(SIGTERM);
+  EXPECT_EQ(right->ends(), 0) << right->said();
+  right = node("right");
+  ASSERT_TRUE(hand->says("node right shows the wall")) << hand->said();
+  press_at_master("KP_Enter");
+  ASSERT_TRUE(hand->says("force off")) << hand->said();
+  EXPECT_TRUE(all_same()) << hand->said();
+  press_at_master("Escape");
+  EXPECT_EQ(hand->ends(), 0) << hand->said();
+  EXPECT_THAT(hand->said(), HasSubstr(" 0 built otherwise"));
+  EXPECT_THAT(hand->said(), Not(HasSubstr("otherwise: ")));
+}
+
 // Junk, another build, and a wall that names what this machine lacks.
 TEST_F(ClusterViewTest, ANodeThatShowsAWallKeepsItWhenADescriptionCannotBeShown) {
   const auto left = node("left");

@@ -101,6 +101,7 @@ TEST_F(SharedFrame, HasTheTipOfTheHand) {
   tip.active.release_z_m = 14e-9;
   tip.active.slow_motion = 2.0;
   tip.active.edit_revision = 6;
+  tip.active.scale_mode = scene::ScaleMode::Particles;
   tip.acknowledged.refused_edit = 5;
   tip.realtime = true;
   cluster::FrameMessage message;
@@ -116,6 +117,7 @@ TEST_F(SharedFrame, HasTheTipOfTheHand) {
   EXPECT_EQ(there.active.release_z_m, tip.active.release_z_m);
   EXPECT_EQ(there.active.slow_motion, tip.active.slow_motion);
   EXPECT_EQ(there.active.edit_revision, tip.active.edit_revision);
+  EXPECT_EQ(there.active.scale_mode, tip.active.scale_mode);
   EXPECT_EQ(there.acknowledged.refused_edit, tip.acknowledged.refused_edit);
   EXPECT_EQ(there.material, tip.material);
   EXPECT_EQ(there.phase, tip.phase);

@@ -100,7 +100,7 @@ TEST(FrameMessageTest, IsRefusedWithAnyNumberThatIsNotValid) {
 
 std::vector<std::byte> saved(const WallHistory& history) {
   return save_history(history.journal, history.cycles, history.friction, history.edits, history.scan, history.pages,
-                      history.push, history.score, history.plan);
+                      history.push, history.score, history.plan, history.tiles);
 }
 
 TEST(WallHistoryTest, IsTheSameForANodeThatComesLate) {
@@ -188,6 +188,42 @@ TEST(WallHistoryTest, HasTheNewestPlan) {
   EXPECT_TRUE(refused([](scene::PlannedPush& p) { p.to_m = p.from_m; }));
   EXPECT_TRUE(refused([](scene::PlannedPush& p) { p.particle = scene::kMaxParticles; }));
   EXPECT_TRUE(refused([](scene::PlannedPush& p) { p.guided = 2; }));
+}
+
+TEST(WallHistoryTest, HasTheNewestMarks) {
+  std::vector<scene::MarkTile> marked(scene::kMarkTiles);
+  marked[3].pressed_m[2 * scene::kTileSide + 5] = -4e-9;
+  marked[3].back_m[2 * scene::kTileSide + 5] = 1e-9;
+  marked[200].pressed_m.back() = 2e-9;
+  const auto rows = changed_rows({}, marked, 100);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].tile, 3U);
+  EXPECT_EQ(rows[0].row, 2U);
+  EXPECT_EQ(changed_rows({}, marked, 1).size(), 1U) << "the rest follows in the next frame";
+  EXPECT_TRUE(changed_rows(marked, marked, 100).empty());
+  WallHistory here(1);
+  for (const MarkRecord& row : rows) here.apply(JournalRecord(row));
+  EXPECT_EQ(here.tiles, marked);
+  EXPECT_EQ(here.marks, 2U);
+  const auto there = load_history(saved(here), 1);
+  ASSERT_TRUE(there);
+  EXPECT_EQ(there->tiles, marked);
+
+  // taken back: bare again
+  for (const MarkRecord& row : changed_rows(marked, std::vector<scene::MarkTile>(scene::kMarkTiles), 100)) {
+    here.apply(JournalRecord(row));
+  }
+  EXPECT_EQ(here.tiles, std::vector<scene::MarkTile>(scene::kMarkTiles));
+  const auto refused = [&](auto&& spoil) {
+    MarkRecord row = rows[0];
+    spoil(row);
+    return !JournalRecord(row).valid();
+  };
+  EXPECT_FALSE(refused([](MarkRecord&) {}));
+  EXPECT_TRUE(refused([](MarkRecord& r) { r.tile = scene::kMarkTiles; }));
+  EXPECT_TRUE(refused([](MarkRecord& r) { r.row = scene::kTileSide; }));
+  EXPECT_TRUE(refused([](MarkRecord& r) { r.pressed_m[7] = std::nan(""); }));
+  EXPECT_TRUE(refused([](MarkRecord& r) { r.back_m[0] = 2e-6; }));
 }
 
 TEST(WallHistoryTest, HasTheNewestScore) {

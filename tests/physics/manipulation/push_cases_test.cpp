@@ -3,8 +3,12 @@
 // pushed_particles_test.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <random>
 
 #include "physics/adhesion_map.h"
 #include "physics/elasticity.h"
@@ -151,6 +155,45 @@ TEST(PushCases, N76APressedTipRubsTheSampleLess) {
   expect_relative(pressed.load.si, 3.970209961e-09, kClosed);
   EXPECT_EQ(pressed_push(push, Force(1e-9), 0.2).load.si, 0.0) << "lifted off";
   EXPECT_EQ(pressed_push(push, Force(1e-9), 0.2).lateral, push.lateral);
+}
+
+// Forces and moments by hand for whatever sphere and tip.
+TEST(PushCases, TheMapOfSlidingAndRollingIsTheBalanceOfTenThousandMaterials) {
+  std::mt19937_64 random(23);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const auto between = [&](double least, double most) { return least * std::pow(most / least, share(random)); };
+  std::array<int, kPushModes.size()> seen{};
+  for (int i = 0; i < 10'000; ++i) {
+    ParticleSpecies species = gold();
+    species.contact.tip_radius = Length(between(10e-9, 500e-9));
+    species.contact.work_of_adhesion = SurfaceEnergy(between(0.01, 0.2));
+    species.law = kParticleLaws.at(static_cast<std::size_t>(i) % 3).law;  // those by area and load
+    species.shear_strength = Pressure(between(1e6, 1e8));
+    species.coefficient = between(0.05, 0.5);
+    species.rolling_distance = Length(between(1e-11, 5e-9));
+    const TipGrip grip{between(0.01, 1.0), Force(between(1e-12, 1e-8))};
+    const double angle = between(0.1, 0.6), sine = std::sin(angle), cosine = std::cos(angle);
+    const PushBalance push = push_balance(species, grip, sine, cosine);
+    ++seen.at(static_cast<std::size_t>(push.mode));
+    if (push.mode == PushMode::Jams) continue;
+    const double threshold = sliding_threshold(species, push.lift).si;
+    const double moment = (rolling_moment(species, push.lift) / species.contact.tip_radius).si;
+    const double most = grip.coefficient * (push.normal + grip.adhesion).si, holds = std::max(0.0, threshold - moment);
+    const double small = 1e-6 * (push.normal.si + threshold);
+    EXPECT_NEAR(push.lateral.si, push.normal.si * cosine - push.friction.si * sine, small);
+    EXPECT_NEAR(push.lift.si, push.normal.si * sine + push.friction.si * cosine, small);
+    if (push.mode == PushMode::Slides) {
+      EXPECT_NEAR(push.lateral.si, threshold, small);
+      EXPECT_NEAR(push.friction.si, holds, small);
+      EXPECT_LE(push.friction.si, most + small);
+    } else {
+      EXPECT_NEAR(push.friction.si, most, small);
+      EXPECT_NEAR(push.lateral.si, moment + most, small);
+      EXPECT_GE(holds, most - small);
+    }
+  }
+  EXPECT_GT(seen[0], 2000);
+  EXPECT_GT(seen[1], 2000);
 }
 
 TEST(PushCases, N19TheLargestFrictionThatLetsASphereRoll) {

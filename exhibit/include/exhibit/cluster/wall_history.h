@@ -11,6 +11,7 @@
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/state/cycle_history.h"
+#include "scene/shared/soft_blocks.h"
 
 namespace afm::exhibit {
 
@@ -25,6 +26,8 @@ struct WallHistory {
   scene::TipPush push;
   scene::TaskScore score;
   scene::PlannedPush plan;
+  std::vector<scene::MarkTile> tiles;  // empty: no tip has left a mark
+  std::uint64_t marks = 0;             // number of rows of marks that it includes
 
   explicit WallHistory(std::size_t materials) : cycles(materials) {}
 
@@ -35,7 +38,15 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
                                     std::span<const cluster::EditRecord> edits,
                                     std::span<const cluster::ScanRecord> scan,
                                     std::span<const scene::ParticlePage> pages = {}, const scene::TipPush& push = {},
-                                    const scene::TaskScore& score = {}, const scene::PlannedPush& plan = {});
+                                    const scene::TaskScore& score = {}, const scene::PlannedPush& plan = {},
+                                    std::span<const scene::MarkTile> tiles = {});
+
+// Rows of the newer tiles that differ, at most so many; `before` has as many tiles, or none, which are then bare.
+std::vector<cluster::MarkRecord> changed_rows(std::span<const scene::MarkTile> before,
+                                              std::span<const scene::MarkTile> now, std::size_t most);
+
+// Puts a valid row into its tile, of kMarkTiles, which are made if there are none.
+void put_row(const cluster::MarkRecord& row, std::vector<scene::MarkTile>& tiles);
 
 // Conversion of a scan to its record and back.
 cluster::ScanRecord record_of(const ScanChange& change, std::size_t material, const std::optional<HandPart>& hand);

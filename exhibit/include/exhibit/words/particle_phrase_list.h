@@ -64,7 +64,17 @@
   PHRASE(LookName, "newest-look", "", kLine)                               \
   PHRASE(LookOff, "look-off", "number lines", kLine)                       \
   PHRASE(LookMissed, "look-missed", "", kLine)                             \
-  PHRASE(KeyLook, "key-look", "", kLine)
+  PHRASE(KeyLook, "key-look", "", kLine)                                   \
+  PHRASE(KeyTool, "key-tool", "", kLine)                                   \
+  PHRASE(ToolName, "tool", "", kLine)                                      \
+  PHRASE(ToolPush, "tool-push", "", kLine)                                 \
+  PHRASE(ToolPushOf, "tool-push-of", "", kLine)                            \
+  PHRASE(ToolNowPush, "tool-now-push", "", kLine)                          \
+  PHRASE(ToolNowGrip, "tool-now-grip", "", kLine)                          \
+  PHRASE(ToolOfMarks, "tool-of-marks", "", kLine)                          \
+  PHRASE(ToolNeedsAdhesion, "tool-needs-adhesion", "", kLine)              \
+  PHRASE(ToolOfPicture, "tool-of-picture", "", kLine)                      \
+  PHRASE(ToolTooMuch, "tool-too-much", "", kLine)
 
 // A soft sample that the tip scratches; states as those of physics::PushState up to Slides.
 #define AFM_FOR_EACH_SOFT_PHRASE(PHRASE)                 \

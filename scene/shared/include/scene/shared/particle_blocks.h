@@ -23,6 +23,8 @@ struct PushSetup;
 
 namespace afm::scene {
 
+enum class PushTool : std::uint16_t { OfSet = 0, Push = 1, Grip = 2 };  // scene/shared/push_tools.h
+
 inline constexpr std::uint32_t kMaxParticles = 2048;
 inline constexpr std::uint32_t kMaxSpecies = 8;
 inline constexpr std::uint32_t kPosesPerPage = 16;
@@ -311,7 +313,8 @@ struct TipPush {
   physics::PushState state = physics::PushState::Free;
   std::uint16_t met = 0;            // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
   std::uint16_t lagging = 0;        // 1: the hand was so fast that base_m is behind it
-  std::uint32_t strokes = 0;        // number of strokes that can be taken back
+  std::uint16_t strokes = 0;        // number of strokes that can be taken back
+  PushTool tool = PushTool::OfSet;  // tool in use: Push or Grip; OfSet: no particles
   double rise_m = 0;                // by which a lever on a soft sample is raised, because the hand is fast
   double fastest_hand_m_per_s = 0;  // speed of the hand from which on it is; 0: no soft sample
   InkPush ink{};
@@ -345,6 +348,7 @@ constexpr void for_each_field(Visit&& visit, Record&... push) {
   visit("met", push.met...);
   visit("lagging", push.lagging...);
   visit("strokes", push.strokes...);
+  visit("tool", push.tool...);
   visit("rise_m", push.rise_m...);
   visit("fastest_hand_m_per_s", push.fastest_hand_m_per_s...);
   visit("ink", push.ink...);

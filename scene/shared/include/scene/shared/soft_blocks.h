@@ -124,7 +124,9 @@ inline constexpr std::uint64_t kSoftDigest = 1;
 std::uint64_t tile_mark(std::size_t number, const MarkTile& tile) noexcept;
 std::uint64_t digest_of(std::span<const MarkTile> tiles) noexcept;
 
-// True if the heights are finite, and no more than a micrometre.
+inline constexpr double kMostMarkM = 1e-6;
+
+// True if the heights are finite, and no more than kMostMarkM.
 bool is_valid(const MarkTile& tile);
 
 }  // namespace afm::scene

@@ -250,6 +250,9 @@ struct TipSample {
   PlannedPush plan{};                       // in effect in this tick; default: none
   std::array<double, 2> guide_n{};  // force of the plan's groove on the hand, along the sample's x and y, unlimited
   LevelSample level{};              // default: level 0
+  PushTool tool = PushTool::OfSet;  // as in TipPush; not in session files, whose particles are those for it
+  std::uint16_t short_padding = 0;
+  std::uint32_t padding = 0;
 };
 
 // Results of the tick: a replay must reproduce them bit for bit.
@@ -289,6 +292,9 @@ constexpr void for_each_input(Visit&& visit, Record&... sample) {
   visit("changing", sample.changing...);
   visit("scan", sample.scan...);
   visit("plan", sample.plan...);
+  visit("tool", sample.tool...);
+  visit("short_padding", sample.short_padding...);
+  visit("long_padding", sample.padding...);
 }
 
 template <class Visit, RecordOf<TipSample>... Record>

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// The servo among particles, with one tool and then another.
+// Invariant: the tool among particles changes only without force, and moves none of them
+#include <gtest/gtest.h>
+
+#include <cstddef>
+
+#include "pushing_bench.h"
+
+namespace afm {
+namespace servo_tools_test {
+
+using physics::EventKind;
+using scene::ScaleMode;
+using test::PushingBench;
+
+// With force on, the tool waits for the tip to be off the sample, and the force is gone before it changes.
+TEST(ServoTools, ChangesTheToolWithoutForceAndKeepsPlacesAndStrokes) {
+  PushingBench bench;
+  const auto choose = [&](scene::PushTool tool) {
+    bench.tool = tool;
+    bench.choose(test::kMica, ScaleMode::Particles);
+  };
+  const auto tool = [&] { return bench.renderer.tip_push()->tool; };
+  const scene::ParticlePose start = bench.pose(0);
+  bench.put_down();
+  EXPECT_EQ(tool(), scene::PushTool::Push);
+  bench.go(-0.012, 0.0, 0.001, 1.0);
+  bench.go(-0.012, 0.0, -0.004, 0.3);
+  ASSERT_EQ(bench.state().phase, physics::Phase::Attached);
+  choose(scene::PushTool::Grip);
+  bench.run(0.3);
+  EXPECT_EQ(tool(), scene::PushTool::Push) << "the tip is on the sample";
+  ASSERT_EQ(bench.state().servo_state, scene::ServoState::Running);
+  bench.go(-0.012, 0.0, 0.050, 0.5);
+  bench.run(0.3);
+  EXPECT_EQ(tool(), scene::PushTool::Grip);
+  for (std::size_t i = 1; i < bench.samples.size(); ++i) {
+    const scene::TipSample &before = bench.samples[i - 1], &now = bench.samples[i];
+    if (before.tool == now.tool || before.tick == 0) continue;
+    EXPECT_FALSE(scene::is_armed(now.servo_state));
+    EXPECT_EQ(before.hand_force_n, 0.0);
+    EXPECT_EQ(now.push.digest, before.push.digest);
+  }
+  const scene::ParticlePose there = bench.pose(0);
+  EXPECT_NE(there, start);
+  EXPECT_EQ(bench.renderer.tip_push()->strokes, 1U);
+  EXPECT_GE(bench.renderer.tip_push()->yields, 1U);
+
+  // a tip that moves back drags what it has touched
+  bench.put_down();
+  bench.go(-0.011, 0.0, 0.001, 0.5);
+  bench.go(-0.045, 0.0, 0.001, 1.0);
+  EXPECT_GE(bench.count(EventKind::ParticleDragged), 1U);
+  EXPECT_LT(bench.pose(0).x_m, there.x_m);
+  bench.go(-0.045, 0.0, 0.050, 0.5);
+  bench.release();
+  choose(scene::PushTool::OfSet);
+  bench.run(0.3);
+  EXPECT_EQ(tool(), scene::PushTool::Push);
+  EXPECT_EQ(bench.renderer.tip_push()->strokes, 2U);
+  for (int i = 0; i < 2; ++i) bench.order(bench.taken_back);
+  EXPECT_EQ(bench.pose(0), start);
+  EXPECT_EQ(bench.state().fault, scene::FaultCode::None);
+  EXPECT_EQ(bench.renderer.refused_blocks(), 0U);
+}
+
+TEST(ServoTools, GripsNoIslandAndNothingAtALevel) {
+  for (const bool level : {false, true}) {
+    scene::SharedModel model = test::two_particles();
+    if (level) {
+      model.particles.level.level = 1;
+    } else {
+      model.particles = test::islands_at({{0.0, 0.0}, {0.0, 600e-9}});
+    }
+    PushingBench bench(1000.0, model);
+    bench.choose(test::kMica, ScaleMode::Particles);
+    bench.run(0.1);
+    bench.tool = scene::PushTool::Grip;
+    bench.choose(test::kMica, ScaleMode::Particles);
+    bench.run(0.1);
+    EXPECT_EQ(bench.renderer.tip_push()->tool, scene::PushTool::Push);
+    EXPECT_EQ(bench.state().acknowledged.selection, bench.selection);
+  }
+}
+
+}  // namespace servo_tools_test
+}  // namespace afm
