@@ -23,7 +23,7 @@ namespace afm::cluster {
 inline constexpr std::size_t kMostDatagramBytes = 1300;
 
 // Increase whenever the meaning of a message changes.
-inline constexpr std::uint32_t kClusterVersion = 9;
+inline constexpr std::uint32_t kClusterVersion = 10;
 
 // Header of every message. Each master draws a random `session` when it starts.
 struct ClusterHeader {
@@ -125,7 +125,7 @@ struct ScanRecord {
   std::uint32_t feedback = 0;
   double side_m = 0;
   std::uint64_t first_tick = 0;
-  std::array<double, 7> choice{};  // in the order of exhibit::ScanChoice
+  std::array<double, 9> choice{};  // in the order of exhibit::ScanChoice
 
   bool operator==(const ScanRecord&) const = default;
 };
