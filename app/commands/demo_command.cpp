@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/demo/demo_figures.h"
+#include "app/demo/demo_plan.h"
 #include "app/demo/demo_size.h"
 #include "app/demo/demonstration.h"
 #include "app/demo/report_pictures.h"
@@ -19,14 +20,13 @@
 #include "app/options/quantity_option.h"
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"
+#include "app/tapping/tapping_command.h"
 #include "core/log.h"
 #include "core/output_folder.h"
-#include "curves/measured_material.h"
-#include "curves/sweep.h"
+#include "curves/tapping/driven_setup.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/models/shared_model.h"
-#include "exhibit/models/topography_model.h"
 #include "exhibit/report/curves_plot.h"
 #include "exhibit/report/report.h"
 #include "exhibit/sound/session_sound.h"
@@ -35,7 +35,6 @@
 #include "haptics/simulated_device.h"
 #include "render/context.h"
 #include "render/image_file.h"
-#include "scene/samples/probe_library.h"
 #include "servo/servo_client.h"
 
 namespace afm::app {
@@ -44,7 +43,6 @@ namespace {
 
 // Fig. 5 is larger than the live wall's picture.
 constexpr std::uint32_t kFigureEyeWidth = 1440;
-constexpr std::uint64_t kMostVariations = 9;
 constexpr double kCommonPushM = 0.012;  // clear of the end of the workspace
 constexpr QuantityRange<physics::Velocity> kHandSpeeds{physics::Velocity(0.005), physics::Velocity(0.200)};
 
@@ -56,15 +54,21 @@ struct DemoOptions {
   input::HandPath hand;
   std::optional<double> frame_budget_ms;
   servo::ServoChoice servo;
-  curves::ModelName model{.text = "paper"};
-  std::optional<scene::ScaleMode> scale;
-  physics::FrictionLaw friction = physics::FrictionLaw::None;
-  std::string probe;     // replaces the materials' lever and tip; empty: does not
-  std::string measured;  // additional curve file to feel; empty: none
-  bool sound = false;    // writes a sound file for each session
+  DemoSamples samples;
+  bool sound = false;  // writes a sound file for each session
   SoundOptions sound_options;
-  std::vector<std::string> vary;  // "spring-constant=0.1N/m:0.4N/m:3"
 };
+
+core::Result<void> check_tapping(const DemoSamples& samples) {
+  curves::TappedHand tapping = samples.tapping;
+  if (auto checked = check_tapping_options(tapping.choice); !checked) return checked;
+  if (tapping.choice.mode == "contact") {
+    tapping.model = curves::TappedHand().model;  // acts in contact, too
+    return curves::check_contact_mode(tapping);
+  }
+  if (samples.vary.empty() && samples.measured.empty() && samples.friction == physics::FrictionLaw::None) return {};
+  return core::wrong_usage("--mode tapping is demonstrated without --vary, --measured and --friction; remove them");
+}
 
 // Moves the path to the sample, which is lower on the common scale.
 input::HandPath on_scale(scene::ScaleMode scale, input::HandPath path) {
@@ -74,86 +78,6 @@ input::HandPath on_scale(scene::ScaleMode scale, input::HandPath path) {
 }
 
 void say(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
-
-// Loads the curve file as an additional material of the stage. Uses the lever of the first built-in material if the
-// file has none.
-core::Result<std::optional<curves::MeasuredMaterial>> load_measured(const DemoOptions& options) {
-  if (options.measured.empty()) return std::nullopt;
-  const auto library = scene::load_materials(options.files.assets_dir + "/materials.toml");
-  if (!library) return tl::unexpected(library.error());
-  auto measured = curves::load_measured_material(options.measured, library->materials.front());
-  if (!measured) return tl::unexpected(measured.error());
-  return std::move(*measured);
-}
-
-// A material as it will be felt, with the chosen probe.
-core::Result<curves::ContactSetup> setup_of(scene::MaterialEntry entry, const DemoOptions& options) {
-  if (!options.probe.empty()) {
-    const auto probes = scene::load_probes(options.files.assets_dir + "/probes.toml");
-    if (!probes) return tl::unexpected(probes.error());
-    const auto probe = probes->require(options.probe);
-    if (!probe) return tl::unexpected(probe.error());
-    entry = scene::with_probe(std::move(entry), **probe);
-  }
-  return curves::ContactSetup{std::move(entry), {}, options.model, options.friction};
-}
-
-// Copies of the material, one for each value of each varied parameter; the value is in the title.
-core::Result<std::vector<curves::SampleModel>> variations_of(const curves::SampleModel& material,
-                                                             const DemoOptions& options) {
-  std::vector<curves::SampleModel> variations;
-  for (const std::string& text : options.vary) {
-    const auto axis = curves::parse_sweep_axis(text, options.model);
-    if (!axis) return core::failure(axis.error().category, "--vary " + axis.error().message);
-    if (axis->count > kMostVariations) {
-      return core::failure(core::ErrorCategory::WrongUsage,
-                           fmt::format("--vary: {} values; give 2 to {}", axis->count, kMostVariations));
-    }
-    for (std::uint64_t i = 0; i < axis->count; ++i) {
-      const std::string value = curves::format_parameter(*axis->parameter, axis->value(i));
-      curves::ContactSetup changed = material.setup;
-      curves::override_parameter(changed, *axis->parameter, axis->value(i), value, "--vary on the command line");
-      auto varied = curves::make_sample_model(material, changed);
-      if (!varied) return tl::unexpected(varied.error());
-      varied->setup.material.title = fmt::format("{} {}", material.setup.material.title, value);
-      variations.push_back(std::move(*varied));
-    }
-  }
-  return variations;
-}
-
-core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optional<curves::MeasuredMaterial>& measured,
-                                 const DemoOptions& options) {
-  DemoPlan plan;
-  plan.scale = options.scale.value_or(plan.scale);
-  if (measured) {
-    plan.curves.push_back(measured->curve);
-    plan.recorded = measured->features;
-  }
-  for (const scene::MaterialEntry& entry : stage.materials.materials) {
-    if (measured && entry.name == measured->entry.name) {
-      auto model = curves::make_sample_model(entry, plan.curves, 0);
-      if (!model) return tl::unexpected(model.error());
-      stage.wall_scene.lay_surface_on(model->parameters, plan.materials.size());
-      plan.materials.push_back(std::move(*model));
-      plan.variations.emplace_back();
-      continue;
-    }
-    const auto setup = setup_of(entry, options);
-    if (!setup) return tl::unexpected(setup.error());
-    auto model = curves::make_sample_model(*setup);
-    if (!model) return tl::unexpected(model.error());
-    stage.wall_scene.lay_surface_on(model->parameters, plan.materials.size());
-    if (stage.wall_scene.topography().columns > 0) {
-      core::log_line(exhibit::smoothing_note(*model, stage.wall_scene.topography()));
-    }
-    auto variations = variations_of(*model, options);
-    if (!variations) return tl::unexpected(variations.error());
-    plan.materials.push_back(std::move(*model));
-    plan.variations.push_back(std::move(*variations));
-  }
-  return plan;
-}
 
 void draw_picture(const std::string& file, const std::string& caption, const exhibit::Moment& moment,
                   const exhibit::FrameBuilder& frames, render::Renderer& renderer, ReportPictures& pictures) {
@@ -259,13 +183,14 @@ core::Result<void> check_measurements(const exhibit::DemoResult& result) {
 core::Result<void> run_demo(const DemoOptions& options, const std::string& program) {
   const core::MonotonicClock clock;
   const std::int64_t start_ns = clock.now_ns();
-  const auto curve = load_measured(options);
+  if (auto checked = check_tapping(options.samples); !checked) return checked;
+  const auto curve = load_measured(options.samples, options.files.assets_dir);
   if (!curve) return tl::unexpected(curve.error());
   exhibit::ExhibitFiles files = options.files;
   if (*curve) files.added.push_back((*curve)->entry);
   auto stage = exhibit::load_exhibit(files);
   if (!stage) return tl::unexpected(stage.error());
-  auto plan = plan_demo(*stage, *curve, options);
+  auto plan = plan_demo(*stage, *curve, options.samples, options.files.assets_dir);
   if (!plan) return tl::unexpected(plan.error());
   auto out = core::OutputFolder::open(options.out);
   if (!out) return tl::unexpected(out.error());
@@ -320,7 +245,8 @@ core::Result<void> read_model(const std::string& text, DemoOptions& options) {
     return core::wrong_usage(fmt::format("cannot feel model \"{}\"; choose {} (paper-rule works only for curves)", text,
                                          curves::known_models(curves::ModelUse::Device)));
   }
-  options.model = *model;
+  options.samples.model = *model;
+  options.samples.tapping.model = text;
   return {};
 }
 
@@ -334,14 +260,14 @@ void add_sample_options(OptionList& command, DemoOptions& options, const Command
       .add_parsed_option(
           "--model", [&options](const std::string& text) { return read_model(text, options); },
           "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- before a "
-          "contact law for a lever with inertia")
+          "contact law for a lever with inertia; in tapping auto, hertz, dmt, jkr or maugis, default: auto")
       .show_default("paper")
       .type_name("MODEL");
   command
       .add_parsed_option(
           "--probe",
           [&options](const std::string& text) -> core::Result<void> {
-            (exhibit::is_model_file(text) ? options.files.probe : options.probe) = text;
+            (exhibit::is_model_file(text) ? options.files.probe : options.samples.probe) = text;
             return {};
           },
           fmt::format("lever and tip from {}/probes.toml instead of the materials' own; or a glTF model of your own "
@@ -350,16 +276,17 @@ void add_sample_options(OptionList& command, DemoOptions& options, const Command
       .type_name("PROBE|FILE");
   add_own_sample_option(command, options.files);
   command
-      .add_option("--vary", options.vary,
+      .add_option("--vary", options.samples.vary,
                   "repeat the cycle on every sample at each of n values of one parameter, changed while the servo "
                   "runs: spring-constant=0.1N/m:0.4N/m:3")
       .type_name("KEY=RANGE");
   command
-      .add_option("--measured", options.measured,
+      .add_option("--measured", options.samples.measured,
                   "measured curve to feel as well (.csv, .tab, .h5, .jpk-force or .ibw; see docs/curves.md)")
       .type_name("FILE");
-  add_scale_option(command, options.scale);
-  add_friction_option(command, options.friction);
+  add_scale_option(command, options.samples.scale);
+  add_friction_option(command, options.samples.friction);
+  add_tapped_demo_options(command, options.samples.tapping);
 }
 
 }  // namespace
@@ -372,7 +299,8 @@ void add_demo_command(OptionList& program, const CommandContext& context) {
       "and, for every material, curve-NAME.csv and session-NAME.afms.\n\n"
       "example: touchafm demo --out out\n"
       "         touchafm demo --out fast --hand-speed 200mm/s --eye-width 1440\n"
-      "         touchafm demo --out lever --material mica --model dmt --vary spring-constant=0.1N/m:0.4N/m:3");
+      "         touchafm demo --out lever --material mica --model dmt --vary spring-constant=0.1N/m:0.4N/m:3\n"
+      "         touchafm demo --out taps --mode tapping --free-amplitude 20nm --spring-constant 40N/m");
   auto options = std::make_shared<DemoOptions>();
   command.add_option("--out", options->out, "folder for the results; created if it does not exist")
       .required()

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "app/demo/demonstration.h"
@@ -20,13 +21,14 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kAfterJumpInNs = 5'000'000;
+constexpr std::int64_t kAfterJumpInNs = 5'000'000;  // in tapping also before the jump off
 constexpr std::uint32_t kFilmColumns = 5, kFilmReduction = 4;
 constexpr std::int64_t kAfterJumpOffNs = 400'000'000;
 
 exhibit::CycleResult result_of(const exhibit::Measurement& m) {
   const exhibit::CycleEvents& events = m.measured;
-  return {m.title, m.law, m.hysteretic, events.f_attr_n, events.f_ad_n, events.z_jtc_m, events.z_joc_m};
+  return {m.title,       m.law,          m.hysteretic,   events.f_attr_n,
+          events.f_ad_n, events.z_jtc_m, events.z_joc_m, m.tapped.has_value()};
 }
 
 // Times of the first and the last sample in contact.
@@ -52,13 +54,19 @@ FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
   struct Plan {
     const char* file;
     exhibit::Phrase caption;
-    exhibit::Phrase guidance;
+    std::optional<exhibit::Phrase> guidance;
     std::int64_t time_ns;
   };
-  const std::array<Plan, 4> plans{{{"fig5a.png", CaptionSnapIn, SnappedIn, in_ns + kAfterJumpInNs},
-                                   {"fig5b.png", CaptionPressed, BeamBends, deepest->time_ns},
-                                   {"fig5c.png", CaptionAdhesion, AdhesionHolds, off_ns},
-                                   {"fig5d.png", CaptionFree, Released, off_ns + kAfterJumpOffNs}}};
+  const bool taps = measurements.at(shown_material).tapped.has_value();
+  const std::array<Plan, 4> plans =
+      taps ? std::array<Plan, 4>{{{"fig5a.png", CaptionRepelled, {}, in_ns + kAfterJumpInNs},
+                                  {"fig5b.png", CaptionTapped, {}, deepest->time_ns},
+                                  {"fig5c.png", CaptionLastRepelled, {}, off_ns - kAfterJumpInNs},
+                                  {"fig5d.png", CaptionSwingsFree, {}, off_ns + kAfterJumpOffNs}}}
+           : std::array<Plan, 4>{{{"fig5a.png", CaptionSnapIn, SnappedIn, in_ns + kAfterJumpInNs},
+                                  {"fig5b.png", CaptionPressed, BeamBends, deepest->time_ns},
+                                  {"fig5c.png", CaptionAdhesion, AdhesionHolds, off_ns},
+                                  {"fig5d.png", CaptionFree, Released, off_ns + kAfterJumpOffNs}}};
 
   // reserved, because the moments point into it
   curves_.reserve(plans.size() + 1);
@@ -66,7 +74,7 @@ FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
     curves_.emplace_back(sessions.size());
     curves_.back()[shown_material] = exhibit::curve_until(shown, plan.time_ns);
     exhibit::Moment moment = exhibit::moment_of(shown, shown_material, plan.time_ns, curves_.back());
-    moment.guidance = phrases[plan.guidance];
+    if (plan.guidance) moment.guidance = phrases[*plan.guidance];
     figures_.push_back({plan.file, phrases[plan.caption], moment});
   }
 
@@ -79,7 +87,7 @@ FigurePlan::FigurePlan(const std::vector<servo::RecordedSession>& sessions,
     finale.results.push_back(result_of(m));
   }
   finale.guidance = phrases[AllSamples];
-  figures_.push_back({"fig5e.png", phrases[CaptionAll], finale});
+  figures_.push_back({"fig5e.png", phrases[taps ? CaptionAmplitudes : CaptionAll], finale});
 }
 
 VariationFigure::VariationFigure(const servo::RecordedSession& base, const exhibit::Measurement& measurement,

@@ -102,8 +102,13 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, e
 
   std::size_t events_logged = 0;
   int restarts = 0;
+  bool renewed = false;
   while (person_.step() != input::SimulatedPerson::Step::Done) {
     if (auto stepped = step(result); !stepped) return tl::unexpected(stepped.error());
+    if (!renewed && person_.step() == input::SimulatedPerson::Step::Lift && is_unrecorded(material)) {
+      servo_.change(material, materials_[material].parameters);
+      renewed = true;
+    }
     if (person_.restarts() != restarts) {
       restarts = person_.restarts();
       if (restarts > kMostServosLost) {
@@ -121,8 +126,12 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, e
     for (; events_logged < events.size() && events[events_logged].material == static_cast<std::int32_t>(material);
          ++events_logged) {
       const scene::TipEvent& e = events[events_logged];
-      if (!physics::is_jump(e.kind)) continue;
-      const bool in = e.kind == physics::EventKind::JumpToContact;
+      if (!physics::begins_cycle(e.kind) && !physics::ends_cycle(e.kind)) continue;
+      const bool in = physics::begins_cycle(e.kind);
+      if (!physics::is_jump(e.kind)) {
+        progress(fmt::format("  jump to the {} state  Z = {:8.4f} nm", in ? "repulsive" : "attractive", e.z_m * 1e9));
+        continue;
+      }
       progress(fmt::format("  {:<17} Z = {:8.4f} nm   pull {:8.5f} nN", in ? "jump to contact" : "jump off contact",
                            e.z_m * 1e9, -(in ? e.force_after_n : e.force_before_n) * 1e9));
     }
@@ -131,6 +140,13 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, e
   servo::RecordedSession session = recorder_->session();
   session.material = materials_[material].setup.material.name;
   return session;
+}
+
+// A session of a lever that oscillates begins only where its contact does. The first one's has begun unseen where the
+// hand was high above the sample, so it is made anew.
+bool Demonstration::is_unrecorded(std::size_t material) const {
+  const curves::SampleModel& felt = materials_[material];
+  return (felt.dynamic() || felt.taps()) && recorder_->session().samples.empty();
 }
 
 core::Result<void> Demonstration::keep_patience(const std::string& title, double step_seconds,

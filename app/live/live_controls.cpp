@@ -62,7 +62,7 @@ LiveControls::LiveControls(ViewParts& parts, const ViewSettings& settings, const
   owners_.journey = &add<JourneyControl>(worn ? Motion::Steps : Motion::Glide);
   if (features.lesson != nullptr) owners_.lesson = &add<LessonControl>(*features.lesson);
   if (parts.stage.particles) owners_.particles = &add<ParticlesControl>(*parts.stage.particles);
-  owners_.scan = &add<ScanControl>(features.cluster == nullptr);
+  owners_.scan = &add<ScanControl>();
   owners_.map = &add<MapControl>(settings.equal_force_n);
   owners_.sound = &add<SoundControl>();
   if (features.cluster != nullptr) add<ClusterControl>(*features.cluster);

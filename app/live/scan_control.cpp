@@ -45,7 +45,7 @@ glm::dvec2 raster_m(double side_m, double seconds) {
 
 }  // namespace
 
-ScanControl::ScanControl(ViewParts& parts, bool alone) : parts_(parts), alone_(alone) {
+ScanControl::ScanControl(ViewParts& parts) : parts_(parts) {
   parts_.servo.hear([this](const scene::TipSample& sample) {
     if (scan_) scan_->follow_hand(sample);
   });
@@ -68,7 +68,6 @@ void ScanControl::begin() {
   size_ = hand_size();
   exhibit::ScanSubject subject =
       exhibit::scan_subject(parts_.stage.wall_scene, material_, parts_.choice.felt()[material_]);
-  if (subject.tapped) subject.tapped->drive_is_fixed = !alone_;
   const auto hand = hand_part(subject);
   scan_.emplace(std::move(subject), hand);
   ++begun_;

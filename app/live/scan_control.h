@@ -17,8 +17,7 @@ struct ViewParts;
 // Controls the scan of the sample under the tip in the live window.
 class ScanControl final : public ViewControl {
  public:
-  // `alone`: no other machine of the wall shows the scan.
-  ScanControl(ViewParts& parts, bool alone);
+  explicit ScanControl(ViewParts& parts);
 
   void toggle();
   void toggle_truth();
@@ -42,7 +41,6 @@ class ScanControl final : public ViewControl {
   void give_hand_back();
 
   ViewParts& parts_;
-  bool alone_;
   std::optional<exhibit::LiveScan> scan_;
   std::size_t material_ = 0;     // index of the scanned material
   std::uint64_t begun_ = 0;      // number of scans started

@@ -58,6 +58,31 @@ const std::array kOptions{
         "reached from the free swing and from rest"},
 };
 
+void add_felt_drive(OptionList& command, curves::TappedHand& hand) {
+  command
+      .add_option("--mode", hand.choice.mode,
+                  "contact; or tapping, in which a drive swings the lever and the hand feels how much the sample takes "
+                  "of its amplitude")
+      .one_of({"contact", "tapping"})
+      .type_name("MODE")
+      .show_default();
+  for (const TappingOption& option : kOptions) {
+    const std::string_view name = option.name;
+    if (name != "--free-amplitude" && name != "--drive" && name != "--viscosity") continue;
+    command.add_option(option.name, option.text(hand.choice), option.help).type_name(option.type);
+  }
+}
+
+void add_felt_lever(OptionList& command, curves::TappedHand& hand, const std::string& more_on_spring) {
+  for (const std::string_view option : {"spring-constant", "resonance", "quality-factor"}) {
+    command
+        .add_option(fmt::format("--{}", option), hand.values[std::string(option)],
+                    "tapping: " + curves::find_contact_parameter(option)->help +
+                        (option == "spring-constant" ? more_on_spring : ""))
+        .type_name("VALUE");
+  }
+}
+
 template <class Run>
 core::Result<std::string> text_of_run(const Run& run, const std::string& format, std::string (*csv)(const Run&),
                                       nlohmann::ordered_json (*json)(const Run&),
@@ -101,32 +126,18 @@ void add_tapped_scan_options(OptionList& command, curves::TappingChoice& choice)
 }
 
 void add_tapped_view_options(OptionList& command, curves::TappedHand& hand) {
-  command
-      .add_option("--mode", hand.choice.mode,
-                  "contact; or tapping, in which a drive swings the lever and the hand feels how much the sample takes "
-                  "of its amplitude")
-      .one_of({"contact", "tapping"})
-      .type_name("MODE")
-      .show_default();
-  for (const TappingOption& option : kOptions) {
-    const std::string_view name = option.name;
-    if (name != "--free-amplitude" && name != "--drive" && name != "--viscosity") continue;
-    command.add_option(option.name, option.text(hand.choice), option.help).type_name(option.type);
-  }
+  add_felt_drive(command, hand);
   command
       .add_option("--model", hand.model,
                   "tapping: law of force, auto (by the Tabor parameter), hertz, dmt, jkr, maugis")
       .type_name("NAME")
       .show_default();
-  for (const char* option : {"spring-constant", "resonance", "quality-factor"}) {
-    command
-        .add_option(fmt::format("--{}", option), hand.values[option],
-                    "tapping: " + curves::find_contact_parameter(option)->help +
-                        (option == std::string_view("spring-constant") ? "; with --force-map, that of the lever that "
-                                                                         "recorded it, instead of the file's"
-                                                                       : ""))
-        .type_name("VALUE");
-  }
+  add_felt_lever(command, hand, "; with --force-map, that of the lever that recorded it, instead of the file's");
+}
+
+void add_tapped_demo_options(OptionList& command, curves::TappedHand& hand) {
+  add_felt_drive(command, hand);
+  add_felt_lever(command, hand, "");
 }
 
 core::Result<void> check_tapped_view(const curves::TappedHand& hand, bool alone) {

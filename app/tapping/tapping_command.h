@@ -21,6 +21,9 @@ void add_tapped_scan_options(OptionList& command, curves::TappingChoice& choice)
 void add_tapped_view_options(OptionList& command, curves::TappedHand& hand);
 core::Result<void> check_tapped_view(const curves::TappedHand& hand, bool alone);
 
+// For the demonstration: the same without --model, which it has anyway.
+void add_tapped_demo_options(OptionList& command, curves::TappedHand& hand);
+
 // WrongUsage, naming the option, for one that has no effect in the chosen mode.
 core::Result<void> check_tapping_options(const curves::TappingChoice& choice);
 

@@ -255,6 +255,7 @@ struct JsonDoor::Verbs {
                 {"width_m", image.width_m},       {"height_m", image.height_m},
                 {"x_offset_m", image.x_offset_m}, {"y_offset_m", image.y_offset_m}};
     if (stopped) answer["stopped"] = true;
+    if (door.instrument_.settings().taps) answer["conventions"] = curves::tapping_conventions();
     image.metadata = image_metadata(door.instrument_.settings());
     door.image_ = std::make_unique<const physics::ScanImage>(std::move(image));
     return answer;

@@ -200,6 +200,9 @@ TEST_F(JsonDoorTest, StreamsAnImageOfASwing) {
     EXPECT_EQ(trace[channel].size(), 8U) << channel;
   }
   EXPECT_FALSE(trace.contains("lateral_N"));
+  const json conventions = json::parse(lines.back())["conventions"];
+  EXPECT_EQ(conventions["amplitude"], "zero-to-peak");
+  EXPECT_THAT(conventions["phase"].get<std::string>(), HasSubstr("lag"));
   EXPECT_EQ(answer_to(R"({"do": "truth"})")["state_flips"], 0);
 }
 

@@ -125,7 +125,7 @@ struct ScanRecord {
   std::uint32_t feedback = 0;
   double side_m = 0;
   std::uint64_t first_tick = 0;
-  std::array<double, 7> choice{};  // in the order of exhibit::ScanChoice
+  std::array<double, 9> choice{};  // in the order of exhibit::ScanChoice
 
   bool operator==(const ScanRecord&) const = default;
 };

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
+#include "core/members.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::exhibit {
@@ -190,9 +192,8 @@ void put_row(const cluster::MarkRecord& row, std::vector<scene::MarkTile>& tiles
 cluster::ScanRecord record_of(const ScanChange& change, std::size_t material, const std::optional<HandPart>& hand) {
   cluster::ScanRecord record{
       .material = static_cast<std::uint32_t>(material), .frame = change.frame, .pixel = change.pixel};
-  const ScanChoice& choice = change.choice;  // without the drive, which no other machine hears of
-  record.choice = {choice.setpoint_n, choice.gain_per_s,    choice.line_rate_hz,   choice.tip_radius_m,
-                   choice.noise_m,    choice.drift_m_per_s, choice.apex_distance_m};
+  record.choice =
+      std::apply([](const auto&... numbers) { return std::array{numbers...}; }, core::members_of(change.choice));
   if (hand) {
     record.has_hand = 1;
     record.paints = hand->paints ? 1 : 0;
@@ -204,8 +205,9 @@ cluster::ScanRecord record_of(const ScanChange& change, std::size_t material, co
 }
 
 ScanChange change_of(const cluster::ScanRecord& record) {
-  const auto& [setpoint, gain, rate, radius, noise, drift, apex] = record.choice;
-  return {record.frame, record.pixel, {setpoint, gain, rate, radius, noise, drift, apex, 0.0, 0.0}};
+  ScanChange change{.frame = record.frame, .pixel = record.pixel};
+  core::members_of(change.choice) = std::tuple_cat(record.choice);
+  return change;
 }
 
 std::optional<HandPart> hand_of(const cluster::ScanRecord& record) {

@@ -70,6 +70,7 @@ class Axes {
     reach_nm_ = std::max(reach_nm_, reach_m * curves::kNmPerM);
     pull_nn_ = std::max(pull_nn_, haptics::strongest_pull_n(*material.tables) * curves::kNnPerN);
     push_nn_ = std::max(push_nn_, push_n * curves::kNnPerN);
+    a0_nm_ = std::max(a0_nm_, material.parameters.free_amplitude_m * curves::kNmPerM);
   }
 
   // The pull sets the range; if it is negligible, the push does.
@@ -79,10 +80,16 @@ class Axes {
     panel.place_max_nm = kAxisAbove * reach_nm_;
     panel.force_min_nn = pulled ? -kForceBelow * pull_nn_ : -kForceAbove * push_nn_;
     panel.force_max_nn = pulled ? kForceAbove * pull_nn_ : kForceBelow * push_nn_;
+    if (!of_amplitude()) return;
+    panel.words.force_axis = "A (nm)";
+    panel.force_min_nn = 0.0;
+    panel.force_max_nn = kAxisAbove * a0_nm_;
   }
 
+  bool of_amplitude() const { return a0_nm_ > 0.0; }  // of a lever that taps
+
  private:
-  double reach_nm_ = 1e-6, pull_nn_ = 1e-9, push_nn_ = 0.0;
+  double reach_nm_ = 1e-6, pull_nn_ = 1e-9, push_nn_ = 0.0, a0_nm_ = 0.0;
 };
 
 // Three forces that characterise a cycle: that of the law at the fold, felt just before the jump; the paper's F_attr
@@ -149,9 +156,6 @@ void show_swing(const Moment& moment, const curves::SampleModel& material, const
   using Kind = render::PlotMarker::Kind;
   const double a0_nm = material.parameters.free_amplitude_m * curves::kNmPerM;
   panel.title = phrases[material.tables->taps ? Phrase::PlotTitleDirect : Phrase::PlotTitleTapping];
-  panel.words.force_axis = "A (nm)";
-  panel.force_min_nn = 0.0;
-  panel.force_max_nn = kAxisAbove * a0_nm;
   const physics::CycleFigures& figures = material.figures();
   if (figures.hysteretic) {
     for (const auto& [arrow, z] : {std::pair{"\u2193", figures.z_jtc}, {"\u2191", figures.z_joc}}) {
@@ -248,6 +252,7 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
     panel.curves.back().filled = moment.wall.material == i;
   }
   axes.apply(panel);
+  if (axes.of_amplitude()) panel.title = phrases[Phrase::PlotTitleTapping];
   if (moment.wall.centerpiece == Centerpiece::Plot) {
     panel.title = phrases[Phrase::PlotTitleAll];
     panel.stage = "";

@@ -139,10 +139,20 @@ render::DataPanel data_panel(const curves::SampleModel& material, const scene::T
 
 render::DataPanel results_panel(std::span<const CycleResult> results, const Phrases& phrases) {
   render::DataPanel panel;
-  panel.title = phrases[Phrase::Results];
-  panel.subtitle = phrases[Phrase::SnapInAndPullOff];
+  const bool tapped = !results.empty() && results.front().taps;
+  panel.title = phrases[tapped ? Phrase::PlotTitleTapping : Phrase::Results];
+  panel.subtitle = phrases[tapped ? Phrase::JumpsOfSwing : Phrase::SnapInAndPullOff];
   for (const CycleResult& result : results) {
     const std::string title = phrases.word(result.title);
+    if (result.taps) {
+      panel.rows.push_back({title,
+                            result.hysteretic
+                                ? phrases.number(fmt::format("{:.2f} / {:.2f} nm", result.z_jtc_m * curves::kNmPerM,
+                                                             result.z_joc_m * curves::kNmPerM))
+                                : phrases[Phrase::NoJumps],
+                            law_word(result.law, phrases)});
+      continue;
+    }
     if (!result.hysteretic) {
       panel.rows.push_back(
           {title, phrases[Phrase::NoJumps], phrases.text<Phrase::NoJumpsBecause>(law_word(result.law, phrases))});

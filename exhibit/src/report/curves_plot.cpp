@@ -7,6 +7,7 @@
 
 #include "curves/svg_plot.h"
 #include "exhibit/state/cycle_curve.h"
+#include "scene/shared/shared_blocks.h"
 
 namespace afm::exhibit {
 
@@ -39,7 +40,8 @@ curves::SvgPlot plot_within(std::span<const LabelledSession> sessions, Phrase ti
   plot.title = phrases[title];
   plot.decimal_mark = phrases.decimal_mark();
   plot.x_label = phrases[Phrase::ReportZAxis];
-  plot.y_label = phrases[Phrase::ReportForceAxis];
+  const bool taps = scene::taps(sessions.front().session->parameters);
+  plot.y_label = phrases[taps ? Phrase::ReportAmplitudeAxis : Phrase::ReportForceAxis];
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     const auto& [name, session] = sessions[i];
     const render::PlotCurve curve = curve_until(*session, session->samples.back().time_ns).plot(name, {});

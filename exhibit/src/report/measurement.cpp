@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <utility>
 
 namespace afm::exhibit {
 
@@ -13,6 +15,13 @@ namespace {
 
 // 0 if both are equal, as for a feature that a recording lacks, which is 0 in both.
 double relative(double value, double reference) { return value == reference ? 0.0 : value / reference - 1.0; }
+
+// "jump to contact"
+std::string event_words(physics::EventKind kind) {
+  std::string words(physics::name_of(kind));
+  std::replace(words.begin(), words.end(), '-', ' ');
+  return words;
+}
 
 // Strongest attraction on the retract branch.
 double hardest_pull_n(const physics::LawTables& tables) {
@@ -68,7 +77,9 @@ std::optional<double> Measurement::experiment_error_f_ad() const {
   return relative(measured.f_ad_n, *experiment_f_ad_n);
 }
 
-double Measurement::error_bound() const { return recorded ? kRecordingErrorBound : kEventErrorBound; }
+double Measurement::error_bound() const {
+  return recorded ? kRecordingErrorBound : tapped ? kTappingErrorBound : kEventErrorBound;
+}
 
 double Measurement::worst_error() const {
   if (!judged) return 0.0;
@@ -81,12 +92,14 @@ double Measurement::worst_error() const {
 core::Result<Measurement> measure(const servo::RecordedSession& session, const curves::SampleModel& material,
                                   const physics::CurveFeatures* recorded) {
   const physics::CycleFigures& figures = material.figures();
-  const scene::TipEvent* in = session.find(physics::EventKind::JumpToContact);
-  const scene::TipEvent* out = session.find(physics::EventKind::JumpOffContact);
+  const auto [in_kind, out_kind] =
+      material.taps() ? std::pair(physics::EventKind::JumpToRepulsion, physics::EventKind::JumpToAttraction)
+                      : std::pair(physics::EventKind::JumpToContact, physics::EventKind::JumpOffContact);
+  const scene::TipEvent *in = session.find(in_kind), *out = session.find(out_kind);
   if (figures.hysteretic && (in == nullptr || out == nullptr)) {
     return core::failure(core::ErrorCategory::Failed,
                          fmt::format("{}: the recorded cycle has no {}; run the demo again", session.material,
-                                     in == nullptr ? "jump to contact" : "jump off contact"));
+                                     event_words(in == nullptr ? in_kind : out_kind)));
   }
   Measurement m;
   m.material = session.material;
@@ -97,11 +110,15 @@ core::Result<Measurement> measure(const servo::RecordedSession& session, const c
   if (m.hysteretic) m.measured = {std::abs(in->force_after_n), std::abs(out->force_before_n), in->z_m, out->z_m};
   m.calculation = {std::abs(figures.force_after_jtc.si), std::abs(figures.force_before_joc.si), figures.z_jtc.si,
                    figures.z_joc.si};
+  if (material.taps()) {
+    m.tapped = tapped_cycle(session);
+    m.measured.f_attr_n = m.measured.f_ad_n = m.calculation.f_attr_n = m.calculation.f_ad_n = 0.0;
+  }
   m.fold_n = std::abs(figures.force_before_jtc.si);
   m.loop_energy_j = figures.loop_energy.si;
   if (recorded != nullptr) compare_with(*recorded, *material.tables, m);
-  if (const auto& f = material.setup.material.experiment_f_attr) m.experiment_f_attr_n = f->si;
-  if (const auto& f = material.setup.material.experiment_f_ad) m.experiment_f_ad_n = f->si;
+  if (const auto& f = material.setup.material.experiment_f_attr; f && !m.tapped) m.experiment_f_attr_n = f->si;
+  if (const auto& f = material.setup.material.experiment_f_ad; f && !m.tapped) m.experiment_f_ad_n = f->si;
 
   const auto first_attached =
       std::find_if(session.samples.begin(), session.samples.end(),

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "core/version.h"
 #include "core/written_by.h"
 #include "curves/html_page.h"
+#include "curves/tapping/tapping_output.h"
 
 namespace afm::exhibit {
 
@@ -37,7 +39,19 @@ nlohmann::json json_of(const core::Percentiles& p) {
   return {{"p50", p.p50}, {"p99", p.p99}, {"p99.9", p.p999}, {"max", p.max}};
 }
 
+// Of a lever that taps: heights and swings instead of forces.
+nlohmann::json json_of(const Measurement& m, const TappedCycle& tapped) {
+  nlohmann::json json = tapped_json(tapped);
+  const CycleEvents error = m.error_vs_calculation();
+  json.update({{"law", m.law}, {"hysteretic", m.hysteretic}, {"loop_energy_J", m.loop_energy_j}});
+  json["error_vs_calculation"] = nlohmann::json::object();
+  if (m.hysteretic)
+    json["error_vs_calculation"] = {{"z_to_repulsion", error.z_jtc_m}, {"z_to_attraction", error.z_joc_m}};
+  return json;
+}
+
 nlohmann::json json_of(const Measurement& m) {
+  if (m.tapped) return json_of(m, *m.tapped);
   const auto or_null = [](bool there, double value) { return there ? nlohmann::json(value) : nlohmann::json(); };
   const CycleEvents error = m.error_vs_calculation();
   nlohmann::json json{{"law", m.law},
@@ -78,7 +92,10 @@ class EventRows {
 
   void add(const Measurement& m) {
     const std::string title = phrases_.word(m.title);
-    if (!m.hysteretic) return note(fmt::format("{} ({})", title, m.law), phrases_[Phrase::ReportNoJumps]);
+    if (m.tapped && m.hysteretic) return add_jumps(m, title);
+    if (!m.hysteretic) {
+      return note(fmt::format("{} ({})", title, m.law), phrases_[m.tapped ? Phrase::NoJumps : Phrase::ReportNoJumps]);
+    }
     if (m.recorded) {
       note(title, phrases_.text<Phrase::ReportRecording>(
                       phrases_[m.snaps_in ? Phrase::ReportSnapsIn : Phrase::ReportNoSnapIn],
@@ -106,6 +123,13 @@ class EventRows {
     const char* quantity;
     const char* unit;  // unit of the values, which are SI times 1e9
   };
+
+  void add_jumps(const Measurement& m, const std::string& title) {
+    row({fmt::format("{} ({})", title, m.law), "Z \u2193", "nm"}, m.calculation.z_jtc_m, m.measured.z_jtc_m);
+    row({title, "Z \u2191", "nm"}, m.calculation.z_joc_m, m.measured.z_joc_m);
+    note(title, phrases_.number(fmt::format("\u2193 {}; \u2191 {}", jump_text(*m.tapped->to_repulsion),
+                                            jump_text(*m.tapped->to_attraction))));
+  }
 
   void note(const std::string& sample, const std::string& text) {
     html_ += fmt::format("<tr><td>{}</td><td colspan=\"7\">{}</td></tr>\n", html_text(sample), html_text(text));
@@ -142,6 +166,8 @@ std::string events_table(const DemoResult& result, const Phrases& phrases) {
                        phrases[ReportExperiment], phrases[ReportVersusExperiment]});
   return html_scrolled(head + rows.html() + "</table>") + "\n";
 }
+
+bool is_tapped(const DemoResult& result) { return !result.measurements.empty() && result.measurements.front().tapped; }
 
 // Uses the unit that leaves 1 to 1000 before the point: "11.49 ms".
 std::string time_text(double seconds) {
@@ -187,7 +213,7 @@ std::string results_html(const DemoResult& result, const std::vector<ReportPictu
   using enum Phrase;
   std::string html;
   const auto shown = std::find_if(pictures.begin(), pictures.end(), [&](const ReportPicture& picture) {
-    return picture.caption == phrases[CaptionAdhesion];
+    return picture.caption == phrases[is_tapped(result) ? CaptionRepelled : CaptionAdhesion];
   });
   if (shown != pictures.end() && result.eye_width > 0) {
     html += html_figure(html_one_eye(shown->png, shown->caption, result.eye_width, result.eye_height), shown->caption);
@@ -197,14 +223,15 @@ std::string results_html(const DemoResult& result, const std::vector<ReportPictu
     const auto force = [](bool there, double force_n) {
       return there ? fmt::format("{:.3f}", force_n * 1e9) : std::string(kNone);
     };
-    const std::string forces = m.hysteretic
-                                   ? phrases.number(fmt::format("{} / {} nN", force(m.snaps_in, m.measured.f_attr_n),
-                                                                force(m.pulls_off, m.measured.f_ad_n)))
-                                   : phrases[NoJumps];
-    rows += fmt::format("<li><b>{}</b>: {}</li>\n", html_text(phrases.word(m.title)), html_text(forces));
+    std::string figures =
+        fmt::format("{} / {} nN", force(m.snaps_in, m.measured.f_attr_n), force(m.pulls_off, m.measured.f_ad_n));
+    if (m.tapped) figures = fmt::format("{:.2f} / {:.2f} nm", m.measured.z_jtc_m * 1e9, m.measured.z_joc_m * 1e9);
+    figures = m.hysteretic ? phrases.number(figures) : phrases[NoJumps];
+    rows += fmt::format("<li><b>{}</b>: {}</li>\n", html_text(phrases.word(m.title)), html_text(figures));
   }
   if (rows.empty()) return html;
-  return html + html_note(html_text(phrases[SnapInAndPullOff])) + "<ul class=\"results\">\n" + rows + "</ul>\n";
+  return html + html_note(html_text(phrases[is_tapped(result) ? JumpsOfSwing : SnapInAndPullOff])) +
+         "<ul class=\"results\">\n" + rows + "</ul>\n";
 }
 
 std::string servo_html(const scene::ServoTiming& servo, std::uint64_t lost_samples, const Phrases& phrases) {
@@ -277,9 +304,11 @@ std::string report_html(const DemoResult& result, const std::vector<ReportPictur
   using enum Phrase;
   std::string html = html_head(phrases[Language], phrases[ReportTitle]) + run_html(result, phrases);
   html += results_html(result, pictures, phrases);
-  html += html_heading(phrases[ReportCurves]) + html_fitting(html_figure(curves_svg, phrases[ReportCurvesNote]));
-  html += html_heading(phrases[ReportTable]) + events_table(result, phrases);
-  html += html_note(html_text(phrases[ReportTableNote]));
+  const bool tapped = is_tapped(result);
+  html += html_heading(phrases[tapped ? PlotTitleTapping : ReportCurves]) +
+          html_fitting(html_figure(curves_svg, phrases[tapped ? ReportTappedCurvesNote : ReportCurvesNote]));
+  html += html_heading(phrases[tapped ? JumpsOfSwing : ReportTable]) + events_table(result, phrases);
+  html += html_note(html_text(phrases[tapped ? ReportTappedTableNote : ReportTableNote]));
   html += html_heading(phrases[ReportWall]) + html_note(html_text(phrases[ReportWallNote]));
   for (const ReportPicture& picture : pictures) {
     html += html_figure(html_picture(picture.png, picture.caption), picture.caption);
@@ -304,6 +333,16 @@ std::string session_csv(const servo::RecordedSession& session) {
     fmt::format_to(out, "# resonance_Hz: {}\n# quality_factor: {}\n# temperature_K: {}\n# slow_motion: {}\n",
                    m.lever.resonance.si, m.lever.quality_factor, m.lever.temperature.si, session.slow_motion);
   }
+  const bool tapped = scene::taps(m);
+  if (tapped) {
+    fmt::format_to(out, "# resonance_Hz: {}\n# quality_factor: {}\n# free_amplitude_m: {}\n# drive_Hz: {}\n",
+                   m.lever.resonance.si, m.lever.quality_factor, m.free_amplitude_m, m.drive_hz);
+    fmt::format_to(out, "# viscosity_Pa_s: {}\n# slow_motion: {}\n", m.viscosity_pa_s, session.slow_motion);
+    const nlohmann::ordered_json conventions = curves::tapping_conventions();
+    for (const auto& [name, meaning] : conventions.items()) {
+      fmt::format_to(out, "# convention of the {}: {}\n", name, meaning.get<std::string>());
+    }
+  }
   fmt::format_to(out, "# servo_rate_Hz: {}\n# hand_m_per_m: {}\n# hand_N_per_N: {}\n", session.rate_hz,
                  session.hand_m_per_m, session.hand_n_per_n);
   fmt::format_to(
@@ -316,13 +355,16 @@ std::string session_csv(const servo::RecordedSession& session) {
                    e.force_after_n);
   }
   fmt::format_to(out,
-                 "time_s,z_m,force_N,tip_height_m,deflection_m,sample_deformation_m,hand_height_m,hand_force_N,servo_"
-                 "state,phase,branch\n");
+                 "time_s,z_m,force_N,tip_height_m,deflection_m,sample_deformation_m,hand_height_m,hand_force_N,{}servo_"
+                 "state,phase,branch\n",
+                 tapped ? "amplitude_m,phase_deg," : "");
   for (std::size_t i = 0; i < session.samples.size(); ++i) {
     const scene::TipSample& s = session.samples[i];
-    fmt::format_to(out, "{:.6f},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{},{},{}\n",
+    const std::string swing =
+        tapped ? fmt::format("{:.9e},{:.4f},", s.swing.amplitude_m, s.swing.phase_rad * 180.0 / std::numbers::pi) : "";
+    fmt::format_to(out, "{:.6f},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{:.9e},{}{},{},{}\n",
                    session.seconds_since_start(s.time_ns), s.tip.z_m, s.tip.force_n, s.tip.height_m, s.tip.deflection_m,
-                   s.tip.sample_deformation_m, s.hand_height_m, s.hand_force_n,
+                   s.tip.sample_deformation_m, s.hand_height_m, s.hand_force_n, swing,
                    static_cast<std::uint32_t>(s.servo_state), static_cast<std::uint32_t>(s.phase), cycle.branch_of(i));
   }
   return fmt::to_string(csv);

@@ -29,7 +29,7 @@ bool precedes(const ScanChange& change, std::uint32_t frame, std::uint32_t pixel
   return change.frame < frame || (change.frame == frame && change.pixel <= pixel);
 }
 
-// Settings without a drive, of an older recording or of another machine, have that of `usual`.
+// Settings without a drive, of an older recording, have that of `usual`.
 ScanChoice completed(ScanChoice choice, const ScanChoice& usual) {
   if (!in_tapping(choice)) return choice;
   if (choice.free_amplitude_m == 0.0) choice.free_amplitude_m = usual.free_amplitude_m;
@@ -100,9 +100,7 @@ bool LiveScan::hold(const ScanChoice& choice) {
   }
 }
 
-bool LiveScan::changes_drive() const {
-  return is_tapped() && !detector_->is_direct() && !subject_.tapped->drive_is_fixed;
-}
+bool LiveScan::changes_drive() const { return is_tapped() && !detector_->is_direct(); }
 
 std::span<const ScanRow> LiveScan::rows() const {
   constexpr std::size_t kRowsOfDrive = 2;

@@ -161,6 +161,13 @@ TEST_F(ClusterViewTest, ShowsALeverThatTapsWithItsDialAndItsChanges) {
   press_at_master("KP_Enter");
   ASSERT_TRUE(hand->says("force off: Stop was pressed")) << hand->said();
   EXPECT_TRUE(all_same()) << hand->said();
+  // its image, with another free amplitude, then another drive
+  press_at_master("i Tab Tab Tab Tab Tab Tab Tab minus");
+  ASSERT_TRUE(hand->says("19 nm, 300 kHz")) << hand->said();
+  press_at_master("Tab minus");
+  ASSERT_TRUE(hand->says("19 nm, 299.925 kHz")) << hand->said();
+  press_at_master("i");
+  ASSERT_TRUE(hand->says("scan: ended")) << hand->said();
   press_at_master("Escape");
   EXPECT_EQ(hand->ends(), 0) << hand->said();
   EXPECT_THAT(hand->said(), HasSubstr(" 0 built otherwise"));

@@ -259,6 +259,37 @@ TEST(WallHistoryTest, HasTheNewestScore) {
   EXPECT_TRUE(refused([](scene::TaskScore& s) { s.largest_lateral_n = std::nan(""); }));
 }
 
+// With the drive of a lever that taps.
+TEST(WallHistoryTest, HasEverySettingOfAScan) {
+  const ScanChange begun{.frame = 0, .pixel = 0, .choice = {.setpoint_n = 0.8, .free_amplitude_m = 20e-9}};
+  const ScanChange changed{.frame = 1,
+                           .pixel = 77,
+                           .choice = {.setpoint_n = 0.6,
+                                      .gain_per_s = 500,
+                                      .line_rate_hz = 2,
+                                      .tip_radius_m = 5e-9,
+                                      .noise_m = 50e-12,
+                                      .drift_m_per_s = 1e-9,
+                                      .apex_distance_m = 4e-8,
+                                      .free_amplitude_m = 15e-9,
+                                      .drive_hz = 299850}};
+  WallHistory here(2);
+  here.apply({JournalKind::ScanBegin, record_of(begun, 1, {})});
+  here.apply({JournalKind::ScanChange, record_of(changed, 1, {})});
+  const auto there = load_history(saved(here), 2);
+  ASSERT_TRUE(there);
+  ASSERT_EQ(there->scan.size(), 2U);
+  EXPECT_EQ(change_of(there->scan[0]), begun);
+  EXPECT_EQ(change_of(there->scan[1]), changed);
+  // a drive that no lever has
+  for (const double hz : {-1.0, std::nan("")}) {
+    ScanChange spoilt = changed;
+    spoilt.choice.drive_hz = hz;
+    const JournalRecord record(JournalKind::ScanChange, record_of(spoilt, 1, {}));
+    EXPECT_FALSE(record.valid() && is_applicable(record)) << hz;
+  }
+}
+
 TEST(WallHistoryTest, OfAnotherWallOrCutAnywhereIsRefused) {
   WallHistory history(2);
   scene::TipSample sample;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/enumerators.h"
+#include "exhibit/cluster/wall_history.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_cause.h"
 #include "exhibit/scan/scan_panels.h"
@@ -131,18 +132,45 @@ TEST(TappedScan, ChangesFreeAmplitudeAndDriveWhileItScansAndReplaysThem) {
   EXPECT_EQ(scan.choice(), scan.usual());
 }
 
-// A recording from before there were such rows, and a wall of several machines, have the lever's own drive.
+// A recording from before there were such rows has the lever's own drive.
 TEST(TappedScan, KeepsItsDriveWithoutOne) {
   LiveScan scan = tapped_scan();
   ScanProgress older = scan.progress();
   older.changes.front().choice.free_amplitude_m = older.changes.front().choice.drive_hz = 0.0;
   ASSERT_TRUE(LiveScan::valid(older));
   EXPECT_EQ(LiveScan(scan.subject(), older).choice(), scan.usual());
-  ScanSubject shared = scan.subject();
-  shared.tapped->drive_is_fixed = true;
-  LiveScan beside(shared);
-  EXPECT_EQ(beside.rows().size(), exhibit::scan_of(kMica).rows().size());
-  EXPECT_FALSE(beside.step(ScanRow::FreeAmplitude, -1));
+}
+
+// Another machine of the wall hears of each change by a record, in whatever frame it is then.
+TEST(TappedScan, HasTheSameImageOnAnotherMachineAfterChangesOfItsDrive) {
+  LiveScan scan = tapped_scan();
+  LiveScan there(scan.subject());
+  std::vector<cluster::ScanRecord> records;
+  const auto send = [&] {
+    const ScanChange& newest = scan.progress().changes.back();
+    records.push_back(record_of(newest, kGold, {}));
+    ASSERT_TRUE(there.follow(newest.frame, newest.pixel));
+    there.choose(change_of(records.back()).choice);
+  };
+  send();
+  scan_lines(scan, 1.4);
+  ASSERT_TRUE(scan.step(ScanRow::FreeAmplitude, -5));
+  send();
+  scan_lines(scan, 1.2);
+  ASSERT_TRUE(scan.step(ScanRow::DriveFrequency, -2));
+  send();
+  scan_lines(scan, 1.7);
+  ASSERT_TRUE(there.follow(scan.progress().frame, scan.progress().pixel));
+  EXPECT_EQ(there.choice(), scan.choice());
+  // a machine that joins later
+  ScanProgress joined{.frame = scan.progress().frame, .pixel = scan.progress().pixel, .changes = {}, .hand = {}};
+  for (const cluster::ScanRecord& record : records) joined.changes.push_back(change_of(record));
+  const LiveScan late(scan.subject(), joined);
+  for (const LiveScan* const other : {&std::as_const(there), &late}) {
+    EXPECT_TRUE(same(scan.maps().height_m[0], other->maps().height_m[0]));
+    EXPECT_TRUE(same(scan.maps().phase_deg[0], other->maps().phase_deg[0]));
+    EXPECT_TRUE(same(scan.maps().error_n[1], other->maps().error_n[1]));
+  }
 }
 
 void expect_named(LiveScan scan, const std::vector<Artefact>& artefacts) {

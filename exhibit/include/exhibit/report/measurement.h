@@ -9,6 +9,7 @@
 
 #include "core/result.h"
 #include "curves/sample_model.h"
+#include "exhibit/report/tapped_cycle.h"
 #include "physics/curve_analysis.h"
 #include "scene/shared/shared_blocks.h"
 #include "servo/session_file.h"
@@ -42,6 +43,7 @@ struct Measurement {
   double sampled_f_ad_n = 0;
   std::optional<double> experiment_f_attr_n;
   std::optional<double> experiment_f_ad_n;
+  std::optional<TappedCycle> tapped;  // of a lever that taps, whose events have heights and no forces
 
   // Relative errors; for a jump to contact at Z = 0 (JKR), relative to Z_joc.
   CycleEvents error_vs_calculation() const;
@@ -52,9 +54,11 @@ struct Measurement {
   double error_bound() const;
 };
 
-// Largest accepted relative error. The second value is for a measured curve, whose noise is smoothed.
+// Largest accepted relative error. The second value is for a measured curve, whose noise is smoothed, the third for a
+// lever that taps, whose jumps depend on the speed of the hand.
 inline constexpr double kEventErrorBound = 1e-3;
 inline constexpr double kRecordingErrorBound = 1e-2;
+inline constexpr double kTappingErrorBound = 3e-2;
 
 // Fails if the law has hysteresis but the cycle has no jump to contact or no jump off contact. `material` is the one
 // felt in the session; `recorded` is the analysis of an instrument's curve, otherwise null.

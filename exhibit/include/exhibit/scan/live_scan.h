@@ -32,7 +32,6 @@ struct TappedSubject {
   std::shared_ptr<const physics::TapSurface> surface;
   physics::DrivenLever lever;
   std::shared_ptr<const physics::TapTable> rests;  // null for a high quality factor
-  bool drive_is_fixed = false;                     // as other machines of the wall do not hear of a change
 };
 
 // The sample for a scan, in the metres of a microscope. A measured sample is shown and felt at another scale, that of

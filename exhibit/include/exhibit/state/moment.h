@@ -22,6 +22,7 @@ struct CycleResult {
   std::string law;  // "dmt"
   bool hysteretic = true;
   double f_attr_n = 0, f_ad_n = 0, z_jtc_m = 0, z_joc_m = 0;
+  bool taps = false;  // the lever taps: its jumps have heights only
 };
 
 class LiveScan;

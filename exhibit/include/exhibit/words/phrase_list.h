@@ -159,6 +159,7 @@
   PHRASE(ChangedFrom, "changed-from", "value", kLine)                    \
   PHRASE(Estimated, "estimated", "source", kLine)                        \
   PHRASE(SnapInAndPullOff, "snap-in-and-pull-off", "", kLine)            \
+  PHRASE(JumpsOfSwing, "jumps-of-swing", "", kLine)                      \
   PHRASE(AtHeights, "at-heights", "snap-in pull-off", kLine)             \
   PHRASE(LoopEnergy, "loop-energy", "", kLine)                           \
   PHRASE(HysteresisBelow, "hysteresis-below", "k", kLine)                \
@@ -328,6 +329,8 @@
   PHRASE(ReportApproach, "report-approach", "sample", kLine)                                \
   PHRASE(ReportRetract, "report-retract", "sample", kLine)                                  \
   PHRASE(ReportAllCurves, "report-all-curves", "", kLine)                                   \
+  PHRASE(ReportAmplitudeAxis, "report-amplitude-axis", "", kLine)                           \
+  PHRASE(ReportTappedCurvesNote, "report-tapped-curves-note", "", kParagraph)               \
   PHRASE(ReportNearCurves, "report-near-curves", "", kLine)                                 \
   PHRASE(ReportTable, "report-table", "", kLine)                                            \
   PHRASE(ReportSample, "report-sample", "", kLine)                                          \
@@ -345,6 +348,7 @@
   PHRASE(ReportPullsOff, "report-pulls-off", "", kLine)                                     \
   PHRASE(ReportNoPullOff, "report-no-pull-off", "", kLine)                                  \
   PHRASE(ReportTableNote, "report-table-note", "", kParagraph)                              \
+  PHRASE(ReportTappedTableNote, "report-tapped-table-note", "", kParagraph)                 \
   PHRASE(ReportWall, "report-wall", "", kLine)                                              \
   PHRASE(ReportWallNote, "report-wall-note", "", kParagraph)                                \
   PHRASE(CaptionChoosing, "caption-choosing", "", kParagraph)                               \
@@ -353,6 +357,11 @@
   PHRASE(CaptionAdhesion, "caption-adhesion", "", kParagraph)                               \
   PHRASE(CaptionFree, "caption-free", "", kParagraph)                                       \
   PHRASE(CaptionAll, "caption-all", "", kParagraph)                                         \
+  PHRASE(CaptionRepelled, "caption-repelled", "", kParagraph)                               \
+  PHRASE(CaptionTapped, "caption-tapped", "", kParagraph)                                   \
+  PHRASE(CaptionLastRepelled, "caption-last-repelled", "", kParagraph)                      \
+  PHRASE(CaptionSwingsFree, "caption-swings-free", "", kParagraph)                          \
+  PHRASE(CaptionAmplitudes, "caption-amplitudes", "", kParagraph)                           \
   PHRASE(CaptionVaried, "caption-varied", "sample", kParagraph)                             \
   PHRASE(CaptionJourney, "caption-journey", "", kParagraph)                                 \
   PHRASE(ReportTiming, "report-timing", "", kLine)                                          \
