@@ -222,6 +222,29 @@ void ViewInAHeadset::wear_and_lose(const std::string& sessions, bool& judged) {
   judged = expect_free_in_time(sessions, {"blocked", "failed", "kept"});
 }
 
+// Both jumps of the swing are felt with a headset on, and replay bit for bit.
+TEST_F(ViewInAHeadset, FeelsALeverThatTapsAndRecordsIt) {
+  const std::string sessions = folder_.file("sessions");
+  support::LiveProgram view(command({"--record", sessions, "--mode", "tapping", "--free-amplitude", "20nm",
+                                     "--spring-constant", "40N/m", "--resonance", "300kHz", "--quality-factor", "400"}),
+                            display_.name());
+  ASSERT_TRUE(view.says("headset: has the controllers")) << view.said();
+  choose(0);
+  ASSERT_TRUE(view.says("chosen: Mica")) << view.said();
+  ASSERT_TRUE(view.says("jump to the repulsive state")) << view.said();
+  ASSERT_TRUE(view.says("jump to the attractive state")) << view.said();
+  expect_good_end(view);
+  int replayed = 0;
+  for (const auto& file : std::filesystem::directory_iterator(sessions)) {
+    const auto session = servo::load_session(file.path());
+    ASSERT_TRUE(session) << session.error().message;
+    EXPECT_NE(session->find(physics::EventKind::JumpToRepulsion), nullptr);
+    EXPECT_TRUE(servo::replay(*session)->identical()) << file.path();
+    ++replayed;
+  }
+  EXPECT_GE(replayed, 1);
+}
+
 // Of the eight pictures before a hang, for which the program has patience: by its frame log, whose last interval of
 // kHangMs or more is the hang.
 constexpr int kHangMs = 1000;

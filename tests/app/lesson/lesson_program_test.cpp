@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -74,6 +75,34 @@ TEST(LessonProgram, RefusesALessonThatAStudentHasDoneAndWithdrawsAStudent) {
   EXPECT_FALSE(fs::exists(folder.file("study") + "/sub-" + code));
   EXPECT_EQ(lesson("--withdraw " + code + out).exit_code, 2);
   EXPECT_EQ(lesson("--withdraw ../../x" + out).exit_code, 2);
+}
+
+// Blind, by feeling and hearing alone: a sharp student names the state in most trials.
+TEST(LessonProgram, AsksSimulatedStudentsForBothStatesOfALeverThatTaps) {
+  const support::ScratchFolder folder;
+  std::size_t attractive = 0, repulsive = 0, right = 0, trials = 0;
+  for (int seed = 1; seed <= 4; ++seed) {
+    const auto done = lesson(kLessons + "two-states.toml --participant sim:" + std::to_string(seed) +
+                             ",d-prime=3 --out " + folder.file("study"));
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+  }
+  for (const auto& [name, text] : contents(folder.file("study"))) {
+    if (name.find("_events.tsv") == std::string::npos) continue;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find("\tidentify\t") == std::string::npos) continue;
+      ++trials;
+      const bool felt_attractive = line.find("\tattractive\tattractive\t1\t") != std::string::npos;
+      const bool felt_repulsive = line.find("\trepulsive\trepulsive\t1\t") != std::string::npos;
+      right += felt_attractive || felt_repulsive ? 1U : 0U;
+      attractive += line.find("\tattractive\t") != std::string::npos ? 1U : 0U;
+      repulsive += line.find("\trepulsive\t") != std::string::npos ? 1U : 0U;
+    }
+  }
+  EXPECT_EQ(trials, 4U * 10U) << "four before, two to practise and four after";
+  EXPECT_GE(attractive, trials / 3);
+  EXPECT_GE(repulsive, trials / 3);
+  EXPECT_GE(right, trials * 3 / 4);
 }
 
 TEST(LessonProgram, SaysWhatIsWrongInOneLine) {

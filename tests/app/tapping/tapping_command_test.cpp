@@ -52,6 +52,10 @@ TEST(TappingCommand, PrintsJumpsLoopsAndConventions) {
   const auto json = json_of(tapping());
   EXPECT_EQ(json["conventions"]["amplitude"], "zero-to-peak");
   EXPECT_THAT(json["conventions"]["phase"].get<std::string>(), HasSubstr("lag"));
+  // row T05 of the cases
+  EXPECT_NEAR(json["drive"]["base_amplitude_m"].get<double>(), 5e-11, 5e-20);
+  EXPECT_NEAR(json["drive"]["force_N"].get<double>(), 2e-9, 2e-18);
+  EXPECT_NEAR(json["drive"]["free_air_loss_W"].get<double>(), 3.769911184e-11, 3.8e-20);
   EXPECT_NEAR(json["parameters"]["work_of_adhesion_J_per_m2"].get<double>(), 0.0623564, 1e-6);
   ASSERT_EQ(json["jumps"].size(), 2u);
   EXPECT_NEAR(json["jumps"][0]["z_m"].get<double>(), 16.568e-9, 0.05e-9);

@@ -28,23 +28,6 @@ TEST(FeltTapping, GivesAHandNoEnergyOnAnyClosedPathWhileItsMeanForceWould) {
   EXPECT_GT(most.mean_j, 5e-3);
 }
 
-// By direct integration: a soft lever in a liquid, and one just below the least quality factor of the averages, with
-// both jumps.
-TEST(FeltTapping, GivesAHandNoEnergyAtALowQualityFactor) {
-  scene::SharedContact soft = tapped_polymer(), bistable = tapped_polymer();
-  soft.contact.spring_constant = physics::Stiffness(2.0);
-  soft.contact.tip_radius = physics::Length(10e-9);
-  soft.lever.quality_factor = 20.0;
-  bistable.contact.spring_constant = physics::Stiffness(4.0);
-  bistable.lever.quality_factor = 99.0;
-  for (const scene::SharedContact& material : {soft, bistable}) {
-    const Given most = worst_of(material, support::deep() ? 1000 : 50);
-    // a push that is held for a tick gives some 0.1 mJ a stroke, as any force of this stiffness does
-    EXPECT_LT(most.push_j, 4e-4) << material.lever.quality_factor;
-    EXPECT_LT(most.most_excess_j, PassivityObserver::kLimitJ) << material.lever.quality_factor;
-  }
-}
-
 // What the mean force gives a hand that goes around both jumps forty times a second, as it is and behind an energy
 // tank, which lets no force pass that it cannot pay.
 TEST(FeltTapping, GivesAHandThatLoopsByItsMeanForceNoMoreThanTheEnergyTankHolds) {

@@ -74,6 +74,15 @@ TEST(TappingCurve, ReportsAStateThatItsPathDoesNotReach) {
   }));
 }
 
+// Row T44: a step of the base is a kick, so the fold is not met.
+TEST(TappingDeep, ABaseThatMovesInStepsJumpsBeforeTheFold) {
+  const TappingCurve curve = curve_of({}, {{20.5_nm, 15.5_nm, 0.5_nm}, {}}, TapMethod::Direct);
+  const auto in = jump_on(curve, Branch::Approach), out = jump_on(curve, Branch::Retract);
+  ASSERT_TRUE(in && out);
+  EXPECT_NEAR(nm_of(in->z), 17.25, 0.26);
+  EXPECT_NEAR(nm_of(out->z), 18.75, 0.26);
+}
+
 struct SpeedRow {
   double um_per_s, in_direct, out_direct, in_averaged, out_averaged;
 };
