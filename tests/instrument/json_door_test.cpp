@@ -200,7 +200,10 @@ TEST_F(JsonDoorTest, StreamsAnImageOfASwing) {
     EXPECT_EQ(trace[channel].size(), 8U) << channel;
   }
   EXPECT_FALSE(trace.contains("lateral_N"));
-  EXPECT_EQ(answer_to(R"({"do": "truth"})")["state_flips"], 0);
+  json truth = answer_to(R"({"do": "truth"})");
+  EXPECT_EQ(truth["state_flips"], 0);
+  EXPECT_FALSE(truth["sources"]["tip_radius"]["source"].get<std::string>().empty());
+  EXPECT_FALSE(truth["sources"]["law"]["source"].get<std::string>().empty());
 }
 
 TEST_F(JsonDoorTest, SavesTheNewestImageAndCurve) {
